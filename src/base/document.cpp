@@ -1,0 +1,199 @@
+// The only file that includes toml++.
+#include "base/document.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
+#include <toml++/toml.h>
+
+#include "base/files.h"
+#include "base/text.h"
+
+namespace palpate {
+namespace {
+
+Place place_of(const toml::source_region& region, const std::string& file) {
+  return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+Node convert(const toml::node& value, const std::string& file) {
+  Node node;
+  node.place = place_of(value.source(), file);
+  if (const auto* table = value.as_table()) {
+    node.kind = Node::Kind::table;
+    for (const auto& [key, child] : *table)
+      node.members.push_back(
+          {std::string(key.str()), place_of(key.source(), file), convert(child, file)});
+    std::stable_sort(node.members.begin(), node.members.end(),
+                     [](const Member& a, const Member& b) {
+                       return std::pair(a.place.line, a.place.column) <
+                              std::pair(b.place.line, b.place.column);
+                     });
+  } else if (const auto* array = value.as_array()) {
+    node.kind = Node::Kind::array;
+    for (const toml::node& child : *array) node.items.push_back(convert(child, file));
+  } else if (const auto* text = value.as_string()) {
+    node.kind = Node::Kind::text;
+    node.text = text->get();
+  } else if (const auto* integer = value.as_integer()) {
+    node.kind = Node::Kind::integer;
+    node.number = static_cast<double>(integer->get());
+  } else if (const auto* real = value.as_floating_point()) {
+    node.kind = Node::Kind::real;
+    node.number = real->get();
+  } else if (const auto* boolean = value.as_boolean()) {
+    node.kind = Node::Kind::boolean;
+    node.boolean = boolean->get();
+  } else {
+    node.kind = Node::Kind::date;
+  }
+  return node;
+}
+
+// The first byte that no text file holds, or the text's size.
+std::size_t first_binary_byte(std::string_view text) {
+  const auto binary = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x20 && c != '\n' && c != '\r' && c != '\t') || byte == 0x7f;
+  };
+  return static_cast<std::size_t>(std::find_if(text.begin(), text.end(), binary) - text.begin());
+}
+
+// toml++ words some errors for its own authors; these are for the person who wrote the file.
+std::string reworded(const std::string& description) {
+  const auto says = [&](const char* part) { return description.find(part) != std::string::npos; };
+  if (says("unescaped control characters"))
+    return "a text is not closed on its line; end it with `\"`";
+  if (says("redefine") || says("already exists") || says("cannot redefine"))
+    return description + "; keep one of the two";
+  if (says("UTF-8")) return "the file is not UTF-8 text; save it as plain text";
+  if (says("floating-point") || says("float"))
+    return description + "; write a number that a double holds, as `0.05`";
+  return description + "; write `key = value`, texts and quantities in double quotes";
+}
+
+}  // namespace
+
+const Member* Node::find(std::string_view key) const {
+  for (const Member& member : members)
+    if (member.key == key) return &member;
+  return nullptr;
+}
+
+std::string Node::kind_name() const {
+  switch (kind) {
+    case Kind::table: return "a table";
+    case Kind::array: return "a list";
+    case Kind::text: return "a text";
+    case Kind::integer: return "an integer";
+    case Kind::real: return "a number";
+    case Kind::boolean: return "a truth value";
+    case Kind::date: return "a date";
+  }
+  return "a value";
+}
+
+std::string Node::shown() const {
+  switch (kind) {
+    case Kind::text: return text;
+    case Kind::integer:
+    case Kind::real: return number_text(number);
+    case Kind::boolean: return boolean ? "true" : "false";
+    default: return kind_name();
+  }
+}
+
+Node parse_toml(std::string_view text, const std::string& file) {
+  if (trimmed(text).empty())
+    throw InputError({file, 1, 1}, "the file is empty; a scenario starts with `schema = 1`");
+  const std::size_t binary = first_binary_byte(text);
+  if (binary < text.size()) {
+    const auto before = text.substr(0, binary);
+    const int line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+    const std::size_t start = before.find_last_of('\n') + 1;  // npos + 1 is 0: the first line
+    throw InputError({file, line, static_cast<int>(binary - start) + 1},
+                     "this is not a text file; give a TOML file");
+  }
+  try {
+    const toml::table table = toml::parse(text, file);
+    Node root = convert(table, file);
+    root.place = {file, 1, 1};
+    return root;
+  } catch (const toml::parse_error& error) {
+    throw InputError(place_of(error.source(), file), reworded(std::string(error.description())));
+  }
+}
+
+Node read_toml(const std::string& path) { return parse_toml(read_text(path), path); }
+
+namespace {
+
+// The array element that a path's number names, or the table member of that name.
+Node& descend(Node& node, const std::string& word, const std::string& path, const Place& origin) {
+  const auto refuse = [&](const std::string& why) -> Node& {
+    throw InputError(origin, "`" + path + "` cannot be set: " + why);
+  };
+  if (node.kind == Node::Kind::array) {
+    const auto number = whole_number(word);
+    const auto count = static_cast<double>(node.items.size());
+    if (!number || *number < 1 || *number > count || *number != static_cast<int>(*number))
+      return refuse("`" + word + "` is none of the list's entries; count them from 1 to " +
+                    number_text(count));
+    return node.items[static_cast<std::size_t>(*number) - 1];
+  }
+  if (node.kind != Node::Kind::table)
+    return refuse("`" + word + "` is looked for inside " + node.kind_name() +
+                  "; name a key of a table");
+  for (Member& member : node.members)
+    if (member.key == word) return member.value;
+  Node table;
+  table.place = origin;
+  node.members.push_back({word, origin, table});
+  return node.members.back().value;
+}
+
+void set_origin(Node& node, const Place& origin) {
+  node.place = origin;
+  for (Node& item : node.items) set_origin(item, origin);
+  for (Member& member : node.members) {
+    member.place = origin;
+    set_origin(member.value, origin);
+  }
+}
+
+}  // namespace
+
+void set_value(Node& root, std::string_view path, Node value, const Place& origin) {
+  Node* node = &root;
+  Member* last = nullptr;
+  for (const std::string& word : split(path, '.')) {
+    Node& parent = *node;
+    node = &descend(parent, word, std::string(path), origin);
+    last = nullptr;
+    for (Member& member : parent.members)
+      if (&member.value == node) last = &member;
+  }
+  set_origin(value, origin);
+  *node = std::move(value);
+  if (last != nullptr) last->place = origin;
+}
+
+std::pair<std::string, Node> parse_assignment(const std::string& assignment) {
+  const Place origin{"--set " + assignment, 0, 0};
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(origin, "a setting is written `key=value`, as `tissue.young_modulus=60 kPa`");
+  const std::string path = trimmed(std::string_view(assignment).substr(0, equals));
+  const std::string value = trimmed(std::string_view(assignment).substr(equals + 1));
+  Node node;
+  try {
+    node = convert(*toml::parse("value = " + value).get("value"), origin.file);
+  } catch (const toml::parse_error&) {
+    node.kind = Node::Kind::text;
+    node.text = value;
+  }
+  set_origin(node, origin);
+  return {path, node};
+}
+
+}  // namespace palpate

@@ -1,0 +1,39 @@
+// Errors as text: one line a problem, its place in front.
+#include "base/error.h"
+
+#include <utility>
+
+namespace palpate {
+
+std::string Place::text() const {
+  std::string text = file;
+  if (line > 0) text += ":" + std::to_string(line);
+  if (line > 0 && column > 0) text += ":" + std::to_string(column);
+  return text;
+}
+
+std::string Problem::text() const {
+  const std::string where = place.text();
+  return where.empty() ? message : where + ": " + message;
+}
+
+namespace {
+
+std::string joined(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    if (!text.empty()) text += "\n";
+    text += problem.text();
+  }
+  return text;
+}
+
+}  // namespace
+
+InputError::InputError(std::vector<Problem> problems)
+    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+
+InputError::InputError(Place place, std::string message)
+    : InputError(std::vector<Problem>{{std::move(place), std::move(message)}}) {}
+
+}  // namespace palpate

@@ -1,0 +1,167 @@
+// The reference manual of a struct's keys, in markdown.
+#include "base/field_writer.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+
+namespace palpate {
+namespace {
+
+class Manual final : public FieldVisitor {
+ public:
+  Manual() { sections_.push_back({"Top level", "", {}}); }
+
+  [[nodiscard]] std::string result() const {
+    std::string text;
+    for (const Section& section : sections_) {
+      text += "\n## " + section.title + "\n\n";
+      if (!section.meaning.empty()) text += section.meaning + "\n\n";
+      if (section.rows.empty()) continue;
+      text += "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
+      for (const std::string& row : section.rows) text += row + "\n";
+    }
+    return text;
+  }
+
+  void number(const Key& key, double& value, const Range& range) override {
+    row(key, "number" + bounds(range, nullptr), number_text(value));
+  }
+  void number(const Key& key, std::optional<double>&, const Range& range) override {
+    row(key, "number" + bounds(range, nullptr), "");
+  }
+  void quantity(const Key& key, double& si, const Unit& unit, const Range& range) override {
+    row(key, unit.quantity + bounds(range, &unit), quantity_text(si, unit));
+  }
+  void quantity(const Key& key, std::optional<double>&, const Unit& unit,
+                const Range& range) override {
+    row(key, unit.quantity + bounds(range, &unit), "");
+  }
+  void quantity_or(const char* word, const Key& key, std::optional<double>& si, const Unit& unit,
+                   const Range& range) override {
+    row(key, "`\"" + std::string(word) + "\"` or " + unit.quantity + bounds(range, &unit),
+        si ? quantity_text(*si, unit) : word);
+  }
+  void count_or(const char* word, const Key& key, std::optional<int>& value,
+                const Range& range) override {
+    row(key, "`\"" + std::string(word) + "\"` or whole number" + bounds(range, nullptr),
+        value ? std::to_string(*value) : word);
+  }
+  void either(const Key& key, Target& target, const Unit& first, const Unit& second,
+              const Range& range) override {
+    row(key, std::string(first.quantity) + bounds(range, &first) + " or " + second.quantity,
+        quantity_text(target.value, target.second ? second : first));
+  }
+  void count(const Key& key, int& value, const Range& range) override {
+    row(key, "whole number" + bounds(range, nullptr), std::to_string(value));
+  }
+  void text(const Key& key, std::string& value) override { row(key, "text", value); }
+  void flag(const Key& key, bool& value) override {
+    row(key, "`true` or `false`", value ? "true" : "false");
+  }
+  void quantities(const Key& key, std::span<double> si, const Unit& unit,
+                  const Range& range) override {
+    std::vector<std::string> items;
+    for (const double value : si) items.push_back(quantity_text(value, unit));
+    row(key, "list of " + std::to_string(si.size()) + " times " + unit.quantity +
+                 bounds(range, &unit),
+        joined(items, ", "));
+  }
+  void counts(const Key& key, std::span<int> values, const Range& range) override {
+    std::vector<std::string> items;
+    for (const int value : values) items.push_back(std::to_string(value));
+    row(key, "list of " + std::to_string(values.size()) + " whole numbers" + bounds(range, nullptr),
+        joined(items, ", "));
+  }
+  void numbers_by_name(const Key& key, std::map<std::string, double>&,
+                       const Range& range) override {
+    row(key, "table of name = number" + bounds(range, nullptr), "");
+  }
+  void choice_of(const Key& key, int& index, std::span<const Word> words) override {
+    std::string values;
+    for (const Word& word : words) {
+      if (!values.empty()) values += "<br>";
+      values += "`\"" + std::string(word.word) + "\"`";
+      if (*word.meaning != '\0') values += ": " + std::string(word.meaning);
+    }
+    row(key, values, words[static_cast<std::size_t>(index)].word);
+  }
+  void table(const Key& key, const Fields& fields) override {
+    const std::string name = prefix_.empty() ? key.name : prefix_ + "." + key.name;
+    section("`[" + name + "]`", key.meaning, name, fields);
+  }
+  void tables(const Key& key, int, const std::function<void(int)>& resize,
+              const std::function<void(FieldVisitor&, int)>& fields) override {
+    resize(1);
+    section("`[[" + std::string(key.name) + "]]`", key.meaning, key.name,
+            [&](FieldVisitor& visitor) { fields(visitor, 0); });
+    resize(0);
+  }
+  void kind(int chosen, std::span<const Word> words,
+            const std::function<Fields(int)>& choose) override {
+    const std::string name = prefix_;
+    for (int i = 0; i < static_cast<int>(words.size()); ++i) {
+      const Word& word = words[static_cast<std::size_t>(i)];
+      const std::string title = "`" + name + "`, `kind = \"" + std::string(word.word) + "\"`" +
+                                (i == chosen && words.size() > 1 ? " (default)" : "");
+      section(title, word.meaning, name, choose(i));
+    }
+    choose(chosen);
+  }
+
+ private:
+  struct Section {
+    std::string title;
+    std::string meaning;
+    std::vector<std::string> rows;
+  };
+
+  // Sections stand in the order in which they are opened; rows go to the innermost.
+  void section(const std::string& title, const std::string& meaning, const std::string& name,
+               const Fields& fields) {
+    const std::size_t outer = current_;
+    const std::string outer_prefix = std::exchange(prefix_, name);
+    sections_.push_back({title, meaning, {}});
+    current_ = sections_.size() - 1;
+    fields(*this);
+    current_ = outer;
+    prefix_ = outer_prefix;
+  }
+
+  static std::string bounds(const Range& range, const Unit* unit) {
+    const auto shown = [&](double value) {
+      return unit != nullptr ? quantity_text(value, *unit) : number_text(value);
+    };
+    std::string text;
+    if (std::isfinite(range.low)) text += (range.low_allowed ? " >= " : " > ") + shown(range.low);
+    if (std::isfinite(range.high)) {
+      text += text.empty() ? "" : " and";
+      text += (range.high_allowed ? " <= " : " < ") + shown(range.high);
+    }
+    return text;
+  }
+
+  void row(const Key& key, const std::string& value, const std::string& fallback) {
+    std::string meaning = key.meaning;
+    if (!key.use.when.empty()) meaning += " Used only " + key.use.when + ".";
+    sections_[current_].rows.push_back("| `" + std::string(key.name) + "` | " + value + " | " +
+                                       (fallback.empty() ? "" : "`" + fallback + "`") + " | " +
+                                       meaning + " |");
+  }
+
+  std::vector<Section> sections_;
+  std::size_t current_ = 0;
+  std::string prefix_;
+};
+
+}  // namespace
+
+std::string fields_as_manual(const Fields& fields) {
+  Manual manual;
+  fields(manual);
+  return manual.result();
+}
+
+}  // namespace palpate

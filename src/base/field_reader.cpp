@@ -1,0 +1,346 @@
+// The visitor that reads, and the wording of what it refuses.
+#include "base/field_reader.h"
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "base/text.h"
+
+namespace palpate {
+namespace {
+
+std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+// "above 0 kPa and below 3 kPa", in the words of the key's unit.
+std::string range_text(const Range& range, const Unit* unit) {
+  const auto bound = [&](double value) {
+    return unit != nullptr ? quantity_text(value, *unit) : number_text(value);
+  };
+  std::string text;
+  if (std::isfinite(range.low))
+    text += (range.low_allowed ? "at least " : "above ") + bound(range.low);
+  if (std::isfinite(range.high)) {
+    if (!text.empty()) text += " and ";
+    text += (range.high_allowed ? "at most " : "below ") + bound(range.high);
+  }
+  return text;
+}
+
+class Reader final : public FieldVisitor {
+ public:
+  Reader(const Node& root, Reading* reading) : reading_(reading) { open_.push_back({&root, {}}); }
+
+  void finish() { refuse_unknown_keys(); }
+
+  void number(const Key& key, double& value, const Range& range) override {
+    if (const Node* node = find(key)) read_number(key, *node, value, range);
+  }
+  void number(const Key& key, std::optional<double>& value, const Range& range) override {
+    if (const Node* node = find(key)) {
+      double read = 0.0;
+      if (read_number(key, *node, read, range)) value = read;
+    }
+  }
+  void quantity(const Key& key, double& si, const Unit& unit, const Range& range) override {
+    if (const Node* node = find(key)) read_quantity(key, *node, si, unit, range);
+  }
+  void quantity(const Key& key, std::optional<double>& si, const Unit& unit,
+                const Range& range) override {
+    if (const Node* node = find(key)) {
+      double read = 0.0;
+      if (read_quantity(key, *node, read, unit, range)) si = read;
+    }
+  }
+  void quantity_or(const char* word, const Key& key, std::optional<double>& si, const Unit& unit,
+                   const Range& range) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    double read = 0.0;
+    if (node->kind == Node::Kind::text && node->text == word)
+      si.reset();
+    else if (read_quantity(key, *node, read, unit, range))
+      si = read;
+  }
+  void count_or(const char* word, const Key& key, std::optional<int>& value,
+                const Range& range) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    int read = 0;
+    if (node->kind == Node::Kind::text && node->text == word) {
+      value.reset();
+    } else if (node->kind == Node::Kind::text) {
+      problem(node->place, quoted(key.name) + " wants " + quoted(word) + " or a whole number, got " +
+                               quoted(node->text) + "; write " + quoted(word));
+    } else if (read_count(key, *node, read, range)) {
+      value = read;
+    }
+  }
+  void either(const Key& key, Target& target, const Unit& first, const Unit& second,
+              const Range& range) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (node->kind == Node::Kind::text) {
+      try {
+        const double value = parse_quantity(node->text, second);
+        if (within(key, *node, value, range, &second)) target = {value, true};
+        return;
+      } catch (const std::invalid_argument&) {  // then it must be of the first dimension
+      }
+    }
+    double value = 0.0;
+    if (read_quantity(key, *node, value, first, range)) target = {value, false};
+  }
+  void count(const Key& key, int& value, const Range& range) override {
+    if (const Node* node = find(key)) read_count(key, *node, value, range);
+  }
+  void text(const Key& key, std::string& value) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (node->kind != Node::Kind::text)
+      wrong_type(key, *node, "a text", "\"" + node->shown() + "\"");
+    else
+      value = node->text;
+  }
+  void flag(const Key& key, bool& value) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (node->kind != Node::Kind::boolean)
+      wrong_type(key, *node, "`true` or `false`", "true");
+    else
+      value = node->boolean;
+  }
+  void quantities(const Key& key, std::span<double> si, const Unit& unit,
+                  const Range& range) override {
+    const Node* node = find(key);
+    if (node == nullptr || !is_list(key, *node, si.size())) return;
+    for (std::size_t i = 0; i < si.size(); ++i)
+      read_quantity(key, node->items[i], si[i], unit, range);
+  }
+  void counts(const Key& key, std::span<int> values, const Range& range) override {
+    const Node* node = find(key);
+    if (node == nullptr || !is_list(key, *node, values.size())) return;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      read_count(key, node->items[i], values[i], range);
+  }
+  void numbers_by_name(const Key& key, std::map<std::string, double>& values,
+                       const Range& range) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (node->kind != Node::Kind::table) return wrong_type(key, *node, "a table", "{ name = 1 }");
+    values.clear();
+    for (const Member& member : node->members) {
+      double read = 0.0;
+      const Key entry{member.key.c_str(), key.meaning};
+      if (read_number(entry, member.value, read, range)) values[member.key] = read;
+    }
+  }
+  void choice_of(const Key& key, int& index, std::span<const Word> words) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (const auto chosen = read_word(key.name, *node, words)) index = *chosen;
+  }
+  void table(const Key& key, const Fields& fields) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (node->kind != Node::Kind::table)
+      return wrong_type(key, *node, "a table", "{ kind = \"...\" }");
+    enter(*node, [&] { fields(*this); });
+  }
+  void tables(const Key& key, int, const std::function<void(int)>& resize,
+              const std::function<void(FieldVisitor&, int)>& fields) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (node->kind != Node::Kind::array)
+      return problem(node->place, quoted(key.name) + " wants a list of tables, got " +
+                                      node->kind_name() + "; write `[[" + key.name + "]]`");
+    resize(static_cast<int>(node->items.size()));
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      const Node& item = node->items[i];
+      if (item.kind == Node::Kind::table)
+        enter(item, [&] { fields(*this, static_cast<int>(i)); });
+      else
+        problem(item.place, quoted(key.name) + " wants tables, got " + item.kind_name() +
+                                "; write `[[" + key.name + "]]`");
+    }
+  }
+  void kind(int chosen, std::span<const Word> words,
+            const std::function<Fields(int)>& choose) override {
+    const Node& here = *open_.back().node;
+    open_.back().known.insert("kind");
+    if (const Member* member = here.find("kind")) {
+      const auto read = read_word("kind", member->value, words);
+      if (!read) return know_everything();
+      chosen = *read;
+    } else {
+      // A table with a key named like an alternative needs no `kind`: `{ file = "leg.node" }`.
+      for (std::size_t i = 0; i < words.size(); ++i)
+        if (here.find(words[i].word) != nullptr) chosen = static_cast<int>(i);
+    }
+    choose(chosen)(*this);
+  }
+
+ private:
+  struct Open {
+    const Node* node;
+    std::set<std::string> known;
+  };
+
+  void problem(const Place& place, const std::string& message) {
+    reading_->problems.push_back({place, message});
+  }
+
+  void wrong_type(const Key& key, const Node& node, const std::string& wanted,
+                  const std::string& example) {
+    const bool has_text = node.kind != Node::Kind::table && node.kind != Node::Kind::array;
+    const std::string got = node.kind_name() + (has_text ? " " + quoted(node.shown()) : "");
+    problem(node.place, quoted(key.name) + " wants " + wanted + ", got " + got + "; write it as `" +
+                            key.name + " = " + example + "`");
+  }
+
+  const Node* find(const Key& key) {
+    Open& here = open_.back();
+    here.known.insert(key.name);
+    const Member* member = here.node->find(key.name);
+    if (member == nullptr) return nullptr;
+    if (!key.use.used) {
+      if (key.use.otherwise == Use::Otherwise::note)
+        reading_->notes.push_back(
+            {member->place, quoted(key.name) + " is left unread: it is used only " + key.use.when});
+      else
+        problem(member->place, quoted(key.name) + " has no effect here: it is used only " +
+                                   key.use.when + "; remove the line or change that");
+    }
+    return &member->value;
+  }
+
+  void enter(const Node& node, const std::function<void()>& visit) {
+    open_.push_back({&node, {}});
+    visit();
+    refuse_unknown_keys();
+    open_.pop_back();
+  }
+
+  void know_everything() {  // after a wrong `kind` nothing is known of the other keys
+    for (const Member& member : open_.back().node->members) open_.back().known.insert(member.key);
+  }
+
+  void refuse_unknown_keys() {
+    const Open& here = open_.back();
+    const std::vector<std::string> known(here.known.begin(), here.known.end());
+    for (const Member& member : here.node->members) {
+      if (here.known.contains(member.key)) continue;
+      const auto near = nearest(member.key, known);
+      problem(member.place, quoted(member.key) + " is not a key here; " +
+                                (near ? "did you mean " + quoted(*near) + "?"
+                                      : "known keys: " + joined(known, ", ")));
+    }
+  }
+
+  bool within(const Key& key, const Node& node, double value, const Range& range,
+              const Unit* unit) {
+    if (range.holds(value)) return true;
+    problem(node.place, quoted(key.name) + " must be " + range_text(range, unit) + ", got " +
+                            quoted(node.shown()) + "; give a value in that range");
+    return false;
+  }
+
+  bool read_number(const Key& key, const Node& node, double& value, const Range& range) {
+    if (!node.is_number()) {
+      const auto inside = whole_number(node.kind == Node::Kind::text ? node.text : "");
+      wrong_type(key, node, "a pure number", inside ? number_text(*inside) : "0.5");
+      return false;
+    }
+    if (!std::isfinite(node.number)) {
+      problem(node.place, quoted(key.name) + " wants a finite number, got " +
+                              quoted(node.shown()) + "; write one as `0.5`");
+      return false;
+    }
+    if (!within(key, node, node.number, range, nullptr)) return false;
+    value = node.number;
+    return true;
+  }
+
+  bool read_count(const Key& key, const Node& node, int& value, const Range& range) {
+    if (node.kind != Node::Kind::integer) {
+      wrong_type(key, node, "a whole number", "1");
+      return false;
+    }
+    if (!within(key, node, node.number, range, nullptr)) return false;
+    if (std::abs(node.number) > 1e9) {
+      problem(node.place, quoted(key.name) + " must be below 1e9, got " + quoted(node.shown()) +
+                              "; give a smaller number");
+      return false;
+    }
+    value = static_cast<int>(node.number);
+    return true;
+  }
+
+  bool read_quantity(const Key& key, const Node& node, double& si, const Unit& unit,
+                     const Range& range) {
+    if (node.kind != Node::Kind::text) {
+      const std::string digits = node.is_number() ? node.shown() : "1";
+      wrong_type(key, node, std::string("a ") + unit.quantity + " with its unit, as text",
+                 "\"" + digits + " " + unit.symbol + "\"");
+      return false;
+    }
+    try {
+      const double value = parse_quantity(node.text, unit);
+      if (!within(key, node, value, range, &unit)) return false;
+      si = value;
+      return true;
+    } catch (const std::invalid_argument& error) {
+      problem(node.place, quoted(key.name) + " " + error.what());
+      return false;
+    }
+  }
+
+  bool is_list(const Key& key, const Node& node, std::size_t size) {
+    if (node.kind == Node::Kind::array && node.items.size() == size) return true;
+    const std::string got = node.kind == Node::Kind::array
+                                ? "a list of " + std::to_string(node.items.size())
+                                : node.kind_name();
+    problem(node.place, quoted(key.name) + " wants a list of " + std::to_string(size) + ", got " +
+                            got + "; write it as `[..., ..., ...]`");
+    return false;
+  }
+
+  std::optional<int> read_word(const std::string& name, const Node& node,
+                               std::span<const Word> words) {
+    std::vector<std::string> known;
+    for (const Word& word : words) known.emplace_back(word.word);
+    const std::string choices = joined(known, ", ");
+    if (node.kind != Node::Kind::text) {
+      problem(node.place, quoted(name) + " wants one of " + choices + ", got " +
+                              node.kind_name() + "; write it as `" + name + " = \"" + known[0] +
+                              "\"`");
+      return std::nullopt;
+    }
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (node.text == words[i].word) return static_cast<int>(i);
+    const auto near = nearest(node.text, known);
+    problem(node.place, quoted(name) + " does not know " + quoted(node.text) +
+                            (near ? "; did you mean " + quoted(*near) + "?" : "") +
+                            " It is one of " + choices);
+    return std::nullopt;
+  }
+
+  Reading* reading_;
+  std::vector<Open> open_;
+};
+
+}  // namespace
+
+Reading read_fields(const Node& root, const Fields& fields) {
+  Reading discarded;
+  Reader first(root, &discarded);
+  fields(first);
+  Reading reading;
+  Reader second(root, &reading);
+  fields(second);
+  second.finish();
+  return reading;
+}
+
+}  // namespace palpate

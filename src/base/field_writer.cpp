@@ -1,0 +1,138 @@
+// The echo: top-level keys first, then a [table] each, inline tables below that.
+#include "base/field_writer.h"
+
+#include <vector>
+
+#include "base/text.h"
+
+namespace palpate {
+namespace {
+
+std::string quote(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (c == '\n')
+      quoted += "\\n";
+    else
+      quoted += c;
+  }
+  return quoted + "\"";
+}
+
+bool is_bare(const std::string& key) {
+  for (const char c : key)
+    if (!(std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-')) return false;
+  return !key.empty();
+}
+
+class Writer final : public FieldVisitor {
+ public:
+  [[nodiscard]] std::string result() const { return top_ + tables_; }
+
+  void number(const Key& key, double& value, const Range&) override { put(key, number_text(value)); }
+  void number(const Key& key, std::optional<double>& value, const Range&) override {
+    if (value) put(key, number_text(*value));
+  }
+  void quantity(const Key& key, double& si, const Unit& unit, const Range&) override {
+    put(key, quote(quantity_text(si, unit)));
+  }
+  void quantity(const Key& key, std::optional<double>& si, const Unit& unit,
+                const Range&) override {
+    if (si) put(key, quote(quantity_text(*si, unit)));
+  }
+  void quantity_or(const char* word, const Key& key, std::optional<double>& si, const Unit& unit,
+                   const Range&) override {
+    put(key, quote(si ? quantity_text(*si, unit) : word));
+  }
+  void count_or(const char* word, const Key& key, std::optional<int>& value,
+                const Range&) override {
+    put(key, value ? std::to_string(*value) : quote(word));
+  }
+  void either(const Key& key, Target& target, const Unit& first, const Unit& second,
+              const Range&) override {
+    put(key, quote(quantity_text(target.value, target.second ? second : first)));
+  }
+  void count(const Key& key, int& value, const Range&) override { put(key, std::to_string(value)); }
+  void text(const Key& key, std::string& value) override { put(key, quote(value)); }
+  void flag(const Key& key, bool& value) override { put(key, value ? "true" : "false"); }
+  void quantities(const Key& key, std::span<double> si, const Unit& unit, const Range&) override {
+    std::vector<std::string> items;
+    for (const double value : si) items.push_back(quote(quantity_text(value, unit)));
+    put(key, "[" + joined(items, ", ") + "]");
+  }
+  void counts(const Key& key, std::span<int> values, const Range&) override {
+    std::vector<std::string> items;
+    for (const int value : values) items.push_back(std::to_string(value));
+    put(key, "[" + joined(items, ", ") + "]");
+  }
+  void numbers_by_name(const Key& key, std::map<std::string, double>& values,
+                       const Range&) override {
+    std::vector<std::string> items;
+    for (const auto& [name, value] : values)
+      items.push_back((is_bare(name) ? name : quote(name)) + " = " + number_text(value));
+    if (!items.empty()) put(key, "{ " + joined(items, ", ") + " }");
+  }
+  void choice_of(const Key& key, int& index, std::span<const Word> words) override {
+    put(key, quote(words[static_cast<std::size_t>(index)].word));
+  }
+  void table(const Key& key, const Fields& fields) override {
+    if (!key.use.used) return;
+    std::vector<std::string> before;
+    before.swap(entries_);
+    ++depth_;
+    fields(*this);
+    --depth_;
+    before.swap(entries_);
+    if (depth_ == 0)
+      tables_ += "\n[" + std::string(key.name) + "]\n" + lines(before);
+    else
+      put(key, "{ " + joined(before, ", ") + " }");
+  }
+  void tables(const Key& key, int size, const std::function<void(int)>&,
+              const std::function<void(FieldVisitor&, int)>& fields) override {
+    for (int i = 0; i < size; ++i) {
+      ++depth_;
+      fields(*this, i);
+      --depth_;
+      tables_ += "\n[[" + std::string(key.name) + "]]\n" + lines(entries_);
+      entries_.clear();
+    }
+  }
+  void kind(int chosen, std::span<const Word> words,
+            const std::function<Fields(int)>& choose) override {
+    put({"kind", ""}, quote(words[static_cast<std::size_t>(chosen)].word));
+    choose(chosen)(*this);
+  }
+
+ private:
+  void put(const Key& key, const std::string& value) {
+    if (!key.use.used) return;
+    const std::string entry = std::string(key.name) + " = " + value;
+    if (depth_ == 0)
+      top_ += entry + "\n";
+    else
+      entries_.push_back(entry);
+  }
+
+  static std::string lines(const std::vector<std::string>& entries) {
+    std::string text;
+    for (const std::string& entry : entries) text += entry + "\n";
+    return text;
+  }
+
+  int depth_ = 0;
+  std::string top_;
+  std::string tables_;
+  std::vector<std::string> entries_;
+};
+
+}  // namespace
+
+std::string fields_as_toml(const Fields& fields) {
+  Writer writer;
+  fields(writer);
+  return writer.result();
+}
+
+}  // namespace palpate

@@ -1,0 +1,186 @@
+// Unit expressions: prefixed symbols joined by `*`, `/`, spaces and powers, as in `kg/m^3`.
+#include "base/units.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "base/text.h"
+
+namespace palpate {
+namespace {
+
+struct Scale {
+  double times = 1.0;
+  double per = 1.0;
+  Dimension dimension;
+};
+
+struct Symbol {
+  std::string_view name;
+  Scale scale;
+  bool prefixed;
+};
+
+constexpr std::array symbols{
+    Symbol{"m", {1, 1, {1, 0, 0}}, true},      Symbol{"g", {1, 1e3, {0, 1, 0}}, true},
+    Symbol{"s", {1, 1, {0, 0, 1}}, true},      Symbol{"N", {1, 1, {1, 1, -2}}, true},
+    Symbol{"Pa", {1, 1, {-1, 1, -2}}, true},   Symbol{"J", {1, 1, {2, 1, -2}}, true},
+    Symbol{"W", {1, 1, {2, 1, -3}}, true},     Symbol{"Hz", {1, 1, {0, 0, -1}}, true},
+    Symbol{"bar", {1e5, 1, {-1, 1, -2}}, true}, Symbol{"min", {60, 1, {0, 0, 1}}, false},
+    Symbol{"h", {3600, 1, {0, 0, 1}}, false},
+};
+
+struct Prefix {
+  std::string_view name;
+  double times;
+  double per;
+};
+constexpr std::array prefixes{Prefix{"G", 1e9, 1}, Prefix{"M", 1e6, 1}, Prefix{"k", 1e3, 1},
+                              Prefix{"h", 1e2, 1}, Prefix{"d", 1, 1e1}, Prefix{"c", 1, 1e2},
+                              Prefix{"m", 1, 1e3}, Prefix{"u", 1, 1e6}, Prefix{"n", 1, 1e9}};
+
+std::optional<Scale> symbol_scale(std::string_view text) {
+  for (const Symbol& symbol : symbols)
+    if (text == symbol.name) return symbol.scale;
+  for (const Prefix& prefix : prefixes) {
+    if (!text.starts_with(prefix.name)) continue;
+    for (const Symbol& symbol : symbols)
+      if (symbol.prefixed && text.substr(prefix.name.size()) == symbol.name)
+        return Scale{symbol.scale.times * prefix.times, symbol.scale.per * prefix.per,
+                     symbol.scale.dimension};
+  }
+  return std::nullopt;
+}
+
+void multiply(Scale& product, const Scale& factor, int power) {
+  for (int i = 0; i < std::abs(power); ++i) {
+    product.times *= power > 0 ? factor.times : factor.per;
+    product.per *= power > 0 ? factor.per : factor.times;
+  }
+  product.dimension.m += power * factor.dimension.m;
+  product.dimension.kg += power * factor.dimension.kg;
+  product.dimension.s += power * factor.dimension.s;
+}
+
+[[noreturn]] void unknown_unit(std::string_view symbol) {
+  static const std::vector<std::string> known{"mm",  "cm",    "m",   "um",  "Pa", "kPa", "MPa",
+                                              "GPa", "s",     "ms",  "us",  "N",  "mN",  "kg",
+                                              "g",   "mm/s",  "m/s", "1/s", "Hz", "kg/m^3"};
+  std::string message = "has the unknown unit `" + std::string(symbol) + "`";
+  if (const auto near = nearest(symbol, known)) message += "; nearest known: `" + *near + "`";
+  throw std::invalid_argument(message);
+}
+
+Scale parse_unit(std::string_view text) {
+  Scale scale;
+  int sign = 1;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const char c = text[at];
+    if (c == ' ' || c == '*') {
+      ++at;
+    } else if (c == '/') {
+      sign = -1;
+      ++at;
+    } else if (c == '1' && (at + 1 == text.size() || text[at + 1] == '/')) {
+      ++at;
+    } else {
+      const std::size_t end = std::min(text.find_first_of(" */^", at), text.size());
+      const std::string_view name = text.substr(at, end - at);
+      const auto factor = symbol_scale(name);
+      if (!factor) unknown_unit(text);
+      int power = 1;
+      at = end;
+      if (at < text.size() && text[at] == '^') {
+        const auto exponent = leading_number(text.substr(at + 1));
+        if (!exponent || exponent->value != std::round(exponent->value) ||
+            std::abs(exponent->value) > 9)
+          unknown_unit(text);
+        power = static_cast<int>(exponent->value);
+        at = text.size() - exponent->rest.size();
+      }
+      multiply(scale, *factor, sign * power);
+      sign = 1;
+    }
+  }
+  return scale;
+}
+
+std::string article(std::string_view noun) {
+  const bool vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + std::string(noun);
+}
+
+const std::vector<const Unit*>& named_units() {
+  static const std::vector<const Unit*> units{&unit::mm,         &unit::kPa,      &unit::density,
+                                              &unit::s,          &unit::N,        &unit::mm_per_s,
+                                              &unit::per_second};
+  return units;
+}
+
+std::string si_symbol(const Dimension& dimension) {
+  if (dimension == unit::kPa.dimension) return "Pa";
+  if (dimension == unit::N.dimension) return "N";
+  std::string text;
+  const auto add = [&](const char* name, int power) {
+    if (power == 0) return;
+    if (!text.empty()) text += "*";
+    text += name;
+    if (power != 1) text += "^" + std::to_string(power);
+  };
+  add("m", dimension.m);
+  add("kg", dimension.kg);
+  add("s", dimension.s);
+  return text;
+}
+
+}  // namespace
+
+std::string dimension_name(const Dimension& dimension) {
+  for (const Unit* unit : named_units())
+    if (unit->dimension == dimension) return article(unit->quantity);
+  return dimension == Dimension{} ? "a pure number" : "a quantity in " + si_symbol(dimension);
+}
+
+double parse_quantity(std::string_view given, const Unit& wanted) {
+  const std::string text = trimmed(given);
+  const std::string wants = "wants " + article(wanted.quantity);
+  const std::string quoted = "`" + text + "`";
+  const auto number = leading_number(text);
+  if (!number)
+    throw std::invalid_argument(wants + ", got " + quoted + "; write it as `1 " + wanted.symbol +
+                                "`");
+  if (number->out_of_range)
+    throw std::invalid_argument(wants + ", got " + quoted +
+                                ", which no double can hold; write a number between 1e-300 and "
+                                "1e300 in size");
+  if (!std::isfinite(number->value))
+    throw std::invalid_argument(wants + ", got " + quoted + "; write a finite number, as `1 " +
+                                wanted.symbol + "`");
+  const std::string digits = text.substr(0, text.size() - number->rest.size());
+  const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
+  const std::string unit_text = trimmed(number->rest);
+  if (unit_text.empty()) throw std::invalid_argument(wants + " with its unit, got " + quoted + remedy);
+  const Scale scale = parse_unit(unit_text);
+  if (!(scale.dimension == wanted.dimension))
+    throw std::invalid_argument(wants + ", got " + quoted + ", " + dimension_name(scale.dimension) +
+                                remedy);
+  const double si = number->value / scale.per * scale.times;
+  if (!std::isfinite(si))
+    throw std::invalid_argument(wants + ", got " + quoted +
+                                ", which no double can hold in SI units; write a smaller number");
+  return si;
+}
+
+std::string quantity_text(double si, const Unit& shown) {
+  double value = shown.from_si(si);
+  for (const double candidate : {value, std::nextafter(value, -INFINITY),
+                                 std::nextafter(value, INFINITY)})
+    if (shown.to_si(candidate) == si) return number_text(candidate) + " " + shown.symbol;
+  return number_text(si) + " " + si_symbol(shown.dimension);
+}
+
+}  // namespace palpate

@@ -1,0 +1,66 @@
+// The command line as values: one struct a verb, one table for parsing, help and suggestions.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace palpate::cli {
+
+// How the program talks, whatever the verb.
+struct Manner {
+  bool quiet = false;
+  bool json = false;
+};
+
+struct Run {
+  std::vector<std::string> scenarios;
+  std::string out = "out";
+  std::vector<std::string> settings;
+  int jobs = 0;  // 0: as many as there are cores
+  bool force = false;
+};
+struct Explain {
+  std::string subject;  // a scenario's path, or a key
+  std::vector<std::string> settings;
+};
+struct Fit {
+  std::string data;
+  std::string x;
+  std::string y;
+  std::string model;
+  std::string case_name;
+  double x_origin = 0.0;
+};
+struct Compare {
+  std::string got;
+  std::string want;
+  std::string tolerances;
+};
+struct Bless {
+  std::vector<std::string> names;
+  std::string reason;
+};
+struct Manual {};
+
+using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Manual>;
+
+struct Arguments {
+  Manner manner;
+  std::vector<std::string> given;  // for run.json
+  Verb verb;
+};
+
+// A command line that is not one of ours; the text is a sentence with a remedy.
+struct UsageError {
+  std::string message;
+};
+// Text that was asked for by --help or --version.
+struct Answer {
+  std::string text;
+};
+
+[[nodiscard]] std::variant<Arguments, UsageError, Answer> parse(
+    const std::vector<std::string>& arguments);
+
+}  // namespace palpate::cli

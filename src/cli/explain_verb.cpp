@@ -1,0 +1,191 @@
+// `palpate explain`: what would be computed and why, in sentences; or what a key means.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "cli/program.h"
+#include "cli/verbs.h"
+#include "run/family.h"
+#include "scenario/family.h"
+
+namespace palpate::cli {
+namespace {
+
+using scenario::Solver;
+
+std::string milliseconds(double seconds) { return rounded_text(1e3 * seconds) + " ms"; }
+
+// The rows of the manual that describe `key`, given as `table.key` or `key`.
+std::string meaning(const std::string& key) {
+  const std::size_t dot = key.rfind('.');
+  const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
+  const std::string table = dot == std::string::npos ? "" : key.substr(0, dot);
+  std::string section;
+  std::string found;
+  std::vector<std::string> known;
+  for (const std::string& line : split(scenario::manual(), '\n')) {
+    if (line.starts_with("## ")) section = line.substr(3);
+    if (!line.starts_with("| `")) continue;
+    const std::string here = line.substr(3, line.find('`', 3) - 3);
+    known.push_back(here);
+    if (here != name || section.find(table) == std::string::npos) continue;
+    const auto cells = split(line, '|');
+    found += section + ": `" + here + "`\n  value:   " + trimmed(cells[2]) +
+             "\n  default: " + trimmed(cells[3]) + "\n  " + trimmed(cells[4]) + "\n";
+  }
+  if (!found.empty()) return found;
+  const auto near = nearest(name, known);
+  throw InputError({}, "palpate: `" + key + "` is neither a file nor a key" +
+                           (near ? "; did you mean `" + *near + "`?"
+                                 : "; `palpate manual` lists all keys"));
+}
+
+const char* integrator_word(Solver::Integrator integrator) {
+  switch (integrator) {
+    case Solver::Integrator::central_difference: return "central differences";
+    case Solver::Integrator::backward_difference: return "backward differences (implicit Euler)";
+    case Solver::Integrator::quasi_static: return "quasi-static steps, without inertia";
+    case Solver::Integrator::modal: return "modal coordinates, exact in time";
+  }
+  return "";
+}
+
+class Explanation {
+ public:
+  explicit Explanation(const scene::Scene& scene) : scene_(scene) {}
+
+  std::string text() {
+    line("case " + scene_.name);
+    tissue();
+    if (!scene_.scenario.uniform()) contact();
+    choice();
+    if (scene_.specimen) {
+      mesh(*scene_.specimen);
+      time(*scene_.specimen);
+    }
+    return text_;
+  }
+
+ private:
+  void line(const std::string& sentence) { text_ += sentence + "\n"; }
+
+  void tissue() {
+    const scenario::Tissue& tissue = scene_.scenario.tissue;
+    line("  tissue       " + tissue.material + ": E " +
+         quantity_text(*tissue.young_modulus, unit::kPa) + ", nu " +
+         number_text(*tissue.poisson_ratio) + ", density " +
+         quantity_text(*tissue.density, unit::density));
+    if (scene_.choice.model == Solver::Model::hertz) return;
+    using tissue::Viscosity;
+    switch (tissue.viscosity) {
+      case Viscosity::none:
+        line("  viscosity    none");
+        break;
+      case Viscosity::nodal_drag:
+        line("  viscosity    nodal drag, d/m " + quantity_text(*tissue.drag, unit::per_second) +
+             "; its creep time grows with the specimen's length squared");
+        break;
+      case Viscosity::kelvin_voigt:
+        line("  viscosity    Kelvin-Voigt, retardation time " +
+             quantity_text(*tissue.retardation_time, unit::s));
+        break;
+      case Viscosity::standard_linear_solid:
+        line("  viscosity    standard linear solid, relaxation time " +
+             quantity_text(*tissue.relaxation_time, unit::s) + ", E_0 / E_inf " +
+             number_text(*tissue.instantaneous_ratio));
+    }
+  }
+
+  void contact() {
+    line("  contact      E* " + rounded_text(unit::kPa.from_si(scene_.law.modulus)) +
+         " kPa, radius " + quantity_text(scene_.law.radius, unit::mm) + " on a flat; the finger has " +
+         rounded_text(100.0 * scene_.finger_share, 2) + " % of the compliance");
+    if (!scene_.specimen) return;
+    switch (scene_.scenario.contact.coupling) {
+      case contact::Coupling::one_way:
+        line("  coupling     one way: the mesh follows the force of eq. (2) and does not change it");
+        break;
+      case contact::Coupling::series:
+        line("  coupling     series: counts the tissue's compliance twice, up to 64 % of the force "
+             "is lost; `consistent` does not");
+        break;
+      case contact::Coupling::consistent:
+        line("  coupling     consistent: less that sinking of the mesh which Hertz does not know");
+    }
+  }
+
+  void choice() {
+    const bool hertz = scene_.choice.model == Solver::Model::hertz;
+    const bool given = scene_.scenario.solver.model != Solver::Model::automatic;
+    line(std::string("  model        ") + (hertz ? "hertz" : "mass_spring") +
+         (given ? ", as the scenario says" : ", chosen by these questions:"));
+    for (const scene::Question& question : scene_.choice.questions)
+      line("                 " + question.asked + " " + question.measure + " = " +
+           rounded_text(question.number) + ", threshold " + rounded_text(question.threshold) +
+           ": " + question.answer);
+    if (hertz) line("  cost         a closed form: no mesh, no time steps");
+  }
+
+  void mesh(const scene::Specimen& specimen) {
+    line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
+         std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
+         std::to_string(specimen.network.springs()) + " springs");
+    line("  network      measured on the specimen: E " +
+         rounded_text(unit::kPa.from_si(specimen.measured.young_modulus)) + " kPa (" +
+         rounded_text(specimen.measured.young_modulus / *scene_.scenario.tissue.young_modulus) +
+         " of the tissue's), nu " + rounded_text(specimen.measured.poisson_ratio) +
+         "; the tissue's own nu reaches the contact only");
+  }
+
+  void time(const scene::Specimen& specimen) {
+    const scene::TimePlan& plan = specimen.plan;
+    const Solver& solver = scene_.scenario.solver;
+    line(std::string("  time         ") + integrator_word(solver.integrator));
+    line("  stability    central differences are stable below " + milliseconds(plan.limit) +
+         " (2 / omega_max)");
+    line("  steps        time step " + milliseconds(plan.time_step) + " in " +
+         std::to_string(plan.substeps) + (plan.substeps == 1 ? " step of " : " substeps of ") +
+         milliseconds(plan.substep));
+    if (solver.allow_unstable && !plan.stable() &&
+        solver.integrator == Solver::Integrator::central_difference)
+      line("  warning      the step is above the stability limit and will diverge; "
+           "`allow_unstable` lets it");
+    literal_step(plan);
+  }
+
+  // The paper steps skin and ligament by 0.01 and muscle and leg by 0.05, without a unit.
+  void literal_step(const scene::TimePlan& plan) {
+    const std::string& material = scene_.scenario.tissue.material;
+    double literal = 0.0;
+    if (material == "skin" || material == "ligament") literal = 0.01;
+    if (material == "muscle" || material == "upper_leg") literal = 0.05;
+    if (literal <= plan.limit) return;
+    line("  the paper    its literal time step of " + milliseconds(literal) + " is " +
+         rounded_text(literal / plan.limit, 3) +
+         " times the limit: central differences would have diverged; here it is only how often a "
+         "row is written");
+  }
+
+  const scene::Scene& scene_;
+  std::string text_;
+};
+
+}  // namespace
+
+int explain(const Explain& command) {
+  const bool file = command.subject.ends_with(".toml") || std::filesystem::exists(command.subject);
+  if (!file) {
+    print(meaning(command.subject));
+    return exit_good;
+  }
+  const scenario::Family family = scenario::read(command.subject, command.settings);
+  print(family.title + "\n");
+  for (const Problem& note : family.notes) Talk::error("note: " + note.text());
+  for (const scene::Scene& scene : run::build_all(family, 1)) print(Explanation(scene).text());
+  return exit_good;
+}
+
+}  // namespace palpate::cli

@@ -1,0 +1,96 @@
+// `palpate golden bless`: today's results become the expected ones, with a reason.
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "cli/program.h"
+#include "cli/verbs.h"
+#include "record/csv.h"
+#include "fit/case_fits.h"
+#include "report/machine.h"
+#include "report/process.h"
+#include "report/results.h"
+#include "run/family.h"
+
+namespace palpate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string git(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "git");
+  const report::ProcessResult result = report::run_process({.argv = arguments});
+  if (result.end != report::ProcessResult::End::exited || result.code != 0)
+    throw InputError({}, "palpate: blessing needs the project's git history; run it in a checkout");
+  return result.output;
+}
+
+// What git calls changed, but for expected results that were blessed a moment ago.
+std::string uncommitted() {
+  std::string changed;
+  for (const std::string& line : split(git({"status", "--porcelain", "-uall"}), '\n')) {
+    const bool blessed = line.find(" golden/") != std::string::npos &&
+                         (line.find("/expected/") != std::string::npos ||
+                          line.find("/blessed.toml") != std::string::npos);
+    if (!line.empty() && !blessed) changed += (changed.empty() ? "" : ", ") + trimmed(line);
+  }
+  return changed;
+}
+
+void refuse_where_unsafe() {
+  if (const char* ci = std::getenv("CI"); ci != nullptr && *ci != '\0')
+    throw InputError({}, "palpate: `CI` is set, and a machine must not bless its own results; "
+                         "run this by hand");
+  if (const std::string changed = uncommitted(); !changed.empty())
+    throw InputError({}, "palpate: the tree has uncommitted changes (" + changed +
+                             "); commit them first, so that the blessing names the code");
+}
+
+void bless_one(const std::string& name, const std::string& reason) {
+  const std::string folder = "golden/" + name;
+  const scenario::Family family = scenario::read(folder + "/scenario.toml", {});
+  const auto scenes = run::build_all(family, 1);
+  const std::atomic<bool> stop = false;
+  const auto records =
+      run::run_all(scenes, 1, stop, [](std::size_t, const record::CaseRecord&) {});
+  std::vector<fit::NamedFit> fits;
+  for (std::size_t i = 0; i < records.size(); ++i)
+    for (fit::NamedFit& named : fit::case_fits(scenes[i].scenario, records[i]))
+      fits.push_back(std::move(named));
+  fs::create_directories(folder + "/expected");
+  const auto write = [&](const char* file, const record::Table& table) {
+    if (!table.rows.empty())
+      write_atomically(folder + "/expected/" + file, record::csv_text(table));
+  };
+  write("force_indentation.csv", record::contact_table(records));
+  write("strain_time.csv", record::strain_table(records));
+  write("findings.csv", report::findings_table(family, records));
+  if (family.base.output.fits) write("fits.csv", fit::fit_table(fits));
+  const report::Build build = report::this_build();
+  std::string quoted;
+  for (const char c : reason) quoted += (c == '"' || c == '\\') ? std::string("\\") + c : std::string(1, c);
+  write_atomically(folder + "/blessed.toml",
+                   "reason = \"" + quoted + "\"\ncommit = \"" + trimmed(git({"rev-parse", "HEAD"})) +
+                       "\"\ncompiler = \"" + build.compiler + "\"\n");
+}
+
+}  // namespace
+
+int bless(const Bless& command, const Talk& talk) {
+  if (trimmed(command.reason).empty())
+    throw InputError({}, "palpate: `--reason` is empty; say why the results may change");
+  for (const std::string& name : command.names)
+    if (!fs::exists("golden/" + name + "/scenario.toml"))
+      throw InputError({"golden/" + name + "/scenario.toml", 0, 0},
+                       "is not there; name a folder below golden/ from the project's top");
+  refuse_where_unsafe();
+  for (const std::string& name : command.names) {
+    bless_one(name, command.reason);
+    talk.say("golden/" + name + ": blessed; commit it");
+  }
+  return exit_good;
+}
+
+}  // namespace palpate::cli

@@ -1,0 +1,51 @@
+// Verbs by their arguments, errors by their exit codes.
+#include "cli/program.h"
+
+#include <exception>
+
+#include "base/error.h"
+#include "cli/talk.h"
+#include "cli/verbs.h"
+#include "scenario/family.h"
+
+namespace palpate::cli {
+namespace {
+
+int dispatch(const Arguments& arguments) {
+  const Talk talk(arguments.manner);
+  if (const auto* one = std::get_if<Run>(&arguments.verb)) return run(*one, arguments, talk);
+  if (const auto* one = std::get_if<Explain>(&arguments.verb)) return explain(*one);
+  if (const auto* one = std::get_if<Fit>(&arguments.verb)) return fit_columns(*one);
+  if (const auto* one = std::get_if<Compare>(&arguments.verb)) return compare(*one);
+  if (const auto* one = std::get_if<Bless>(&arguments.verb)) return bless(*one, talk);
+  print(scenario::manual());
+  return exit_good;
+}
+
+}  // namespace
+
+int program(const std::vector<std::string>& given) {
+  try {
+    const auto parsed = parse(given);
+    if (const auto* answer = std::get_if<Answer>(&parsed)) {
+      print(answer->text);
+      return exit_good;
+    }
+    if (const auto* wrong = std::get_if<UsageError>(&parsed)) {
+      Talk::error("palpate: " + wrong->message);
+      return exit_input;
+    }
+    return dispatch(std::get<Arguments>(parsed));
+  } catch (const InputError& error) {
+    Talk::error(error.what());
+    return exit_input;
+  } catch (const MeshError& error) {
+    Talk::error(std::string("palpate: ") + error.what());
+    return exit_mesh;
+  } catch (const std::exception& error) {
+    Talk::error(std::string("palpate: ") + error.what());
+    return exit_internal;
+  }
+}
+
+}  // namespace palpate::cli

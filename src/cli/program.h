@@ -1,0 +1,23 @@
+// The program: arguments in, an exit code out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace palpate::cli {
+
+// Exit codes of all verbs.
+enum Exit {
+  exit_good = 0,
+  exit_internal = 1,
+  exit_input = 2,
+  exit_different = 3,
+  exit_diverged = 4,
+  exit_mesh = 5,
+  exit_interrupted = 130,
+};
+
+// Runs the verb that `arguments` (without the program's name) ask for. Never throws.
+[[nodiscard]] int program(const std::vector<std::string>& arguments);
+
+}  // namespace palpate::cli

@@ -1,0 +1,126 @@
+// `palpate run`: scenarios one after the other, their cases side by side.
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <set>
+#include <thread>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "cli/program.h"
+#include "cli/verbs.h"
+#include "fit/case_fits.h"
+#include "report/machine.h"
+#include "report/results.h"
+#include "run/family.h"
+
+namespace palpate::cli {
+namespace {
+
+// Signal handlers reach nothing but this.
+std::atomic<bool> stop_requested = false;
+
+void request_stop(int) {
+  // A second signal does not wait for the row to end.
+  if (stop_requested.exchange(true)) ::_exit(exit_interrupted);
+}
+
+void listen_for_signals() {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+void refuse_same_names(const std::vector<scenario::Family>& families) {
+  std::set<std::string> names;
+  for (const scenario::Family& family : families)
+    if (!names.insert(family.name).second)
+      throw InputError({family.document.place.file, 0, 0},
+                       "has the same name as another scenario of this run, `" + family.name +
+                           "`; rename one, or run them one by one with `--out`");
+}
+
+struct Result {
+  bool diverged = false;
+};
+
+Result run_family(const scenario::Family& family, const Run& command, const Arguments& arguments,
+                  const Talk& talk) {
+  for (const Problem& note : family.notes) talk.say("note: " + note.text());
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t asked = command.jobs > 0 ? static_cast<std::size_t>(command.jobs) : cores;
+  const int workers = static_cast<int>(std::min(asked, family.cases.size()));
+  const std::string started = report::utc_now();
+
+  report::ResultFolder folder(command.out, family, command.force);
+  const std::vector<scene::Scene> scenes = run::build_all(family, workers);
+  std::size_t done = 0;
+  const auto finished = [&](std::size_t i, const record::CaseRecord& record) {
+    folder.keep(i, record);
+    talk.progress(family.name + ": " + std::to_string(++done) + " of " +
+                  std::to_string(scenes.size()) + " cases");
+    talk.event("case", {{"scenario", family.name},
+                        {"case", record.name},
+                        {"outcome", record::outcome_word(record.outcome)},
+                        {"reason", record.reason}});
+  };
+  const std::vector<record::CaseRecord> records =
+      run::run_all(scenes, workers, stop_requested, finished);
+  talk.progress("");
+  if (stop_requested && records.empty()) return {};
+
+  std::vector<fit::NamedFit> fits;
+  Result result;
+  for (const record::CaseRecord& record : records) {
+    const auto scene = std::find_if(scenes.begin(), scenes.end(),
+                                    [&](const auto& one) { return one.name == record.name; });
+    if (family.base.output.fits)
+      for (fit::NamedFit& named : fit::case_fits(scene->scenario, record))
+        fits.push_back(std::move(named));
+    for (const std::string& remark : record.remarks) talk.say(record.name + ": " + remark + ".");
+    if (record.outcome == record::Outcome::diverged) {
+      result.diverged = true;
+      Talk::error(family.name + ", case " + record.name + ": " + record.reason +
+                  "; last stable time " + rounded_text(record.last_stable_time) +
+                  " s, everything up to it is kept");
+    }
+  }
+  const auto warnings = folder.finish(records, fits, {arguments.given, started});
+  for (const std::string& warning : warnings) talk.warn(warning);
+  talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
+           std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases"));
+  talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
+  return result;
+}
+
+}  // namespace
+
+int run(const Run& command, const Arguments& arguments, const Talk& talk) {
+  std::vector<scenario::Family> families;
+  std::vector<Problem> problems;
+  for (const std::string& path : command.scenarios) {
+    try {
+      families.push_back(scenario::read(path, command.settings));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  refuse_same_names(families);
+  listen_for_signals();
+  bool diverged = false;
+  for (const scenario::Family& family : families) {
+    if (stop_requested) break;
+    diverged = run_family(family, command, arguments, talk).diverged || diverged;
+  }
+  if (stop_requested) {
+    Talk::error("palpate: interrupted; finished cases are kept");
+    return exit_interrupted;
+  }
+  return diverged ? exit_diverged : exit_good;
+}
+
+}  // namespace palpate::cli

@@ -1,0 +1,15 @@
+// What each verb does. Each returns an exit code and throws what its input deserves.
+#pragma once
+
+#include "cli/arguments.h"
+#include "cli/talk.h"
+
+namespace palpate::cli {
+
+[[nodiscard]] int run(const Run& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int explain(const Explain& command);
+[[nodiscard]] int fit_columns(const Fit& command);
+[[nodiscard]] int compare(const Compare& command);
+[[nodiscard]] int bless(const Bless& command, const Talk& talk);
+
+}  // namespace palpate::cli

@@ -1,0 +1,43 @@
+// Hertz contact of a sphere with an elastic body: eq. (1)-(3) of Chen 2007 in SI units.
+#pragma once
+
+namespace palpate::contact {
+
+// An elastic material as a contact sees it.
+struct Elastic {
+  double young_modulus = 0.0;  // Pa; infinite for a rigid body
+  double poisson_ratio = 0.0;
+
+  // lambda = (1 - nu^2) / E, in 1/Pa                 Chen 2007 eq. (2); docs/theory.md (1)
+  [[nodiscard]] double compliance() const;
+};
+
+namespace hertz {
+
+// E* = 1 / (lambda_1 + lambda_2), Pa. The compliances are in 1/Pa, not both zero.
+[[nodiscard]] double effective_modulus(double compliance_1, double compliance_2);
+
+// 1/R = 1/R_1 + kappa: a sphere of radius R_1 (m) on a surface of curvature kappa (1/m, convex
+// positive, 0 on a flat). Needs R_1 kappa > -1: closer surfaces conform and Hertz does not hold.
+[[nodiscard]] double effective_radius(double sphere_radius, double curvature);
+
+// F in N for the depth h (m), R (m), E* (Pa); 0 for h <= 0.
+[[nodiscard]] double force(double depth, double radius, double modulus);
+
+// The depth that gives a force: the inverse of `force`.
+[[nodiscard]] double depth(double force, double radius, double modulus);
+
+// dF/dh = 2 E* sqrt(R h), N/m.
+[[nodiscard]] double stiffness(double depth, double radius, double modulus);
+
+// a = sqrt(R h), m; identical to eq. (3)'s [3/4 F (lambda_1 + lambda_2) R]^(1/3).
+[[nodiscard]] double contact_radius(double depth, double radius);
+
+// p_0 = 3 F / (2 pi a^2), Pa, compression positive; 0 without contact.
+[[nodiscard]] double peak_pressure(double force, double contact_radius);
+
+// p(r) = p_0 sqrt(1 - r^2/a^2), Pa; 0 outside the contact.
+[[nodiscard]] double pressure(double distance, double force, double contact_radius);
+
+}  // namespace hertz
+}  // namespace palpate::contact

@@ -1,0 +1,107 @@
+// From a case's rows to fits.
+#include "fit/case_fits.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+
+namespace palpate::fit {
+namespace {
+
+struct Curve {
+  std::vector<double> x;
+  std::vector<double> y;
+};
+
+class CaseFits {
+ public:
+  CaseFits(const scenario::Scenario& scenario, const record::CaseRecord& record)
+      : scenario_(scenario), record_(record) {}
+
+  std::vector<NamedFit> all() {
+    for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
+      const int number = static_cast<int>(i) + 1;
+      const scenario::Step& step = scenario_.steps[i];
+      if (std::holds_alternative<scenario::Indent>(step) && number == first_indent()) press(number);
+      if (const auto* creep = std::get_if<scenario::Creep>(&step)) creeps(number, *creep);
+      if (std::holds_alternative<scenario::Relax>(step)) relaxes(number);
+    }
+    return fits_;
+  }
+
+ private:
+  [[nodiscard]] int first_indent() const {
+    for (std::size_t i = 0; i < scenario_.steps.size(); ++i)
+      if (std::holds_alternative<scenario::Indent>(scenario_.steps[i]))
+        return static_cast<int>(i) + 1;
+    return 0;
+  }
+
+  void add(const std::string& name, const Curve& curve, Model model, const Options& options) {
+    try {
+      fits_.push_back({record_.name, name, regress(curve.x, curve.y, model, options)});
+    } catch (const InputError&) {  // too few points to fit is no fault of the run
+    }
+  }
+
+  void press(int number) {
+    Curve curve;
+    for (const record::ContactRow& row : record_.contact) {
+      if (row.step != number) continue;
+      curve.x.push_back(unit::mm.from_si(row.indentation));
+      curve.y.push_back(row.contact_force);
+    }
+    const auto found = scenario_.output.display_scale.find(record_.name);
+    const double scale = found == scenario_.output.display_scale.end() ? 1.0 : found->second;
+    press_models("force_indentation", curve);
+    if (scale == 1.0) return;
+    for (double& force : curve.y) force *= scale;
+    press_models("force_indentation x " + number_text(scale), curve);
+  }
+
+  void press_models(const std::string& name, const Curve& curve) {
+    for (const Model model : {Model::logarithmic, Model::power, Model::exponential})
+      add(name, curve, model, {.x_unit = "mm", .y_unit = "N"});
+  }
+
+  void creeps(int number, const scenario::Creep& creep) {
+    Curve loaded;
+    Curve free;
+    double start = -1.0;
+    for (const record::StrainRow& row : record_.strain) {
+      if (row.step != number) continue;
+      if (start < 0.0) start = row.time;
+      Curve& curve = row.stress > 0.0 ? loaded : free;
+      curve.x.push_back(row.time);
+      curve.y.push_back(row.strain);
+    }
+    add("creep", loaded, Model::kelvin_voigt, {.x_unit = "s", .y_unit = "", .x_origin = start});
+    add("recovery", free, Model::kelvin_voigt_recovery,
+        {.x_unit = "s", .y_unit = "", .x_origin = start + creep.load_time});
+  }
+
+  void relaxes(int number) {
+    Curve curve;
+    for (const record::StrainRow& row : record_.strain) {
+      if (row.step != number) continue;
+      curve.x.push_back(row.time);
+      curve.y.push_back(unit::kPa.from_si(row.stress));
+    }
+    if (curve.x.empty()) return;
+    add("relaxation", curve, Model::standard_linear_solid,
+        {.x_unit = "s", .y_unit = "kPa", .x_origin = curve.x.front()});
+  }
+
+  const scenario::Scenario& scenario_;
+  const record::CaseRecord& record_;
+  std::vector<NamedFit> fits_;
+};
+
+}  // namespace
+
+std::vector<NamedFit> case_fits(const scenario::Scenario& scenario,
+                                const record::CaseRecord& record) {
+  return CaseFits(scenario, record).all();
+}
+
+}  // namespace palpate::fit

@@ -1,0 +1,136 @@
+// The only file that includes Ceres.
+#include "fit/ceres_fit.h"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <cmath>
+#include <utility>
+
+#include "fit/regression.h"
+
+namespace palpate::fit {
+namespace {
+
+// Ceres speaks through glog whatever its own options say: without InitGoogleLogging a failing fit
+// writes to stderr, and with it into files below /tmp, unless both flags are set before.
+void silence_glog() {
+  static const bool done = [] {
+    if (google::IsGoogleLoggingInitialized()) return true;
+    FLAGS_logtostderr = true;
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    google::InitGoogleLogging("palpate");
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+// All residuals at once, in the unknowns u_i = p_i / scale_i, which are of order one.
+class Residuals final : public ceres::CostFunction {
+ public:
+  Residuals(std::span<const double> x, std::span<const double> y, Model model,
+            std::vector<double> scale)
+      : x_(x), y_(y), model_(model), scale_(std::move(scale)) {
+    set_num_residuals(static_cast<int>(x.size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(scale_.size()));
+  }
+
+  // False, a normal answer, where the curve has no finite value or slope.
+  bool Evaluate(double const* const* unknowns, double* residuals,
+                double** jacobians) const override {
+    double* jacobian = jacobians == nullptr ? nullptr : jacobians[0];
+    const std::size_t count = scale_.size();
+    const auto linear = static_cast<std::size_t>(term_count(model_));
+    const double shape = unknowns[0][count - 1] * scale_[count - 1];
+    bool finite = true;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const Terms at = terms(model_, x_[i], shape);
+      double sum = 0.0;
+      double slope = 0.0;
+      for (std::size_t k = 0; k < linear; ++k) {
+        const double factor = unknowns[0][k] * scale_[k];
+        sum += factor * at.phi[k];
+        slope += factor * at.slope[k];
+        if (jacobian != nullptr) jacobian[i * count + k] = at.phi[k] * scale_[k];
+      }
+      if (jacobian != nullptr && linear < count)
+        jacobian[i * count + linear] = slope * scale_[linear];
+      residuals[i] = sum - y_[i];
+      finite = finite && std::isfinite(residuals[i]) && std::isfinite(slope);
+    }
+    return finite;
+  }
+
+ private:
+  std::span<const double> x_;
+  std::span<const double> y_;
+  Model model_;
+  std::vector<double> scale_;
+};
+
+std::vector<double> inverse_normal(ceres::Problem& problem, const double* unknowns,
+                                   std::span<const double> scale) {
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::DENSE_SVD;  // the one that refuses a J without full rank
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  const std::vector<const double*> blocks{unknowns};
+  if (!covariance.Compute(blocks, &problem)) return {};
+  std::vector<double> matrix(scale.size() * scale.size());
+  if (!covariance.GetCovarianceBlock(unknowns, unknowns, matrix.data())) return {};
+  for (std::size_t i = 0; i < scale.size(); ++i)
+    for (std::size_t j = 0; j < scale.size(); ++j)
+      matrix[i * scale.size() + j] *= scale[i] * scale[j];
+  return matrix;
+}
+
+ceres::Solver::Options solver_options(std::size_t points, int max_iterations) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.num_threads = 1;
+  options.max_num_iterations = max_iterations;
+  options.logging_type = ceres::SILENT;
+  options.minimizer_progress_to_stdout = false;
+  // Unknowns, residuals and slopes are of order one, so that a gradient of 1e-14 a point leaves
+  // an error of about 1e-14; the cost itself is flat to 1e-16 long before.
+  options.gradient_tolerance = 1e-14 * static_cast<double>(points);
+  options.parameter_tolerance = 1e-14;
+  options.function_tolerance = 0.0;
+  return options;
+}
+
+}  // namespace
+
+Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,
+                 std::span<const double> start, int max_iterations) {
+  silence_glog();
+  std::vector<double> scale;
+  std::vector<double> unknowns;
+  for (const double guess : start) {
+    scale.push_back(guess == 0.0 ? 1.0 : std::abs(guess));
+    unknowns.push_back(guess / scale.back());
+  }
+  ceres::Problem problem;
+  problem.AddResidualBlock(new Residuals(x, y, model, scale), nullptr, unknowns.data());
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(x.size(), max_iterations), &problem, &summary);
+
+  Minimum minimum;
+  minimum.iterations = static_cast<int>(summary.iterations.size());
+  if (!summary.IsSolutionUsable()) return minimum;
+  minimum.status = summary.termination_type == ceres::CONVERGENCE
+                       ? Minimum::Status::found
+                       : Minimum::Status::out_of_iterations;
+  minimum.squares = 2.0 * summary.final_cost;
+  for (std::size_t i = 0; i < scale.size(); ++i)
+    minimum.parameters.push_back(unknowns[i] * scale[i]);
+  if (minimum.status == Minimum::Status::found)
+    minimum.inverse_normal = inverse_normal(problem, unknowns.data(), scale);
+  return minimum;
+}
+
+std::string ceres_version() {
+  return CERES_VERSION_STRING;
+}
+
+}  // namespace palpate::fit

@@ -1,0 +1,29 @@
+// One least-squares problem, given to Ceres; no type of Ceres crosses this header.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fit/model.h"
+
+namespace palpate::fit {
+
+struct Minimum {
+  enum class Status { found, out_of_iterations, failed };
+
+  Status status = Status::failed;
+  std::vector<double> parameters;
+  double squares = 0.0;  // the sum of squared residuals
+  int iterations = 0;
+  // (J^T J)^-1 at the minimum, row by row; empty where J has not full rank, or nothing was found.
+  std::vector<double> inverse_normal;
+};
+
+// Minimises sum (value(model, p, x_i) - y_i)^2 from `start` by Levenberg-Marquardt, J by the
+// derivatives of terms(). y is of order one: the stopping tolerances are absolute. Writes nothing
+// to the terminal and no log file.
+[[nodiscard]] Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,
+                               std::span<const double> start, int max_iterations);
+
+}  // namespace palpate::fit

@@ -1,0 +1,60 @@
+// Variable projection on a grid: one shape parameter, the rest by linear least squares.
+#include "fit/initial.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palpate::fit {
+namespace {
+
+std::vector<double> shapes(Model model, double scale) {
+  std::vector<double> grid;
+  switch (model) {
+    case Model::logarithmic: return {0.0};
+    case Model::power:
+      for (int i = -16; i <= 40; ++i) grid.push_back(0.25 * i);
+      return grid;
+    case Model::exponential:  // m from 1e-3 to 1e2 over the range, both signs
+      for (int i = -24; i <= 16; ++i)
+        for (const double sign : {1.0, -1.0})
+          grid.push_back(sign * std::pow(10.0, i / 8.0) / scale);
+      return grid;
+    default:  // tau from 1e-3 to 1e3 of the range
+      for (int i = -24; i <= 24; ++i) grid.push_back(std::pow(10.0, i / 8.0) * scale);
+      return grid;
+  }
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> initial_guess(std::span<const double> x,
+                                                 std::span<const double> y, Model model) {
+  const auto n = static_cast<Eigen::Index>(x.size());
+  const int count = term_count(model);
+  const Eigen::Map<const Eigen::VectorXd> target(y.data(), n);
+  double scale = 0.0;
+  for (const double each : x) scale = std::max(scale, std::abs(each));
+  if (scale == 0.0) scale = 1.0;
+
+  std::optional<std::vector<double>> best;
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::MatrixXd matrix(n, count);
+  for (const double shape : shapes(model, scale)) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Terms at = terms(model, x[static_cast<std::size_t>(i)], shape);
+      for (int k = 0; k < count; ++k) matrix(i, k) = at.phi[static_cast<std::size_t>(k)];
+    }
+    if (!matrix.allFinite()) continue;
+    const Eigen::VectorXd linear = matrix.colPivHouseholderQr().solve(target);
+    const double sum = (matrix * linear - target).squaredNorm();
+    if (!(sum < least) || !linear.allFinite()) continue;
+    least = sum;
+    best.emplace(linear.data(), linear.data() + count);
+    if (has_shape(model)) best->push_back(shape);
+  }
+  return best;
+}
+
+}  // namespace palpate::fit

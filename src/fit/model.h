@@ -1,0 +1,68 @@
+// The curves that can be fitted, their parameters, and the units these have.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpate::fit {
+
+enum class Model {
+  logarithmic,            // y = a + b ln x
+  power,                  // y = A x^n
+  exponential,            // y = B (e^(m x) - 1)
+  kelvin_voigt,           // y = y_inf (1 - e^(-x/tau)), creep
+  kelvin_voigt_recovery,  // y = y_0 e^(-x/tau), recovery
+  standard_linear_solid,  // y = y_inf + (y_0 - y_inf) e^(-x/tau), relaxation
+};
+
+// What a parameter's unit is made of.
+enum class UnitRule { none, of_y, of_x, per_x, y_per_x_to_n };
+
+struct Parameter {
+  std::string_view name;
+  UnitRule unit;
+};
+
+// One row of the table of models. The parameters in which the curve is linear come first.
+struct ModelInfo {
+  Model model;
+  std::string_view name;     // the word of the command line and of fits.csv
+  std::string_view formula;  // for people
+  std::span<const Parameter> parameters;
+  bool positive_x_only = false;  // points with x <= 0 are left out
+};
+
+// All models, in the order of the enumeration.
+[[nodiscard]] std::span<const ModelInfo> models();
+[[nodiscard]] const ModelInfo& info(Model model);
+
+// The model of that name, or nothing.
+[[nodiscard]] std::optional<Model> find_model(std::string_view name);
+
+// The curve's value at x; `parameters` as in info(model), in the units of the data.
+[[nodiscard]] double value(Model model, std::span<const double> parameters, double x);
+
+// A curve is a sum of at most two terms c_i phi_i(x, q), linear in c and not in its shape q (n, m
+// or tau; unused by the logarithmic model, whose terms are 1 and ln x).
+struct Terms {
+  std::array<double, 2> phi{};    // the terms at x
+  std::array<double, 2> slope{};  // d phi / d q
+};
+[[nodiscard]] Terms terms(Model model, double x, double shape);
+
+// How many terms the curve has, and whether a shape parameter follows them.
+[[nodiscard]] int term_count(Model model);
+[[nodiscard]] bool has_shape(Model model);
+
+// The unit by which a column's name ends: `force_N` to `N`, `strain` to the empty text.
+[[nodiscard]] std::string column_unit(std::string_view column);
+
+// The unit of a parameter whose data have these units: x in mm and y in N make `N/mm^n`, `1/mm`.
+[[nodiscard]] std::string unit_text(UnitRule rule, const std::string& x_unit,
+                                    const std::string& y_unit);
+
+}  // namespace palpate::fit

@@ -1,0 +1,141 @@
+// Which points are used, where the search begins, and what its result is worth.
+#include "fit/regression.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/error.h"
+#include "fit/ceres_fit.h"
+#include "fit/initial.h"
+#include "fit/student.h"
+
+namespace palpate::fit {
+namespace {
+
+// The points that can be used; y is divided by its largest size.
+struct Points {
+  std::vector<double> x;  // from the origin
+  std::vector<double> y;
+  double y_scale = 1.0;
+};
+
+Points usable(std::span<const double> x, std::span<const double> y, const Options& options,
+              Fit& fit) {
+  Points points;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double from_origin = x[i] - options.x_origin;
+    const bool outside = info(fit.model).positive_x_only && from_origin <= 0.0;
+    if (!std::isfinite(from_origin) || !std::isfinite(y[i]) || outside) continue;
+    points.x.push_back(from_origin);
+    points.y.push_back(y[i]);
+    largest = std::max(largest, std::abs(y[i]));
+    fit.range_low = std::fmin(fit.range_low, x[i]);  // fmin passes over the NaN that it starts from
+    fit.range_high = std::fmax(fit.range_high, x[i]);
+  }
+  if (largest > 0.0) points.y_scale = largest;
+  for (double& each : points.y) each /= points.y_scale;
+  fit.n = static_cast<int>(points.x.size());
+  fit.left_out = static_cast<int>(x.size()) - fit.n;
+  return points;
+}
+
+void refuse_too_few(const Fit& fit) {
+  const int needed = static_cast<int>(fit.parameters.size()) + 1;
+  if (fit.n >= needed) return;
+  const ModelInfo& model = info(fit.model);
+  std::string message = "the model `" + std::string(model.name) + "` needs at least " +
+                        std::to_string(needed) + " points, and " + std::to_string(fit.n) +
+                        (fit.n == 1 ? " is" : " are") + " usable";
+  if (fit.left_out > 0)
+    message += " (" + std::to_string(fit.left_out) + " left out: not finite" +
+               (model.positive_x_only ? ", or x not above 0)" : ")");
+  throw InputError({}, message + "; record more points, or fit a model with fewer parameters");
+}
+
+// 1 - SSE / SST, both of the scaled y.
+double r_squared(std::span<const double> y, double squares) {
+  double mean = 0.0;
+  for (const double each : y) mean += each;
+  mean /= static_cast<double>(y.size());
+  double total = 0.0;
+  for (const double each : y) total += (each - mean) * (each - mean);
+  return total > 0.0 ? 1.0 - squares / total : Estimate::unknown;
+}
+
+// From (J^T J)^-1 to standard errors and intervals; `scale` is each parameter's share of y_scale.
+void set_errors(Fit& fit, const Minimum& minimum, std::span<const double> scale) {
+  const std::size_t count = fit.parameters.size();
+  const double degrees = fit.n - static_cast<double>(count);
+  const double variance = minimum.squares / degrees;
+  const double t = student_t_quantile(0.975, degrees);
+  fit.covariance.resize(count * count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j)
+      fit.covariance[i * count + j] =
+          minimum.inverse_normal[i * count + j] * variance * scale[i] * scale[j];
+  for (std::size_t i = 0; i < count; ++i) {
+    Estimate& parameter = fit.parameters[i];
+    parameter.std_error = std::sqrt(fit.covariance[i * count + i]);
+    parameter.ci95_low = parameter.estimate - t * parameter.std_error;
+    parameter.ci95_high = parameter.estimate + t * parameter.std_error;
+  }
+}
+
+Termination termination_of(const Minimum& minimum) {
+  if (minimum.status == Minimum::Status::failed) return Termination::failed;
+  if (minimum.status == Minimum::Status::out_of_iterations) return Termination::not_converged;
+  return minimum.inverse_normal.empty() ? Termination::undetermined : Termination::converged;
+}
+
+}  // namespace
+
+std::string_view word(Termination termination) {
+  switch (termination) {
+    case Termination::converged: return "converged";
+    case Termination::not_converged: return "not_converged";
+    case Termination::undetermined: return "undetermined";
+    case Termination::failed: return "failed";
+  }
+  return {};
+}
+
+Fit regress(std::span<const double> x, std::span<const double> y, Model model,
+            const Options& options) {
+  assert(x.size() == y.size());
+  Fit fit;
+  fit.model = model;
+  fit.x_origin = options.x_origin;
+  for (const Parameter& parameter : info(model).parameters)
+    fit.parameters.push_back({.name = std::string(parameter.name),
+                              .unit = unit_text(parameter.unit, options.x_unit, options.y_unit)});
+  const Points points = usable(x, y, options, fit);
+  refuse_too_few(fit);
+
+  const auto start = initial_guess(points.x, points.y, model);
+  if (!start) return fit;
+  std::vector<double> scale(start->size(), points.y_scale);
+  if (has_shape(model)) scale.back() = 1.0;
+  for (std::size_t i = 0; i < start->size(); ++i)
+    fit.parameters[i].initial = (*start)[i] * scale[i];
+
+  const Minimum minimum = minimise(points.x, points.y, model, *start, options.max_iterations);
+  fit.termination = termination_of(minimum);
+  fit.iterations = minimum.iterations;
+  if (fit.termination == Termination::failed) return fit;
+  for (std::size_t i = 0; i < start->size(); ++i)
+    fit.parameters[i].estimate = minimum.parameters[i] * scale[i];
+  fit.rmse = std::sqrt(minimum.squares / fit.n) * points.y_scale;
+  fit.r2 = r_squared(points.y, minimum.squares);
+  if (fit.termination == Termination::converged) set_errors(fit, minimum, scale);
+  return fit;
+}
+
+double value(const Fit& fit, double x) {
+  std::vector<double> parameters;
+  for (const Estimate& parameter : fit.parameters) parameters.push_back(parameter.estimate);
+  return value(fit.model, parameters, x - fit.x_origin);
+}
+
+}  // namespace palpate::fit

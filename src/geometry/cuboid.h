@@ -1,0 +1,25 @@
+// A box cut into regular cells of six tetrahedra each.
+#pragma once
+
+#include <array>
+
+#include "geometry/tet_mesh.h"
+
+namespace palpate::geometry {
+
+// How the cells' space diagonals lie.
+enum class CellPattern {
+  kuhn,      // all alike, from a cell's lowest corner to its highest
+  mirrored,  // reflected along an axis in that axis's every second cell ("Union Jack")
+};
+
+// A box with one corner in the origin and z upwards. `size` in m, each above 0; `cells` along x, y
+// and z, each at least 1. Every cell becomes the six path tetrahedra 000 -> ... -> 111, one for
+// each order of the axes (Kuhn 1960; Freudenthal 1942), so that neighbours share whole faces.
+// Nodes are numbered x fastest, then y, then z. With `mirrored` and even counts the mesh is its
+// own mirror image in the box's three middle planes.
+// Throws MeshError where the tetrahedra cannot be counted in an int.
+[[nodiscard]] TetMesh cuboid(const Vec3& size, const std::array<int, 3>& cells,
+                             CellPattern pattern);
+
+}  // namespace palpate::geometry

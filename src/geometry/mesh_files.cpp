@@ -1,0 +1,170 @@
+// Header line, then one numbered line for each node or tetrahedron.
+#include "geometry/mesh_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "geometry/table_lines.h"
+
+namespace palpate::geometry {
+namespace {
+
+struct Pair {
+  std::string node;
+  std::string ele;
+};
+
+Pair both_files(const std::string& path) {
+  const std::filesystem::path given(path);
+  if (given.extension() != ".node" && given.extension() != ".ele")
+    throw InputError({path},
+                     "a mesh file wants the ending `.node` or `.ele`; name either of the two");
+  std::filesystem::path node = given;
+  std::filesystem::path ele = given;
+  return {node.replace_extension(".node").string(), ele.replace_extension(".ele").string()};
+}
+
+void open_header(TableLines& lines, std::size_t least, const std::string& layout) {
+  if (!lines.next()) lines.fail("the file holds no header line; begin it with `" + layout + "`");
+  if (lines.words().size() < least || lines.words().size() > 4)
+    lines.fail("the header has " + std::to_string(lines.words().size()) + " words; write it as `" +
+               layout + "`");
+}
+
+// A count from the header, `least` or more; absent ones are 0.
+int header_count(const TableLines& lines, std::size_t i, const std::string& what, int least) {
+  if (i >= lines.words().size()) return 0;
+  const int count = lines.whole(i, what);
+  if (count < least)
+    lines.fail_at(i, what + " wants " + std::to_string(least) + " or more, got `" +
+                         std::string(lines.words()[i]) + "`; count the lines that follow");
+  return count;
+}
+
+// Steps to the line of item `i` and checks its length and its own number; `columns` are the words
+// that belong on it.
+void item_line(TableLines& lines, const std::string& what, std::pair<int, int> i_of_count,
+               int columns) {
+  const auto [i, count] = i_of_count;
+  if (!lines.next())
+    lines.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(count) + " " +
+               what + "; write it again from its source");
+  const auto words = static_cast<int>(lines.words().size());
+  if (words != columns)
+    lines.fail("the line has " + std::to_string(words) + " words, but the header asks for " +
+               std::to_string(columns) + "; mend the line or the header");
+}
+
+void own_number(const TableLines& lines, int expected) {
+  if (lines.whole(0, "the first word") != expected)
+    lines.fail_at(0, "the line wants number " + std::to_string(expected) + ", got `" +
+                         std::string(lines.words()[0]) + "`; number the lines one by one");
+}
+
+void expect_end(TableLines& lines, int count, const std::string& what) {
+  if (lines.next())
+    lines.fail("the header counts " + std::to_string(count) + " " + what +
+               ", but another line follows; mend the count or remove the line");
+}
+
+// Returns the number of the first node: 0 or 1.
+int read_nodes(TableLines lines, double metres_per_unit, TetMesh& mesh) {
+  open_header(lines, 2, "nodes 3 attributes markers");
+  const int count = header_count(lines, 0, "the number of nodes", 1);
+  if (lines.whole(1, "the dimension") != 3)
+    lines.fail_at(1, "the dimension wants `3`, got `" + std::string(lines.words()[1]) +
+                         "`; a mesh of tetrahedra has three coordinates a node");
+  const int attributes = header_count(lines, 2, "the number of attributes", 0);
+  const int markers = header_count(lines, 3, "the number of markers", 0);
+  int first = 0;
+  for (int i = 0; i < count; ++i) {
+    item_line(lines, "nodes", {i, count}, 4 + attributes + markers);
+    if (i == 0) first = lines.whole(0, "the first word");
+    if (first != 0 && first != 1)
+      lines.fail_at(0, "the first node wants number 0 or 1, got `" + std::string(lines.words()[0]) +
+                           "`; number the nodes from 0 or 1");
+    own_number(lines, first + i);
+    const double x = lines.number(1, "x");
+    const double y = lines.number(2, "y");
+    const double z = lines.number(3, "z");
+    mesh.nodes.emplace_back(x * metres_per_unit, y * metres_per_unit, z * metres_per_unit);
+  }
+  expect_end(lines, count, "nodes");
+  return first;
+}
+
+void read_tetrahedra(TableLines lines, int first, TetMesh& mesh) {
+  open_header(lines, 2, "tetrahedra 4 attributes");
+  const int count = header_count(lines, 0, "the number of tetrahedra", 1);
+  if (lines.whole(1, "the number of nodes of a tetrahedron") != 4)
+    lines.fail_at(1, "the number of nodes of a tetrahedron wants `4`, got `" +
+                         std::string(lines.words()[1]) + "`; make the mesh without `-o2`");
+  const int attributes = header_count(lines, 2, "the number of attributes", 0);
+  const int last = first + static_cast<int>(mesh.nodes.size()) - 1;
+  for (int i = 0; i < count; ++i) {
+    item_line(lines, "tetrahedra", {i, count}, 5 + attributes);
+    own_number(lines, first + i);
+    std::array<int, 4> corner{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      const int node = lines.whole(c + 1, "a node");
+      if (node < first || node > last)
+        lines.fail_at(c + 1, "there is no node `" + std::string(lines.words()[c + 1]) +
+                                 "`, the nodes run from " + std::to_string(first) + " to " +
+                                 std::to_string(last) + "; check that both files belong together");
+      corner[c] = node - first;
+    }
+    mesh.tetrahedra.push_back(corner);
+    if (signed_volume(mesh, i) < 0.0)
+      std::swap(mesh.tetrahedra.back()[2], mesh.tetrahedra.back()[3]);
+  }
+  expect_end(lines, count, "tetrahedra");
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  const std::string beside = path + ".part";
+  std::ofstream stream(beside, std::ios::binary);
+  stream << text;
+  stream.close();
+  std::error_code error;
+  if (stream) std::filesystem::rename(beside, path, error);
+  if (stream && !error) return;
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored);
+  throw SystemError(path +
+                    ": the mesh cannot be written; check the folder, its rights and the disk");
+}
+
+}  // namespace
+
+TetMesh read_node_ele(const std::string& path, double metres_per_unit) {
+  const Pair files = both_files(path);
+  TetMesh mesh;
+  const int first = read_nodes(TableLines(files.node), metres_per_unit, mesh);
+  read_tetrahedra(TableLines(files.ele), first, mesh);
+  return mesh;
+}
+
+void write_node_ele(const std::string& path, const TetMesh& mesh) {
+  const Pair files = both_files(path);
+  std::string nodes = std::to_string(mesh.nodes.size()) + " 3 0 0\n";
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    nodes += std::to_string(n);
+    for (int axis = 0; axis < 3; ++axis) nodes += " " + number_text(mesh.nodes[n][axis]);
+    nodes += "\n";
+  }
+  std::string tetrahedra = std::to_string(mesh.tetrahedra.size()) + " 4 0\n";
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    tetrahedra += std::to_string(t);
+    for (const int node : mesh.tetrahedra[t]) tetrahedra += " " + std::to_string(node);
+    tetrahedra += "\n";
+  }
+  write_file(files.node, nodes);
+  write_file(files.ele, tetrahedra);
+}
+
+}  // namespace palpate::geometry

@@ -1,0 +1,41 @@
+// A text file as lines of words, without comments and empty lines, each with its place.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace palpate::geometry {
+
+class TableLines {
+ public:
+  // Reads the whole file. Throws InputError where it is not there or cannot be read.
+  explicit TableLines(std::string file);
+
+  // Steps to the next line that holds words; false at the end of the file.
+  [[nodiscard]] bool next();
+
+  // The current line's words; they point into this object.
+  [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
+
+  // Word `i` as a finite number or as a whole number; `what` names it in the message.
+  // Throws InputError where it is neither.
+  [[nodiscard]] double number(std::size_t i, const std::string& what) const;
+  [[nodiscard]] int whole(std::size_t i, const std::string& what) const;
+
+  [[noreturn]] void fail(const std::string& message) const;  // at the current line
+  [[noreturn]] void fail_at(std::size_t i, const std::string& message) const;  // at word `i`
+
+ private:
+  std::string file_;
+  std::string text_;
+  std::size_t position_ = 0;
+  int line_ = 0;
+  std::string_view current_;
+  std::vector<std::string_view> words_;
+};
+
+}  // namespace palpate::geometry

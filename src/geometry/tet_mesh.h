@@ -1,0 +1,53 @@
+// A body cut into tetrahedra, and what follows from it alone: volumes, edges, its boundary.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace palpate::geometry {
+
+// Indices count from 0. A tetrahedron (a, b, c, d) is positively oriented: seen from d, the
+// nodes a, b, c run counter-clockwise, so that (b - a) x (c - a) . (d - a) > 0.
+struct TetMesh {
+  std::vector<Vec3> nodes;                     // m
+  std::vector<std::array<int, 4>> tetrahedra;  // indices into `nodes`
+};
+
+// The four faces of a positive tetrahedron as local node numbers, counter-clockwise from outside;
+// face i lies opposite to node i.
+inline constexpr std::array<std::array<int, 3>, 4> kOutwardFaces{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+// One tetrahedron's use of a face.
+struct FaceUse {
+  std::array<int, 3> key{};    // the nodes, ascending: equal for both tetrahedra that share it
+  std::array<int, 3> nodes{};  // the same nodes, oriented outwards from `tetrahedron`
+  int tetrahedron = 0;
+};
+
+// V = (b - a) x (c - a) . (d - a) / 6, in m^3; negative where the tetrahedron is inside out.
+[[nodiscard]] double signed_volume(const TetMesh& mesh, int tetrahedron);
+
+// The sum of the signed volumes in index order, in m^3.
+[[nodiscard]] double volume(const TetMesh& mesh);
+
+// The length of the bounding box's diagonal, in m: the yardstick of every relative tolerance.
+// 0 without nodes.
+[[nodiscard]] double diagonal(const TetMesh& mesh);
+
+// Every edge once as (i, j) with i < j, in ascending order.
+[[nodiscard]] std::vector<std::array<int, 2>> edges(const TetMesh& mesh);
+
+// The four faces of every tetrahedron, sorted by `key` and then by tetrahedron.
+[[nodiscard]] std::vector<FaceUse> face_uses(const TetMesh& mesh);
+
+// The faces that only one tetrahedron has, counter-clockwise from outside, in the order of the
+// tetrahedra and within one of kOutwardFaces.
+[[nodiscard]] std::vector<std::array<int, 3>> boundary_faces(const TetMesh& mesh);
+
+// The nodes in the plane at height `z` (m), ascending; within 1e-9 of the mesh's diagonal.
+[[nodiscard]] std::vector<int> nodes_at_height(const TetMesh& mesh, double z);
+
+}  // namespace palpate::geometry

@@ -1,0 +1,165 @@
+// A box for TetGen, and the search for the cell volume that gives the wanted number of nodes.
+//
+// The surface is a grid that TetGen may not split (`Y`). Left to itself it halves whole edges of
+// the box, and the node count jumps by a third between neighbouring volumes (888 to 1217 for a
+// 15 x 20 x 30 mm box).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "geometry/mesh_check.h"
+#include "geometry/tetgen.h"
+
+namespace palpate::geometry {
+namespace {
+
+using Triple = std::array<int, 3>;
+
+constexpr double kGoodMiss = 0.01;   // stop trying
+constexpr double kFairMiss = 0.03;   // keep this grid
+constexpr double kWorstMiss = 0.25;  // refuse beyond
+constexpr int kTriesPerGrid = 8;
+// A maximum volume of 0.22 h^3 makes the edges inside about as long as the mean of the grid's
+// edges h and sqrt(2) h; the body then has about 1.1 times the nodes of a lattice of side h.
+constexpr double kVolumePerCube = 0.22;
+constexpr double kNodesPerLattice = 1.1;
+
+// The spacing h (m) for which the box has `target` nodes: bisection, as the count falls with h.
+double spacing_for(const Vec3& size, int target) {
+  double low = size.minCoeff() / (target + 1.0);
+  double high = 2.0 * size.maxCoeff();
+  for (int step = 0; step < 100; ++step) {
+    const double h = std::sqrt(low * high);
+    const double nodes =
+        kNodesPerLattice * (size.x() / h + 1.0) * (size.y() / h + 1.0) * (size.z() / h + 1.0);
+    (nodes > target ? low : high) = h;
+  }
+  return std::sqrt(low * high);
+}
+
+Triple cells_for(const Vec3& size, double spacing) {
+  Triple cells;
+  for (int axis = 0; axis < 3; ++axis)
+    cells[static_cast<std::size_t>(axis)] =
+        std::max(1, static_cast<int>(std::lround(size[axis] / spacing)));
+  return cells;
+}
+
+// The six sides as grids; squares are cut along alternating diagonals.
+ClosedSurface box_surface(const Vec3& size, const Triple& cells) {
+  ClosedSurface surface;
+  std::map<Triple, int> numbers;  // of the lattice points in use
+  const auto number = [&](const Triple& at) {
+    const auto [entry, fresh] = numbers.try_emplace(at, static_cast<int>(surface.vertices.size()));
+    if (fresh)
+      surface.vertices.emplace_back(size.x() * (static_cast<double>(at[0]) / cells[0]),
+                                    size.y() * (static_cast<double>(at[1]) / cells[1]),
+                                    size.z() * (static_cast<double>(at[2]) / cells[2]));
+    return entry->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const bool far : {false, true}) {
+      // (u, v, axis) is right-handed, so u then v runs counter-clockwise seen from the far side.
+      const std::size_t u = (axis + 1) % 3;
+      const std::size_t v = (axis + 2) % 3;
+      for (int i = 0; i < cells[u]; ++i)
+        for (int j = 0; j < cells[v]; ++j) {
+          std::array<int, 4> ring{};  // the square's corners, counter-clockwise from outside
+          for (std::size_t c = 0; c < 4; ++c) {
+            Triple at{};
+            at[axis] = far ? cells[axis] : 0;
+            at[u] = i + (c == 1 || c == 2 ? 1 : 0);
+            at[v] = j + (c >= 2 ? 1 : 0);
+            ring[far ? c : 3 - c] = number(at);
+          }
+          const std::size_t start = static_cast<std::size_t>(i + j) % 2;
+          const auto corner = [&](std::size_t c) { return ring[(start + c) % 4]; };
+          surface.triangles.push_back({corner(0), corner(1), corner(2)});
+          surface.triangles.push_back({corner(0), corner(2), corner(3)});
+        }
+    }
+  return surface;
+}
+
+// Tries meshes and keeps the one whose node count comes nearest to the target.
+class Search {
+ public:
+  Search(const Vec3& size, int target, double time_limit)
+      : size_(size), target_(target), time_limit_(time_limit), start_(Clock::now()) {}
+
+  [[nodiscard]] double miss() const { return miss_; }
+  [[nodiscard]] TetMesh& best() { return best_; }
+
+  // Up to kTriesPerGrid meshes on the grid of this spacing (m).
+  void on_grid(double spacing) {
+    const ClosedSurface surface = box_surface(size_, cells_for(size_, spacing));
+    const int on_surface = static_cast<int>(surface.vertices.size());
+    const double wanted = std::max(target_ - on_surface, 0);
+    const double cube = spacing * spacing * spacing;
+    double volume = kVolumePerCube * cube;
+    double low = 1e-3 * cube;  // too many nodes, or never asked
+    double high = 1e3 * cube;  // too few nodes, or never asked
+    for (int tries = 0; tries < kTriesPerGrid && miss_ > kGoodMiss; ++tries) {
+      const int inside = attempt(surface, volume) - on_surface;
+      (inside > wanted ? low : high) = volume;
+      // The nodes inside are about as many as the volume fits in; the bracket guards the guess.
+      const double guess = volume * (inside + 0.5) / (wanted + 0.5);
+      volume = guess > low && guess < high ? guess : std::sqrt(low * high);
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // Time decides only whether there is an answer, never which.
+  int attempt(const ClosedSurface& surface, double volume) {
+    const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (spent >= time_limit_)
+      throw MeshError("no mesh with about " + std::to_string(target_) + " nodes was found within " +
+                      rounded_text(time_limit_) + " s; ask for fewer nodes or allow more time");
+    TetMesh mesh = tetgen_surface(surface, "pYq1.414a" + number_text(volume), time_limit_ - spent);
+    const int count = static_cast<int>(mesh.nodes.size());
+    const double miss = std::abs(count - target_) / static_cast<double>(target_);
+    if (miss < miss_) {
+      miss_ = miss;
+      best_ = std::move(mesh);
+    }
+    return count;
+  }
+
+  Vec3 size_;  // m
+  int target_;
+  double time_limit_;  // s
+  Clock::time_point start_;
+  double miss_ = HUGE_VAL;
+  TetMesh best_;
+};
+
+}  // namespace
+
+TetMesh tetgen_cuboid(const Vec3& size, int target_nodes, double time_limit) {
+  if (target_nodes < 8)
+    throw MeshError("a box cannot be meshed with " + std::to_string(target_nodes) +
+                    " nodes, as it has 8 corners; ask for 8 nodes or more");
+  const double spacing = spacing_for(size, target_nodes);
+  Search search(size, target_nodes, time_limit);
+  // Coarser and finer grids help where few nodes leave little choice.
+  for (const double factor : {1.0, 1.12, 0.89, 1.25, 0.8}) {
+    search.on_grid(factor * spacing);
+    if (search.miss() <= kFairMiss) break;
+  }
+  if (search.miss() > kWorstMiss)
+    throw MeshError("no box mesh near " + std::to_string(target_nodes) +
+                    " nodes was found, the nearest has " +
+                    std::to_string(search.best().nodes.size()) + "; ask for that many or more");
+  check(search.best(), "box by TetGen", size.x() * size.y() * size.z());
+  return std::move(search.best());
+}
+
+}  // namespace palpate::geometry

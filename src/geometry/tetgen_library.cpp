@@ -1,0 +1,57 @@
+// Our mesh to TetGen's arrays and back: the one place that includes tetgen.h.
+#define TETLIBRARY
+#include "geometry/tetgen_library.h"
+
+#include <tetgen.h>
+
+#include <utility>
+
+namespace palpate::geometry::tetgen_library {
+namespace {
+
+// TetGen frees the arrays with delete[], so they are made with new[].
+void fill(tetgenio& io, const ClosedSurface& surface) {
+  io.numberofpoints = static_cast<int>(surface.vertices.size());
+  io.pointlist = new double[3 * surface.vertices.size()];
+  double* coordinate = io.pointlist;
+  for (const Vec3& vertex : surface.vertices)
+    for (int axis = 0; axis < 3; ++axis) *coordinate++ = vertex[axis];
+
+  io.numberoffacets = static_cast<int>(surface.triangles.size());
+  io.facetlist = new tetgenio::facet[surface.triangles.size()];
+  tetgenio::facet* facet = io.facetlist;
+  for (const auto& triangle : surface.triangles) {
+    tetgenio::init(facet);
+    facet->numberofpolygons = 1;
+    facet->polygonlist = new tetgenio::polygon[1];
+    facet->polygonlist->numberofvertices = 3;
+    facet->polygonlist->vertexlist = new int[3]{triangle[0], triangle[1], triangle[2]};
+    ++facet;
+  }
+}
+
+TetMesh taken(const tetgenio& io) {
+  TetMesh mesh;
+  for (int n = 0; n < io.numberofpoints; ++n)
+    mesh.nodes.emplace_back(io.pointlist[3 * n], io.pointlist[3 * n + 1], io.pointlist[3 * n + 2]);
+  for (int t = 0; t < io.numberoftetrahedra; ++t) {
+    const int* corner = io.tetrahedronlist + static_cast<std::ptrdiff_t>(t) * io.numberofcorners;
+    mesh.tetrahedra.push_back({corner[0], corner[1], corner[2], corner[3]});
+    if (signed_volume(mesh, t) < 0.0)
+      std::swap(mesh.tetrahedra.back()[2], mesh.tetrahedra.back()[3]);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TetMesh run(const ClosedSurface& surface, const std::string& switches) {
+  tetgenio in;
+  tetgenio out;
+  fill(in, surface);
+  std::string quiet = "Q" + switches;  // TetGen wants it writable
+  tetrahedralize(quiet.data(), &in, &out);
+  return taken(out);
+}
+
+}  // namespace palpate::geometry::tetgen_library

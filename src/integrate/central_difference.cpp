@@ -1,0 +1,68 @@
+// Steps in increments w = u(t+dt) - u(t), which keeps small motions exact.
+#include "integrate/central_difference.h"
+
+namespace palpate::integrate {
+namespace {
+
+void clear_held(std::span<const char> held, Vector& vector) {
+  for (std::size_t d = 0; d < held.size(); ++d)
+    if (held[d] != 0) vector[static_cast<Eigen::Index>(d)] = 0.0;
+}
+
+}  // namespace
+
+CentralDifference::CentralDifference(const Body& body, double time_step, Start start)
+    : body_(&body), time_step_(time_step), start_(start) {
+  diagonal_ = 2.0 * body.mass() + time_step * body.drag();
+  if (!body.has_dashpots()) return;
+  dashpots_ = body.dashpots();
+  SparseMatrix left = time_step * dashpots_;
+  left.diagonal() += diagonal_;
+  // A sum of positive masses and non-negative dashpots: always positive definite.
+  [[maybe_unused]] const bool factored = factors_.factor(left);
+  eigen_assert(factored);
+}
+
+void CentralDifference::begin(const State& state, const Vector& load) {
+  before_ = time_step_ * state.velocity;
+  if (start_ == Start::paper) {
+    before_.setZero();
+    return;
+  }
+  body_->force(state.displacement, state.memory, force_);
+  right_ = load - force_ - body_->drag().cwiseProduct(state.velocity);
+  if (body_->has_dashpots()) {
+    body_->dashpot_force(state.displacement, state.velocity, force_);
+    right_ -= force_;
+  }
+  clear_held(body_->held(), right_);
+  // u(0) - u(-dt) = dt V0 - dt^2 A0 / 2
+  before_ -= 0.5 * time_step_ * time_step_ * right_.cwiseQuotient(body_->mass());
+}
+
+void CentralDifference::step(State& state, const Vector& load) {
+  // (2 M + D dt) w = 2 dt^2 (F - f(u)) + (2 M - D dt) (u - u_before)   Chen 2007 eq. (12) in
+  // increments; docs/theory.md (24)
+  const double square = 2.0 * time_step_ * time_step_;
+  body_->force(state.displacement, state.memory, force_);
+  right_ = square * (load - force_);
+  right_ += (2.0 * body_->mass() - time_step_ * body_->drag()).cwiseProduct(before_);
+  if (body_->has_dashpots()) {
+    const Vector at_rest = dashpots_ * before_;
+    right_ -= time_step_ * at_rest;
+    if (!body_->linear()) {
+      // What turned dashpots do differently from those at rest, with the last step's velocity.
+      body_->dashpot_force(state.displacement, before_ / time_step_, force_);
+      right_ -= square * (force_ - at_rest / time_step_);
+    }
+  }
+  clear_held(body_->held(), right_);
+  before_ = body_->has_dashpots() ? factors_.solve(right_) : Vector(right_.cwiseQuotient(diagonal_));
+  clear_held(body_->held(), before_);
+  state.displacement += before_;
+  state.velocity = before_ / time_step_;
+  state.time += time_step_;
+  body_->remember(state.displacement, {time_step_, MemoryRule::exact}, state.memory);
+}
+
+}  // namespace palpate::integrate

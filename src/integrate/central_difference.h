@@ -1,0 +1,38 @@
+// Central differences: eq. (12) of Chen 2007.
+#pragma once
+
+#include "base/cholesky.h"
+#include "integrate/body.h"
+
+namespace palpate::integrate {
+
+// paper: U(-dt) = U(0), first order. consistent: U(-dt) = U0 - dt V0 + dt^2 A0 / 2, second order.
+enum class Start { consistent, paper };
+
+// Second order; stable for dt < 2 / omega_max whatever the damping, because mass, drag and
+// dashpots stand in the left matrix: a division when that is diagonal, a sparse Cholesky factored
+// once when dashpots join nodes.
+class CentralDifference {
+ public:
+  CentralDifference(const Body& body, double time_step, Start start);
+
+  // The first step's history, for the load (N) at the state's time.
+  void begin(const State& state, const Vector& load);
+
+  // From the state at t under the load at t to the state at t + dt. The velocity it leaves is the
+  // mean over the step.
+  void step(State& state, const Vector& load);
+
+ private:
+  const Body* body_;
+  double time_step_;
+  Start start_;
+  Vector before_;    // u(t) - u(t - dt)
+  Vector diagonal_;  // 2 M + D dt, where no dashpots are
+  Cholesky factors_;
+  SparseMatrix dashpots_;
+  Vector force_;
+  Vector right_;
+};
+
+}  // namespace palpate::integrate

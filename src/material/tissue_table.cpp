@@ -1,0 +1,111 @@
+// Reading tissue tables: the built-in one is part of the program.
+#include "material/tissue_table.h"
+
+#include <filesystem>
+#include <string_view>
+
+#include "base/field_reader.h"
+#include "base/files.h"
+#include "base/text.h"
+
+namespace palpate::material {
+
+extern const std::string_view chen2007_text;  // materials/chen2007.toml
+
+namespace {
+
+template <class Read>
+void sourced(FieldVisitor& visitor, const char* name, const char* meaning, Sourced& value,
+             const Read& read) {
+  visitor.table({name, meaning}, [&](FieldVisitor& inner) {
+    read(inner, value.value);
+    inner.text({"source", "who measured or printed it, or `assumed: why`"}, value.source);
+  });
+}
+
+void fields(FieldVisitor& visitor, Tissue& tissue, const Node& table) {
+  const auto quantity = [](const Unit& unit, const Range& range) {
+    return [&unit, range](FieldVisitor& inner, double& value) {
+      inner.quantity({"value", ""}, value, unit, range);
+    };
+  };
+  const auto number = [](const Range& range) {
+    return [range](FieldVisitor& inner, double& value) {
+      inner.number({"value", ""}, value, range);
+    };
+  };
+  const auto optional = [&](const char* name, const char* meaning, std::optional<Sourced>& value,
+                            const auto& read) {
+    if (table.find(name) != nullptr && !value) value.emplace();
+    Sourced absent;
+    sourced(visitor, name, meaning, value ? *value : absent, read);
+  };
+  visitor.text({"title", "for figures"}, tissue.title);
+  sourced(visitor, "density", "", tissue.density, quantity(unit::density, above(0)));
+  sourced(visitor, "young_modulus", "", tissue.young_modulus, quantity(unit::kPa, above(0)));
+  // The finger's rubber may be incompressible: only Hertz asks for its ratio.
+  sourced(visitor, "poisson_ratio", "", tissue.poisson_ratio,
+          number({.low = -1, .high = 0.5, .low_allowed = false}));
+  optional("retardation_time", "", tissue.retardation_time, quantity(unit::s, above(0)));
+  optional("relaxation_time", "", tissue.relaxation_time, quantity(unit::s, above(0)));
+  optional("instantaneous_ratio", "", tissue.instantaneous_ratio, number(at_least(1)));
+  optional("drag", "", tissue.drag, quantity(unit::per_second, at_least(0)));
+}
+
+void require(const Node& table, const std::string& name, const Place& place,
+             std::vector<Problem>& problems) {
+  for (const char* key : {"density", "young_modulus", "poisson_ratio"}) {
+    const Member* member = table.find(key);
+    if (member == nullptr)
+      problems.push_back({place, "`" + name + "` lacks `" + key + "`; add `" + key +
+                                     " = { value = ..., source = \"...\" }`"});
+  }
+  for (const Member& member : table.members) {
+    if (member.value.kind != Node::Kind::table) continue;
+    for (const char* key : {"value", "source"})
+      if (member.value.find(key) == nullptr)
+        problems.push_back({member.place, "`" + member.key + "` lacks `" + key +
+                                              "`; write `{ value = ..., source = \"...\" }`"});
+  }
+}
+
+}  // namespace
+
+Found find(const std::string& name, const std::string& folder, const Place& place) {
+  const std::size_t hash = name.find('#');
+  Found found;
+  Node root;
+  std::string table_name = name;
+  if (hash == std::string::npos) {
+    root = parse_toml(chen2007_text, "chen2007.toml");
+  } else {
+    const auto path = std::filesystem::path(folder) / name.substr(0, hash);
+    table_name = name.substr(hash + 1);
+    try {
+      found.file_text = read_text(path.string());
+    } catch (const InputError& error) {
+      throw InputError(place, "`material` names a file that " + error.problems()[0].message);
+    }
+    root = parse_toml(found.file_text, path.string());
+  }
+  const Member* member = root.find(table_name);
+  if (member == nullptr || member->value.kind != Node::Kind::table) {
+    std::vector<std::string> known;
+    for (const Member& candidate : root.members)
+      if (candidate.value.kind == Node::Kind::table) known.push_back(candidate.key);
+    const auto near = nearest(table_name, known);
+    throw InputError(place, "`material` does not know `" + table_name + "`" +
+                                (near ? "; did you mean `" + *near + "`?" : ";") +
+                                " Known here: " + joined(known, ", ") +
+                                "; your own tables are written `file.toml#name`");
+  }
+  Reading reading = read_fields(member->value, [&](FieldVisitor& visitor) {
+    fields(visitor, found.tissue, member->value);
+  });
+  require(member->value, table_name, member->place, reading.problems);
+  if (!reading.problems.empty()) throw InputError(reading.problems);
+  if (found.tissue.title.empty()) found.tissue.title = table_name;
+  return found;
+}
+
+}  // namespace palpate::material

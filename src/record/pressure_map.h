@@ -1,0 +1,27 @@
+// The pressure over a contact as a grid of pixels.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace palpate::record {
+
+// Row by row from the lowest y, x fastest. A pixel holds the mean pressure over its square.
+struct PressureMap {
+  int width = 0;
+  int height = 0;
+  double pitch = 0.0;              // m, side of a pixel
+  Vec3 origin = Vec3::Zero();      // m, centre of the first pixel
+  double time = 0.0;               // s
+  std::string scenario_case;       // the case's name
+  int step = 0;                    // counted from 1
+  double contact_force = 0.0;      // N, what the map must integrate to
+  std::vector<float> pressure;     // Pa, compression positive, width * height values
+};
+
+// The map's integral over its area, in N.
+[[nodiscard]] double integral(const PressureMap& map);
+
+}  // namespace palpate::record

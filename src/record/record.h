@@ -1,0 +1,63 @@
+// What a case leaves behind: rows over time, maps, findings, and how it ended.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "record/pressure_map.h"
+#include "record/table.h"
+
+namespace palpate::record {
+
+// One row of force_indentation.csv, SI.
+struct ContactRow {
+  int step = 0;  // counted from 1
+  double time = 0.0;
+  double travel = 0.0;            // of the finger below the undeformed surface, m
+  double indentation = 0.0;       // h of eq. (2), m
+  double force = 0.0;             // F_c + F_a, normal, N
+  double contact_force = 0.0;     // F_c, N
+  double friction = 0.0;          // F_m = mu (F_c + W): what the contact can carry, N
+  double ambient = 0.0;           // F_a, N
+  double contact_radius = 0.0;    // m
+  double peak_pressure = 0.0;     // Pa
+  double tissue_radius = 0.0;     // m, infinite on a flat
+  int contacts = 0;
+};
+
+// One row of strain_time.csv, SI; compression positive.
+struct StrainRow {
+  int step = 0;
+  double time = 0.0;
+  double stress = 0.0;  // Pa
+  double strain = 0.0;
+};
+
+// A named number (or word); the unit is the name's last part.
+struct Finding {
+  std::string name;
+  Cell value;
+};
+
+enum class Outcome { completed, diverged, interrupted };
+
+struct CaseRecord {
+  std::string name;
+  Outcome outcome = Outcome::completed;
+  std::string reason;             // a sentence, unless completed
+  double last_stable_time = 0.0;  // s
+  std::vector<ContactRow> contact;
+  std::vector<StrainRow> strain;
+  std::vector<PressureMap> maps;
+  std::vector<Finding> findings;
+  std::vector<std::string> remarks;  // on validity, in sentences
+  double seconds = 0.0;              // that the case took: for run.json only
+};
+
+// The CSV files' tables, in the order and units of docs/results.md.
+[[nodiscard]] Table contact_table(const std::vector<CaseRecord>& records);
+[[nodiscard]] Table strain_table(const std::vector<CaseRecord>& records);
+
+[[nodiscard]] const char* outcome_word(Outcome outcome);
+
+}  // namespace palpate::record

@@ -1,0 +1,105 @@
+// The only file that includes OpenEXR.
+#include "report/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
+#include <OpenEXRConfig.h>
+
+#include <cassert>
+#include <cstdint>
+#include <exception>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/units.h"
+
+namespace palpate::report {
+namespace {
+
+constexpr const char* channel = "pressure.Z";
+
+// A file in memory.
+class Memory final : public Imf::OStream {
+ public:
+  Memory() : OStream("memory") {}
+
+  void write(const char bytes[], int count) override {
+    const std::size_t end = at_ + static_cast<std::size_t>(count);
+    if (end > content_.size()) content_.resize(end);
+    content_.replace(at_, static_cast<std::size_t>(count), bytes, static_cast<std::size_t>(count));
+    at_ = end;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+
+  [[nodiscard]] const std::string& content() const { return content_; }
+
+ private:
+  std::string content_;
+  std::size_t at_ = 0;
+};
+
+Imf::Header header(const record::PressureMap& map,
+                   const std::map<std::string, std::string>& more_attributes) {
+  const auto mm = [](double metres) { return unit::mm.from_si(metres); };
+  Imf::Header header(map.width, map.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+  header.insert("palpate:unit:pressure", Imf::StringAttribute("kPa"));
+  header.insert("palpate:pixelPitch_mm", Imf::DoubleAttribute(mm(map.pitch)));
+  header.insert(
+      "palpate:origin_mm",
+      Imf::V3dAttribute(Imath::V3d(mm(map.origin.x()), mm(map.origin.y()), mm(map.origin.z()))));
+  header.insert("palpate:time_s", Imf::DoubleAttribute(map.time));
+  header.insert("palpate:contactForce_N", Imf::DoubleAttribute(map.contact_force));
+  header.insert("palpate:case", Imf::StringAttribute(map.scenario_case));
+  header.insert("palpate:step", Imf::IntAttribute(map.step));
+  for (const auto& [name, text] : more_attributes) header.insert(name, Imf::StringAttribute(text));
+  return header;
+}
+
+}  // namespace
+
+std::string exr_bytes(const record::PressureMap& map,
+                      const std::map<std::string, std::string>& more_attributes) {
+  const auto width = static_cast<std::size_t>(map.width);
+  assert(map.width > 0 && map.height > 0);
+  assert(map.pressure.size() == width * static_cast<std::size_t>(map.height));
+  std::vector<float> shown;  // kPa
+  for (const float pressure : map.pressure)
+    shown.push_back(static_cast<float>(unit::kPa.from_si(static_cast<double>(pressure))));
+  try {
+    Memory memory;
+    {
+      constexpr int no_threads = 0;
+      Imf::OutputFile file(memory, header(map, more_attributes), no_threads);
+      Imf::FrameBuffer frame;
+      frame.insert(channel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(shown.data()),
+                                       sizeof(float), sizeof(float) * width));
+      file.setFrameBuffer(frame);
+      file.writePixels(map.height);
+    }  // the file ends its tables where it is destroyed
+    return memory.content();
+  } catch (const std::exception& error) {
+    throw SystemError(std::string("the pressure map cannot be made an EXR image: ") + error.what());
+  }
+}
+
+void write_exr(const std::string& path, const record::PressureMap& map,
+               const std::map<std::string, std::string>& more_attributes) {
+  write_atomically(path, exr_bytes(map, more_attributes));
+}
+
+std::string exr_version() {
+  return OPENEXR_VERSION_STRING;
+}
+
+}  // namespace palpate::report

@@ -1,0 +1,28 @@
+// Pressure maps as OpenEXR images.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "record/pressure_map.h"
+
+namespace palpate::report {
+
+// The map as the bytes of an EXR file: one FLOAT channel `pressure.Z` in kPa, ZIP (lossless), the
+// image's first row is the map's first (lowest y), so that pixel (i, j) stands at
+// origin + pitch (i, j). Attributes `palpate:unit:pressure`, `palpate:pixelPitch_mm`,
+// `palpate:origin_mm`, `palpate:time_s`, `palpate:contactForce_N`, `palpate:case`, `palpate:step`,
+// then `more_attributes` as texts, such as `palpate:scenarioSha256`. The same map gives the same
+// bytes. The map has at least one pixel and width * height values. Throws SystemError where the
+// library fails.
+[[nodiscard]] std::string exr_bytes(const record::PressureMap& map,
+                                    const std::map<std::string, std::string>& more_attributes);
+
+// Writes exr_bytes beside and renames. Throws SystemError also where the disk does not take it.
+void write_exr(const std::string& path, const record::PressureMap& map,
+               const std::map<std::string, std::string>& more_attributes);
+
+// The version of the OpenEXR library, as `3.1.5`.
+[[nodiscard]] std::string exr_version();
+
+}  // namespace palpate::report

@@ -1,0 +1,68 @@
+// One series a case; its fits over it.
+#include "report/family_figures.h"
+
+#include <algorithm>
+
+namespace palpate::report {
+namespace {
+
+bool has_step(const scenario::Scenario& scenario, bool (*is)(const scenario::Step&)) {
+  return std::any_of(scenario.steps.begin(), scenario.steps.end(), is);
+}
+
+std::vector<Series> series_of(const scenario::Family& family,
+                              const std::vector<record::CaseRecord>& records,
+                              const std::vector<fit::NamedFit>& fits,
+                              const std::vector<fit::Model>& models) {
+  std::vector<Series> all;
+  for (const record::CaseRecord& record : records) {
+    Series series;
+    series.case_name = record.name;
+    const auto& scales = family.base.output.display_scale;
+    const auto scale = scales.find(record.name);
+    if (scale != scales.end()) series.scale = scale->second;
+    for (const fit::NamedFit& named : fits) {
+      const bool wanted =
+          std::find(models.begin(), models.end(), named.fit.model) != models.end();
+      const bool scaled_copy = named.curve.find(" x ") != std::string::npos;
+      if (named.case_name != record.name || !wanted || scaled_copy) continue;
+      if (const auto curve = fitted_curve(named.fit)) series.fits.push_back(*curve);
+    }
+    all.push_back(series);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Figure> family_figures(const scenario::Family& family,
+                                   const std::vector<record::CaseRecord>& records,
+                                   const std::vector<fit::NamedFit>& fits) {
+  using fit::Model;
+  std::vector<Figure> figures;
+  if (records.empty()) return figures;
+  if (!family.base.uniform()) {
+    figures.push_back(
+        figure_force_indentation(series_of(family, records, fits, {Model::logarithmic})));
+  } else {
+    if (has_step(family.base, [](const scenario::Step& step) {
+          return std::holds_alternative<scenario::Creep>(step);
+        }))
+      figures.push_back(figure_strain_time(
+          series_of(family, records, fits, {Model::kelvin_voigt, Model::kelvin_voigt_recovery})));
+    if (has_step(family.base, [](const scenario::Step& step) {
+          return std::holds_alternative<scenario::Relax>(step);
+        })) {
+      Figure figure =
+          figure_strain_time(series_of(family, records, fits, {Model::standard_linear_solid}));
+      figure.name = "figure_stress_time";
+      figure.y_label = "stress (kPa)";
+      for (Series& series : figure.series) series.y_column = "stress_kPa";
+      figures.push_back(figure);
+    }
+  }
+  for (Figure& figure : figures) figure.title = family.title;
+  return figures;
+}
+
+}  // namespace palpate::report

@@ -1,0 +1,72 @@
+// The two figures of the paper, and fits in gnuplot's language.
+#include "report/figure.h"
+
+#include <cmath>
+
+#include "base/text.h"
+
+namespace palpate::report {
+namespace {
+
+void set_where_empty(std::string& text, const char* standard) {
+  if (text.empty()) text = standard;
+}
+
+// Negative numbers in brackets, so that they may follow an operator.
+std::string operand(double number) {
+  return number < 0.0 ? "(" + number_text(number) + ")" : number_text(number);
+}
+
+std::string formula(fit::Model model, const std::vector<std::string>& p) {
+  switch (model) {
+    case fit::Model::logarithmic: return p[0] + " + " + p[1] + "*log(x)";
+    case fit::Model::power: return p[0] + "*x**" + p[1];
+    case fit::Model::exponential: return p[0] + "*(exp(" + p[1] + "*x) - 1)";
+    case fit::Model::kelvin_voigt: return p[0] + "*(1 - exp(-x/" + p[1] + "))";
+    case fit::Model::kelvin_voigt_recovery: return p[0] + "*exp(-x/" + p[1] + ")";
+    case fit::Model::standard_linear_solid:
+      return p[0] + " + (" + p[1] + " - " + p[0] + ")*exp(-x/" + p[2] + ")";
+  }
+  return {};
+}
+
+}  // namespace
+
+Figure figure_force_indentation(std::vector<Series> series) {
+  for (Series& each : series) {
+    set_where_empty(each.csv_file, "force_indentation.csv");
+    set_where_empty(each.x_column, "indentation_mm");
+    set_where_empty(each.y_column, "force_N");
+  }
+  return {.name = "figure_force_indentation",
+          .title = "Palpation force against indentation",
+          .x_label = "Indentation h (mm)",
+          .y_label = "Force F (N)",
+          .fit_label = "fit F = a + b ln h",
+          .series = std::move(series)};
+}
+
+Figure figure_strain_time(std::vector<Series> series) {
+  for (Series& each : series) {
+    set_where_empty(each.csv_file, "strain_time.csv");
+    set_where_empty(each.x_column, "time_s");
+    set_where_empty(each.y_column, "strain");
+  }
+  return {.name = "figure_strain_time",
+          .title = "Strain against time",
+          .x_label = "Time (s)",
+          .y_label = "Strain",
+          .fit_label = "Kelvin-Voigt fit",
+          .series = std::move(series)};
+}
+
+std::optional<FittedCurve> fitted_curve(const fit::Fit& fit) {
+  std::vector<std::string> parameters;
+  for (const fit::Estimate& parameter : fit.parameters) {
+    if (!std::isfinite(parameter.estimate)) return std::nullopt;
+    parameters.push_back(operand(parameter.estimate));
+  }
+  return FittedCurve{formula(fit.model, parameters), fit.x_origin, fit.range_low, fit.range_high};
+}
+
+}  // namespace palpate::report

@@ -1,0 +1,87 @@
+// The manifest as JSON; the only file of this room that includes nlohmann json.
+#include "report/manifest.h"
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "fit/regression.h"
+#include "report/exr.h"
+
+namespace palpate::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json files_json(const std::vector<HashedFile>& files) {
+  Json list = Json::array();
+  for (const HashedFile& file : files)
+    list.push_back({{"path", file.path}, {"sha256", file.sha256}});
+  return list;
+}
+
+Json case_json(const CaseEntry& each) {
+  Json json{{"name", each.name}};
+  if (each.state == CaseEntry::State::failed) json["why"] = each.why;
+  json["timings_s"] = Json::object();
+  for (const auto& [stage, seconds] : each.timings) json["timings_s"][stage] = seconds;
+  return json;
+}
+
+Json cases_json(const std::vector<CaseEntry>& cases, CaseEntry::State state) {
+  Json list = Json::array();
+  for (const CaseEntry& each : cases)
+    if (each.state == state) list.push_back(case_json(each));
+  return list;
+}
+
+Json libraries_json(const std::map<std::string, std::string>& libraries) {
+  Json json = Json::object();
+  for (const auto& [name, version] : libraries) json[name] = version;
+  return json;
+}
+
+std::string dotted(int major, int minor, int patch) {
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+}  // namespace
+
+HashedFile hashed_file(const std::string& path, const std::string& folder) {
+  return {path, sha256(read_text((std::filesystem::path(folder) / path).string()))};
+}
+
+std::map<std::string, std::string> library_versions(const std::string& tetgen) {
+  return {{"eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"ceres", fit::ceres_version()},
+          {"openexr", exr_version()},
+          {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                   NLOHMANN_JSON_VERSION_PATCH)},
+          {"tetgen", tetgen}};
+}
+
+std::string manifest_text(const Manifest& manifest) {
+  Json json;
+  json["program"] = {{"name", "palpate"},
+                     {"version", manifest.build.version},
+                     {"build_type", manifest.build.type},
+                     {"compiler", manifest.build.compiler},
+                     {"flags", manifest.build.flags},
+                     {"libraries", libraries_json(manifest.libraries)}};
+  json["machine"] = {{"cpu", manifest.machine.cpu},
+                     {"cores", manifest.machine.cores},
+                     {"kernel", manifest.machine.kernel}};
+  json["argv"] = manifest.argv;
+  json["started"] = manifest.started;
+  json["ended"] = manifest.ended;
+  json["complete"] = manifest.complete;
+  json["finished"] = cases_json(manifest.cases, CaseEntry::State::finished);
+  json["failed"] = cases_json(manifest.cases, CaseEntry::State::failed);
+  json["inputs"] = files_json(manifest.inputs);
+  json["outputs"] = files_json(manifest.outputs);
+  // A path need not be UTF-8; what is not becomes U+FFFD.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace palpate::report

@@ -1,0 +1,183 @@
+// The files of a result, in the order in which they depend on each other.
+#include "report/results.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "record/csv.h"
+#include "report/exr.h"
+#include "report/family_figures.h"
+#include "report/gnuplot.h"
+#include "report/manifest.h"
+
+namespace palpate::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw SystemError(path + " cannot be made: " + error.message());
+}
+
+void move(const std::string& from, const std::string& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) throw SystemError(from + " cannot be renamed to " + to + ": " + error.message());
+}
+
+bool is_complete(const std::string& folder) {
+  const std::string manifest = folder + "/run.json";
+  return fs::exists(manifest) &&
+         read_text(manifest).find("\"complete\": true") != std::string::npos;
+}
+
+std::string numbered(const char* stem, std::size_t number, const char* ending) {
+  std::string digits = std::to_string(number);
+  while (digits.size() < 3) digits.insert(digits.begin(), '0');
+  return std::string(stem) + "_" + digits + ending;
+}
+
+}  // namespace
+
+record::Table findings_table(const scenario::Family& family,
+                             const std::vector<record::CaseRecord>& records) {
+  record::Table table;
+  table.columns = {"case"};
+  for (const auto& [key, values] : family.sweep) table.columns.push_back(key);
+  const std::size_t fixed = table.columns.size();
+  for (const record::CaseRecord& record : records)
+    for (const record::Finding& finding : record.findings)
+      if (table.find(finding.name) < 0) table.columns.push_back(finding.name);
+  for (const record::CaseRecord& record : records) {
+    std::vector<record::Cell> row(table.columns.size());
+    row[0] = record.name;
+    const auto one = std::find_if(family.cases.begin(), family.cases.end(),
+                                  [&](const auto& other) { return other.name == record.name; });
+    for (std::size_t i = 1; i < fixed; ++i) row[i] = one->swept[i - 1].second;
+    for (const record::Finding& finding : record.findings)
+      row[static_cast<std::size_t>(table.find(finding.name))] = finding.value;
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+ResultFolder::ResultFolder(const std::string& out, const scenario::Family& family, bool replace)
+    : family_(&family),
+      path_((fs::path(out) / family.name).string()),
+      partial_(path_ + ".partial-" + std::to_string(::getpid())) {
+  if (!replace && is_complete(path_))
+    throw InputError({path_, 0, 0},
+                     "holds a finished result; give `--force` to replace it, or another `--out`");
+  make_folder(partial_);
+}
+
+ResultFolder::~ResultFolder() {
+  std::error_code ignored;
+  if (!finished_ && !cases_kept_) fs::remove_all(partial_, ignored);
+}
+
+void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
+  if (record.outcome == record::Outcome::interrupted) return;
+  const std::string folder = partial_ + "/" + numbered("case", index + 1, "");
+  make_folder(folder);
+  const std::vector<record::CaseRecord> one{record};
+  if (!record.contact.empty())
+    write_atomically(folder + "/force_indentation.csv",
+                     record::csv_text(record::contact_table(one)));
+  if (!record.strain.empty())
+    write_atomically(folder + "/strain_time.csv", record::csv_text(record::strain_table(one)));
+  write_atomically(folder + "/findings.csv", record::csv_text(findings_table(*family_, one)));
+  cases_kept_ = true;
+}
+
+void ResultFolder::write(const std::string& name, const std::string& content) {
+  write_atomically(partial_ + "/" + name, content);
+  files_.push_back(name);
+}
+
+std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseRecord>& records,
+                                              const std::vector<fit::NamedFit>& fits,
+                                              const Origin& origin) {
+  std::vector<std::string> warnings;
+  files_.clear();
+  const std::string echo = scenario::echo(*family_);
+  write("scenario.toml", echo);
+  for (const scenario::InputFile& input : family_->inputs)
+    if (&input != &family_->inputs.front()) write(input.name, input.content);
+  if (family_->base.uniform())
+    write("strain_time.csv", record::csv_text(record::strain_table(records)));
+  else
+    write("force_indentation.csv", record::csv_text(record::contact_table(records)));
+  write("findings.csv", record::csv_text(findings_table(*family_, records)));
+  if (family_->base.output.fits) write("fits.csv", record::csv_text(fit::fit_table(fits)));
+
+  const std::string hash = sha256(echo);
+  std::size_t number = 0;
+  for (const record::CaseRecord& record : records)
+    for (const record::PressureMap& map : record.maps)
+      write(numbered("pressure", ++number, ".exr"),
+            exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
+
+  if (family_->base.output.figures) {
+    for (const Figure& figure : family_figures(*family_, records, fits)) {
+      DrawOptions options;
+      if (family_->base.output.pdf) options.format = PictureFormat::svg_and_pdf;
+      const Drawing drawing = draw(figure, partial_, options);
+      files_.insert(files_.end(), drawing.files.begin(), drawing.files.end());
+      if (!drawing.warning.empty()) warnings.push_back(drawing.warning);
+    }
+  }
+
+  Manifest manifest;
+  manifest.build = this_build();
+  manifest.libraries = library_versions("1.5");
+  manifest.machine = this_machine();
+  manifest.argv = origin.argv;
+  manifest.started = origin.started;
+  manifest.ended = utc_now();
+  for (const scenario::InputFile& input : family_->inputs)
+    manifest.inputs.push_back({input.name, sha256(input.content)});
+  for (const std::string& file : files_)
+    manifest.outputs.push_back(hashed_file(file, partial_));
+  for (const record::CaseRecord& record : records)
+    manifest.cases.push_back({record.name,
+                              record.outcome == record::Outcome::completed
+                                  ? CaseEntry::State::finished
+                                  : CaseEntry::State::failed,
+                              record.reason,
+                              {{"run", record.seconds}}});
+  manifest.complete = records.size() == family_->cases.size();
+  write_atomically(partial_ + "/run.json", manifest_text(manifest));
+
+  std::error_code ignored;
+  for (std::size_t i = 0; i < family_->cases.size(); ++i)
+    fs::remove_all(partial_ + "/" + numbered("case", i + 1, ""), ignored);
+  put_in_place();
+  finished_ = true;
+  return warnings;
+}
+
+void ResultFolder::put_in_place() {
+  if (!fs::exists(path_)) return move(partial_, path_);
+  // The old and the new result change places at once; where the file system cannot do that, the
+  // old one steps aside first.
+  if (::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) != 0) {
+    const std::string aside = partial_ + ".old";
+    move(path_, aside);
+    move(partial_, path_);
+    move(aside, partial_);
+  }
+  std::error_code ignored;
+  fs::remove_all(partial_, ignored);
+}
+
+}  // namespace palpate::report

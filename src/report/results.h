@@ -1,0 +1,58 @@
+// A result folder: written whole beside its place, then renamed.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "fit/fit_table.h"
+#include "record/record.h"
+#include "scenario/family.h"
+
+namespace palpate::report {
+
+// What run.json says of how a result was made, beyond what the result itself knows.
+struct Origin {
+  std::vector<std::string> argv;
+  std::string started;  // UTC
+};
+
+// findings.csv: case, the swept keys, then one column a finding, empty where a case has none.
+[[nodiscard]] record::Table findings_table(const scenario::Family& family,
+                                           const std::vector<record::CaseRecord>& records);
+
+// The folder OUT/NAME of a family. While cases run, the finished ones lie in OUT/NAME.partial-PID;
+// finish() writes everything there and renames, so that OUT/NAME is always whole.
+class ResultFolder {
+ public:
+  // Throws InputError where OUT/NAME holds a complete result and `replace` is false, SystemError
+  // where the folder cannot be made.
+  ResultFolder(const std::string& out, const scenario::Family& family, bool replace);
+
+  // Removes what is left of an unfinished folder, unless a finished case lies in it.
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
+  // Keeps a finished case on the disk at once. One call at a time.
+  void keep(std::size_t index, const record::CaseRecord& record);
+
+  // Writes the result and puts it in its place. Returns warnings, such as a missing gnuplot.
+  std::vector<std::string> finish(const std::vector<record::CaseRecord>& records,
+                                  const std::vector<fit::NamedFit>& fits, const Origin& origin);
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  void write(const std::string& name, const std::string& content);
+  void put_in_place();
+
+  const scenario::Family* family_;
+  std::string path_;
+  std::string partial_;
+  bool cases_kept_ = false;
+  bool finished_ = false;
+  std::vector<std::string> files_;
+};
+
+}  // namespace palpate::report

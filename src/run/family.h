@@ -1,0 +1,28 @@
+// All cases of a scenario, on several workers.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+#include "record/record.h"
+#include "scenario/family.h"
+#include "scene/scene.h"
+
+namespace palpate::run {
+
+// Builds every case, before any of them runs. Throws what the first case at fault throws.
+[[nodiscard]] std::vector<scene::Scene> build_all(const scenario::Family& family, int workers);
+
+// Runs one scene to its end.
+[[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene,
+                                          const std::atomic<bool>& stop);
+
+// Runs the scenes; the records stand in the order of the scenes whatever the workers do.
+// `finished` is called after each case, one call at a time, on the worker's thread. A set `stop`
+// ends running cases at their next row and leaves the rest out.
+[[nodiscard]] std::vector<record::CaseRecord> run_all(
+    const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
+    const std::function<void(std::size_t, const record::CaseRecord&)>& finished);
+
+}  // namespace palpate::run

@@ -1,0 +1,174 @@
+// Numbers of the specimen, of the contact at its deepest, and of the identities.
+#include "run/findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+#include "base/units.h"
+
+namespace palpate::run {
+namespace {
+
+using record::Finding;
+
+std::string percent(double ratio) { return rounded_text(100.0 * ratio, 2) + " %"; }
+
+class Findings {
+ public:
+  Findings(const scene::Scene& scene, record::CaseRecord& record)
+      : scene_(scene), record_(record), before_(record.findings) {
+    record_.findings.clear();
+  }
+
+  void all() {
+    const bool hertz = scene_.choice.model == scenario::Solver::Model::hertz;
+    add("outcome", std::string(record::outcome_word(record_.outcome)));
+    add("last_stable_time_s", record_.last_stable_time);
+    add("model", std::string(hertz ? "hertz" : "mass_spring"));
+    if (scene_.specimen) specimen(*scene_.specimen);
+    if (!record_.contact.empty()) contact();
+    if (!record_.strain.empty()) strain();
+    const auto& scales = scene_.scenario.output.display_scale;
+    if (!scales.empty()) {
+      const auto scale = scales.find(scene_.name);
+      add("display_scale", scale == scales.end() ? 1.0 : scale->second);
+    }
+    record_.findings.insert(record_.findings.end(), before_.begin(), before_.end());
+  }
+
+ private:
+  void add(const char* name, record::Cell value) {
+    record_.findings.push_back({name, std::move(value)});
+  }
+  void remark(const std::string& sentence) { record_.remarks.push_back(sentence); }
+
+  void specimen(const scene::Specimen& specimen) {
+    const double table_modulus = *scene_.scenario.tissue.young_modulus;
+    const double modulus = specimen.measured.young_modulus;
+    add("nodes", static_cast<double>(specimen.network.nodes()));
+    add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
+    add("springs", static_cast<double>(specimen.network.springs()));
+    add("young_modulus_kPa", unit::kPa.from_si(table_modulus));
+    add("network_young_modulus_kPa", unit::kPa.from_si(modulus));
+    add("network_poisson_ratio", specimen.measured.poisson_ratio);
+    add("stable_time_step_ms", unit::ms.from_si(specimen.plan.limit));
+    add("time_step_ms", unit::ms.from_si(specimen.plan.substep));
+    add("substeps", static_cast<double>(specimen.plan.substeps));
+    add("damping_ratio", damping_ratio(specimen));
+    if (std::abs(modulus / table_modulus - 1.0) > 0.05)
+      remark("the spring network is " +
+             percent(std::abs(modulus / table_modulus - 1.0)) +
+             (modulus > table_modulus ? " stiffer" : " softer") +
+             " than the tissue's Young's modulus, measured on the specimen");
+  }
+
+  // Of the lowest axial mode of a bar on a fixed base, omega_1 = pi c / (2 H).
+  double damping_ratio(const scene::Specimen& specimen) const {
+    const double speed =
+        std::sqrt(specimen.measured.young_modulus / *scene_.scenario.tissue.density);
+    const double omega = std::numbers::pi * speed / (2.0 * specimen.measured.height);
+    if (specimen.law.kind == tissue::Viscosity::kelvin_voigt)
+      return 0.5 * specimen.law.time * omega;
+    if (specimen.law.kind == tissue::Viscosity::nodal_drag)
+      return 0.5 * specimen.law.drag / omega;
+    return 0.0;
+  }
+
+  void contact() {
+    const auto peak = *std::max_element(
+        record_.contact.begin(), record_.contact.end(),
+        [](const auto& a, const auto& b) { return a.contact_force < b.contact_force; });
+    const double radius = scene_.law.radius;
+    const auto& size = std::get<scenario::Cuboid>(scene_.scenario.tissue.shape).size;
+    add("effective_modulus_kPa", unit::kPa.from_si(scene_.law.modulus));
+    add("finger_compliance_share", scene_.finger_share);
+    add("peak_force_N", peak.force);
+    add("peak_friction_N", peak.friction);
+    add("peak_indentation_mm", unit::mm.from_si(peak.indentation));
+    add("peak_travel_mm", unit::mm.from_si(peak.travel));
+    add("depth_ratio", peak.indentation / radius);
+    add("contact_radius_ratio", peak.contact_radius / radius);
+    add("thickness_ratio", peak.contact_radius / size[2]);
+    // JKR pull-off 1.5 pi w R at w = 0.05 J/m^2, of the order of wet skin    docs/theory.md (29)
+    const double pull_off = 1.5 * std::numbers::pi * 0.05 * radius;
+    add("force_over_pull_off", peak.contact_force / pull_off);
+    identities();
+    validity(peak, size[2]);
+    if (peak.contact_force < 10.0 * pull_off)
+      remark("the greatest force is below ten times the adhesive pull-off of about " +
+             rounded_text(pull_off, 2) + " N: a measurement would show adhesion, which is not "
+             "modelled");
+  }
+
+  void identities() {
+    double map_error = 0.0;
+    double friction_error = 0.0;
+    for (const record::PressureMap& map : record_.maps) {
+      if (map.contact_force <= 0.0) continue;
+      const double force = record::integral(map);
+      map_error = std::max(map_error, std::abs(force / map.contact_force - 1.0));
+      const double mu = scene_.scenario.contact.friction;
+      if (mu <= 0.0) continue;
+      // eq. (4): the integral of mu P over the map, and mu times the weight that rests apart
+      const auto row = std::find_if(record_.contact.rbegin(), record_.contact.rend(),
+                                    [&](const auto& one) {
+                                      return one.step == map.step && one.time <= map.time;
+                                    });
+      friction_error = std::max(
+          friction_error, std::abs(mu * (force + scene_.finger_weight) / row->friction - 1.0));
+    }
+    if (record_.maps.empty()) return;
+    add("pressure_map_imbalance", map_error);
+    add("friction_imbalance", friction_error);
+  }
+
+  void validity(const record::ContactRow& peak, double height) {
+    const auto coupling = scene_.scenario.contact.coupling;
+    const bool alone = !scene_.specimen || coupling == contact::Coupling::one_way;
+    if (peak.indentation > 0.1 * scene_.law.radius)
+      remark("the indentation reached " + rounded_text(peak.indentation / scene_.law.radius, 2) +
+             " of the sphere's radius: Hertz assumes far less; true forces differ by up to 6 % "
+             "at a quarter of the radius (docs/paper.md, 13)");
+    const double thickness = 1.127 * peak.contact_radius / height;
+    if (alone && thickness > scene_.scenario.solver.tolerance)
+      remark("the force is that of a half-space: on a bonded base at this thickness it would be "
+             "higher by up to about " + percent(thickness));
+    if (scene_.specimen && coupling == contact::Coupling::series)
+      remark("series coupling counts the tissue's compliance twice: on a half-space " +
+             percent(1.0 - std::pow(1.0 + (1.0 - scene_.finger_share), -1.5)) +
+             " of the force is lost, and the answer drifts with the mesh");
+  }
+
+  void strain() {
+    double largest = 0.0;
+    for (const record::StrainRow& row : record_.strain)
+      largest = std::max(largest, std::abs(row.strain));
+    add("peak_strain", largest);
+    for (const scenario::Step& step : scene_.scenario.steps)
+      if (const auto* creep = std::get_if<scenario::Creep>(&step)) {
+        add("elastic_strain", creep->stress / scene_.specimen->pressed.young_modulus);
+        break;
+      }
+    if (scene_.specimen->law.kind == tissue::Viscosity::kelvin_voigt)
+      for (const scenario::Step& step : scene_.scenario.steps)
+        if (std::holds_alternative<scenario::Relax>(step)) {
+          remark("Kelvin-Voigt does not relax: after the impulse of a strain applied at once the "
+                 "stress is constant; use `viscosity = \"standard_linear_solid\"`");
+          break;
+        }
+  }
+
+  const scene::Scene& scene_;
+  record::CaseRecord& record_;
+  std::vector<Finding> before_;
+};
+
+}  // namespace
+
+void add_findings(const scene::Scene& scene, record::CaseRecord& record) {
+  Findings(scene, record).all();
+}
+
+}  // namespace palpate::run

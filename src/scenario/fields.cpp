@@ -1,0 +1,242 @@
+// Every key of a scenario, named once.
+#include <array>
+
+#include "scenario/scenario.h"
+
+namespace palpate::scenario {
+namespace {
+
+using Model = Solver::Model;
+using Integrator = Solver::Integrator;
+
+constexpr std::array viscosities{
+    Word{"none", "springs only"},
+    Word{"nodal_drag", "drag of every node against the ground, eq. (10)"},
+    Word{"kelvin_voigt", "a dashpot along every spring, Fig. 4"},
+    Word{"standard_linear_solid", "a spring and dashpot branch beside every spring"}};
+constexpr std::array bases{Word{"auto", "bonded under a finger, frictionless in uniform tests"},
+                           Word{"bonded", "it does not move"},
+                           Word{"frictionless", "it slides on the table"}};
+constexpr std::array weights{Word{"in_contact", "the weight is part of the contact force"},
+                             Word{"apart", "friction counts the weight besides, eq. (4)"}};
+constexpr std::array couplings{
+    Word{"one_way", "eq. (2) with the finger's travel; the mesh only follows"},
+    Word{"series", "travel less the mesh's sinking under the contact; counts the tissue twice"},
+    Word{"consistent", "less only that sinking which Hertz does not know"}};
+constexpr std::array models{Word{"auto", "the cheapest that meets `tolerance`"},
+                            Word{"hertz", "eq. (1)-(4), no mesh"},
+                            Word{"mass_spring", "the paper's springs along tetrahedron edges"}};
+constexpr std::array integrators{
+    Word{"central_difference", "explicit, eq. (12)"},
+    Word{"backward_difference", "implicit Euler"},
+    Word{"quasi_static", "no inertia"},
+    Word{"modal", "exact in time, linear only, up to 1000 nodes"}};
+constexpr std::array starts{Word{"consistent", "second order"},
+                            Word{"paper", "U(-dt) = U(0), first order"}};
+constexpr std::array stiffnesses{Word{"van_gelder", "k = E sum(V) / l^2"},
+                                 Word{"fitted", "least squares towards isotropy"}};
+constexpr std::array kinematics_words{Word{"linear", "eq. (11)-(12)"},
+                                      Word{"nonlinear", "eq. (10)"}};
+
+}  // namespace
+
+// Found through their argument's namespace by FieldVisitor::alternatives.
+static void fields(FieldVisitor& visitor, Cuboid& cuboid) {
+  visitor.quantities({"size", "Length, width and height."}, cuboid.size, unit::mm, above(0));
+}
+static void fields(FieldVisitor& visitor, Kuhn& mesh) {
+  visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
+}
+static void fields(FieldVisitor& visitor, Mirrored& mesh) {
+  visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
+}
+static void fields(FieldVisitor& visitor, Tetgen& mesh) {
+  visitor.count({"nodes", "How many nodes to aim at."}, mesh.nodes, between(8, 1e6));
+}
+static void fields(FieldVisitor& visitor, MeshFile& mesh) {
+  visitor.text({"file", "Path of the .node file, from the scenario's folder."}, mesh.file);
+  visitor.text({"unit", "The length unit of its coordinates, such as `mm`. Required."}, mesh.unit);
+}
+
+static void fields(FieldVisitor& visitor, Indent& step) {
+  visitor.either({"to", "Travel below the undeformed surface, or contact force, to reach."},
+                 step.to, unit::mm, unit::N, above(0));
+  visitor.quantity({"rate", "Speed of the finger."}, step.rate, unit::mm_per_s, above(0));
+}
+static void fields(FieldVisitor& visitor, Hold& step) {
+  visitor.quantity({"time", "How long."}, step.time, unit::s, above(0));
+}
+static void fields(FieldVisitor& visitor, Retract& step) {
+  visitor.quantity({"to", "Travel to go back to; negative is above the surface."}, step.to,
+                   unit::mm, {});
+  visitor.quantity({"rate", "Speed of the finger."}, step.rate, unit::mm_per_s, above(0));
+}
+static void fields(FieldVisitor& visitor, Creep& step) {
+  visitor.quantity({"stress", "On the end faces, compression positive."}, step.stress, unit::kPa,
+                   above(0));
+  visitor.quantity({"load_time", "How long the stress stays."}, step.load_time, unit::s, above(0));
+  visitor.quantity({"recovery_time", "How long to watch after it is withdrawn."},
+                   step.recovery_time, unit::s, at_least(0));
+}
+static void fields(FieldVisitor& visitor, Relax& step) {
+  visitor.number({"strain", "Shortening over height."}, step.strain,
+                 {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false});
+  visitor.quantity({"time", "How long it is held."}, step.time, unit::s, above(0));
+}
+
+namespace {
+
+struct Conditions {
+  Use mesh;         // machinery of a mesh: left unread without one
+  Use finger;       // physics of a finger
+  Use mesh_physics; // physics that only a mesh can honour
+  Use viscous;      // per law, below
+
+  explicit Conditions(const Scenario& scenario) {
+    const bool meshed = scenario.solver.model != Model::hertz;
+    mesh = {meshed, "with `solver.model = \"mass_spring\"`", Use::Otherwise::note};
+    mesh_physics = {meshed, "with `solver.model = \"mass_spring\"`"};
+    finger = {!scenario.uniform(), "by steps with a finger (indent, hold, retract)"};
+  }
+};
+
+void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
+  visitor.text({"material",
+                "A tissue of materials/chen2007.toml (skin, muscle, bone, ligament, upper_leg), "
+                "or `file.toml#name` of your own."},
+               tissue.material);
+  visitor.table({"shape", "The specimen's shape."},
+                [&](FieldVisitor& inner) { inner.alternatives(tissue.shape); });
+  visitor.table({"mesh", "How the shape is cut into tetrahedra.", use.mesh},
+                [&](FieldVisitor& inner) { inner.alternatives(tissue.mesh); });
+  visitor.quantity({"young_modulus", "Of the relaxed tissue. Default: the material's."},
+                   tissue.young_modulus, unit::kPa, above(0));
+  visitor.number({"poisson_ratio",
+                  "Default: the material's. Honoured in the contact only: independent springs have "
+                  "a ratio of their own, near 1/4."},
+                 tissue.poisson_ratio,
+                 {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false});
+  visitor.quantity({"density", "Default: the material's.", use.mesh_physics}, tissue.density,
+                   unit::density, above(0));
+  visitor.choice({"viscosity", "How the tissue takes time.", use.mesh_physics}, tissue.viscosity,
+                 viscosities);
+  const auto with = [&](tissue::Viscosity law, const char* when) {
+    return Use{use.mesh_physics.used && tissue.viscosity == law, when};
+  };
+  visitor.quantity({"retardation_time", "tau = eta / E of Kelvin-Voigt. Default: the material's.",
+                    with(tissue::Viscosity::kelvin_voigt, "with `viscosity = \"kelvin_voigt\"`")},
+                   tissue.retardation_time, unit::s, above(0));
+  const Use solid = with(tissue::Viscosity::standard_linear_solid,
+                         "with `viscosity = \"standard_linear_solid\"`");
+  visitor.quantity({"relaxation_time", "tau at constant strain. Default: the material's.", solid},
+                   tissue.relaxation_time, unit::s, above(0));
+  visitor.number({"instantaneous_ratio", "E_0 / E_inf, at once over relaxed. Default: the "
+                                         "material's.", solid},
+                 tissue.instantaneous_ratio, at_least(1));
+  visitor.quantity({"drag", "d / m of eq. (10). Default: the material's.",
+                    with(tissue::Viscosity::nodal_drag, "with `viscosity = \"nodal_drag\"`")},
+                   tissue.drag, unit::per_second, at_least(0));
+  visitor.choice({"base", "What the specimen stands on.", use.mesh}, tissue.base, bases);
+}
+
+void fields(FieldVisitor& visitor, Finger& finger) {
+  visitor.text({"material", "`finger` (the paper's silicone rubber), any tissue, or `rigid`."},
+               finger.material);
+  visitor.quantity({"radius", "Of the sphere."}, finger.radius, unit::mm, above(0));
+  visitor.count({"spheres", "Sphere bodies of the finger; one for now."}, finger.spheres,
+                between(1, 1));
+  const Use elastic{finger.material != "rigid", "where the finger is not `rigid`"};
+  visitor.quantity({"young_modulus", "Default: the material's.", elastic}, finger.young_modulus,
+                   unit::kPa, above(0));
+  visitor.number({"poisson_ratio", "Default: the material's.", elastic}, finger.poisson_ratio,
+                 {.low = -1, .high = 0.5, .low_allowed = false});
+  visitor.choice({"weight", "Where the finger's own weight counts."}, finger.weight, weights);
+  visitor.quantity({"density", "Default: the material's.",
+                    {finger.weight == Finger::Weight::apart, "with `weight = \"apart\"`"}},
+                   finger.density, unit::density, above(0));
+}
+
+void fields(FieldVisitor& visitor, Contact& contact, const Conditions& use) {
+  visitor.choice({"coupling", "How the contact sits on the mesh.", use.mesh}, contact.coupling,
+                 couplings);
+  visitor.number({"friction", "Coulomb's coefficient mu."}, contact.friction, at_least(0));
+  visitor.quantity({"ambient_force", "F_a of eq. (1), added to the force."}, contact.ambient_force,
+                   unit::N, {});
+}
+
+void fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
+  visitor.choice({"model", "The rung of the ladder."}, solver.model, models);
+  visitor.number({"tolerance", "Relative error of the force that `auto` may leave."},
+                 solver.tolerance,
+                 {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false});
+  visitor.choice({"stiffness", "Spring stiffness from Young's modulus.", use.mesh},
+                 solver.stiffness, stiffnesses);
+  visitor.choice({"kinematics", "Springs about their rest directions, or truly turning.", use.mesh},
+                 solver.kinematics, kinematics_words);
+  visitor.choice({"integrator", "How time is stepped.", use.mesh}, solver.integrator, integrators);
+  const bool is_explicit = solver.integrator == Integrator::central_difference;
+  const Use stepped{use.mesh.used && is_explicit, "with `integrator = \"central_difference\"`",
+                    Use::Otherwise::note};
+  visitor.choice({"start", "The step before the first.", stepped}, solver.start, starts);
+  visitor.quantity_or("auto", {"time_step", "`auto`: the output interval.", use.mesh},
+                      solver.time_step, unit::ms, above(0));
+  visitor.count_or("auto",
+                   {"substeps", "Each time step is cut into; `auto`: as many as stability, or for "
+                                "implicit methods accuracy, asks for.",
+                    use.mesh},
+                   solver.substeps, between(1, 1e8));
+  visitor.flag({"allow_unstable", "Run an explicit step above the limit all the same, to see it "
+                                  "fail.",
+                stepped},
+               solver.allow_unstable);
+  visitor.count_or("all", {"rings", "Rings of nodes that move around the contact; all for now.",
+                           use.mesh},
+                   solver.rings, {.low = 1, .high = 0});
+}
+
+void fields(FieldVisitor& visitor, Output& output, const Use& finger) {
+  visitor.quantity({"interval", "Time between rows of the CSV files."}, output.interval, unit::ms,
+                   above(0));
+  visitor.flag({"pressure_maps", "An EXR map at the end of every step.", finger},
+               output.pressure_maps);
+  visitor.flag({"fits", "Regressions of the curves."}, output.fits);
+  visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
+  visitor.flag({"pdf", "Figures as PDF too."}, output.pdf);
+  visitor.numbers_by_name({"display_scale",
+                           "Factors by case, for figures and an extra fit; CSV stays in newtons."},
+                          output.display_scale, above(0));
+}
+
+}  // namespace
+
+bool Scenario::uniform() const {
+  for (const Step& step : steps)
+    if (std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step)) return true;
+  return false;
+}
+
+void fields(FieldVisitor& visitor, Scenario& scenario) {
+  const Conditions use(scenario);
+  visitor.count({"schema", "Version of this format."}, scenario.schema, between(1, 1));
+  visitor.text({"title", "For figures and reports."}, scenario.title);
+  visitor.table({"tissue", "The specimen."},
+                [&](FieldVisitor& inner) { fields(inner, scenario.tissue, use); });
+  visitor.table({"finger", "The sphere that presses.", use.finger},
+                [&](FieldVisitor& inner) { fields(inner, scenario.finger); });
+  visitor.table({"contact", "The contact law.", use.finger},
+                [&](FieldVisitor& inner) { fields(inner, scenario.contact, use); });
+  visitor.table({"solver", "Model, integrator and time step."},
+                [&](FieldVisitor& inner) { fields(inner, scenario.solver, use); });
+  visitor.tables({"step", "The loading programme, in order."},
+                 static_cast<int>(scenario.steps.size()),
+                 [&](int size) { scenario.steps.resize(static_cast<std::size_t>(size)); },
+                 [&](FieldVisitor& inner, int i) {
+                   inner.alternatives(scenario.steps[static_cast<std::size_t>(i)]);
+                 });
+  visitor.table({"output", "What is written."}, [&](FieldVisitor& inner) {
+    fields(inner, scenario.output,
+           {use.finger.used, use.finger.when, Use::Otherwise::note});
+  });
+}
+
+}  // namespace palpate::scenario

@@ -1,0 +1,99 @@
+// Properties from materials, where the scenario does not override them.
+#include <algorithm>
+#include <filesystem>
+
+#include "base/files.h"
+#include "base/units.h"
+#include "material/tissue_table.h"
+#include "scenario/family.h"
+
+namespace palpate::scenario {
+namespace {
+
+void remember_input(std::vector<InputFile>& inputs, const std::string& name,
+                    const std::string& content) {
+  const bool known = std::any_of(inputs.begin(), inputs.end(),
+                                 [&](const InputFile& input) { return input.name == name; });
+  if (!known) inputs.push_back({name, content});
+}
+
+material::Tissue find_material(const std::string& name, const Place& place,
+                               const std::string& folder, std::vector<InputFile>& inputs) {
+  material::Found found = material::find(name, folder, place);
+  if (!found.file_text.empty())
+    remember_input(inputs, std::filesystem::path(name.substr(0, name.find('#'))).filename().string(),
+                   found.file_text);
+  return found.tissue;
+}
+
+// A viscous property from the material; an error where neither has it.
+void fill_viscous(std::optional<double>& value, const std::optional<material::Sourced>& from,
+                  const char* key, const Tissue& tissue, const Node& document) {
+  if (value) return;
+  if (!from)
+    throw InputError(place_of(document, "tissue.material"),
+                     "`" + tissue.material + "` has no `" + key + "`; give `tissue." + key +
+                         "`, or set `tissue.viscosity = \"none\"`");
+  value = from->value;
+}
+
+void read_mesh_file(const MeshFile& mesh, const Node& document, const std::string& folder,
+                    std::vector<InputFile>& inputs) {
+  const Place place = place_of(document, "tissue.mesh");
+  if (mesh.file.empty())
+    throw InputError(place, "`mesh` of kind `file` lacks `file`; write `file = \"box.node\"`");
+  try {
+    (void)parse_quantity("1 " + mesh.unit, unit::mm);
+  } catch (const std::invalid_argument&) {
+    throw InputError(place, "`mesh` lacks the unit of its coordinates; write `unit = \"mm\"`");
+  }
+  for (const char* extension : {".node", ".ele"}) {
+    auto path = std::filesystem::path(folder) / mesh.file;
+    path.replace_extension(extension);
+    remember_input(inputs, path.filename().string(), read_text(path.string()));
+  }
+}
+
+}  // namespace
+
+void fill_in(Scenario& scenario, const Node& document, const std::string& folder,
+             std::vector<InputFile>& inputs) {
+  Tissue& tissue = scenario.tissue;
+  const material::Tissue material =
+      find_material(tissue.material, place_of(document, "tissue.material"), folder, inputs);
+  if (!tissue.density) tissue.density = material.density.value;
+  if (!tissue.young_modulus) tissue.young_modulus = material.young_modulus.value;
+  if (!tissue.poisson_ratio) tissue.poisson_ratio = material.poisson_ratio.value;
+  if (*tissue.poisson_ratio >= 0.5)
+    throw InputError(place_of(document, "tissue.material"),
+                     "`" + tissue.material + "` has a Poisson's ratio of 0.5; a tissue needs less: "
+                     "set `tissue.poisson_ratio = 0.49`");
+  if (scenario.solver.model != Solver::Model::hertz) {
+    if (tissue.viscosity == tissue::Viscosity::kelvin_voigt)
+      fill_viscous(tissue.retardation_time, material.retardation_time, "retardation_time", tissue,
+                   document);
+    if (tissue.viscosity == tissue::Viscosity::standard_linear_solid) {
+      fill_viscous(tissue.relaxation_time, material.relaxation_time, "relaxation_time", tissue,
+                   document);
+      fill_viscous(tissue.instantaneous_ratio, material.instantaneous_ratio, "instantaneous_ratio",
+                   tissue, document);
+    }
+    if (tissue.viscosity == tissue::Viscosity::nodal_drag)
+      fill_viscous(tissue.drag, material.drag, "drag", tissue, document);
+    if (const auto* mesh = std::get_if<MeshFile>(&tissue.mesh))
+      read_mesh_file(*mesh, document, folder, inputs);
+  }
+
+  Finger& finger = scenario.finger;
+  if (scenario.uniform()) return;
+  const bool rigid = finger.material == "rigid";
+  if (rigid && finger.weight == Finger::Weight::in_contact) return;
+  const material::Tissue rubber = find_material(
+      rigid ? "finger" : finger.material, place_of(document, "finger.material"), folder, inputs);
+  if (!finger.density) finger.density = rubber.density.value;
+  if (rigid) return;
+  if (!finger.young_modulus) finger.young_modulus = rubber.young_modulus.value;
+  if (!finger.poisson_ratio) finger.poisson_ratio = rubber.poisson_ratio.value;
+}
+
+}  // namespace palpate::scenario

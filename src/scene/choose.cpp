@@ -1,0 +1,95 @@
+// The questions of the ladder, in order; the first that settles it ends the list.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/hertz.h"
+#include "scene/scene.h"
+
+namespace palpate::scene {
+namespace {
+
+using Model = scenario::Solver::Model;
+
+// The deepest travel of the programme, m; a force counts as the travel that Hertz gives it.
+double deepest(const scenario::Scenario& scenario, const contact::SphereLaw& law) {
+  double travel = 0.0;
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* indent = std::get_if<scenario::Indent>(&step))
+      travel = std::max(travel, indent->to.second ? contact::hertz::depth(indent->to.value,
+                                                                          law.radius, law.modulus)
+                                                  : indent->to.value);
+  return travel;
+}
+
+// The viscous time over the time that the fastest press takes.
+double time_ratio(const scenario::Scenario& scenario, double travel) {
+  double viscous = 0.0;
+  if (scenario.tissue.viscosity == tissue::Viscosity::kelvin_voigt)
+    viscous = *scenario.tissue.retardation_time;
+  if (scenario.tissue.viscosity == tissue::Viscosity::standard_linear_solid)
+    viscous = *scenario.tissue.relaxation_time;
+  double rate = 0.0;
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* indent = std::get_if<scenario::Indent>(&step))
+      rate = std::max(rate, indent->rate);
+  return travel > 0.0 ? viscous * rate / travel : 0.0;
+}
+
+}  // namespace
+
+Choice choose(const scenario::Scenario& scenario) {
+  Choice choice;
+  if (scenario.solver.model != Model::automatic) {
+    choice.model = scenario.solver.model;
+    return choice;
+  }
+  const auto ask = [&](const char* asked, const char* measure, double number, double threshold,
+                       const char* yes, const char* no) {
+    const bool hertz = number < threshold;
+    choice.questions.push_back({asked, measure, number, threshold, hertz ? yes : no});
+    return hertz;
+  };
+  choice.model = Model::mass_spring;
+  if (!ask("a uniform test?", "steps that load the end faces", scenario.uniform() ? 1 : 0, 0.5,
+           "no: a finger presses", "yes: only a specimen can creep or relax"))
+    return choice;
+
+  const contact::Elastic tissue{*scenario.tissue.young_modulus, *scenario.tissue.poisson_ratio};
+  const double lambda_2 = tissue.compliance();
+  const double lambda_1 =
+      scenario.finger.material == "rigid"
+          ? 0.0
+          : contact::Elastic{*scenario.finger.young_modulus, *scenario.finger.poisson_ratio}
+                .compliance();
+  const contact::SphereLaw law{scenario.finger.radius,
+                               contact::hertz::effective_modulus(lambda_1, lambda_2)};
+  const double travel = deepest(scenario, law);
+  if (scenario.contact.coupling == contact::Coupling::one_way) {
+    choice.questions.push_back({"does the force know the mesh?", "coupling is one_way", 0, 1,
+                                "no: it is eq. (2) alone, hertz says the same"});
+    choice.model = Model::hertz;
+    return choice;
+  }
+  const double tolerance = scenario.solver.tolerance;
+  if (ask("rigid tissue?", "lambda_2 / (lambda_1 + lambda_2)", lambda_2 / (lambda_1 + lambda_2),
+          std::min(tolerance, 0.02), "yes: only the finger deforms, hertz is enough",
+          "no: the tissue deforms")) {
+    choice.model = Model::hertz;
+    return choice;
+  }
+  const auto& size = std::get<scenario::Cuboid>(scenario.tissue.shape).size;
+  const double near = std::min({size[2], 0.5 * size[0], 0.5 * size[1]});
+  // The finite thickness adds c1 chi to the force, c1 at most 1.127 (bonded, nu = 1/2).
+  const double thickness = 1.127 * std::sqrt(law.radius * travel) / near;
+  if (!ask("half-space?", "1.127 sqrt(R h) / nearest support or side", thickness, tolerance,
+           "yes: the specimen's size changes the force by less than the tolerance",
+           "no: thickness and sides matter"))
+    return choice;
+  if (!ask("time dependent?", "viscous time * rate / travel", time_ratio(scenario, travel), 0.01,
+           "no: slow against the tissue's own time", "yes: the tissue's viscosity takes part"))
+    return choice;
+  choice.model = Model::hertz;
+  return choice;
+}
+
+}  // namespace palpate::scene

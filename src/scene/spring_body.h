@@ -1,0 +1,69 @@
+// A network of springs with its viscous law and supports, as integrators see it.
+#pragma once
+
+#include <vector>
+
+#include "integrate/body.h"
+#include "tissue/springs.h"
+#include "tissue/viscous.h"
+
+namespace palpate::scene {
+
+class SpringBody final : public integrate::Body {
+ public:
+  using Vector = integrate::Vector;
+  using SparseMatrix = integrate::SparseMatrix;
+
+  // The network must outlive the body. `held` has one flag a degree of freedom. One body serves
+  // one thread: its methods share scratch space.
+  SpringBody(const tissue::Network& network, tissue::Kinematics kinematics,
+             const tissue::ViscousLaw& law, std::vector<char> held);
+
+  [[nodiscard]] const Vector& mass() const override { return mass_; }
+  [[nodiscard]] const Vector& drag() const override { return drag_; }
+  [[nodiscard]] std::span<const char> held() const override { return held_; }
+  [[nodiscard]] bool linear() const override {
+    return kinematics_ == tissue::Kinematics::linear;
+  }
+  [[nodiscard]] const integrate::Proportional& proportional() const override {
+    return proportional_;
+  }
+  void force(const Vector& displacement, std::span<const double> memory,
+             Vector& force) const override;
+  [[nodiscard]] SparseMatrix stiffness() const override;
+  [[nodiscard]] bool has_dashpots() const override;
+  [[nodiscard]] SparseMatrix dashpots() const override;
+  void dashpot_force(const Vector& displacement, const Vector& velocity,
+                     Vector& force) const override;
+  [[nodiscard]] std::vector<double> memory_at(const Vector& displacement) const override;
+  void remember(const Vector& displacement, const integrate::TimeStep& step,
+                std::vector<double>& memory) const override;
+  void step_force(const Vector& displacement, std::span<const double> memory,
+                  const integrate::TimeStep& step, Vector& force) const override;
+  [[nodiscard]] SparseMatrix step_stiffness(const Vector& displacement,
+                                            std::span<const double> memory,
+                                            const integrate::TimeStep& step) const override;
+
+  // Energies of a state, J, and what was lost on the way from one state to the next.
+  [[nodiscard]] double stored(const integrate::State& state) const;
+  [[nodiscard]] double kinetic(const integrate::State& state) const;
+  [[nodiscard]] double dissipated(const integrate::State& before,
+                                  const integrate::State& after) const;
+
+ private:
+  [[nodiscard]] tissue::MemoryStep memory_step(const integrate::TimeStep& step) const;
+  [[nodiscard]] Vector spread_mass(double factor) const;
+
+  const tissue::Network* network_;
+  tissue::Kinematics kinematics_;
+  tissue::ViscousLaw law_;
+  std::vector<char> held_;
+  Vector mass_;
+  Vector drag_;
+  integrate::Proportional proportional_;
+  mutable std::vector<double> elongation_;
+  mutable std::vector<double> tension_;
+  mutable std::vector<double> slope_;
+};
+
+}  // namespace palpate::scene

@@ -1,0 +1,26 @@
+// The stability limit of a specimen, and the steps that respect it.
+#pragma once
+
+#include "scenario/scenario.h"
+
+namespace palpate::scene {
+
+struct Specimen;
+
+struct TimePlan {
+  double frequency_squared = 0.0;  // 1/s^2, omega_max^2 of the specimen with its contact
+  double limit = 0.0;              // s, 2 / omega_max: central differences are stable below
+  double time_step = 0.0;          // s, of the scenario
+  int substeps = 1;                // it is cut into
+  double substep = 0.0;            // s, what is stepped
+
+  [[nodiscard]] bool stable() const { return substep < limit; }
+};
+
+// For explicit methods as many substeps as stability asks for, at 0.9 of the limit; for implicit
+// Euler as many as keep its error below a hundredth at the viscous time; one otherwise.
+// `contact_stiffness` is sum_j k_c w_j^2 / m_j over the contact's nodes, 1/s^2.
+[[nodiscard]] TimePlan plan_time(const scenario::Scenario& scenario, const Specimen& specimen,
+                                 double contact_stiffness);
+
+}  // namespace palpate::scene

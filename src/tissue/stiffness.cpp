@@ -1,0 +1,123 @@
+// Van Gelder's rule, and the fit that makes each node's neighbourhood isotropic.
+#include "tissue/stiffness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tissue/network.h"
+
+namespace palpate::tissue {
+namespace {
+
+// A fully symmetric tensor of fourth order: 15 components, each times the root of how often it
+// stands in the full tensor, so that the plain dot product is the tensors' own.
+using SymmetricTensor = std::array<double, 15>;
+
+// n n n n for a unit vector; its length is 1.
+SymmetricTensor fourth_power(const Vec3& n) {
+  const double x = n.x();
+  const double y = n.y();
+  const double z = n.z();
+  const double r4 = 2.0;
+  const double r6 = std::sqrt(6.0);
+  const double r12 = std::sqrt(12.0);
+  return {x * x * x * x,      y * y * y * y,      z * z * z * z,      r4 * x * x * x * y,
+          r4 * x * x * x * z, r4 * y * y * y * x, r4 * y * y * y * z, r4 * z * z * z * x,
+          r4 * z * z * z * y, r6 * x * x * y * y, r6 * x * x * z * z, r6 * y * y * z * z,
+          r12 * x * x * y * z, r12 * y * y * x * z, r12 * z * z * x * y};
+}
+
+// C / E at nu = 1/4, where lambda = mu = 0.4 E: C_xxxx = 3 mu, C_xxyy = mu, the rest 0.
+SymmetricTensor isotropic() {
+  const double r6 = std::sqrt(6.0);
+  return {1.2, 1.2, 1.2, 0, 0, 0, 0, 0, 0, 0.4 * r6, 0.4 * r6, 0.4 * r6, 0, 0, 0};
+}
+
+// The volume of the tetrahedra around each sorted edge, m^3.
+std::vector<double> edge_volumes(const geometry::TetMesh& mesh,
+                                 const std::vector<std::array<int, 2>>& edges) {
+  constexpr std::array<std::array<std::size_t, 2>, 6> corners{
+      {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+  std::vector<double> volumes(edges.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const double volume = geometry::signed_volume(mesh, static_cast<int>(t));
+    for (const auto& [i, j] : corners) {
+      const int a = mesh.tetrahedra[t][i];
+      const int b = mesh.tetrahedra[t][j];
+      const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+      const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+      volumes[static_cast<std::size_t>(found - edges.begin())] += volume;
+    }
+  }
+  return volumes;
+}
+
+Vec3 span_of(const geometry::TetMesh& mesh, const std::array<int, 2>& edge) {
+  return mesh.nodes[static_cast<std::size_t>(edge[1])] -
+         mesh.nodes[static_cast<std::size_t>(edge[0])];
+}
+
+}  // namespace
+
+std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh, double young_modulus) {
+  const auto edges = geometry::edges(mesh);
+  std::vector<double> stiffness = edge_volumes(mesh, edges);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    stiffness[e] *= young_modulus / span_of(mesh, edges[e]).squaredNorm();
+  return stiffness;
+}
+
+std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, double young_modulus) {
+  const auto edges = geometry::edges(mesh);
+  const std::vector<double> start = edge_volumes(mesh, edges);
+  const std::vector<double> volumes = node_volumes(mesh);
+  std::vector<SymmetricTensor> powers;
+  powers.reserve(edges.size());
+  for (const auto& edge : edges) powers.push_back(fourth_power(span_of(mesh, edge).normalized()));
+
+  // The unknowns are y_e = k_e l_e^2 / E, volumes; `missing` is V_v C/E - sum 1/2 y_e nnnn.
+  std::vector<double> y = start;
+  std::vector<SymmetricTensor> missing(volumes.size());
+  const SymmetricTensor target = isotropic();
+  for (std::size_t v = 0; v < volumes.size(); ++v)
+    for (std::size_t c = 0; c < target.size(); ++c) missing[v][c] = volumes[v] * target[c];
+  const auto add = [&](std::size_t e, double change) {
+    for (const int node : edges[e])
+      for (std::size_t c = 0; c < target.size(); ++c)
+        missing[static_cast<std::size_t>(node)][c] -= 0.5 * change * powers[e][c];
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e) add(e, y[e]);
+
+  // Projected coordinate descent: each y_e in turn goes to its own best value, at least 0. The
+  // weak pull makes the problem strictly convex, so the sweeps settle on its one solution.
+  constexpr double pull = 1e-3;
+  constexpr int most_sweeps = 2000;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double largest_change = 0.0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      double slope = pull * (start[e] - y[e]);
+      for (const int node : edges[e])
+        for (std::size_t c = 0; c < target.size(); ++c)
+          slope += 0.5 * missing[static_cast<std::size_t>(node)][c] * powers[e][c];
+      const double change = std::max(0.0, y[e] + slope / (0.5 + pull)) - y[e];
+      if (change == 0.0) continue;
+      y[e] += change;
+      add(e, change);
+      largest_change = std::max(largest_change, std::abs(change) / start[e]);
+    }
+    if (largest_change < 1e-9) break;
+  }
+  std::vector<double> stiffness(edges.size());
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    stiffness[e] = y[e] * young_modulus / span_of(mesh, edges[e]).squaredNorm();
+  return stiffness;
+}
+
+std::vector<double> spring_stiffness(StiffnessRule rule, const geometry::TetMesh& mesh,
+                                     double young_modulus) {
+  return rule == StiffnessRule::van_gelder ? van_gelder_stiffness(mesh, young_modulus)
+                                           : fitted_stiffness(mesh, young_modulus);
+}
+
+}  // namespace palpate::tissue

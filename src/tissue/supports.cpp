@@ -1,0 +1,45 @@
+// Held degrees of freedom from the nodes on the base and the top.
+#include "tissue/supports.h"
+
+#include <algorithm>
+
+namespace palpate::tissue {
+
+std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base) {
+  std::vector<char> held(3 * mesh.nodes.size(), 0);
+  const auto height = [](const Vec3& node) { return node.z(); };
+  double low = height(mesh.nodes.front());
+  for (const Vec3& node : mesh.nodes) low = std::min(low, height(node));
+  const std::vector<int> nodes = geometry::nodes_at_height(mesh, low);
+  const auto hold = [&](int node, int axis) { held[static_cast<std::size_t>(3 * node + axis)] = 1; };
+  for (const int node : nodes) {
+    hold(node, 2);
+    if (base == Base::bonded) {
+      hold(node, 0);
+      hold(node, 1);
+    }
+  }
+  if (base == Base::frictionless) {
+    // The node with the least x + y is pinned; the one farthest from it along x keeps its y.
+    const auto place = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+    const int pin = *std::min_element(nodes.begin(), nodes.end(), [&](int a, int b) {
+      return place(a).x() + place(a).y() < place(b).x() + place(b).y();
+    });
+    const int guide = *std::max_element(nodes.begin(), nodes.end(), [&](int a, int b) {
+      return place(a).x() - place(a).y() < place(b).x() - place(b).y();
+    });
+    hold(pin, 0);
+    hold(pin, 1);
+    hold(guide, 1);
+  }
+  return held;
+}
+
+std::vector<char> held_between_platens(const geometry::TetMesh& mesh, Base base, double top) {
+  std::vector<char> held = held_by_base(mesh, base);
+  for (const int node : geometry::nodes_at_height(mesh, top))
+    held[static_cast<std::size_t>(3 * node + 2)] = 1;
+  return held;
+}
+
+}  // namespace palpate::tissue

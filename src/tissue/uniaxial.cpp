@@ -1,0 +1,78 @@
+// One linear solve with the top pressed down by its own height.
+#include "tissue/uniaxial.h"
+
+#include "base/cholesky.h"
+#include "base/error.h"
+
+namespace palpate::tissue {
+namespace {
+
+// The mean widening of the body along an axis per its width: outer faces apart, over the distance.
+double widening(const geometry::TetMesh& mesh, const Vector& displacement, int axis) {
+  double low = mesh.nodes.front()[axis];
+  double high = low;
+  for (const Vec3& node : mesh.nodes) {
+    low = std::min(low, node[axis]);
+    high = std::max(high, node[axis]);
+  }
+  const double near = 1e-9 * (high - low);
+  double apart = 0.0;
+  for (const auto& [plane, sign] : {std::pair(low, -1.0), std::pair(high, 1.0)}) {
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+      if (std::abs(mesh.nodes[i][axis] - plane) > near) continue;
+      sum += displacement[3 * static_cast<Eigen::Index>(i) + axis];
+      ++count;
+    }
+    apart += sign * sum / count;
+  }
+  return apart / (high - low);
+}
+
+}  // namespace
+
+Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Base base,
+                       double top, double area) {
+  double low = top;
+  for (const Vec3& node : mesh.nodes) low = std::min(low, node.z());
+  Uniaxial result;
+  result.height = top - low;
+  result.area = area;
+  result.top = geometry::nodes_at_height(mesh, top);
+
+  const std::vector<char> held = held_between_platens(mesh, base, top);
+  Vector prescribed = Vector::Zero(3 * network.nodes());
+  for (const int node : result.top) prescribed[3 * node + 2] = -result.height;
+
+  // K u = 0 on the free degrees of freedom: u = prescribed - K_ff^-1 (K prescribed)_f
+  const std::vector<double> zero(network.stiffness.size(), 0.0);
+  Cholesky factors;
+  if (!factors.factor(tangent(network, Kinematics::linear, prescribed, network.stiffness, zero,
+                              held)))
+    throw MeshError(
+        "the spring network is not rigid: some nodes can move without stretching a spring; use "
+        "more cells or another mesh kind");
+  std::vector<double> tension(network.stiffness.size());
+  Vector force;
+  const auto forces_at = [&](const Vector& displacement) {
+    elongations(network, Kinematics::linear, displacement, tension);
+    for (std::size_t s = 0; s < tension.size(); ++s) tension[s] *= network.stiffness[s];
+    gather_forces(network, Kinematics::linear, displacement, tension, force);
+  };
+  forces_at(prescribed);
+  for (std::size_t d = 0; d < held.size(); ++d)
+    if (held[d] != 0) force[static_cast<Eigen::Index>(d)] = 0.0;
+  result.displacement = prescribed - factors.solve(force);
+
+  forces_at(result.displacement);
+  double reaction = 0.0;
+  for (const int node : result.top) reaction -= force[3 * node + 2];
+  for (const int node : result.top) result.shares.push_back(-force[3 * node + 2] / reaction);
+  result.young_modulus = reaction / area;
+  result.poisson_ratio = 0.5 * (widening(mesh, result.displacement, 0) +
+                                widening(mesh, result.displacement, 1));
+  return result;
+}
+
+}  // namespace palpate::tissue

@@ -1,0 +1,35 @@
+// Numbers computed independently of this project: tests/cases/physics.csv, rows by their id.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "record/csv.h"
+
+namespace palpate::test {
+
+struct Case {
+  double value = 0.0;
+  double rel_tol = 0.0;
+};
+
+inline Case find_case(const std::string& id) {
+  static const record::Table table =
+      record::read_csv(std::string(PALPATE_SOURCE_DIR) + "/tests/cases/physics.csv");
+  for (const auto& row : table.rows)
+    if (std::get<std::string>(row[0]) == id)
+      return {std::get<double>(row[static_cast<std::size_t>(table.find("value"))]),
+              std::get<double>(row[static_cast<std::size_t>(table.find("rel_tol"))])};
+  ADD_FAILURE() << "no case " << id << " in tests/cases/physics.csv";
+  return {};
+}
+
+// `got` within the case's own relative tolerance; rows with tolerance 0 are exact counts.
+inline void expect_case(const std::string& id, double got) {
+  const Case expected = find_case(id);
+  EXPECT_NEAR(got, expected.value, expected.rel_tol * std::abs(expected.value) + 1e-300) << id;
+}
+
+}  // namespace palpate::test

@@ -1,0 +1,131 @@
+// A pressure map as an image, read back and integrated.
+#include "report/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace palpate::report {
+namespace {
+
+// A Hertz pressure p0 sqrt(1 - r^2/a^2), whose integral is 2/3 pi a^2 p0, on pixels of 0.1 mm;
+// one row more than columns, and off the centre, so that no mirror image passes.
+record::PressureMap hertz_map() {
+  record::PressureMap map;
+  map.width = 81;
+  map.height = 82;
+  map.pitch = 1e-4;
+  map.origin = {-4e-3, -3e-3, 2e-2};
+  map.time = 0.25;
+  map.scenario_case = "skin";
+  map.step = 1;
+  const double a = 3e-3, p0 = 2e4;
+  for (int j = 0; j < map.height; ++j)
+    for (int i = 0; i < map.width; ++i) {
+      const double x = map.origin.x() + i * map.pitch, y = map.origin.y() + j * map.pitch - 1e-3;
+      map.pressure.push_back(
+          static_cast<float>(p0 * std::sqrt(std::max(0.0, 1 - (x * x + y * y) / (a * a)))));
+    }
+  map.contact_force = 2.0 / 3.0 * std::numbers::pi * a * a * p0;
+  return map;
+}
+
+class Exr : public testing::Test {
+ protected:
+  std::string path_ = testing::TempDir() + "palpate_exr" + std::to_string(::getpid()) + ".exr";
+  void TearDown() override { std::filesystem::remove(path_); }
+};
+
+TEST_F(Exr, ReadsBackAndIntegratesToTheForce) {
+  const record::PressureMap map = hertz_map();
+  write_exr(path_, map, {{"palpate:scenarioSha256", "abc"}});
+  Imf::InputFile file(path_.c_str());
+  const auto window = file.header().dataWindow();
+  ASSERT_EQ(window.max.x - window.min.x + 1, 81);
+  ASSERT_EQ(window.max.y - window.min.y + 1, 82);
+  EXPECT_EQ(file.header().compression(), Imf::ZIP_COMPRESSION);
+  ASSERT_NE(file.header().channels().findChannel("pressure.Z"), nullptr);
+  EXPECT_EQ(file.header().channels().findChannel("pressure.Z")->type, Imf::FLOAT);
+  std::vector<float> pixels(81 * 82);
+  Imf::FrameBuffer frame;
+  frame.insert("pressure.Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()),
+                                        sizeof(float), sizeof(float) * 81));
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  double force = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    // half a unit in the last place of a float, twice: Pa to kPa and back
+    EXPECT_NEAR(pixels[i] * 1e3, map.pressure[i], 1.2e-7 * map.pressure[i]);
+    force += static_cast<double>(pixels[i]) * 1e3 * map.pitch * map.pitch;
+  }
+  EXPECT_NEAR(force, record::integral(map), 1e-7 * force);  // float rounding
+  EXPECT_NEAR(force, map.contact_force, 2e-3 * force);      // pixels at the rim of 30 radii
+}
+
+TEST_F(Exr, CarriesItsAttributes) {
+  write_exr(path_, hertz_map(), {{"palpate:scenarioSha256", "abc"}});
+  const Imf::Header header = Imf::InputFile(path_.c_str()).header();
+  const auto text = [&](const char* name) {
+    return header.typedAttribute<Imf::StringAttribute>(name).value();
+  };
+  const auto number = [&](const char* name) {
+    return header.typedAttribute<Imf::DoubleAttribute>(name).value();
+  };
+  EXPECT_EQ(text("palpate:unit:pressure"), "kPa");
+  EXPECT_EQ(text("palpate:case"), "skin");
+  EXPECT_EQ(text("palpate:scenarioSha256"), "abc");
+  EXPECT_DOUBLE_EQ(number("palpate:pixelPitch_mm"), 0.1);
+  EXPECT_EQ(number("palpate:time_s"), 0.25);
+  EXPECT_EQ(header.typedAttribute<Imf::IntAttribute>("palpate:step").value(), 1);
+  const auto origin = header.typedAttribute<Imf::V3dAttribute>("palpate:origin_mm").value();
+  EXPECT_DOUBLE_EQ(origin.x, -4.0);
+  EXPECT_DOUBLE_EQ(origin.y, -3.0);
+  EXPECT_DOUBLE_EQ(origin.z, 20.0);
+}
+
+TEST_F(Exr, SameMapSameBytes) {
+  const record::PressureMap map = hertz_map();
+  const std::string bytes = exr_bytes(map, {{"palpate:scenarioSha256", "abc"}});
+  EXPECT_EQ(bytes, exr_bytes(map, {{"palpate:scenarioSha256", "abc"}}));
+  EXPECT_NE(bytes, exr_bytes(map, {{"palpate:scenarioSha256", "abd"}}));
+  write_exr(path_, map, {{"palpate:scenarioSha256", "abc"}});
+  EXPECT_EQ(read_text(path_), bytes);
+}
+
+TEST_F(Exr, KeepsWhatIsNotANumber) {
+  record::PressureMap map;
+  map.width = 2;
+  map.height = 1;
+  map.pitch = 1e-3;
+  map.pressure = {std::nanf(""), 1e3F};
+  write_exr(path_, map, {});
+  std::vector<float> pixels(2);
+  Imf::InputFile file(path_.c_str());
+  Imf::FrameBuffer frame;
+  frame.insert("pressure.Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()), 4, 8));
+  file.setFrameBuffer(frame);
+  file.readPixels(0, 0);
+  EXPECT_TRUE(std::isnan(pixels[0]));
+  EXPECT_EQ(pixels[1], 1.0F);
+}
+
+TEST_F(Exr, FolderThatIsNotThere) {
+  EXPECT_THROW(write_exr("/nowhere/map.exr", hertz_map(), {}), SystemError);
+}
+
+}  // namespace
+}  // namespace palpate::report

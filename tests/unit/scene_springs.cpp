@@ -1,0 +1,141 @@
+// Spring stiffness and the stability limit on the paper's cube: groups mss and dt.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases.h"
+#include "geometry/cuboid.h"
+#include "geometry/flat_top.h"
+#include "material/tissue_table.h"
+#include "tissue/network.h"
+#include "tissue/stable_step.h"
+#include "tissue/stiffness.h"
+#include "tissue/uniaxial.h"
+
+namespace palpate {
+namespace {
+
+using geometry::CellPattern;
+using test::expect_case;
+
+// The paper's cube at 10 mm cells.
+geometry::TetMesh cube() {
+  return geometry::cuboid(Vec3(0.03, 0.04, 0.06), {3, 4, 6}, CellPattern::kuhn);
+}
+
+std::vector<char> free_of(const geometry::TetMesh& mesh) {
+  return std::vector<char>(3 * mesh.nodes.size(), 0);
+}
+
+double limit(const std::string& name) {
+  const auto tissue = material::find(name, "", {}).tissue;
+  const auto mesh = cube();
+  const auto network = tissue::make_network(
+      mesh, tissue.density.value, tissue::van_gelder_stiffness(mesh, tissue.young_modulus.value));
+  return 2.0 / std::sqrt(tissue::largest_frequency_squared(network, network.stiffness,
+                                                           free_of(mesh)));
+}
+
+TEST(StableStep, PaperCube) {
+  expect_case("dt-08", limit("skin"));
+  expect_case("dt-10", limit("muscle"));
+  expect_case("dt-12", limit("bone"));
+  expect_case("dt-13", limit("ligament"));
+  expect_case("dt-15", limit("upper_leg"));
+}
+
+TEST(StableStep, SmallestCellsForThePapersSteps) {
+  // The limit grows with the cell: cell = dt / limit(10 mm) * 10 mm.
+  expect_case("dt-11", 0.05 / limit("muscle") * 0.01);
+  expect_case("dt-14", 0.01 / limit("ligament") * 0.01);
+  expect_case("dt-16", 0.05 / limit("upper_leg") * 0.01);
+}
+
+TEST(StableStep, MatrixFreeBoundIsSafe) {
+  const auto mesh = cube();
+  const auto network =
+      tissue::make_network(mesh, 1000.0, tissue::van_gelder_stiffness(mesh, 1000.0));
+  // c = 1 m/s, so that dt c / h = dt / 0.01 m
+  const double safe = tissue::safe_frequency_squared(network, network.stiffness);
+  expect_case("dt-07", 2.0 / std::sqrt(safe) / 0.01);
+  EXPECT_GT(safe, tissue::largest_frequency_squared(network, network.stiffness, free_of(mesh)));
+}
+
+// Row sums of |M^-1 K|.
+TEST(StableStep, GershgorinOfTheMatrix) {
+  const auto mesh = cube();
+  const auto network =
+      tissue::make_network(mesh, 1000.0, tissue::van_gelder_stiffness(mesh, 1000.0));
+  const std::vector<double> zero(network.stiffness.size(), 0.0);
+  const auto held = free_of(mesh);
+  const Eigen::MatrixXd matrix =
+      tissue::tangent(network, tissue::Kinematics::linear,
+                      tissue::Vector::Zero(3 * network.nodes()), network.stiffness, zero, held);
+  double bound = 0.0;
+  for (Eigen::Index d = 0; d < matrix.rows(); ++d)
+    bound = std::max(bound, matrix.row(d).cwiseAbs().sum() /
+                                network.node_mass[static_cast<std::size_t>(d / 3)]);
+  expect_case("dt-06", 2.0 / std::sqrt(bound) / 0.01);
+}
+
+tissue::Uniaxial measured(const geometry::TetMesh& mesh, const std::vector<double>& stiffness,
+                          const Vec3& size) {
+  const auto network = tissue::make_network(mesh, 1000.0, stiffness);
+  return tissue::uniaxial_test(network, mesh, tissue::Base::frictionless, size.z(),
+                               size.x() * size.y());
+}
+
+TEST(Stiffness, MirroredBlockByVanGelder) {
+  const Vec3 size(0.04, 0.04, 0.06);
+  const auto mesh = geometry::cuboid(size, {4, 4, 6}, CellPattern::mirrored);
+  expect_case("mss-12",
+              measured(mesh, tissue::van_gelder_stiffness(mesh, 1.0), size).young_modulus);
+}
+
+// Class stiffness (axis .56, face .48, body .48) E h, halved for every outer face that the edge
+// lies in: the share of cells that it has there.
+TEST(Stiffness, MirroredBlockByClasses) {
+  const Vec3 size(0.04, 0.04, 0.06);
+  const double h = 0.01;
+  const auto mesh = geometry::cuboid(size, {4, 4, 6}, CellPattern::mirrored);
+  const double classes[] = {0.0, 0.56, 0.48, 0.48};  // by the squared length in cells
+  std::vector<double> stiffness;
+  for (const auto& [i, j] : geometry::edges(mesh)) {
+    const Vec3& a = mesh.nodes[static_cast<std::size_t>(i)];
+    const Vec3& b = mesh.nodes[static_cast<std::size_t>(j)];
+    double k = classes[std::lround((b - a).squaredNorm() / (h * h))] * h;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double face : {0.0, size[axis]})
+        if (std::abs(a[axis] - face) < 1e-9 && std::abs(b[axis] - face) < 1e-9) k *= 0.5;
+    stiffness.push_back(k);
+  }
+  const auto result = measured(mesh, stiffness, size);
+  expect_case("mss-10", result.young_modulus);
+  expect_case("mss-11", result.poisson_ratio);
+}
+
+TEST(Stiffness, FittedIsNeverNegativeAndNearIsotropic) {
+  const Vec3 size(0.06, 0.06, 0.03);
+  const auto mesh = geometry::cuboid(size, {6, 6, 4}, CellPattern::mirrored);
+  const auto fitted = tissue::fitted_stiffness(mesh, 1.0);
+  for (const double k : fitted) EXPECT_GE(k, 0.0);
+  const double plain = measured(mesh, tissue::van_gelder_stiffness(mesh, 1.0), size).young_modulus;
+  const auto better = measured(mesh, fitted, size);
+  EXPECT_LT(std::abs(better.young_modulus - 1.0), std::abs(plain - 1.0));
+  EXPECT_NEAR(better.young_modulus, 1.0, 0.1);   // free faces lack springs: O(h)
+  EXPECT_NEAR(better.poisson_ratio, 0.25, 0.06);  // the only ratio that central forces have
+}
+
+TEST(Stiffness, VanGelderHasTheVoigtMeanModulus) {
+  // sum k l^2 = 6 E V: the mean over directions is right whatever the mesh.
+  const auto mesh = cube();
+  const auto stiffness = tissue::van_gelder_stiffness(mesh, 3.0);
+  const auto network = tissue::make_network(mesh, 1000.0, stiffness);
+  double sum = 0.0;
+  for (std::size_t e = 0; e < stiffness.size(); ++e)
+    sum += stiffness[e] * network.rest_length[e] * network.rest_length[e];
+  EXPECT_NEAR(sum, 6.0 * 3.0 * 0.03 * 0.04 * 0.06, 1e-15);  // rounding of 679 terms
+}
+
+}  // namespace
+}  // namespace palpate
