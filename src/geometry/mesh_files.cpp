@@ -29,9 +29,11 @@ Pair both_files(const std::string& path) {
   return {node.replace_extension(".node").string(), ele.replace_extension(".ele").string()};
 }
 
-void open_header(TableLines& lines, std::size_t least, const std::string& layout) {
+// Steps to the header; `layout` names its words, of which the first two must be there.
+void open_header(TableLines& lines, const std::string& layout) {
   if (!lines.next()) lines.fail("the file holds no header line; begin it with `" + layout + "`");
-  if (lines.words().size() < least || lines.words().size() > 4)
+  const auto most = static_cast<std::size_t>(std::count(layout.begin(), layout.end(), ' ')) + 1;
+  if (lines.words().size() < 2 || lines.words().size() > most)
     lines.fail("the header has " + std::to_string(lines.words().size()) + " words; write it as `" +
                layout + "`");
 }
@@ -46,18 +48,15 @@ int header_count(const TableLines& lines, std::size_t i, const std::string& what
   return count;
 }
 
-// Steps to the line of item `i` and checks its length and its own number; `columns` are the words
-// that belong on it.
-void item_line(TableLines& lines, const std::string& what, std::pair<int, int> i_of_count,
-               int columns) {
-  const auto [i, count] = i_of_count;
+// Steps to line `i` of `count` and checks that it has `columns` words.
+void item_line(TableLines& lines, const std::string& what, int i, int count, std::size_t columns) {
   if (!lines.next())
     lines.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(count) + " " +
                what + "; write it again from its source");
-  const auto words = static_cast<int>(lines.words().size());
-  if (words != columns)
-    lines.fail("the line has " + std::to_string(words) + " words, but the header asks for " +
-               std::to_string(columns) + "; mend the line or the header");
+  if (lines.words().size() != columns)
+    lines.fail("the line has " + std::to_string(lines.words().size()) +
+               " words, but the header asks for " + std::to_string(columns) +
+               "; mend the line or the header");
 }
 
 void own_number(const TableLines& lines, int expected) {
@@ -74,16 +73,18 @@ void expect_end(TableLines& lines, int count, const std::string& what) {
 
 // Returns the number of the first node: 0 or 1.
 int read_nodes(TableLines lines, double metres_per_unit, TetMesh& mesh) {
-  open_header(lines, 2, "nodes 3 attributes markers");
+  open_header(lines, "nodes 3 attributes markers");
   const int count = header_count(lines, 0, "the number of nodes", 1);
   if (lines.whole(1, "the dimension") != 3)
     lines.fail_at(1, "the dimension wants `3`, got `" + std::string(lines.words()[1]) +
                          "`; a mesh of tetrahedra has three coordinates a node");
   const int attributes = header_count(lines, 2, "the number of attributes", 0);
   const int markers = header_count(lines, 3, "the number of markers", 0);
+  const std::size_t columns =
+      4 + static_cast<std::size_t>(attributes) + static_cast<std::size_t>(markers);
   int first = 0;
   for (int i = 0; i < count; ++i) {
-    item_line(lines, "nodes", {i, count}, 4 + attributes + markers);
+    item_line(lines, "nodes", i, count, columns);
     if (i == 0) first = lines.whole(0, "the first word");
     if (first != 0 && first != 1)
       lines.fail_at(0, "the first node wants number 0 or 1, got `" + std::string(lines.words()[0]) +
@@ -99,15 +100,16 @@ int read_nodes(TableLines lines, double metres_per_unit, TetMesh& mesh) {
 }
 
 void read_tetrahedra(TableLines lines, int first, TetMesh& mesh) {
-  open_header(lines, 2, "tetrahedra 4 attributes");
+  open_header(lines, "tetrahedra 4 attributes");
   const int count = header_count(lines, 0, "the number of tetrahedra", 1);
   if (lines.whole(1, "the number of nodes of a tetrahedron") != 4)
     lines.fail_at(1, "the number of nodes of a tetrahedron wants `4`, got `" +
                          std::string(lines.words()[1]) + "`; make the mesh without `-o2`");
   const int attributes = header_count(lines, 2, "the number of attributes", 0);
+  const std::size_t columns = 5 + static_cast<std::size_t>(attributes);
   const int last = first + static_cast<int>(mesh.nodes.size()) - 1;
   for (int i = 0; i < count; ++i) {
-    item_line(lines, "tetrahedra", {i, count}, 5 + attributes);
+    item_line(lines, "tetrahedra", i, count, columns);
     own_number(lines, first + i);
     std::array<int, 4> corner{};
     for (std::size_t c = 0; c < 4; ++c) {

@@ -26,6 +26,30 @@ constexpr const char* no_balance =
 
 }  // namespace
 
+void SelfSinking::begin(double time_step) {
+  // Kelvin-Voigt: tau s' + s = g F. The standard linear solid gives 1/r at once and the rest
+  // with its creep time tau r, r = E_0 / E_inf                          docs/theory.md (12)
+  if (law_.kind == tissue::Viscosity::kelvin_voigt) {
+    share_ = 1.0;
+    step_ = tissue::MemoryStep::exact(time_step, law_.time);
+  } else if (law_.kind == tissue::Viscosity::standard_linear_solid) {
+    const double ratio = 1.0 + law_.branch;
+    share_ = 1.0 - 1.0 / ratio;
+    step_ = tissue::MemoryStep::exact(time_step, law_.time * ratio);
+  }
+}
+
+double SelfSinking::past() const {
+  return share_ * (step_.keep * delayed_ + step_.begin * before_);
+}
+
+double SelfSinking::slope() const { return 1.0 - share_ + share_ * step_.end; }
+
+void SelfSinking::finish(double elastic) {
+  delayed_ = step_.keep * delayed_ + step_.begin * before_ + step_.end * elastic;
+  before_ = elastic;
+}
+
 Method make_method(const scene::Scene& scene, const scene::SpringBody& body, double time_step) {
   using Integrator = scenario::Solver::Integrator;
   using Inertia = integrate::Implicit::Inertia;
@@ -43,7 +67,7 @@ Method make_method(const scene::Scene& scene, const scene::SpringBody& body, dou
 }
 
 ContactStepper::ContactStepper(const scene::Scene& scene, const scene::SpringBody& body)
-    : scene_(&scene), body_(&body), contact_(scene::make_contact(scene)) {}
+    : scene_(&scene), body_(&body), contact_(scene::make_contact(scene)), self_(scene.specimen->law) {}
 
 void ContactStepper::begin(const State& state, const Touch& touch, double time_step) {
   // A new step size keeps a method that can change it; central differences start afresh.
@@ -56,6 +80,7 @@ void ContactStepper::begin(const State& state, const Touch& touch, double time_s
   }
   if (time_step != time_step_) responses_.clear();
   time_step_ = time_step;
+  self_.begin(time_step);
 }
 
 Vector ContactStepper::load_of(const contact::Spread& spread, double force) const {
@@ -66,17 +91,19 @@ Vector ContactStepper::load_of(const contact::Spread& spread, double force) cons
 }
 
 std::optional<std::string> ContactStepper::touch_mesh(const Vector& displacement, double travel,
-                                                      Touch& touch) const {
+                                                      Touch& touch) {
   // The patch of the step before: it changes by less than a step's travel.
   const contact::Reading reading = contact_.at(touch.contact_radius);
-  const auto depth = contact::penetration(scene_->law, travel - read(reading, displacement),
-                                          -reading.self);
+  const auto depth =
+      contact::penetration(scene_->law, travel - read(reading, displacement) + self_.past(),
+                           -reading.self * self_.slope());
   if (!depth) return no_balance;
   touch.travel = travel;
   touch.indentation = *depth;
   touch.force = contact::hertz::force(*depth, scene_->law.radius, scene_->law.modulus);
   touch.contact_radius = contact::hertz::contact_radius(*depth, scene_->law.radius);
   touch.load = load_of(reading.load, touch.force);
+  self_.finish(reading.self * touch.force);
   return std::nullopt;
 }
 
@@ -92,6 +119,7 @@ std::optional<std::string> ContactStepper::balance(Linearised& method, State& st
     if (!body_->linear()) responses_.clear();
     if (!method.linearise(displacement, none)) return "the tangent stiffness is not positive";
     Vector moved;
+    double elastic = 0.0;
     Touch next = touch;
     next.travel = travel;
     constexpr int most_patches = 100;
@@ -108,9 +136,9 @@ std::optional<std::string> ContactStepper::balance(Linearised& method, State& st
         }
         response += reading.load.shares[j] * known->second;
       }
-      const double compliance = read(reading, response) - reading.self;
+      const double compliance = read(reading, response) - reading.self * self_.slope();
       const auto depth = contact::penetration(
-          scene_->law, travel - read(reading, method.base()), compliance);
+          scene_->law, travel - read(reading, method.base()) + self_.past(), compliance);
       if (!depth) return no_balance;
       const double before = next.contact_radius;
       next.indentation = *depth;
@@ -118,6 +146,7 @@ std::optional<std::string> ContactStepper::balance(Linearised& method, State& st
       next.contact_radius = contact::hertz::contact_radius(*depth, scene_->law.radius);
       next.load = load_of(reading.load, next.force);
       moved = method.base() + next.force * response;
+      elastic = reading.self * next.force;
       if (std::abs(next.contact_radius - before) <= settled) break;
     }
     const double change = (moved - displacement).cwiseAbs().maxCoeff();
@@ -125,6 +154,7 @@ std::optional<std::string> ContactStepper::balance(Linearised& method, State& st
     if (!std::isfinite(change)) return "the motion has left the finite numbers";
     if (body_->linear() || change <= settled) {
       method.finish(state, displacement, next.load);
+      self_.finish(elastic);
       touch = std::move(next);
       return std::nullopt;
     }

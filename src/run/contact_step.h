@@ -28,6 +28,25 @@ struct Touch {
   integrate::Vector load;       // N, on the mesh; empty without one
 };
 
+// What the half-space in a contact sinks where the mesh is read, with the tissue's own viscosity:
+// past + slope * g F at the end of a step, F the force then and g its elastic compliance.
+class SelfSinking {
+ public:
+  explicit SelfSinking(const tissue::ViscousLaw& law) : law_(law) {}
+
+  void begin(double time_step);
+  [[nodiscard]] double past() const;
+  [[nodiscard]] double slope() const;
+  void finish(double elastic);  // g F, m
+
+ private:
+  tissue::ViscousLaw law_;
+  tissue::MemoryStep step_ = tissue::MemoryStep::at_once();
+  double share_ = 0.0;    // of the sinking that takes time
+  double before_ = 0.0;   // g F at the start of the step, m
+  double delayed_ = 0.0;  // the sinking that takes time, m
+};
+
 // Couples a flat contact to a stepped body. Serves one run.
 class ContactStepper {
  public:
@@ -44,7 +63,7 @@ class ContactStepper {
 
  private:
   [[nodiscard]] std::optional<std::string> touch_mesh(const integrate::Vector& displacement,
-                                                      double travel, Touch& touch) const;
+                                                      double travel, Touch& touch);
   template <class Linearised>
   [[nodiscard]] std::optional<std::string> balance(Linearised& method, integrate::State& state,
                                                    double travel, Touch& touch);
@@ -53,6 +72,7 @@ class ContactStepper {
   const scene::Scene* scene_;
   const scene::SpringBody* body_;
   contact::FlatContact contact_;
+  SelfSinking self_;
   std::optional<Method> method_;
   double time_step_ = 0.0;
   // Responses to a unit load on one node, as long as the method's matrix stays.

@@ -126,14 +126,20 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
   specimen->top_height = std::get<scenario::Cuboid>(scenario.tissue.shape).size[2];
   specimen->top.emplace(specimen->mesh, specimen->top_height);
   specimen->top_area = specimen->top->area();
-  specimen->measured =
-      tissue::uniaxial_test(specimen->network, specimen->mesh, tissue::Base::frictionless,
-                            specimen->top_height, specimen->top_area);
-  specimen->pressed =
-      specimen->base == tissue::Base::frictionless
-          ? specimen->measured
-          : tissue::uniaxial_test(specimen->network, specimen->mesh, specimen->base,
-                                  specimen->top_height, specimen->top_area);
+  const auto test = [&](tissue::Base base) {
+    return tissue::uniaxial_test(specimen->network, specimen->mesh, base, specimen->top_height,
+                                 specimen->top_area);
+  };
+  specimen->measured = test(tissue::Base::frictionless);
+  if (scenario.solver.stiffness == tissue::StiffnessRule::fitted) {
+    // The fit makes the neighbourhoods isotropic; one factor more gives the specimen as a whole the
+    // tissue's modulus under uniaxial load.
+    const double factor = *scenario.tissue.young_modulus / specimen->measured.young_modulus;
+    for (double& stiffness : specimen->network.stiffness) stiffness *= factor;
+    specimen->measured = test(tissue::Base::frictionless);
+  }
+  specimen->pressed = specimen->base == tissue::Base::frictionless ? specimen->measured
+                                                                   : test(specimen->base);
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base);
   specimen->held_between_platens =
       tissue::held_between_platens(specimen->mesh, specimen->base, specimen->top_height);

@@ -89,9 +89,10 @@ std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, double young
   };
   for (std::size_t e = 0; e < edges.size(); ++e) add(e, y[e]);
 
-  // Projected coordinate descent: each y_e in turn goes to its own best value, at least 0. The
+  // Projected coordinate descent: each y_e in turn goes to its own best value. The
   // weak pull makes the problem strictly convex, so the sweeps settle on its one solution.
   constexpr double pull = 1e-3;
+  constexpr double least = 0.1;  // of Van Gelder's: without it flat cells lose springs and rigidity
   constexpr int most_sweeps = 2000;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     double largest_change = 0.0;
@@ -100,7 +101,7 @@ std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, double young
       for (const int node : edges[e])
         for (std::size_t c = 0; c < target.size(); ++c)
           slope += 0.5 * missing[static_cast<std::size_t>(node)][c] * powers[e][c];
-      const double change = std::max(0.0, y[e] + slope / (0.5 + pull)) - y[e];
+      const double change = std::max(least * start[e], y[e] + slope / (0.5 + pull)) - y[e];
       if (change == 0.0) continue;
       y[e] += change;
       add(e, change);

@@ -13,7 +13,7 @@ enum class StiffnessRule { van_gelder, fitted };
 [[nodiscard]] std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh,
                                                        double young_modulus);
 
-// Bounded least squares towards isotropy: k_e >= 0 that minimise
+// Bounded least squares towards isotropy: k_e, at least a tenth of Van Gelder's, that minimise
 //   sum_v || sum_{e at v} 1/2 k_e l_e^2 n n n n  -  V_v C ||^2,
 // C the isotropic stiffness of E and nu = 1/4, the only ratio that central forces have; drawn
 // weakly to Van Gelder's values where the nodes leave a choice.             docs/theory.md (16)
