@@ -2,12 +2,14 @@
 #include "base/document.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <sstream>
 #include <toml++/toml.h>
 
+#include "base/document_writer.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "base/toml_message.h"
 
 namespace palpate {
 namespace {
@@ -59,19 +61,6 @@ std::size_t first_binary_byte(std::string_view text) {
   return static_cast<std::size_t>(std::find_if(text.begin(), text.end(), binary) - text.begin());
 }
 
-// toml++ words some errors for its own authors; these are for the person who wrote the file.
-std::string reworded(const std::string& description) {
-  const auto says = [&](const char* part) { return description.find(part) != std::string::npos; };
-  if (says("unescaped control characters"))
-    return "a text is not closed on its line; end it with `\"`";
-  if (says("redefine") || says("already exists") || says("cannot redefine"))
-    return description + "; keep one of the two";
-  if (says("UTF-8")) return "the file is not UTF-8 text; save it as plain text";
-  if (says("floating-point") || says("float"))
-    return description + "; write a number that a double holds, as `0.05`";
-  return description + "; write `key = value`, texts and quantities in double quotes";
-}
-
 }  // namespace
 
 const Member* Node::find(std::string_view key) const {
@@ -96,8 +85,16 @@ std::string Node::kind_name() const {
 std::string Node::shown() const {
   switch (kind) {
     case Kind::text: return text;
+    // Integers of a double are exact below 2^53, and shown without an exponent.
     case Kind::integer:
-    case Kind::real: return number_text(number);
+      return std::abs(number) < 9007199254740992.0
+                 ? std::to_string(static_cast<std::int64_t>(number))
+                 : number_text(number);
+    case Kind::real: {
+      const std::string digits = number_text(number);
+      const bool whole = digits.find_first_not_of("-0123456789") == std::string::npos;
+      return whole ? digits + ".0" : digits;
+    }
     case Kind::boolean: return boolean ? "true" : "false";
     default: return kind_name();
   }
@@ -120,7 +117,7 @@ Node parse_toml(std::string_view text, const std::string& file) {
     root.place = {file, 1, 1};
     return root;
   } catch (const toml::parse_error& error) {
-    throw InputError(place_of(error.source(), file), reworded(std::string(error.description())));
+    throw InputError({toml_problem(text, place_of(error.source(), file), error.description())});
   }
 }
 
@@ -136,7 +133,8 @@ Node& descend(Node& node, const std::string& word, const std::string& path, cons
   if (node.kind == Node::Kind::array) {
     const auto number = whole_number(word);
     const auto count = static_cast<double>(node.items.size());
-    if (!number || *number < 1 || *number > count || *number != static_cast<int>(*number))
+    if (node.items.empty()) return refuse("the list is empty; give it entries first");
+    if (!number || !(*number >= 1 && *number <= count) || *number != std::floor(*number))
       return refuse("`" + word + "` is none of the list's entries; count them from 1 to " +
                     number_text(count));
     return node.items[static_cast<std::size_t>(*number) - 1];
@@ -163,17 +161,32 @@ void set_origin(Node& node, const Place& origin) {
 
 }  // namespace
 
+namespace {
+
+bool is_toml(const std::string& text) {
+  try {
+    (void)toml::parse(text);
+    return true;
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 void set_value(Node& root, std::string_view path, Node value, const Place& origin) {
   Node* node = &root;
   Member* last = nullptr;
   for (const std::string& word : split(path, '.')) {
     Node& parent = *node;
+    if (word.empty())
+      throw InputError(origin, "`" + std::string(path) + "` has an empty word; join the names of "
+                               "tables and a key by single dots, as `tissue.material`");
     node = &descend(parent, word, std::string(path), origin);
     last = nullptr;
     for (Member& member : parent.members)
       if (&member.value == node) last = &member;
   }
-  set_origin(value, origin);
   *node = std::move(value);
   if (last != nullptr) last->place = origin;
 }
@@ -187,10 +200,16 @@ std::pair<std::string, Node> parse_assignment(const std::string& assignment) {
   const std::string value = trimmed(std::string_view(assignment).substr(equals + 1));
   Node node;
   try {
-    node = convert(*toml::parse("value = " + value).get("value"), origin.file);
+    const toml::table table = toml::parse("value = " + value);
+    if (table.size() != 1)
+      throw InputError(origin, "a setting holds one value; write each key with a `--set` of its own");
+    node = convert(*table.get("value"), origin.file);
   } catch (const toml::parse_error&) {
     node.kind = Node::Kind::text;
     node.text = value;
+    // Escaped, any text is TOML, unless its bytes are no UTF-8.
+    if (!is_toml("value = " + toml_text(value)))
+      throw InputError({"--set " + path, 0, 0}, "the value is not UTF-8 text; write it in UTF-8");
   }
   set_origin(node, origin);
   return {path, node};

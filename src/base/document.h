@@ -44,7 +44,8 @@ struct Member {
 [[nodiscard]] Node read_toml(const std::string& path);
 
 // Sets the value at a dotted path (`tissue.young_modulus`, `step.2.to` with tables of an array
-// counted from 1), making tables on the way. `origin` is the place that messages will name.
+// counted from 1), making tables on the way. `origin` is the place of the key in messages; the
+// value keeps its own.
 // Throws InputError where the path runs through something that is no table.
 void set_value(Node& root, std::string_view path, Node value, const Place& origin);
 

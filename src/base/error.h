@@ -23,6 +23,9 @@ struct Problem {
   [[nodiscard]] std::string text() const;
 };
 
+// The order of a person who mends a file from its top; problems without a line come last.
+void sort_by_place(std::vector<Problem>& problems);
+
 // Input that cannot be used (exit code 2). Carries every problem that was found, in order.
 class InputError : public std::runtime_error {
  public:

@@ -46,7 +46,8 @@ class Manual final : public FieldVisitor {
   }
   void count_or(const char* word, const Key& key, std::optional<int>& value,
                 const Range& range) override {
-    row(key, "`\"" + std::string(word) + "\"` or whole number" + bounds(range, nullptr),
+    const std::string number = " or whole number" + bounds(range, nullptr);
+    row(key, "`\"" + std::string(word) + "\"`" + (range.low > range.high ? "" : number),
         value ? std::to_string(*value) : word);
   }
   void either(const Key& key, Target& target, const Unit& first, const Unit& second,
@@ -134,6 +135,7 @@ class Manual final : public FieldVisitor {
     const auto shown = [&](double value) {
       return unit != nullptr ? quantity_text(value, *unit) : number_text(value);
     };
+    if (range.low == range.high) return " = " + shown(range.low);
     std::string text;
     if (std::isfinite(range.low)) text += (range.low_allowed ? " >= " : " > ") + shown(range.low);
     if (std::isfinite(range.high)) {

@@ -1,6 +1,7 @@
 // The visitor that reads, and the wording of what it refuses.
 #include "base/field_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -19,6 +20,7 @@ std::string range_text(const Range& range, const Unit* unit) {
     return unit != nullptr ? quantity_text(value, *unit) : number_text(value);
   };
   std::string text;
+  if (range.low == range.high) return bound(range.low);
   if (std::isfinite(range.low))
     text += (range.low_allowed ? "at least " : "above ") + bound(range.low);
   if (std::isfinite(range.high)) {
@@ -30,9 +32,15 @@ std::string range_text(const Range& range, const Unit* unit) {
 
 class Reader final : public FieldVisitor {
  public:
-  Reader(const Node& root, Reading* reading) : reading_(reading) { open_.push_back({&root, {}}); }
+  // `trust_uses`: whether the choices that uses depend on could be read.
+  Reader(const Node& root, Reading* reading, bool trust_uses)
+      : reading_(reading), trust_uses_(trust_uses) {
+    open_.push_back({&root, {}});
+  }
 
   void finish() { refuse_unknown_keys(); }
+
+  [[nodiscard]] bool choices_read() const { return choices_read_; }
 
   void number(const Key& key, double& value, const Range& range) override {
     if (const Node* node = find(key)) read_number(key, *node, value, range);
@@ -60,6 +68,9 @@ class Reader final : public FieldVisitor {
     double read = 0.0;
     if (node->kind == Node::Kind::text && node->text == word)
       si.reset();
+    else if (node->kind == Node::Kind::text && !leading_number(trimmed(node->text)))
+      problem(node->place, quoted(key.name) + " wants " + quoted(word) + " or a " + unit.quantity +
+                               ", got " + quoted(node->text) + "; write " + quoted(word));
     else if (read_quantity(key, *node, read, unit, range))
       si = read;
   }
@@ -70,6 +81,9 @@ class Reader final : public FieldVisitor {
     int read = 0;
     if (node->kind == Node::Kind::text && node->text == word) {
       value.reset();
+    } else if (range.low > range.high) {
+      problem(node->place, quoted(key.name) + " must be " + quoted(word) + ", got " +
+                               quoted(node->shown()) + "; write " + quoted(word));
     } else if (node->kind == Node::Kind::text) {
       problem(node->place, quoted(key.name) + " wants " + quoted(word) + " or a whole number, got " +
                                quoted(node->text) + "; write " + quoted(word));
@@ -90,7 +104,10 @@ class Reader final : public FieldVisitor {
       }
     }
     double value = 0.0;
-    if (read_quantity(key, *node, value, first, range)) target = {value, false};
+    const std::string both = std::string(first.quantity) + " or a " + second.quantity;
+    Unit wanted = first;
+    wanted.quantity = both.c_str();
+    if (read_quantity(key, *node, value, wanted, range)) target = {value, false};
   }
   void count(const Key& key, int& value, const Range& range) override {
     if (const Node* node = find(key)) read_count(key, *node, value, range);
@@ -99,7 +116,7 @@ class Reader final : public FieldVisitor {
     const Node* node = find(key);
     if (node == nullptr) return;
     if (node->kind != Node::Kind::text)
-      wrong_type(key, *node, "a text", "\"" + node->shown() + "\"");
+      wrong_type(key, *node, "a text", node->is_number() ? "\"" + node->shown() + "\"" : "\"...\"");
     else
       value = node->text;
   }
@@ -115,14 +132,18 @@ class Reader final : public FieldVisitor {
                   const Range& range) override {
     const Node* node = find(key);
     if (node == nullptr || !is_list(key, *node, si.size())) return;
+    in_list_ = true;
     for (std::size_t i = 0; i < si.size(); ++i)
       read_quantity(key, node->items[i], si[i], unit, range);
+    in_list_ = false;
   }
   void counts(const Key& key, std::span<int> values, const Range& range) override {
     const Node* node = find(key);
     if (node == nullptr || !is_list(key, *node, values.size())) return;
+    in_list_ = true;
     for (std::size_t i = 0; i < values.size(); ++i)
       read_count(key, node->items[i], values[i], range);
+    in_list_ = false;
   }
   void numbers_by_name(const Key& key, std::map<std::string, double>& values,
                        const Range& range) override {
@@ -145,7 +166,7 @@ class Reader final : public FieldVisitor {
     const Node* node = find(key);
     if (node == nullptr) return;
     if (node->kind != Node::Kind::table)
-      return wrong_type(key, *node, "a table", "{ kind = \"...\" }");
+      return wrong_type(key, *node, "a table", "{ ... }");
     enter(*node, [&] { fields(*this); });
   }
   void tables(const Key& key, int, const std::function<void(int)>& resize,
@@ -193,10 +214,10 @@ class Reader final : public FieldVisitor {
 
   void wrong_type(const Key& key, const Node& node, const std::string& wanted,
                   const std::string& example) {
-    const bool has_text = node.kind != Node::Kind::table && node.kind != Node::Kind::array;
+    const bool has_text = node.shown() != node.kind_name();
     const std::string got = node.kind_name() + (has_text ? " " + quoted(node.shown()) : "");
     problem(node.place, quoted(key.name) + " wants " + wanted + ", got " + got + "; write it as `" +
-                            key.name + " = " + example + "`");
+                            (in_list_ ? "" : std::string(key.name) + " = ") + example + "`");
   }
 
   const Node* find(const Key& key) {
@@ -204,13 +225,14 @@ class Reader final : public FieldVisitor {
     here.known.insert(key.name);
     const Member* member = here.node->find(key.name);
     if (member == nullptr) return nullptr;
-    if (!key.use.used) {
+    if (!key.use.used && trust_uses_) {
       if (key.use.otherwise == Use::Otherwise::note)
         reading_->notes.push_back(
             {member->place, quoted(key.name) + " is left unread: it is used only " + key.use.when});
       else
         problem(member->place, quoted(key.name) + " has no effect here: it is used only " +
-                                   key.use.when + "; remove the line or change that");
+                                   key.use.when + "; remove it or change that");
+      if (key.use.otherwise == Use::Otherwise::error) return nullptr;
     }
     return &member->value;
   }
@@ -248,18 +270,24 @@ class Reader final : public FieldVisitor {
 
   bool read_number(const Key& key, const Node& node, double& value, const Range& range) {
     if (!node.is_number()) {
-      const auto inside = whole_number(node.kind == Node::Kind::text ? node.text : "");
+      const std::string text = node.kind == Node::Kind::text ? node.text : "";
+      const auto given = leading_number(text);
+      if (given && given->rest.empty() && (given->out_of_range || !std::isfinite(given->value)))
+        return not_finite(key, node);
+      const auto inside = whole_number(text);
       wrong_type(key, node, "a pure number", inside ? number_text(*inside) : "0.5");
       return false;
     }
-    if (!std::isfinite(node.number)) {
-      problem(node.place, quoted(key.name) + " wants a finite number, got " +
-                              quoted(node.shown()) + "; write one as `0.5`");
-      return false;
-    }
+    if (!std::isfinite(node.number)) return not_finite(key, node);
     if (!within(key, node, node.number, range, nullptr)) return false;
     value = node.number;
     return true;
+  }
+
+  bool not_finite(const Key& key, const Node& node) {
+    problem(node.place, quoted(key.name) + " wants a finite number, got " + quoted(node.shown()) +
+                            "; write one as `0.5`");
+    return false;
   }
 
   bool read_count(const Key& key, const Node& node, int& value, const Range& range) {
@@ -302,7 +330,8 @@ class Reader final : public FieldVisitor {
                                 ? "a list of " + std::to_string(node.items.size())
                                 : node.kind_name();
     problem(node.place, quoted(key.name) + " wants a list of " + std::to_string(size) + ", got " +
-                            got + "; write it as `[..., ..., ...]`");
+                            got + "; write it as `[" +
+                            joined(std::vector<std::string>(size, "..."), ", ") + "]`");
     return false;
   }
 
@@ -311,6 +340,8 @@ class Reader final : public FieldVisitor {
     std::vector<std::string> known;
     for (const Word& word : words) known.emplace_back(word.word);
     const std::string choices = joined(known, ", ");
+    choices_read_ = choices_read_ && node.kind == Node::Kind::text &&
+                    std::find(known.begin(), known.end(), node.text) != known.end();
     if (node.kind != Node::Kind::text) {
       problem(node.place, quoted(name) + " wants one of " + choices + ", got " +
                               node.kind_name() + "; write it as `" + name + " = \"" + known[0] +
@@ -321,12 +352,15 @@ class Reader final : public FieldVisitor {
       if (node.text == words[i].word) return static_cast<int>(i);
     const auto near = nearest(node.text, known);
     problem(node.place, quoted(name) + " does not know " + quoted(node.text) +
-                            (near ? "; did you mean " + quoted(*near) + "?" : "") +
-                            " It is one of " + choices);
+                            (near ? "; did you mean " + quoted(*near) + "? It" : "; it") +
+                            " is one of " + choices);
     return std::nullopt;
   }
 
   Reading* reading_;
+  bool trust_uses_;
+  bool choices_read_ = true;
+  bool in_list_ = false;
   std::vector<Open> open_;
 };
 
@@ -334,12 +368,13 @@ class Reader final : public FieldVisitor {
 
 Reading read_fields(const Node& root, const Fields& fields) {
   Reading discarded;
-  Reader first(root, &discarded);
+  Reader first(root, &discarded, false);
   fields(first);
   Reading reading;
-  Reader second(root, &reading);
+  Reader second(root, &reading, first.choices_read());
   fields(second);
   second.finish();
+  sort_by_place(reading.problems);
   return reading;
 }
 

@@ -3,28 +3,11 @@
 
 #include <vector>
 
+#include "base/document_writer.h"
 #include "base/text.h"
 
 namespace palpate {
 namespace {
-
-std::string quote(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (c == '\n')
-      quoted += "\\n";
-    else
-      quoted += c;
-  }
-  return quoted + "\"";
-}
-
-bool is_bare(const std::string& key) {
-  for (const char c : key)
-    if (!(std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-')) return false;
-  return !key.empty();
-}
 
 class Writer final : public FieldVisitor {
  public:
@@ -35,30 +18,30 @@ class Writer final : public FieldVisitor {
     if (value) put(key, number_text(*value));
   }
   void quantity(const Key& key, double& si, const Unit& unit, const Range&) override {
-    put(key, quote(quantity_text(si, unit)));
+    put(key, toml_text(quantity_text(si, unit)));
   }
   void quantity(const Key& key, std::optional<double>& si, const Unit& unit,
                 const Range&) override {
-    if (si) put(key, quote(quantity_text(*si, unit)));
+    if (si) put(key, toml_text(quantity_text(*si, unit)));
   }
   void quantity_or(const char* word, const Key& key, std::optional<double>& si, const Unit& unit,
                    const Range&) override {
-    put(key, quote(si ? quantity_text(*si, unit) : word));
+    put(key, toml_text(si ? quantity_text(*si, unit) : word));
   }
   void count_or(const char* word, const Key& key, std::optional<int>& value,
                 const Range&) override {
-    put(key, value ? std::to_string(*value) : quote(word));
+    put(key, value ? std::to_string(*value) : toml_text(word));
   }
   void either(const Key& key, Target& target, const Unit& first, const Unit& second,
               const Range&) override {
-    put(key, quote(quantity_text(target.value, target.second ? second : first)));
+    put(key, toml_text(quantity_text(target.value, target.second ? second : first)));
   }
   void count(const Key& key, int& value, const Range&) override { put(key, std::to_string(value)); }
-  void text(const Key& key, std::string& value) override { put(key, quote(value)); }
+  void text(const Key& key, std::string& value) override { put(key, toml_text(value)); }
   void flag(const Key& key, bool& value) override { put(key, value ? "true" : "false"); }
   void quantities(const Key& key, std::span<double> si, const Unit& unit, const Range&) override {
     std::vector<std::string> items;
-    for (const double value : si) items.push_back(quote(quantity_text(value, unit)));
+    for (const double value : si) items.push_back(toml_text(quantity_text(value, unit)));
     put(key, "[" + joined(items, ", ") + "]");
   }
   void counts(const Key& key, std::span<int> values, const Range&) override {
@@ -70,11 +53,11 @@ class Writer final : public FieldVisitor {
                        const Range&) override {
     std::vector<std::string> items;
     for (const auto& [name, value] : values)
-      items.push_back((is_bare(name) ? name : quote(name)) + " = " + number_text(value));
+      items.push_back(toml_key(name) + " = " + number_text(value));
     if (!items.empty()) put(key, "{ " + joined(items, ", ") + " }");
   }
   void choice_of(const Key& key, int& index, std::span<const Word> words) override {
-    put(key, quote(words[static_cast<std::size_t>(index)].word));
+    put(key, toml_text(words[static_cast<std::size_t>(index)].word));
   }
   void table(const Key& key, const Fields& fields) override {
     if (!key.use.used) return;
@@ -101,7 +84,7 @@ class Writer final : public FieldVisitor {
   }
   void kind(int chosen, std::span<const Word> words,
             const std::function<Fields(int)>& choose) override {
-    put({"kind", ""}, quote(words[static_cast<std::size_t>(chosen)].word));
+    put({"kind", ""}, toml_text(words[static_cast<std::size_t>(chosen)].word));
     choose(chosen)(*this);
   }
 

@@ -27,7 +27,7 @@ std::string rounded_text(double value, int digits) {
 
 std::optional<LeadingNumber> leading_number(std::string_view text) {
   const std::string_view given = text;
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   LeadingNumber number;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number.value);
   if (result.ec == std::errc::invalid_argument) return std::nullopt;
@@ -43,6 +43,14 @@ std::optional<double> whole_number(std::string_view text) {
 }
 
 namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = lower(c);
+  return result;
+}
 
 // Levenshtein distance with transpositions of neighbours counted as one edit.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -68,11 +76,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known) {
   std::optional<std::string> best;
-  std::size_t best_distance = 1 + std::max<std::size_t>(2, word.size() / 2);
+  // Of two that are as near, the one that differs in capitals only is meant: `KPA` is `kPa`.
+  std::pair best_distance(1 + std::max<std::size_t>(2, word.size() / 2), std::size_t{0});
   for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance && distance < candidate.size()) {
-      best_distance = distance;
+    const bool same_letters = lower(word) == lower(candidate);
+    const std::size_t distance = same_letters ? 0 : edit_distance(word, candidate);
+    const std::pair ranked(distance, edit_distance(lower(word), lower(candidate)));
+    if (ranked < best_distance && distance < candidate.size()) {
+      best_distance = ranked;
       best = candidate;
     }
   }

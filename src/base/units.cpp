@@ -40,7 +40,9 @@ struct Prefix {
 };
 constexpr std::array prefixes{Prefix{"G", 1e9, 1}, Prefix{"M", 1e6, 1}, Prefix{"k", 1e3, 1},
                               Prefix{"h", 1e2, 1}, Prefix{"d", 1, 1e1}, Prefix{"c", 1, 1e2},
-                              Prefix{"m", 1, 1e3}, Prefix{"u", 1, 1e6}, Prefix{"n", 1, 1e9}};
+                              Prefix{"m", 1, 1e3}, Prefix{"u", 1, 1e6}, Prefix{"n", 1, 1e9},
+                              Prefix{"\u00b5", 1, 1e6},   // the micro sign
+                              Prefix{"\u03bc", 1, 1e6}};  // the Greek letter mu
 
 std::optional<Scale> symbol_scale(std::string_view text) {
   for (const Symbol& symbol : symbols)
@@ -65,48 +67,67 @@ void multiply(Scale& product, const Scale& factor, int power) {
   product.dimension.s += power * factor.dimension.s;
 }
 
-[[noreturn]] void unknown_unit(std::string_view symbol) {
-  static const std::vector<std::string> known{"mm",  "cm",    "m",   "um",  "Pa", "kPa", "MPa",
-                                              "GPa", "s",     "ms",  "us",  "N",  "mN",  "kg",
-                                              "g",   "mm/s",  "m/s", "1/s", "Hz", "kg/m^3"};
-  std::string message = "has the unknown unit `" + std::string(symbol) + "`";
-  if (const auto near = nearest(symbol, known)) message += "; nearest known: `" + *near + "`";
-  throw std::invalid_argument(message);
+// The same factor in one number where that is exact: `kg` is 1000 g of a thousandth, and times 1000
+// per 1000 would round twice.
+Scale reduced(Scale scale) {
+  const auto divides = [](double part, double whole) {
+    return whole < 9007199254740992.0 && std::fmod(whole, part) == 0.0;
+  };
+  if (divides(scale.per, scale.times))
+    return {scale.times / scale.per, 1.0, scale.dimension};
+  if (divides(scale.times, scale.per)) return {1.0, scale.per / scale.times, scale.dimension};
+  return scale;
 }
 
-Scale parse_unit(std::string_view text) {
+// A unit expression as a factor, or nothing where it is none.
+std::optional<Scale> parse_unit(std::string_view text) {
   Scale scale;
   int sign = 1;
+  bool wants_factor = true;
   std::size_t at = 0;
   while (at < text.size()) {
     const char c = text[at];
-    if (c == ' ' || c == '*') {
+    if (c == ' ') {
       ++at;
-    } else if (c == '/') {
-      sign = -1;
+    } else if (c == '*' || c == '/') {
+      if (wants_factor) return std::nullopt;
+      sign = c == '/' ? -1 : 1;
+      wants_factor = true;
       ++at;
-    } else if (c == '1' && (at + 1 == text.size() || text[at + 1] == '/')) {
+    } else if (c == '1' && at == 0 && (text.size() == 1 || text[1] == '/')) {
+      wants_factor = false;
       ++at;
     } else {
       const std::size_t end = std::min(text.find_first_of(" */^", at), text.size());
-      const std::string_view name = text.substr(at, end - at);
-      const auto factor = symbol_scale(name);
-      if (!factor) unknown_unit(text);
+      const auto factor = symbol_scale(text.substr(at, end - at));
+      if (!factor) return std::nullopt;
       int power = 1;
       at = end;
       if (at < text.size() && text[at] == '^') {
         const auto exponent = leading_number(text.substr(at + 1));
-        if (!exponent || exponent->value != std::round(exponent->value) ||
-            std::abs(exponent->value) > 9)
-          unknown_unit(text);
+        if (!exponent || exponent->out_of_range ||
+            exponent->value != std::round(exponent->value) || std::abs(exponent->value) > 9)
+          return std::nullopt;
         power = static_cast<int>(exponent->value);
         at = text.size() - exponent->rest.size();
       }
       multiply(scale, *factor, sign * power);
       sign = 1;
+      wants_factor = false;
     }
   }
-  return scale;
+  if (wants_factor) return std::nullopt;
+  return reduced(scale);
+}
+
+// The usual unit of `dimension` that is nearest to what was written.
+std::optional<std::string> nearest_unit(std::string_view written, const Dimension& dimension) {
+  std::vector<std::string> known;
+  for (const char* usual :
+       {"mm", "cm", "m", "um", "Pa", "kPa", "MPa", "GPa", "s", "ms", "us", "N", "mN", "kN", "mm/s",
+        "m/s", "cm/s", "1/s", "Hz", "kg/m^3", "g/cm^3"})
+    if (parse_unit(usual)->dimension == dimension) known.emplace_back(usual);
+  return nearest(written, known);
 }
 
 std::string article(std::string_view noun) {
@@ -164,7 +185,14 @@ double parse_quantity(std::string_view given, const Unit& wanted) {
   const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
   const std::string unit_text = trimmed(number->rest);
   if (unit_text.empty()) throw std::invalid_argument(wants + " with its unit, got " + quoted + remedy);
-  const Scale scale = parse_unit(unit_text);
+  const auto parsed = parse_unit(unit_text);
+  if (!parsed) {
+    const auto near = nearest_unit(unit_text, wanted.dimension);
+    throw std::invalid_argument(wants + ", got " + quoted + " with the unknown unit `" + unit_text +
+                                "`" + (near ? "; did you mean `" + digits + " " + *near + "`?"
+                                            : remedy));
+  }
+  const Scale& scale = *parsed;
   if (!(scale.dimension == wanted.dimension))
     throw std::invalid_argument(wants + ", got " + quoted + ", " + dimension_name(scale.dimension) +
                                 remedy);

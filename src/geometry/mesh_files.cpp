@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
 #include <utility>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "geometry/table_lines.h"
 
@@ -127,20 +126,6 @@ void read_tetrahedra(TableLines lines, int first, TetMesh& mesh) {
   expect_end(lines, count, "tetrahedra");
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  const std::string beside = path + ".part";
-  std::ofstream stream(beside, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(beside, path, error);
-  if (stream && !error) return;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  throw SystemError(path +
-                    ": the mesh cannot be written; check the folder, its rights and the disk");
-}
-
 }  // namespace
 
 TetMesh read_node_ele(const std::string& path, double metres_per_unit) {
@@ -165,8 +150,8 @@ void write_node_ele(const std::string& path, const TetMesh& mesh) {
     for (const int node : mesh.tetrahedra[t]) tetrahedra += " " + std::to_string(node);
     tetrahedra += "\n";
   }
-  write_file(files.node, nodes);
-  write_file(files.ele, tetrahedra);
+  write_atomically(files.node, nodes);
+  write_atomically(files.ele, tetrahedra);
 }
 
 }  // namespace palpate::geometry

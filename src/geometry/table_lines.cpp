@@ -3,21 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <utility>
 
+#include "base/files.h"
 #include "base/text.h"
 
 namespace palpate::geometry {
 
-TableLines::TableLines(std::string file) : file_(std::move(file)) {
-  std::ifstream stream(file_, std::ios::binary);
-  if (stream) text_.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream || stream.bad())
-    throw InputError({file_}, "the file cannot be read; check that it is there and readable");
-}
+TableLines::TableLines(std::string file) : file_(std::move(file)), text_(read_text(file_)) {}
 
 bool TableLines::next() {
   constexpr std::string_view kGaps = " \t\r,";

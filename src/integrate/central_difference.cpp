@@ -23,31 +23,19 @@ CentralDifference::CentralDifference(const Body& body, double time_step, Start s
   eigen_assert(factored);
 }
 
-void CentralDifference::begin(const State& state, const Vector& load) {
-  before_ = time_step_ * state.velocity;
-  if (start_ == Start::paper) {
-    before_.setZero();
-    return;
-  }
-  body_->force(state.displacement, state.memory, force_);
-  right_ = load - force_ - body_->drag().cwiseProduct(state.velocity);
-  if (body_->has_dashpots()) {
-    body_->dashpot_force(state.displacement, state.velocity, force_);
-    right_ -= force_;
-  }
-  clear_held(body_->held(), right_);
-  // u(0) - u(-dt) = dt V0 - dt^2 A0 / 2
-  before_ -= 0.5 * time_step_ * time_step_ * right_.cwiseQuotient(body_->mass());
-}
-
 void CentralDifference::step(State& state, const Vector& load) {
   // (2 M + D dt) w = 2 dt^2 (F - f(u)) + (2 M - D dt) (u - u_before)   Chen 2007 eq. (12) in
-  // increments; docs/theory.md (24)
-  const double square = 2.0 * time_step_ * time_step_;
+  // increments; the consistent first one is dt^2 (F - f) + 2 M dt v   docs/theory.md (23), (24)
+  const bool consistent = first_ && start_ == Start::consistent;
+  if (first_) before_ = time_step_ * state.velocity;
+  if (first_ && start_ == Start::paper) before_.setZero();
+  first_ = false;
+  const double square = (consistent ? 1.0 : 2.0) * time_step_ * time_step_;
   body_->force(state.displacement, state.memory, force_);
   right_ = square * (load - force_);
-  right_ += (2.0 * body_->mass() - time_step_ * body_->drag()).cwiseProduct(before_);
-  if (body_->has_dashpots()) {
+  right_ += 2.0 * body_->mass().cwiseProduct(before_);
+  if (!consistent) right_ -= time_step_ * body_->drag().cwiseProduct(before_);
+  if (body_->has_dashpots() && !consistent) {
     const Vector at_rest = dashpots_ * before_;
     right_ -= time_step_ * at_rest;
     if (!body_->linear()) {

@@ -6,7 +6,9 @@
 
 namespace palpate::integrate {
 
-// paper: U(-dt) = U(0), first order. consistent: U(-dt) = U0 - dt V0 + dt^2 A0 / 2, second order.
+// How the first step begins. paper: U(-dt) = U(0), first order. consistent: second order; without
+// damping it is U(-dt) = U0 - dt V0 + dt^2 A0 / 2, and under heavy damping, where that would throw
+// the body, it is the trapezoidal rule.                                  docs/theory.md (24)
 enum class Start { consistent, paper };
 
 // Second order; stable for dt < 2 / omega_max whatever the damping, because mass, drag and
@@ -16,8 +18,8 @@ class CentralDifference {
  public:
   CentralDifference(const Body& body, double time_step, Start start);
 
-  // The first step's history, for the load (N) at the state's time.
-  void begin(const State& state, const Vector& load);
+  // The next step is a first one: the load may have jumped.
+  void restart() { first_ = true; }
 
   // From the state at t under the load at t to the state at t + dt. The velocity it leaves is the
   // mean over the step.
@@ -27,6 +29,7 @@ class CentralDifference {
   const Body* body_;
   double time_step_;
   Start start_;
+  bool first_ = true;
   Vector before_;    // u(t) - u(t - dt)
   Vector diagonal_;  // 2 M + D dt, where no dashpots are
   Cholesky factors_;

@@ -52,16 +52,25 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Node& table) {
   optional("drag", "", tissue.drag, quantity(unit::per_second, at_least(0)));
 }
 
+bool is_property(const std::string& key) {
+  for (const char* known : {"density", "young_modulus", "poisson_ratio", "retardation_time",
+                            "relaxation_time", "instantaneous_ratio", "drag"})
+    if (key == known) return true;
+  return false;
+}
+
 void require(const Node& table, const std::string& name, const Place& place,
              std::vector<Problem>& problems) {
+  std::vector<std::string> unknown;  // `densitty` is told as an unknown key, and no more
+  for (const Member& member : table.members)
+    if (!is_property(member.key)) unknown.push_back(member.key);
   for (const char* key : {"density", "young_modulus", "poisson_ratio"}) {
-    const Member* member = table.find(key);
-    if (member == nullptr)
+    if (table.find(key) == nullptr && !nearest(key, unknown))
       problems.push_back({place, "`" + name + "` lacks `" + key + "`; add `" + key +
                                      " = { value = ..., source = \"...\" }`"});
   }
   for (const Member& member : table.members) {
-    if (member.value.kind != Node::Kind::table) continue;
+    if (member.value.kind != Node::Kind::table || !is_property(member.key)) continue;
     for (const char* key : {"value", "source"})
       if (member.value.find(key) == nullptr)
         problems.push_back({member.place, "`" + member.key + "` lacks `" + key +
@@ -95,14 +104,15 @@ Found find(const std::string& name, const std::string& folder, const Place& plac
       if (candidate.value.kind == Node::Kind::table) known.push_back(candidate.key);
     const auto near = nearest(table_name, known);
     throw InputError(place, "`material` does not know `" + table_name + "`" +
-                                (near ? "; did you mean `" + *near + "`?" : ";") +
-                                " Known here: " + joined(known, ", ") +
+                                (near ? "; did you mean `" + *near + "`? Known" : "; known") +
+                                " here: " + (known.empty() ? "none" : joined(known, ", ")) +
                                 "; your own tables are written `file.toml#name`");
   }
   Reading reading = read_fields(member->value, [&](FieldVisitor& visitor) {
     fields(visitor, found.tissue, member->value);
   });
   require(member->value, table_name, member->place, reading.problems);
+  sort_by_place(reading.problems);
   if (!reading.problems.empty()) throw InputError(reading.problems);
   if (found.tissue.title.empty()) found.tissue.title = table_name;
   return found;

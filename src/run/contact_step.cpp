@@ -69,15 +69,11 @@ Method make_method(const scene::Scene& scene, const scene::SpringBody& body, dou
 ContactStepper::ContactStepper(const scene::Scene& scene, const scene::SpringBody& body)
     : scene_(&scene), body_(&body), contact_(scene::make_contact(scene)), self_(scene.specimen->law) {}
 
-void ContactStepper::begin(const State& state, const Touch& touch, double time_step) {
-  // A new step size keeps a method that can change it; central differences start afresh.
-  const bool explicit_method =
+void ContactStepper::begin(double time_step) {
+  const bool fixed_step =
       method_ && std::holds_alternative<integrate::CentralDifference>(*method_);
-  if (!method_ || (explicit_method && time_step != time_step_)) {
+  if (!method_ || (fixed_step && time_step != time_step_))
     method_.emplace(make_method(*scene_, *body_, time_step));
-    if (auto* central = std::get_if<integrate::CentralDifference>(&*method_))
-      central->begin(state, touch.load);
-  }
   if (time_step != time_step_) responses_.clear();
   time_step_ = time_step;
   self_.begin(time_step);

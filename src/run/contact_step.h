@@ -52,9 +52,8 @@ class ContactStepper {
  public:
   ContactStepper(const scene::Scene& scene, const scene::SpringBody& body);
 
-  // Begins the programme at a state, for steps of `time_step`; goes on with the method it has
-  // where the step is the same.
-  void begin(const integrate::State& state, const Touch& touch, double time_step);
+  // The next steps have this size, s. A method that can change its step goes on.
+  void begin(double time_step);
 
   // Steps the state to its next time, with the finger's travel there. Returns what is wrong where
   // no balance is found.

@@ -92,7 +92,7 @@ class Press {
     if (scene_.specimen) {
       const scene::TimePlan& plan = scene_.specimen->plan;
       steps_a_row = static_cast<int>(std::lround(interval / plan.time_step)) * plan.substeps;
-      stepper_->begin(state_, touch_, spacing / steps_a_row);
+      stepper_->begin(spacing / steps_a_row);
     }
     for (double row = 1; row <= rows; ++row) {
       if (stop_.load()) return interrupted();

@@ -103,11 +103,11 @@ class UniformTest {
     fresh(specimen_.held);
     const Vector load = platen_load(creep.stress);
     const Vector none = Vector::Zero(load.size());
-    if (!jump(load)) return false;
+    if (!jump(none, load)) return false;
     row(creep.stress);
     if (!march(load, creep.load_time, [&] { row(creep.stress); })) return false;
     if (creep.recovery_time <= 0.0) return ended();
-    if (!jump(none)) return false;
+    if (!jump(load, none)) return false;
     return march(none, creep.recovery_time, [&] { row(0.0); }) && ended();
   }
 
@@ -123,8 +123,6 @@ class UniformTest {
       return diverged(*wrong);
     state_.memory = body_->memory_at(state_.displacement);
     monitor_->begin(state_);
-    load_ = none;
-    start_method(none, spacing_of(relax.time) / steps_a_row());
     row(stress());
     return march(none, relax.time, [&] { row(stress()); }) && ended();
   }
@@ -135,7 +133,7 @@ class UniformTest {
   }
 
   // A load that changes at once: without inertia, a standard linear solid gives way at once too.
-  bool jump(const Vector& load) {
+  bool jump(const Vector& from, const Vector& to) {
     const bool at_once =
         scene_.scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
         specimen_.law.kind != tissue::Viscosity::kelvin_voigt;
@@ -143,13 +141,13 @@ class UniformTest {
       const State before = state_;
       integrate::Implicit statics(*body_, integrate::Implicit::Inertia::none);
       if (const auto wrong =
-              solve(statics, *body_, state_, 0.0, MemoryRule::at_once, load))
+              solve(statics, *body_, state_, 0.0, MemoryRule::at_once, to))
         return diverged(*wrong);
-      if (const auto wrong = monitor_->step(before, state_, load_.size() > 0 ? load_ : load, load))
+      if (const auto wrong = monitor_->step(before, state_, from, to))
         return diverged(*wrong);
     }
-    load_ = load;
-    method_.reset();  // a new history starts with the new load
+    if (method_)
+      if (auto* central = std::get_if<integrate::CentralDifference>(&*method_)) central->restart();
     return true;
   }
 
@@ -163,14 +161,11 @@ class UniformTest {
   }
   [[nodiscard]] double spacing_of(double duration) const { return duration / rows_of(duration); }
 
-  void start_method(const Vector& load, double time_step) {
-    if (method_ && method_step_ == time_step) return;
-    const bool keep = method_ && !std::holds_alternative<integrate::CentralDifference>(*method_);
-    if (!keep) {
+  void start_method(double time_step) {
+    const bool fixed_step =
+        method_ && std::holds_alternative<integrate::CentralDifference>(*method_);
+    if (!method_ || (fixed_step && method_step_ != time_step))
       method_.emplace(make_method(scene_, *body_, time_step));
-      if (auto* central = std::get_if<integrate::CentralDifference>(&*method_))
-        central->begin(state_, load);
-    }
     method_step_ = time_step;
   }
 
@@ -179,7 +174,7 @@ class UniformTest {
     const double rows = rows_of(duration);
     const double spacing = spacing_of(duration);
     const int steps = steps_a_row();
-    start_method(load, spacing / steps);
+    start_method(spacing / steps);
     const double start = time_;
     for (double row_number = 1; row_number <= rows; ++row_number) {
       if (stop_.load()) {
@@ -235,7 +230,6 @@ class UniformTest {
   std::optional<Method> method_;
   double method_step_ = 0.0;
   State state_;
-  Vector load_;
   double imbalance_ = 0.0;
   double time_ = 0.0;
   int step_ = 1;

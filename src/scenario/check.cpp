@@ -17,9 +17,11 @@ class Checker {
       : scenario_(scenario), document_(document), problems_(problems) {}
 
   void all() {
+    const std::size_t before = problems_.size();
     steps();
     methods();
-    times();
+    time_step();
+    if (problems_.size() == before) rows();  // a wrong step is a wrong duration too
   }
 
  private:
@@ -32,7 +34,7 @@ class Checker {
       return problem("step", "a scenario needs something to do; add a `[[step]]`, as "
                              "`kind = \"indent\"`");
     const bool uniform = scenario_.uniform();
-    double travel = 0.0;
+    Reached reached;
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
       const std::string path = "step." + std::to_string(i + 1);
       const Step& step = scenario_.steps[i];
@@ -41,39 +43,72 @@ class Checker {
       if (end_faces != uniform)
         return problem(path, "`creep` and `relax` load the end faces and have no finger, the other "
                              "steps have one; put them into two scenarios");
-      if (const auto* indent = std::get_if<Indent>(&step)) travel = indented(path, *indent, travel);
-      if (const auto* retract = std::get_if<Retract>(&step)) {
-        if (retract->to >= travel)
-          problem(path + ".to", "`retract` goes to " + quantity_text(retract->to, unit::mm) +
-                                    ", which is not above the travel of " +
-                                    quantity_text(travel, unit::mm) +
-                                    " before it; use `indent` to go deeper");
-        travel = retract->to;
-      }
+      if (const auto* indent = std::get_if<Indent>(&step))
+        reached = indented(path + ".to", *indent, reached);
+      if (const auto* retract = std::get_if<Retract>(&step))
+        reached = retracted(path + ".to", *retract, reached);
     }
   }
 
-  // The travel after the step; a step to a force may end anywhere.
-  double indented(const std::string& path, const Indent& indent, double travel) {
-    if (indent.to.second) return scenario_.finger.radius;
-    if (indent.to.value <= travel)
-      problem(path + ".to", "`indent` goes to " + quantity_text(indent.to.value, unit::mm) +
-                                ", which is not below the travel of " +
-                                quantity_text(travel, unit::mm) +
-                                " before it; use `retract` to go back");
-    if (indent.to.value > scenario_.finger.radius)
-      problem(path + ".to", "`to` is deeper than the finger's radius of " +
-                                quantity_text(scenario_.finger.radius, unit::mm) +
-                                ", where no Hertz contact is left; press less deep");
+  // How far the steps so far have pressed.
+  struct Reached {
+    double travel = 0.0;       // m; after a step to a force the most that it can be
+    double force = 0.0;        // N, of a step to a force; 0 after others
+    bool in_order = true;      // one step in the wrong direction is reported, not those after it
+  };
+
+  Reached indented(const std::string& path, const Indent& indent, Reached before) {
+    const bool by_force = before.force > 0.0;
+    if (indent.to.second) {
+      if (by_force && indent.to.value <= before.force && before.in_order)
+        before.in_order = out_of_order(
+            path, "`indent` goes to " + quantity_text(indent.to.value, unit::N) +
+                      ", which is not above the force of " + quantity_text(before.force, unit::N) +
+                      " before it; use `retract` to go back");
+      return {scenario_.finger.radius, indent.to.value, before.in_order};
+    }
+    const std::string to = quantity_text(indent.to.value, unit::mm);
+    if (before.in_order && by_force)
+      before.in_order = out_of_order(
+          path, "`indent` goes to " + to + " after a step to a force, which may have gone deeper; "
+                "give a force here too, or `retract` first");
+    else if (before.in_order && indent.to.value <= before.travel)
+      before.in_order = out_of_order(
+          path, "`indent` goes to " + to + ", which is not below the travel of " +
+                    quantity_text(before.travel, unit::mm) + " before it; use `retract` to go back");
+    else
+      too_deep(path, indent.to.value);
+    return {indent.to.value, 0.0, before.in_order};
+  }
+
+  Reached retracted(const std::string& path, const Retract& retract, Reached before) {
+    if (retract.to >= before.travel && before.in_order)
+      before.in_order = out_of_order(
+          path, "`retract` goes to " + quantity_text(retract.to, unit::mm) +
+                    ", which is not above the travel of " + quantity_text(before.travel, unit::mm) +
+                    " before it; use `indent` to go deeper");
+    return {retract.to, 0.0, before.in_order};
+  }
+
+  bool out_of_order(const std::string& path, const std::string& message) {
+    problem(path, message);
+    return false;
+  }
+
+  void too_deep(const std::string& path, double travel) {
+    const double radius = scenario_.finger.radius;
     const auto& size = std::get<Cuboid>(scenario_.tissue.shape).size;
-    if (indent.to.value > 0.9 * size[2])
-      problem(path + ".to", "`to` presses through the specimen, which is " +
-                                quantity_text(size[2], unit::mm) + " high; press less deep");
-    const double patch = std::sqrt(scenario_.finger.radius * indent.to.value);
-    if (patch > 0.5 * std::min(size[0], size[1]))
-      problem(path + ".to", "the contact would be wider than the specimen's top; press less deep "
-                            "or use a wider one");
-    return indent.to.value;
+    const std::string to = "`to` of " + quantity_text(travel, unit::mm);
+    if (travel > radius)
+      problem(path, to + " is deeper than the finger's radius of " +
+                        quantity_text(radius, unit::mm) +
+                        ", where no Hertz contact is left; press less deep");
+    else if (travel > 0.9 * size[2])
+      problem(path, to + " presses through the specimen, which is " +
+                        quantity_text(size[2], unit::mm) + " high; press less deep");
+    else if (std::sqrt(radius * travel) > 0.5 * std::min(size[0], size[1]))
+      problem(path, to + " makes a contact wider than the specimen's top; press less deep or use a "
+                        "wider specimen");
   }
 
   void methods() {
@@ -93,15 +128,25 @@ class Checker {
                                    "viscosity");
   }
 
-  void times() {
+  void time_step() {
+    if (scenario_.solver.model == Solver::Model::hertz) return;  // left unread
     const Output& output = scenario_.output;
     const double step = scenario_.solver.time_step.value_or(output.interval);
     const double ratio = output.interval / step;
-    if (ratio < 0.5 || std::abs(ratio - std::round(ratio)) > 1e-6 * ratio)
+    if (ratio > 1e6)
+      problem("solver.time_step", "`time_step` is " + quantity_text(step, unit::ms) +
+                                      ", more than a million times shorter than "
+                                      "`output.interval`; choose a longer one");
+    else if (ratio < 0.5 || std::abs(ratio - std::round(ratio)) > 1e-6 * ratio)
       problem("solver.time_step",
               "`time_step` is " + quantity_text(step, unit::ms) + ", which does not fit a whole "
               "number of times into `output.interval` of " +
-                  quantity_text(output.interval, unit::ms) + "; choose them so");
+                  quantity_text(output.interval, unit::ms) + "; write `time_step = \"auto\"` "
+                  "or a whole part of the interval");
+  }
+
+  void rows() {
+    const Output& output = scenario_.output;
     double total = 0.0;
     double travel = 0.0;
     for (const Step& one : scenario_.steps) total += duration(one, travel);

@@ -1,6 +1,7 @@
 // The resolved echo and the manual, both from the one list of fields.
 #include <algorithm>
 
+#include "base/document_writer.h"
 #include "base/field_writer.h"
 #include "base/text.h"
 #include "scenario/family.h"
@@ -8,26 +9,80 @@
 namespace palpate::scenario {
 namespace {
 
-std::string value_text(const Node& value) {
-  if (value.kind == Node::Kind::text) return "\"" + value.text + "\"";
-  if (value.kind == Node::Kind::array) {
-    std::vector<std::string> items;
-    for (const Node& item : value.items) items.push_back(value_text(item));
-    return "[" + joined(items, ", ") + "]";
-  }
-  return value.shown();
+using Kind = Node::Kind;
+
+// Files lie beside the echo, whatever folder they came from.
+void use_copies(Node& node, const std::string& key) {
+  for (Member& member : node.members) use_copies(member.value, member.key);
+  for (Node& item : node.items) use_copies(item, key);
+  if (node.kind != Kind::text || (key != "material" && key != "file")) return;
+  const std::size_t slash = node.text.rfind('/', node.text.find('#'));
+  if (slash != std::string::npos) node.text.erase(0, slash + 1);
 }
 
-// Material files lie beside the echo, whatever folder they came from.
-void use_copies(Scenario& scenario) {
-  const auto bare = [](std::string& path) {
-    const std::size_t end = std::min(path.find('#'), path.size());
-    const std::size_t slash = path.rfind('/', end);
-    if (slash != std::string::npos) path.erase(0, slash + 1);
+bool are(Kind kind, const Node& a, const Node& b) { return a.kind == kind && b.kind == kind; }
+
+bool are_steps(const Node& a, const Node& b) {
+  const auto of_tables = [](const Node& list) {
+    return std::all_of(list.items.begin(), list.items.end(),
+                       [](const Node& item) { return item.kind == Kind::table; });
   };
-  bare(scenario.tissue.material);
-  bare(scenario.finger.material);
-  if (auto* mesh = std::get_if<MeshFile>(&scenario.tissue.mesh)) bare(mesh->file);
+  return are(Kind::array, a, b) && a.items.size() == b.items.size() && of_tables(a) && of_tables(b);
+}
+
+// Keeps of `table` what `other` has with the same value.
+void keep_common(Node& table, const Node& other) {
+  std::vector<Member> kept;
+  for (Member& member : table.members) {
+    const Member* same = other.find(member.key);
+    if (same == nullptr) continue;
+    Node& value = member.value;
+    if (are(Kind::table, value, same->value)) {
+      keep_common(value, same->value);
+      if (value.members.empty()) continue;
+    } else if (are_steps(value, same->value)) {
+      for (std::size_t i = 0; i < value.items.size(); ++i)
+        keep_common(value.items[i], same->value.items[i]);
+    } else if (toml_value(value) != toml_value(same->value)) {
+      continue;
+    }
+    kept.push_back(member);
+  }
+  table.members = kept;
+}
+
+// Adds to `table` what was `given` and is missing.
+void add_missing(Node& table, const Node& given) {
+  for (const Member& member : given.members) {
+    const auto here = std::find_if(table.members.begin(), table.members.end(),
+                                   [&](const Member& other) { return other.key == member.key; });
+    if (here == table.members.end()) {
+      table.members.push_back(member);
+    } else if (are(Kind::table, here->value, member.value)) {
+      add_missing(here->value, member.value);
+    } else if (are_steps(here->value, member.value)) {
+      for (std::size_t i = 0; i < member.value.items.size(); ++i)
+        add_missing(here->value.items[i], member.value.items[i]);
+    }
+  }
+}
+
+Node resolved(const Case& one) {
+  Scenario scenario = one.scenario;
+  return parse_toml(fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, scenario); }),
+                    "echo");
+}
+
+// What all cases have in common, and what was given besides. The rest follows from the swept keys:
+// written out, one case's own material or model would be forced upon the others.
+Node common(const Family& family) {
+  Node document = resolved(family.cases.front());
+  if (family.cases.size() > 1) {
+    for (const Case& one : family.cases) keep_common(document, resolved(one));
+    add_missing(document, family.document);
+  }
+  use_copies(document, "");
+  return document;
 }
 
 std::string properties_comment(const Case& one) {
@@ -47,30 +102,26 @@ std::string properties_comment(const Case& one) {
 }  // namespace
 
 std::string echo(const Family& family) {
-  const auto swept = [&](const char* key) {
-    return std::any_of(family.sweep.begin(), family.sweep.end(),
-                       [&](const auto& entry) { return entry.first == key; });
+  const auto meshed = [](const Case& one) {
+    return one.scenario.solver.model != Solver::Model::hertz;
   };
-  // The properties of a swept material belong to its cases: written as keys they would override
-  // the material in all of them.
-  Scenario scenario = swept("tissue.material") || swept("finger.material")
-                          ? family.base
-                          : family.cases.front().scenario;
-  use_copies(scenario);
   std::string text = "# The scenario as it was run: every default spelled out. It reads back to the "
                      "same run.\n";
-  if (scenario.solver.model != Solver::Model::hertz)
+  if (std::any_of(family.cases.begin(), family.cases.end(), meshed))
     text += "# tissue.poisson_ratio reaches the contact only: independent springs have a ratio of "
             "their own (findings.csv).\n";
-  if (swept("tissue.material"))
+  if (std::any_of(family.sweep.begin(), family.sweep.end(),
+                  [](const auto& entry) { return entry.first == "tissue.material"; }))
     for (const Case& one : family.cases) text += properties_comment(one);
-  text += fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, scenario); });
+  text += toml_document(common(family));
   if (!family.sweep.empty()) {
     text += "\n[sweep]\ndesign = \"grid\"\n";
     for (const auto& [key, values] : family.sweep) {
-      std::vector<std::string> items;
-      for (const Node& value : values) items.push_back(value_text(value));
-      text += "\"" + key + "\" = [" + joined(items, ", ") + "]\n";
+      Node list;
+      list.kind = Kind::array;
+      list.items = values;
+      use_copies(list, key.substr(key.rfind('.') + 1));
+      text += toml_text(key) + " = " + toml_value(list) + "\n";
     }
   }
   return text;

@@ -14,32 +14,84 @@ namespace {
 
 constexpr std::size_t most_cases = 1000;
 
-using Sweep = std::vector<std::pair<std::string, std::vector<Node>>>;
+struct Swept {
+  std::string key;
+  Place place;
+  std::vector<Node> values;
+};
+
+bool from_command_line(const Place& place) { return place.line == 0; }
+
+void add_swept(const std::string& key, const Member& entry, std::vector<Swept>& sweep) {
+  const Node& value = entry.value;
+  if (value.kind == Node::Kind::table) {  // `tissue.material = [...]` without quotes
+    for (const Member& inner : value.members) add_swept(key + "." + inner.key, inner, sweep);
+    if (!value.members.empty()) return;
+  }
+  if (value.kind != Node::Kind::array || value.items.empty()) {
+    const std::string got = value.kind == Node::Kind::array ? "an empty one" : value.kind_name();
+    throw InputError(value.place, "`" + key + "` wants a list of values to run, got " + got +
+                                      "; write `\"" + key + "\" = [\"...\", \"...\"]`");
+  }
+  const auto same = [&](const Swept& other) { return other.key == key; };
+  const auto known = std::find_if(sweep.begin(), sweep.end(), same);
+  if (known != sweep.end() && !from_command_line(entry.place))
+    throw InputError(entry.place, "`" + key + "` is swept twice; keep one of the two");
+  if (known != sweep.end())
+    *known = {key, entry.place, value.items};
+  else
+    sweep.push_back({key, entry.place, value.items});
+}
 
 // Takes [sweep] out of the document.
-Sweep take_sweep(Node& document) {
+std::vector<Swept> take_sweep(Node& document) {
   const Member* member = document.find("sweep");
   if (member == nullptr) return {};
   const Node table = member->value;
   std::erase_if(document.members, [](const Member& m) { return m.key == "sweep"; });
   if (table.kind != Node::Kind::table)
-    throw InputError(table.place, "`sweep` wants a table of keys and lists; write `[sweep]`");
-  Sweep sweep;
+    throw InputError(table.place, "`sweep` wants a table of keys and lists, got " +
+                                      table.kind_name() + "; write `[sweep]`");
+  std::vector<Swept> sweep;
   for (const Member& entry : table.members) {
-    const Place place = entry.value.place;
-    if (entry.key == "design") {
-      if (entry.value.kind != Node::Kind::text || entry.value.text != "grid")
-        throw InputError(place, "`design` does not know `" + entry.value.shown() +
-                                    "`; write `design = \"grid\"`, every value with every other");
-    } else if (entry.value.kind != Node::Kind::array || entry.value.items.empty()) {
-      throw InputError(place, "`" + entry.key + "` wants a list of values to run, got " +
-                                  entry.value.kind_name() + "; write `\"" + entry.key +
-                                  "\" = [\"...\", \"...\"]`");
-    } else {
-      sweep.emplace_back(entry.key, entry.value.items);
-    }
+    const Node& value = entry.value;
+    if (entry.key != "design")
+      add_swept(entry.key, entry, sweep);
+    else if (value.kind != Node::Kind::text || value.text != "grid")
+      throw InputError(value.place, "`design` does not know `" + value.shown() +
+                                        "`; write `design = \"grid\"`, every value with every "
+                                        "other");
+  }
+  for (const Swept& swept : sweep) {
+    const Place given = place_of(document, swept.key);
+    const std::string setting = trimmed(split(given.file, '=').front());
+    if (from_command_line(given) && setting == "--set " + swept.key)
+      throw InputError(given, "`" + swept.key + "` is swept, so that one value has no effect; set "
+                              "the list, `sweep." + swept.key + "=[...]`");
   }
   return sweep;
+}
+
+// How many cases the lists make; many lists would overflow a product.
+std::size_t count_cases(const std::vector<Swept>& sweep, const Place& place) {
+  std::size_t count = 1;
+  for (const Swept& swept : sweep) {
+    count *= swept.values.size();
+    if (count > most_cases)
+      throw InputError(place, "`sweep` makes more than " + std::to_string(most_cases) +
+                                  " cases; give shorter lists or several scenarios");
+  }
+  return count;
+}
+
+// A swept value as a word of the case's name: files without their folder, tables by number.
+std::string value_word(const std::string& key, const Node& value, std::size_t index) {
+  const std::string last = key.substr(key.rfind('.') + 1);
+  if (value.kind == Node::Kind::table || value.kind == Node::Kind::array)
+    return last + std::to_string(index + 1);
+  const std::string shown = value.shown();
+  const bool file = last == "material" || last == "file";
+  return file ? std::filesystem::path(shown).filename().string() : shown;
 }
 
 Scenario read_scenario(const Node& document, Reading& reading) {
@@ -58,7 +110,8 @@ void add_new(std::vector<Problem>& all, const std::vector<Problem>& more) {
   }
 }
 
-void check_case_names(const Family& family, std::vector<Problem>& problems) {
+void check_case_names(const Family& family, const Place& sweep_place,
+                      std::vector<Problem>& problems) {
   std::vector<std::string> names;
   for (const Case& one : family.cases) names.push_back(one.name);
   for (const auto& [name, factor] : family.base.output.display_scale) {
@@ -71,8 +124,7 @@ void check_case_names(const Family& family, std::vector<Problem>& problems) {
   }
   const std::set<std::string> different(names.begin(), names.end());
   if (different.size() != names.size())
-    problems.push_back({family.document.place,
-                        "two cases of [sweep] have the same values; give each value once"});
+    problems.push_back({sweep_place, "two cases of `sweep` have the same name; give each value once"});
 }
 
 }  // namespace
@@ -108,13 +160,10 @@ Family parse(const std::string& text, const std::string& path,
     set_value(family.document, key, value, value.place);
   }
   family.inputs.push_back({file.filename().string(), text});
-  family.sweep = take_sweep(family.document);
-
-  std::size_t count = 1;
-  for (const auto& [key, values] : family.sweep) count *= values.size();
-  if (count > most_cases)
-    throw InputError(family.document.place, "[sweep] makes " + std::to_string(count) +
-                                                " cases; keep to " + std::to_string(most_cases));
+  const Place sweep_place = place_of(family.document, "sweep");
+  const std::vector<Swept> sweep = take_sweep(family.document);
+  const std::size_t count = count_cases(sweep, sweep_place);
+  for (const Swept& swept : sweep) family.sweep.emplace_back(swept.key, swept.values);
 
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < count; ++i) {
@@ -123,32 +172,27 @@ Family parse(const std::string& text, const std::string& path,
     std::vector<std::string> words;
     std::size_t rest = i;
     std::size_t block = count;
-    for (const auto& [key, values] : family.sweep) {  // the last key varies fastest
-      block /= values.size();
-      const Node& value = values[rest / block];
+    for (const Swept& swept : sweep) {  // the last key varies fastest
+      block /= swept.values.size();
+      const std::size_t index = rest / block;
       rest %= block;
-      set_value(document, key, value, value.place);
-      one.swept.emplace_back(key, value.shown());
-      words.push_back(value.shown());
+      set_value(document, swept.key, swept.values[index], swept.place);
+      words.push_back(value_word(swept.key, swept.values[index], index));
+      one.swept.emplace_back(swept.key, words.back());
     }
     one.name = words.empty() ? family.name : joined(words, "_");
     Reading reading;
     one.scenario = read_scenario(document, reading);
     if (i == 0) family.base = one.scenario;
     add_new(family.notes, reading.notes);
-    if (reading.problems.empty()) {
-      try {
-        fill_in(one.scenario, document, family.folder, family.inputs);
-        check(one.scenario, document, reading.problems);
-      } catch (const InputError& error) {
-        reading.problems = error.problems();
-      }
-    }
+    fill_in(one.scenario, document, family.folder, family.inputs, reading.problems);
+    if (reading.problems.empty()) check(one.scenario, document, reading.problems);
     add_new(problems, reading.problems);
     family.cases.push_back(one);
   }
   family.title = family.base.title.empty() ? family.name : family.base.title;
-  if (problems.empty()) check_case_names(family, problems);
+  if (problems.empty()) check_case_names(family, sweep_place, problems);
+  sort_by_place(problems);
   if (!problems.empty()) throw InputError(problems);
   return family;
 }

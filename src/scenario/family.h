@@ -12,9 +12,9 @@ namespace palpate::scenario {
 
 // One case: every property filled in from its material.
 struct Case {
-  std::string name;  // the swept values joined by `_`; without a sweep the scenario's name
+  std::string name;  // the swept values, without folders, joined by `_`; without a sweep the scenario's name
   Scenario scenario;
-  std::vector<std::pair<std::string, std::string>> swept;  // key and value, as written
+  std::vector<std::pair<std::string, std::string>> swept;  // key and value, as written, without folders
 };
 
 // A file that a run read, to be hashed, and copied beside the echo so that it finds it.
@@ -49,10 +49,11 @@ struct Family {
 // The reference manual of all keys in markdown: docs/scenario.md.
 [[nodiscard]] std::string manual();
 
-// Fills in the properties that the scenario leaves to its materials. Throws InputError at the
-// document's places; files that were read are added to `inputs`.
+// Fills in the properties that the scenario leaves to its materials. Adds to `problems`, at the
+// document's places, and what was read to `inputs`. Where there are problems already, materials
+// are looked up and no more, so that a mistake is told once.
 void fill_in(Scenario& scenario, const Node& document, const std::string& folder,
-             std::vector<InputFile>& inputs);
+             std::vector<InputFile>& inputs, std::vector<Problem>& problems);
 
 // What single keys cannot know: steps that follow each other, methods that exclude each other,
 // depths beyond the specimen. Adds to `problems`.

@@ -121,7 +121,7 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.choice({"viscosity", "How the tissue takes time.", use.mesh_physics}, tissue.viscosity,
                  viscosities);
   const auto with = [&](tissue::Viscosity law, const char* when) {
-    return Use{use.mesh_physics.used && tissue.viscosity == law, when};
+    return use.mesh_physics.used ? Use{tissue.viscosity == law, when} : use.mesh_physics;
   };
   visitor.quantity({"retardation_time", "tau = eta / E of Kelvin-Voigt. Default: the material's.",
                     with(tissue::Viscosity::kelvin_voigt, "with `viscosity = \"kelvin_voigt\"`")},
@@ -175,8 +175,10 @@ void fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
                  solver.kinematics, kinematics_words);
   visitor.choice({"integrator", "How time is stepped.", use.mesh}, solver.integrator, integrators);
   const bool is_explicit = solver.integrator == Integrator::central_difference;
-  const Use stepped{use.mesh.used && is_explicit, "with `integrator = \"central_difference\"`",
-                    Use::Otherwise::note};
+  const Use stepped = use.mesh.used
+                          ? Use{is_explicit, "with `integrator = \"central_difference\"`",
+                                Use::Otherwise::note}
+                          : use.mesh;
   visitor.choice({"start", "The step before the first.", stepped}, solver.start, starts);
   visitor.quantity_or("auto", {"time_step", "`auto`: the output interval.", use.mesh},
                       solver.time_step, unit::ms, above(0));

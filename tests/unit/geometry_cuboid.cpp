@@ -52,17 +52,17 @@ TEST(Cuboid, has_the_papers_counts) {
 // mesh-06 and mesh-07 say that 2 V - 4 triangles close a surface of genus 0 over V nodes: 176 for
 // 90 and 636 for 320. The same holds for every box of ours.
 TEST(Cuboid, surface_is_a_closed_sphere_of_2V_minus_4_triangles) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const std::array<int, 3> cells{*rc::gen::inRange(1, 6), *rc::gen::inRange(1, 6),
                                    *rc::gen::inRange(1, 6)};
     const auto pattern = *rc::gen::element(CellPattern::kuhn, CellPattern::mirrored);
     const TetMesh mesh = cuboid({0.01, 0.02, 0.005}, cells, pattern);
     RC_ASSERT(boundary_faces(mesh).size() == 2 * surface_node_count(mesh) - 4);
-  });
+  }));
 }
 
 TEST(Cuboid, passes_the_check_and_fills_the_box_at_every_size) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const std::array<int, 3> cells{*rc::gen::inRange(1, 7), *rc::gen::inRange(1, 7),
                                    *rc::gen::inRange(1, 7)};
     const auto pattern = *rc::gen::element(CellPattern::kuhn, CellPattern::mirrored);
@@ -75,7 +75,7 @@ TEST(Cuboid, passes_the_check_and_fills_the_box_at_every_size) {
     RC_ASSERT(std::abs(sum - expected) < 1e-13 * expected);  // rounding of at most 1296 terms
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
       RC_ASSERT(signed_volume(mesh, static_cast<int>(t)) > 0.0);
-  });
+  }));
 }
 
 TEST(Cuboid, numbers_nodes_x_fastest_and_ends_exactly_at_the_size) {

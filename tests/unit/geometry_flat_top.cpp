@@ -32,7 +32,7 @@ TEST(FlatTop, holds_the_upper_face_of_a_box) {
 }
 
 TEST(FlatTop, weights_rebuild_the_point_at_every_size) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const double scale = *rc::gen::element(1e-3, 1.0, 1e3);
     const std::array<int, 3> cells{*rc::gen::inRange(1, 9), *rc::gen::inRange(1, 9), 1};
     const auto pattern = *rc::gen::element(CellPattern::kuhn, CellPattern::mirrored);
@@ -48,7 +48,7 @@ TEST(FlatTop, weights_rebuild_the_point_at_every_size) {
     RC_ASSERT(std::abs(sum - 1.0) < 1e-9);  // up to the edge tolerance of 1e-10
     for (const double weight : point->weights) RC_ASSERT(weight >= 0.0);
     RC_ASSERT((at(mesh, *point) - Vec3(x, y, size.z())).norm() < 1e-9 * scale);  // likewise
-  });
+  }));
 }
 
 TEST(FlatTop, a_shared_node_belongs_to_the_first_triangle_that_has_it) {

@@ -1,0 +1,225 @@
+// Uniform specimens against Kelvin-Voigt and the standard linear solid: groups KV, SLS, drag.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases.h"
+#include "run/family.h"
+
+namespace palpate {
+namespace {
+
+using test::expect_case;
+
+const char* const integrators[] = {"central_difference", "backward_difference", "quasi_static",
+                                   "modal"};
+const char* const meshes[] = {"{ kind = \"kuhn\", cells = [3, 4, 6] }",
+                              "{ kind = \"mirrored\", cells = [2, 2, 4] }",
+                              "{ kind = \"tetgen\", nodes = 160 }"};
+
+struct Result {
+  record::CaseRecord record;
+  scene::Scene scene;
+};
+
+Result run_text(const std::string& text, const std::vector<std::string>& settings) {
+  const auto family = scenario::parse(text, "test.toml", settings);
+  Result result;
+  result.scene = scene::build(family.cases.front(), family);
+  const std::atomic<bool> stop = false;
+  result.record = run::run_case(result.scene, stop);
+  return result;
+}
+
+const std::string specimen =
+    "schema = 1\n[tissue]\nmaterial = \"muscle\"\n"
+    "shape = { kind = \"cuboid\", size = [\"30 mm\", \"30 mm\", \"30 mm\"] }\n"
+    "[output]\ninterval = \"50 ms\"\n";
+const std::string creep =
+    specimen +
+    "[[step]]\nkind = \"creep\"\nstress = \"100 Pa\"\nload_time = \"1.5 s\"\n"
+    "recovery_time = \"0.5 s\"\n";
+const std::string relax =
+    specimen + "[[step]]\nkind = \"relax\"\nstrain = 0.02\ntime = \"2 s\"\n";
+
+double strain_at(const record::CaseRecord& record, double time) {
+  for (const auto& row : record.strain)
+    if (std::abs(row.time - time) < 1e-6) return row.strain;
+  ADD_FAILURE() << "no row at " << time;
+  return 0.0;
+}
+
+TEST(KelvinVoigtSpecimen, CreepsAndRecoversLikeTheClosedForm) {
+  const double tau = 0.5;
+  for (const char* integrator : integrators) {
+    for (const char* mesh : meshes) {
+      const auto [record, scene] = run_text(
+          creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                  std::string("solver.integrator=") + integrator,
+                  std::string("tissue.mesh=") + mesh});
+      ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator << mesh;
+      const double settled = 100.0 / scene.specimen->measured.young_modulus;
+      for (const auto& row : record.strain) {
+        const double loaded = std::min(row.time, 1.5);
+        double want = settled * (1.0 - std::exp(-loaded / tau));
+        if (row.time > 1.5) want *= std::exp(-(row.time - 1.5) / tau);
+        EXPECT_NEAR(row.strain, want, 0.01 * settled)  // the figure: 1 % of the settled
+            << integrator << " " << mesh << " at " << row.time;
+      }
+    }
+  }
+}
+
+TEST(KelvinVoigtSpecimen, QuasiStaticIsTheClosedForm) {
+  const auto [record, scene] =
+      run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                       "solver.integrator=quasi_static", "output.interval=25 ms"});
+  const double settled = 100.0 / scene.specimen->measured.young_modulus;
+  expect_case("KV-02", strain_at(record, 0.25) / settled);
+  expect_case("KV-03", strain_at(record, 0.5) / settled);
+  expect_case("KV-04", strain_at(record, 1.0) / settled);
+  expect_case("KV-06", strain_at(record, 2.0) / settled);  // 3 tau loaded, 1 tau after
+}
+
+TEST(KelvinVoigtSpecimen, EarlyAndLate) {
+  const auto [record, scene] =
+      run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.2 s",
+                       "solver.integrator=quasi_static", "output.interval=20 ms"});
+  const double settled = 100.0 / scene.specimen->measured.young_modulus;
+  expect_case("KV-01", strain_at(record, 0.02) / settled);
+  expect_case("KV-05", strain_at(record, 1.0) / settled);
+}
+
+TEST(StandardLinearSolidSpecimen, Relaxes) {
+  const double tau = 0.4;
+  const double ratio = 2.5;
+  for (const char* integrator : integrators) {
+    for (const char* mesh : meshes) {
+      const auto [record, scene] = run_text(
+          relax, {"tissue.viscosity=standard_linear_solid", "tissue.relaxation_time=0.4 s",
+                  "tissue.instantaneous_ratio=2.5", std::string("solver.integrator=") + integrator,
+                  std::string("tissue.mesh=") + mesh});
+      ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator << mesh;
+      const double modulus = scene.specimen->measured.young_modulus;
+      for (const auto& row : record.strain) {
+        const double want =
+            0.02 * modulus * (1.0 + (ratio - 1.0) * std::exp(-row.time / tau));
+        EXPECT_NEAR(row.stress, want, 0.01 * want)  // the figure: 1 %
+            << integrator << " " << mesh << " at " << row.time;
+      }
+    }
+  }
+}
+
+const std::vector<std::string> solid{"tissue.viscosity=standard_linear_solid",
+                                     "tissue.relaxation_time=0.4 s",
+                                     "tissue.instantaneous_ratio=2.5"};
+
+TEST(StandardLinearSolidSpecimen, CreepsWithoutInertia) {
+  const double ratio = 2.5;
+  const double creep_time = 0.4 * ratio;  // tau_c = tau E_0 / E_inf
+  auto settings = solid;
+  settings.emplace_back("solver.integrator=quasi_static");
+  const auto [record, scene] = run_text(creep, settings);
+  const double settled = 100.0 / scene.specimen->measured.young_modulus;
+  const auto course = [&](double t) {
+    return settled * (1.0 - (1.0 - 1.0 / ratio) * std::exp(-t / creep_time));
+  };
+  for (const auto& row : record.strain) {
+    double want = course(row.time);
+    if (row.time > 1.5) want -= course(row.time - 1.5);  // superposition
+    if (row.time == 1.5) continue;
+    // Elongations change linearly in a step of 50 ms: (dt / tau_c)^2 / 12 of the branch.
+    EXPECT_NEAR(row.strain, want, 5e-4 * settled) << "at " << row.time;
+  }
+}
+
+// With inertia the solid rings after the jump, for its branch damps little at that frequency: the
+// stepped answer must be the exact one, ringing and all.
+TEST(StandardLinearSolidSpecimen, RingsAlikeInStepsAndInModes) {
+  auto stepped = solid;
+  stepped.emplace_back("solver.integrator=central_difference");
+  stepped.emplace_back("solver.substeps=400");
+  auto exact = solid;
+  exact.emplace_back("solver.integrator=modal");
+  const auto a = run_text(creep, stepped);
+  const auto b = run_text(creep, exact);
+  const double settled = 100.0 / a.scene.specimen->measured.young_modulus;
+  ASSERT_EQ(a.record.strain.size(), b.record.strain.size());
+  for (std::size_t i = 0; i < a.record.strain.size(); ++i)
+    EXPECT_NEAR(a.record.strain[i].strain, b.record.strain[i].strain,
+                0.02 * settled)  // phase error of 1.5 s of ringing at omega dt = 0.02
+        << "row " << i;
+}
+
+// The slow creep time of a bar on a fixed base under drag d/m: 1 / tau is the small root of
+// s^2 - (d/m) s + omega_1^2, omega_1 = pi c / (2 L).
+double drag_time(double length, double drag) {
+  const double c = std::sqrt(6000.0 / 1041.0);
+  const double omega = std::numbers::pi * c / (2.0 * length);
+  return 2.0 / (drag - std::sqrt(drag * drag - 4.0 * omega * omega));
+}
+
+TEST(NodalDragSpecimen, CreepTimeGrowsWithTheLengthSquared) {
+  expect_case("drag-01", drag_time(0.030, 1000.0));
+  for (const double length : {30.0, 60.0}) {
+    const std::string mm = std::to_string(static_cast<int>(length)) + " mm";
+    const auto [record, scene] = run_text(
+        creep, {"tissue.viscosity=nodal_drag", "tissue.drag=1000 1/s",
+                "tissue.shape={ kind = \"cuboid\", size = [\"8 mm\", \"8 mm\", \"" + mm + "\"] }",
+                "tissue.mesh={ kind = \"mirrored\", cells = [2, 2, 10] }", "step.1.load_time=2 s",
+                "output.interval=10 ms"});
+    // Recovery, when the faster modes have gone: the ratio of two strains tells the time.
+    const double want = drag_time(1e-3 * length, 1000.0);
+    const double early = strain_at(record, 2.0 + 0.1);
+    const double late = strain_at(record, 2.0 + 0.3);
+    EXPECT_NEAR(0.2 / std::log(early / late), want, 0.02 * want)  // ten cells, sides that move
+        << length;
+  }
+}
+
+TEST(KelvinVoigtSpecimen, DoesNotRelaxAndSaysSo) {
+  const auto [record, scene] =
+      run_text(relax, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                       "solver.integrator=quasi_static"});
+  const double want = 0.02 * scene.specimen->measured.young_modulus;
+  for (const auto& row : record.strain) EXPECT_NEAR(row.stress, want, 1e-9 * want);  // rounding
+  ASSERT_FALSE(record.remarks.empty());
+  EXPECT_NE(record.remarks.back().find("does not relax"), std::string::npos);
+}
+
+TEST(UniformSpecimen, NonlinearAgreesWithLinearForSmallLoads) {
+  for (const char* integrator : {"central_difference", "backward_difference", "quasi_static"}) {
+    const std::vector<std::string> common{"tissue.viscosity=kelvin_voigt",
+                                          "tissue.retardation_time=0.5 s",
+                                          std::string("solver.integrator=") + integrator,
+                                          "step.1.stress=1 Pa"};
+    auto turned = common;
+    turned.emplace_back("solver.kinematics=nonlinear");
+    const auto linear = run_text(creep, common);
+    const auto nonlinear = run_text(creep, turned);
+    ASSERT_EQ(nonlinear.record.outcome, record::Outcome::completed) << integrator;
+    ASSERT_EQ(linear.record.strain.size(), nonlinear.record.strain.size());
+    for (std::size_t i = 0; i < linear.record.strain.size(); ++i)
+      EXPECT_NEAR(nonlinear.record.strain[i].strain, linear.record.strain[i].strain,
+                  2e-3 * 1.0 / 6000.0)  // strain 2e-4: the second order is of that size
+          << integrator << " row " << i;
+  }
+}
+
+TEST(UniformSpecimen, EnergyIsAccountedFor) {
+  for (const char* integrator : integrators) {
+    const auto [record, scene] = run_text(
+        creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                std::string("solver.integrator=") + integrator, "output.interval=5 ms"});
+    double imbalance = 1.0;
+    for (const auto& finding : record.findings)
+      if (finding.name == "energy_imbalance") imbalance = std::get<double>(finding.value);
+    // Implicit Euler damps numerically by about dt / tau of what is dissipated.
+    EXPECT_LT(imbalance, 0.02) << integrator;
+  }
+}
+
+}  // namespace
+}  // namespace palpate
