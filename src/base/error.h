@@ -13,6 +13,7 @@ struct Place {
   int line = 0;
   int column = 0;
 
+  bool operator==(const Place&) const = default;
   [[nodiscard]] std::string text() const;  // file:line:column, as far as known
 };
 

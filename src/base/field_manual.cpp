@@ -17,10 +17,10 @@ class Manual final : public FieldVisitor {
   [[nodiscard]] std::string result() const {
     std::string text;
     for (const Section& section : sections_) {
-      text += "\n## " + section.title + "\n\n";
-      if (!section.meaning.empty()) text += section.meaning + "\n\n";
+      text += "\n## " + section.title + "\n";
+      if (!section.meaning.empty()) text += "\n" + section.meaning + "\n";
       if (section.rows.empty()) continue;
-      text += "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
+      text += "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
       for (const std::string& row : section.rows) text += row + "\n";
     }
     return text;

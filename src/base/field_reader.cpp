@@ -308,7 +308,8 @@ class Reader final : public FieldVisitor {
   bool read_quantity(const Key& key, const Node& node, double& si, const Unit& unit,
                      const Range& range) {
     if (node.kind != Node::Kind::text) {
-      const std::string digits = node.is_number() ? node.shown() : "1";
+      const bool usable = node.is_number() && std::isfinite(node.number);
+      const std::string digits = usable ? number_text(node.number) : "1";
       wrong_type(key, node, std::string("a ") + unit.quantity + " with its unit, as text",
                  "\"" + digits + " " + unit.symbol + "\"");
       return false;

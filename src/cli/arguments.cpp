@@ -35,7 +35,7 @@ struct Parser {
     verb->add_option("scenario", run.scenarios, "Scenario files")->required();
     verb->add_option("--out", run.out, "Folder of the results")->capture_default_str();
     verb->add_option("--set", run.settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
-    verb->add_option("--jobs", run.jobs, "Workers; 0: one a core")->check(CLI::NonNegativeNumber);
+    verb->add_option("--jobs", run.jobs, "Workers; 0: one a core")->check(CLI::Range(0, 1024));
     verb->add_flag("--force", run.force, "Replace finished results");
 
     verb = app.add_subcommand("explain", "What a scenario would compute, or what a key means");
@@ -89,9 +89,24 @@ std::vector<std::string> verb_names(const CLI::App& app) {
   return names;
 }
 
-void add_options(const CLI::App& app, std::vector<std::string>& names) {
+using Options = std::vector<const CLI::Option*>;
+
+void add_options(const CLI::App& app, Options& options) {
   for (const CLI::Option* option : app.get_options())
+    if (!option->get_positional()) options.push_back(option);
+}
+
+const CLI::Option* find_option(const Options& options, const std::string& name) {
+  for (const CLI::Option* option : options)
+    if (option->check_name(name)) return option;
+  return nullptr;
+}
+
+std::vector<std::string> long_names(const Options& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options)
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
@@ -99,18 +114,30 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return near ? "; did you mean `" + *near + "`?" : "; known: " + joined(known, ", ");
 }
 
+std::string unknown_option(const CLI::App& verb, const std::string& name, const Options& known) {
+  for (const std::string& inner : verb_names(verb))
+    if (verb.get_subcommand(inner)->get_option_no_throw(name) != nullptr)
+      return "option `" + name + "` stands before its verb; write it as `palpate " + inner + " ... " +
+             name + "`";
+  return "unknown option `" + name + "`" + did_you_mean(name, long_names(known));
+}
+
 // The first word that no verb or option of ours is.
 std::optional<std::string> wrong_word(const CLI::App& app,
                                       const std::vector<std::string>& arguments) {
   const CLI::App* verb = &app;
-  std::vector<std::string> options;
+  Options options;
   add_options(app, options);
-  for (const std::string& word : arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
     if (word == "--") break;
-    if (word.starts_with("--") && word.size() > 2) {
-      const std::string name = word.substr(0, word.find('='));
-      if (std::find(options.begin(), options.end(), name) == options.end())
-        return "unknown option `" + name + "`" + did_you_mean(name, options);
+    const bool is_long = word.starts_with("--");
+    const std::string name = is_long ? word.substr(0, word.find('=')) : word;
+    if (const CLI::Option* option = find_option(options, name); word.starts_with("-") && option) {
+      // The next word is its value, whatever it looks like.
+      if (option->get_items_expected_min() > 0 && name == word) ++i;
+    } else if (is_long) {
+      return unknown_option(*verb, name, options);
     } else if (!word.starts_with("-") && !verb_names(*verb).empty()) {
       const std::vector<std::string> names = verb_names(*verb);
       if (std::find(names.begin(), names.end(), word) == names.end())
@@ -120,6 +147,24 @@ std::optional<std::string> wrong_word(const CLI::App& app,
     }
   }
   return std::nullopt;
+}
+
+// CLI11's complaint as a sentence; `what` names an option or positional without quotes.
+std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* asked = &app;
+  std::string command = "palpate";
+  while (!asked->get_subcommands().empty()) {
+    asked = asked->get_subcommands().front();
+    command += " " + asked->get_name();
+  }
+  const std::string help = "; `" + command + " --help` shows how to write it";
+  const std::string what = error.what();
+  const std::string required = " is required";
+  if (what == "A subcommand is required")
+    return "`" + command + "` wants a verb: " + joined(verb_names(*asked), ", ") + help;
+  if (what.ends_with(required))
+    return "`" + command + "` lacks `" + what.substr(0, what.size() - required.size()) + "`" + help;
+  return "`" + command + "` cannot be read: " + what + help;
 }
 
 }  // namespace
@@ -134,10 +179,14 @@ std::variant<Arguments, UsageError, Answer> parse(const std::vector<std::string>
     return Answer{parser.app.version() + "\n"};
   } catch (const CLI::CallForHelp&) {
     const CLI::App* asked = &parser.app;
-    while (!asked->get_subcommands().empty()) asked = asked->get_subcommands().front();
-    return Answer{asked->help()};
+    std::string command;
+    while (!asked->get_subcommands().empty()) {
+      command += (command.empty() ? "" : " ") + asked->get_name();
+      asked = asked->get_subcommands().front();
+    }
+    return Answer{asked->help(command)};
   } catch (const CLI::ParseError& error) {
-    return UsageError{std::string(error.what()) + "; `palpate --help` lists what is known"};
+    return UsageError{sentence(parser.app, error)};
   }
   parser.arguments.given = arguments;
   parser.arguments.verb = parser.chosen();

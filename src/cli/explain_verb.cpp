@@ -18,27 +18,43 @@ using scenario::Solver;
 
 std::string milliseconds(double seconds) { return rounded_text(1e3 * seconds) + " ms"; }
 
-// The rows of the manual that describe `key`, given as `table.key` or `key`.
-std::string meaning(const std::string& key) {
-  const std::size_t dot = key.rfind('.');
-  const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
-  const std::string table = dot == std::string::npos ? "" : key.substr(0, dot);
+// `step.1.to` as the manual names it, `step.to`.
+std::string without_numbers(const std::string& key) {
+  std::vector<std::string> words = split(key, '.');
+  std::erase_if(words, [](const std::string& word) { return whole_number(word).has_value(); });
+  return joined(words, ".");
+}
+
+// The table that a section of the manual is about: `tissue.mesh` of "`[tissue.mesh]`".
+std::string table_of(const std::string& section) {
+  const auto quotes = split(section, '`');
+  if (quotes.size() < 2) return "";
+  std::string table = quotes[1];
+  std::erase_if(table, [](char c) { return c == '[' || c == ']'; });
+  return table;
+}
+
+// The rows of the manual that describe a key, given as `table.key` or `key`, or a table's keys.
+std::string meaning(const std::string& asked) {
+  const std::string key = without_numbers(asked);
   std::string section;
   std::string found;
   std::vector<std::string> known;
   for (const std::string& line : split(scenario::manual(), '\n')) {
     if (line.starts_with("## ")) section = line.substr(3);
     if (!line.starts_with("| `")) continue;
-    const std::string here = line.substr(3, line.find('`', 3) - 3);
-    known.push_back(here);
-    if (here != name || section.find(table) == std::string::npos) continue;
+    const std::string name = line.substr(3, line.find('`', 3) - 3);
+    const std::string table = table_of(section);
+    const std::string path = table.empty() ? name : table + "." + name;
+    known.insert(known.end(), {path, name, table});
+    if (key != path && key != name && (key.empty() || key != table)) continue;
     const auto cells = split(line, '|');
-    found += section + ": `" + here + "`\n  value:   " + trimmed(cells[2]) +
+    found += section + ": `" + name + "`\n  value:   " + trimmed(cells[2]) +
              "\n  default: " + trimmed(cells[3]) + "\n  " + trimmed(cells[4]) + "\n";
   }
   if (!found.empty()) return found;
-  const auto near = nearest(name, known);
-  throw InputError({}, "palpate: `" + key + "` is neither a file nor a key" +
+  const auto near = nearest(key, known);
+  throw InputError({}, "palpate: `" + asked + "` is neither a file nor a key" +
                            (near ? "; did you mean `" + *near + "`?"
                                  : "; `palpate manual` lists all keys"));
 }

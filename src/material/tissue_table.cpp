@@ -1,6 +1,7 @@
 // Reading tissue tables: the built-in one is part of the program.
 #include "material/tissue_table.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 
@@ -52,25 +53,23 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Node& table) {
   optional("drag", "", tissue.drag, quantity(unit::per_second, at_least(0)));
 }
 
-bool is_property(const std::string& key) {
-  for (const char* known : {"density", "young_modulus", "poisson_ratio", "retardation_time",
-                            "relaxation_time", "instantaneous_ratio", "drag"})
-    if (key == known) return true;
-  return false;
-}
-
 void require(const Node& table, const std::string& name, const Place& place,
              std::vector<Problem>& problems) {
-  std::vector<std::string> unknown;  // `densitty` is told as an unknown key, and no more
+  // `densitty` was told as an unknown key; that `density` is missing is the same mistake.
+  std::vector<std::string> unknown;
   for (const Member& member : table.members)
-    if (!is_property(member.key)) unknown.push_back(member.key);
+    for (const Problem& problem : problems)
+      if (problem.place == member.place) unknown.push_back(member.key);
+  const auto is_unknown = [&](const std::string& key) {
+    return std::find(unknown.begin(), unknown.end(), key) != unknown.end();
+  };
   for (const char* key : {"density", "young_modulus", "poisson_ratio"}) {
     if (table.find(key) == nullptr && !nearest(key, unknown))
       problems.push_back({place, "`" + name + "` lacks `" + key + "`; add `" + key +
                                      " = { value = ..., source = \"...\" }`"});
   }
   for (const Member& member : table.members) {
-    if (member.value.kind != Node::Kind::table || !is_property(member.key)) continue;
+    if (member.value.kind != Node::Kind::table || is_unknown(member.key)) continue;
     for (const char* key : {"value", "source"})
       if (member.value.find(key) == nullptr)
         problems.push_back({member.place, "`" + member.key + "` lacks `" + key +
