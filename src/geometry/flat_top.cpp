@@ -116,7 +116,9 @@ std::optional<FacePoint> FlatTop::locate(double x, double y) const {
     const double c = shape.cx * dx + shape.cy * dy;
     const double a = 1.0 - b - c;
     if (a < -kEdge || b < -kEdge || c < -kEdge) continue;
-    return FacePoint{triangles_[t], {std::max(a, 0.0), std::max(b, 0.0), std::max(c, 0.0)}};
+    const std::array<double, 3> weights{std::max(a, 0.0), std::max(b, 0.0), std::max(c, 0.0)};
+    const double sum = weights[0] + weights[1] + weights[2];  // above 1 beyond an edge
+    return FacePoint{triangles_[t], {weights[0] / sum, weights[1] / sum, weights[2] / sum}};
   }
   return std::nullopt;
 }

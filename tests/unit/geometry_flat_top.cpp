@@ -45,9 +45,10 @@ TEST(FlatTop, weights_rebuild_the_point_at_every_size) {
     const auto point = top.locate(x, y);
     RC_ASSERT(point.has_value());
     const double sum = point->weights[0] + point->weights[1] + point->weights[2];
-    RC_ASSERT(std::abs(sum - 1.0) < 1e-9);  // up to the edge tolerance of 1e-10
+    RC_ASSERT(std::abs(sum - 1.0) < 1e-15);  // three roundings
     for (const double weight : point->weights) RC_ASSERT(weight >= 0.0);
-    RC_ASSERT((at(mesh, *point) - Vec3(x, y, size.z())).norm() < 1e-9 * scale);  // likewise
+    RC_ASSERT((at(mesh, *point) - Vec3(x, y, size.z())).norm() <
+              1e-9 * scale);  // the edge tolerance of 1e-10
   }));
 }
 
