@@ -46,17 +46,15 @@ struct OneMass final : integrate::Body {
   [[nodiscard]] SparseMatrix stiffness() const override { return diagonal(k); }
   [[nodiscard]] bool has_dashpots() const override { return tau > 0.0; }
   [[nodiscard]] SparseMatrix dashpots() const override { return diagonal(tau * k); }
-  void dashpot_force(const Vector&, const Vector& v, Vector& f) const override {
-    f = tau * k * v;
-  }
+  void dashpot_force(const Vector&, const Vector& v, Vector& f) const override { f = tau * k * v; }
   [[nodiscard]] std::vector<double> memory_at(const Vector& u) const override { return {u[0]}; }
   void remember(const Vector& u, const integrate::TimeStep&,
                 std::vector<double>& memory) const override {
     memory[0] = u[0];
   }
   // Dashpots by implicit Euler, which is what first_order asks for.
-  void step_force(const Vector& u, std::span<const double> memory,
-                  const integrate::TimeStep& step, Vector& f) const override {
+  void step_force(const Vector& u, std::span<const double> memory, const integrate::TimeStep& step,
+                  Vector& f) const override {
     f = k * u;
     if (step.size > 0.0) f[0] += tau * k * (u[0] - memory[0]) / step.size;
   }

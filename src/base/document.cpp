@@ -61,6 +61,20 @@ std::size_t first_binary_byte(std::string_view text) {
   return static_cast<std::size_t>(std::find_if(text.begin(), text.end(), binary) - text.begin());
 }
 
+// The first byte of what is no UTF-8 character, or the text's size.
+std::size_t first_broken_character(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const auto lead = static_cast<unsigned char>(text[at]);
+    const std::size_t size = lead < 0x80 ? 1 : lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    if (size == 0 || lead > 0xf4 || at + size > text.size()) return at;
+    for (std::size_t i = 1; i < size; ++i)
+      if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return at;
+    at += size;
+  }
+  return at;
+}
+
 }  // namespace
 
 const Member* Node::find(std::string_view key) const {
@@ -104,13 +118,12 @@ Node parse_toml(std::string_view text, const std::string& file) {
   if (trimmed(text).empty())
     throw InputError({file, 1, 1}, "the file is empty; a scenario starts with `schema = 1`");
   const std::size_t binary = first_binary_byte(text);
-  if (binary < text.size()) {
-    const auto before = text.substr(0, binary);
-    const int line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
-    const std::size_t start = before.find_last_of('\n') + 1;  // npos + 1 is 0: the first line
-    throw InputError({file, line, static_cast<int>(binary - start) + 1},
-                     "this is not a text file; give a TOML file");
-  }
+  if (binary < text.size())
+    throw InputError(place_at(text, binary, file), "this is not a text file; give a TOML file");
+  const std::size_t broken = first_broken_character(text);
+  if (broken < text.size())
+    throw InputError(place_at(text, broken, file),
+                     "this is not UTF-8 text; save the file as UTF-8");
   try {
     const toml::table table = toml::parse(text, file);
     Node root = convert(table, file);

@@ -264,7 +264,8 @@ class Reader final : public FieldVisitor {
               const Unit* unit) {
     if (range.holds(value)) return true;
     problem(node.place, quoted(key.name) + " must be " + range_text(range, unit) + ", got " +
-                            quoted(node.shown()) + "; give a value in that range");
+                            quoted(node.shown()) +
+                            (range.low == range.high ? "; write that" : "; give a value in that range"));
     return false;
   }
 

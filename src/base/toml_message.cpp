@@ -22,14 +22,6 @@ std::size_t offset_of(std::string_view text, const Place& place) {
   return at;
 }
 
-Place place_at(std::string_view text, std::size_t offset, const std::string& file) {
-  const auto before = text.substr(0, offset);
-  const std::size_t line_start = before.find_last_of('\n') + 1;  // npos + 1 is 0: the first line
-  const auto in_line = before.substr(line_start);
-  return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-          1 + static_cast<int>(std::count_if(in_line.begin(), in_line.end(), starts_character))};
-}
-
 // What stands between quotes of the parser's own: '1e400'.
 std::string_view parser_quote(std::string_view description) {
   const std::size_t from = description.find('\'');
@@ -55,6 +47,14 @@ std::string_view repeated(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+Place place_at(std::string_view text, std::size_t offset, const std::string& file) {
+  const auto before = text.substr(0, offset);
+  const std::size_t line_start = before.find_last_of('\n') + 1;  // npos + 1 is 0: the first line
+  const auto in_line = before.substr(line_start);
+  return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+          1 + static_cast<int>(std::count_if(in_line.begin(), in_line.end(), starts_character))};
+}
+
 Problem toml_problem(std::string_view text, const Place& place, std::string_view description) {
   const auto says = [&](std::string_view part) {
     return description.find(part) != std::string_view::npos;
@@ -79,7 +79,7 @@ Problem toml_problem(std::string_view text, const Place& place, std::string_view
                                      (says("bits") ? "64 bits cannot" : "no double can") +
                                      " hold; write one between -1e300 and 1e300"};
   }
-  if (says("unescaped control characters") || (says("parsing string") && says("end-of-file")))
+  if (says("unescaped control characters") || (says("string:") && says("end-of-file")))
     return {place, "a text is not closed on its line; end it with the quote it began with"};
   if (says("expected a comment or whitespace"))
     return {place, "a value is followed by more on its line; put quantities in double quotes, as "

@@ -12,6 +12,9 @@ namespace palpate::cli {
 int compare(const Compare& command) {
   report::Tolerances tolerances;
   if (!command.tolerances.empty()) tolerances = report::read_tolerances(command.tolerances);
+  for (const std::string& path : {command.got, command.want})
+    if (!std::filesystem::exists(path))
+      throw InputError({path, 0, 0}, "is not there; give a CSV file or a result folder");
   const bool folders = std::filesystem::is_directory(command.want);
   if (folders != std::filesystem::is_directory(command.got))
     throw InputError({command.got, 0, 0},

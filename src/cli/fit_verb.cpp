@@ -37,8 +37,8 @@ int fit_columns(const Fit& command) {
     for (const fit::ModelInfo& one : fit::models()) known.emplace_back(one.name);
     const auto near = nearest(command.model, known);
     throw InputError({}, "palpate: `--model` does not know `" + command.model + "`" +
-                             (near ? "; did you mean `" + *near + "`?" : "") + " It is one of " +
-                             joined(known, ", "));
+                             (near ? "; did you mean `" + *near + "`?"
+                                   : "; it is one of " + joined(known, ", ")));
   }
   const record::Table table = record::read_csv(command.data);
   const std::size_t x = column_of(table, command.x, command.data);

@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/document_writer.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
@@ -59,20 +60,14 @@ void bless_one(const std::string& name, const std::string& reason) {
   for (std::size_t i = 0; i < records.size(); ++i)
     for (fit::NamedFit& named : fit::case_fits(scenes[i].scenario, records[i]))
       fits.push_back(std::move(named));
-  fs::create_directories(folder + "/expected");
-  const auto write = [&](const char* file, const record::Table& table) {
-    if (!table.rows.empty())
-      write_atomically(folder + "/expected/" + file, record::csv_text(table));
-  };
-  write("force_indentation.csv", record::contact_table(records));
-  write("strain_time.csv", record::strain_table(records));
-  write("findings.csv", report::findings_table(family, records));
-  if (family.base.output.fits) write("fits.csv", fit::fit_table(fits));
+  const std::string expected = folder + "/expected";
+  fs::remove_all(expected);  // with files that are no longer written
+  fs::create_directories(expected);
+  for (const auto& [file, table] : report::csv_files(family, records, fits))
+    write_atomically(expected + "/" + file, record::csv_text(table));
   const report::Build build = report::this_build();
-  std::string quoted;
-  for (const char c : reason) quoted += (c == '"' || c == '\\') ? std::string("\\") + c : std::string(1, c);
   write_atomically(folder + "/blessed.toml",
-                   "reason = \"" + quoted + "\"\ncommit = \"" + trimmed(git({"rev-parse", "HEAD"})) +
+                   "reason = " + toml_text(reason) + "\ncommit = \"" + trimmed(git({"rev-parse", "HEAD"})) +
                        "\"\ncompiler = \"" + build.compiler + "\"\n");
 }
 

@@ -98,8 +98,7 @@ void FlatContact::read_ring(double contact_radius, Reading& reading) const {
   const double ridge = 1e-3 * s0 * mean_r2 * mean_r2;
   const double determinant = s0 * (s2 + ridge) - s1 * s1;
   for (const Candidate& candidate : kept) {
-    const double weight =
-        candidate.weight * ((s2 + ridge) - s1 * candidate.r2) / determinant;
+    const double weight = candidate.weight * ((s2 + ridge) - s1 * candidate.r2) / determinant;
     // u_hs(x) = sum_j F w_j / (pi E' |x - x_j|)            docs/theory.md (11)
     double half_space = 0.0;
     for (std::size_t j = 0; j < reading.load.nodes.size(); ++j) {

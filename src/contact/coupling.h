@@ -10,7 +10,7 @@ namespace palpate::contact {
 
 // one_way: h = travel. series: h = travel - u, u the pressure-weighted sinking under the contact.
 // consistent: h = travel - v, v the sinking that Hertz's half-space does not know. DESIGN: docs/
-// theory.md (9)-(12).
+// theory.md (9)-(14).
 enum class Coupling { one_way, series, consistent };
 
 // For one contact radius: how the contact loads the mesh and how it reads it. The penetration is

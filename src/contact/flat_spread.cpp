@@ -25,7 +25,7 @@ struct Point {
 std::array<Point, static_cast<std::size_t>(rings* spokes)> make_points() {
   constexpr std::array abscissae{0.238619186083196909, 0.661209386466264514, 0.932469514203152028};
   constexpr std::array weights{0.467913934572691047, 0.360761573048138608, 0.171324492379170345};
-  std::array<Point, static_cast<std::size_t>(rings* spokes)> points{};
+  std::array<Point, static_cast<std::size_t>(rings * spokes)> points{};
   std::size_t next = 0;
   for (int ring = 0; ring < rings; ++ring) {
     const std::size_t i = static_cast<std::size_t>(ring) / 2;
@@ -52,8 +52,8 @@ Spread spread_over_flat(const geometry::FlatTop& top, const Vec3& centre, double
     // Beyond the edge: back towards the centre in eighths, so that no share is lost.
     for (int back = 1; !place && back <= 8; ++back) {
       const double left = 1.0 - 0.125 * back;
-      place = top.locate(centre.x() + left * radius * point.x,
-                         centre.y() + left * radius * point.y);
+      place =
+          top.locate(centre.x() + left * radius * point.x, centre.y() + left * radius * point.y);
     }
     if (!place) continue;  // the centre itself is off the face: no contact there
     for (std::size_t k = 0; k < 3; ++k)

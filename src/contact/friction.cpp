@@ -15,8 +15,7 @@ Vec3 force(double limit, const Vec3& slip_velocity, double regular_speed) {
   return slip_velocity * (-limit / speed);
 }
 
-Stick stick(double tangential_force, double limit, double contact_radius,
-            double shear_compliance) {
+Stick stick(double tangential_force, double limit, double contact_radius, double shear_compliance) {
   // c/a = (1 - Q/(mu P))^(1/3), dx = (3 mu P / 16 a) q [1 - (1 - Q/(mu P))^(2/3)]
   const double core = std::cbrt(1.0 - tangential_force / limit);
   return {.radius = contact_radius * core,

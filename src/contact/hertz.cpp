@@ -6,9 +6,7 @@
 
 namespace palpate::contact {
 
-double Elastic::compliance() const {
-  return (1.0 - poisson_ratio * poisson_ratio) / young_modulus;
-}
+double Elastic::compliance() const { return (1.0 - poisson_ratio * poisson_ratio) / young_modulus; }
 
 namespace hertz {
 

@@ -129,8 +129,6 @@ Minimum minimise(std::span<const double> x, std::span<const double> y, Model mod
   return minimum;
 }
 
-std::string ceres_version() {
-  return CERES_VERSION_STRING;
-}
+std::string ceres_version() { return CERES_VERSION_STRING; }
 
 }  // namespace palpate::fit

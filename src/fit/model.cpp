@@ -30,9 +30,7 @@ constexpr std::array<std::string_view, 16> unit_words{
 
 }  // namespace
 
-std::span<const ModelInfo> models() {
-  return table;
-}
+std::span<const ModelInfo> models() { return table; }
 
 const ModelInfo& info(Model model) {
   const ModelInfo& row = table[static_cast<std::size_t>(model)];
@@ -46,9 +44,7 @@ std::optional<Model> find_model(std::string_view name) {
   return std::nullopt;
 }
 
-bool has_shape(Model model) {
-  return model != Model::logarithmic;
-}
+bool has_shape(Model model) { return model != Model::logarithmic; }
 
 int term_count(Model model) {
   return static_cast<int>(info(model).parameters.size()) - (has_shape(model) ? 1 : 0);

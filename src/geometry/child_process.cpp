@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kForEver = 3.15e7;  // s: a year, well within the range of every clock
+constexpr double for_ever = 3.15e7;  // s: a year, well within the range of every clock
 
 // The address space in use, in bytes, or 0 where the system does not tell. Limits count on top of
 // it, because a sanitizer alone reserves terabytes.
@@ -63,7 +63,7 @@ bool write_all(int file, const std::string& bytes) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU, SIGTERM})
     std::signal(signal, SIG_DFL);
   limit(RLIMIT_CORE, 0.0);
-  limit(RLIMIT_CPU, std::ceil(std::min(limits.time, kForEver)) + 1.0);
+  limit(RLIMIT_CPU, std::ceil(std::min(limits.time, for_ever)) + 1.0);
   if (address_space_before > 0.0) limit(RLIMIT_AS, address_space_before + limits.memory);
   try {
     _exit(write_all(answer, work()) ? 0 : 1);
@@ -102,7 +102,7 @@ int reap(pid_t child) {
 }  // namespace
 
 ChildResult run_in_child(const std::function<std::string()>& work, const ChildLimits& limits) {
-  const std::chrono::duration<double> time(std::min(limits.time, kForEver));
+  const std::chrono::duration<double> time(std::min(limits.time, for_ever));
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
   const double before = address_space();
   std::array<int, 2> ends{};

@@ -18,7 +18,7 @@ struct AxisOrder {
   bool even;  // an even permutation: its path tetrahedron is positively oriented
 };
 
-constexpr std::array<AxisOrder, 6> kAxisOrders{{{{0, 1, 2}, true},
+constexpr std::array<AxisOrder, 6> axis_orders{{{{0, 1, 2}, true},
                                                 {{0, 2, 1}, false},
                                                 {{1, 0, 2}, false},
                                                 {{1, 2, 0}, true},
@@ -84,7 +84,7 @@ TetMesh cuboid(const Vec3& size, const Triple& cells, CellPattern pattern) {
       for (int i = 0; i < cells[0]; ++i) {
         const std::array<bool, 3> reflected{mirrored && i % 2 == 1, mirrored && j % 2 == 1,
                                             mirrored && k % 2 == 1};
-        for (const AxisOrder& order : kAxisOrders)
+        for (const AxisOrder& order : axis_orders)
           mesh.tetrahedra.push_back(path_tetrahedron(lattice, {i, j, k}, reflected, order));
       }
   return mesh;

@@ -12,7 +12,7 @@ namespace palpate::geometry {
 namespace {
 
 // A weight this far below 0 still counts as on the edge: far above rounding, far below sight.
-constexpr double kEdge = 1e-10;
+constexpr double edge_reach = 1e-10;
 
 const Vec3& position(const TetMesh& mesh, int node) {
   return mesh.nodes[static_cast<std::size_t>(node)];
@@ -60,7 +60,8 @@ void FlatTop::sort_into_bins(const TetMesh& mesh) {
     high_x = std::max(high_x, p.x());
     high_y = std::max(high_y, p.y());
   }
-  // Grown so that a point that kEdge lets in lies inside the box and inside its triangles' bins.
+  // Grown so that a point that edge_reach lets in lies inside the box and inside its triangles'
+  // bins.
   const double margin = 1e-9 * std::max(high_x - low_x, high_y - low_y);
   bins_ = {low_x - margin, low_y - margin, high_x + margin, high_y + margin};
   const double width = bins_.high_x - bins_.low_x;
@@ -115,7 +116,7 @@ std::optional<FacePoint> FlatTop::locate(double x, double y) const {
     const double b = shape.bx * dx + shape.by * dy;
     const double c = shape.cx * dx + shape.cy * dy;
     const double a = 1.0 - b - c;
-    if (a < -kEdge || b < -kEdge || c < -kEdge) continue;
+    if (a < -edge_reach || b < -edge_reach || c < -edge_reach) continue;
     const std::array<double, 3> weights{std::max(a, 0.0), std::max(b, 0.0), std::max(c, 0.0)};
     const double sum = weights[0] + weights[1] + weights[2];  // above 1 beyond an edge
     return FacePoint{triangles_[t], {weights[0] / sum, weights[1] / sum, weights[2] / sum}};

@@ -14,7 +14,7 @@ namespace palpate::geometry {
 TableLines::TableLines(std::string file) : file_(std::move(file)), text_(read_text(file_)) {}
 
 bool TableLines::next() {
-  constexpr std::string_view kGaps = " \t\r,";
+  constexpr std::string_view gaps = " \t\r,";
   while (position_ < text_.size()) {
     const std::size_t end = std::min(text_.find('\n', position_), text_.size());
     current_ = std::string_view(text_).substr(position_, end - position_);
@@ -22,11 +22,11 @@ bool TableLines::next() {
     ++line_;
     words_.clear();
     const std::string_view content = current_.substr(0, current_.find('#'));
-    std::size_t start = content.find_first_not_of(kGaps);
+    std::size_t start = content.find_first_not_of(gaps);
     while (start != std::string_view::npos) {
-      const std::size_t stop = std::min(content.find_first_of(kGaps, start), content.size());
+      const std::size_t stop = std::min(content.find_first_of(gaps, start), content.size());
       words_.push_back(content.substr(start, stop - start));
-      start = content.find_first_not_of(kGaps, stop);
+      start = content.find_first_not_of(gaps, stop);
     }
     if (!words_.empty()) return true;
   }
@@ -45,8 +45,8 @@ double TableLines::number(std::size_t i, const std::string& what) const {
 int TableLines::whole(std::size_t i, const std::string& what) const {
   const auto value = whole_number(words_[i]);
   // Inside int's range, so that the conversion is defined.
-  constexpr double kMost = std::numeric_limits<int>::max();
-  if (!value || !(std::abs(*value) <= kMost) || std::trunc(*value) != *value)
+  constexpr double most = std::numeric_limits<int>::max();
+  if (!value || !(std::abs(*value) <= most) || std::trunc(*value) != *value)
     fail_at(i, what + " wants a whole number, got `" + std::string(words_[i]) +
                    "`; write it like `12`");
   return static_cast<int>(*value);

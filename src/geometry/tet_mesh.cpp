@@ -51,7 +51,7 @@ std::vector<FaceUse> face_uses(const TetMesh& mesh) {
   uses.reserve(4 * mesh.tetrahedra.size());
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const auto& corner = mesh.tetrahedra[t];
-    for (const auto& [i, j, k] : kOutwardFaces) {
+    for (const auto& [i, j, k] : outward_faces) {
       FaceUse use;
       use.nodes = {corner[static_cast<std::size_t>(i)], corner[static_cast<std::size_t>(j)],
                    corner[static_cast<std::size_t>(k)]};

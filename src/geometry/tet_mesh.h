@@ -17,7 +17,7 @@ struct TetMesh {
 
 // The four faces of a positive tetrahedron as local node numbers, counter-clockwise from outside;
 // face i lies opposite to node i.
-inline constexpr std::array<std::array<int, 3>, 4> kOutwardFaces{
+inline constexpr std::array<std::array<int, 3>, 4> outward_faces{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 // One tetrahedron's use of a face.
@@ -44,7 +44,7 @@ struct FaceUse {
 [[nodiscard]] std::vector<FaceUse> face_uses(const TetMesh& mesh);
 
 // The faces that only one tetrahedron has, counter-clockwise from outside, in the order of the
-// tetrahedra and within one of kOutwardFaces.
+// tetrahedra and within one of outward_faces.
 [[nodiscard]] std::vector<std::array<int, 3>> boundary_faces(const TetMesh& mesh);
 
 // The nodes in the plane at height `z` (m), ascending; within 1e-9 of the mesh's diagonal.

@@ -13,7 +13,7 @@
 namespace palpate::geometry {
 namespace {
 
-constexpr double kMemory = 8.0 * 1024 * 1024 * 1024;  // bytes: some 20 million tetrahedra
+constexpr double most_memory = 8.0 * 1024 * 1024 * 1024;  // bytes: some 20 million tetrahedra
 
 // The answer: two counts, then the nodes' and the tetrahedra's bytes. Both ends are one program.
 struct Counts {
@@ -106,7 +106,7 @@ TetMesh tetgen_surface(const ClosedSurface& surface, const std::string& switches
     tetgen_library::install_exit();
     return packed(tetgen_library::run(surface, switches));
   };
-  return std::visit(Outcome{time_limit}, run_in_child(work, {time_limit, kMemory}));
+  return std::visit(Outcome{time_limit}, run_in_child(work, {time_limit, most_memory}));
 }
 
 }  // namespace palpate::geometry

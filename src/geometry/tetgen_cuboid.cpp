@@ -21,14 +21,14 @@ namespace {
 
 using Triple = std::array<int, 3>;
 
-constexpr double kGoodMiss = 0.01;   // stop trying
-constexpr double kFairMiss = 0.03;   // keep this grid
-constexpr double kWorstMiss = 0.25;  // refuse beyond
-constexpr int kTriesPerGrid = 8;
+constexpr double good_miss = 0.01;   // stop trying
+constexpr double fair_miss = 0.03;   // keep this grid
+constexpr double worst_miss = 0.25;  // refuse beyond
+constexpr int tries_per_grid = 8;
 // A maximum volume of 0.22 h^3 makes the edges inside about as long as the mean of the grid's
 // edges h and sqrt(2) h; the body then has about 1.1 times the nodes of a lattice of side h.
-constexpr double kVolumePerCube = 0.22;
-constexpr double kNodesPerLattice = 1.1;
+constexpr double volume_per_cube = 0.22;
+constexpr double nodes_per_lattice = 1.1;
 
 // The spacing h (m) for which the box has `target` nodes: bisection, as the count falls with h.
 double spacing_for(const Vec3& size, int target) {
@@ -37,7 +37,7 @@ double spacing_for(const Vec3& size, int target) {
   for (int step = 0; step < 100; ++step) {
     const double h = std::sqrt(low * high);
     const double nodes =
-        kNodesPerLattice * (size.x() / h + 1.0) * (size.y() / h + 1.0) * (size.z() / h + 1.0);
+        nodes_per_lattice * (size.x() / h + 1.0) * (size.y() / h + 1.0) * (size.z() / h + 1.0);
     (nodes > target ? low : high) = h;
   }
   return std::sqrt(low * high);
@@ -96,16 +96,16 @@ class Search {
   [[nodiscard]] double miss() const { return miss_; }
   [[nodiscard]] TetMesh& best() { return best_; }
 
-  // Up to kTriesPerGrid meshes on the grid of this spacing (m).
+  // Up to tries_per_grid meshes on the grid of this spacing (m).
   void on_grid(double spacing) {
     const ClosedSurface surface = box_surface(size_, cells_for(size_, spacing));
     const int on_surface = static_cast<int>(surface.vertices.size());
     const double wanted = std::max(target_ - on_surface, 0);
     const double cube = spacing * spacing * spacing;
-    double volume = kVolumePerCube * cube;
+    double volume = volume_per_cube * cube;
     double low = 1e-3 * cube;  // too many nodes, or never asked
     double high = 1e3 * cube;  // too few nodes, or never asked
-    for (int tries = 0; tries < kTriesPerGrid && miss_ > kGoodMiss; ++tries) {
+    for (int tries = 0; tries < tries_per_grid && miss_ > good_miss; ++tries) {
       const int inside = attempt(surface, volume) - on_surface;
       (inside > wanted ? low : high) = volume;
       // The nodes inside are about as many as the volume fits in; the bracket guards the guess.
@@ -152,9 +152,9 @@ TetMesh tetgen_cuboid(const Vec3& size, int target_nodes, double time_limit) {
   // Coarser and finer grids help where few nodes leave little choice.
   for (const double factor : {1.0, 1.12, 0.89, 1.25, 0.8}) {
     search.on_grid(factor * spacing);
-    if (search.miss() <= kFairMiss) break;
+    if (search.miss() <= fair_miss) break;
   }
-  if (search.miss() > kWorstMiss)
+  if (search.miss() > worst_miss)
     throw MeshError("no box mesh near " + std::to_string(target_nodes) +
                     " nodes was found, the nearest has " +
                     std::to_string(search.best().nodes.size()) + "; ask for that many or more");

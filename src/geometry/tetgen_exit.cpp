@@ -11,9 +11,7 @@ class tetgenmesh;
 
 void terminatetetgen(tetgenmesh*, int code);  // NOLINT: TetGen's name
 
-void terminatetetgen(tetgenmesh*, int code) {
-  _exit(code);
-}
+void terminatetetgen(tetgenmesh*, int code) { _exit(code); }
 
 namespace palpate::geometry::tetgen_library {
 

@@ -22,9 +22,9 @@ struct TimeStep {
 
 // Damping and memory that are proportional to mass or stiffness, as a modal solution needs them.
 struct Proportional {
-  double drag_rate = 0.0;        // 1/s: D = drag_rate M
-  double retardation_time = 0.0; // s: D = retardation_time K
-  double relaxation_time = 0.0;  // s: a branch of stiffness branch K behind a dashpot
+  double drag_rate = 0.0;         // 1/s: D = drag_rate M
+  double retardation_time = 0.0;  // s: D = retardation_time K
+  double relaxation_time = 0.0;   // s: a branch of stiffness branch K behind a dashpot
   double branch = 0.0;
 };
 
@@ -33,9 +33,9 @@ class Body {
  public:
   virtual ~Body() = default;
 
-  [[nodiscard]] virtual const Vector& mass() const = 0;                // kg
-  [[nodiscard]] virtual const Vector& drag() const = 0;                // N s/m on the ground
-  [[nodiscard]] virtual std::span<const char> held() const = 0;        // 1 where held
+  [[nodiscard]] virtual const Vector& mass() const = 0;          // kg
+  [[nodiscard]] virtual const Vector& drag() const = 0;          // N s/m on the ground
+  [[nodiscard]] virtual std::span<const char> held() const = 0;  // 1 where held
   [[nodiscard]] virtual bool linear() const = 0;
   [[nodiscard]] virtual const Proportional& proportional() const = 0;
 

@@ -45,7 +45,8 @@ void CentralDifference::step(State& state, const Vector& load) {
     }
   }
   clear_held(body_->held(), right_);
-  before_ = body_->has_dashpots() ? factors_.solve(right_) : Vector(right_.cwiseQuotient(diagonal_));
+  before_ =
+      body_->has_dashpots() ? factors_.solve(right_) : Vector(right_.cwiseQuotient(diagonal_));
   clear_held(body_->held(), before_);
   state.displacement += before_;
   state.velocity = before_ / time_step_;

@@ -105,8 +105,7 @@ Vector Modal::response(const Vector& load) const {
     position[i] *= propagators_[static_cast<std::size_t>(i)].end[0];
   const Vector free = shapes_ * position;
   Vector all = Vector::Zero(body_->mass().size());
-  for (std::size_t i = 0; i < free_.size(); ++i)
-    all[free_[i]] = free[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < free_.size(); ++i) all[free_[i]] = free[static_cast<Eigen::Index>(i)];
   return all;
 }
 

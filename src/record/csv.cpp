@@ -177,8 +177,6 @@ Table parse_csv(std::string_view text, const std::string& file) {
   return table;
 }
 
-Table read_csv(const std::string& path) {
-  return parse_csv(read_text(path), path);
-}
+Table read_csv(const std::string& path) { return parse_csv(read_text(path), path); }
 
 }  // namespace palpate::record

@@ -12,13 +12,13 @@ namespace palpate::record {
 struct PressureMap {
   int width = 0;
   int height = 0;
-  double pitch = 0.0;              // m, side of a pixel
-  Vec3 origin = Vec3::Zero();      // m, centre of the first pixel
-  double time = 0.0;               // s
-  std::string scenario_case;       // the case's name
-  int step = 0;                    // counted from 1
-  double contact_force = 0.0;      // N, what the map must integrate to
-  std::vector<float> pressure;     // Pa, compression positive, width * height values
+  double pitch = 0.0;           // m, side of a pixel
+  Vec3 origin = Vec3::Zero();   // m, centre of the first pixel
+  double time = 0.0;            // s
+  std::string scenario_case;    // the case's name
+  int step = 0;                 // counted from 1
+  double contact_force = 0.0;   // N, what the map must integrate to
+  std::vector<float> pressure;  // Pa, compression positive, width * height values
 };
 
 // The map's integral over its area, in N.

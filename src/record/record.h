@@ -13,15 +13,15 @@ namespace palpate::record {
 struct ContactRow {
   int step = 0;  // counted from 1
   double time = 0.0;
-  double travel = 0.0;            // of the finger below the undeformed surface, m
-  double indentation = 0.0;       // h of eq. (2), m
-  double force = 0.0;             // F_c + F_a, normal, N
-  double contact_force = 0.0;     // F_c, N
-  double friction = 0.0;          // F_m = mu (F_c + W): what the contact can carry, N
-  double ambient = 0.0;           // F_a, N
-  double contact_radius = 0.0;    // m
-  double peak_pressure = 0.0;     // Pa
-  double tissue_radius = 0.0;     // m, infinite on a flat
+  double travel = 0.0;          // of the finger below the undeformed surface, m
+  double indentation = 0.0;     // h of eq. (2), m
+  double force = 0.0;           // F_c + F_a, normal, N
+  double contact_force = 0.0;   // F_c, N
+  double friction = 0.0;        // F_m = mu (F_c + W): what the contact can carry, N
+  double ambient = 0.0;         // F_a, N
+  double contact_radius = 0.0;  // m
+  double peak_pressure = 0.0;   // Pa
+  double tissue_radius = 0.0;   // m, infinite on a flat
   int contacts = 0;
 };
 

@@ -98,8 +98,6 @@ void write_exr(const std::string& path, const record::PressureMap& map,
   write_atomically(path, exr_bytes(map, more_attributes));
 }
 
-std::string exr_version() {
-  return OPENEXR_VERSION_STRING;
-}
+std::string exr_version() { return OPENEXR_VERSION_STRING; }
 
 }  // namespace palpate::report

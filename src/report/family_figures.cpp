@@ -22,8 +22,7 @@ std::vector<Series> series_of(const scenario::Family& family,
     const auto scale = scales.find(record.name);
     if (scale != scales.end()) series.scale = scale->second;
     for (const fit::NamedFit& named : fits) {
-      const bool wanted =
-          std::find(models.begin(), models.end(), named.fit.model) != models.end();
+      const bool wanted = std::find(models.begin(), models.end(), named.fit.model) != models.end();
       const bool scaled_copy = named.curve.find(" x ") != std::string::npos;
       if (named.case_name != record.name || !wanted || scaled_copy) continue;
       if (const auto curve = fitted_curve(named.fit)) series.fits.push_back(*curve);

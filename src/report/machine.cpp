@@ -62,9 +62,7 @@ Machine this_machine() {
   return {cpu_model(), usable_cores(), kernel};
 }
 
-Build this_build() {
-  return {PALPATE_VERSION, PALPATE_BUILD_TYPE, compiler(), PALPATE_CXX_FLAGS};
-}
+Build this_build() { return {PALPATE_VERSION, PALPATE_BUILD_TYPE, compiler(), PALPATE_CXX_FLAGS}; }
 
 std::string utc_text(long long seconds) {
   const auto time = static_cast<std::time_t>(seconds);

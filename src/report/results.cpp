@@ -40,6 +40,14 @@ bool is_complete(const std::string& folder) {
          read_text(manifest).find("\"complete\": true") != std::string::npos;
 }
 
+// A folder of the user's own that happens to have the scenario's name, as with `--out .`.
+bool is_foreign(const std::string& path) {
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(path, ignored)) || fs::exists(path + "/run.json"))
+    return false;
+  return !fs::is_directory(path) || !fs::is_empty(path);
+}
+
 std::string numbered(const char* stem, std::size_t number, const char* ending) {
   std::string digits = std::to_string(number);
   while (digits.size() < 3) digits.insert(digits.begin(), '0');
@@ -70,6 +78,18 @@ record::Table findings_table(const scenario::Family& family,
   return table;
 }
 
+CsvFiles csv_files(const scenario::Family& family, const std::vector<record::CaseRecord>& records,
+                   const std::vector<fit::NamedFit>& fits) {
+  CsvFiles files;
+  if (family.base.uniform())
+    files.emplace_back("strain_time.csv", record::strain_table(records));
+  else
+    files.emplace_back("force_indentation.csv", record::contact_table(records));
+  files.emplace_back("findings.csv", findings_table(family, records));
+  if (family.base.output.fits) files.emplace_back("fits.csv", fit::fit_table(fits));
+  return files;
+}
+
 ResultFolder::ResultFolder(const std::string& out, const scenario::Family& family, bool replace)
     : family_(&family),
       path_((fs::path(out) / family.name).string()),
@@ -77,6 +97,10 @@ ResultFolder::ResultFolder(const std::string& out, const scenario::Family& famil
   if (!replace && is_complete(path_))
     throw InputError({path_, 0, 0},
                      "holds a finished result; give `--force` to replace it, or another `--out`");
+  if (is_foreign(path_))
+    throw InputError({path_, 0, 0},
+                     "is there and is no result, so that it is not replaced; give another `--out`, "
+                     "or rename the scenario");
   make_folder(partial_);
 }
 
@@ -113,12 +137,8 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   write("scenario.toml", echo);
   for (const scenario::InputFile& input : family_->inputs)
     if (&input != &family_->inputs.front()) write(input.name, input.content);
-  if (family_->base.uniform())
-    write("strain_time.csv", record::csv_text(record::strain_table(records)));
-  else
-    write("force_indentation.csv", record::csv_text(record::contact_table(records)));
-  write("findings.csv", record::csv_text(findings_table(*family_, records)));
-  if (family_->base.output.fits) write("fits.csv", record::csv_text(fit::fit_table(fits)));
+  for (const auto& [name, table] : csv_files(*family_, records, fits))
+    write(name, record::csv_text(table));
 
   const std::string hash = sha256(echo);
   std::size_t number = 0;
@@ -146,8 +166,7 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   manifest.ended = utc_now();
   for (const scenario::InputFile& input : family_->inputs)
     manifest.inputs.push_back({input.name, sha256(input.content)});
-  for (const std::string& file : files_)
-    manifest.outputs.push_back(hashed_file(file, partial_));
+  for (const std::string& file : files_) manifest.outputs.push_back(hashed_file(file, partial_));
   for (const record::CaseRecord& record : records)
     manifest.cases.push_back({record.name,
                               record.outcome == record::Outcome::completed
@@ -161,8 +180,14 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   std::error_code ignored;
   for (std::size_t i = 0; i < family_->cases.size(); ++i)
     fs::remove_all(partial_ + "/" + numbered("case", i + 1, ""), ignored);
-  put_in_place();
   finished_ = true;
+  if (!manifest.complete && is_complete(path_)) {
+    warnings.push_back(path_ + " is not replaced by a part of a run; the finished cases are in " +
+                       partial_);
+    path_ = partial_;
+  } else {
+    put_in_place();
+  }
   return warnings;
 }
 

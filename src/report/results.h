@@ -3,6 +3,7 @@
 
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fit/fit_table.h"
@@ -21,12 +22,18 @@ struct Origin {
 [[nodiscard]] record::Table findings_table(const scenario::Family& family,
                                            const std::vector<record::CaseRecord>& records);
 
+// The CSV files of a result by name: what `run` writes and `golden bless` keeps.
+using CsvFiles = std::vector<std::pair<std::string, record::Table>>;
+[[nodiscard]] CsvFiles csv_files(const scenario::Family& family,
+                                 const std::vector<record::CaseRecord>& records,
+                                 const std::vector<fit::NamedFit>& fits);
+
 // The folder OUT/NAME of a family. While cases run, the finished ones lie in OUT/NAME.partial-PID;
 // finish() writes everything there and renames, so that OUT/NAME is always whole.
 class ResultFolder {
  public:
-  // Throws InputError where OUT/NAME holds a complete result and `replace` is false, SystemError
-  // where the folder cannot be made.
+  // Throws InputError where OUT/NAME holds a complete result and `replace` is false, or anything
+  // that is no result; SystemError where the folder cannot be made.
   ResultFolder(const std::string& out, const scenario::Family& family, bool replace);
 
   // Removes what is left of an unfinished folder, unless a finished case lies in it.
@@ -37,7 +44,8 @@ class ResultFolder {
   // Keeps a finished case on the disk at once. One call at a time.
   void keep(std::size_t index, const record::CaseRecord& record);
 
-  // Writes the result and puts it in its place. Returns warnings, such as a missing gnuplot.
+  // Writes the result and puts it in its place; a part of a run never replaces a complete result
+  // and stays beside it. Returns warnings, such as a missing gnuplot.
   std::vector<std::string> finish(const std::vector<record::CaseRecord>& records,
                                   const std::vector<fit::NamedFit>& fits, const Origin& origin);
 

@@ -58,20 +58,20 @@ Method make_method(const scene::Scene& scene, const scene::SpringBody& body, dou
       return integrate::CentralDifference(body, time_step, scene.scenario.solver.start);
     case Integrator::backward_difference:
       return integrate::Implicit(body, Inertia::backward_difference);
-    case Integrator::quasi_static:
-      return integrate::Implicit(body, Inertia::none);
-    case Integrator::modal:
-      break;
+    case Integrator::quasi_static: return integrate::Implicit(body, Inertia::none);
+    case Integrator::modal: break;
   }
   return integrate::Modal(body);
 }
 
 ContactStepper::ContactStepper(const scene::Scene& scene, const scene::SpringBody& body)
-    : scene_(&scene), body_(&body), contact_(scene::make_contact(scene)), self_(scene.specimen->law) {}
+    : scene_(&scene),
+      body_(&body),
+      contact_(scene::make_contact(scene)),
+      self_(scene.specimen->law) {}
 
 void ContactStepper::begin(double time_step) {
-  const bool fixed_step =
-      method_ && std::holds_alternative<integrate::CentralDifference>(*method_);
+  const bool fixed_step = method_ && std::holds_alternative<integrate::CentralDifference>(*method_);
   if (!method_ || (fixed_step && time_step != time_step_))
     method_.emplace(make_method(*scene_, *body_, time_step));
   if (time_step != time_step_) responses_.clear();
@@ -104,8 +104,8 @@ std::optional<std::string> ContactStepper::touch_mesh(const Vector& displacement
 }
 
 template <class Linearised>
-std::optional<std::string> ContactStepper::balance(Linearised& method, State& state,
-                                                   double travel, Touch& touch) {
+std::optional<std::string> ContactStepper::balance(Linearised& method, State& state, double travel,
+                                                   Touch& touch) {
   const Vector none = Vector::Zero(body_->mass().size());
   const double settled = 1e-12 * scene_->law.radius;
   Vector displacement = state.displacement;

@@ -15,8 +15,7 @@ namespace palpate::run {
 [[nodiscard]] std::vector<scene::Scene> build_all(const scenario::Family& family, int workers);
 
 // Runs one scene to its end.
-[[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene,
-                                          const std::atomic<bool>& stop);
+[[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop);
 
 // Runs the scenes; the records stand in the order of the scenes whatever the workers do.
 // `finished` is called after each case, one call at a time, on the worker's thread. A set `stop`

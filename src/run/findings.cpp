@@ -58,8 +58,7 @@ class Findings {
     add("substeps", static_cast<double>(specimen.plan.substeps));
     add("damping_ratio", damping_ratio(specimen));
     if (std::abs(modulus / table_modulus - 1.0) > 0.05)
-      remark("the spring network is " +
-             percent(std::abs(modulus / table_modulus - 1.0)) +
+      remark("the spring network is " + percent(std::abs(modulus / table_modulus - 1.0)) +
              (modulus > table_modulus ? " stiffer" : " softer") +
              " than the tissue's Young's modulus, measured on the specimen");
   }
@@ -71,8 +70,7 @@ class Findings {
     const double omega = std::numbers::pi * speed / (2.0 * specimen.measured.height);
     if (specimen.law.kind == tissue::Viscosity::kelvin_voigt)
       return 0.5 * specimen.law.time * omega;
-    if (specimen.law.kind == tissue::Viscosity::nodal_drag)
-      return 0.5 * specimen.law.drag / omega;
+    if (specimen.law.kind == tissue::Viscosity::nodal_drag) return 0.5 * specimen.law.drag / omega;
     return 0.0;
   }
 
@@ -98,7 +96,8 @@ class Findings {
     validity(peak, size[2]);
     if (peak.contact_force < 10.0 * pull_off)
       remark("the greatest force is below ten times the adhesive pull-off of about " +
-             rounded_text(pull_off, 2) + " N: a measurement would show adhesion, which is not "
+             rounded_text(pull_off, 2) +
+             " N: a measurement would show adhesion, which is not "
              "modelled");
   }
 
@@ -112,10 +111,9 @@ class Findings {
       const double mu = scene_.scenario.contact.friction;
       if (mu <= 0.0) continue;
       // eq. (4): the integral of mu P over the map, and mu times the weight that rests apart
-      const auto row = std::find_if(record_.contact.rbegin(), record_.contact.rend(),
-                                    [&](const auto& one) {
-                                      return one.step == map.step && one.time <= map.time;
-                                    });
+      const auto row = std::find_if(
+          record_.contact.rbegin(), record_.contact.rend(),
+          [&](const auto& one) { return one.step == map.step && one.time <= map.time; });
       friction_error = std::max(
           friction_error, std::abs(mu * (force + scene_.finger_weight) / row->friction - 1.0));
     }
@@ -126,6 +124,8 @@ class Findings {
 
   void validity(const record::ContactRow& peak, double height) {
     const auto coupling = scene_.scenario.contact.coupling;
+    if (!scene_.specimen)
+      remark("hertz is elastic and massless: the tissue's viscosity and inertia take no part");
     const bool alone = !scene_.specimen || coupling == contact::Coupling::one_way;
     if (peak.indentation > 0.1 * scene_.law.radius)
       remark("the indentation reached " + rounded_text(peak.indentation / scene_.law.radius, 2) +
@@ -133,8 +133,10 @@ class Findings {
              "at a quarter of the radius (docs/paper.md, 13)");
     const double thickness = 1.127 * peak.contact_radius / height;
     if (alone && thickness > scene_.scenario.solver.tolerance)
-      remark("the force is that of a half-space: on a bonded base at this thickness it would be "
-             "higher by up to about " + percent(thickness));
+      remark(
+          "the force is that of a half-space: on a bonded base at this thickness it would be "
+          "higher by up to about " +
+          percent(thickness));
     if (scene_.specimen && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
              percent(1.0 - std::pow(1.0 + (1.0 - scene_.finger_share), -1.5)) +
@@ -154,8 +156,9 @@ class Findings {
     if (scene_.specimen->law.kind == tissue::Viscosity::kelvin_voigt)
       for (const scenario::Step& step : scene_.scenario.steps)
         if (std::holds_alternative<scenario::Relax>(step)) {
-          remark("Kelvin-Voigt does not relax: after the impulse of a strain applied at once the "
-                 "stress is constant; use `viscosity = \"standard_linear_solid\"`");
+          remark(
+              "Kelvin-Voigt does not relax: after the impulse of a strain applied at once the "
+              "stress is constant; use `viscosity = \"standard_linear_solid\"`");
           break;
         }
   }

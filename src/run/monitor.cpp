@@ -26,8 +26,7 @@ std::optional<std::string> EnergyMonitor::step(const integrate::State& before,
   // Near the stability limit the highest mode's energy swings by 1 / (1 - (omega dt / 2)^2), 5 at
   // the default of 0.9; growth beyond ten times what came in is no swing.
   constexpr double swing = 10.0;
-  if (held_ > swing * greatest_ && held_ > 1e-30)
-    return "energy grew without input";
+  if (held_ > swing * greatest_ && held_ > 1e-30) return "energy grew without input";
   return std::nullopt;
 }
 

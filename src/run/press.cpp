@@ -19,11 +19,11 @@ using scenario::Retract;
 
 // A step of the programme as travel over time.
 struct Ramp {
-  double from = 0.0;  // m
-  double speed = 0.0; // m/s, downwards
-  double duration = 0.0;                                      // s; infinite until a force
-  double force = std::numeric_limits<double>::infinity();     // N, to stop at
-  double to = 0.0;                                            // m
+  double from = 0.0;                                       // m
+  double speed = 0.0;                                      // m/s, downwards
+  double duration = 0.0;                                   // s; infinite until a force
+  double force = std::numeric_limits<double>::infinity();  // N, to stop at
+  double to = 0.0;                                         // m
 
   [[nodiscard]] double travel(double time) const {
     return time >= duration ? to : from + speed * time;
@@ -34,8 +34,7 @@ Ramp make_ramp(const scenario::Step& step, double travel, const scene::Scene& sc
   Ramp ramp{.from = travel, .to = travel};
   if (const auto* indent = std::get_if<Indent>(&step)) {
     // A force that never comes must not press for ever: to the radius, where Hertz ends.
-    ramp.to = indent->to.second ? std::max(travel, scene.scenario.finger.radius)
-                                : indent->to.value;
+    ramp.to = indent->to.second ? std::max(travel, scene.scenario.finger.radius) : indent->to.value;
     if (indent->to.second) ramp.force = indent->to.value;
     ramp.speed = indent->rate;
     ramp.duration = (ramp.to - travel) / indent->rate;
@@ -83,9 +82,8 @@ class Press {
   bool run(const Ramp& ramp) {
     const double interval = scene_.scenario.output.interval;
     const bool to_force = std::isfinite(ramp.force);
-    const double rows =
-        to_force ? std::ceil(ramp.duration / interval)
-                 : std::max(1.0, std::ceil(ramp.duration / interval - 1e-6));
+    const double rows = to_force ? std::ceil(ramp.duration / interval)
+                                 : std::max(1.0, std::ceil(ramp.duration / interval - 1e-6));
     const double spacing = to_force ? interval : ramp.duration / rows;
     const double start = time_;
     int steps_a_row = 1;
@@ -120,8 +118,7 @@ class Press {
       touch_.indentation = std::max(0.0, travel);
       touch_.force =
           contact::hertz::force(touch_.indentation, scene_.law.radius, scene_.law.modulus);
-      touch_.contact_radius =
-          contact::hertz::contact_radius(touch_.indentation, scene_.law.radius);
+      touch_.contact_radius = contact::hertz::contact_radius(touch_.indentation, scene_.law.radius);
       return true;
     }
     const integrate::State before = state_;
@@ -190,8 +187,7 @@ class Press {
 
 }  // namespace
 
-void press(const scene::Scene& scene, const std::atomic<bool>& stop,
-           record::CaseRecord& record) {
+void press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
   Press(scene, stop, record).all();
 }
 

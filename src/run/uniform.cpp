@@ -39,8 +39,7 @@ std::optional<std::string> solve(Linearised& method, const scene::SpringBody& bo
 
 class UniformTest {
  public:
-  UniformTest(const scene::Scene& scene, const std::atomic<bool>& stop,
-              record::CaseRecord& record)
+  UniformTest(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record)
       : scene_(scene), specimen_(*scene.specimen), stop_(stop), record_(record) {}
 
   void all() {
@@ -140,11 +139,9 @@ class UniformTest {
     if (at_once) {
       const State before = state_;
       integrate::Implicit statics(*body_, integrate::Implicit::Inertia::none);
-      if (const auto wrong =
-              solve(statics, *body_, state_, 0.0, MemoryRule::at_once, to))
+      if (const auto wrong = solve(statics, *body_, state_, 0.0, MemoryRule::at_once, to))
         return diverged(*wrong);
-      if (const auto wrong = monitor_->step(before, state_, from, to))
-        return diverged(*wrong);
+      if (const auto wrong = monitor_->step(before, state_, from, to)) return diverged(*wrong);
     }
     if (method_)
       if (auto* central = std::get_if<integrate::CentralDifference>(&*method_)) central->restart();

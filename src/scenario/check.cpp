@@ -33,16 +33,17 @@ class Checker {
     if (scenario_.steps.empty())
       return problem("step", "a scenario needs something to do; add a `[[step]]`, as "
                              "`kind = \"indent\"`");
-    const bool uniform = scenario_.uniform();
+    const auto loads_end_faces = [](const Step& step) {
+      return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
+    };
+    const bool uniform = loads_end_faces(scenario_.steps.front());
     Reached reached;
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
       const std::string path = "step." + std::to_string(i + 1);
       const Step& step = scenario_.steps[i];
-      const bool end_faces =
-          std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
-      if (end_faces != uniform)
-        return problem(path, "`creep` and `relax` load the end faces and have no finger, the other "
-                             "steps have one; put them into two scenarios");
+      if (loads_end_faces(step) != uniform)
+        return problem(path, "`creep` and `relax` load the end faces without a finger, the other "
+                             "kinds of `step` have one; put them into two scenarios");
       if (const auto* indent = std::get_if<Indent>(&step))
         reached = indented(path + ".to", *indent, reached);
       if (const auto* retract = std::get_if<Retract>(&step))
@@ -151,9 +152,10 @@ class Checker {
     double travel = 0.0;
     for (const Step& one : scenario_.steps) total += duration(one, travel);
     if (total / output.interval > 1e6)
-      problem("output.interval", "the scenario would write " +
+      problem("output.interval", "`output.interval` of " +
+                                     quantity_text(output.interval, unit::ms) + " would write " +
                                      rounded_text(total / output.interval) +
-                                     " rows a case; use a longer interval");
+                                     " rows a case, and a million is the most; use a longer one");
   }
 
   static double duration(const Step& step, double& travel) {

@@ -16,9 +16,9 @@
 namespace palpate::scene {
 namespace {
 
-constexpr double gravity = 9.80665;      // m/s^2, standard
-constexpr double meshing_time = 120.0;   // s, that TetGen may take
-constexpr int most_modal_nodes = 1000;   // an eigen-decomposition grows with the cube
+constexpr double gravity = 9.80665;     // m/s^2, standard
+constexpr double meshing_time = 120.0;  // s, that TetGen may take
+constexpr int most_modal_nodes = 1000;  // an eigen-decomposition grows with the cube
 
 geometry::TetMesh make_mesh(const scenario::Scenario& scenario, const std::string& folder) {
   const auto& size = std::get<scenario::Cuboid>(scenario.tissue.shape).size;
@@ -65,23 +65,15 @@ tissue::Base make_base(const scenario::Scenario& scenario) {
 
 // k_c sum_j w_j^2 / m_j at the deepest contact of the programme, where the mesh is read back.
 double contact_frequency_squared(const Scene& scene) {
-  if (scene.scenario.uniform() ||
-      scene.scenario.contact.coupling == contact::Coupling::one_way)
+  if (scene.scenario.uniform() || scene.scenario.contact.coupling == contact::Coupling::one_way)
     return 0.0;
-  double depth = 0.0;
-  for (const scenario::Step& step : scene.scenario.steps)
-    if (const auto* indent = std::get_if<scenario::Indent>(&step))
-      depth = std::max(depth, indent->to.second
-                                  ? contact::hertz::depth(indent->to.value, scene.law.radius,
-                                                          scene.law.modulus)
-                                  : indent->to.value);
+  const double depth = deepest_travel(scene.scenario, scene.law);
   const contact::Reading reading =
       make_contact(scene).at(contact::hertz::contact_radius(depth, scene.law.radius));
   double sum = 0.0;
   for (std::size_t j = 0; j < reading.load.nodes.size(); ++j)
     sum += reading.load.shares[j] * reading.load.shares[j] /
-           scene.specimen->network
-               .node_mass[static_cast<std::size_t>(reading.load.nodes[j])];
+           scene.specimen->network.node_mass[static_cast<std::size_t>(reading.load.nodes[j])];
   return sum * contact::hertz::stiffness(depth, scene.law.radius, scene.law.modulus);
 }
 
@@ -92,13 +84,12 @@ void refuse_unstable(const Scene& scene, const scenario::Family& family) {
       solver.allow_unstable)
     return;
   const double needed = std::ceil(plan.time_step / (0.9 * plan.limit));
-  throw InputError(
-      scenario::place_of(family.document, "solver.substeps"),
-      "`substeps` of " + std::to_string(plan.substeps) + " makes steps of " +
-          rounded_text(1e3 * plan.substep) + " ms, above the stability limit of " +
-          rounded_text(1e3 * plan.limit) + " ms (case " + scene.name +
-          "); set `solver.substeps = \"auto\"` (" + rounded_text(needed) +
-          " here), or `solver.allow_unstable = true` to see it fail");
+  throw InputError(scenario::place_of(family.document, "solver.substeps"),
+                   "`substeps` of " + std::to_string(plan.substeps) + " makes steps of " +
+                       rounded_text(1e3 * plan.substep) + " ms, above the stability limit of " +
+                       rounded_text(1e3 * plan.limit) + " ms (case " + scene.name +
+                       "); set `solver.substeps = \"auto\"` (" + rounded_text(needed) +
+                       " here), or `solver.allow_unstable = true` to see it fail");
 }
 
 void refuse_large_modal(const Scene& scene, const scenario::Family& family) {
@@ -119,10 +110,10 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
   specimen->law = make_law(scenario.tissue);
   specimen->kinematics = scenario.solver.kinematics;
   specimen->base = make_base(scenario);
-  specimen->network = tissue::make_network(
-      specimen->mesh, *scenario.tissue.density,
-      tissue::spring_stiffness(scenario.solver.stiffness, specimen->mesh,
-                               *scenario.tissue.young_modulus));
+  specimen->network =
+      tissue::make_network(specimen->mesh, *scenario.tissue.density,
+                           tissue::spring_stiffness(scenario.solver.stiffness, specimen->mesh,
+                                                    *scenario.tissue.young_modulus));
   specimen->top_height = std::get<scenario::Cuboid>(scenario.tissue.shape).size[2];
   specimen->top.emplace(specimen->mesh, specimen->top_height);
   specimen->top_area = specimen->top->area();
@@ -138,8 +129,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
     for (double& stiffness : specimen->network.stiffness) stiffness *= factor;
     specimen->measured = test(tissue::Base::frictionless);
   }
-  specimen->pressed = specimen->base == tissue::Base::frictionless ? specimen->measured
-                                                                   : test(specimen->base);
+  specimen->pressed =
+      specimen->base == tissue::Base::frictionless ? specimen->measured : test(specimen->base);
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base);
   specimen->held_between_platens =
       tissue::held_between_platens(specimen->mesh, specimen->base, specimen->top_height);
@@ -180,8 +171,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
   }
   if (scene.choice.model == scenario::Solver::Model::hertz) return scene;
   scene.specimen = make_specimen(one.scenario, family.folder);
-  scene.specimen->plan =
-      plan_time(one.scenario, *scene.specimen, contact_frequency_squared(scene));
+  scene.specimen->plan = plan_time(one.scenario, *scene.specimen, contact_frequency_squared(scene));
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);
   return scene;

@@ -10,17 +10,6 @@ namespace {
 
 using Model = scenario::Solver::Model;
 
-// The deepest travel of the programme, m; a force counts as the travel that Hertz gives it.
-double deepest(const scenario::Scenario& scenario, const contact::SphereLaw& law) {
-  double travel = 0.0;
-  for (const scenario::Step& step : scenario.steps)
-    if (const auto* indent = std::get_if<scenario::Indent>(&step))
-      travel = std::max(travel, indent->to.second ? contact::hertz::depth(indent->to.value,
-                                                                          law.radius, law.modulus)
-                                                  : indent->to.value);
-  return travel;
-}
-
 // The viscous time over the time that the fastest press takes.
 double time_ratio(const scenario::Scenario& scenario, double travel) {
   double viscous = 0.0;
@@ -36,6 +25,16 @@ double time_ratio(const scenario::Scenario& scenario, double travel) {
 }
 
 }  // namespace
+
+double deepest_travel(const scenario::Scenario& scenario, const contact::SphereLaw& law) {
+  double travel = 0.0;
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* indent = std::get_if<scenario::Indent>(&step))
+      travel = std::max(travel, indent->to.second ? contact::hertz::depth(indent->to.value,
+                                                                          law.radius, law.modulus)
+                                                  : indent->to.value);
+  return travel;
+}
 
 Choice choose(const scenario::Scenario& scenario) {
   Choice choice;
@@ -63,7 +62,7 @@ Choice choose(const scenario::Scenario& scenario) {
                 .compliance();
   const contact::SphereLaw law{scenario.finger.radius,
                                contact::hertz::effective_modulus(lambda_1, lambda_2)};
-  const double travel = deepest(scenario, law);
+  const double travel = deepest_travel(scenario, law);
   if (scenario.contact.coupling == contact::Coupling::one_way) {
     choice.questions.push_back({"does the force know the mesh?", "coupling is one_way", 0, 1,
                                 "no: it is eq. (2) alone, hertz says the same"});

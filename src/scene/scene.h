@@ -17,11 +17,11 @@ namespace palpate::scene {
 
 // A question of the ladder, asked in numbers.
 struct Question {
-  std::string asked;      // "rigid tissue?"
-  std::string measure;    // "lambda_2 / (lambda_1 + lambda_2)"
+  std::string asked;    // "rigid tissue?"
+  std::string measure;  // "lambda_2 / (lambda_1 + lambda_2)"
   double number = 0.0;
   double threshold = 0.0;
-  std::string answer;     // a sentence
+  std::string answer;  // a sentence
 };
 
 // Which model serves the case, and why. Given models are kept.
@@ -31,6 +31,10 @@ struct Choice {
 };
 [[nodiscard]] Choice choose(const scenario::Scenario& scenario);
 
+// The deepest travel of the programme, m; a force counts as the depth that Hertz gives it.
+[[nodiscard]] double deepest_travel(const scenario::Scenario& scenario,
+                                    const contact::SphereLaw& law);
+
 // The specimen as springs. Holds everything that a step needs.
 struct Specimen {
   geometry::TetMesh mesh;
@@ -38,13 +42,13 @@ struct Specimen {
   tissue::ViscousLaw law;
   tissue::Kinematics kinematics = tissue::Kinematics::linear;
   tissue::Base base = tissue::Base::bonded;
-  double top_height = 0.0;                // m
-  double top_area = 0.0;                  // m^2
+  double top_height = 0.0;  // m
+  double top_area = 0.0;    // m^2
   std::optional<geometry::FlatTop> top;
-  tissue::Uniaxial measured;              // on frictionless platens: the network's own E and nu
-  tissue::Uniaxial pressed;               // on the scene's own base: how platens load it
-  std::vector<char> held;                 // of a pressed specimen
-  std::vector<char> held_between_platens; // of a relaxing one
+  tissue::Uniaxial measured;               // on frictionless platens: the network's own E and nu
+  tissue::Uniaxial pressed;                // on the scene's own base: how platens load it
+  std::vector<char> held;                  // of a pressed specimen
+  std::vector<char> held_between_platens;  // of a relaxing one
   TimePlan plan;
 };
 
@@ -52,9 +56,9 @@ struct Scene {
   std::string name;
   scenario::Scenario scenario;
   Choice choice;
-  contact::SphereLaw law;       // of the finger on the flat
-  double finger_weight = 0.0;   // N, where it counts besides the contact force
-  double finger_share = 0.0;    // lambda_1 / (lambda_1 + lambda_2)
+  contact::SphereLaw law;              // of the finger on the flat
+  double finger_weight = 0.0;          // N, where it counts besides the contact force
+  double finger_share = 0.0;           // lambda_1 / (lambda_1 + lambda_2)
   std::unique_ptr<Specimen> specimen;  // none for `hertz`
 };
 

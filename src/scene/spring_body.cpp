@@ -54,14 +54,11 @@ integrate::Vector SpringBody::spread_mass(double factor) const {
 tissue::MemoryStep SpringBody::memory_step(const integrate::TimeStep& step) const {
   if (law_.time <= 0.0 || step.size <= 0.0) return tissue::MemoryStep::at_once();
   switch (step.rule) {
-    case integrate::MemoryRule::exact:
-      return tissue::MemoryStep::exact(step.size, law_.time);
-    case integrate::MemoryRule::held:
-      return tissue::MemoryStep::held(step.size, law_.time);
+    case integrate::MemoryRule::exact: return tissue::MemoryStep::exact(step.size, law_.time);
+    case integrate::MemoryRule::held: return tissue::MemoryStep::held(step.size, law_.time);
     case integrate::MemoryRule::first_order:
       return tissue::MemoryStep::first_order(step.size, law_.time);
-    case integrate::MemoryRule::at_once:
-      break;
+    case integrate::MemoryRule::at_once: break;
   }
   return tissue::MemoryStep::at_once();
 }
@@ -91,8 +88,8 @@ integrate::SparseMatrix SpringBody::dashpots() const {
   std::vector<double> damping = network_->stiffness;
   for (double& c : damping) c *= law_.time;
   const std::vector<double> zero(damping.size(), 0.0);
-  return tissue::tangent(*network_, tissue::Kinematics::linear, Vector::Zero(mass_.size()),
-                         damping, zero, held_);
+  return tissue::tangent(*network_, tissue::Kinematics::linear, Vector::Zero(mass_.size()), damping,
+                         zero, held_);
 }
 
 void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocity,
@@ -118,8 +115,7 @@ void SpringBody::remember(const Vector& displacement, const integrate::TimeStep&
   tissue::elongations(*network_, kinematics_, displacement, elongation_);
   const tissue::MemoryStep through = memory_step(step);
   for (std::size_t s = 0; s < elongation_.size(); ++s) {
-    const Memory next =
-        tissue::remembered(law_, memory_of(memory, s), through, elongation_[s]);
+    const Memory next = tissue::remembered(law_, memory_of(memory, s), through, elongation_[s]);
     memory[2 * s] = next.elongation;
     memory[2 * s + 1] = next.internal;
   }
@@ -141,8 +137,7 @@ integrate::SparseMatrix SpringBody::step_stiffness(const Vector& displacement,
   tissue::elongations(*network_, kinematics_, displacement, elongation_);
   const tissue::MemoryStep through = memory_step(step);
   for (std::size_t s = 0; s < tension_.size(); ++s) {
-    const auto tension =
-        tissue::step_tension(law_, memory_of(memory, s), through, elongation_[s]);
+    const auto tension = tissue::step_tension(law_, memory_of(memory, s), through, elongation_[s]);
     tension_[s] = network_->stiffness[s] * tension.value;
     slope_[s] = network_->stiffness[s] * tension.slope;
   }
@@ -160,12 +155,10 @@ double SpringBody::kinetic(const integrate::State& state) const {
   return sum;
 }
 
-double SpringBody::dissipated(const integrate::State& before,
-                              const integrate::State& after) const {
+double SpringBody::dissipated(const integrate::State& before, const integrate::State& after) const {
   const double time_step = after.time - before.time;
   if (time_step <= 0.0) return 0.0;
-  return tissue::dissipated_energy(*network_, law_, memories(before.memory),
-                                   memories(after.memory),
+  return tissue::dissipated_energy(*network_, law_, memories(before.memory), memories(after.memory),
                                    after.displacement - before.displacement, time_step);
 }
 

@@ -22,9 +22,7 @@ class SpringBody final : public integrate::Body {
   [[nodiscard]] const Vector& mass() const override { return mass_; }
   [[nodiscard]] const Vector& drag() const override { return drag_; }
   [[nodiscard]] std::span<const char> held() const override { return held_; }
-  [[nodiscard]] bool linear() const override {
-    return kinematics_ == tissue::Kinematics::linear;
-  }
+  [[nodiscard]] bool linear() const override { return kinematics_ == tissue::Kinematics::linear; }
   [[nodiscard]] const integrate::Proportional& proportional() const override {
     return proportional_;
   }

@@ -28,8 +28,8 @@ double dissipated_energy(const Network& network, const ViscousLaw& law,
     for (std::size_t s = 0; s < after.size(); ++s) {
       const double stretched = 0.5 * (before[s].elongation - before[s].internal +
                                       after[s].elongation - after[s].internal);
-      sum += network.stiffness[s] * law.branch * stretched *
-             (after[s].internal - before[s].internal);
+      sum +=
+          network.stiffness[s] * law.branch * stretched * (after[s].internal - before[s].internal);
     }
   } else if (law.kind == Viscosity::nodal_drag) {
     for (Eigen::Index d = 0; d < moved.size(); ++d)

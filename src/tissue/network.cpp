@@ -14,8 +14,7 @@ std::vector<double> node_volumes(const geometry::TetMesh& mesh) {
   return volumes;
 }
 
-Network make_network(const geometry::TetMesh& mesh, double density,
-                     std::vector<double> stiffness) {
+Network make_network(const geometry::TetMesh& mesh, double density, std::vector<double> stiffness) {
   Network network;
   network.rest = mesh.nodes;
   network.node_mass = node_volumes(mesh);

@@ -11,12 +11,12 @@ namespace palpate::tissue {
 
 // Built once and constant. Springs are numbered as the mesh's sorted edges.
 struct Network {
-  std::vector<Vec3> rest;                 // m, one a node
-  std::vector<double> node_mass;          // kg, a quarter of each tetrahedron at its corners
-  std::vector<std::array<int, 2>> ends;   // nodes of a spring, the lower first
-  std::vector<double> rest_length;        // m
-  std::vector<Vec3> direction;            // unit vector from the first end to the second, at rest
-  std::vector<double> stiffness;          // N/m
+  std::vector<Vec3> rest;                // m, one a node
+  std::vector<double> node_mass;         // kg, a quarter of each tetrahedron at its corners
+  std::vector<std::array<int, 2>> ends;  // nodes of a spring, the lower first
+  std::vector<double> rest_length;       // m
+  std::vector<Vec3> direction;           // unit vector from the first end to the second, at rest
+  std::vector<double> stiffness;         // N/m
 
   [[nodiscard]] int nodes() const { return static_cast<int>(rest.size()); }
   [[nodiscard]] int springs() const { return static_cast<int>(ends.size()); }

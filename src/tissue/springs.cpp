@@ -59,8 +59,8 @@ void elongation_rates(const Network& network, Kinematics kinematics, const Vecto
                       const Vector& velocity, std::span<double> rate) {
   for (std::size_t s = 0; s < network.ends.size(); ++s) {
     const auto [a, b] = network.ends[s];
-    rate[s] = direction_of(network, kinematics, displacement, s)
-                  .dot(at(velocity, b) - at(velocity, a));
+    rate[s] =
+        direction_of(network, kinematics, displacement, s).dot(at(velocity, b) - at(velocity, a));
   }
 }
 
@@ -83,8 +83,7 @@ SparseMatrix tangent(const Network& network, Kinematics kinematics, const Vector
     }
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
-        const double value =
-            (slope[s] - across) * n[i] * n[j] + (i == j ? across : 0.0);
+        const double value = (slope[s] - across) * n[i] * n[j] + (i == j ? across : 0.0);
         add(3 * a + i, 3 * a + j, value);
         add(3 * b + i, 3 * b + j, value);
         add(3 * a + i, 3 * b + j, -value);

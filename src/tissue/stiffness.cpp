@@ -22,9 +22,9 @@ SymmetricTensor fourth_power(const Vec3& n) {
   const double r4 = 2.0;
   const double r6 = std::sqrt(6.0);
   const double r12 = std::sqrt(12.0);
-  return {x * x * x * x,      y * y * y * y,      z * z * z * z,      r4 * x * x * x * y,
-          r4 * x * x * x * z, r4 * y * y * y * x, r4 * y * y * y * z, r4 * z * z * z * x,
-          r4 * z * z * z * y, r6 * x * x * y * y, r6 * x * x * z * z, r6 * y * y * z * z,
+  return {x * x * x * x,       y * y * y * y,       z * z * z * z,      r4 * x * x * x * y,
+          r4 * x * x * x * z,  r4 * y * y * y * x,  r4 * y * y * y * z, r4 * z * z * z * x,
+          r4 * z * z * z * y,  r6 * x * x * y * y,  r6 * x * x * z * z, r6 * y * y * z * z,
           r12 * x * x * y * z, r12 * y * y * x * z, r12 * z * z * x * y};
 }
 

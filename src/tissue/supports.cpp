@@ -11,7 +11,9 @@ std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base) {
   double low = height(mesh.nodes.front());
   for (const Vec3& node : mesh.nodes) low = std::min(low, height(node));
   const std::vector<int> nodes = geometry::nodes_at_height(mesh, low);
-  const auto hold = [&](int node, int axis) { held[static_cast<std::size_t>(3 * node + axis)] = 1; };
+  const auto hold = [&](int node, int axis) {
+    held[static_cast<std::size_t>(3 * node + axis)] = 1;
+  };
   for (const int node : nodes) {
     hold(node, 2);
     if (base == Base::bonded) {

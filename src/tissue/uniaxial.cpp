@@ -32,8 +32,8 @@ double widening(const geometry::TetMesh& mesh, const Vector& displacement, int a
 
 }  // namespace
 
-Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Base base,
-                       double top, double area) {
+Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Base base, double top,
+                       double area) {
   double low = top;
   for (const Vec3& node : mesh.nodes) low = std::min(low, node.z());
   Uniaxial result;
@@ -48,8 +48,8 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
   // K u = 0 on the free degrees of freedom: u = prescribed - K_ff^-1 (K prescribed)_f
   const std::vector<double> zero(network.stiffness.size(), 0.0);
   Cholesky factors;
-  if (!factors.factor(tangent(network, Kinematics::linear, prescribed, network.stiffness, zero,
-                              held)))
+  if (!factors.factor(
+          tangent(network, Kinematics::linear, prescribed, network.stiffness, zero, held)))
     throw MeshError(
         "the spring network is not rigid: some nodes can move without stretching a spring; use "
         "more cells or another mesh kind");
@@ -70,8 +70,8 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
   for (const int node : result.top) reaction -= force[3 * node + 2];
   for (const int node : result.top) result.shares.push_back(-force[3 * node + 2] / reaction);
   result.young_modulus = reaction / area;
-  result.poisson_ratio = 0.5 * (widening(mesh, result.displacement, 0) +
-                                widening(mesh, result.displacement, 1));
+  result.poisson_ratio =
+      0.5 * (widening(mesh, result.displacement, 0) + widening(mesh, result.displacement, 1));
   return result;
 }
 

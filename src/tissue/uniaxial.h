@@ -9,13 +9,13 @@ namespace palpate::tissue {
 
 // A small uniaxial compression between platens, solved in statics.
 struct Uniaxial {
-  double young_modulus = 0.0;   // Pa: stress over strain
-  double poisson_ratio = 0.0;   // mean widening of the sides over the shortening
-  double height = 0.0;          // m
-  double area = 0.0;            // m^2, of the top face
-  Vector displacement;          // m, for a shortening of 1 (strain 1, linear)
-  std::vector<int> top;         // the nodes under the upper platen
-  std::vector<double> shares;   // of the platen's force on each of them; sum 1
+  double young_modulus = 0.0;  // Pa: stress over strain
+  double poisson_ratio = 0.0;  // mean widening of the sides over the shortening
+  double height = 0.0;         // m
+  double area = 0.0;           // m^2, of the top face
+  Vector displacement;         // m, for a shortening of 1 (strain 1, linear)
+  std::vector<int> top;        // the nodes under the upper platen
+  std::vector<double> shares;  // of the platen's force on each of them; sum 1
 };
 
 // `area` in m^2 of the flat top at height `top` (m). The upper platen is frictionless, the lower

@@ -45,8 +45,8 @@ Memory remembered(const ViscousLaw& law, const Memory& memory, const MemoryStep&
                   double elongation) {
   if (law.kind == Viscosity::kelvin_voigt)
     return {elongation, step_tension(law, memory, step, elongation).value};
-  return {elongation, step.keep * memory.internal + step.begin * memory.elongation +
-                          step.end * elongation};
+  return {elongation,
+          step.keep * memory.internal + step.begin * memory.elongation + step.end * elongation};
 }
 
 }  // namespace palpate::tissue

@@ -50,7 +50,7 @@ struct StepTension {
                                        const MemoryStep& step, double elongation);
 
 // The memory after the step.
-[[nodiscard]] Memory remembered(const ViscousLaw& law, const Memory& memory,
-                                const MemoryStep& step, double elongation);
+[[nodiscard]] Memory remembered(const ViscousLaw& law, const Memory& memory, const MemoryStep& step,
+                                double elongation);
 
 }  // namespace palpate::tissue

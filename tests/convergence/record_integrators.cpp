@@ -25,8 +25,8 @@ using test::OneMass;
 using test::state_at;
 
 // The displacement at `time` under a constant force.
-using Solution = std::function<double(const OneMass&, double u, double v, double force, double dt,
-                                 double time)>;
+using Solution =
+    std::function<double(const OneMass&, double u, double v, double force, double dt, double time)>;
 
 double central(const OneMass& body, Start start, double u, double v, double force, double dt,
                double time) {
@@ -126,8 +126,8 @@ TEST(Integrators, DeclaredOrders) {
        }},
       {"backward_difference", 1.0,
        [](const OneMass& body, double u, double v, double f, double dt, double time) {
-         return implicit(Implicit(body, Implicit::Inertia::backward_difference),
-                         MemoryRule::exact, u, v, f, dt, time);
+         return implicit(Implicit(body, Implicit::Inertia::backward_difference), MemoryRule::exact,
+                         u, v, f, dt, time);
        }}};
   for (const double tau : {0.0, 0.3}) {
     for (const double drag : {0.0, 0.4}) {
@@ -141,8 +141,7 @@ TEST(Integrators, DeclaredOrders) {
         // U(-dt) = U(0) knows no start velocity.
         const double v = std::string(method.name).ends_with("paper") ? 0.0 : 0.5;
         const auto error = [&](double dt) {
-          return std::abs(method.run(body, 0.2, v, 1.0, dt, 4.0) -
-                          exact(body, 0.2, v, 1.0, 4.0));
+          return std::abs(method.run(body, 0.2, v, 1.0, dt, 4.0) - exact(body, 0.2, v, 1.0, 4.0));
         };
         // Errors at these steps are in the asymptotic range: a tenth of an order is left over.
         EXPECT_NEAR(std::log2(error(1.0 / 128) / error(1.0 / 256)), method.order, 0.1)

@@ -48,8 +48,8 @@ double travel_at_one_millimetre(const record::CaseRecord& record) {
     const auto& a = record.contact[i - 1];
     const auto& b = record.contact[i];
     if (a.indentation <= 1e-3 && b.indentation >= 1e-3)
-      return a.travel + (b.travel - a.travel) * (1e-3 - a.indentation) /
-                            (b.indentation - a.indentation);
+      return a.travel +
+             (b.travel - a.travel) * (1e-3 - a.indentation) / (b.indentation - a.indentation);
   }
   ADD_FAILURE() << "1 mm was not reached";
   return 0.0;
@@ -74,8 +74,8 @@ TEST(Press, HertzModelNeedsNoMesh) {
 
 TEST(Press, IntegratorsAgree) {
   for (const char* coupling : couplings) {
-    const auto exact = run_text(press, {std::string("contact.coupling=") + coupling,
-                                        "solver.integrator=modal"});
+    const auto exact =
+        run_text(press, {std::string("contact.coupling=") + coupling, "solver.integrator=modal"});
     for (const char* integrator : integrators) {
       const auto record = run_text(press, {std::string("contact.coupling=") + coupling,
                                            std::string("solver.integrator=") + integrator});
@@ -136,13 +136,13 @@ TEST(Press, SeriesLosesForceAndSaysSo) {
 // The force rises with every step of travel and falls with every step back, without jumps.
 TEST(Press, ForceIsMonotoneAndContinuous) {
   for (const char* mesh :
-       {"{ kind = \"mirrored\", cells = [3, 4, 6] }", "{ kind = \"mirrored\", cells = [12, 12, 6] }",
-        "{ kind = \"tetgen\", nodes = 400 }"}) {
+       {"{ kind = \"mirrored\", cells = [3, 4, 6] }",
+        "{ kind = \"mirrored\", cells = [12, 12, 6] }", "{ kind = \"tetgen\", nodes = 400 }"}) {
     for (const char* coupling : couplings) {
-      const auto record = run_text(
-          press + "[[step]]\nkind = \"retract\"\nto = \"-0.2 mm\"\nrate = \"5 mm/s\"\n",
-          {std::string("tissue.mesh=") + mesh, std::string("contact.coupling=") + coupling,
-           "tissue.viscosity=none", "solver.integrator=quasi_static", "step.1.to=2 mm"});
+      const auto record =
+          run_text(press + "[[step]]\nkind = \"retract\"\nto = \"-0.2 mm\"\nrate = \"5 mm/s\"\n",
+                   {std::string("tissue.mesh=") + mesh, std::string("contact.coupling=") + coupling,
+                    "tissue.viscosity=none", "solver.integrator=quasi_static", "step.1.to=2 mm"});
       ASSERT_EQ(record.outcome, record::Outcome::completed);
       for (std::size_t i = 1; i < record.contact.size(); ++i) {
         const auto& a = record.contact[i - 1];
@@ -207,14 +207,14 @@ TEST(Press, UnstableStepIsDetectedAndTheRestKept) {
 
 TEST(Press, StableJustBelowTheLimitAndNotAbove) {
   // 0.95 and 1.05 of 2 / omega_max by the output interval, one substep.
-  const auto family = scenario::parse(press, "test.toml", {"tissue.viscosity=none",
-                                                           "contact.coupling=one_way"});
+  const auto family =
+      scenario::parse(press, "test.toml", {"tissue.viscosity=none", "contact.coupling=one_way"});
   const double limit = scene::build(family.cases.front(), family).specimen->plan.limit;
   for (const double part : {0.95, 1.05}) {
-    const auto record = run_text(
-        press, {"tissue.viscosity=none", "contact.coupling=one_way", "solver.substeps=1",
-                "solver.allow_unstable=true", "step.1.to=5 mm", "step.1.rate=2 mm/s",
-                "output.interval=" + std::to_string(1e3 * part * limit) + " ms"});
+    const auto record =
+        run_text(press, {"tissue.viscosity=none", "contact.coupling=one_way", "solver.substeps=1",
+                         "solver.allow_unstable=true", "step.1.to=5 mm", "step.1.rate=2 mm/s",
+                         "output.interval=" + std::to_string(1e3 * part * limit) + " ms"});
     EXPECT_EQ(record.outcome == record::Outcome::completed, part < 1.0) << part;
   }
 }
@@ -232,8 +232,8 @@ TEST(Press, PaperStartIsNearTheConsistentOne) {
 
 TEST(Press, FrictionCountsTheWeightOnce) {
   const auto within = run_text(press, {"contact.friction=0.3"});
-  const auto apart = run_text(press, {"contact.friction=0.3", "finger.weight=apart",
-                                      "contact.ambient_force=0.2 N"});
+  const auto apart = run_text(
+      press, {"contact.friction=0.3", "finger.weight=apart", "contact.ambient_force=0.2 N"});
   const auto& a = within.contact.back();
   const auto& b = apart.contact.back();
   EXPECT_DOUBLE_EQ(a.friction, 0.3 * a.contact_force);

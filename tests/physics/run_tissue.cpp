@@ -20,8 +20,7 @@ using tissue::Viscosity;
 
 constexpr Kinematics all_kinematics[] = {Kinematics::linear, Kinematics::nonlinear};
 constexpr Viscosity all_viscosities[] = {Viscosity::none, Viscosity::nodal_drag,
-                                         Viscosity::kelvin_voigt,
-                                         Viscosity::standard_linear_solid};
+                                         Viscosity::kelvin_voigt, Viscosity::standard_linear_solid};
 
 struct Cube {
   geometry::TetMesh mesh =
@@ -40,9 +39,9 @@ struct Cube {
     Vector u(3 * network.nodes());
     for (int i = 0; i < network.nodes(); ++i) {
       const Vec3& x = mesh.nodes[static_cast<std::size_t>(i)];
-      u.segment<3>(3 * i) = size * Vec3(std::sin(90.0 * x.y()) + x.z() * 20.0,
-                                        std::cos(70.0 * x.z()) * x.x() * 50.0,
-                                        std::sin(60.0 * (x.x() + x.y())));
+      u.segment<3>(3 * i) =
+          size * Vec3(std::sin(90.0 * x.y()) + x.z() * 20.0, std::cos(70.0 * x.z()) * x.x() * 50.0,
+                      std::sin(60.0 * (x.x() + x.y())));
     }
     return u;
   }

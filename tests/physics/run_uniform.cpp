@@ -36,12 +36,10 @@ const std::string specimen =
     "schema = 1\n[tissue]\nmaterial = \"muscle\"\n"
     "shape = { kind = \"cuboid\", size = [\"30 mm\", \"30 mm\", \"30 mm\"] }\n"
     "[output]\ninterval = \"50 ms\"\n";
-const std::string creep =
-    specimen +
-    "[[step]]\nkind = \"creep\"\nstress = \"100 Pa\"\nload_time = \"1.5 s\"\n"
-    "recovery_time = \"0.5 s\"\n";
-const std::string relax =
-    specimen + "[[step]]\nkind = \"relax\"\nstrain = 0.02\ntime = \"2 s\"\n";
+const std::string creep = specimen +
+                          "[[step]]\nkind = \"creep\"\nstress = \"100 Pa\"\nload_time = \"1.5 s\"\n"
+                          "recovery_time = \"0.5 s\"\n";
+const std::string relax = specimen + "[[step]]\nkind = \"relax\"\nstrain = 0.02\ntime = \"2 s\"\n";
 
 double strain_at(const record::CaseRecord& record, double time) {
   for (const auto& row : record.strain)
@@ -54,10 +52,10 @@ TEST(KelvinVoigtSpecimen, CreepsAndRecoversLikeTheClosedForm) {
   const double tau = 0.5;
   for (const char* integrator : integrators) {
     for (const char* mesh : meshes) {
-      const auto [record, scene] = run_text(
-          creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-                  std::string("solver.integrator=") + integrator,
-                  std::string("tissue.mesh=") + mesh});
+      const auto [record, scene] =
+          run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                           std::string("solver.integrator=") + integrator,
+                           std::string("tissue.mesh=") + mesh});
       ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator << mesh;
       const double settled = 100.0 / scene.specimen->measured.young_modulus;
       for (const auto& row : record.strain) {
@@ -103,8 +101,7 @@ TEST(StandardLinearSolidSpecimen, Relaxes) {
       ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator << mesh;
       const double modulus = scene.specimen->measured.young_modulus;
       for (const auto& row : record.strain) {
-        const double want =
-            0.02 * modulus * (1.0 + (ratio - 1.0) * std::exp(-row.time / tau));
+        const double want = 0.02 * modulus * (1.0 + (ratio - 1.0) * std::exp(-row.time / tau));
         EXPECT_NEAR(row.stress, want, 0.01 * want)  // the figure: 1 %
             << integrator << " " << mesh << " at " << row.time;
       }
@@ -191,10 +188,9 @@ TEST(KelvinVoigtSpecimen, DoesNotRelaxAndSaysSo) {
 
 TEST(UniformSpecimen, NonlinearAgreesWithLinearForSmallLoads) {
   for (const char* integrator : {"central_difference", "backward_difference", "quasi_static"}) {
-    const std::vector<std::string> common{"tissue.viscosity=kelvin_voigt",
-                                          "tissue.retardation_time=0.5 s",
-                                          std::string("solver.integrator=") + integrator,
-                                          "step.1.stress=1 Pa"};
+    const std::vector<std::string> common{
+        "tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+        std::string("solver.integrator=") + integrator, "step.1.stress=1 Pa"};
     auto turned = common;
     turned.emplace_back("solver.kinematics=nonlinear");
     const auto linear = run_text(creep, common);
@@ -210,9 +206,9 @@ TEST(UniformSpecimen, NonlinearAgreesWithLinearForSmallLoads) {
 
 TEST(UniformSpecimen, EnergyIsAccountedFor) {
   for (const char* integrator : integrators) {
-    const auto [record, scene] = run_text(
-        creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-                std::string("solver.integrator=") + integrator, "output.interval=5 ms"});
+    const auto [record, scene] =
+        run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                         std::string("solver.integrator=") + integrator, "output.interval=5 ms"});
     double imbalance = 1.0;
     for (const auto& finding : record.findings)
       if (finding.name == "energy_imbalance") imbalance = std::get<double>(finding.value);

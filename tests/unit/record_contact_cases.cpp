@@ -144,9 +144,9 @@ TEST(FrictionCases, CattaneoMindlin) {
   };
   const double normal = force("skin", 1e-3);
   const double limit = contact::friction::limit(0.5, normal, 0.0);
-  const auto stick = contact::friction::stick(0.5 * limit, limit,
-                                              hertz::contact_radius(1e-3, finger_radius),
-                                              shear(elastic("finger")) + shear(elastic("skin")));
+  const auto stick =
+      contact::friction::stick(0.5 * limit, limit, hertz::contact_radius(1e-3, finger_radius),
+                               shear(elastic("finger")) + shear(elastic("skin")));
   expect_case("friction-01", stick.radius / hertz::contact_radius(1e-3, finger_radius));
   expect_case("friction-02", stick.displacement);
 }
@@ -154,10 +154,10 @@ TEST(FrictionCases, CattaneoMindlin) {
 TEST(Friction, OpposesSlipAndSaturates) {
   const Vec3 slip(0.3, -0.4, 0.0);
   const Vec3 full = contact::friction::force(2.0, slip, 1e-6);
-  EXPECT_NEAR(full.norm(), 2.0, 1e-9);                          // (v0/v)^2 / 2 = 2e-12
-  EXPECT_NEAR(full.dot(slip), -2.0 * slip.norm(), 1e-9);        // straight against
+  EXPECT_NEAR(full.norm(), 2.0, 1e-9);                    // (v0/v)^2 / 2 = 2e-12
+  EXPECT_NEAR(full.dot(slip), -2.0 * slip.norm(), 1e-9);  // straight against
   const Vec3 slow = contact::friction::force(2.0, 1e-3 * slip, 0.05);
-  EXPECT_LT(slow.norm(), 0.1);                                  // 2 * 0.0005 / 0.05
+  EXPECT_LT(slow.norm(), 0.1);  // 2 * 0.0005 / 0.05
   EXPECT_EQ(contact::friction::force(2.0, Vec3::Zero(), 0.0), Vec3::Zero());
   EXPECT_EQ(contact::friction::force(2.0, Vec3::Zero(), 1e-3), Vec3::Zero());
 }

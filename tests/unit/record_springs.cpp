@@ -58,7 +58,8 @@ TEST(StableStep, MatrixFreeBoundIsSafe) {
   // c = 1 m/s, so that dt c / h = dt / 0.01 m
   const double safe = tissue::safe_frequency_squared(network, network.stiffness);
   expect_case("dt-07", 2.0 / std::sqrt(safe) / 0.01);
-  EXPECT_GT(safe, tissue::largest_frequency_squared(network, network.stiffness, std::vector<char>(3 * mesh.nodes.size(), 0)));
+  EXPECT_GT(safe, tissue::largest_frequency_squared(network, network.stiffness,
+                                                    std::vector<char>(3 * mesh.nodes.size(), 0)));
 }
 
 // Row sums of |M^-1 K|.
@@ -73,8 +74,8 @@ TEST(StableStep, GershgorinOfTheMatrix) {
                       tissue::Vector::Zero(3 * network.nodes()), network.stiffness, zero, held);
   double bound = 0.0;
   for (Eigen::Index d = 0; d < matrix.rows(); ++d)
-    bound = std::max(bound, matrix.row(d).cwiseAbs().sum() /
-                                network.node_mass[static_cast<std::size_t>(d / 3)]);
+    bound = std::max(
+        bound, matrix.row(d).cwiseAbs().sum() / network.node_mass[static_cast<std::size_t>(d / 3)]);
   expect_case("dt-06", 2.0 / std::sqrt(bound) / 0.01);
 }
 

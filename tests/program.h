@@ -1,0 +1,157 @@
+// The program itself, run in a temporary folder: its streams, its exit code, its files.
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace palpate::test {
+
+namespace fs = std::filesystem;
+
+inline std::string read_file(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  EXPECT_TRUE(stream.good()) << path << " cannot be read";
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void write_file(const fs::path& path, const std::string& content) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+// The names in a folder, in order.
+inline std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
+}
+
+// A folder of its own, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "palpate-test-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  [[nodiscard]] fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+struct Ended {
+  int code = -1;   // exit code, where it exited
+  int signal = 0;  // that ended it, else
+  std::string out = {};
+  std::string err = {};
+};
+
+struct Invocation {
+  std::vector<std::string> arguments = {};
+  fs::path folder = {};                                       // where it runs
+  std::vector<std::pair<std::string, std::string>> set = {};  // environment
+  std::vector<std::string> unset = {};
+  std::function<void()> before = {};  // in the child, before exec
+  std::string program = PALPATE_PROGRAM;
+};
+
+// A process that has been started; its streams go to files, so that no pipe can fill.
+class Running {
+ public:
+  explicit Running(const Invocation& call) {
+    std::vector<char*> argv{const_cast<char*>(call.program.c_str())};
+    for (const std::string& word : call.arguments) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ != 0) return;
+    if (!call.folder.empty() && ::chdir(call.folder.c_str()) != 0) ::_exit(126);
+    ::unsetenv("CI");  // tests of its effect set it
+    for (const auto& [name, value] : call.set) ::setenv(name.c_str(), value.c_str(), 1);
+    for (const std::string& name : call.unset) ::unsetenv(name.c_str());
+    ::dup2(::open("/dev/null", O_RDONLY), 0);
+    ::dup2(::open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
+    ::dup2(::open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+    if (call.before) call.before();
+    ::execvp(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~Running() {
+    if (child_ > 0) {
+      ::kill(child_, SIGKILL);
+      ::waitpid(child_, nullptr, 0);
+    }
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  [[nodiscard]] pid_t id() const { return child_; }
+  void send(int signal) const { ::kill(child_, signal); }
+
+  // Waits for something that the program does; false where it ends, or half a minute passes, first.
+  bool until(const std::function<bool()>& seen) {
+    constexpr auto pause = std::chrono::milliseconds(2);
+    for (int i = 0; i < 15000; ++i) {
+      if (seen()) return true;
+      siginfo_t info{};
+      if (::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+          info.si_pid == child_)
+        return seen();
+      std::this_thread::sleep_for(pause);
+    }
+    return false;
+  }
+
+  Ended wait() {
+    int status = 0;
+    ::waitpid(child_, &status, 0);
+    child_ = -1;
+    Ended ended;
+    if (WIFEXITED(status)) ended.code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) ended.signal = WTERMSIG(status);
+    ended.out = read_file(out_);
+    ended.err = read_file(err_);
+    return ended;
+  }
+
+ private:
+  TemporaryFolder streams_;
+  std::string out_ = (streams_ / "stdout").string();
+  std::string err_ = (streams_ / "stderr").string();
+  pid_t child_ = -1;
+};
+
+inline Ended run_program(const Invocation& call) { return Running(call).wait(); }
+
+inline Ended palpate(const fs::path& folder, const std::vector<std::string>& arguments) {
+  return run_program({.arguments = arguments, .folder = folder});
+}
+
+inline std::string project_file(const std::string& name) {
+  return std::string(PALPATE_SOURCE_DIR) + "/" + name;
+}
+
+}  // namespace palpate::test

@@ -1,0 +1,231 @@
+// What a finished run leaves: its files, their columns, the paper's forces, the identities.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "cases.h"
+#include "program.h"
+#include "record/csv.h"
+
+namespace palpate::test {
+namespace {
+
+using Strings = std::vector<std::string>;
+
+const std::string kPress =
+    "[tissue]\nmesh = { kind = \"mirrored\", cells = [4, 4, 3] }\n"
+    "[solver]\nmodel = \"mass_spring\"\nintegrator = \"quasi_static\"\n"
+    "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\nrate = \"10 mm/s\"\n"
+    "[[step]]\nkind = \"hold\"\ntime = \"50 ms\"\n"
+    "[output]\ninterval = \"10 ms\"\n";
+
+double number(const record::Table& table, std::size_t row, const std::string& column) {
+  const int found = table.find(column);
+  if (found < 0 || row >= table.rows.size()) {
+    ADD_FAILURE() << "no `" << column << "` in row " << row;
+    return 0.0;
+  }
+  return std::get<double>(table.rows[row][static_cast<std::size_t>(found)]);
+}
+
+// The row of a case at a travel.
+std::size_t row_at(const record::Table& table, const std::string& name, double travel) {
+  const auto column = static_cast<std::size_t>(table.find("travel_mm"));
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    if (std::get<std::string>(table.rows[i][0]) == name &&
+        std::abs(std::get<double>(table.rows[i][column]) - travel) < 1e-9)  // mm; rows stand 0.01 apart
+      return i;
+  ADD_FAILURE() << "no row of " << name << " at " << travel << " mm";
+  return 0;
+}
+
+class OfAPress : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    write_file(*folder_ / "press.toml", kPress);
+    ended_ = palpate(folder_->path(), {"run", "press.toml", "--set", "contact.friction=0.4"});
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static fs::path result() { return *folder_ / "out/press"; }
+
+  inline static TemporaryFolder* folder_ = nullptr;
+  inline static Ended ended_;
+};
+
+TEST_F(OfAPress, has_all_its_files) {
+  ASSERT_EQ(ended_.code, 0) << ended_.err;
+  EXPECT_EQ(names_in(result()),
+            (std::set<std::string>{"figure_force_indentation.gp", "figure_force_indentation.svg",
+                                   "findings.csv", "fits.csv", "force_indentation.csv",
+                                   "pressure_001.exr", "pressure_002.exr", "run.json",
+                                   "scenario.toml"}));
+  EXPECT_EQ(names_in(*folder_ / "out"), std::set<std::string>{"press"}) << "nothing is left beside";
+}
+
+TEST_F(OfAPress, has_the_promised_columns) {  // DESIGN.md section 6
+  EXPECT_EQ(record::read_csv(result() / "force_indentation.csv").columns,
+            (Strings{"case", "step", "time_s", "travel_mm", "indentation_mm", "force_N",
+                     "contact_force_N", "friction_N", "ambient_N", "contact_radius_mm",
+                     "peak_pressure_kPa", "tissue_radius_mm", "contacts"}));
+  EXPECT_EQ(record::read_csv(result() / "fits.csv").columns,
+            (Strings{"case", "curve", "model", "parameter", "unit", "estimate", "std_error",
+                     "ci95_low", "ci95_high", "r2", "rmse", "n", "range_low", "range_high",
+                     "termination"}));
+  EXPECT_EQ(record::read_csv(result() / "findings.csv").columns.front(), "case");
+}
+
+TEST_F(OfAPress, has_a_manifest_that_fits) {
+  const auto manifest = nlohmann::json::parse(read_file(result() / "run.json"));
+  EXPECT_EQ(manifest["complete"], true);
+  EXPECT_FALSE(manifest["outputs"].empty());
+  std::set<std::string> named{"run.json"};
+  for (const auto& output : manifest["outputs"]) {
+    named.insert(output["path"]);
+    EXPECT_EQ(output["sha256"], sha256(read_file(result() / std::string(output["path"]))))
+        << output["path"];
+  }
+  EXPECT_EQ(named, names_in(result()));
+}
+
+TEST_F(OfAPress, has_identities_that_hold) {
+  const record::Table findings = record::read_csv(result() / "findings.csv");
+  const double map = number(findings, 0, "pressure_map_imbalance");
+  EXPECT_GT(map, 0.0) << "a sum over pixels is never exact";
+  EXPECT_LT(map, 0.005);  // pixels cut by the contact's edge; the promise of the map
+  EXPECT_LT(number(findings, 0, "friction_imbalance"), 0.005);  // the same sum times mu
+  const record::Table rows = record::read_csv(result() / "force_indentation.csv");
+  ASSERT_GT(rows.rows.size(), 20U);
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    const double contact = number(rows, i, "contact_force_N");
+    EXPECT_NEAR(number(rows, i, "friction_N"), 0.4 * contact, 1e-14);  // rounding
+    EXPECT_NEAR(number(rows, i, "force_N"), contact, 1e-14);           // no ambient force
+  }
+}
+
+TEST(RunResults, a_uniform_test_has_a_strain_curve) {
+  const TemporaryFolder folder;
+  write_file(folder / "creep.toml",
+             "[tissue]\nmesh = { kind = \"mirrored\", cells = [2, 2, 2] }\n"
+             "[solver]\nintegrator = \"modal\"\n[[step]]\nkind = \"creep\"\n"
+             "[output]\ninterval = \"50 ms\"\n");
+  const Ended ended = palpate(folder.path(), {"run", "creep.toml"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(names_in(folder / "out/creep"),
+            (std::set<std::string>{"figure_strain_time.gp", "figure_strain_time.svg",
+                                   "findings.csv", "fits.csv", "run.json", "scenario.toml",
+                                   "strain_time.csv"}));
+  EXPECT_EQ(record::read_csv(folder / "out/creep/strain_time.csv").columns,
+            (Strings{"case", "step", "time_s", "stress_kPa", "strain"}));
+}
+
+// PHYSICS.md section 2: the table's printed digits, and the closed forms of tests/cases where they
+// are there.
+TEST(RunResults, figure6_gives_the_forces_of_the_closed_form) {
+  struct Printed {
+    const char* name;
+    double scale;                  // of the printed row
+    std::array<double, 4> force;   // N
+    std::array<double, 4> digit;   // N, one unit of the last printed digit
+  };
+  const std::array<Printed, 5> printed{{
+      {"skin", 1.0, {0.1234, 0.3489, 0.9869, 1.813}, {1e-4, 1e-4, 1e-4, 1e-3}},
+      {"muscle", 1.0, {0.0111, 0.0315, 0.0891, 0.1637}, {1e-4, 1e-4, 1e-4, 1e-4}},
+      {"ligament", 1.0, {0.0639, 0.1808, 0.5114, 0.9394}, {1e-4, 1e-4, 1e-4, 1e-4}},
+      {"bone", 0.1, {0.427, 1.209, 3.418, 6.280}, {1e-3, 1e-3, 1e-3, 1e-3}},
+      {"upper_leg", 1.0, {0.00137, 0.00389, 0.0110, 0.0202}, {1e-5, 1e-5, 1e-4, 1e-4}},
+  }};
+  const std::array<double, 4> depths{0.5, 1.0, 2.0, 3.0};  // mm
+  const TemporaryFolder folder;
+  const Ended ended =
+      palpate(folder.path(), {"run", project_file("scenarios/figure6_force_indentation.toml"),
+                              "--set", "output.figures=false"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const record::Table rows =
+      record::read_csv(folder / "out/figure6_force_indentation/force_indentation.csv");
+  const auto force = [&](const char* name, double depth) {
+    return number(rows, row_at(rows, name, depth), "force_N");
+  };
+  for (const Printed& row : printed)
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      // 1e-4 of the force, and half a unit of the last digit that is printed
+      const double near = 1e-4 * row.force[i] + 0.5 * row.digit[i];
+      EXPECT_NEAR(row.scale * force(row.name, depths[i]), row.force[i], near)
+          << row.name << " at " << depths[i] << " mm";
+    }
+  expect_case("hertz-02", force("skin", 0.5));
+  expect_case("hertz-07", force("skin", 2.0));
+  expect_case("hertz-11", force("muscle", 0.5));
+  expect_case("hertz-12", force("muscle", 1.0));
+  expect_case("hertz-20", force("bone", 0.5));
+  expect_case("hertz-21", force("bone", 1.0));
+  expect_case("hertz-29", force("ligament", 0.5));
+  expect_case("hertz-30", force("ligament", 1.0));
+  const auto leg = row_at(rows, "upper_leg", 1.0);
+  expect_case("hertz-40", 1e-3 * number(rows, leg, "contact_radius_mm"));
+  expect_case("hertz-41", 1e3 * number(rows, leg, "peak_pressure_kPa"));
+  // F grows as h^(3/2): the rows that the table prints with two digits only
+  for (const Printed& row : printed)
+    EXPECT_NEAR(force(row.name, 3.0) / force(row.name, 0.5), 6.0 * std::sqrt(6.0), 1e-8)  // rounding of the travel
+        << row.name;
+}
+
+TEST(RunResults, findings_lead_with_the_swept_keys) {
+  const TemporaryFolder folder;
+  write_file(folder / "sweep.toml",
+             "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\n"
+             "[output]\ninterval = \"100 ms\"\nfigures = false\n"
+             "[sweep]\n\"tissue.material\" = [\"skin\", \"bone\"]\n"
+             "\"finger.radius\" = [\"8 mm\", \"11 mm\"]\n");
+  const Ended ended = palpate(folder.path(), {"run", "sweep.toml"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const record::Table findings = record::read_csv(folder / "out/sweep/findings.csv");
+  EXPECT_EQ(Strings(findings.columns.begin(), findings.columns.begin() + 3),
+            (Strings{"case", "tissue.material", "finger.radius"}));
+  ASSERT_EQ(findings.rows.size(), 4U);
+  EXPECT_EQ(findings.rows[1][0], record::Cell("skin_11 mm"));
+  EXPECT_EQ(findings.rows[2][1], record::Cell("bone"));
+  EXPECT_EQ(findings.rows[2][2], record::Cell("8 mm"));
+}
+
+TEST(RunResults, pdf_on_request) {
+  const TemporaryFolder folder;
+  write_file(folder / "press.toml", kPress);
+  const Ended ended = palpate(folder.path(), {"run", "press.toml", "--set", "output.pdf=true"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(read_file(folder / "out/press/figure_force_indentation.pdf").substr(0, 5), "%PDF-");
+  EXPECT_TRUE(fs::exists(folder / "out/press/figure_force_indentation.svg"));
+}
+
+TEST(RunResults, without_gnuplot_the_script_stays) {
+  const TemporaryFolder folder;
+  write_file(folder / "press.toml", kPress);
+  fs::create_directory(folder / "empty");
+  const Ended ended = run_program({.arguments = {"run", "press.toml"},
+                                   .folder = folder.path(),
+                                   .set = {{"PATH", (folder / "empty").string()}}});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_NE(ended.err.find("warning: figure_force_indentation.svg was not drawn"),
+            std::string::npos)
+      << ended.err;
+  EXPECT_NE(ended.err.find("`gnuplot` is not installed"), std::string::npos) << ended.err;
+  EXPECT_TRUE(fs::exists(folder / "out/press/figure_force_indentation.gp"));
+  EXPECT_FALSE(fs::exists(folder / "out/press/figure_force_indentation.svg"));
+  EXPECT_TRUE(fs::exists(folder / "out/press/run.json"));
+}
+
+TEST(RunResults, inputs_lie_beside_the_echo) {
+  const TemporaryFolder folder;
+  const Ended ended = palpate(
+      folder.path(), {"run", project_file("golden/user_table/scenario.toml"), "--out", "a"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(read_file(folder / "a/scenario/mine.toml"),
+            read_file(project_file("golden/user_table/mine.toml")));
+  EXPECT_NE(read_file(folder / "a/scenario/scenario.toml").find("\"mine.toml#gel\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,129 @@
+// Runs that are stopped: finished cases are kept, nothing is half, old results stay.
+#include <gtest/gtest.h>
+
+#include "base/text.h"
+#include "program.h"
+#include "record/csv.h"
+
+namespace palpate::test {
+namespace {
+
+// A quick case, then one of minutes, by one worker. Rows come every few milliseconds.
+const std::string kSlow =
+    "[tissue]\nmesh = { kind = \"kuhn\", cells = [3, 4, 6] }\n"
+    "[solver]\nmodel = \"mass_spring\"\n"
+    "[[step]]\nkind = \"indent\"\nto = \"0.005 mm\"\nrate = \"0.005 mm/s\"\n"
+    "[output]\ninterval = \"10 ms\"\nfigures = false\nfits = false\n"
+    "[sweep]\n\"step.1.to\" = [\"0.005 mm\", \"5 mm\"]\n";
+
+class RunStops : public testing::Test {
+ protected:
+  RunStops() { write_file(folder_ / "slow.toml", kSlow); }
+
+  [[nodiscard]] Invocation call(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"run", "slow.toml", "--jobs", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return {.arguments = arguments, .folder = folder_.path()};
+  }
+
+  [[nodiscard]] fs::path partial(const Running& running) const {
+    return folder_ / ("out/slow.partial-" + std::to_string(running.id()));
+  }
+
+  void wait_for_first_case(Running& running) const {
+    ASSERT_TRUE(running.until([&] { return fs::exists(partial(running) / "case_001/findings.csv"); }))
+        << "the first case does not end: " << running.wait().err;
+  }
+
+  // A finished result of the same name, known again by a mark.
+  void finish_an_old_one() const {
+    const Ended ended = palpate(folder_.path(), {"run", "slow.toml", "--set",
+                                                 "sweep.step.1.to=[\"0.005 mm\"]"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    write_file(folder_ / "out/slow/mark", "old");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RunStops, an_interrupted_run_keeps_its_finished_cases) {
+  Running running(call({}));
+  wait_for_first_case(running);
+  running.send(SIGINT);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_NE(ended.err.find("palpate: interrupted; finished cases are kept"), std::string::npos);
+  EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"slow"}) << "no leftovers";
+  EXPECT_EQ(names_in(folder_ / "out/slow"),
+            (std::set<std::string>{"findings.csv", "force_indentation.csv", "pressure_001.exr",
+                                   "run.json", "scenario.toml"}))
+      << "no half files";
+  const record::Table findings = record::read_csv(folder_ / "out/slow/findings.csv");
+  ASSERT_EQ(findings.rows.size(), 1U);
+  EXPECT_EQ(findings.rows[0][0], record::Cell("0.005 mm"));
+  EXPECT_NE(read_file(folder_ / "out/slow/run.json").find("\"complete\": false"),
+            std::string::npos);
+}
+
+TEST_F(RunStops, an_incomplete_result_is_run_again_without_force) {
+  Running running(call({}));
+  wait_for_first_case(running);
+  running.send(SIGTERM);
+  ASSERT_EQ(running.wait().code, 130);
+  const Ended again = palpate(
+      folder_.path(), {"run", "slow.toml", "--set", "sweep.step.1.to=[\"0.005 mm\"]"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(read_file(folder_ / "out/slow/run.json").find("\"complete\": true"),
+            std::string::npos);
+}
+
+TEST_F(RunStops, an_interrupted_run_without_a_finished_case_leaves_nothing) {
+  Running running(call({"--set", "sweep.step.1.to=[\"5 mm\"]"}));
+  ASSERT_TRUE(running.until([&] { return fs::exists(partial(running)); }));
+  running.send(SIGINT);
+  EXPECT_EQ(running.wait().code, 130);
+  EXPECT_TRUE(fs::is_empty(folder_ / "out"));
+}
+
+TEST_F(RunStops, a_part_of_a_run_never_replaces_a_whole_result) {
+  finish_an_old_one();
+  Running running(call({"--force"}));
+  wait_for_first_case(running);
+  const fs::path beside = partial(running);
+  running.send(SIGINT);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_NE(ended.err.find("out/slow is not replaced by a part of a run"), std::string::npos)
+      << ended.err;
+  EXPECT_TRUE(fs::exists(folder_ / "out/slow/mark"));
+  EXPECT_EQ(record::read_csv(beside / "findings.csv").rows.size(), 1U);
+}
+
+// The first row ends after 1e5 s of simulated time: only the second signal can end this in time.
+// They are two, as two of one kind can merge.
+TEST_F(RunStops, a_second_signal_does_not_wait) {
+  Running running(call({"--set", "output.interval=\"1e6 ms\"", "--set", "step.1.rate=\"1e-6 mm/s\"",
+                        "--set", "sweep.step.1.to=[\"1 mm\"]"}));
+  ASSERT_TRUE(running.until([&] { return fs::exists(partial(running)); }));
+  running.send(SIGINT);
+  running.send(SIGTERM);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_EQ(ended.err.find("finished cases are kept"), std::string::npos) << "it waited";
+}
+
+TEST_F(RunStops, a_killed_run_keeps_finished_cases_and_the_old_result) {
+  finish_an_old_one();
+  Running running(call({"--force"}));
+  wait_for_first_case(running);
+  const fs::path beside = partial(running);
+  running.send(SIGKILL);
+  EXPECT_EQ(running.wait().signal, SIGKILL);
+  EXPECT_TRUE(fs::exists(folder_ / "out/slow/mark"));
+  const record::Table rows = record::read_csv(beside / "case_001/force_indentation.csv");
+  EXPECT_EQ(rows.rows.size(), 101U);  // 1 s in rows of 10 ms, and the start
+  EXPECT_EQ(record::read_csv(beside / "case_001/findings.csv").rows.size(), 1U);
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,76 @@
+// Who hears what: stdout for data, stderr for talk, nothing that a terminal alone understands.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "program.h"
+
+namespace palpate::test {
+namespace {
+
+const std::string kSweep =
+    "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\n"
+    "[output]\ninterval = \"100 ms\"\nfigures = false\n"
+    "[sweep]\n\"tissue.material\" = [\"skin\", \"bone\"]\n";
+
+class RunTalk : public testing::Test {
+ protected:
+  RunTalk() { write_file(folder_ / "press.toml", kSweep); }
+  Ended run(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run", "press.toml", "--jobs", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return palpate(folder_.path(), arguments);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(RunTalk, stdout_is_empty_and_stderr_plain) {
+  const Ended ended = run({});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_NE(ended.err.find("out/press: 2 of 2 cases\n"), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.err.find('\033'), std::string::npos) << "no colour, no progress";
+  EXPECT_EQ(ended.err.find('\r'), std::string::npos) << "no progress";
+}
+
+TEST_F(RunTalk, quiet_is_silent) {
+  const Ended ended = run({"--quiet"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST_F(RunTalk, quiet_still_tells_errors) {
+  ASSERT_EQ(run({"--quiet"}).code, 0);
+  const Ended again = run({"--quiet"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find("holds a finished result"), std::string::npos);
+}
+
+TEST_F(RunTalk, json_is_one_object_a_line) {
+  const Ended ended = run({"--json"});
+  EXPECT_EQ(ended.code, 0);
+  ASSERT_FALSE(ended.out.empty());
+  EXPECT_EQ(ended.out.back(), '\n');
+  std::vector<std::string> events;
+  for (const std::string& line : split(trimmed(ended.out), '\n')) {
+    const auto object = nlohmann::json::parse(line, nullptr, false);
+    ASSERT_TRUE(object.is_object()) << line;
+    events.push_back(object["event"]);
+    EXPECT_EQ(object["scenario"], "press");
+  }
+  EXPECT_EQ(events, (std::vector<std::string>{"case", "case", "result"}));
+  const auto last = nlohmann::json::parse(split(trimmed(ended.out), '\n').back());
+  EXPECT_TRUE(fs::exists(folder_.path() / std::string(last["folder"]) / "run.json"));
+}
+
+TEST_F(RunTalk, json_keeps_stdout_clean_on_errors) {
+  ASSERT_EQ(run({"--quiet"}).code, 0);
+  const Ended again = run({"--json"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_EQ(again.out, "");
+}
+
+}  // namespace
+}  // namespace palpate::test

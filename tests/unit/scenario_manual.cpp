@@ -1,0 +1,52 @@
+// The manual names every key, and docs/scenario.md is the manual.
+#include <gtest/gtest.h>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "scenario/family.h"
+
+namespace palpate::scenario {
+namespace {
+
+TEST(Manual, IsCurrentInDocs) {
+  EXPECT_TRUE(read_text(std::string(PALPATE_SOURCE_DIR) + "/docs/scenario.md") == manual())
+      << "renew it: palpate manual > docs/scenario.md";
+}
+
+TEST(Manual, NamesEveryKeyOfAnEcho) {
+  // Between them these echoes hold every key that any choice brings in.
+  const std::string press = "[[step]]\n[[step]]\nkind = \"hold\"\n[[step]]\nkind = \"retract\"\n";
+  const std::string creep = "[[step]]\nkind = \"creep\"\n[[step]]\nkind = \"relax\"\n";
+  const std::string text = manual();
+  int keys = 0;
+  for (const auto& [steps, settings] :
+       {std::pair(press, std::vector<std::string>{"finger.weight=apart", "tissue.mesh.kind=tetgen"}),
+        std::pair(press, std::vector<std::string>{"tissue.viscosity=nodal_drag"}),
+        std::pair(press, std::vector<std::string>{"tissue.viscosity=standard_linear_solid"}),
+        std::pair(creep, std::vector<std::string>{})})
+    for (const std::string& line : split(echo(parse(steps, "p.toml", settings)), '\n')) {
+      const std::size_t equals = line.find(" = ");
+      if (line.starts_with('#') || equals == std::string::npos) continue;
+      ++keys;
+      const std::string key = line.substr(0, equals);
+      const bool table = text.find("." + key + "]`") != std::string::npos;
+      if (key != "kind") {
+        EXPECT_TRUE(table || text.find("\n| `" + key + "` |") != std::string::npos) << key;
+      }
+    }
+  EXPECT_GT(keys, 100);
+}
+
+TEST(Manual, ShowsDefaultsRangesAndConditions) {
+  const std::string text = manual();
+  for (const char* part :
+       {"| `radius` | length > 0 mm | `11 mm` | Of the sphere. |",
+        "| `friction` | number >= 0 | `0` | Coulomb's coefficient mu. |",
+        "| `schema` | whole number = 1 | `1` | Version of this format. |",
+        "| `rings` | `\"all\"` | `all` |", "Used only with `viscosity = \"nodal_drag\"`.",
+        "## `tissue.mesh`, `kind = \"mirrored\"` (default)", "## `[[step]]`"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+}  // namespace
+}  // namespace palpate::scenario
