@@ -1,10 +1,10 @@
 // The only file that includes toml++.
 #include "base/document.h"
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <toml++/toml.h>
 
 #include "base/document_writer.h"
 #include "base/files.h"
@@ -26,11 +26,10 @@ Node convert(const toml::node& value, const std::string& file) {
     for (const auto& [key, child] : *table)
       node.members.push_back(
           {std::string(key.str()), place_of(key.source(), file), convert(child, file)});
-    std::stable_sort(node.members.begin(), node.members.end(),
-                     [](const Member& a, const Member& b) {
-                       return std::pair(a.place.line, a.place.column) <
-                              std::pair(b.place.line, b.place.column);
-                     });
+    std::stable_sort(
+        node.members.begin(), node.members.end(), [](const Member& a, const Member& b) {
+          return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+        });
   } else if (const auto* array = value.as_array()) {
     node.kind = Node::Kind::array;
     for (const toml::node& child : *array) node.items.push_back(convert(child, file));
@@ -66,7 +65,11 @@ std::size_t first_broken_character(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
     const auto lead = static_cast<unsigned char>(text[at]);
-    const std::size_t size = lead < 0x80 ? 1 : lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    const std::size_t size = lead < 0x80   ? 1
+                             : lead < 0xc2 ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                                           : 4;
     if (size == 0 || lead > 0xf4 || at + size > text.size()) return at;
     for (std::size_t i = 1; i < size; ++i)
       if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return at;
@@ -193,8 +196,9 @@ void set_value(Node& root, std::string_view path, Node value, const Place& origi
   for (const std::string& word : split(path, '.')) {
     Node& parent = *node;
     if (word.empty())
-      throw InputError(origin, "`" + std::string(path) + "` has an empty word; join the names of "
-                               "tables and a key by single dots, as `tissue.material`");
+      throw InputError(origin, "`" + std::string(path) +
+                                   "` has an empty word; join the names of "
+                                   "tables and a key by single dots, as `tissue.material`");
     node = &descend(parent, word, std::string(path), origin);
     last = nullptr;
     for (Member& member : parent.members)
@@ -215,7 +219,8 @@ std::pair<std::string, Node> parse_assignment(const std::string& assignment) {
   try {
     const toml::table table = toml::parse("value = " + value);
     if (table.size() != 1)
-      throw InputError(origin, "a setting holds one value; write each key with a `--set` of its own");
+      throw InputError(origin,
+                       "a setting holds one value; write each key with a `--set` of its own");
     node = convert(*table.get("value"), origin.file);
   } catch (const toml::parse_error&) {
     node.kind = Node::Kind::text;

@@ -19,10 +19,10 @@ struct Node {
   Kind kind = Kind::table;
   Place place;
   std::string text;
-  double number = 0.0;           // integer and real
+  double number = 0.0;  // integer and real
   bool boolean = false;
-  std::vector<Member> members;   // of a table, in the order of the file
-  std::vector<Node> items;       // of an array
+  std::vector<Member> members;  // of a table, in the order of the file
+  std::vector<Node> items;      // of an array
 
   [[nodiscard]] const Member* find(std::string_view key) const;
   [[nodiscard]] bool is_number() const { return kind == Kind::integer || kind == Kind::real; }

@@ -66,8 +66,8 @@ class Manual final : public FieldVisitor {
                   const Range& range) override {
     std::vector<std::string> items;
     for (const double value : si) items.push_back(quantity_text(value, unit));
-    row(key, "list of " + std::to_string(si.size()) + " times " + unit.quantity +
-                 bounds(range, &unit),
+    row(key,
+        "list of " + std::to_string(si.size()) + " times " + unit.quantity + bounds(range, &unit),
         joined(items, ", "));
   }
   void counts(const Key& key, std::span<int> values, const Range& range) override {

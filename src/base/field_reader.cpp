@@ -85,8 +85,9 @@ class Reader final : public FieldVisitor {
       problem(node->place, quoted(key.name) + " must be " + quoted(word) + ", got " +
                                quoted(node->shown()) + "; write " + quoted(word));
     } else if (node->kind == Node::Kind::text) {
-      problem(node->place, quoted(key.name) + " wants " + quoted(word) + " or a whole number, got " +
-                               quoted(node->text) + "; write " + quoted(word));
+      problem(node->place, quoted(key.name) + " wants " + quoted(word) +
+                               " or a whole number, got " + quoted(node->text) + "; write " +
+                               quoted(word));
     } else if (read_count(key, *node, read, range)) {
       value = read;
     }
@@ -165,8 +166,7 @@ class Reader final : public FieldVisitor {
   void table(const Key& key, const Fields& fields) override {
     const Node* node = find(key);
     if (node == nullptr) return;
-    if (node->kind != Node::Kind::table)
-      return wrong_type(key, *node, "a table", "{ ... }");
+    if (node->kind != Node::Kind::table) return wrong_type(key, *node, "a table", "{ ... }");
     enter(*node, [&] { fields(*this); });
   }
   void tables(const Key& key, int, const std::function<void(int)>& resize,
@@ -263,9 +263,10 @@ class Reader final : public FieldVisitor {
   bool within(const Key& key, const Node& node, double value, const Range& range,
               const Unit* unit) {
     if (range.holds(value)) return true;
-    problem(node.place, quoted(key.name) + " must be " + range_text(range, unit) + ", got " +
-                            quoted(node.shown()) +
-                            (range.low == range.high ? "; write that" : "; give a value in that range"));
+    problem(node.place,
+            quoted(key.name) + " must be " + range_text(range, unit) + ", got " +
+                quoted(node.shown()) +
+                (range.low == range.high ? "; write that" : "; give a value in that range"));
     return false;
   }
 
@@ -345,9 +346,8 @@ class Reader final : public FieldVisitor {
     choices_read_ = choices_read_ && node.kind == Node::Kind::text &&
                     std::find(known.begin(), known.end(), node.text) != known.end();
     if (node.kind != Node::Kind::text) {
-      problem(node.place, quoted(name) + " wants one of " + choices + ", got " +
-                              node.kind_name() + "; write it as `" + name + " = \"" + known[0] +
-                              "\"`");
+      problem(node.place, quoted(name) + " wants one of " + choices + ", got " + node.kind_name() +
+                              "; write it as `" + name + " = \"" + known[0] + "\"`");
       return std::nullopt;
     }
     for (std::size_t i = 0; i < words.size(); ++i)

@@ -13,7 +13,9 @@ class Writer final : public FieldVisitor {
  public:
   [[nodiscard]] std::string result() const { return top_ + tables_; }
 
-  void number(const Key& key, double& value, const Range&) override { put(key, number_text(value)); }
+  void number(const Key& key, double& value, const Range&) override {
+    put(key, number_text(value));
+  }
   void number(const Key& key, std::optional<double>& value, const Range&) override {
     if (value) put(key, number_text(*value));
   }

@@ -1,5 +1,5 @@
-// The one list of a struct's keys. A struct's `fields(FieldVisitor&, Struct&)` names every key once;
-// visitors read them, write the resolved echo and write the manual.
+// The one list of a struct's keys. A struct's `fields(FieldVisitor&, Struct&)` names every key
+// once; visitors read them, write the resolved echo and write the manual.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ struct Word {
 
 // A quantity that may be given in one of two dimensions, such as travel or force.
 struct Target {
-  double value = 0.0;  // SI
+  double value = 0.0;   // SI
   bool second = false;  // in the second dimension
 };
 

@@ -19,15 +19,14 @@ namespace palpate {
 std::string read_text(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
-    throw InputError({path, 0, 0}, std::string("cannot be read: ") + std::strerror(errno) +
-                                       "; check the path");
+    throw InputError({path, 0, 0},
+                     std::string("cannot be read: ") + std::strerror(errno) + "; check the path");
   if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode) && !S_ISCHR(status.st_mode))
     throw InputError({path, 0, 0}, "is not a file; give the path of a file");
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream content;
   content << stream.rdbuf();
-  if (!stream)
-    throw InputError({path, 0, 0}, "cannot be read; check its permissions");
+  if (!stream) throw InputError({path, 0, 0}, "cannot be read; check its permissions");
   return content.str();
 }
 

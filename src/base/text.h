@@ -18,7 +18,7 @@ namespace palpate {
 // A number at the start of a text.
 struct LeadingNumber {
   double value = 0.0;
-  std::string_view rest;     // what follows the number
+  std::string_view rest;      // what follows the number
   bool out_of_range = false;  // such as 1e400
 };
 [[nodiscard]] std::optional<LeadingNumber> leading_number(std::string_view text);

@@ -16,8 +16,8 @@ std::size_t offset_of(std::string_view text, const Place& place) {
   std::size_t at = 0;
   for (int line = 1; line < place.line && at < text.size(); ++line)
     at = std::min(text.find('\n', at), text.size() - 1) + 1;
-  for (int column = 1; column < place.column && at < text.size() && text[at] != '\n'; ++column)
-    do ++at;
+  for (int column = 1; column < place.column && at < text.size() && text[at] != '\n'; ++column) do
+      ++at;
     while (at < text.size() && !starts_character(text[at]));
   return at;
 }
@@ -69,7 +69,8 @@ Problem toml_problem(std::string_view text, const Place& place, std::string_view
   if (says("redefine")) {
     const std::string_view twice = repeated(text, at);
     const auto offset = static_cast<std::size_t>(twice.data() - text.data());
-    return {place_at(text, offset, place.file), quoted(twice) + " is given twice; keep one of the two"};
+    return {place_at(text, offset, place.file),
+            quoted(twice) + " is given twice; keep one of the two"};
   }
   if (says("utf-8") || says("UTF-8"))
     return {place, "the file is not UTF-8 text; save it as UTF-8"};
@@ -82,8 +83,9 @@ Problem toml_problem(std::string_view text, const Place& place, std::string_view
   if (says("unescaped control characters") || (says("string:") && says("end-of-file")))
     return {place, "a text is not closed on its line; end it with the quote it began with"};
   if (says("expected a comment or whitespace"))
-    return {place, "a value is followed by more on its line; put quantities in double quotes, as "
-                   "`\"5 mm\"`, and each key on a line of its own"};
+    return {place,
+            "a value is followed by more on its line; put quantities in double quotes, as "
+            "`\"5 mm\"`, and each key on a line of its own"};
   if (says("determine value type"))
     return {place, "a value is none that TOML knows; put words in double quotes"};
   const std::size_t colon = description.find(": ");

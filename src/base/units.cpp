@@ -25,10 +25,10 @@ struct Symbol {
 };
 
 constexpr std::array symbols{
-    Symbol{"m", {1, 1, {1, 0, 0}}, true},      Symbol{"g", {1, 1e3, {0, 1, 0}}, true},
-    Symbol{"s", {1, 1, {0, 0, 1}}, true},      Symbol{"N", {1, 1, {1, 1, -2}}, true},
-    Symbol{"Pa", {1, 1, {-1, 1, -2}}, true},   Symbol{"J", {1, 1, {2, 1, -2}}, true},
-    Symbol{"W", {1, 1, {2, 1, -3}}, true},     Symbol{"Hz", {1, 1, {0, 0, -1}}, true},
+    Symbol{"m", {1, 1, {1, 0, 0}}, true},       Symbol{"g", {1, 1e3, {0, 1, 0}}, true},
+    Symbol{"s", {1, 1, {0, 0, 1}}, true},       Symbol{"N", {1, 1, {1, 1, -2}}, true},
+    Symbol{"Pa", {1, 1, {-1, 1, -2}}, true},    Symbol{"J", {1, 1, {2, 1, -2}}, true},
+    Symbol{"W", {1, 1, {2, 1, -3}}, true},      Symbol{"Hz", {1, 1, {0, 0, -1}}, true},
     Symbol{"bar", {1e5, 1, {-1, 1, -2}}, true}, Symbol{"min", {60, 1, {0, 0, 1}}, false},
     Symbol{"h", {3600, 1, {0, 0, 1}}, false},
 };
@@ -38,9 +38,9 @@ struct Prefix {
   double times;
   double per;
 };
-constexpr std::array prefixes{Prefix{"G", 1e9, 1}, Prefix{"M", 1e6, 1}, Prefix{"k", 1e3, 1},
-                              Prefix{"h", 1e2, 1}, Prefix{"d", 1, 1e1}, Prefix{"c", 1, 1e2},
-                              Prefix{"m", 1, 1e3}, Prefix{"u", 1, 1e6}, Prefix{"n", 1, 1e9},
+constexpr std::array prefixes{Prefix{"G", 1e9, 1},      Prefix{"M", 1e6, 1}, Prefix{"k", 1e3, 1},
+                              Prefix{"h", 1e2, 1},      Prefix{"d", 1, 1e1}, Prefix{"c", 1, 1e2},
+                              Prefix{"m", 1, 1e3},      Prefix{"u", 1, 1e6}, Prefix{"n", 1, 1e9},
                               Prefix{"\u00b5", 1, 1e6},   // the micro sign
                               Prefix{"\u03bc", 1, 1e6}};  // the Greek letter mu
 
@@ -73,8 +73,7 @@ Scale reduced(Scale scale) {
   const auto divides = [](double part, double whole) {
     return whole < 9007199254740992.0 && std::fmod(whole, part) == 0.0;
   };
-  if (divides(scale.per, scale.times))
-    return {scale.times / scale.per, 1.0, scale.dimension};
+  if (divides(scale.per, scale.times)) return {scale.times / scale.per, 1.0, scale.dimension};
   if (divides(scale.times, scale.per)) return {1.0, scale.per / scale.times, scale.dimension};
   return scale;
 }
@@ -105,8 +104,8 @@ std::optional<Scale> parse_unit(std::string_view text) {
       at = end;
       if (at < text.size() && text[at] == '^') {
         const auto exponent = leading_number(text.substr(at + 1));
-        if (!exponent || exponent->out_of_range ||
-            exponent->value != std::round(exponent->value) || std::abs(exponent->value) > 9)
+        if (!exponent || exponent->out_of_range || exponent->value != std::round(exponent->value) ||
+            std::abs(exponent->value) > 9)
           return std::nullopt;
         power = static_cast<int>(exponent->value);
         at = text.size() - exponent->rest.size();
@@ -124,8 +123,8 @@ std::optional<Scale> parse_unit(std::string_view text) {
 std::optional<std::string> nearest_unit(std::string_view written, const Dimension& dimension) {
   std::vector<std::string> known;
   for (const char* usual :
-       {"mm", "cm", "m", "um", "Pa", "kPa", "MPa", "GPa", "s", "ms", "us", "N", "mN", "kN", "mm/s",
-        "m/s", "cm/s", "1/s", "Hz", "kg/m^3", "g/cm^3"})
+       {"mm", "cm", "m",  "um",   "Pa",  "kPa",  "MPa", "GPa", "s",      "ms",    "us",
+        "N",  "mN", "kN", "mm/s", "m/s", "cm/s", "1/s", "Hz",  "kg/m^3", "g/cm^3"})
     if (parse_unit(usual)->dimension == dimension) known.emplace_back(usual);
   return nearest(written, known);
 }
@@ -136,8 +135,8 @@ std::string article(std::string_view noun) {
 }
 
 const std::vector<const Unit*>& named_units() {
-  static const std::vector<const Unit*> units{&unit::mm,         &unit::kPa,      &unit::density,
-                                              &unit::s,          &unit::N,        &unit::mm_per_s,
+  static const std::vector<const Unit*> units{&unit::mm,        &unit::kPa, &unit::density,
+                                              &unit::s,         &unit::N,   &unit::mm_per_s,
                                               &unit::per_second};
   return units;
 }
@@ -184,13 +183,14 @@ double parse_quantity(std::string_view given, const Unit& wanted) {
   const std::string digits = text.substr(0, text.size() - number->rest.size());
   const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
   const std::string unit_text = trimmed(number->rest);
-  if (unit_text.empty()) throw std::invalid_argument(wants + " with its unit, got " + quoted + remedy);
+  if (unit_text.empty())
+    throw std::invalid_argument(wants + " with its unit, got " + quoted + remedy);
   const auto parsed = parse_unit(unit_text);
   if (!parsed) {
     const auto near = nearest_unit(unit_text, wanted.dimension);
     throw std::invalid_argument(wants + ", got " + quoted + " with the unknown unit `" + unit_text +
-                                "`" + (near ? "; did you mean `" + digits + " " + *near + "`?"
-                                            : remedy));
+                                "`" +
+                                (near ? "; did you mean `" + digits + " " + *near + "`?" : remedy));
   }
   const Scale& scale = *parsed;
   if (!(scale.dimension == wanted.dimension))
@@ -205,8 +205,8 @@ double parse_quantity(std::string_view given, const Unit& wanted) {
 
 std::string quantity_text(double si, const Unit& shown) {
   double value = shown.from_si(si);
-  for (const double candidate : {value, std::nextafter(value, -INFINITY),
-                                 std::nextafter(value, INFINITY)})
+  for (const double candidate :
+       {value, std::nextafter(value, -INFINITY), std::nextafter(value, INFINITY)})
     if (shown.to_si(candidate) == si) return number_text(candidate) + " " + shown.symbol;
   return number_text(si) + " " + si_symbol(shown.dimension);
 }

@@ -117,8 +117,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 std::string unknown_option(const CLI::App& verb, const std::string& name, const Options& known) {
   for (const std::string& inner : verb_names(verb))
     if (verb.get_subcommand(inner)->get_option_no_throw(name) != nullptr)
-      return "option `" + name + "` stands before its verb; write it as `palpate " + inner + " ... " +
-             name + "`";
+      return "option `" + name + "` stands before its verb; write it as `palpate " + inner +
+             " ... " + name + "`";
   return "unknown option `" + name + "`" + did_you_mean(name, long_names(known));
 }
 

@@ -54,9 +54,9 @@ std::string meaning(const std::string& asked) {
   }
   if (!found.empty()) return found;
   const auto near = nearest(key, known);
-  throw InputError({}, "palpate: `" + asked + "` is neither a file nor a key" +
-                           (near ? "; did you mean `" + *near + "`?"
-                                 : "; `palpate manual` lists all keys"));
+  throw InputError(
+      {}, "palpate: `" + asked + "` is neither a file nor a key" +
+              (near ? "; did you mean `" + *near + "`?" : "; `palpate manual` lists all keys"));
 }
 
 const char* integrator_word(Solver::Integrator integrator) {
@@ -97,9 +97,7 @@ class Explanation {
     if (scene_.choice.model == Solver::Model::hertz) return;
     using tissue::Viscosity;
     switch (tissue.viscosity) {
-      case Viscosity::none:
-        line("  viscosity    none");
-        break;
+      case Viscosity::none: line("  viscosity    none"); break;
       case Viscosity::nodal_drag:
         line("  viscosity    nodal drag, d/m " + quantity_text(*tissue.drag, unit::per_second) +
              "; its creep time grows with the specimen's length squared");
@@ -117,16 +115,19 @@ class Explanation {
 
   void contact() {
     line("  contact      E* " + rounded_text(unit::kPa.from_si(scene_.law.modulus)) +
-         " kPa, radius " + quantity_text(scene_.law.radius, unit::mm) + " on a flat; the finger has " +
-         rounded_text(100.0 * scene_.finger_share, 2) + " % of the compliance");
+         " kPa, radius " + quantity_text(scene_.law.radius, unit::mm) +
+         " on a flat; the finger has " + rounded_text(100.0 * scene_.finger_share, 2) +
+         " % of the compliance");
     if (!scene_.specimen) return;
     switch (scene_.scenario.contact.coupling) {
       case contact::Coupling::one_way:
-        line("  coupling     one way: the mesh follows the force of eq. (2) and does not change it");
+        line(
+            "  coupling     one way: the mesh follows the force of eq. (2) and does not change it");
         break;
       case contact::Coupling::series:
-        line("  coupling     series: counts the tissue's compliance twice, up to 64 % of the force "
-             "is lost; `consistent` does not");
+        line(
+            "  coupling     series: counts the tissue's compliance twice, up to 64 % of the force "
+            "is lost; `consistent` does not");
         break;
       case contact::Coupling::consistent:
         line("  coupling     consistent: less that sinking of the mesh which Hertz does not know");
@@ -167,8 +168,9 @@ class Explanation {
          milliseconds(plan.substep));
     if (solver.allow_unstable && !plan.stable() &&
         solver.integrator == Solver::Integrator::central_difference)
-      line("  warning      the step is above the stability limit and will diverge; "
-           "`allow_unstable` lets it");
+      line(
+          "  warning      the step is above the stability limit and will diverge; "
+          "`allow_unstable` lets it");
     literal_step(plan);
   }
 

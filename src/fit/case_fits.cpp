@@ -75,7 +75,10 @@ class CaseFits {
       curve.x.push_back(row.time);
       curve.y.push_back(row.strain);
     }
-    add("creep", loaded, Model::kelvin_voigt, {.x_unit = "s", .y_unit = "", .x_origin = start});
+    // A standard linear solid gives way at once, then creeps: the same curve as its relaxation.
+    const bool solid = scenario_.tissue.viscosity == tissue::Viscosity::standard_linear_solid;
+    add("creep", loaded, solid ? Model::standard_linear_solid : Model::kelvin_voigt,
+        {.x_unit = "s", .y_unit = "", .x_origin = start});
     add("recovery", free, Model::kelvin_voigt_recovery,
         {.x_unit = "s", .y_unit = "", .x_origin = start + creep.load_time});
   }

@@ -40,7 +40,9 @@ Vector Implicit::response(const Vector& load) const {
 
 void Implicit::finish(State& state, const Vector& displacement, const Vector&) {
   body_->remember(displacement, step_, state.memory);
-  if (step_.size > 0.0) state.velocity = (displacement - state.displacement) / step_.size;
+  // Without inertia a velocity has no meaning, and no energy.
+  if (inertia_ == Inertia::backward_difference && step_.size > 0.0)
+    state.velocity = (displacement - state.displacement) / step_.size;
   state.displacement = displacement;
   state.time += step_.size;
 }

@@ -107,9 +107,8 @@ Found find(const std::string& name, const std::string& folder, const Place& plac
                                 " here: " + (known.empty() ? "none" : joined(known, ", ")) +
                                 "; your own tables are written `file.toml#name`");
   }
-  Reading reading = read_fields(member->value, [&](FieldVisitor& visitor) {
-    fields(visitor, found.tissue, member->value);
-  });
+  Reading reading = read_fields(
+      member->value, [&](FieldVisitor& visitor) { fields(visitor, found.tissue, member->value); });
   require(member->value, table_name, member->place, reading.problems);
   sort_by_place(reading.problems);
   if (!reading.problems.empty()) throw InputError(reading.problems);

@@ -16,8 +16,8 @@ struct Sourced {
 
 struct Tissue {
   std::string title;
-  Sourced density;              // kg/m^3
-  Sourced young_modulus;        // Pa, of the relaxed material (E_inf)
+  Sourced density;        // kg/m^3
+  Sourced young_modulus;  // Pa, of the relaxed material (E_inf)
   Sourced poisson_ratio;
   // Viscosity; a material without it answers elastically.
   std::optional<Sourced> retardation_time;     // s, Kelvin-Voigt tau = eta / E

@@ -35,7 +35,13 @@ class Findings {
       const auto scale = scales.find(scene_.name);
       add("display_scale", scale == scales.end() ? 1.0 : scale->second);
     }
-    record_.findings.insert(record_.findings.end(), before_.begin(), before_.end());
+    for (const Finding& finding : before_) {
+      record_.findings.push_back(finding);
+      if (finding.name == "energy_imbalance" && std::get<double>(finding.value) > 0.05)
+        remark(percent(std::get<double>(finding.value)) +
+               " of the energy is not accounted for: the steps are too long for what happens in "
+               "them; set a shorter `output.interval` or more `solver.substeps`");
+    }
   }
 
  private:
@@ -137,10 +143,26 @@ class Findings {
           "the force is that of a half-space: on a bonded base at this thickness it would be "
           "higher by up to about " +
           percent(thickness));
+    const double lag = scene_.specimen ? viscous_time() * fastest_rate() / peak.travel : 0.0;
+    if (coupling != contact::Coupling::series && lag > 0.01)
+      remark(
+          "the contact force is that of the relaxed tissue: the tissue's viscosity moves the "
+          "mesh only, and a press this fast (viscous time * rate / travel = " +
+          rounded_text(lag, 2) + ") would meet more force");
     if (scene_.specimen && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
              percent(1.0 - std::pow(1.0 + (1.0 - scene_.finger_share), -1.5)) +
              " of the force is lost, and the answer drifts with the mesh");
+  }
+
+  [[nodiscard]] double viscous_time() const { return scene_.specimen->law.time; }
+
+  [[nodiscard]] double fastest_rate() const {
+    double rate = 0.0;
+    for (const scenario::Step& step : scene_.scenario.steps)
+      if (const auto* indent = std::get_if<scenario::Indent>(&step))
+        rate = std::max(rate, indent->rate);
+    return rate;
   }
 
   void strain() {

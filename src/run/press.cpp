@@ -6,9 +6,10 @@
 
 #include "contact/friction.h"
 #include "contact/hertz.h"
-#include "run/contact_step.h"
 #include "run/hertz_map.h"
 #include "run/monitor.h"
+#include "run/pace.h"
+#include "run/touch.h"
 
 namespace palpate::run {
 namespace {
@@ -61,6 +62,10 @@ class Press {
     state_.memory = body_->memory_at(state_.displacement);
     touch_.load = integrate::Vector::Zero(size);
     stepper_.emplace(scene, *body_);
+    if (scene.scenario.contact.coupling == contact::Coupling::series)
+      series_.emplace(scene, *body_);
+    else
+      static_.emplace(scene, *body_);
     monitor_.emplace(*body_);
   }
 
@@ -70,6 +75,11 @@ class Press {
       step_ = static_cast<int>(i) + 1;
       const Ramp ramp = make_ramp(scene_.scenario.steps[i], travel, scene_);
       if (i == 0) write_row();
+      if (ramp.duration <= 0.0) {  // after a step to a force nobody knows the travel beforehand
+        record_.remarks.push_back("step " + std::to_string(step_) +
+                                  " has nothing to do: the finger is there already");
+        continue;
+      }
       if (!run(ramp)) return;
       travel = touch_.travel;
       if (scene_.scenario.output.pressure_maps) record_.maps.push_back(draw_map());
@@ -78,32 +88,24 @@ class Press {
   }
 
  private:
-  // Rows at equal times, not longer than the interval. False where the case ended early.
+  // False where the case ended early.
   bool run(const Ramp& ramp) {
-    const double interval = scene_.scenario.output.interval;
     const bool to_force = std::isfinite(ramp.force);
-    const double rows = to_force ? std::ceil(ramp.duration / interval)
-                                 : std::max(1.0, std::ceil(ramp.duration / interval - 1e-6));
-    const double spacing = to_force ? interval : ramp.duration / rows;
+    const Pace pace = make_pace(scene_, ramp.duration);
     const double start = time_;
-    int steps_a_row = 1;
-    if (scene_.specimen) {
-      const scene::TimePlan& plan = scene_.specimen->plan;
-      steps_a_row = static_cast<int>(std::lround(interval / plan.time_step)) * plan.substeps;
-      stepper_->begin(spacing / steps_a_row);
-    }
-    for (double row = 1; row <= rows; ++row) {
-      if (stop_.load()) return interrupted();
-      for (int k = 1; k <= steps_a_row; ++k) {
-        const double time = spacing * ((row - 1) + static_cast<double>(k) / steps_a_row);
-        if (!advance(ramp.travel(time))) return false;
+    if (stepper_) stepper_->set_step(pace.step);
+    for (int row = 0; row < pace.rows; ++row) {
+      if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
+      for (int k = 1; k <= pace.steps; ++k) {
+        const double time = pace.spacing * (row + static_cast<double>(k) / pace.steps);
+        if (!advance(ramp.travel(time), start + time)) return false;
         if (touch_.force >= ramp.force) {
           time_ = start + time;
           write_row();
           return true;
         }
       }
-      time_ = start + spacing * row;
+      time_ = start + pace.spacing * (row + 1);
       write_row();
       if (scene_.specimen && tissue::inverted(scene_.specimen->mesh, state_.displacement))
         return diverged("a tetrahedron has turned inside out");
@@ -112,34 +114,39 @@ class Press {
     return true;
   }
 
-  bool advance(double travel) {
+  // To the finger's next travel, m, at `time`, s.
+  bool advance(double travel, double time) {
     if (!scene_.specimen) {
-      touch_.travel = travel;
-      touch_.indentation = std::max(0.0, travel);
-      touch_.force =
-          contact::hertz::force(touch_.indentation, scene_.law.radius, scene_.law.modulus);
-      touch_.contact_radius = contact::hertz::contact_radius(touch_.indentation, scene_.law.radius);
+      press_half_space(travel);
       return true;
     }
     const integrate::State before = state_;
     const integrate::Vector load_before = touch_.load;
-    if (const auto wrong = stepper_->step(state_, travel, touch_)) return diverged(*wrong);
-    if (const auto wrong = monitor_->step(before, state_, load_before, touch_.load))
-      return diverged(*wrong);
-    record_.last_stable_time = state_.time;
+    const auto wrong = series_ ? series_->step(*stepper_, state_, travel, touch_)
+                               : step_freely(travel, load_before);
+    if (wrong) return diverged(*wrong);
+    state_.time = time;  // a sum of steps would carry their rounding
+    if (const auto unstable = monitor_->step(before, state_, load_before, touch_.load))
+      return diverged(*unstable);
+    record_.last_stable_time = time;
     return true;
   }
 
-  bool diverged(const std::string& reason) {
-    record_.outcome = record::Outcome::diverged;
-    record_.reason = reason;
-    return false;
+  void press_half_space(double travel) {
+    touch_.travel = travel;
+    touch_.indentation = std::max(0.0, travel);
+    touch_.force = contact::hertz::force(touch_.indentation, scene_.law.radius, scene_.law.modulus);
+    touch_.contact_radius = contact::hertz::contact_radius(touch_.indentation, scene_.law.radius);
   }
 
-  bool interrupted() {
-    record_.outcome = record::Outcome::interrupted;
-    record_.reason = "interrupted";
-    return false;
+  // The force does not wait for the mesh, which moves under it.
+  std::optional<std::string> step_freely(double travel, const integrate::Vector& load_before) {
+    if (auto wrong = static_->touch(travel, touch_)) return wrong;
+    return stepper_->step(state_, load_before, touch_.load, integrate::MemoryRule::exact);
+  }
+
+  bool diverged(const std::string& reason) {
+    return end_early(record_, record::Outcome::diverged, reason);
   }
 
   void write_row() {
@@ -177,7 +184,9 @@ class Press {
   const std::atomic<bool>& stop_;
   record::CaseRecord& record_;
   std::optional<scene::SpringBody> body_;
-  std::optional<ContactStepper> stepper_;
+  std::optional<Stepper> stepper_;
+  std::optional<StaticContact> static_;
+  std::optional<SeriesContact> series_;
   std::optional<EnergyMonitor> monitor_;
   integrate::State state_;
   Touch touch_;

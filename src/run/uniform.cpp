@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "run/contact_step.h"
 #include "run/monitor.h"
+#include "run/pace.h"
+#include "run/stepper.h"
 
 namespace palpate::run {
 namespace {
@@ -15,27 +16,6 @@ using integrate::State;
 using integrate::Vector;
 using scenario::Creep;
 using scenario::Relax;
-
-// Solves a step without contact. Returns what is wrong where it does not settle.
-template <class Linearised>
-std::optional<std::string> solve(Linearised& method, const scene::SpringBody& body, State& state,
-                                 double time_step, MemoryRule rule, const Vector& load) {
-  Vector displacement = state.displacement;
-  method.begin(state, time_step, rule);
-  constexpr int most_linearisations = 100;
-  const double settled = 1e-12 * (1.0 + displacement.cwiseAbs().maxCoeff());
-  for (int i = 0; i < most_linearisations; ++i) {
-    if (!method.linearise(displacement, load)) return "the tangent stiffness is not positive";
-    const double change = (method.base() - displacement).cwiseAbs().maxCoeff();
-    displacement = method.base();
-    if (!std::isfinite(change)) return "the motion has left the finite numbers";
-    if (body.linear() || change <= settled) {
-      method.finish(state, displacement, load);
-      return std::nullopt;
-    }
-  }
-  return "the non-linear equations did not settle in 100 iterations";
-}
 
 class UniformTest {
  public:
@@ -63,8 +43,7 @@ class UniformTest {
     state_.velocity = Vector::Zero(size);
     state_.memory = body_->memory_at(state_.displacement);
     monitor_.emplace(*body_);
-    method_.reset();
-    method_step_ = 0.0;
+    stepper_.emplace(scene_, *body_);
   }
 
   // The platen's force as shares on the nodes under it, pressing down.
@@ -118,7 +97,7 @@ class UniformTest {
     state_.memory = body_->memory_at(Vector::Zero(state_.displacement.size()));
     const Vector none = Vector::Zero(state_.displacement.size());
     integrate::Implicit statics(*body_, integrate::Implicit::Inertia::none);
-    if (const auto wrong = solve(statics, *body_, state_, 0.0, MemoryRule::at_once, none))
+    if (const auto wrong = solve_step(statics, *body_, state_, 0.0, MemoryRule::at_once, none))
       return diverged(*wrong);
     state_.memory = body_->memory_at(state_.displacement);
     monitor_->begin(state_);
@@ -139,50 +118,26 @@ class UniformTest {
     if (at_once) {
       const State before = state_;
       integrate::Implicit statics(*body_, integrate::Implicit::Inertia::none);
-      if (const auto wrong = solve(statics, *body_, state_, 0.0, MemoryRule::at_once, to))
+      if (const auto wrong = solve_step(statics, *body_, state_, 0.0, MemoryRule::at_once, to))
         return diverged(*wrong);
       if (const auto wrong = monitor_->step(before, state_, from, to)) return diverged(*wrong);
     }
-    if (method_)
-      if (auto* central = std::get_if<integrate::CentralDifference>(&*method_)) central->restart();
+    stepper_->restart();
     return true;
-  }
-
-  [[nodiscard]] int steps_a_row() const {
-    return static_cast<int>(
-               std::lround(scene_.scenario.output.interval / specimen_.plan.time_step)) *
-           specimen_.plan.substeps;
-  }
-  [[nodiscard]] double rows_of(double duration) const {
-    return std::max(1.0, std::ceil(duration / scene_.scenario.output.interval - 1e-6));
-  }
-  [[nodiscard]] double spacing_of(double duration) const { return duration / rows_of(duration); }
-
-  void start_method(double time_step) {
-    const bool fixed_step =
-        method_ && std::holds_alternative<integrate::CentralDifference>(*method_);
-    if (!method_ || (fixed_step && method_step_ != time_step))
-      method_.emplace(make_method(scene_, *body_, time_step));
-    method_step_ = time_step;
   }
 
   template <class Row>
   bool march(const Vector& load, double duration, const Row& write) {
-    const double rows = rows_of(duration);
-    const double spacing = spacing_of(duration);
-    const int steps = steps_a_row();
-    start_method(spacing / steps);
+    const Pace pace = make_pace(scene_, duration);
+    stepper_->set_step(pace.step);
     const double start = time_;
-    for (double row_number = 1; row_number <= rows; ++row_number) {
-      if (stop_.load()) {
-        record_.outcome = record::Outcome::interrupted;
-        record_.reason = "interrupted";
-        return false;
+    for (int row = 1; row <= pace.rows; ++row) {
+      if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
+      for (int k = 1; k <= pace.steps; ++k) {
+        const double part = row - 1 + static_cast<double>(k) / pace.steps;
+        if (!advance(load, start + pace.spacing * part)) return false;
       }
-      for (int k = 0; k < steps; ++k)
-        if (!advance(load, spacing / steps)) return false;
-      time_ = start + spacing * row_number;
-      state_.time = time_;
+      time_ = start + pace.spacing * row;
       write();
       if (tissue::inverted(specimen_.mesh, state_.displacement))
         return diverged("a tetrahedron has turned inside out");
@@ -190,30 +145,26 @@ class UniformTest {
     return true;
   }
 
-  bool advance(const Vector& load, double time_step) {
+  // To `time`, s, under a load that stays.
+  bool advance(const Vector& load, double time) {
     const State before = state_;
-    std::optional<std::string> wrong;
-    if (auto* central = std::get_if<integrate::CentralDifference>(&*method_)) {
-      central->step(state_, load);
-    } else if (auto* implicit = std::get_if<integrate::Implicit>(&*method_)) {
-      // Under a held load Kelvin-Voigt's tension is held too, from the jump on.
-      const bool held = specimen_.law.kind == tissue::Viscosity::kelvin_voigt;
-      wrong = solve(*implicit, *body_, state_, time_step,
-                    held ? MemoryRule::held : MemoryRule::exact, load);
-    } else {
-      wrong = solve(std::get<integrate::Modal>(*method_), *body_, state_, time_step,
-                    MemoryRule::held, load);
-    }
-    if (!wrong) wrong = monitor_->step(before, state_, load, load);
-    if (wrong) return diverged(*wrong);
-    record_.last_stable_time = state_.time;
+    // A standard linear solid without inertia gave way at once and creeps on from there; for the
+    // others the load has its value from the start of the step.
+    const bool creeps_on =
+        scene_.scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
+        specimen_.law.kind == tissue::Viscosity::standard_linear_solid;
+    if (const auto wrong =
+            stepper_->step(state_, load, load, creeps_on ? MemoryRule::exact : MemoryRule::held))
+      return diverged(*wrong);
+    state_.time = time;  // a sum of steps would carry their rounding
+    if (const auto unstable = monitor_->step(before, state_, load, load))
+      return diverged(*unstable);
+    record_.last_stable_time = time;
     return true;
   }
 
   bool diverged(const std::string& reason) {
-    record_.outcome = record::Outcome::diverged;
-    record_.reason = reason;
-    return false;
+    return end_early(record_, record::Outcome::diverged, reason);
   }
 
   void row(double stress) { record_.strain.push_back({step_, time_, stress, strain()}); }
@@ -224,8 +175,7 @@ class UniformTest {
   record::CaseRecord& record_;
   std::optional<scene::SpringBody> body_;
   std::optional<EnergyMonitor> monitor_;
-  std::optional<Method> method_;
-  double method_step_ = 0.0;
+  std::optional<Stepper> stepper_;
   State state_;
   double imbalance_ = 0.0;
   double time_ = 0.0;

@@ -31,8 +31,9 @@ class Checker {
 
   void steps() {
     if (scenario_.steps.empty())
-      return problem("step", "a scenario needs something to do; add a `[[step]]`, as "
-                             "`kind = \"indent\"`");
+      return problem("step",
+                     "a scenario needs something to do; add a `[[step]]`, as "
+                     "`kind = \"indent\"`");
     const auto loads_end_faces = [](const Step& step) {
       return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
     };
@@ -42,8 +43,9 @@ class Checker {
       const std::string path = "step." + std::to_string(i + 1);
       const Step& step = scenario_.steps[i];
       if (loads_end_faces(step) != uniform)
-        return problem(path, "`creep` and `relax` load the end faces without a finger, the other "
-                             "kinds of `step` have one; put them into two scenarios");
+        return problem(path,
+                       "`creep` and `relax` load the end faces without a finger, the other "
+                       "kinds of `step` have one; put them into two scenarios");
       if (const auto* indent = std::get_if<Indent>(&step))
         reached = indented(path + ".to", *indent, reached);
       if (const auto* retract = std::get_if<Retract>(&step))
@@ -53,9 +55,9 @@ class Checker {
 
   // How far the steps so far have pressed.
   struct Reached {
-    double travel = 0.0;       // m; after a step to a force the most that it can be
-    double force = 0.0;        // N, of a step to a force; 0 after others
-    bool in_order = true;      // one step in the wrong direction is reported, not those after it
+    double travel = 0.0;   // m; after a step to a force the most that it can be
+    double force = 0.0;    // N, of a step to a force; 0 after others
+    bool in_order = true;  // one step in the wrong direction is reported, not those after it
   };
 
   Reached indented(const std::string& path, const Indent& indent, Reached before) {
@@ -70,13 +72,15 @@ class Checker {
     }
     const std::string to = quantity_text(indent.to.value, unit::mm);
     if (before.in_order && by_force)
-      before.in_order = out_of_order(
-          path, "`indent` goes to " + to + " after a step to a force, which may have gone deeper; "
-                "give a force here too, or `retract` first");
+      before.in_order =
+          out_of_order(path, "`indent` goes to " + to +
+                                 " after a step to a force, which may have gone deeper; "
+                                 "give a force here too, or `retract` first");
     else if (before.in_order && indent.to.value <= before.travel)
-      before.in_order = out_of_order(
-          path, "`indent` goes to " + to + ", which is not below the travel of " +
-                    quantity_text(before.travel, unit::mm) + " before it; use `retract` to go back");
+      before.in_order =
+          out_of_order(path, "`indent` goes to " + to + ", which is not below the travel of " +
+                                 quantity_text(before.travel, unit::mm) +
+                                 " before it; use `retract` to go back");
     else
       too_deep(path, indent.to.value);
     return {indent.to.value, 0.0, before.in_order};
@@ -109,24 +113,27 @@ class Checker {
                         quantity_text(size[2], unit::mm) + " high; press less deep");
     else if (std::sqrt(radius * travel) > 0.5 * std::min(size[0], size[1]))
       problem(path, to + " makes a contact wider than the specimen's top; press less deep or use a "
-                        "wider specimen");
+                         "wider specimen");
   }
 
   void methods() {
     const Solver& solver = scenario_.solver;
     if (solver.model == Solver::Model::hertz && scenario_.uniform())
-      problem("solver.model", "`hertz` has no specimen to creep or relax; set "
-                              "`solver.model = \"mass_spring\"`");
+      problem("solver.model",
+              "`hertz` has no specimen to creep or relax; set "
+              "`solver.model = \"mass_spring\"`");
     if (solver.model == Solver::Model::hertz) return;
     if (solver.integrator == Integrator::modal &&
         solver.kinematics == tissue::Kinematics::nonlinear)
-      problem("solver.kinematics", "`modal` solves linear bodies only; set "
-                                   "`solver.kinematics = \"linear\"` or another integrator");
+      problem("solver.kinematics",
+              "`modal` solves linear bodies only; set "
+              "`solver.kinematics = \"linear\"` or another integrator");
     if (solver.integrator == Integrator::quasi_static &&
         scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag)
-      problem("solver.integrator", "`quasi_static` has no drag against the ground; set "
-                                   "`solver.integrator = \"backward_difference\"` or another "
-                                   "viscosity");
+      problem("solver.integrator",
+              "`quasi_static` has no drag against the ground; set "
+              "`solver.integrator = \"backward_difference\"` or another "
+              "viscosity");
   }
 
   void time_step() {
@@ -139,11 +146,12 @@ class Checker {
                                       ", more than a million times shorter than "
                                       "`output.interval`; choose a longer one");
     else if (ratio < 0.5 || std::abs(ratio - std::round(ratio)) > 1e-6 * ratio)
-      problem("solver.time_step",
-              "`time_step` is " + quantity_text(step, unit::ms) + ", which does not fit a whole "
-              "number of times into `output.interval` of " +
-                  quantity_text(output.interval, unit::ms) + "; write `time_step = \"auto\"` "
-                  "or a whole part of the interval");
+      problem("solver.time_step", "`time_step` is " + quantity_text(step, unit::ms) +
+                                      ", which does not fit a whole "
+                                      "number of times into `output.interval` of " +
+                                      quantity_text(output.interval, unit::ms) +
+                                      "; write `time_step = \"auto\"` "
+                                      "or a whole part of the interval");
   }
 
   void rows() {
@@ -171,7 +179,8 @@ class Checker {
       return time;
     }
     if (const auto* hold = std::get_if<Hold>(&step)) return hold->time;
-    if (const auto* creep = std::get_if<Creep>(&step)) return creep->load_time + creep->recovery_time;
+    if (const auto* creep = std::get_if<Creep>(&step))
+      return creep->load_time + creep->recovery_time;
     return std::get<Relax>(step).time;
   }
 

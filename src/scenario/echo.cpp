@@ -87,8 +87,7 @@ Node common(const Family& family) {
 
 std::string properties_comment(const Case& one) {
   Scenario only = one.scenario;
-  const std::string all =
-      fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, only); });
+  const std::string all = fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, only); });
   std::string text = "# " + one.name + ":";
   for (const std::string& line : split(all, '\n'))
     for (const char* key : {"young_modulus", "poisson_ratio", "density", "retardation_time",
@@ -105,11 +104,13 @@ std::string echo(const Family& family) {
   const auto meshed = [](const Case& one) {
     return one.scenario.solver.model != Solver::Model::hertz;
   };
-  std::string text = "# The scenario as it was run: every default spelled out. It reads back to the "
-                     "same run.\n";
+  std::string text =
+      "# The scenario as it was run: every default spelled out. It reads back to the "
+      "same run.\n";
   if (std::any_of(family.cases.begin(), family.cases.end(), meshed))
-    text += "# tissue.poisson_ratio reaches the contact only: independent springs have a ratio of "
-            "their own (findings.csv).\n";
+    text +=
+        "# tissue.poisson_ratio reaches the contact only: independent springs have a ratio of "
+        "their own (findings.csv).\n";
   if (std::any_of(family.sweep.begin(), family.sweep.end(),
                   [](const auto& entry) { return entry.first == "tissue.material"; }))
     for (const Case& one : family.cases) text += properties_comment(one);

@@ -66,8 +66,10 @@ std::vector<Swept> take_sweep(Node& document) {
     const Place given = place_of(document, swept.key);
     const std::string setting = trimmed(split(given.file, '=').front());
     if (from_command_line(given) && setting == "--set " + swept.key)
-      throw InputError(given, "`" + swept.key + "` is swept, so that one value has no effect; set "
-                              "the list, `sweep." + swept.key + "=[...]`");
+      throw InputError(given, "`" + swept.key +
+                                  "` is swept, so that one value has no effect; set "
+                                  "the list, `sweep." +
+                                  swept.key + "=[...]`");
   }
   return sweep;
 }
@@ -117,14 +119,15 @@ void check_case_names(const Family& family, const Place& sweep_place,
   for (const auto& [name, factor] : family.base.output.display_scale) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     const auto near = nearest(name, names);
-    add_new(problems, {{place_of(family.document, "output.display_scale." + name),
-                        "`display_scale` names no case `" + name + "`" +
-                            (near ? "; did you mean `" + *near + "`?" : "; cases: " +
-                                                                            joined(names, ", "))}});
+    add_new(problems,
+            {{place_of(family.document, "output.display_scale." + name),
+              "`display_scale` names no case `" + name + "`" +
+                  (near ? "; did you mean `" + *near + "`?" : "; cases: " + joined(names, ", "))}});
   }
   const std::set<std::string> different(names.begin(), names.end());
   if (different.size() != names.size())
-    problems.push_back({sweep_place, "two cases of `sweep` have the same name; give each value once"});
+    problems.push_back(
+        {sweep_place, "two cases of `sweep` have the same name; give each value once"});
 }
 
 }  // namespace

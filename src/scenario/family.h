@@ -12,9 +12,11 @@ namespace palpate::scenario {
 
 // One case: every property filled in from its material.
 struct Case {
-  std::string name;  // the swept values, without folders, joined by `_`; without a sweep the scenario's name
+  std::string name;  // the swept values, without folders, joined by `_`; without a sweep the
+                     // scenario's name
   Scenario scenario;
-  std::vector<std::pair<std::string, std::string>> swept;  // key and value, as written, without folders
+  std::vector<std::pair<std::string, std::string>>
+      swept;  // key and value, as written, without folders
 };
 
 // A file that a run read, to be hashed, and copied beside the echo so that it finds it.
@@ -27,8 +29,8 @@ struct Family {
   std::string name;    // the file's name without `.toml`: the result folder
   std::string folder;  // that relative paths start from
   std::string title;
-  Node document;              // with the settings applied, without [sweep]
-  Scenario base;              // as read, properties filled in only where they are given
+  Node document;  // with the settings applied, without [sweep]
+  Scenario base;  // as read, properties filled in only where they are given
   std::vector<std::pair<std::string, std::vector<Node>>> sweep;
   std::vector<Case> cases;
   std::vector<Problem> notes;

@@ -27,11 +27,10 @@ constexpr std::array couplings{
 constexpr std::array models{Word{"auto", "the cheapest that meets `tolerance`"},
                             Word{"hertz", "eq. (1)-(4), no mesh"},
                             Word{"mass_spring", "the paper's springs along tetrahedron edges"}};
-constexpr std::array integrators{
-    Word{"central_difference", "explicit, eq. (12)"},
-    Word{"backward_difference", "implicit Euler"},
-    Word{"quasi_static", "no inertia"},
-    Word{"modal", "exact in time, linear only, up to 1000 nodes"}};
+constexpr std::array integrators{Word{"central_difference", "explicit, eq. (12)"},
+                                 Word{"backward_difference", "implicit Euler"},
+                                 Word{"quasi_static", "no inertia"},
+                                 Word{"modal", "exact in time, linear only, up to 1000 nodes"}};
 constexpr std::array starts{Word{"consistent", "second order"},
                             Word{"paper", "U(-dt) = U(0), first order"}};
 constexpr std::array stiffnesses{Word{"van_gelder", "k = E sum(V) / l^2"},
@@ -88,19 +87,20 @@ static void fields(FieldVisitor& visitor, Relax& step) {
 namespace {
 
 struct Conditions {
-  Use mesh;         // machinery of a mesh: left unread without one
-  Use finger;       // physics of a finger
-  Use mesh_physics; // physics that only a mesh can honour
-  Use viscous;      // per law, below
+  Use mesh;          // machinery of a mesh: left unread without one
+  Use finger;        // physics of a finger
+  Use mesh_physics;  // physics that only a mesh can honour
+  Use viscous;       // per law, below
 
   explicit Conditions(const Scenario& scenario) {
     const bool meshed = scenario.solver.model != Model::hertz;
     mesh = {meshed, "with `solver.model = \"mass_spring\"`", Use::Otherwise::note};
     mesh_physics = {meshed, "with `solver.model = \"mass_spring\"`"};
     // Of steps of both kinds, the mixture is the mistake, not the finger.
-    const bool presses = std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& s) {
-      return !std::holds_alternative<Creep>(s) && !std::holds_alternative<Relax>(s);
-    });
+    const bool presses =
+        std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& s) {
+          return !std::holds_alternative<Creep>(s) && !std::holds_alternative<Relax>(s);
+        });
     finger = {presses || scenario.steps.empty(), "by steps with a finger (indent, hold, retract)"};
   }
 };
@@ -135,8 +135,10 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                          "with `viscosity = \"standard_linear_solid\"`");
   visitor.quantity({"relaxation_time", "tau at constant strain. Default: the material's.", solid},
                    tissue.relaxation_time, unit::s, above(0));
-  visitor.number({"instantaneous_ratio", "E_0 / E_inf, at once over relaxed. Default: the "
-                                         "material's.", solid},
+  visitor.number({"instantaneous_ratio",
+                  "E_0 / E_inf, at once over relaxed. Default: the "
+                  "material's.",
+                  solid},
                  tissue.instantaneous_ratio, at_least(1));
   visitor.quantity({"drag", "d / m of eq. (10). Default: the material's.",
                     with(tissue::Viscosity::nodal_drag, "with `viscosity = \"nodal_drag\"`")},
@@ -156,7 +158,8 @@ void fields(FieldVisitor& visitor, Finger& finger) {
   visitor.number({"poisson_ratio", "Default: the material's.", elastic}, finger.poisson_ratio,
                  {.low = -1, .high = 0.5, .low_allowed = false});
   visitor.choice({"weight", "Where the finger's own weight counts."}, finger.weight, weights);
-  visitor.quantity({"density", "Default: the material's.",
+  visitor.quantity({"density",
+                    "Default: the material's.",
                     {finger.weight == Finger::Weight::apart, "with `weight = \"apart\"`"}},
                    finger.density, unit::density, above(0));
 }
@@ -180,24 +183,25 @@ void fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
                  solver.kinematics, kinematics_words);
   visitor.choice({"integrator", "How time is stepped.", use.mesh}, solver.integrator, integrators);
   const bool is_explicit = solver.integrator == Integrator::central_difference;
-  const Use stepped = use.mesh.used
-                          ? Use{is_explicit, "with `integrator = \"central_difference\"`",
-                                Use::Otherwise::note}
-                          : use.mesh;
+  const Use stepped = use.mesh.used ? Use{is_explicit, "with `integrator = \"central_difference\"`",
+                                          Use::Otherwise::note}
+                                    : use.mesh;
   visitor.choice({"start", "The step before the first.", stepped}, solver.start, starts);
   visitor.quantity_or("auto", {"time_step", "`auto`: the output interval.", use.mesh},
                       solver.time_step, unit::ms, above(0));
   visitor.count_or("auto",
-                   {"substeps", "Each time step is cut into; `auto`: as many as stability, or for "
-                                "implicit methods accuracy, asks for.",
+                   {"substeps",
+                    "Each time step is cut into; `auto`: as many as stability, or for "
+                    "implicit methods accuracy, asks for.",
                     use.mesh},
                    solver.substeps, between(1, 1e8));
-  visitor.flag({"allow_unstable", "Run an explicit step above the limit all the same, to see it "
-                                  "fail.",
+  visitor.flag({"allow_unstable",
+                "Run an explicit step above the limit all the same, to see it "
+                "fail.",
                 stepped},
                solver.allow_unstable);
-  visitor.count_or("all", {"rings", "Rings of nodes that move around the contact; all for now.",
-                           use.mesh},
+  visitor.count_or("all",
+                   {"rings", "Rings of nodes that move around the contact; all for now.", use.mesh},
                    solver.rings, {.low = 1, .high = 0});
 }
 
@@ -209,9 +213,9 @@ void fields(FieldVisitor& visitor, Output& output, const Use& finger) {
   visitor.flag({"fits", "Regressions of the curves."}, output.fits);
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
   visitor.flag({"pdf", "Figures as PDF too."}, output.pdf);
-  visitor.numbers_by_name({"display_scale",
-                           "Factors by case, for figures and an extra fit; CSV stays in newtons."},
-                          output.display_scale, above(0));
+  visitor.numbers_by_name(
+      {"display_scale", "Factors by case, for figures and an extra fit; CSV stays in newtons."},
+      output.display_scale, above(0));
 }
 
 }  // namespace
@@ -234,15 +238,14 @@ void fields(FieldVisitor& visitor, Scenario& scenario) {
                 [&](FieldVisitor& inner) { fields(inner, scenario.contact, use); });
   visitor.table({"solver", "Model, integrator and time step."},
                 [&](FieldVisitor& inner) { fields(inner, scenario.solver, use); });
-  visitor.tables({"step", "The loading programme, in order."},
-                 static_cast<int>(scenario.steps.size()),
-                 [&](int size) { scenario.steps.resize(static_cast<std::size_t>(size)); },
-                 [&](FieldVisitor& inner, int i) {
-                   inner.alternatives(scenario.steps[static_cast<std::size_t>(i)]);
-                 });
+  visitor.tables(
+      {"step", "The loading programme, in order."}, static_cast<int>(scenario.steps.size()),
+      [&](int size) { scenario.steps.resize(static_cast<std::size_t>(size)); },
+      [&](FieldVisitor& inner, int i) {
+        inner.alternatives(scenario.steps[static_cast<std::size_t>(i)]);
+      });
   visitor.table({"output", "What is written."}, [&](FieldVisitor& inner) {
-    fields(inner, scenario.output,
-           {use.finger.used, use.finger.when, Use::Otherwise::note});
+    fields(inner, scenario.output, {use.finger.used, use.finger.when, Use::Otherwise::note});
   });
 }
 

@@ -13,8 +13,9 @@ namespace {
 // The first input is the scenario itself, of which the results hold the echo, `scenario.toml`.
 void remember_input(std::vector<InputFile>& inputs, const InputFile& added, const Place& place) {
   if (added.name == "scenario.toml")
-    throw InputError(place, "`" + added.name + "` is the name of the echo among the results; rename "
-                                               "the file");
+    throw InputError(place, "`" + added.name +
+                                "` is the name of the echo among the results; rename "
+                                "the file");
   for (std::size_t i = 1; i < inputs.size(); ++i) {
     if (inputs[i].name != added.name) continue;
     if (inputs[i].content == added.content) return;
@@ -28,10 +29,10 @@ material::Tissue find_material(const std::string& name, const Place& place,
                                const std::string& folder, std::vector<InputFile>& inputs) {
   material::Found found = material::find(name, folder, place);
   if (!found.file_text.empty())
-    remember_input(
-        inputs,
-        {std::filesystem::path(name.substr(0, name.find('#'))).filename().string(), found.file_text},
-        place);
+    remember_input(inputs,
+                   {std::filesystem::path(name.substr(0, name.find('#'))).filename().string(),
+                    found.file_text},
+                   place);
   return found.tissue;
 }
 
@@ -56,9 +57,9 @@ void read_mesh_file(const MeshFile& mesh, const Node& document, const std::strin
   try {
     (void)parse_quantity("1 " + mesh.unit, unit::mm);
   } catch (const std::invalid_argument&) {
-    throw InputError(place_of(document, "tissue.mesh.unit"),
-                     "`unit` wants a unit of length, got `" + mesh.unit +
-                         "`; write `unit = \"mm\"`");
+    throw InputError(
+        place_of(document, "tissue.mesh.unit"),
+        "`unit` wants a unit of length, got `" + mesh.unit + "`; write `unit = \"mm\"`");
   }
   for (const char* extension : {".node", ".ele"}) {
     auto path = std::filesystem::path(folder) / mesh.file;
@@ -67,9 +68,9 @@ void read_mesh_file(const MeshFile& mesh, const Node& document, const std::strin
     try {
       content = read_text(path.string());
     } catch (const InputError& error) {
-      throw InputError(place_of(document, "tissue.mesh.file"),
-                       "`file` names `" + path.string() + "`, which " +
-                           error.problems()[0].message);
+      throw InputError(
+          place_of(document, "tissue.mesh.file"),
+          "`file` names `" + path.string() + "`, which " + error.problems()[0].message);
     }
     remember_input(inputs, {path.filename().string(), content}, place);
   }
@@ -82,8 +83,9 @@ void fill_in_tissue(Scenario& scenario, const material::Tissue& material, const 
   if (!tissue.poisson_ratio) tissue.poisson_ratio = material.poisson_ratio.value;
   if (*tissue.poisson_ratio >= 0.5)
     throw InputError(place_of(document, "tissue.material"),
-                     "`" + tissue.material + "` has a Poisson's ratio of 0.5, and a tissue needs "
-                     "less; set `tissue.poisson_ratio = 0.49`");
+                     "`" + tissue.material +
+                         "` has a Poisson's ratio of 0.5, and a tissue needs "
+                         "less; set `tissue.poisson_ratio = 0.49`");
   if (scenario.solver.model == Solver::Model::hertz) return;
   if (tissue.viscosity == tissue::Viscosity::kelvin_voigt)
     fill_viscous(tissue.retardation_time, material.retardation_time, "retardation_time", tissue,

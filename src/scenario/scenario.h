@@ -87,7 +87,7 @@ struct Solver {
   std::optional<double> time_step;  // s
   std::optional<int> substeps;      // a time step is cut into; empty: as many as are stable
   bool allow_unstable = false;
-  std::optional<int> rings;         // empty: all
+  std::optional<int> rings;  // empty: all
 };
 
 struct Indent {
@@ -112,8 +112,8 @@ struct Creep {
   double recovery_time = 1.0;  // s
 };
 struct Relax {
-  static constexpr Word word{
-      "relax", "Strain of the whole specimen at once, held: stress over time."};
+  static constexpr Word word{"relax",
+                             "Strain of the whole specimen at once, held: stress over time."};
   double strain = 0.05;  // shortening over height
   double time = 1.0;     // s
 };

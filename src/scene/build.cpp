@@ -65,7 +65,7 @@ tissue::Base make_base(const scenario::Scenario& scenario) {
 
 // k_c sum_j w_j^2 / m_j at the deepest contact of the programme, where the mesh is read back.
 double contact_frequency_squared(const Scene& scene) {
-  if (scene.scenario.uniform() || scene.scenario.contact.coupling == contact::Coupling::one_way)
+  if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::series)
     return 0.0;
   const double depth = deepest_travel(scene.scenario, scene.law);
   const contact::Reading reading =

@@ -92,7 +92,8 @@ TEST(Press, IntegratorsAgree) {
 TEST(Press, NonlinearAgreesWithLinearForShallowPresses) {
   for (const char* integrator : {"central_difference", "backward_difference", "quasi_static"}) {
     const std::vector<std::string> common{std::string("solver.integrator=") + integrator,
-                                          "step.1.to=0.05 mm"};
+                                          "step.1.to=0.05 mm",
+                                          "contact.coupling=series"};
     auto turned = common;
     turned.emplace_back("solver.kinematics=nonlinear");
     const double linear = run_text(press, common).contact.back().force;
@@ -170,6 +171,37 @@ TEST(Press, IndentsUntilAForce) {
     // One solver step of up to 5 um of travel at about 600 N/m.
     EXPECT_LT(record.contact.back().force, 0.5 + 5e-6 * 700.0) << model;
   }
+}
+
+TEST(Press, RetractThatIsThereAlreadyDoesNothing) {
+  const auto record = run_text(press + "[[step]]\nkind = \"retract\"\nto = \"5 mm\"\n",
+                               {"step.1.to=0.1 N", "solver.model=hertz"});
+  EXPECT_EQ(record.outcome, record::Outcome::completed);
+  EXPECT_EQ(record.contact.back().step, 1);
+  ASSERT_FALSE(record.remarks.empty());
+  EXPECT_NE(record.remarks.front().find("there already"), std::string::npos);
+}
+
+// Loading one set of nodes and reading another must not feed a motion: with no damping at all the
+// force is still that of statics, and the energy is accounted for.
+TEST(Press, ConsistentIsStableWithoutDamping) {
+  const std::string held = press + "[[step]]\nkind = \"hold\"\ntime = \"1 s\"\n";
+  for (const char* integrator : {"central_difference", "modal"}) {
+    const auto record = run_text(held, {"tissue.viscosity=none", "step.1.rate=100 mm/s",
+                                        std::string("solver.integrator=") + integrator});
+    ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator;
+    EXPECT_DOUBLE_EQ(record.contact.back().force, force_at(record, 1e-3)) << integrator;
+    EXPECT_LT(found(record, "energy_imbalance"), 0.01) << integrator;
+  }
+}
+
+TEST(Press, QuasiStaticsHasNoKineticEnergy) {
+  // Rows far shorter than a wave takes: a velocity would count as energy from nowhere.
+  const auto record =
+      run_text(press, {"solver.integrator=quasi_static", "tissue.viscosity=none",
+                       "contact.coupling=one_way", "step.1.to=0.1 mm", "output.interval=0.1 ms"});
+  EXPECT_EQ(record.outcome, record::Outcome::completed);
+  EXPECT_LT(found(record, "energy_imbalance"), 1e-3);  // the trapezoid of the first rows
 }
 
 TEST(Press, ForceThatIsNeverReachedEndsTheCase) {

@@ -40,9 +40,9 @@ INSTANTIATE_TEST_SUITE_P(Document, LineEnds, testing::Values("\n", "\r\n"));
 
 TEST_P(LineEnds, KeysAndValuesKnowTheirPlaces) {
   std::string text;
-  for (const char* line :
-       {"a = 1", "[tissue]", "  material = \"skin\"", "  mesh = { kind = \"kuhn\", cells = [1, 2] }",
-        "[[step]]", "to = 1", "[[step]]", "to   =  2", "[sweep]", "\"a.b\" = [1,", "  2]"})
+  for (const char* line : {"a = 1", "[tissue]", "  material = \"skin\"",
+                           "  mesh = { kind = \"kuhn\", cells = [1, 2] }", "[[step]]", "to = 1",
+                           "[[step]]", "to   =  2", "[sweep]", "\"a.b\" = [1,", "  2]"})
     text += std::string(line) + GetParam();
   const Node root = parse_toml(text, "f.toml");
   expect_at(at(root, {"a"}).place, 1, 1);
@@ -94,14 +94,14 @@ TEST(Document, WhatIsNoTomlIsRefusedAtItsPlace) {
       {"depth = 5 mm\n",
        "f.toml:1:11: a value is followed by more on its line; put quantities in double quotes, as "
        "`\"5 mm\"`, and each key on a line of its own"},
-      {"kind = kuhn\n",
-       "f.toml:1:8: a value is none that TOML knows; put words in double quotes"},
+      {"kind = kuhn\n", "f.toml:1:8: a value is none that TOML knows; put words in double quotes"},
       {"a = 1\nb = \"\xff\"\n", "f.toml:2:6: this is not UTF-8 text; save the file as UTF-8"},
       {"\xc3", "f.toml:1:1: this is not UTF-8 text; save the file as UTF-8"},
       {"# \xc3\xa9 \xe9t\xe9\n", "f.toml:1:5: this is not UTF-8 text; save the file as UTF-8"},
       {std::string("\x7f\x45LF\x02\x00\x00", 7),
        "f.toml:1:1: this is not a text file; give a TOML file"},
-      {std::string("a = 1\nb \0= 2\n", 13), "f.toml:2:3: this is not a text file; give a TOML file"},
+      {std::string("a = 1\nb \0= 2\n", 13),
+       "f.toml:2:3: this is not a text file; give a TOML file"},
       {"a = \n",
        "f.toml:1:5: this key-value pair cannot be read: expected value, saw '\\n'; write `key = "
        "value`, texts and quantities in double quotes"},
@@ -128,8 +128,8 @@ TEST(Document, ValuesAreShownAsWritten) {
   const Node root = parse_toml(
       "a = 3\nb = 3.0\nc = \"x\"\nd = true\ne = [1]\nf = 9007199254740991\ng = inf\nh = 1979-05-27",
       "f.toml");
-  const char* const shown[] = {"3", "3.0", "x", "true", "a list", "9007199254740991", "inf",
-                               "a date"};
+  const char* const shown[] = {"3",   "3.0",   "x", "true", "a list", "9007199254740991",
+                               "inf", "a date"};
   ASSERT_EQ(root.members.size(), std::size(shown));
   for (std::size_t i = 0; i < std::size(shown); ++i)
     EXPECT_EQ(root.members[i].value.shown(), shown[i]);
@@ -154,8 +154,7 @@ std::string setting_refusal(const std::string& text, const std::string& assignme
 }
 
 TEST(Setting, ReplacesValuesWhereverTheyStand) {
-  const std::string text =
-      "a = 1\n[t]\nm = { k = 1 }\n[[step]]\nto = 1\n[[step]]\nto = 2\n";
+  const std::string text = "a = 1\n[t]\nm = { k = 1 }\n[[step]]\nto = 1\n[[step]]\nto = 2\n";
   EXPECT_EQ(at(with(text, "a=2"), {"a"}).value.number, 2.0);
   EXPECT_EQ(at(with(text, "t.m.k=2"), {"t", "m", "k"}).value.number, 2.0);
   EXPECT_EQ(at(with(text, "t.m={ q = 5 }"), {"t", "m", "q"}).value.number, 5.0);
@@ -168,7 +167,9 @@ TEST(Setting, ReplacesValuesWhereverTheyStand) {
 }
 
 TEST(Setting, ValuesAreTomlOrBareText) {
-  const auto value = [](const std::string& assignment) { return parse_assignment(assignment).second; };
+  const auto value = [](const std::string& assignment) {
+    return parse_assignment(assignment).second;
+  };
   EXPECT_EQ(value("a=5").kind, Node::Kind::integer);
   EXPECT_EQ(value("a= 0.5 ").number, 0.5);
   EXPECT_EQ(value("a=true").boolean, true);
@@ -187,20 +188,26 @@ TEST(Setting, WhatCannotBeSetIsRefused) {
   const std::pair<const char*, const char*> cases[] = {
       {"a", "--set a: a setting is written `key=value`, as `tissue.young_modulus=60 kPa`"},
       {"=1", "--set =1: a setting is written `key=value`, as `tissue.young_modulus=60 kPa`"},
-      {"a.b=1", "--set a.b=1: `a.b` cannot be set: `b` is looked for inside an integer; name a key "
-                "of a table"},
-      {"step.2.to=1", "--set step.2.to=1: `step.2.to` cannot be set: `2` is none of the list's "
-                      "entries; count them from 1 to 1"},
-      {"step.nan.to=1", "--set step.nan.to=1: `step.nan.to` cannot be set: `nan` is none of the "
-                        "list's entries; count them from 1 to 1"},
-      {"step.to=1", "--set step.to=1: `step.to` cannot be set: `to` is none of the list's entries; "
-                    "count them from 1 to 1"},
+      {"a.b=1",
+       "--set a.b=1: `a.b` cannot be set: `b` is looked for inside an integer; name a key "
+       "of a table"},
+      {"step.2.to=1",
+       "--set step.2.to=1: `step.2.to` cannot be set: `2` is none of the list's "
+       "entries; count them from 1 to 1"},
+      {"step.nan.to=1",
+       "--set step.nan.to=1: `step.nan.to` cannot be set: `nan` is none of the "
+       "list's entries; count them from 1 to 1"},
+      {"step.to=1",
+       "--set step.to=1: `step.to` cannot be set: `to` is none of the list's entries; "
+       "count them from 1 to 1"},
       {"e.1=1", "--set e.1=1: `e.1` cannot be set: the list is empty; give it entries first"},
-      {"b..c=1", "--set b..c=1: `b..c` has an empty word; join the names of tables and a key by "
-                 "single dots, as `tissue.material`"},
+      {"b..c=1",
+       "--set b..c=1: `b..c` has an empty word; join the names of tables and a key by "
+       "single dots, as `tissue.material`"},
       {"b=\xff", "--set b: the value is not UTF-8 text; write it in UTF-8"},
-      {"b=1\nc=2", "--set b=1\nc=2: a setting holds one value; write each key with a `--set` of its "
-                   "own"},
+      {"b=1\nc=2",
+       "--set b=1\nc=2: a setting holds one value; write each key with a `--set` of its "
+       "own"},
   };
   for (const auto& [assignment, sentence] : cases)
     EXPECT_EQ(setting_refusal(text, assignment), sentence);
@@ -209,8 +216,9 @@ TEST(Setting, WhatCannotBeSetIsRefused) {
 // --- writing
 
 TEST(DocumentWriter, WritesWhatReadsBack) {
-  const std::string text = "a = 1\nb = \"say \\\"x\\\"\"\n\n[t]\nm = { k = [1, 2.5], \"x y\" = true }\n"
-                           "\n[[step]]\nto = 3.0\n\n[[step]]\nto = 2\n";
+  const std::string text =
+      "a = 1\nb = \"say \\\"x\\\"\"\n\n[t]\nm = { k = [1, 2.5], \"x y\" = true }\n"
+      "\n[[step]]\nto = 3.0\n\n[[step]]\nto = 2\n";
   EXPECT_EQ(toml_document(parse_toml(text, "f.toml")), text);
 }
 

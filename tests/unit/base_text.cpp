@@ -47,7 +47,8 @@ TEST(Text, ALeadingNumberEndsWhereItEnds) {
 
 TEST(Text, AWholeNumberHasNothingBehindIt) {
   EXPECT_EQ(whole_number("-1.5"), -1.5);
-  for (const char* none : {"", "1 ", "1x", "1e400", "0x10"}) EXPECT_FALSE(whole_number(none)) << none;
+  for (const char* none : {"", "1 ", "1x", "1e400", "0x10"})
+    EXPECT_FALSE(whole_number(none)) << none;
 }
 
 TEST(Text, TheNearestWordIsSuggestedWhereOneIsNear) {

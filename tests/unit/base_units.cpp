@@ -31,30 +31,54 @@ TEST(Units, EverySymbolAndPrefixHasItsSize) {
     Unit wanted;
     double si;
   } cases[] = {
-      {"1 m", unit::mm, 1.0},          {"1 mm", unit::mm, 1e-3},
-      {"1 cm", unit::mm, 1e-2},        {"1 dm", unit::mm, 1e-1},
-      {"1 um", unit::mm, 1e-6},        {"1 \u00b5m", unit::mm, 1e-6},
-      {"1 \u03bcm", unit::mm, 1e-6},   {"1 nm", unit::mm, 1e-9},
-      {"1 km", unit::mm, 1e3},         {"1 hm", unit::mm, 1e2},
-      {"1 Pa", unit::kPa, 1.0},        {"1 kPa", unit::kPa, 1e3},
-      {"1 hPa", unit::kPa, 1e2},       {"1 MPa", unit::kPa, 1e6},
-      {"1 GPa", unit::kPa, 1e9},       {"1 mPa", unit::kPa, 1e-3},
-      {"1 bar", unit::kPa, 1e5},       {"1 mbar", unit::kPa, 1e2},
-      {"1 N/m^2", unit::kPa, 1.0},     {"1 N/mm^2", unit::kPa, 1e6},
-      {"1 J/m^3", unit::kPa, 1.0},     {"1 N m^-2", unit::kPa, 1.0},
-      {"1 kg/m/s^2", unit::kPa, 1.0},  {"1 kg/m^3", unit::density, 1.0},
-      {"1 g/cm^3", unit::density, 1e3}, {"1 kg*m^-3", unit::density, 1.0},
-      {"1 s", unit::s, 1.0},           {"1 ms", unit::s, 1e-3},
-      {"1 us", unit::s, 1e-6},         {"1 ns", unit::s, 1e-9},
-      {"1 min", unit::s, 60.0},        {"1 h", unit::s, 3600.0},
-      {"1 1/s", unit::per_second, 1.0}, {"1 Hz", unit::per_second, 1.0},
-      {"1 kHz", unit::per_second, 1e3}, {"1 s^-1", unit::per_second, 1.0},
-      {"1 1/ms", unit::per_second, 1e3}, {"1 mm/s", unit::mm_per_s, 1e-3},
-      {"1 m/s", unit::mm_per_s, 1.0},  {"1 cm/min", unit::mm_per_s, 1e-2 / 60.0},
-      {"36 km/h", unit::mm_per_s, 10.0}, {"1 N", unit::N, 1.0},
-      {"1 mN", unit::N, 1e-3},         {"1 kN", unit::N, 1e3},
-      {"1 kg*m/s^2", unit::N, 1.0},    {"1 J/m", unit::N, 1.0},
-      {"1 W s/m", unit::N, 1.0},       {"1 Pa*m^2", unit::N, 1.0},
+      {"1 m", unit::mm, 1.0},
+      {"1 mm", unit::mm, 1e-3},
+      {"1 cm", unit::mm, 1e-2},
+      {"1 dm", unit::mm, 1e-1},
+      {"1 um", unit::mm, 1e-6},
+      {"1 \u00b5m", unit::mm, 1e-6},
+      {"1 \u03bcm", unit::mm, 1e-6},
+      {"1 nm", unit::mm, 1e-9},
+      {"1 km", unit::mm, 1e3},
+      {"1 hm", unit::mm, 1e2},
+      {"1 Pa", unit::kPa, 1.0},
+      {"1 kPa", unit::kPa, 1e3},
+      {"1 hPa", unit::kPa, 1e2},
+      {"1 MPa", unit::kPa, 1e6},
+      {"1 GPa", unit::kPa, 1e9},
+      {"1 mPa", unit::kPa, 1e-3},
+      {"1 bar", unit::kPa, 1e5},
+      {"1 mbar", unit::kPa, 1e2},
+      {"1 N/m^2", unit::kPa, 1.0},
+      {"1 N/mm^2", unit::kPa, 1e6},
+      {"1 J/m^3", unit::kPa, 1.0},
+      {"1 N m^-2", unit::kPa, 1.0},
+      {"1 kg/m/s^2", unit::kPa, 1.0},
+      {"1 kg/m^3", unit::density, 1.0},
+      {"1 g/cm^3", unit::density, 1e3},
+      {"1 kg*m^-3", unit::density, 1.0},
+      {"1 s", unit::s, 1.0},
+      {"1 ms", unit::s, 1e-3},
+      {"1 us", unit::s, 1e-6},
+      {"1 ns", unit::s, 1e-9},
+      {"1 min", unit::s, 60.0},
+      {"1 h", unit::s, 3600.0},
+      {"1 1/s", unit::per_second, 1.0},
+      {"1 Hz", unit::per_second, 1.0},
+      {"1 kHz", unit::per_second, 1e3},
+      {"1 s^-1", unit::per_second, 1.0},
+      {"1 1/ms", unit::per_second, 1e3},
+      {"1 mm/s", unit::mm_per_s, 1e-3},
+      {"1 m/s", unit::mm_per_s, 1.0},
+      {"1 cm/min", unit::mm_per_s, 1e-2 / 60.0},
+      {"36 km/h", unit::mm_per_s, 10.0},
+      {"1 N", unit::N, 1.0},
+      {"1 mN", unit::N, 1e-3},
+      {"1 kN", unit::N, 1e3},
+      {"1 kg*m/s^2", unit::N, 1.0},
+      {"1 J/m", unit::N, 1.0},
+      {"1 W s/m", unit::N, 1.0},
+      {"1 Pa*m^2", unit::N, 1.0},
   };
   for (const auto& one : cases)
     EXPECT_DOUBLE_EQ(parse_quantity(one.text, one.wanted), one.si) << one.text;
@@ -103,7 +127,8 @@ TEST(Units, EveryRefusalSaysWhatWasWantedAndOneRemedy) {
       {"nan mm", unit::mm, "wants a length, got `nan mm`; write a finite number, as `1 mm`"},
       {"-inf mm", unit::mm, "wants a length, got `-inf mm`; write a finite number, as `1 mm`"},
       {"1e400 mm", unit::mm,
-       "wants a length, got `1e400 mm`, which no double can hold; write a number between 1e-300 and "
+       "wants a length, got `1e400 mm`, which no double can hold; write a number between 1e-300 "
+       "and "
        "1e300 in size"},
       {"1e-400 mm", unit::mm,
        "wants a length, got `1e-400 mm`, which no double can hold; write a number between 1e-300 "
@@ -116,8 +141,9 @@ TEST(Units, EveryRefusalSaysWhatWasWantedAndOneRemedy) {
 }
 
 TEST(Units, WhatIsNoUnitExpressionIsRefused) {
-  for (const char* text : {"1 m//s", "1 /s", "1 m^", "1 m^x", "1 m^1.5", "1 m^99", "1 m^1e400",
-                           "1 m^nan", "1 kkg", "1 kmin", "1 2 mm", "1 (mm)", "1 mm;", "1 1", "1 1/"})
+  for (const char* text :
+       {"1 m//s", "1 /s", "1 m^", "1 m^x", "1 m^1.5", "1 m^99", "1 m^1e400", "1 m^nan", "1 kkg",
+        "1 kmin", "1 2 mm", "1 (mm)", "1 mm;", "1 1", "1 1/"})
     EXPECT_TRUE(refusal(text, unit::mm).starts_with("wants a length, got")) << text;
 }
 
@@ -144,8 +170,8 @@ RC_GTEST_PROP(Units, TextReadsBackToTheSameBits, ()) {
 
 TEST(Units, TextReadsBackAtTheEndsOfTheDoubles) {
   using Limits = std::numeric_limits<double>;
-  for (const double x : {0.0, -0.0, Limits::max(), Limits::lowest(), Limits::min(),
-                         Limits::denorm_min(), 1.0 / 3.0})
+  for (const double x :
+       {0.0, -0.0, Limits::max(), Limits::lowest(), Limits::min(), Limits::denorm_min(), 1.0 / 3.0})
     for (const Unit& unit : units)
       EXPECT_EQ(std::bit_cast<std::uint64_t>(parse_quantity(quantity_text(x, unit), unit)),
                 std::bit_cast<std::uint64_t>(x))

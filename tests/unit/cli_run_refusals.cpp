@@ -148,6 +148,7 @@ TEST_F(RunRefusals, a_folder_without_permission) {
 
 const std::string kUnstable =
     "[tissue]\nmaterial = \"skin\"\nmesh = { kind = \"kuhn\", cells = [3, 4, 6] }\n"
+    "viscosity = \"none\"\n"  // dashpots slow the growth beyond this programme's 0.6 s
     "[solver]\nmodel = \"mass_spring\"\nintegrator = \"central_difference\"\n"
     "time_step = \"10 ms\"\nsubsteps = 1\n"
     "[[step]]\nkind = \"indent\"\nto = \"3 mm\"\nrate = \"5 mm/s\"\n"
@@ -157,7 +158,7 @@ TEST_F(RunRefusals, a_step_above_the_stability_limit) {
   write_file(folder_ / "unstable.toml", kUnstable);
   const Ended ended = palpate(folder_.path(), {"run", "unstable.toml"});
   EXPECT_EQ(ended.code, 2);
-  EXPECT_TRUE(says(ended, "unstable.toml:8:12: `substeps` of 1 makes steps of 10 ms, above the "
+  EXPECT_TRUE(says(ended, "unstable.toml:9:12: `substeps` of 1 makes steps of 10 ms, above the "
                           "stability limit"))
       << ended.err;
   EXPECT_TRUE(fs::is_empty(folder_ / "out")) << "no leftovers";
@@ -184,7 +185,7 @@ TEST_F(RunRefusals, divergence_keeps_what_was_stable) {
   for (const auto& row : rows.rows) {
     EXPECT_LE(std::get<double>(row[time]), last + 1e-12);  // s; rounding of sums of steps
     for (std::size_t i = 1; i < row.size(); ++i)
-      if (i != radius) EXPECT_TRUE(std::isfinite(std::get<double>(row[i]))) << rows.columns[i];
+      EXPECT_TRUE(i == radius || std::isfinite(std::get<double>(row[i]))) << rows.columns[i];
   }
   EXPECT_NEAR(std::get<double>(rows.rows.back()[time]), last, 0.010 + 1e-12);  // one row apart
 }
@@ -210,7 +211,8 @@ TEST_F(RunRefusals, a_mesh_that_does_not_fit) {
                  "[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = \"indent\"\n");
   const Ended ended = palpate(folder_.path(), {"run", "mesh.toml"});
   EXPECT_EQ(ended.code, 5);
-  EXPECT_TRUE(says(ended, "volume")) << ended.err;
+  EXPECT_TRUE(says(ended, "the tetrahedra fill 1.08e-07 m^3, but the body has 0.000108 m^3"))
+      << ended.err;
   EXPECT_TRUE(fs::is_empty(folder_ / "out")) << "no leftovers";
 }
 

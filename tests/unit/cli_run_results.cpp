@@ -1,7 +1,8 @@
 // What a finished run leaves: its files, their columns, the paper's forces, the identities.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"

@@ -1,7 +1,6 @@
 // Runs that are stopped: finished cases are kept, nothing is half, old results stay.
 #include <gtest/gtest.h>
 
-#include "base/text.h"
 #include "program.h"
 #include "record/csv.h"
 

@@ -10,8 +10,8 @@ TEST(TissueTable, HasTheSixRowsOfThePaper) {
   const struct {
     const char* name;
     double density, young_modulus, poisson_ratio;
-  } rows[] = {{"finger", 1370, 2050e3, 0.5},  {"skin", 1100, 72.4e3, 0.33},
-              {"muscle", 1041, 6e3, 0.4},     {"bone", 1990, 1.7e10, 0.3},
+  } rows[] = {{"finger", 1370, 2050e3, 0.5},    {"skin", 1100, 72.4e3, 0.33},
+              {"muscle", 1041, 6e3, 0.4},       {"bone", 1990, 1.7e10, 0.3},
               {"ligament", 1110, 33.1e3, 0.45}, {"upper_leg", 1020, 0.8e3, 0.3}};
   for (const auto& row : rows) {
     const Found found = find(row.name, "", {});
@@ -43,10 +43,11 @@ TEST(TissueTable, AnUnknownNameSuggestsTheNearest) {
     (void)find("musle", "", {"press.toml", 5, 12});
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "press.toml:5:12: `material` does not know `musle`; did you mean `muscle`? Known here: "
-                 "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-                 "`file.toml#name`");
+    EXPECT_STREQ(
+        error.what(),
+        "press.toml:5:12: `material` does not know `musle`; did you mean `muscle`? Known here: "
+        "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+        "`file.toml#name`");
   }
 }
 

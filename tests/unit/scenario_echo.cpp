@@ -15,16 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every value that counts, by its path and its bits; made from the fields, so that none is left out.
+// Every value that counts, by its path and its bits; made from the fields, so that none is left
+// out.
 class Dump final : public FieldVisitor {
  public:
-  std::string values;
+  std::string dumped;
 
   void number(const Key& key, double& value, const Range&) override { put(key, bits(value)); }
   void number(const Key& key, std::optional<double>& value, const Range&) override {
     put(key, value ? bits(*value) : "empty");
   }
-  void quantity(const Key& key, double& si, const Unit&, const Range&) override { put(key, bits(si)); }
+  void quantity(const Key& key, double& si, const Unit&, const Range&) override {
+    put(key, bits(si));
+  }
   void quantity(const Key& key, std::optional<double>& si, const Unit&, const Range&) override {
     put(key, si ? bits(*si) : "empty");
   }
@@ -47,7 +50,8 @@ class Dump final : public FieldVisitor {
   void counts(const Key& key, std::span<int> values, const Range&) override {
     for (const int value : values) put(key, std::to_string(value));
   }
-  void numbers_by_name(const Key& key, std::map<std::string, double>& values, const Range&) override {
+  void numbers_by_name(const Key& key, std::map<std::string, double>& values,
+                       const Range&) override {
     for (const auto& [name, value] : values) put(key, name + " " + bits(value));
   }
   void choice_of(const Key& key, int& index, std::span<const Word>) override {
@@ -66,14 +70,16 @@ class Dump final : public FieldVisitor {
     }
   }
   void kind(int chosen, std::span<const Word>, const std::function<Fields(int)>& choose) override {
-    values += "kind " + std::to_string(chosen) + "\n";
+    dumped += "kind " + std::to_string(chosen) + "\n";
     choose(chosen)(*this);
   }
 
  private:
-  static std::string bits(double value) { return std::to_string(std::bit_cast<std::uint64_t>(value)); }
+  static std::string bits(double value) {
+    return std::to_string(std::bit_cast<std::uint64_t>(value));
+  }
   void put(const Key& key, const std::string& value) {
-    if (key.use.used) values += std::string(key.name) + " " + value + "\n";
+    if (key.use.used) dumped += std::string(key.name) + " " + value + "\n";
   }
 };
 
@@ -83,7 +89,7 @@ std::string values_of(const Family& family) {
     Scenario scenario = one.scenario;
     Dump dump;
     fields(dump, scenario);
-    all += "case " + one.name + "\n" + dump.values;
+    all += "case " + one.name + "\n" + dump.dumped;
   }
   return all;
 }
@@ -132,11 +138,13 @@ std::vector<std::pair<std::string, std::string>> all_choices(const std::string& 
       std::erase_if(table, [](char c) { return c == '[' || c == ']'; });
       const std::size_t kind = line.find("kind = \"");
       if (kind != std::string::npos)
-        choices.emplace_back(table + ".kind", line.substr(kind + 8, line.find('"', kind + 8) - kind - 8));
+        choices.emplace_back(table + ".kind",
+                             line.substr(kind + 8, line.find('"', kind + 8) - kind - 8));
     }
     if (!line.starts_with("| `")) continue;
     const std::string key = line.substr(3, line.find('`', 3) - 3);
-    for (std::size_t at = line.find("`\""); at != std::string::npos; at = line.find("`\"", at + 2)) {
+    for (std::size_t at = line.find("`\""); at != std::string::npos;
+         at = line.find("`\"", at + 2)) {
       const std::size_t close = line.find("\"`", at);
       choices.emplace_back(table + "." + key, line.substr(at + 2, close - at - 2));
     }
@@ -170,35 +178,41 @@ TEST(Echo, OfEveryChoiceReadsBack) {
 }
 
 TEST(Echo, OfEveryStepReadsBack) {
-  expect_reads_back(press + "[[step]]\nkind = \"hold\"\ntime = \"0.1 s\"\n[[step]]\nkind = "
-                            "\"retract\"\nto = \"-0.7 mm\"\n[[step]]\nto = \"1.1 N\"\n");
+  expect_reads_back(press +
+                    "[[step]]\nkind = \"hold\"\ntime = \"0.1 s\"\n[[step]]\nkind = "
+                    "\"retract\"\nto = \"-0.7 mm\"\n[[step]]\nto = \"1.1 N\"\n");
   expect_reads_back(creep + "[[step]]\nkind = \"relax\"\nstrain = 0.1\n");
 }
 
 TEST(Echo, OfAwkwardTextsReadsBack) {
   expect_reads_back("title = \"a \\\"b\\\" \\\\ \\t \\r\\n \\u0001 \\u00b5 #\"\n" + press);
-  expect_reads_back(press + "[output]\ndisplay_scale = { \"a b\" = 0.1 }\n[sweep]\n\"title\" = [\"a b\"]\n");
+  expect_reads_back(
+      press + "[output]\ndisplay_scale = { \"a b\" = 0.1 }\n[sweep]\n\"title\" = [\"a b\"]\n");
 }
 
 TEST(Echo, OfASweptChoiceKeepsWhatTheOtherCasesNeed) {
   // Written out, the first case's viscosity would misplace the second's keys, and a mesh that the
   // first does not read would be lost to the second.
   expect_reads_back(press + "[sweep]\n\"tissue.viscosity\" = [\"kelvin_voigt\", \"nodal_drag\"]\n");
-  expect_reads_back(press + "[tissue]\nmesh = { kind = \"kuhn\", cells = [2, 2, 2] }\n[sweep]\n"
-                            "\"solver.model\" = [\"hertz\", \"mass_spring\"]\n");
+  expect_reads_back(press +
+                    "[tissue]\nmesh = { kind = \"kuhn\", cells = [2, 2, 2] }\n[sweep]\n"
+                    "\"solver.model\" = [\"hertz\", \"mass_spring\"]\n");
   expect_reads_back(press + "[sweep]\n\"solver.model\" = [\"mass_spring\", \"hertz\"]\n");
   expect_reads_back(press + "[sweep]\n\"tissue.mesh.kind\" = [\"kuhn\", \"tetgen\"]\n");
-  expect_reads_back(press + "[sweep]\n\"tissue.mesh\" = [{ kind = \"kuhn\" }, { kind = \"tetgen\" }]\n");
+  expect_reads_back(press +
+                    "[sweep]\n\"tissue.mesh\" = [{ kind = \"kuhn\" }, { kind = \"tetgen\" }]\n");
 }
 
 TEST(Echo, OfASweptMaterialLeavesItsPropertiesToTheCases) {
-  expect_reads_back(press + "[sweep]\n\"tissue.material\" = [\"skin\", \"bone\"]\n"
-                            "\"finger.radius\" = [\"11 mm\", \"0.7 cm\"]\n");
+  expect_reads_back(press +
+                    "[sweep]\n\"tissue.material\" = [\"skin\", \"bone\"]\n"
+                    "\"finger.radius\" = [\"11 mm\", \"0.7 cm\"]\n");
   expect_reads_back(press + "[sweep]\n\"finger.material\" = [\"finger\", \"rigid\"]\n");
 }
 
 TEST(Echo, RefersToCopiesByTheirBareName) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("palpate_echo_" + std::to_string(::getpid()));
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("palpate_echo_" + std::to_string(::getpid()));
   fs::create_directories(folder / "data");
   const std::string gel =
       "[gel]\ndensity = { value = \"1000 kg/m^3\", source = \"s\" }\nyoung_modulus = { value = "
@@ -208,8 +222,9 @@ TEST(Echo, RefersToCopiesByTheirBareName) {
   write_atomically((folder / "data/box.ele").string(), "2");
   const std::string path = (folder / "press.toml").string();
   const Family family =
-      parse(press + "[tissue]\nviscosity = \"none\"\nmesh = { file = \"data/box.node\", unit = "
-                    "\"mm\" }\n[sweep]\n\"tissue.material\" = [\"data/my.toml#gel\", \"skin\"]\n",
+      parse(press +
+                "[tissue]\nviscosity = \"none\"\nmesh = { file = \"data/box.node\", unit = "
+                "\"mm\" }\n[sweep]\n\"tissue.material\" = [\"data/my.toml#gel\", \"skin\"]\n",
             path, {});
   const std::string written = echo(family);
   EXPECT_EQ(written.find("data/"), std::string::npos) << written;
@@ -218,7 +233,8 @@ TEST(Echo, RefersToCopiesByTheirBareName) {
 
   fs::create_directories(folder / "result");  // as a result folder holds it
   for (std::size_t i = 1; i < family.inputs.size(); ++i)
-    write_atomically((folder / "result" / family.inputs[i].name).string(), family.inputs[i].content);
+    write_atomically((folder / "result" / family.inputs[i].name).string(),
+                     family.inputs[i].content);
   const Family again = parse(written, (folder / "result/press.toml").string(), {});
   EXPECT_EQ(echo(again), written);
   ASSERT_EQ(again.cases.size(), 2U);

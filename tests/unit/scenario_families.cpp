@@ -33,25 +33,29 @@ std::vector<std::string> case_names(const Family& family) {
 using Names = std::vector<std::string>;
 
 TEST(Sweep, RunsEveryValueWithEveryOther) {
-  const Family family = parse(press + "[sweep]\n\"tissue.material\" = [\"skin\", \"bone\"]\n"
-                                      "\"contact.friction\" = [0.0, 0.3, 1]\n",
+  const Family family = parse(press +
+                                  "[sweep]\n\"tissue.material\" = [\"skin\", \"bone\"]\n"
+                                  "\"contact.friction\" = [0.0, 0.3, 1]\n",
                               "press.toml", {});
-  EXPECT_EQ(case_names(family), (Names{"skin_0.0", "skin_0.3", "skin_1", "bone_0.0", "bone_0.3",
-                                       "bone_1"}));
+  EXPECT_EQ(case_names(family),
+            (Names{"skin_0.0", "skin_0.3", "skin_1", "bone_0.0", "bone_0.3", "bone_1"}));
   EXPECT_EQ(family.cases[4].scenario.tissue.young_modulus, 1.7e10);
   EXPECT_EQ(family.cases[4].scenario.contact.friction, 0.3);
-  EXPECT_EQ(family.cases[4].swept[1], (std::pair<std::string, std::string>{"contact.friction", "0.3"}));
+  EXPECT_EQ(family.cases[4].swept[1],
+            (std::pair<std::string, std::string>{"contact.friction", "0.3"}));
 }
 
 TEST(Sweep, KeysMayStandWithoutQuotes) {
-  EXPECT_EQ(case_names(parse(press + "[sweep]\ntissue.material = [\"skin\", \"bone\"]\n", "p.toml", {})),
-            (Names{"skin", "bone"}));
+  EXPECT_EQ(
+      case_names(parse(press + "[sweep]\ntissue.material = [\"skin\", \"bone\"]\n", "p.toml", {})),
+      (Names{"skin", "bone"}));
 }
 
 TEST(Sweep, ReachesStepsAndWholeTables) {
   const Family family =
-      parse(press + "[sweep]\n\"step.1.to\" = [\"1 mm\", \"3 mm\"]\n\"tissue.mesh\" = [{ kind = "
-                    "\"kuhn\" }, { kind = \"tetgen\", nodes = 100 }]\n",
+      parse(press +
+                "[sweep]\n\"step.1.to\" = [\"1 mm\", \"3 mm\"]\n\"tissue.mesh\" = [{ kind = "
+                "\"kuhn\" }, { kind = \"tetgen\", nodes = 100 }]\n",
             "press.toml", {});
   EXPECT_EQ(case_names(family), (Names{"1 mm_mesh1", "1 mm_mesh2", "3 mm_mesh1", "3 mm_mesh2"}));
   EXPECT_EQ(std::get<Indent>(family.cases[2].scenario.steps[0]).to.value, 0.003);
@@ -78,7 +82,8 @@ TEST(Sweep, MistakesAreToldOnceAndAtTheirValue) {
       {"\"tissue.material\" = [\"skin\", \"skin\"]\n",
        "press.toml:4:1: two cases of `sweep` have the same name; give each value once"},
       {"design = \"latin\"\n\"tissue.material\" = [\"skin\"]\n",
-       "press.toml:5:10: `design` does not know `latin`; write `design = \"grid\"`, every value with "
+       "press.toml:5:10: `design` does not know `latin`; write `design = \"grid\"`, every value "
+       "with "
        "every other"},
       {"tissue.material = [\"skin\"]\n\"tissue.material\" = [\"bone\"]\n",
        "press.toml:6:1: `tissue.material` is swept twice; keep one of the two"},
@@ -88,8 +93,9 @@ TEST(Sweep, MistakesAreToldOnceAndAtTheirValue) {
   };
   for (const auto& [text, sentence] : cases)
     EXPECT_EQ(refusal(press + "[sweep]\n" + text), sentence) << text;
-  EXPECT_EQ(refusal("sweep = 3\n" + press),
-            "press.toml:1:9: `sweep` wants a table of keys and lists, got an integer; write `[sweep]`");
+  EXPECT_EQ(
+      refusal("sweep = 3\n" + press),
+      "press.toml:1:9: `sweep` wants a table of keys and lists, got an integer; write `[sweep]`");
   // A mistake of the scenario itself is the same in every case.
   EXPECT_EQ(refusal(press + "rat = 1\n[sweep]\n\"tissue.material\" = [\"skin\", \"bone\"]\n"),
             "press.toml:4:1: `rat` is not a key here; did you mean `rate`?");
@@ -99,8 +105,9 @@ TEST(Sweep, TooManyCasesAreRefusedBeforeTheyAreMade) {
   std::string text = press + "[sweep]\n";
   for (int i = 0; i < 64; ++i)  // 2^64 cases: their number alone would overflow to 0
     text += "\"a" + std::to_string(i) + "\" = [1, 2]\n";
-  EXPECT_EQ(refusal(text), "press.toml:4:1: `sweep` makes more than 1000 cases; give shorter lists or "
-                           "several scenarios");
+  EXPECT_EQ(refusal(text),
+            "press.toml:4:1: `sweep` makes more than 1000 cases; give shorter lists or "
+            "several scenarios");
 }
 
 TEST(Sweep, DisplayScalesNameCases) {
@@ -120,26 +127,31 @@ TEST(Setting, GoesThroughTheSameChecks) {
             "`young_modulus`?");
   EXPECT_EQ(said("tisue.material=skin"),
             "--set tisue.material=skin: `tisue` is not a key here; did you mean `tissue`?");
-  EXPECT_EQ(said("tissue.mesh.kind=kun"),
-            "--set tissue.mesh.kind=kun: `kind` does not know `kun`; did you mean `kuhn`? It is one of "
-            "kuhn, mirrored, tetgen, file");
-  EXPECT_EQ(said("step.1.to=3 kPa"),
-            "--set step.1.to=3 kPa: `to` wants a length or a force, got `3 kPa`, a pressure; write it "
-            "as `3 mm`");
-  EXPECT_EQ(said("tissue.young_modulus=60"),
-            "--set tissue.young_modulus=60: `young_modulus` wants a pressure with its unit, as text, "
-            "got an integer `60`; write it as `young_modulus = \"60 kPa\"`");
-  EXPECT_EQ(said("contact.friction=1e400"),
-            "--set contact.friction=1e400: `friction` wants a finite number, got `1e400`; write one "
-            "as `0.5`");
-  EXPECT_EQ(refusal(press + "[tissue]\nyung = 1\n", {"finger.radius=0 mm", "contact.friction=-1"}),
-            "press.toml:5:1: `yung` is not a key here; known keys: base, density, drag, "
-            "instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, retardation_time, "
-            "shape, viscosity, young_modulus\n"
-            "--set finger.radius=0 mm: `radius` must be above 0 mm, got `0 mm`; give a value in that "
-            "range\n"
-            "--set contact.friction=-1: `friction` must be at least 0, got `-1`; give a value in that "
-            "range");
+  EXPECT_EQ(
+      said("tissue.mesh.kind=kun"),
+      "--set tissue.mesh.kind=kun: `kind` does not know `kun`; did you mean `kuhn`? It is one of "
+      "kuhn, mirrored, tetgen, file");
+  EXPECT_EQ(
+      said("step.1.to=3 kPa"),
+      "--set step.1.to=3 kPa: `to` wants a length or a force, got `3 kPa`, a pressure; write it "
+      "as `3 mm`");
+  EXPECT_EQ(
+      said("tissue.young_modulus=60"),
+      "--set tissue.young_modulus=60: `young_modulus` wants a pressure with its unit, as text, "
+      "got an integer `60`; write it as `young_modulus = \"60 kPa\"`");
+  EXPECT_EQ(
+      said("contact.friction=1e400"),
+      "--set contact.friction=1e400: `friction` wants a finite number, got `1e400`; write one "
+      "as `0.5`");
+  EXPECT_EQ(
+      refusal(press + "[tissue]\nyung = 1\n", {"finger.radius=0 mm", "contact.friction=-1"}),
+      "press.toml:5:1: `yung` is not a key here; known keys: base, density, drag, "
+      "instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, retardation_time, "
+      "shape, viscosity, young_modulus\n"
+      "--set finger.radius=0 mm: `radius` must be above 0 mm, got `0 mm`; give a value in that "
+      "range\n"
+      "--set contact.friction=-1: `friction` must be at least 0, got `-1`; give a value in that "
+      "range");
 }
 
 TEST(Setting, OfASweptKeyIsItsList) {
@@ -147,7 +159,8 @@ TEST(Setting, OfASweptKeyIsItsList) {
   EXPECT_EQ(refusal(swept, {"tissue.material=muscle"}),
             "--set tissue.material=muscle: `tissue.material` is swept, so that one value has no "
             "effect; set the list, `sweep.tissue.material=[...]`");
-  EXPECT_EQ(case_names(parse(swept, "p.toml", {"sweep.tissue.material=[\"muscle\"]"})), Names{"muscle"});
+  EXPECT_EQ(case_names(parse(swept, "p.toml", {"sweep.tissue.material=[\"muscle\"]"})),
+            Names{"muscle"});
 }
 
 // --- files
@@ -185,8 +198,9 @@ const char* const gel =
 
 TEST_F(Files, TablesOfTheUserWorkWhereOursDo) {
   write("tables/my.toml", gel);
-  const Family family = parse(press + "[tissue]\nmaterial = \"tables/my.toml#gel\"\nviscosity = "
-                                      "\"none\"\n[finger]\nmaterial = \"tables/my.toml#gel\"\n",
+  const Family family = parse(press +
+                                  "[tissue]\nmaterial = \"tables/my.toml#gel\"\nviscosity = "
+                                  "\"none\"\n[finger]\nmaterial = \"tables/my.toml#gel\"\n",
                               scenario(), {});
   EXPECT_EQ(family.cases[0].scenario.tissue.young_modulus, 12300.0);
   EXPECT_EQ(family.cases[0].scenario.finger.poisson_ratio, 0.45);
@@ -197,27 +211,32 @@ TEST_F(Files, TablesOfTheUserWorkWhereOursDo) {
 
 TEST_F(Files, TablesThatCannotBeUsed) {
   write("my.toml", gel);
-  write("bad.toml", "[gel]\ndensitty = { value = \"1 kg/m^3\" }\nyoung_modulus = { value = \"0 kPa\" }\n");
+  write("bad.toml",
+        "[gel]\ndensitty = { value = \"1 kg/m^3\" }\nyoung_modulus = { value = \"0 kPa\" }\n");
   write("empty.toml", "a = 1\n");
   write("rubbish.toml", "\x01\x02");
-  EXPECT_EQ(said("[tissue]\nmaterial = \"no.toml#gel\"\n"),
-            "press.toml:5:12: `material` names a file that cannot be read: No such file or directory; "
-            "check the path");
-  EXPECT_EQ(said("[tissue]\nmaterial = \"my.toml#gell\"\n"),
-            "press.toml:5:12: `material` does not know `gell`; did you mean `gel`? Known here: gel; "
-            "your own tables are written `file.toml#name`");
-  EXPECT_EQ(said("[tissue]\nmaterial = \"empty.toml#gel\"\n"),
-            "press.toml:5:12: `material` does not know `gel`; known here: none; your own tables are "
-            "written `file.toml#name`");
+  EXPECT_EQ(
+      said("[tissue]\nmaterial = \"no.toml#gel\"\n"),
+      "press.toml:5:12: `material` names a file that cannot be read: No such file or directory; "
+      "check the path");
+  EXPECT_EQ(
+      said("[tissue]\nmaterial = \"my.toml#gell\"\n"),
+      "press.toml:5:12: `material` does not know `gell`; did you mean `gel`? Known here: gel; "
+      "your own tables are written `file.toml#name`");
+  EXPECT_EQ(
+      said("[tissue]\nmaterial = \"empty.toml#gel\"\n"),
+      "press.toml:5:12: `material` does not know `gel`; known here: none; your own tables are "
+      "written `file.toml#name`");
   EXPECT_EQ(said("[tissue]\nmaterial = \"my.toml#gel\"\n"),
             "press.toml:5:12: `my.toml#gel` has no `retardation_time`; give "
             "`tissue.retardation_time`, or set another `tissue.viscosity`");
-  EXPECT_EQ(said("[tissue]\nmaterial = \"bad.toml#gel\"\n"),
-            "bad.toml:1:2: `gel` lacks `poisson_ratio`; add `poisson_ratio = { value = ..., source = "
-            "\"...\" }`\n"
-            "bad.toml:2:1: `densitty` is not a key here; did you mean `density`?\n"
-            "bad.toml:3:1: `young_modulus` lacks `source`; write `{ value = ..., source = \"...\" }`\n"
-            "bad.toml:3:27: `value` must be above 0 kPa, got `0 kPa`; give a value in that range");
+  EXPECT_EQ(
+      said("[tissue]\nmaterial = \"bad.toml#gel\"\n"),
+      "bad.toml:1:2: `gel` lacks `poisson_ratio`; add `poisson_ratio = { value = ..., source = "
+      "\"...\" }`\n"
+      "bad.toml:2:1: `densitty` is not a key here; did you mean `density`?\n"
+      "bad.toml:3:1: `young_modulus` lacks `source`; write `{ value = ..., source = \"...\" }`\n"
+      "bad.toml:3:27: `value` must be above 0 kPa, got `0 kPa`; give a value in that range");
   EXPECT_EQ(said("[tissue]\nmaterial = \"rubbish.toml#gel\"\n"),
             "rubbish.toml:1:1: this is not a text file; give a TOML file");
   EXPECT_EQ(said("[tissue]\nmaterial = \"finger\"\n"),
@@ -233,9 +252,10 @@ TEST_F(Files, CopiesBesideTheEchoMustNotClash) {
                  "\"tables/t.toml#gel\"\n"),
             "press.toml:8:12: two different files are called `t.toml`, and a result folder holds a "
             "copy of each; rename one");
-  EXPECT_EQ(said("[finger]\nmaterial = \"tables/scenario.toml#gel\"\n"),
-            "press.toml:5:12: `scenario.toml` is the name of the echo among the results; rename the "
-            "file");
+  EXPECT_EQ(
+      said("[finger]\nmaterial = \"tables/scenario.toml#gel\"\n"),
+      "press.toml:5:12: `scenario.toml` is the name of the echo among the results; rename the "
+      "file");
 }
 
 TEST_F(Files, MeshesNeedTheirFileAndUnit) {

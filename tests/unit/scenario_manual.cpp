@@ -20,7 +20,8 @@ TEST(Manual, NamesEveryKeyOfAnEcho) {
   const std::string text = manual();
   int keys = 0;
   for (const auto& [steps, settings] :
-       {std::pair(press, std::vector<std::string>{"finger.weight=apart", "tissue.mesh.kind=tetgen"}),
+       {std::pair(press,
+                  std::vector<std::string>{"finger.weight=apart", "tissue.mesh.kind=tetgen"}),
         std::pair(press, std::vector<std::string>{"tissue.viscosity=nodal_drag"}),
         std::pair(press, std::vector<std::string>{"tissue.viscosity=standard_linear_solid"}),
         std::pair(creep, std::vector<std::string>{})})

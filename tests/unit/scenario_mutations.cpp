@@ -79,7 +79,8 @@ TEST(Mutations, OfSettingsAreReadOrRefusedWithWords) {
       EXPECT_NO_THROW((void)parse(echo(family), path, {})) << setting;
     } catch (const InputError& error) {
       ASSERT_FALSE(error.problems().empty()) << setting;
-      for (const Problem& problem : error.problems()) EXPECT_FALSE(problem.message.empty()) << setting;
+      for (const Problem& problem : error.problems())
+        EXPECT_FALSE(problem.message.empty()) << setting;
     }
   }
 }

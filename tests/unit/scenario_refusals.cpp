@@ -92,13 +92,15 @@ TEST(Refusals, KeysThatTheModelCannotHonour) {
        "press.toml:6:1: `retardation_time` has no effect here: it is used only with `viscosity = "
        "\"kelvin_voigt\"`; remove it or change that"},
       {"[finger]\nmaterial = \"rigid\"\nyoung_modulus = \"1 MPa\"\n",
-       "press.toml:6:1: `young_modulus` has no effect here: it is used only where the finger is not "
+       "press.toml:6:1: `young_modulus` has no effect here: it is used only where the finger is "
+       "not "
        "`rigid`; remove it or change that"},
       {"[finger]\ndensity = \"1 kg/m^3\"\n",
        "press.toml:5:1: `density` has no effect here: it is used only with `weight = \"apart\"`; "
        "remove it or change that"},
       {"[solver]\nintegrator = \"modal\"\nkinematics = \"nonlinear\"\n",
-       "press.toml:6:14: `modal` solves linear bodies only; set `solver.kinematics = \"linear\"` or "
+       "press.toml:6:14: `modal` solves linear bodies only; set `solver.kinematics = \"linear\"` "
+       "or "
        "another integrator"},
       {"[solver]\nintegrator = \"quasi_static\"\n[tissue]\nviscosity = \"nodal_drag\"\n",
        "press.toml:5:14: `quasi_static` has no drag against the ground; set `solver.integrator = "
@@ -116,8 +118,9 @@ TEST(Refusals, KeysThatTheModelCannotHonour) {
 }
 
 TEST(Refusals, MachineryOfAnotherModelIsLeftUnreadWithANote) {
-  const Family family = parse(press + "[solver]\nmodel = \"hertz\"\nstart = \"paper\"\n"
-                                      "time_step = \"0.7 ms\"\n[tissue]\nmesh = { kind = \"kuhn\" }\n",
+  const Family family = parse(press +
+                                  "[solver]\nmodel = \"hertz\"\nstart = \"paper\"\n"
+                                  "time_step = \"0.7 ms\"\n[tissue]\nmesh = { kind = \"kuhn\" }\n",
                               "press.toml", {});
   std::string notes;
   for (const Problem& note : family.notes) notes += note.text() + "\n";
@@ -141,13 +144,15 @@ TEST(Refusals, DimensionsAndUnits) {
        "press.toml:5:17: `young_modulus` wants a pressure with its unit, as text, got a number "
        "`inf`; write it as `young_modulus = \"1 kPa\"`"},
       {"[tissue]\nyoung_modulus = \"60 kpa\"\n",
-       "press.toml:5:17: `young_modulus` wants a pressure, got `60 kpa` with the unknown unit `kpa`; "
+       "press.toml:5:17: `young_modulus` wants a pressure, got `60 kpa` with the unknown unit "
+       "`kpa`; "
        "did you mean `60 kPa`?"},
       {"[[step]]\nkind = \"indent\"\nto = \"3 kPa\"\n",
        "press.toml:6:6: `to` wants a length or a force, got `3 kPa`, a pressure; write it as `3 "
        "mm`"},
       {"[tissue]\nshape = { size = [60, \"60 kPa\", \"30 mm\"] }\n",
-       "press.toml:5:19: `size` wants a length with its unit, as text, got an integer `60`; write it "
+       "press.toml:5:19: `size` wants a length with its unit, as text, got an integer `60`; write "
+       "it "
        "as `\"60 mm\"`\n"
        "press.toml:5:23: `size` wants a length, got `60 kPa`, a pressure; write it as `60 mm`"},
   });
@@ -173,7 +178,8 @@ TEST(Refusals, Ranges) {
       {"[tissue]\nmesh = { cells = [3, 0, 6] }\n",
        "press.toml:5:22: `cells` must be at least 1 and at most 500, got `0" + range},
       {"[tissue]\nmesh = { cells = [3, 4] }\n",
-       "press.toml:5:18: `cells` wants a list of 3, got a list of 2; write it as `[..., ..., ...]`"},
+       "press.toml:5:18: `cells` wants a list of 3, got a list of 2; write it as `[..., ..., "
+       "...]`"},
       {"[solver]\ntolerance = 0\n",
        "press.toml:5:13: `tolerance` must be above 0 and below 1, got `0" + range},
       {"[solver]\nsubsteps = 0\n",
@@ -256,34 +262,39 @@ TEST(Refusals, DuplicatesAndBrokenFiles) {
 }
 
 TEST(Refusals, TwoMistakesAreToldInTheOrderOfTheFile) {
-  EXPECT_EQ(refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
-                    "radius = \"5\"\n" + press),
-            "press.toml:2:1: `yung` is not a key here; known keys: base, density, drag, "
-            "instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, retardation_time, "
-            "shape, viscosity, young_modulus\n"
-            "press.toml:3:12: `material` does not know `skn`; did you mean `skin`? Known here: "
-            "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-            "`file.toml#name`\n"
-            "press.toml:5:12: `material` does not know `fingr`; did you mean `finger`? Known here: "
-            "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-            "`file.toml#name`\n"
-            "press.toml:6:10: `radius` wants a length with its unit, got `5`; write it as `5 mm`");
+  EXPECT_EQ(
+      refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
+              "radius = \"5\"\n" +
+              press),
+      "press.toml:2:1: `yung` is not a key here; known keys: base, density, drag, "
+      "instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, retardation_time, "
+      "shape, viscosity, young_modulus\n"
+      "press.toml:3:12: `material` does not know `skn`; did you mean `skin`? Known here: "
+      "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+      "`file.toml#name`\n"
+      "press.toml:5:12: `material` does not know `fingr`; did you mean `finger`? Known here: "
+      "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+      "`file.toml#name`\n"
+      "press.toml:6:10: `radius` wants a length with its unit, got `5`; write it as `5 mm`");
 }
 
 TEST(Refusals, OneMistakeIsOneMessage) {
   // The wrong model must not make `density` look misplaced too.
-  EXPECT_EQ(refusal(press + "[solver]\nmodel = \"hertzz\"\n[tissue]\nviscosity = \"nodal_drag\"\n"
-                            "drag = \"1 1/s\"\n"),
-            "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, "
-            "hertz, mass_spring");
+  EXPECT_EQ(
+      refusal(press + "[solver]\nmodel = \"hertzz\"\n[tissue]\nviscosity = \"nodal_drag\"\n"
+                      "drag = \"1 1/s\"\n"),
+      "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, "
+      "hertz, mass_spring");
   // The wrong depth must not make the next step look shallow, nor the rows too many.
-  EXPECT_EQ(refusal("[[step]]\nkind = \"indent\"\nto = \"1e9 mm\"\n[[step]]\nkind = \"hold\"\n"),
-            "press.toml:3:6: `to` of 1e+09 mm is deeper than the finger's radius of 11 mm, where no "
-            "Hertz contact is left; press less deep");
-  EXPECT_EQ(refusal(press + "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = "
-                            "\"retract\"\nto = \"1.5 mm\"\n"),
-            "press.toml:6:6: `indent` goes to 1 mm, which is not below the travel of 2 mm before it; "
-            "use `retract` to go back");
+  EXPECT_EQ(
+      refusal("[[step]]\nkind = \"indent\"\nto = \"1e9 mm\"\n[[step]]\nkind = \"hold\"\n"),
+      "press.toml:3:6: `to` of 1e+09 mm is deeper than the finger's radius of 11 mm, where no "
+      "Hertz contact is left; press less deep");
+  EXPECT_EQ(
+      refusal(press + "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = "
+                      "\"retract\"\nto = \"1.5 mm\"\n"),
+      "press.toml:6:6: `indent` goes to 1 mm, which is not below the travel of 2 mm before it; "
+      "use `retract` to go back");
 }
 
 }  // namespace

@@ -23,9 +23,10 @@ TEST(Steps, GoOnFromWhereTheLastOneEnded) {
   EXPECT_EQ(refusal(step("indent", "2 mm") + step("indent", "3 mm") + step("retract", "1 mm") +
                     step("indent", "2 mm") + step("retract", "-1 mm")),
             "accepted");
-  EXPECT_EQ(refusal(step("indent", "2 mm") + step("indent", "2 mm")),
-            "press.toml:6:6: `indent` goes to 2 mm, which is not below the travel of 2 mm before it; "
-            "use `retract` to go back");
+  EXPECT_EQ(
+      refusal(step("indent", "2 mm") + step("indent", "2 mm")),
+      "press.toml:6:6: `indent` goes to 2 mm, which is not below the travel of 2 mm before it; "
+      "use `retract` to go back");
   EXPECT_EQ(refusal(step("indent", "2 mm") + step("retract", "3 mm")),
             "press.toml:6:6: `retract` goes to 3 mm, which is not above the travel of 2 mm before "
             "it; use `indent` to go deeper");
@@ -37,9 +38,10 @@ TEST(Steps, GoOnFromWhereTheLastOneEnded) {
 TEST(Steps, AStepToAForceLeavesTheTravelOpen) {
   EXPECT_EQ(refusal(step("indent", "1 N") + step("indent", "2 N") + step("retract", "0 mm")),
             "accepted");
-  EXPECT_EQ(refusal(step("indent", "2 N") + step("indent", "1 N")),
-            "press.toml:6:6: `indent` goes to 1 N, which is not above the force of 2 N before it; use "
-            "`retract` to go back");
+  EXPECT_EQ(
+      refusal(step("indent", "2 N") + step("indent", "1 N")),
+      "press.toml:6:6: `indent` goes to 1 N, which is not above the force of 2 N before it; use "
+      "`retract` to go back");
   EXPECT_EQ(refusal(step("indent", "2 N") + step("indent", "5 mm")),
             "press.toml:6:6: `indent` goes to 5 mm after a step to a force, which may have gone "
             "deeper; give a force here too, or `retract` first");
@@ -53,15 +55,17 @@ TEST(Steps, StayInsideTheSpecimen) {
                     "[tissue]\nshape = { size = [\"60 mm\", \"60 mm\", \"4 mm\"] }\n"),
             "press.toml:3:6: `to` of 4 mm presses through the specimen, which is 4 mm high; press "
             "less deep");
-  EXPECT_EQ(refusal(step("indent", "4 mm") +
-                    "[tissue]\nshape = { size = [\"60 mm\", \"10 mm\", \"30 mm\"] }\n"),
-            "press.toml:3:6: `to` of 4 mm makes a contact wider than the specimen's top; press less "
-            "deep or use a wider specimen");
+  EXPECT_EQ(
+      refusal(step("indent", "4 mm") +
+              "[tissue]\nshape = { size = [\"60 mm\", \"10 mm\", \"30 mm\"] }\n"),
+      "press.toml:3:6: `to` of 4 mm makes a contact wider than the specimen's top; press less "
+      "deep or use a wider specimen");
 }
 
 TEST(Steps, OfBothKindsAreTwoScenarios) {
   const std::string sentence =
-      "`creep` and `relax` load the end faces without a finger, the other kinds of `step` have one; "
+      "`creep` and `relax` load the end faces without a finger, the other kinds of `step` have "
+      "one; "
       "put them into two scenarios";
   EXPECT_EQ(refusal(step("indent", "2 mm") + "[[step]]\nkind = \"creep\"\n[finger]\nradius = \"9 "
                                              "mm\"\n"),
@@ -72,8 +76,8 @@ TEST(Steps, OfBothKindsAreTwoScenarios) {
 
 TEST(Steps, TimesFitEachOther) {
   const auto times = [](const std::string& time_step) {
-    return refusal(step("indent", "2 mm") + "[output]\ninterval = \"1 ms\"\n[solver]\ntime_step = \"" +
-                   time_step + "\"\n");
+    return refusal(step("indent", "2 mm") +
+                   "[output]\ninterval = \"1 ms\"\n[solver]\ntime_step = \"" + time_step + "\"\n");
   };
   for (const char* fits : {"auto", "1 ms", "0.5 ms", "0.1 ms", "0.001 ms", "1e-6 s"})
     EXPECT_EQ(times(fits), "accepted") << fits;

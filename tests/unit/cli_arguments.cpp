@@ -1,0 +1,128 @@
+// The command line as values, and the sentences for one that is not ours.
+#include "cli/arguments.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace palpate::cli {
+namespace {
+
+using Words = std::vector<std::string>;
+using RunCommand = Run;  // testing::Test has a Run of its own
+
+template <class Command>
+Command accepted(const Words& words) {
+  const auto parsed = parse(words);
+  if (const auto* wrong = std::get_if<UsageError>(&parsed))
+    throw std::runtime_error(wrong->message);
+  return std::get<Command>(std::get<Arguments>(parsed).verb);
+}
+
+Manner manner(const Words& words) { return std::get<Arguments>(parse(words)).manner; }
+
+std::string refusal(const Words& words) {
+  const auto parsed = parse(words);
+  const auto* wrong = std::get_if<UsageError>(&parsed);
+  return wrong != nullptr ? wrong->message : "accepted";
+}
+
+std::string answer(const Words& words) {
+  const auto parsed = parse(words);
+  const auto* text = std::get_if<Answer>(&parsed);
+  return text != nullptr ? text->text : "no answer";
+}
+
+TEST(Arguments, OfRun) {
+  const RunCommand run =
+      accepted<RunCommand>({"run", "a.toml", "--set", "x.y=1 mm", "b.toml", "--set=z=-2", "--out",
+                            "there", "--jobs", "2", "--force"});
+  EXPECT_EQ(run.scenarios, (Words{"a.toml", "b.toml"}));
+  EXPECT_EQ(run.settings, (Words{"x.y=1 mm", "z=-2"}));
+  EXPECT_EQ(run.out, "there");
+  EXPECT_EQ(run.jobs, 2);
+  EXPECT_TRUE(run.force);
+  EXPECT_EQ(accepted<RunCommand>({"run", "a.toml"}).out, "out");
+}
+
+TEST(Arguments, OfTheOtherVerbs) {
+  EXPECT_EQ(accepted<Explain>({"explain", "tissue.mesh"}).subject, "tissue.mesh");
+  const Fit fit = accepted<Fit>({"fit", "d.csv", "--x", "h", "--y", "F", "--model", "power",
+                                 "--origin", "-0.5", "--case", "skin"});
+  EXPECT_EQ(fit.x_origin, -0.5);  // a negative number is no option
+  EXPECT_EQ(fit.case_name, "skin");
+  const Compare compare = accepted<Compare>({"compare", "a", "b", "--tolerances", "t.toml"});
+  EXPECT_EQ(compare.got + compare.want + compare.tolerances, "abt.toml");
+  const Bless bless = accepted<Bless>({"golden", "bless", "one", "two", "--reason", "why"});
+  EXPECT_EQ(bless.names, (Words{"one", "two"}));
+  (void)accepted<Manual>({"manual"});
+}
+
+TEST(Arguments, OfEveryVerbStandBeforeOrAfterIt) {
+  EXPECT_TRUE(manner({"--quiet", "run", "a.toml"}).quiet);
+  EXPECT_TRUE(manner({"run", "a.toml", "--quiet"}).quiet);
+  EXPECT_TRUE(manner({"-q", "run", "a.toml", "--json"}).json);
+  EXPECT_FALSE(manner({"run", "a.toml"}).json);
+}
+
+TEST(Arguments, AValueMayLookLikeAnythingElse) {
+  EXPECT_EQ(accepted<Bless>({"golden", "bless", "one", "--reason", "--quiet is quiet"}).reason,
+            "--quiet is quiet");
+  EXPECT_EQ(accepted<RunCommand>({"run", "a.toml", "--out", "--there"}).out, "--there");
+  EXPECT_EQ(accepted<RunCommand>({"run", "manual"}).scenarios, Words{"manual"});
+  EXPECT_EQ(accepted<RunCommand>({"run", "--", "--odd.toml"}).scenarios, Words{"--odd.toml"});
+}
+
+TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
+  const std::pair<Words, const char*> cases[] = {
+      {{},
+       "`palpate` wants a verb: run, explain, fit, compare, golden, manual; `palpate --help` shows "
+       "how to write it"},
+      {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
+      {{"xyzzy"}, "unknown verb `xyzzy`; known: run, explain, fit, compare, golden, manual"},
+      {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
+      {{"golden"},
+       "`palpate golden` wants a verb: bless; `palpate golden --help` shows how to write "
+       "it"},
+      {{"run", "a.toml", "--forse"}, "unknown option `--forse`; did you mean `--force`?"},
+      {{"run", "a.toml", "--sett=x=1"}, "unknown option `--sett`; did you mean `--set`?"},
+      {{"compare", "a", "b", "--jobs", "2"}, "unknown option `--jobs`; did you mean `--json`?"},
+      {{"--force", "run", "a.toml"},
+       "option `--force` stands before its verb; write it as `palpate run ... --force`"},
+      {{"run"}, "`palpate run` lacks `scenario`; `palpate run --help` shows how to write it"},
+      {{"compare", "a"},
+       "`palpate compare` lacks `want`; `palpate compare --help` shows how to write "
+       "it"},
+      {{"fit", "d.csv", "--x", "h", "--model", "power"},
+       "`palpate fit` lacks `--y`; `palpate fit --help` shows how to write it"},
+      {{"golden", "bless", "one"},
+       "`palpate golden bless` lacks `--reason`; `palpate golden bless --help` shows how to write "
+       "it"},
+      {{"run", "a.toml", "--jobs", "-1"},
+       "`palpate run` cannot be read: --jobs: Value -1 not in range 0 to 1024; `palpate run "
+       "--help` "
+       "shows how to write it"},
+      {{"run", "a.toml", "--out"},
+       "`palpate run` cannot be read: --out: 1 required TEXT missing; `palpate run --help` shows "
+       "how "
+       "to write it"},
+      {{"compare", "a", "b", "c"},
+       "`palpate compare` cannot be read: The following argument was not expected: c; `palpate "
+       "compare --help` shows how to write it"},
+  };
+  for (const auto& [words, sentence] : cases) EXPECT_EQ(refusal(words), sentence);
+}
+
+TEST(Arguments, HelpAndVersionAreAnswers) {
+  EXPECT_TRUE(answer({"--version"}).starts_with("palpate 0."));
+  EXPECT_NE(answer({"--help"}).find("Exit codes: 0 good"), std::string::npos);
+  for (const char* verb : {"run", "explain", "fit", "compare", "golden", "manual"})
+    EXPECT_NE(answer({verb, "--help"}).find("Usage: palpate " + std::string(verb)),
+              std::string::npos)
+        << verb;
+  EXPECT_NE(answer({"golden", "bless", "-h"}).find("Usage: palpate golden bless"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::cli

@@ -1,0 +1,106 @@
+// `palpate compare`: exit codes, and the words by which a difference is found.
+#include <gtest/gtest.h>
+
+#include "program.h"
+
+namespace palpate::test {
+namespace {
+
+class CompareVerb : public testing::Test {
+ protected:
+  Ended compare(const std::string& got, const std::string& want, const std::string& tolerances = {}) {
+    write_file(folder_ / "got.csv", got);
+    write_file(folder_ / "want.csv", want);
+    std::vector<std::string> arguments{"compare", "got.csv", "want.csv"};
+    if (!tolerances.empty()) {
+      write_file(folder_ / "tolerances.toml", tolerances);
+      arguments.insert(arguments.end(), {"--tolerances", "tolerances.toml"});
+    }
+    return palpate(folder_.path(), arguments);
+  }
+  void expect(const Ended& ended, int code, const std::string& text) {
+    EXPECT_EQ(ended.code, code);
+    EXPECT_EQ(ended.out, text);
+    EXPECT_EQ(ended.err, "");
+  }
+
+  TemporaryFolder folder_;
+  const std::string base_ = "case,a_mm\nskin,1\nskin,2\nskin,4\n";
+};
+
+TEST_F(CompareVerb, equal) { expect(compare(base_, base_), 0, "case: the same\na_mm: the same\n"); }
+
+TEST_F(CompareVerb, the_worst_row_is_named) {
+  expect(compare("case,a_mm\nskin,1.5\nskin,2.5\nskin,8\n", base_), 3,
+         "case: the same\n"
+         "a_mm: DIFFERS in 3 rows; worst row 3: got 8, want 4, relative difference 1, "
+         "allowed 4e-09\n");
+}
+
+TEST_F(CompareVerb, within_a_tolerance) {
+  const std::string tolerances = "[column.a_mm]\nrel = 0.01\nreason = \"a test\"\n";
+  expect(compare("case,a_mm\nskin,1\nskin,2.01\nskin,4\n", base_, tolerances), 0,
+         "case: the same\n"
+         "a_mm: equal; worst row 2: got 2.01, want 2, relative difference 0.005, allowed 0.02\n");
+  EXPECT_EQ(compare("case,a_mm\nskin,1\nskin,2.03\nskin,4\n", base_, tolerances).code, 3);
+}
+
+TEST_F(CompareVerb, columns_and_rows_too_few_and_too_many) {
+  expect(compare("case\nskin\nskin\nskin\n", base_), 3,
+         "case: the same\na_mm: DIFFERS, the column is missing\n");
+  expect(compare("case,a_mm,b\nskin,1,0\nskin,2,0\nskin,4,0\n", base_), 3,
+         "case: the same\na_mm: the same\nb: DIFFERS, the column is not wanted\n");
+  expect(compare("case,a_mm\nskin,1\n", base_), 3,
+         "rows: DIFFERS, got 1, want 3\ncase: the same\na_mm: the same\n");
+  expect(compare(base_ + "skin,5\n", base_), 3,
+         "rows: DIFFERS, got 4, want 3\ncase: the same\na_mm: the same\n");
+}
+
+TEST_F(CompareVerb, what_is_no_number) {
+  expect(compare("a\nnan\ninf\n", "a\nnan\ninf\n"), 0, "a: the same\n");
+  const std::string wide = "[default]\nrel = 1e9\nabs = 1e9\n";
+  expect(compare("a\nnan\n", "a\n1\n", wide), 3,
+         "a: DIFFERS in 1 row; worst row 1: got nan, want 1, allowed 2e+09\n");
+  EXPECT_EQ(compare("a\n1\n", "a\nnan\n", wide).code, 3);
+  EXPECT_EQ(compare("a\ninf\n", "a\n-inf\n", wide).code, 3);
+  EXPECT_EQ(compare("a,b\n,1\n", "a,b\n1,1\n", wide).code, 3) << "nothing is not a number";
+  EXPECT_EQ(compare("case\nskin\n", "case\nbone\n", wide).code, 3);
+}
+
+TEST_F(CompareVerb, folders) {
+  write_file(folder_ / "a/x.csv", base_);
+  write_file(folder_ / "a/run.json", "{}");
+  write_file(folder_ / "b/x.csv", base_);
+  expect(palpate(folder_.path(), {"compare", "a", "b"}), 0,
+         "x.csv: equal\ncase: the same\na_mm: the same\n");
+  write_file(folder_ / "b/y.csv", base_);
+  Ended ended = palpate(folder_.path(), {"compare", "a", "b"});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_NE(ended.out.find("y.csv: DIFFERS, the file is missing\n"), std::string::npos);
+  ended = palpate(folder_.path(), {"compare", "b", "a"});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_NE(ended.out.find("y.csv: DIFFERS, the file is not wanted\n"), std::string::npos);
+}
+
+TEST_F(CompareVerb, what_cannot_be_compared) {
+  write_file(folder_ / "a/x.csv", base_);
+  fs::create_directory(folder_ / "empty");
+  const auto complaint = [&](const std::string& got, const std::string& want) {
+    const Ended ended = palpate(folder_.path(), {"compare", got, want});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_EQ(ended.out, "");
+    return ended.err;
+  };
+  EXPECT_EQ(complaint("nothing", "a"), "nothing: is not there; give a CSV file or a result folder\n");
+  EXPECT_EQ(complaint("a", "nothing"), "nothing: is not there; give a CSV file or a result folder\n");
+  EXPECT_EQ(complaint("a", "a/x.csv"),
+            "a: and a/x.csv are a file and a folder; give two files or two folders\n");
+  EXPECT_EQ(complaint("a", "empty"),
+            "empty: holds no CSV file to compare with; give a folder of results\n");
+  const Ended ended = compare(base_, base_, "[column.a_mm]\nrel = -1\n");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err.rfind("tolerances.toml:2:7: ", 0), 0U) << ended.err;
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,158 @@
+// `palpate fit` on tables of a user's: known answers, what is left out, messages, no library's log.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "program.h"
+#include "record/csv.h"
+
+namespace palpate::test {
+namespace {
+
+bool says(const Ended& ended, const std::string& words) {
+  return ended.err.find(words) != std::string::npos;
+}
+
+class FitVerb : public testing::Test {
+ protected:
+  Ended fit(const std::string& csv, const std::string& model,
+            const std::vector<std::string>& more = {}) {
+    write_file(folder_ / "data.csv", csv);
+    std::vector<std::string> arguments{"fit", "data.csv",   "--x",     "depth_mm",
+                                       "--y", "force_N",    "--model", model};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return palpate(folder_.path(), arguments);
+  }
+
+  // The table on stdout.
+  record::Table table(const Ended& ended) {
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    write_file(folder_ / "fit.csv", ended.out);
+    return record::read_csv((folder_ / "fit.csv").string());
+  }
+
+  static record::Cell cell(const record::Table& table, const std::string& parameter,
+                           const std::string& column) {
+    for (const auto& row : table.rows)
+      if (row[static_cast<std::size_t>(table.find("parameter"))] == record::Cell(parameter))
+        return row[static_cast<std::size_t>(table.find(column))];
+    ADD_FAILURE() << "no parameter " << parameter;
+    return std::monostate{};
+  }
+  static double number(const record::Table& table, const std::string& parameter,
+                       const std::string& column) {
+    const record::Cell found = cell(table, parameter, column);
+    const double* value = std::get_if<double>(&found);
+    return value != nullptr ? *value : std::nan("");
+  }
+
+  TemporaryFolder folder_;
+};
+
+// ln x = 0, 1, 2 against y = 0, 1, 1: b = 1/2, a = 1/6, residuals -1/6, 1/3, -1/6, their squares'
+// sum 1/6, one degree of freedom, s^2(b) = (1/6) / 2, t(0.975, 1) = 12.7062047.
+TEST_F(FitVerb, logarithmic_by_hand) {
+  const record::Table fitted = table(
+      fit("depth_mm,force_N\n1,0\n2.718281828459045,1\n7.38905609893065,1\n", "logarithmic"));
+  EXPECT_NEAR(number(fitted, "a", "estimate"), 1.0 / 6.0, 1e-12);  // rounding
+  EXPECT_NEAR(number(fitted, "b", "estimate"), 0.5, 1e-12);        // rounding
+  const double error = std::sqrt(1.0 / 12.0);
+  EXPECT_NEAR(number(fitted, "b", "std_error"), error, 1e-9);  // through a covariance
+  EXPECT_NEAR(number(fitted, "b", "ci95_high"), 0.5 + 12.706204736432095 * error, 1e-6);  // t's digits
+  EXPECT_NEAR(number(fitted, "b", "r2"), 0.75, 1e-12);  // 1 - (1/6) / (2/3), rounding
+  EXPECT_EQ(cell(fitted, "b", "unit"), record::Cell("N"));
+  EXPECT_EQ(cell(fitted, "b", "n"), record::Cell(3.0));
+  EXPECT_EQ(cell(fitted, "b", "range_low"), record::Cell(1.0));
+  EXPECT_EQ(cell(fitted, "b", "curve"), record::Cell("force_N over depth_mm"));
+}
+
+TEST_F(FitVerb, power_of_a_parabola) {
+  const record::Table fitted =
+      table(fit("depth_mm,force_N\n1,3\n2,12\n3,27\n4,48\n", "power"));  // 3 x^2
+  EXPECT_NEAR(number(fitted, "A", "estimate"), 3.0, 1e-7);  // the solver's own end
+  EXPECT_NEAR(number(fitted, "n", "estimate"), 2.0, 1e-7);
+  EXPECT_EQ(cell(fitted, "A", "unit"), record::Cell("N/mm^n"));
+  EXPECT_EQ(cell(fitted, "n", "termination"), record::Cell("converged"));
+}
+
+TEST_F(FitVerb, kelvin_voigt_from_an_origin) {
+  std::string csv = "depth_mm,force_N\n";
+  for (int i = 0; i <= 20; ++i) {
+    const double x = 0.1 * i;
+    csv += std::to_string(x + 5.0) + "," + std::to_string(4.0 * (1.0 - std::exp(-x / 0.5))) + "\n";
+  }
+  const record::Table fitted = table(fit(csv, "kelvin_voigt", {"--origin", "5"}));
+  EXPECT_NEAR(number(fitted, "y_inf", "estimate"), 4.0, 1e-5);  // six printed digits
+  EXPECT_NEAR(number(fitted, "tau", "estimate"), 0.5, 1e-5);    // the same
+  EXPECT_EQ(cell(fitted, "tau", "unit"), record::Cell("mm"));
+}
+
+TEST_F(FitVerb, what_has_no_logarithm_is_left_out_and_counted) {
+  const Ended ended = fit(
+      "depth_mm,force_N\n-1,9\n0,9\n1,2\n2.718281828459045,5\n7.38905609893065,8\n,4\n", "logarithmic");
+  const record::Table fitted = table(ended);
+  EXPECT_NEAR(number(fitted, "a", "estimate"), 2.0, 1e-9);  // y = 2 + 3 ln x, rounding
+  EXPECT_NEAR(number(fitted, "b", "estimate"), 3.0, 1e-9);
+  EXPECT_EQ(cell(fitted, "a", "n"), record::Cell(3.0));
+  EXPECT_EQ(ended.err,
+            "note: 3 points are left out: not finite, or x <= 0 where its logarithm is needed\n");
+}
+
+TEST_F(FitVerb, one_case_of_a_result) {
+  write_file(folder_ / "data.csv",
+             "case,depth_mm,force_N\na,1,1\nb,1,5\na,2,4\nb,2,5\na,3,9\nb,3,5\n");
+  const record::Table fitted =
+      table(palpate(folder_.path(), {"fit", "data.csv", "--x", "depth_mm", "--y", "force_N",
+                                     "--model", "power", "--case", "a"}));
+  EXPECT_EQ(cell(fitted, "n", "case"), record::Cell("a"));
+  EXPECT_NEAR(number(fitted, "n", "estimate"), 2.0, 1e-7);  // the solver's own end
+}
+
+TEST_F(FitVerb, messages) {
+  const std::string csv = "depth_mm,force_N\n1,3\n2,12\n3,x\n";
+  Ended ended = fit(csv, "powr");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err, "palpate: `--model` does not know `powr`; did you mean `power`?\n");
+  ended = fit(csv, "zzzzzzzzzzzz");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(says(ended, "does not know `zzzzzzzzzzzz`; it is one of logarithmic, power,"))
+      << ended.err;
+  ended = fit(csv, "power");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err,
+            "data.csv:4: `force_N` holds `x`, which is no number; name a column of numbers\n");
+  ended = palpate(folder_.path(), {"fit", "data.csv", "--x", "dept_mm", "--y", "force_N", "--model",
+                                   "power"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err, "data.csv:1: has no column `dept_mm`; did you mean `depth_mm`?\n");
+  ended = palpate(folder_.path(), {"fit", "nothing.csv", "--x", "a", "--y", "b", "--model", "power"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(says(ended, "nothing.csv: cannot be read: No such file or directory")) << ended.err;
+}
+
+TEST_F(FitVerb, too_few_points) {
+  const Ended ended = fit("depth_mm,force_N\n1,3\n", "power");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(says(ended, "data.csv: ")) << ended.err;
+  EXPECT_EQ(ended.out, "");
+}
+
+// Curves that no model's parameters can follow: Ceres fails or stops, glog would say so.
+TEST_F(FitVerb, no_library_talks_even_where_a_fit_fails) {
+  for (const char* model : {"logarithmic", "power", "exponential", "kelvin_voigt",
+                            "kelvin_voigt_recovery", "standard_linear_solid"})
+    for (const char* csv : {"depth_mm,force_N\n1,1e308\n2,-1e308\n3,1e308\n4,-1e308\n",
+                            "depth_mm,force_N\n1e300,1\n2e300,5\n3e300,-7\n4e300,1e-300\n",
+                            "depth_mm,force_N\n1,0\n1,0\n1,0\n1,0\n",
+                            "depth_mm,force_N\nnan,1\ninf,2\n1,nan\n2,-inf\n"}) {
+      const Ended ended = fit(csv, model);
+      EXPECT_TRUE(ended.code == 0 || ended.code == 2) << model << ": " << ended.code << ended.err;
+      const bool ours = ended.err.empty() || ended.err.starts_with("data.csv: ") ||
+                        ended.err.starts_with("note: ");
+      EXPECT_TRUE(ours) << model << " on\n" << csv << "says\n" << ended.err;
+      EXPECT_EQ(ended.err.find(".cc:"), std::string::npos) << "a line of glog:\n" << ended.err;
+    }
+}
+
+}  // namespace
+}  // namespace palpate::test

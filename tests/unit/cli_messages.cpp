@@ -1,0 +1,156 @@
+// Through the real program: the sentence on stderr, nothing on stdout, exit code 2, no result.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "base/files.h"
+#include "report/process.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Said {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+class Messages : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("palpate_messages_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    write_atomically((folder_ / name).string(), text);
+  }
+
+  // What the program says in the test's own folder; each stream goes to a file of its own.
+  [[nodiscard]] Said palpate(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" PALPATE_PROGRAM "' " + arguments + " >stdout 2>stderr";
+    const auto result = report::run_process({.argv = {"sh", "-c", command}});
+    Said said{result.code, read_text((folder_ / "stdout").string()),
+              read_text((folder_ / "stderr").string())};
+    return said;
+  }
+
+  void expect_refused(const std::string& arguments, const std::string& sentence) const {
+    const Said said = palpate(arguments);
+    EXPECT_EQ(said.code, 2) << arguments;
+    EXPECT_EQ(said.out, "") << arguments;
+    EXPECT_EQ(said.err, sentence + "\n") << arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << arguments;
+  }
+
+  fs::path folder_;
+};
+
+const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
+
+TEST_F(Messages, OneOfEachClass) {
+  const std::pair<std::string, std::string> cases[] = {
+      {"[tissue]\nyoung_modulos = \"60 kPa\"\n",
+       "press.toml:5:1: `young_modulos` is not a key here; did you mean `young_modulus`?"},
+      {"[tisue]\n", "press.toml:4:2: `tisue` is not a key here; did you mean `tissue`?"},
+      {"[solver]\nmodel = \"hertz\"\n[tissue]\ndensity = \"1100 kg/m^3\"\n",
+       "press.toml:7:1: `density` has no effect here: it is used only with `solver.model = "
+       "\"mass_spring\"`; remove it or change that"},
+      {"rate = \"3 kPa\"\n",
+       "press.toml:4:8: `rate` wants a speed, got `3 kPa`, a pressure; write it as `3 mm/s`"},
+      {"rate = \"3\"\n",
+       "press.toml:4:8: `rate` wants a speed with its unit, got `3`; write it as `3 mm/s`"},
+      {"[tissue]\npoisson_ratio = 0.5\n",
+       "press.toml:5:17: `poisson_ratio` must be above -1 and below 0.5, got `0.5`; give a value "
+       "in "
+       "that range"},
+      {"[contact]\nfriction = nan\n",
+       "press.toml:5:12: `friction` wants a finite number, got `nan`; write one as `0.5`"},
+      {"[contact]\nfriction = 1e400\n",
+       "press.toml:5:12: `1e400` is a number that no double can hold; write one between -1e300 and "
+       "1e300"},
+      {"to = \"3 mm\"\n", "press.toml:4:1: `to` is given twice; keep one of the two"},
+      {"[contact]\nfriction = \"high\"\n",
+       "press.toml:5:12: `friction` wants a pure number, got a text `high`; write it as `friction "
+       "= "
+       "0.5`"},
+      {"[contact]\nfriction = -1\n[finger]\nradius = \"0 mm\"\n",
+       "press.toml:5:12: `friction` must be at least 0, got `-1`; give a value in that range\n"
+       "press.toml:7:10: `radius` must be above 0 mm, got `0 mm`; give a value in that range"},
+  };
+  for (const auto& [text, sentence] : cases) {
+    write("press.toml", press + text);
+    expect_refused("run press.toml", sentence);
+    expect_refused("explain press.toml", sentence);
+  }
+}
+
+TEST_F(Messages, FilesThatAreNone) {
+  write("empty.toml", "");
+  write("binary.toml", std::string("\x7f\x45LF\x02\x01\x00", 7));
+  expect_refused("run empty.toml",
+                 "empty.toml:1:1: the file is empty; a scenario starts with `schema = 1`");
+  expect_refused("run binary.toml", "binary.toml:1:1: this is not a text file; give a TOML file");
+  expect_refused("run no.toml",
+                 "no.toml: cannot be read: No such file or directory; check the path");
+  expect_refused("run .", ".: is not a file; give the path of a file");
+  expect_refused("run no.toml empty.toml",
+                 "no.toml: cannot be read: No such file or directory; check the path\n"
+                 "empty.toml:1:1: the file is empty; a scenario starts with `schema = 1`");
+}
+
+TEST_F(Messages, SettingsAndArguments) {
+  write("press.toml", press);
+  expect_refused("run press.toml --set finger.radius=-1 --set 'step.1.to=3 kPa'",
+                 "--set finger.radius=-1: `radius` wants a length with its unit, as text, got an "
+                 "integer `-1`; write it as `radius = \"-1 mm\"`\n"
+                 "--set step.1.to=3 kPa: `to` wants a length or a force, got `3 kPa`, a pressure; "
+                 "write it as `3 mm`");
+  expect_refused("ruun press.toml", "palpate: unknown verb `ruun`; did you mean `run`?");
+  expect_refused("run press.toml --forse",
+                 "palpate: unknown option `--forse`; did you mean `--force`?");
+  expect_refused("run",
+                 "palpate: `palpate run` lacks `scenario`; `palpate run --help` shows how to "
+                 "write it");
+}
+
+TEST_F(Messages, ExplainKnowsKeysAndTables) {
+  const Said friction = palpate("explain contact.friction");
+  EXPECT_EQ(friction.code, 0);
+  EXPECT_EQ(friction.err, "");
+  EXPECT_EQ(friction.out,
+            "`[contact]`: `friction`\n  value:   number >= 0\n  default: `0`\n  Coulomb's "
+            "coefficient mu.\n");
+  EXPECT_EQ(palpate("explain friction").out, friction.out);
+  EXPECT_NE(palpate("explain step.1.rate").out.find("`step`, `kind = \"retract\"`: `rate`"),
+            std::string::npos);
+  EXPECT_NE(palpate("explain contact").out.find("`[contact]`: `coupling`"), std::string::npos);
+  expect_refused("explain contact.fricton",
+                 "palpate: `contact.fricton` is neither a file nor a key; "
+                 "did you mean `contact.friction`?");
+  expect_refused("explain finger.coupling",
+                 "palpate: `finger.coupling` is neither a file nor a key; "
+                 "did you mean `contact.coupling`?");
+  expect_refused("explain xyzzyxyzzy",
+                 "palpate: `xyzzyxyzzy` is neither a file nor a key; `palpate "
+                 "manual` lists all keys");
+}
+
+TEST_F(Messages, AnswersGoToStdout) {
+  for (const char* asked :
+       {"--help", "run --help", "explain --help", "fit --help", "compare --help",
+        "golden bless --help", "manual --help", "--version", "manual"}) {
+    const Said said = palpate(asked);
+    EXPECT_EQ(said.code, 0) << asked;
+    EXPECT_EQ(said.err, "") << asked;
+    EXPECT_NE(said.out, "") << asked;
+  }
+}
+
+}  // namespace
+}  // namespace palpate
