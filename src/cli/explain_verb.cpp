@@ -49,7 +49,10 @@ std::string meaning(const std::string& asked) {
     known.insert(known.end(), {path, name, table});
     if (key != path && key != name && (key.empty() || key != table)) continue;
     const auto cells = split(line, '|');
-    found += section + ": `" + name + "`\n  value:   " + trimmed(cells[2]) +
+    std::string value = trimmed(cells[2]);
+    for (std::size_t at = value.find("<br>"); at != std::string::npos; at = value.find("<br>"))
+      value.replace(at, 4, "\n           ");
+    found += section + ": `" + name + "`\n  value:   " + value +
              "\n  default: " + trimmed(cells[3]) + "\n  " + trimmed(cells[4]) + "\n";
   }
   if (!found.empty()) return found;

@@ -67,7 +67,8 @@ int fit_columns(const Fit& command) {
   print(record::csv_text(fit::fit_table(named)));
   if (result.left_out > 0)
     Talk::error("note: " + std::to_string(result.left_out) +
-                " points are left out: not finite, or x <= 0 where its logarithm is needed");
+                (result.left_out == 1 ? " point is" : " points are") +
+                " left out: not finite, or x <= 0 where its logarithm is needed");
   return exit_good;
 }
 

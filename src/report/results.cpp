@@ -93,7 +93,8 @@ CsvFiles csv_files(const scenario::Family& family, const std::vector<record::Cas
 ResultFolder::ResultFolder(const std::string& out, const scenario::Family& family, bool replace)
     : family_(&family),
       path_((fs::path(out) / family.name).string()),
-      partial_(path_ + ".partial-" + std::to_string(::getpid())) {
+      partial_(path_ + ".partial-" + std::to_string(::getpid())),
+      replace_(replace) {
   if (!replace && is_complete(path_))
     throw InputError({path_, 0, 0},
                      "holds a finished result; give `--force` to replace it, or another `--out`");
@@ -181,8 +182,8 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   for (std::size_t i = 0; i < family_->cases.size(); ++i)
     fs::remove_all(partial_ + "/" + numbered("case", i + 1, ""), ignored);
   finished_ = true;
-  if (!manifest.complete && is_complete(path_)) {
-    warnings.push_back(path_ + " is not replaced by a part of a run; the finished cases are in " +
+  if (is_complete(path_) && !(replace_ && manifest.complete)) {  // of before, or of meanwhile
+    warnings.push_back(path_ + " is a finished result and is not replaced; this run's is in " +
                        partial_);
     path_ = partial_;
   } else {

@@ -44,8 +44,8 @@ class ResultFolder {
   // Keeps a finished case on the disk at once. One call at a time.
   void keep(std::size_t index, const record::CaseRecord& record);
 
-  // Writes the result and puts it in its place; a part of a run never replaces a complete result
-  // and stays beside it. Returns warnings, such as a missing gnuplot.
+  // Writes the result and puts it in its place. Beside it stays a part of a run, or a run without
+  // `replace`, where a complete result stands by then. Returns warnings, such as a missing gnuplot.
   std::vector<std::string> finish(const std::vector<record::CaseRecord>& records,
                                   const std::vector<fit::NamedFit>& fits, const Origin& origin);
 
@@ -58,6 +58,7 @@ class ResultFolder {
   const scenario::Family* family_;
   std::string path_;
   std::string partial_;
+  bool replace_ = false;
   bool cases_kept_ = false;
   bool finished_ = false;
   std::vector<std::string> files_;

@@ -102,5 +102,15 @@ TEST_F(CompareVerb, what_cannot_be_compared) {
   EXPECT_EQ(ended.err.rfind("tolerances.toml:2:7: ", 0), 0U) << ended.err;
 }
 
+// A verdict that nobody can read is no verdict.
+TEST_F(CompareVerb, stdout_that_takes_nothing) {
+  write_file(folder_ / "a.csv", base_);
+  const Ended ended = run_program({.arguments = {"compare", "a.csv", "a.csv"},
+                                   .folder = folder_.path(),
+                                   .before = [] { ::dup2(::open("/dev/full", O_WRONLY), 1); }});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_EQ(ended.err, "palpate: stdout cannot be written\n");
+}
+
 }  // namespace
 }  // namespace palpate::test

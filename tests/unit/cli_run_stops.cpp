@@ -92,10 +92,26 @@ TEST_F(RunStops, a_part_of_a_run_never_replaces_a_whole_result) {
   running.send(SIGINT);
   const Ended ended = running.wait();
   EXPECT_EQ(ended.code, 130);
-  EXPECT_NE(ended.err.find("out/slow is not replaced by a part of a run"), std::string::npos)
+  EXPECT_NE(ended.err.find("out/slow is a finished result and is not replaced"), std::string::npos)
       << ended.err;
   EXPECT_TRUE(fs::exists(folder_ / "out/slow/mark"));
   EXPECT_EQ(record::read_csv(beside / "findings.csv").rows.size(), 1U);
+}
+
+// Two runs of one name: who comes second has not been told to replace.
+TEST_F(RunStops, a_result_that_another_run_finished_meanwhile_stays) {
+  Running running(call({"--set", "sweep.step.1.to=[\"0.005 mm\", \"0.006 mm\", \"0.02 mm\"]"}));
+  wait_for_first_case(running);
+  const fs::path beside = partial(running);
+  write_file(folder_ / "out/slow/run.json", "{\n  \"complete\": true\n}\n");
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_NE(ended.err.find("out/slow is a finished result and is not replaced; this run's is in " +
+                           std::string("out/") + beside.filename().string()),
+            std::string::npos)
+      << ended.err;
+  EXPECT_EQ(names_in(folder_ / "out/slow"), std::set<std::string>{"run.json"});
+  EXPECT_EQ(record::read_csv(beside / "findings.csv").rows.size(), 3U);
 }
 
 // The first row ends after 1e5 s of simulated time: only the second signal can end this in time.
