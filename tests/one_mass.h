@@ -45,7 +45,7 @@ struct OneMass final : integrate::Body {
   }
   [[nodiscard]] SparseMatrix stiffness() const override { return diagonal(k); }
   [[nodiscard]] bool has_dashpots() const override { return tau > 0.0; }
-  [[nodiscard]] SparseMatrix dashpots() const override { return diagonal(tau * k); }
+  [[nodiscard]] SparseMatrix dashpots(const Vector&) const override { return diagonal(tau * k); }
   void dashpot_force(const Vector&, const Vector& v, Vector& f) const override { f = tau * k * v; }
   [[nodiscard]] std::vector<double> memory_at(const Vector& u) const override { return {u[0]}; }
   void remember(const Vector& u, const integrate::TimeStep&,

@@ -8,8 +8,8 @@
 #include "base/text.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
-#include "record/csv.h"
 #include "fit/case_fits.h"
+#include "record/csv.h"
 #include "report/machine.h"
 #include "report/process.h"
 #include "report/results.h"
@@ -42,8 +42,9 @@ std::string uncommitted() {
 
 void refuse_where_unsafe() {
   if (const char* ci = std::getenv("CI"); ci != nullptr && *ci != '\0')
-    throw InputError({}, "palpate: `CI` is set, and a machine must not bless its own results; "
-                         "run this by hand");
+    throw InputError({},
+                     "palpate: `CI` is set, and a machine must not bless its own results; "
+                     "run this by hand");
   if (const std::string changed = uncommitted(); !changed.empty())
     throw InputError({}, "palpate: the tree has uncommitted changes (" + changed +
                              "); commit them first, so that the blessing names the code");
@@ -54,8 +55,7 @@ void bless_one(const std::string& name, const std::string& reason) {
   const scenario::Family family = scenario::read(folder + "/scenario.toml", {});
   const auto scenes = run::build_all(family, 1);
   const std::atomic<bool> stop = false;
-  const auto records =
-      run::run_all(scenes, 1, stop, [](std::size_t, const record::CaseRecord&) {});
+  const auto records = run::run_all(scenes, 1, stop, [](std::size_t, const record::CaseRecord&) {});
   std::vector<fit::NamedFit> fits;
   for (std::size_t i = 0; i < records.size(); ++i)
     for (fit::NamedFit& named : fit::case_fits(scenes[i].scenario, records[i]))
@@ -66,9 +66,9 @@ void bless_one(const std::string& name, const std::string& reason) {
   for (const auto& [file, table] : report::csv_files(family, records, fits))
     write_atomically(expected + "/" + file, record::csv_text(table));
   const report::Build build = report::this_build();
-  write_atomically(folder + "/blessed.toml",
-                   "reason = " + toml_text(reason) + "\ncommit = \"" + trimmed(git({"rev-parse", "HEAD"})) +
-                       "\"\ncompiler = \"" + build.compiler + "\"\n");
+  write_atomically(folder + "/blessed.toml", "reason = " + toml_text(reason) + "\ncommit = \"" +
+                                                 trimmed(git({"rev-parse", "HEAD"})) +
+                                                 "\"\ncompiler = \"" + build.compiler + "\"\n");
 }
 
 }  // namespace

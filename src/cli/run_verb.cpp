@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -27,11 +28,16 @@ void request_stop(int) {
   if (stop_requested.exchange(true)) ::_exit(exit_interrupted);
 }
 
+// A signal that is ignored, as under nohup, stays so.
 void listen_for_signals() {
-  struct sigaction action {};
-  action.sa_handler = request_stop;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = request_stop;
+    ::sigaction(signal, &action, nullptr);
+  }
 }
 
 void refuse_same_names(const std::vector<scenario::Family>& families) {
@@ -43,20 +49,33 @@ void refuse_same_names(const std::vector<scenario::Family>& families) {
                            "`; rename one, or run them one by one with `--out`");
 }
 
-struct Result {
-  bool diverged = false;
+// A family whose cases are built, and the folder that waits for it.
+struct Prepared {
+  const scenario::Family* family = nullptr;
+  int workers = 1;
+  std::vector<scene::Scene> scenes;
+  std::unique_ptr<report::ResultFolder> folder;
 };
 
-Result run_family(const scenario::Family& family, const Run& command, const Arguments& arguments,
-                  const Talk& talk) {
+Prepared prepare(const scenario::Family& family, const Run& command, const Talk& talk) {
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const std::size_t asked = command.jobs > 0 ? static_cast<std::size_t>(command.jobs) : cores;
-  const int workers = static_cast<int>(std::min(asked, family.cases.size()));
-  const std::string started = report::utc_now();
+  Prepared prepared;
+  prepared.family = &family;
+  prepared.workers = static_cast<int>(std::min(asked, family.cases.size()));
+  prepared.folder = std::make_unique<report::ResultFolder>(command.out, family, command.force);
+  prepared.scenes = run::build_all(family, prepared.workers);
+  return prepared;
+}
 
-  report::ResultFolder folder(command.out, family, command.force);
-  const std::vector<scene::Scene> scenes = run::build_all(family, workers);
+// Returns whether a case diverged.
+bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk) {
+  const scenario::Family& family = *prepared.family;
+  const std::vector<scene::Scene>& scenes = prepared.scenes;
+  report::ResultFolder& folder = *prepared.folder;
+  const std::string started = report::utc_now();
+  folder.open();
   std::size_t done = 0;
   const auto finished = [&](std::size_t i, const record::CaseRecord& record) {
     folder.keep(i, record);
@@ -68,12 +87,12 @@ Result run_family(const scenario::Family& family, const Run& command, const Argu
                         {"reason", record.reason}});
   };
   const std::vector<record::CaseRecord> records =
-      run::run_all(scenes, workers, stop_requested, finished);
+      run::run_all(scenes, prepared.workers, stop_requested, finished);
   talk.progress("");
-  if (stop_requested && records.empty()) return {};
+  if (stop_requested && records.empty()) return false;
 
   std::vector<fit::NamedFit> fits;
-  Result result;
+  bool diverged = false;
   for (const record::CaseRecord& record : records) {
     const auto scene = std::find_if(scenes.begin(), scenes.end(),
                                     [&](const auto& one) { return one.name == record.name; });
@@ -82,7 +101,7 @@ Result run_family(const scenario::Family& family, const Run& command, const Argu
         fits.push_back(std::move(named));
     for (const std::string& remark : record.remarks) talk.say(record.name + ": " + remark + ".");
     if (record.outcome == record::Outcome::diverged) {
-      result.diverged = true;
+      diverged = true;
       Talk::error(family.name + ", case " + record.name + ": " + record.reason +
                   "; last stable time " + rounded_text(record.last_stable_time) +
                   " s, everything up to it is kept");
@@ -93,7 +112,7 @@ Result run_family(const scenario::Family& family, const Run& command, const Argu
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
            std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases"));
   talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
-  return result;
+  return diverged;
 }
 
 }  // namespace
@@ -110,11 +129,15 @@ int run(const Run& command, const Arguments& arguments, const Talk& talk) {
   }
   if (!problems.empty()) throw InputError(problems);
   refuse_same_names(families);
+  // Everything is built before anything runs: mistakes come first, and until here a signal may
+  // end the program as it likes, for nothing has been written.
+  std::vector<Prepared> all;
+  for (const scenario::Family& family : families) all.push_back(prepare(family, command, talk));
   listen_for_signals();
   bool diverged = false;
-  for (const scenario::Family& family : families) {
+  for (const Prepared& prepared : all) {
     if (stop_requested) break;
-    diverged = run_family(family, command, arguments, talk).diverged || diverged;
+    diverged = run_family(prepared, arguments, talk) || diverged;
   }
   if (stop_requested) {
     Talk::error("palpate: interrupted; finished cases are kept");

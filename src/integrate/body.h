@@ -46,10 +46,9 @@ class Body {
   // The elastic stiffness at rest, N/m; held rows are the identity's.
   [[nodiscard]] virtual SparseMatrix stiffness() const = 0;
 
-  // Dashpots between nodes: their matrix at rest (N s/m; held rows are the identity's), and their
-  // force.
+  // Dashpots between nodes: their matrix (N s/m; held rows are the identity's), and their force.
   [[nodiscard]] virtual bool has_dashpots() const = 0;
-  [[nodiscard]] virtual SparseMatrix dashpots() const = 0;
+  [[nodiscard]] virtual SparseMatrix dashpots(const Vector& displacement) const = 0;
   virtual void dashpot_force(const Vector& displacement, const Vector& velocity,
                              Vector& force) const = 0;
 

@@ -14,13 +14,16 @@ void clear_held(std::span<const char> held, Vector& vector) {
 CentralDifference::CentralDifference(const Body& body, double time_step, Start start)
     : body_(&body), time_step_(time_step), start_(start) {
   diagonal_ = 2.0 * body.mass() + time_step * body.drag();
-  if (!body.has_dashpots()) return;
-  dashpots_ = body.dashpots();
-  SparseMatrix left = time_step * dashpots_;
+}
+
+void CentralDifference::factor(const Vector& displacement) {
+  dashpots_ = body_->dashpots(displacement);
+  SparseMatrix left = time_step_ * dashpots_;
   left.diagonal() += diagonal_;
   // A sum of positive masses and non-negative dashpots: always positive definite.
   [[maybe_unused]] const bool factored = factors_.factor(left);
-  eigen_assert(factored);
+  eigen_assert(factored || !displacement.allFinite());
+  has_factors_ = true;
 }
 
 void CentralDifference::step(State& state, const Vector& load) {
@@ -35,14 +38,9 @@ void CentralDifference::step(State& state, const Vector& load) {
   right_ = square * (load - force_);
   right_ += 2.0 * body_->mass().cwiseProduct(before_);
   if (!consistent) right_ -= time_step_ * body_->drag().cwiseProduct(before_);
-  if (body_->has_dashpots() && !consistent) {
-    const Vector at_rest = dashpots_ * before_;
-    right_ -= time_step_ * at_rest;
-    if (!body_->linear()) {
-      // What turned dashpots do differently from those at rest, with the last step's velocity.
-      body_->dashpot_force(state.displacement, before_ / time_step_, force_);
-      right_ -= square * (force_ - at_rest / time_step_);
-    }
+  if (body_->has_dashpots()) {
+    if (!has_factors_ || !body_->linear()) factor(state.displacement);
+    if (!consistent) right_ -= time_step_ * (dashpots_ * before_);
   }
   clear_held(body_->held(), right_);
   before_ =

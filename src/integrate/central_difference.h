@@ -12,8 +12,8 @@ namespace palpate::integrate {
 enum class Start { consistent, paper };
 
 // Second order; stable for dt < 2 / omega_max whatever the damping, because mass, drag and
-// dashpots stand in the left matrix: a division when that is diagonal, a sparse Cholesky factored
-// once when dashpots join nodes.
+// dashpots stand in the left matrix: a division when that is diagonal, a sparse Cholesky when
+// dashpots join nodes, factored once, or each step where they turn with the body.
 class CentralDifference {
  public:
   CentralDifference(const Body& body, double time_step, Start start);
@@ -26,10 +26,13 @@ class CentralDifference {
   void step(State& state, const Vector& load);
 
  private:
+  void factor(const Vector& displacement);
+
   const Body* body_;
   double time_step_;
   Start start_;
   bool first_ = true;
+  bool has_factors_ = false;
   Vector before_;    // u(t) - u(t - dt)
   Vector diagonal_;  // 2 M + D dt, where no dashpots are
   Cholesky factors_;

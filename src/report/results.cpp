@@ -102,12 +102,16 @@ ResultFolder::ResultFolder(const std::string& out, const scenario::Family& famil
     throw InputError({path_, 0, 0},
                      "is there and is no result, so that it is not replaced; give another `--out`, "
                      "or rename the scenario");
+}
+
+void ResultFolder::open() {
   make_folder(partial_);
+  opened_ = true;
 }
 
 ResultFolder::~ResultFolder() {
   std::error_code ignored;
-  if (!finished_ && !cases_kept_) fs::remove_all(partial_, ignored);
+  if (opened_ && !finished_ && !cases_kept_) fs::remove_all(partial_, ignored);
 }
 
 void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {

@@ -33,8 +33,11 @@ using CsvFiles = std::vector<std::pair<std::string, record::Table>>;
 class ResultFolder {
  public:
   // Throws InputError where OUT/NAME holds a complete result and `replace` is false, or anything
-  // that is no result; SystemError where the folder cannot be made.
+  // that is no result. Makes nothing yet.
   ResultFolder(const std::string& out, const scenario::Family& family, bool replace);
+
+  // Makes the partial folder. Throws SystemError where it cannot be made.
+  void open();
 
   // Removes what is left of an unfinished folder, unless a finished case lies in it.
   ~ResultFolder();
@@ -59,6 +62,7 @@ class ResultFolder {
   std::string path_;
   std::string partial_;
   bool replace_ = false;
+  bool opened_ = false;
   bool cases_kept_ = false;
   bool finished_ = false;
   std::vector<std::string> files_;

@@ -39,8 +39,9 @@ class Findings {
       record_.findings.push_back(finding);
       if (finding.name == "energy_imbalance" && std::get<double>(finding.value) > 0.05)
         remark(percent(std::get<double>(finding.value)) +
-               " of the energy is not accounted for: the steps are too long for what happens in "
-               "them; set a shorter `output.interval` or more `solver.substeps`");
+               " of the energy is not accounted for: the first step or all of them are too long "
+               "for what happens in them; set a shorter `output.interval` or more "
+               "`solver.substeps`");
     }
   }
 
@@ -63,6 +64,10 @@ class Findings {
     add("time_step_ms", unit::ms.from_si(specimen.plan.substep));
     add("substeps", static_cast<double>(specimen.plan.substeps));
     add("damping_ratio", damping_ratio(specimen));
+    if (!specimen.plan.stable() &&
+        scene_.scenario.solver.integrator == scenario::Solver::Integrator::central_difference)
+      remark("the step is " + rounded_text(specimen.plan.substep / specimen.plan.limit, 3) +
+             " times the stability limit: this motion grows from rounding, do not trust it");
     if (std::abs(modulus / table_modulus - 1.0) > 0.05)
       remark("the spring network is " + percent(std::abs(modulus / table_modulus - 1.0)) +
              (modulus > table_modulus ? " stiffer" : " softer") +

@@ -6,18 +6,27 @@
 
 namespace palpate::run {
 
-Pace make_pace(const scene::Scene& scene, double duration) {
+namespace {
+
+int steps_a_row(const scene::Scene& scene) {
+  if (!scene.specimen) return 1;
+  const scene::TimePlan& plan = scene.specimen->plan;
   const double interval = scene.scenario.output.interval;
-  Pace pace;
+  return static_cast<int>(std::lround(interval / plan.time_step)) * plan.substeps;
+}
+
+}  // namespace
+
+Pace make_pace(const scene::Scene& scene, double duration) {
   // A duration that is a whole number of intervals but for rounding keeps that number.
-  pace.rows = std::max(1, static_cast<int>(std::ceil(duration / interval - 1e-6)));
-  pace.spacing = duration / pace.rows;
-  if (scene.specimen) {
-    const scene::TimePlan& plan = scene.specimen->plan;
-    pace.steps = static_cast<int>(std::lround(interval / plan.time_step)) * plan.substeps;
-  }
-  pace.step = pace.spacing / pace.steps;
-  return pace;
+  const double rows = std::ceil(duration / scene.scenario.output.interval - 1e-6);
+  return {duration, std::max(1, static_cast<int>(rows)), steps_a_row(scene)};
+}
+
+Pace make_open_pace(const scene::Scene& scene, double longest) {
+  const double interval = scene.scenario.output.interval;
+  const int rows = static_cast<int>(std::ceil(longest / interval));
+  return {interval * rows, rows, steps_a_row(scene)};
 }
 
 bool end_early(record::CaseRecord& record, record::Outcome outcome, const std::string& reason) {

@@ -21,13 +21,12 @@ using scenario::Retract;
 // A step of the programme as travel over time.
 struct Ramp {
   double from = 0.0;                                       // m
-  double speed = 0.0;                                      // m/s, downwards
   double duration = 0.0;                                   // s; infinite until a force
   double force = std::numeric_limits<double>::infinity();  // N, to stop at
   double to = 0.0;                                         // m
 
   [[nodiscard]] double travel(double time) const {
-    return time >= duration ? to : from + speed * time;
+    return time >= duration ? to : from + (to - from) * time / duration;
   }
 };
 
@@ -37,11 +36,9 @@ Ramp make_ramp(const scenario::Step& step, double travel, const scene::Scene& sc
     // A force that never comes must not press for ever: to the radius, where Hertz ends.
     ramp.to = indent->to.second ? std::max(travel, scene.scenario.finger.radius) : indent->to.value;
     if (indent->to.second) ramp.force = indent->to.value;
-    ramp.speed = indent->rate;
     ramp.duration = (ramp.to - travel) / indent->rate;
   } else if (const auto* retract = std::get_if<Retract>(&step)) {
     ramp.to = retract->to;
-    ramp.speed = -retract->rate;
     ramp.duration = (travel - retract->to) / retract->rate;
   } else {
     ramp.duration = std::get<Hold>(step).time;
@@ -91,13 +88,14 @@ class Press {
   // False where the case ended early.
   bool run(const Ramp& ramp) {
     const bool to_force = std::isfinite(ramp.force);
-    const Pace pace = make_pace(scene_, ramp.duration);
+    const Pace pace =
+        to_force ? make_open_pace(scene_, ramp.duration) : make_pace(scene_, ramp.duration);
     const double start = time_;
-    if (stepper_) stepper_->set_step(pace.step);
+    if (stepper_) stepper_->set_step(pace.step());
     for (int row = 0; row < pace.rows; ++row) {
       if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
       for (int k = 1; k <= pace.steps; ++k) {
-        const double time = pace.spacing * (row + static_cast<double>(k) / pace.steps);
+        const double time = pace.time(row, k);
         if (!advance(ramp.travel(time), start + time)) return false;
         if (touch_.force >= ramp.force) {
           time_ = start + time;
@@ -105,7 +103,7 @@ class Press {
           return true;
         }
       }
-      time_ = start + pace.spacing * (row + 1);
+      time_ = start + pace.time(row + 1, 0);
       write_row();
       if (scene_.specimen && tissue::inverted(scene_.specimen->mesh, state_.displacement))
         return diverged("a tetrahedron has turned inside out");

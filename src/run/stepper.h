@@ -13,7 +13,7 @@
 namespace palpate::run {
 
 // Whether a scalar equation inside each linearisation is settled: a change of displacement, m.
-inline constexpr double settled_length = 1e-14;
+inline constexpr double settled_length = 1e-12;
 inline constexpr int most_linearisations = 100;
 
 class Stepper {

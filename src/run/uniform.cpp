@@ -129,15 +129,13 @@ class UniformTest {
   template <class Row>
   bool march(const Vector& load, double duration, const Row& write) {
     const Pace pace = make_pace(scene_, duration);
-    stepper_->set_step(pace.step);
+    stepper_->set_step(pace.step());
     const double start = time_;
-    for (int row = 1; row <= pace.rows; ++row) {
+    for (int row = 0; row < pace.rows; ++row) {
       if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
-      for (int k = 1; k <= pace.steps; ++k) {
-        const double part = row - 1 + static_cast<double>(k) / pace.steps;
-        if (!advance(load, start + pace.spacing * part)) return false;
-      }
-      time_ = start + pace.spacing * row;
+      for (int k = 1; k <= pace.steps; ++k)
+        if (!advance(load, start + pace.time(row, k))) return false;
+      time_ = start + pace.time(row + 1, 0);
       write();
       if (tissue::inverted(specimen_.mesh, state_.displacement))
         return diverged("a tetrahedron has turned inside out");

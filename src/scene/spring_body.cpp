@@ -83,13 +83,12 @@ integrate::SparseMatrix SpringBody::stiffness() const {
 
 bool SpringBody::has_dashpots() const { return law_.kind == Viscosity::kelvin_voigt; }
 
-integrate::SparseMatrix SpringBody::dashpots() const {
-  // c = tau k along every spring: D = tau K
+integrate::SparseMatrix SpringBody::dashpots(const Vector& displacement) const {
+  // c = tau k along every spring, as it stands: at rest D = tau K
   std::vector<double> damping = network_->stiffness;
   for (double& c : damping) c *= law_.time;
   const std::vector<double> zero(damping.size(), 0.0);
-  return tissue::tangent(*network_, tissue::Kinematics::linear, Vector::Zero(mass_.size()), damping,
-                         zero, held_);
+  return tissue::tangent(*network_, kinematics_, displacement, damping, zero, held_);
 }
 
 void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocity,

@@ -30,7 +30,7 @@ class SpringBody final : public integrate::Body {
              Vector& force) const override;
   [[nodiscard]] SparseMatrix stiffness() const override;
   [[nodiscard]] bool has_dashpots() const override;
-  [[nodiscard]] SparseMatrix dashpots() const override;
+  [[nodiscard]] SparseMatrix dashpots(const Vector& displacement) const override;
   void dashpot_force(const Vector& displacement, const Vector& velocity,
                      Vector& force) const override;
   [[nodiscard]] std::vector<double> memory_at(const Vector& displacement) const override;

@@ -92,8 +92,7 @@ TEST(Press, IntegratorsAgree) {
 TEST(Press, NonlinearAgreesWithLinearForShallowPresses) {
   for (const char* integrator : {"central_difference", "backward_difference", "quasi_static"}) {
     const std::vector<std::string> common{std::string("solver.integrator=") + integrator,
-                                          "step.1.to=0.05 mm",
-                                          "contact.coupling=series"};
+                                          "step.1.to=0.05 mm", "contact.coupling=series"};
     auto turned = common;
     turned.emplace_back("solver.kinematics=nonlinear");
     const double linear = run_text(press, common).contact.back().force;

@@ -8,7 +8,8 @@ namespace {
 
 class CompareVerb : public testing::Test {
  protected:
-  Ended compare(const std::string& got, const std::string& want, const std::string& tolerances = {}) {
+  Ended compare(const std::string& got, const std::string& want,
+                const std::string& tolerances = {}) {
     write_file(folder_ / "got.csv", got);
     write_file(folder_ / "want.csv", want);
     std::vector<std::string> arguments{"compare", "got.csv", "want.csv"};
@@ -91,8 +92,10 @@ TEST_F(CompareVerb, what_cannot_be_compared) {
     EXPECT_EQ(ended.out, "");
     return ended.err;
   };
-  EXPECT_EQ(complaint("nothing", "a"), "nothing: is not there; give a CSV file or a result folder\n");
-  EXPECT_EQ(complaint("a", "nothing"), "nothing: is not there; give a CSV file or a result folder\n");
+  EXPECT_EQ(complaint("nothing", "a"),
+            "nothing: is not there; give a CSV file or a result folder\n");
+  EXPECT_EQ(complaint("a", "nothing"),
+            "nothing: is not there; give a CSV file or a result folder\n");
   EXPECT_EQ(complaint("a", "a/x.csv"),
             "a: and a/x.csv are a file and a folder; give two files or two folders\n");
   EXPECT_EQ(complaint("a", "empty"),

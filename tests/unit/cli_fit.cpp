@@ -18,8 +18,8 @@ class FitVerb : public testing::Test {
   Ended fit(const std::string& csv, const std::string& model,
             const std::vector<std::string>& more = {}) {
     write_file(folder_ / "data.csv", csv);
-    std::vector<std::string> arguments{"fit", "data.csv",   "--x",     "depth_mm",
-                                       "--y", "force_N",    "--model", model};
+    std::vector<std::string> arguments{"fit", "data.csv", "--x",     "depth_mm",
+                                       "--y", "force_N",  "--model", model};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return palpate(folder_.path(), arguments);
   }
@@ -52,13 +52,14 @@ class FitVerb : public testing::Test {
 // ln x = 0, 1, 2 against y = 0, 1, 1: b = 1/2, a = 1/6, residuals -1/6, 1/3, -1/6, their squares'
 // sum 1/6, one degree of freedom, s^2(b) = (1/6) / 2, t(0.975, 1) = 12.7062047.
 TEST_F(FitVerb, logarithmic_by_hand) {
-  const record::Table fitted = table(
-      fit("depth_mm,force_N\n1,0\n2.718281828459045,1\n7.38905609893065,1\n", "logarithmic"));
+  const record::Table fitted =
+      table(fit("depth_mm,force_N\n1,0\n2.718281828459045,1\n7.38905609893065,1\n", "logarithmic"));
   EXPECT_NEAR(number(fitted, "a", "estimate"), 1.0 / 6.0, 1e-12);  // rounding
   EXPECT_NEAR(number(fitted, "b", "estimate"), 0.5, 1e-12);        // rounding
   const double error = std::sqrt(1.0 / 12.0);
   EXPECT_NEAR(number(fitted, "b", "std_error"), error, 1e-9);  // through a covariance
-  EXPECT_NEAR(number(fitted, "b", "ci95_high"), 0.5 + 12.706204736432095 * error, 1e-6);  // t's digits
+  EXPECT_NEAR(number(fitted, "b", "ci95_high"), 0.5 + 12.706204736432095 * error,
+              1e-6);                                    // t's digits
   EXPECT_NEAR(number(fitted, "b", "r2"), 0.75, 1e-12);  // 1 - (1/6) / (2/3), rounding
   EXPECT_EQ(cell(fitted, "b", "unit"), record::Cell("N"));
   EXPECT_EQ(cell(fitted, "b", "n"), record::Cell(3.0));
@@ -69,7 +70,7 @@ TEST_F(FitVerb, logarithmic_by_hand) {
 TEST_F(FitVerb, power_of_a_parabola) {
   const record::Table fitted =
       table(fit("depth_mm,force_N\n1,3\n2,12\n3,27\n4,48\n", "power"));  // 3 x^2
-  EXPECT_NEAR(number(fitted, "A", "estimate"), 3.0, 1e-7);  // the solver's own end
+  EXPECT_NEAR(number(fitted, "A", "estimate"), 3.0, 1e-7);               // the solver's own end
   EXPECT_NEAR(number(fitted, "n", "estimate"), 2.0, 1e-7);
   EXPECT_EQ(cell(fitted, "A", "unit"), record::Cell("N/mm^n"));
   EXPECT_EQ(cell(fitted, "n", "termination"), record::Cell("converged"));
@@ -88,8 +89,9 @@ TEST_F(FitVerb, kelvin_voigt_from_an_origin) {
 }
 
 TEST_F(FitVerb, what_has_no_logarithm_is_left_out_and_counted) {
-  const Ended ended = fit(
-      "depth_mm,force_N\n-1,9\n0,9\n1,2\n2.718281828459045,5\n7.38905609893065,8\n,4\n", "logarithmic");
+  const Ended ended =
+      fit("depth_mm,force_N\n-1,9\n0,9\n1,2\n2.718281828459045,5\n7.38905609893065,8\n,4\n",
+          "logarithmic");
   const record::Table fitted = table(ended);
   EXPECT_NEAR(number(fitted, "a", "estimate"), 2.0, 1e-9);  // y = 2 + 3 ln x, rounding
   EXPECT_NEAR(number(fitted, "b", "estimate"), 3.0, 1e-9);
@@ -121,11 +123,12 @@ TEST_F(FitVerb, messages) {
   EXPECT_EQ(ended.code, 2);
   EXPECT_EQ(ended.err,
             "data.csv:4: `force_N` holds `x`, which is no number; name a column of numbers\n");
-  ended = palpate(folder_.path(), {"fit", "data.csv", "--x", "dept_mm", "--y", "force_N", "--model",
-                                   "power"});
+  ended = palpate(folder_.path(),
+                  {"fit", "data.csv", "--x", "dept_mm", "--y", "force_N", "--model", "power"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_EQ(ended.err, "data.csv:1: has no column `dept_mm`; did you mean `depth_mm`?\n");
-  ended = palpate(folder_.path(), {"fit", "nothing.csv", "--x", "a", "--y", "b", "--model", "power"});
+  ended =
+      palpate(folder_.path(), {"fit", "nothing.csv", "--x", "a", "--y", "b", "--model", "power"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(says(ended, "nothing.csv: cannot be read: No such file or directory")) << ended.err;
 }

@@ -24,8 +24,8 @@ class Bless : public testing::Test {
 
   std::string git(std::vector<std::string> arguments) const {
     // Who commits, whatever this machine's settings say.
-    const std::vector<std::string> who{"-c", "user.name=test", "-c", "user.email=test@localhost",
-                                       "-c", "commit.gpgsign=false"};
+    const std::vector<std::string> who{
+        "-c", "user.name=test", "-c", "user.email=test@localhost", "-c", "commit.gpgsign=false"};
     arguments.insert(arguments.begin(), who.begin(), who.end());
     const Ended ended =
         run_program({.arguments = arguments, .folder = folder_.path(), .program = "git"});
@@ -83,8 +83,8 @@ TEST_F(Bless, not_by_a_machine) {
 }
 
 TEST_F(Bless, not_in_a_dirty_tree) {
-  write_file(folder_ / "golden/press/scenario.toml", "title = \"x\"\n" +
-                 read_file(folder_ / "golden/press/scenario.toml"));
+  write_file(folder_ / "golden/press/scenario.toml",
+             "title = \"x\"\n" + read_file(folder_ / "golden/press/scenario.toml"));
   Ended ended = bless();
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(says(ended, "uncommitted changes (M golden/press/scenario.toml)")) << ended.err;
@@ -114,9 +114,10 @@ TEST_F(Bless, not_what_is_not_there) {
 
 TEST_F(Bless, not_outside_a_repository) {
   fs::remove_all(folder_ / ".git");
-  const Ended ended = run_program({.arguments = {"golden", "bless", "press", "--reason", "why"},
-                                   .folder = folder_.path(),
-                                   .set = {{"GIT_CEILING_DIRECTORIES", folder_.path().parent_path()}}});
+  const Ended ended =
+      run_program({.arguments = {"golden", "bless", "press", "--reason", "why"},
+                   .folder = folder_.path(),
+                   .set = {{"GIT_CEILING_DIRECTORIES", folder_.path().parent_path()}}});
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(says(ended, "needs the project's git history")) << ended.err;
   EXPECT_FALSE(blessed());

@@ -36,8 +36,9 @@ TEST_F(RunRefusals, a_finished_result_stays) {
   finish_one();
   const Ended ended = palpate(folder_.path(), {"run", "press.toml"});
   EXPECT_EQ(ended.code, 2);
-  EXPECT_EQ(ended.err,
-            "out/press: holds a finished result; give `--force` to replace it, or another `--out`\n");
+  EXPECT_EQ(
+      ended.err,
+      "out/press: holds a finished result; give `--force` to replace it, or another `--out`\n");
   EXPECT_TRUE(old_is_there());
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"press"});
 }
@@ -89,13 +90,12 @@ TEST_F(RunRefusals, one_wrong_scenario_of_two_runs_none) {
 // every write beyond 16 kB fail, as a full disk does, for root too; the map alone has 36 kB.
 TEST_F(RunRefusals, a_write_that_fails_keeps_the_old_result) {
   finish_one();
-  const Ended ended = run_program({.arguments = {"run", "press.toml", "--force"},
-                                   .folder = folder_.path(),
-                                   .before = [] {
-                                     ::signal(SIGXFSZ, SIG_IGN);
-                                     const rlimit limit{16384, 16384};
-                                     ::setrlimit(RLIMIT_FSIZE, &limit);
-                                   }});
+  const Ended ended = run_program(
+      {.arguments = {"run", "press.toml", "--force"}, .folder = folder_.path(), .before = [] {
+         ::signal(SIGXFSZ, SIG_IGN);
+         const rlimit limit{16384, 16384};
+         ::setrlimit(RLIMIT_FSIZE, &limit);
+       }});
   EXPECT_EQ(ended.code, 1);
   EXPECT_TRUE(says(ended, "cannot be written: File too large")) << ended.err;
   EXPECT_TRUE(old_is_there());
@@ -106,15 +106,13 @@ TEST_F(RunRefusals, a_full_disk_keeps_the_old_result) {
   const std::string disk = (folder_ / "disk").string();
   fs::create_directory(disk);
   // Room for one result (about 60 kB), not for two.
-  const std::string script = "mount -t tmpfs -o size=96k none '" + disk + "' || exit 99; '" +
-                             PALPATE_PROGRAM + "' run press.toml --out '" + disk +
-                             "' --quiet || exit 98; echo old > '" + disk + "/press/mark'; '" +
-                             PALPATE_PROGRAM + "' run press.toml --out '" + disk +
-                             "' --force; code=$?; ls '" + disk + "' '" + disk +
-                             "/press'; exit $code";
-  const Ended ended = run_program({.arguments = {"-rm", "sh", "-c", script},
-                                   .folder = folder_.path(),
-                                   .program = "unshare"});
+  const std::string script =
+      "mount -t tmpfs -o size=96k none '" + disk + "' || exit 99; '" + PALPATE_PROGRAM +
+      "' run press.toml --out '" + disk + "' --quiet || exit 98; echo old > '" + disk +
+      "/press/mark'; '" + PALPATE_PROGRAM + "' run press.toml --out '" + disk +
+      "' --force; code=$?; ls '" + disk + "' '" + disk + "/press'; exit $code";
+  const Ended ended = run_program(
+      {.arguments = {"-rm", "sh", "-c", script}, .folder = folder_.path(), .program = "unshare"});
   if (ended.code == 127 || ended.code == 99 || says(ended, "unshare"))
     GTEST_SKIP() << "no file system of our own here: " << ended.err;
   EXPECT_EQ(ended.code, 1);
@@ -133,17 +131,16 @@ TEST_F(RunRefusals, a_folder_without_permission) {
   fs::create_directory(folder_ / "out");
   ::chmod((folder_ / "out").c_str(), 0555);
   ::chmod(folder_.path().c_str(), 0755);
-  const Ended ended = run_program({.arguments = {"run", "press.toml"},
-                                   .folder = folder_.path(),
-                                   .before = [] {
-                                     constexpr uid_t nobody = 65534;
-                                     if (::geteuid() == 0 && ::setuid(nobody) != 0) ::_exit(125);
-                                   }});
+  const Ended ended =
+      run_program({.arguments = {"run", "press.toml"}, .folder = folder_.path(), .before = [] {
+                     constexpr uid_t nobody = 65534;
+                     if (::geteuid() == 0 && ::setuid(nobody) != 0) ::_exit(125);
+                   }});
   if (ended.code == 125 || ended.code == 127)
     GTEST_SKIP() << "root may write everywhere, and nobody cannot run the program here";
   EXPECT_EQ(ended.code, 1);
   EXPECT_TRUE(says(ended, "cannot be made: Permission denied")) << ended.err;
-  EXPECT_TRUE(fs::is_empty(folder_ / "out"));
+  EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out"));
 }
 
 const std::string kUnstable =
@@ -158,10 +155,11 @@ TEST_F(RunRefusals, a_step_above_the_stability_limit) {
   write_file(folder_ / "unstable.toml", kUnstable);
   const Ended ended = palpate(folder_.path(), {"run", "unstable.toml"});
   EXPECT_EQ(ended.code, 2);
-  EXPECT_TRUE(says(ended, "unstable.toml:9:12: `substeps` of 1 makes steps of 10 ms, above the "
-                          "stability limit"))
+  EXPECT_TRUE(says(ended,
+                   "unstable.toml:9:12: `substeps` of 1 makes steps of 10 ms, above the "
+                   "stability limit"))
       << ended.err;
-  EXPECT_TRUE(fs::is_empty(folder_ / "out")) << "no leftovers";
+  EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out")) << "no leftovers";
 }
 
 TEST_F(RunRefusals, divergence_keeps_what_was_stable) {
@@ -213,7 +211,7 @@ TEST_F(RunRefusals, a_mesh_that_does_not_fit) {
   EXPECT_EQ(ended.code, 5);
   EXPECT_TRUE(says(ended, "the tetrahedra fill 1.08e-07 m^3, but the body has 0.000108 m^3"))
       << ended.err;
-  EXPECT_TRUE(fs::is_empty(folder_ / "out")) << "no leftovers";
+  EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out")) << "no leftovers";
 }
 
 }  // namespace

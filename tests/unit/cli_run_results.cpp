@@ -36,7 +36,8 @@ std::size_t row_at(const record::Table& table, const std::string& name, double t
   const auto column = static_cast<std::size_t>(table.find("travel_mm"));
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     if (std::get<std::string>(table.rows[i][0]) == name &&
-        std::abs(std::get<double>(table.rows[i][column]) - travel) < 1e-9)  // mm; rows stand 0.01 apart
+        std::abs(std::get<double>(table.rows[i][column]) - travel) <
+            1e-9)  // mm; rows stand 0.01 apart
       return i;
   ADD_FAILURE() << "no row of " << name << " at " << travel << " mm";
   return 0;
@@ -58,11 +59,11 @@ class OfAPress : public testing::Test {
 
 TEST_F(OfAPress, has_all_its_files) {
   ASSERT_EQ(ended_.code, 0) << ended_.err;
-  EXPECT_EQ(names_in(result()),
-            (std::set<std::string>{"figure_force_indentation.gp", "figure_force_indentation.svg",
-                                   "findings.csv", "fits.csv", "force_indentation.csv",
-                                   "pressure_001.exr", "pressure_002.exr", "run.json",
-                                   "scenario.toml"}));
+  EXPECT_EQ(
+      names_in(result()),
+      (std::set<std::string>{"figure_force_indentation.gp", "figure_force_indentation.svg",
+                             "findings.csv", "fits.csv", "force_indentation.csv",
+                             "pressure_001.exr", "pressure_002.exr", "run.json", "scenario.toml"}));
   EXPECT_EQ(names_in(*folder_ / "out"), std::set<std::string>{"press"}) << "nothing is left beside";
 }
 
@@ -71,10 +72,10 @@ TEST_F(OfAPress, has_the_promised_columns) {  // DESIGN.md section 6
             (Strings{"case", "step", "time_s", "travel_mm", "indentation_mm", "force_N",
                      "contact_force_N", "friction_N", "ambient_N", "contact_radius_mm",
                      "peak_pressure_kPa", "tissue_radius_mm", "contacts"}));
-  EXPECT_EQ(record::read_csv(result() / "fits.csv").columns,
-            (Strings{"case", "curve", "model", "parameter", "unit", "estimate", "std_error",
-                     "ci95_low", "ci95_high", "r2", "rmse", "n", "range_low", "range_high",
-                     "termination"}));
+  EXPECT_EQ(
+      record::read_csv(result() / "fits.csv").columns,
+      (Strings{"case", "curve", "model", "parameter", "unit", "estimate", "std_error", "ci95_low",
+               "ci95_high", "r2", "rmse", "n", "range_low", "range_high", "termination"}));
   EXPECT_EQ(record::read_csv(result() / "findings.csv").columns.front(), "case");
 }
 
@@ -114,10 +115,10 @@ TEST(RunResults, a_uniform_test_has_a_strain_curve) {
              "[output]\ninterval = \"50 ms\"\n");
   const Ended ended = palpate(folder.path(), {"run", "creep.toml"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  EXPECT_EQ(names_in(folder / "out/creep"),
-            (std::set<std::string>{"figure_strain_time.gp", "figure_strain_time.svg",
-                                   "findings.csv", "fits.csv", "run.json", "scenario.toml",
-                                   "strain_time.csv"}));
+  EXPECT_EQ(
+      names_in(folder / "out/creep"),
+      (std::set<std::string>{"figure_strain_time.gp", "figure_strain_time.svg", "findings.csv",
+                             "fits.csv", "run.json", "scenario.toml", "strain_time.csv"}));
   EXPECT_EQ(record::read_csv(folder / "out/creep/strain_time.csv").columns,
             (Strings{"case", "step", "time_s", "stress_kPa", "strain"}));
 }
@@ -127,9 +128,9 @@ TEST(RunResults, a_uniform_test_has_a_strain_curve) {
 TEST(RunResults, figure6_gives_the_forces_of_the_closed_form) {
   struct Printed {
     const char* name;
-    double scale;                  // of the printed row
-    std::array<double, 4> force;   // N
-    std::array<double, 4> digit;   // N, one unit of the last printed digit
+    double scale;                 // of the printed row
+    std::array<double, 4> force;  // N
+    std::array<double, 4> digit;  // N, one unit of the last printed digit
   };
   const std::array<Printed, 5> printed{{
       {"skin", 1.0, {0.1234, 0.3489, 0.9869, 1.813}, {1e-4, 1e-4, 1e-4, 1e-3}},
@@ -169,7 +170,8 @@ TEST(RunResults, figure6_gives_the_forces_of_the_closed_form) {
   expect_case("hertz-41", 1e3 * number(rows, leg, "peak_pressure_kPa"));
   // F grows as h^(3/2): the rows that the table prints with two digits only
   for (const Printed& row : printed)
-    EXPECT_NEAR(force(row.name, 3.0) / force(row.name, 0.5), 6.0 * std::sqrt(6.0), 1e-8)  // rounding of the travel
+    EXPECT_NEAR(force(row.name, 3.0) / force(row.name, 0.5), 6.0 * std::sqrt(6.0),
+                1e-8)  // rounding of the travel
         << row.name;
 }
 

@@ -30,14 +30,16 @@ class RunStops : public testing::Test {
   }
 
   void wait_for_first_case(Running& running) const {
-    ASSERT_TRUE(running.until([&] { return fs::exists(partial(running) / "case_001/findings.csv"); }))
-        << "the first case does not end: " << running.wait().err;
+    ASSERT_TRUE(running.until([&] {
+      return fs::exists(partial(running) / "case_001/findings.csv");
+    })) << "the first case does not end: "
+        << running.wait().err;
   }
 
   // A finished result of the same name, known again by a mark.
   void finish_an_old_one() const {
-    const Ended ended = palpate(folder_.path(), {"run", "slow.toml", "--set",
-                                                 "sweep.step.1.to=[\"0.005 mm\"]"});
+    const Ended ended =
+        palpate(folder_.path(), {"run", "slow.toml", "--set", "sweep.step.1.to=[\"0.005 mm\"]"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     write_file(folder_ / "out/slow/mark", "old");
   }
@@ -69,11 +71,10 @@ TEST_F(RunStops, an_incomplete_result_is_run_again_without_force) {
   wait_for_first_case(running);
   running.send(SIGTERM);
   ASSERT_EQ(running.wait().code, 130);
-  const Ended again = palpate(
-      folder_.path(), {"run", "slow.toml", "--set", "sweep.step.1.to=[\"0.005 mm\"]"});
+  const Ended again =
+      palpate(folder_.path(), {"run", "slow.toml", "--set", "sweep.step.1.to=[\"0.005 mm\"]"});
   EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_NE(read_file(folder_ / "out/slow/run.json").find("\"complete\": true"),
-            std::string::npos);
+  EXPECT_NE(read_file(folder_ / "out/slow/run.json").find("\"complete\": true"), std::string::npos);
 }
 
 TEST_F(RunStops, an_interrupted_run_without_a_finished_case_leaves_nothing) {
@@ -81,7 +82,7 @@ TEST_F(RunStops, an_interrupted_run_without_a_finished_case_leaves_nothing) {
   ASSERT_TRUE(running.until([&] { return fs::exists(partial(running)); }));
   running.send(SIGINT);
   EXPECT_EQ(running.wait().code, 130);
-  EXPECT_TRUE(fs::is_empty(folder_ / "out"));
+  EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out"));
 }
 
 TEST_F(RunStops, a_part_of_a_run_never_replaces_a_whole_result) {
