@@ -60,7 +60,8 @@ bool write_all(int file, const std::string& bytes) {
   for (const int standard : {0, 1, 2}) dup2(null, standard);
   const int answer = pipe_end == 3 ? 3 : dup2(pipe_end, 3);
   close_range(4, ~0U, 0);  // other children's pipes must see their ends closed
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU, SIGTERM, SIGINT})
+  for (const int signal :
+       {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU, SIGTERM, SIGINT})
     std::signal(signal, SIG_DFL);
   limit(RLIMIT_CORE, 0.0);
   limit(RLIMIT_CPU, std::ceil(std::min(limits.time, for_ever)) + 1.0);

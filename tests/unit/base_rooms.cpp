@@ -52,9 +52,7 @@ const std::array source_only_libraries{
                  [](std::string_view include) { return include.starts_with("nlohmann/"); }},
 };
 
-bool is_header(const SourceFile& file) {
-  return file.path.ends_with(".h");
-}
+bool is_header(const SourceFile& file) { return file.path.ends_with(".h"); }
 
 std::string room_of(const std::string& path) {
   const auto slash = path.find('/');
@@ -199,9 +197,7 @@ TEST(Rooms, IncludesGoUpAndHeavyLibrariesStayBehindOneFile) {
   EXPECT_EQ(joined(include_faults(files, rooms)), "");
 }
 
-TEST(Rooms, FilesAreShortAndSayWhatTheyAreFor) {
-  EXPECT_EQ(joined(form_faults(our_files())), "");
-}
+TEST(Rooms, FilesAreShortAndSayWhatTheyAreFor) { EXPECT_EQ(joined(form_faults(our_files())), ""); }
 
 // The checks themselves, on made-up rooms: each fault is found, and nothing else is.
 const std::vector<std::string> made_up_rooms{"base", "contact", "cli"};
