@@ -99,7 +99,7 @@ std::optional<std::string> SeriesContact::step(Stepper& stepper, State& state, d
     return balance(*implicit, stepper.time_step(), state, travel, touch);
   if (auto* modal = std::get_if<integrate::Modal>(&stepper.method()))
     return balance(*modal, stepper.time_step(), state, travel, touch);
-  if (const auto wrong = stepper.step(state, touch.load, touch.load, integrate::MemoryRule::exact))
+  if (auto wrong = stepper.step(state, touch.load, touch.load, integrate::MemoryRule::exact))
     return wrong;
   // Explicit: the force follows from what is, over the patch of the step before, which changes by
   // less than a step's travel.
