@@ -44,18 +44,25 @@ std::vector<Figure> family_figures(const scenario::Family& family,
     figures.push_back(
         figure_force_indentation(series_of(family, records, fits, {Model::logarithmic})));
   } else {
+    const bool solid = family.base.tissue.viscosity == tissue::Viscosity::standard_linear_solid;
+    const char* const fit_label = solid ? "Standard linear solid fit" : "Kelvin-Voigt fit";
     if (has_step(family.base, [](const scenario::Step& step) {
           return std::holds_alternative<scenario::Creep>(step);
-        }))
-      figures.push_back(figure_strain_time(
-          series_of(family, records, fits, {Model::kelvin_voigt, Model::kelvin_voigt_recovery})));
+        })) {
+      const Model loaded = solid ? Model::standard_linear_solid : Model::kelvin_voigt;
+      Figure figure = figure_strain_time(
+          series_of(family, records, fits, {loaded, Model::kelvin_voigt_recovery}));
+      figure.fit_label = fit_label;
+      figures.push_back(figure);
+    }
     if (has_step(family.base, [](const scenario::Step& step) {
           return std::holds_alternative<scenario::Relax>(step);
         })) {
       Figure figure =
           figure_strain_time(series_of(family, records, fits, {Model::standard_linear_solid}));
       figure.name = "figure_stress_time";
-      figure.y_label = "stress (kPa)";
+      figure.y_label = "Stress (kPa)";
+      figure.fit_label = "Standard linear solid fit";
       for (Series& series : figure.series) series.y_column = "stress_kPa";
       figures.push_back(figure);
     }
