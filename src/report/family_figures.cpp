@@ -10,10 +10,19 @@ bool has_step(const scenario::Scenario& scenario, bool (*is)(const scenario::Ste
   return std::any_of(scenario.steps.begin(), scenario.steps.end(), is);
 }
 
+bool is_logarithmic(const fit::NamedFit& named) {
+  // The scaled copy of a curve is drawn by scaling this one.
+  return named.curve == "force_indentation" && named.fit.model == fit::Model::logarithmic;
+}
+bool is_creep(const fit::NamedFit& named) {
+  return named.curve == "creep" || named.curve == "recovery";
+}
+bool is_relaxation(const fit::NamedFit& named) { return named.curve == "relaxation"; }
+
 std::vector<Series> series_of(const scenario::Family& family,
                               const std::vector<record::CaseRecord>& records,
                               const std::vector<fit::NamedFit>& fits,
-                              const std::vector<fit::Model>& models) {
+                              bool (*wanted)(const fit::NamedFit&)) {
   std::vector<Series> all;
   for (const record::CaseRecord& record : records) {
     Series series;
@@ -22,9 +31,7 @@ std::vector<Series> series_of(const scenario::Family& family,
     const auto scale = scales.find(record.name);
     if (scale != scales.end()) series.scale = scale->second;
     for (const fit::NamedFit& named : fits) {
-      const bool wanted = std::find(models.begin(), models.end(), named.fit.model) != models.end();
-      const bool scaled_copy = named.curve.find(" x ") != std::string::npos;
-      if (named.case_name != record.name || !wanted || scaled_copy) continue;
+      if (named.case_name != record.name || !wanted(named)) continue;
       if (const auto curve = fitted_curve(named.fit)) series.fits.push_back(*curve);
     }
     all.push_back(series);
@@ -37,29 +44,24 @@ std::vector<Series> series_of(const scenario::Family& family,
 std::vector<Figure> family_figures(const scenario::Family& family,
                                    const std::vector<record::CaseRecord>& records,
                                    const std::vector<fit::NamedFit>& fits) {
-  using fit::Model;
   std::vector<Figure> figures;
   if (records.empty()) return figures;
   if (!family.base.uniform()) {
-    figures.push_back(
-        figure_force_indentation(series_of(family, records, fits, {Model::logarithmic})));
+    figures.push_back(figure_force_indentation(series_of(family, records, fits, is_logarithmic)));
   } else {
     const bool solid = family.base.tissue.viscosity == tissue::Viscosity::standard_linear_solid;
     const char* const fit_label = solid ? "Standard linear solid fit" : "Kelvin-Voigt fit";
     if (has_step(family.base, [](const scenario::Step& step) {
           return std::holds_alternative<scenario::Creep>(step);
         })) {
-      const Model loaded = solid ? Model::standard_linear_solid : Model::kelvin_voigt;
-      Figure figure = figure_strain_time(
-          series_of(family, records, fits, {loaded, Model::kelvin_voigt_recovery}));
+      Figure figure = figure_strain_time(series_of(family, records, fits, is_creep));
       figure.fit_label = fit_label;
       figures.push_back(figure);
     }
     if (has_step(family.base, [](const scenario::Step& step) {
           return std::holds_alternative<scenario::Relax>(step);
         })) {
-      Figure figure =
-          figure_strain_time(series_of(family, records, fits, {Model::standard_linear_solid}));
+      Figure figure = figure_strain_time(series_of(family, records, fits, is_relaxation));
       figure.name = "figure_stress_time";
       figure.y_label = "Stress (kPa)";
       figure.fit_label = "Standard linear solid fit";
