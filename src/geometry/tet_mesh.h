@@ -13,6 +13,12 @@ namespace palpate::geometry {
 struct TetMesh {
   std::vector<Vec3> nodes;                     // m
   std::vector<std::array<int, 4>> tetrahedra;  // indices into `nodes`
+  std::vector<int> regions;                    // one a tetrahedron; empty: all are 0
+
+  // Which of the body's tissues a tetrahedron is made of.
+  [[nodiscard]] int region(int tetrahedron) const {
+    return regions.empty() ? 0 : regions[static_cast<std::size_t>(tetrahedron)];
+  }
 };
 
 // The four faces of a positive tetrahedron as local node numbers, counter-clockwise from outside;

@@ -99,7 +99,7 @@ struct Outcome {
 
 }  // namespace
 
-TetMesh tetgen_surface(const ClosedSurface& surface, const std::string& switches,
+TetMesh tetgen_surface(const Surface& surface, const std::string& switches,
                        double time_limit) {
   if (!(time_limit > 0.0)) return Outcome{time_limit}(ChildTimeout{});
   const auto work = [&] {

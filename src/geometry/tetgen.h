@@ -1,19 +1,11 @@
 // Irregular tetrahedra by TetGen, in a process of its own.
 #pragma once
 
-#include <array>
 #include <string>
-#include <vector>
 
-#include "geometry/tet_mesh.h"
+#include "geometry/surface.h"
 
 namespace palpate::geometry {
-
-// A closed surface: `triangles` index into `vertices` (m) and run counter-clockwise from outside.
-struct ClosedSurface {
-  std::vector<Vec3> vertices;
-  std::vector<std::array<int, 3>> triangles;
-};
 
 // Runs TetGen 1.5 on a closed surface. `switches` as in TetGen's manual, section 4.2, without `Q`
 // and with `p`, such as "pq1.414a1e-9" (lengths in m); `time_limit` in s, more than 0. The mesh
@@ -24,7 +16,7 @@ struct ClosedSurface {
 // call this at once, and each gets the bits that it would get alone.
 // Throws MeshError, with advice, where TetGen refuses, crashes, runs out of time or memory or
 // finds nothing; SystemError where no child process can be had.
-[[nodiscard]] TetMesh tetgen_surface(const ClosedSurface& surface, const std::string& switches,
+[[nodiscard]] TetMesh tetgen_surface(const Surface& surface, const std::string& switches,
                                      double time_limit);
 
 // A box with one corner in the origin, z upwards, `size` in m, with about `target_nodes` nodes:

@@ -52,8 +52,8 @@ Triple cells_for(const Vec3& size, double spacing) {
 }
 
 // The six sides as grids; squares are cut along alternating diagonals.
-ClosedSurface box_surface(const Vec3& size, const Triple& cells) {
-  ClosedSurface surface;
+Surface box_surface(const Vec3& size, const Triple& cells) {
+  Surface surface;
   std::map<Triple, int> numbers;  // of the lattice points in use
   const auto number = [&](const Triple& at) {
     const auto [entry, fresh] = numbers.try_emplace(at, static_cast<int>(surface.vertices.size()));
@@ -98,7 +98,7 @@ class Search {
 
   // Up to tries_per_grid meshes on the grid of this spacing (m).
   void on_grid(double spacing) {
-    const ClosedSurface surface = box_surface(size_, cells_for(size_, spacing));
+    const Surface surface = box_surface(size_, cells_for(size_, spacing));
     const int on_surface = static_cast<int>(surface.vertices.size());
     const double wanted = std::max(target_ - on_surface, 0);
     const double cube = spacing * spacing * spacing;
@@ -118,7 +118,7 @@ class Search {
   using Clock = std::chrono::steady_clock;
 
   // Time decides only whether there is an answer, never which.
-  int attempt(const ClosedSurface& surface, double volume) {
+  int attempt(const Surface& surface, double volume) {
     const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
     if (spent >= time_limit_)
       throw MeshError("no mesh with about " + std::to_string(target_) + " nodes was found within " +

@@ -10,7 +10,7 @@ namespace palpate::geometry::tetgen_library {
 namespace {
 
 // TetGen frees the arrays with delete[], so they are made with new[].
-void fill(tetgenio& io, const ClosedSurface& surface) {
+void fill(tetgenio& io, const Surface& surface) {
   io.numberofpoints = static_cast<int>(surface.vertices.size());
   io.pointlist = new double[3 * surface.vertices.size()];
   double* coordinate = io.pointlist;
@@ -45,7 +45,7 @@ TetMesh taken(const tetgenio& io) {
 
 }  // namespace
 
-TetMesh run(const ClosedSurface& surface, const std::string& switches) {
+TetMesh run(const Surface& surface, const std::string& switches) {
   tetgenio in;
   tetgenio out;
   fill(in, surface);

@@ -19,7 +19,7 @@ enum ExitCode {
 
 // Runs TetGen in this process. Prints to stdout, and ends the process with an ExitCode where
 // TetGen fails: only for a child that exists for this. The tetrahedra are positive.
-[[nodiscard]] TetMesh run(const ClosedSurface& surface, const std::string& switches);
+[[nodiscard]] TetMesh run(const Surface& surface, const std::string& switches);
 
 // Keeps our terminatetetgen() in the program: call it before run().
 void install_exit();

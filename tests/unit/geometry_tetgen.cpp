@@ -29,7 +29,7 @@ void expect_same(const TetMesh& a, const TetMesh& b) {
   EXPECT_EQ(a.tetrahedra, b.tetrahedra);
 }
 
-ClosedSurface box(const Vec3& size) {
+Surface box(const Vec3& size) {
   const TetMesh mesh = cuboid(size, {1, 1, 1}, CellPattern::kuhn);
   return {mesh.nodes, boundary_faces(mesh)};
 }
@@ -155,7 +155,7 @@ TEST(TetGen, refuses_a_target_it_cannot_come_near) {
 }
 
 TEST(TetGen, names_a_surface_that_cuts_itself) {
-  ClosedSurface surface = box({1, 1, 1});
+  Surface surface = box({1, 1, 1});
   const auto first = static_cast<int>(surface.vertices.size());
   surface.vertices.insert(surface.vertices.end(),
                           {{0.3, 0.3, -0.5}, {0.7, 0.4, -0.5}, {0.5, 0.5, 0.5}});
@@ -165,14 +165,14 @@ TEST(TetGen, names_a_surface_that_cuts_itself) {
 }
 
 TEST(TetGen, names_an_open_surface) {
-  ClosedSurface surface = box({1, 1, 1});
+  Surface surface = box({1, 1, 1});
   surface.triangles.pop_back();
   EXPECT_EQ(complaint([&] { (void)tetgen_surface(surface, "pq", kTime); }),
             "TetGen found no inside; close the surface, so that every edge has two faces");
 }
 
 TEST(TetGen, survives_a_crash) {
-  ClosedSurface surface = box({1, 1, 1});
+  Surface surface = box({1, 1, 1});
   surface.triangles[0][0] = 1 << 28;  // far beyond the vertices
   const std::string message = complaint([&] { (void)tetgen_surface(surface, "pq", kTime); });
   EXPECT_TRUE(message.starts_with("TetGen ")) << message;
@@ -180,7 +180,7 @@ TEST(TetGen, survives_a_crash) {
 
 TEST(TetGen, meshes_any_closed_surface) {
   // An octahedron |x| + |y| + |z| = 1 has the volume 4/3.
-  const ClosedSurface surface{
+  const Surface surface{
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
       {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
   const TetMesh mesh = tetgen_surface(surface, "pq1.414a0.01", kTime);

@@ -1,0 +1,168 @@
+// Neighbourhoods by sorting and counting, so that their order follows from the surface alone.
+#include "geometry/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::geometry {
+namespace {
+
+// Lists of different lengths in one array: list i runs from starts[i] to starts[i + 1].
+void pack(const std::vector<std::vector<int>>& lists, std::vector<int>& starts,
+          std::vector<int>& items) {
+  starts.push_back(0);
+  for (const std::vector<int>& list : lists) {
+    items.insert(items.end(), list.begin(), list.end());
+    starts.push_back(static_cast<int>(items.size()));
+  }
+}
+
+std::span<const int> list_of(const std::vector<int>& starts, const std::vector<int>& items,
+                             int index) {
+  const auto first = static_cast<std::size_t>(starts[static_cast<std::size_t>(index)]);
+  const auto last = static_cast<std::size_t>(starts[static_cast<std::size_t>(index) + 1]);
+  return std::span(items).subspan(first, last - first);
+}
+
+}  // namespace
+
+Skin skin(const TetMesh& mesh) {
+  Skin skin;
+  skin.surface.triangles = boundary_faces(mesh);
+  std::vector<int> vertex_of(mesh.nodes.size(), -1);
+  for (const auto& triangle : skin.surface.triangles)
+    for (const int node : triangle) vertex_of[static_cast<std::size_t>(node)] = 0;
+  for (std::size_t n = 0; n < vertex_of.size(); ++n) {
+    if (vertex_of[n] < 0) continue;
+    vertex_of[n] = static_cast<int>(skin.nodes.size());
+    skin.nodes.push_back(static_cast<int>(n));
+    skin.surface.vertices.push_back(mesh.nodes[n]);
+  }
+  for (auto& triangle : skin.surface.triangles)
+    for (int& corner : triangle) corner = vertex_of[static_cast<std::size_t>(corner)];
+  return skin;
+}
+
+Vec3 twice_area(const Surface& surface, int triangle) {
+  const auto& [a, b, c] = surface.triangles[static_cast<std::size_t>(triangle)];
+  const Vec3& origin = surface.vertices[static_cast<std::size_t>(a)];
+  return (surface.vertices[static_cast<std::size_t>(b)] - origin)
+      .cross(surface.vertices[static_cast<std::size_t>(c)] - origin);
+}
+
+double area(const Surface& surface) {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    sum += 0.5 * twice_area(surface, static_cast<int>(t)).norm();
+  return sum;
+}
+
+Enclosed enclosed(const Surface& surface) {
+  Enclosed inside;
+  if (surface.vertices.empty()) return inside;
+  // Tetrahedra from a vertex of the surface to every triangle: V = sum d . (a x b) / 6, the first
+  // moment a quarter of the corners' sum each.
+  const Vec3 apex = surface.vertices.front();
+  Vec3 moment = Vec3::Zero();
+  for (const auto& triangle : surface.triangles) {
+    const Vec3 a = surface.vertices[static_cast<std::size_t>(triangle[0])] - apex;
+    const Vec3 b = surface.vertices[static_cast<std::size_t>(triangle[1])] - apex;
+    const Vec3 c = surface.vertices[static_cast<std::size_t>(triangle[2])] - apex;
+    const double volume = a.dot(b.cross(c)) / 6.0;
+    inside.volume += volume;
+    moment += 0.25 * volume * (a + b + c);
+  }
+  inside.centroid = apex;
+  if (inside.volume != 0.0) inside.centroid += moment / inside.volume;
+  return inside;
+}
+
+Neighbours::Neighbours(const Surface& surface) : across_(surface.triangles.size(), {-1, -1, -1}) {
+  std::vector<std::vector<int>> triangles(surface.vertices.size());
+  std::vector<std::vector<int>> vertices(surface.vertices.size());
+  struct Side {
+    int low, high, triangle;
+    std::size_t edge;
+  };
+  std::vector<Side> sides;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int from = surface.triangles[t][i];
+      const int to = surface.triangles[t][(i + 1) % 3];
+      triangles[static_cast<std::size_t>(from)].push_back(static_cast<int>(t));
+      vertices[static_cast<std::size_t>(from)].push_back(to);
+      vertices[static_cast<std::size_t>(to)].push_back(from);
+      sides.push_back({std::min(from, to), std::max(from, to), static_cast<int>(t), i});
+    }
+  }
+  for (std::vector<int>& list : vertices) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  pack(triangles, triangle_starts_, triangles_);
+  pack(vertices, vertex_starts_, vertices_);
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+  });
+  on_boundary_.assign(surface.vertices.size(), 0);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side& side = sides[i];
+    const bool shared =
+        i + 1 < sides.size() && sides[i + 1].low == side.low && sides[i + 1].high == side.high;
+    if (!shared) {
+      on_boundary_[static_cast<std::size_t>(side.low)] = 1;
+      on_boundary_[static_cast<std::size_t>(side.high)] = 1;
+      continue;
+    }
+    const Side& other = sides[++i];
+    across_[static_cast<std::size_t>(side.triangle)][side.edge] = other.triangle;
+    across_[static_cast<std::size_t>(other.triangle)][other.edge] = side.triangle;
+  }
+}
+
+std::span<const int> Neighbours::triangles_at(int vertex) const {
+  return list_of(triangle_starts_, triangles_, vertex);
+}
+
+std::span<const int> Neighbours::vertices_at(int vertex) const {
+  return list_of(vertex_starts_, vertices_, vertex);
+}
+
+std::vector<int> Neighbours::rings(std::span<const int> start, int rings) const {
+  std::vector<char> known(on_boundary_.size(), 0);
+  std::vector<int> found(start.begin(), start.end());
+  for (const int vertex : start) known[static_cast<std::size_t>(vertex)] = 1;
+  std::size_t first = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t last = found.size();
+    for (; first < last; ++first)
+      for (const int next : vertices_at(found[first])) {
+        if (known[static_cast<std::size_t>(next)] != 0) continue;
+        known[static_cast<std::size_t>(next)] = 1;
+        found.push_back(next);
+      }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<Vec3> vertex_normals(const Surface& surface) {
+  std::vector<Vec3> normals(surface.vertices.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vec3 normal = twice_area(surface, static_cast<int>(t)).normalized();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = [&](std::size_t corner) -> const Vec3& {
+        return surface.vertices[static_cast<std::size_t>(surface.triangles[t][corner % 3])];
+      };
+      const Vec3 left = at(i + 1) - at(i);
+      const Vec3 right = at(i + 2) - at(i);
+      const double angle = std::atan2(left.cross(right).norm(), left.dot(right));
+      normals[static_cast<std::size_t>(surface.triangles[t][i])] += angle * normal;
+    }
+  }
+  for (Vec3& normal : normals)
+    if (normal.squaredNorm() > 0.0) normal.normalize();
+  return normals;
+}
+
+}  // namespace palpate::geometry
