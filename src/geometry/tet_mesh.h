@@ -13,7 +13,7 @@ namespace palpate::geometry {
 struct TetMesh {
   std::vector<Vec3> nodes;                     // m
   std::vector<std::array<int, 4>> tetrahedra;  // indices into `nodes`
-  std::vector<int> regions;                    // one a tetrahedron; empty: all are 0
+  std::vector<int> regions = {};               // one a tetrahedron; empty: all are 0
 
   // Which of the body's tissues a tetrahedron is made of.
   [[nodiscard]] int region(int tetrahedron) const {
