@@ -34,6 +34,7 @@ inline constexpr Unit density{"kg/m^3", "density", 1, 1, {-3, 1, 0}};
 inline constexpr Unit s{"s", "time", 1, 1, {0, 0, 1}};
 inline constexpr Unit ms{"ms", "time", 1, 1e3, {0, 0, 1}};
 inline constexpr Unit per_second{"1/s", "rate", 1, 1, {0, 0, -1}};
+inline constexpr Unit per_metre{"1/m", "curvature", 1, 1, {-1, 0, 0}};
 inline constexpr Unit mm_per_s{"mm/s", "speed", 1, 1e3, {1, 0, -1}};
 inline constexpr Unit N{"N", "force", 1, 1, {1, 1, -2}};
 }  // namespace unit

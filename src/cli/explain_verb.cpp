@@ -117,9 +117,9 @@ class Explanation {
   }
 
   void contact() {
-    line("  contact      E* " + rounded_text(unit::kPa.from_si(scene_.law.modulus)) +
-         " kPa, radius " + quantity_text(scene_.law.radius, unit::mm) +
-         " on a flat; the finger has " + rounded_text(100.0 * scene_.finger_share, 2) +
+    line("  contact      E* " + rounded_text(unit::kPa.from_si(scene_.law().modulus)) +
+         " kPa, radius " + quantity_text(scene_.law().radius, unit::mm) +
+         " on a flat; the finger has " + rounded_text(100.0 * scene_.finger.compliance_share, 2) +
          " % of the compliance");
     if (!scene_.specimen) return;
     switch (scene_.scenario.contact.coupling) {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "geometry/gmsh_file.h"
 #include "geometry/table_lines.h"
 
 namespace palpate::geometry {
@@ -120,6 +121,7 @@ void read_tetrahedra(TableLines lines, int first, TetMesh& mesh) {
       corner[c] = node - first;
     }
     mesh.tetrahedra.push_back(corner);
+    if (attributes == 1) mesh.regions.push_back(lines.whole(5, "the region"));
     if (signed_volume(mesh, i) < 0.0)
       std::swap(mesh.tetrahedra.back()[2], mesh.tetrahedra.back()[3]);
   }
@@ -144,14 +146,24 @@ void write_node_ele(const std::string& path, const TetMesh& mesh) {
     for (int axis = 0; axis < 3; ++axis) nodes += " " + number_text(mesh.nodes[n][axis]);
     nodes += "\n";
   }
-  std::string tetrahedra = std::to_string(mesh.tetrahedra.size()) + " 4 0\n";
+  std::string tetrahedra =
+      std::to_string(mesh.tetrahedra.size()) + (mesh.regions.empty() ? " 4 0\n" : " 4 1\n");
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     tetrahedra += std::to_string(t);
     for (const int node : mesh.tetrahedra[t]) tetrahedra += " " + std::to_string(node);
+    if (!mesh.regions.empty()) tetrahedra += " " + std::to_string(mesh.regions[t]);
     tetrahedra += "\n";
   }
   write_atomically(files.node, nodes);
   write_atomically(files.ele, tetrahedra);
+}
+
+TetMesh read_mesh(const std::string& path, double metres_per_unit) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".msh") return read_gmsh(path, metres_per_unit);
+  if (ending == ".node" || ending == ".ele") return read_node_ele(path, metres_per_unit);
+  throw InputError(
+      {path}, "a mesh file wants the ending `.node`, `.ele` or `.msh`; save it as one of them");
 }
 
 }  // namespace palpate::geometry

@@ -21,6 +21,9 @@ class TableLines {
   // The current line's words; they point into this object.
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
 
+  // The current line's number, from 1.
+  [[nodiscard]] int line() const { return line_; }
+
   // Word `i` as a finite number or as a whole number; `what` names it in the message.
   // Throws InputError where it is neither.
   [[nodiscard]] double number(std::size_t i, const std::string& what) const;

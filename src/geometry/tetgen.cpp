@@ -15,10 +15,11 @@ namespace {
 
 constexpr double most_memory = 8.0 * 1024 * 1024 * 1024;  // bytes: some 20 million tetrahedra
 
-// The answer: two counts, then the nodes' and the tetrahedra's bytes. Both ends are one program.
+// The answer: three counts, then the bytes of what they count. Both ends are one program.
 struct Counts {
   std::size_t nodes;
   std::size_t tetrahedra;
+  std::size_t regions;
 };
 
 template <typename Item>
@@ -28,11 +29,12 @@ void append(std::string& bytes, const Item* items, std::size_t count) {
 }
 
 std::string packed(const TetMesh& mesh) {
-  const Counts counts{mesh.nodes.size(), mesh.tetrahedra.size()};
+  const Counts counts{mesh.nodes.size(), mesh.tetrahedra.size(), mesh.regions.size()};
   std::string bytes;
   append(bytes, &counts, 1);
   for (const Vec3& node : mesh.nodes) append(bytes, node.data(), 3);
   append(bytes, mesh.tetrahedra.data(), mesh.tetrahedra.size());
+  append(bytes, mesh.regions.data(), mesh.regions.size());
   return bytes;
 }
 
@@ -43,16 +45,20 @@ TetMesh unpacked(const std::string& bytes) {
   std::memcpy(&counts, bytes.data(), sizeof(counts));
   const std::size_t node_bytes = counts.nodes * 3 * sizeof(double);
   const std::size_t tetrahedron_bytes = counts.tetrahedra * sizeof(std::array<int, 4>);
-  if (bytes.size() != sizeof(counts) + node_bytes + tetrahedron_bytes)
+  const std::size_t region_bytes = counts.regions * sizeof(int);
+  if (bytes.size() != sizeof(counts) + node_bytes + tetrahedron_bytes + region_bytes)
     throw MeshError("TetGen gave half an answer; run it again");
   mesh.nodes.resize(counts.nodes);
   mesh.tetrahedra.resize(counts.tetrahedra);
+  mesh.regions.resize(counts.regions);
   const char* from = bytes.data() + sizeof(counts);
   for (Vec3& node : mesh.nodes) {
     std::memcpy(node.data(), from, 3 * sizeof(double));
     from += 3 * sizeof(double);
   }
   if (tetrahedron_bytes > 0) std::memcpy(mesh.tetrahedra.data(), from, tetrahedron_bytes);
+  from += tetrahedron_bytes;
+  if (region_bytes > 0) std::memcpy(mesh.regions.data(), from, region_bytes);
   return mesh;
 }
 
@@ -99,8 +105,7 @@ struct Outcome {
 
 }  // namespace
 
-TetMesh tetgen_surface(const Surface& surface, const std::string& switches,
-                       double time_limit) {
+TetMesh tetgen_surface(const Surface& surface, const std::string& switches, double time_limit) {
   if (!(time_limit > 0.0)) return Outcome{time_limit}(ChildTimeout{});
   const auto work = [&] {
     tetgen_library::install_exit();

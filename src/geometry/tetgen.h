@@ -9,7 +9,9 @@ namespace palpate::geometry {
 
 // Runs TetGen 1.5 on a closed surface. `switches` as in TetGen's manual, section 4.2, without `Q`
 // and with `p`, such as "pq1.414a1e-9" (lengths in m); `time_limit` in s, more than 0. The mesh
-// comes back with positive tetrahedra; it is not checked (see mesh_check.h).
+// comes back with positive tetrahedra; it is not checked (see mesh_check.h). The surface may have
+// further ones inside; with `A` the tetrahedra's regions are then numbers, from 1, that TetGen
+// gives to the parts which the surfaces separate.
 //
 // TetGen 1.5 keeps its predicates' filters in globals (two threads silently spoil each other's
 // mesh), writes to stdout and may crash. So it runs in a forked child: any number of threads may

@@ -40,6 +40,10 @@ TetMesh taken(const tetgenio& io) {
     if (signed_volume(mesh, t) < 0.0)
       std::swap(mesh.tetrahedra.back()[2], mesh.tetrahedra.back()[3]);
   }
+  // With `A` the one attribute of every tetrahedron is the number of its region.
+  for (int t = 0; io.numberoftetrahedronattributes > 0 && t < io.numberoftetrahedra; ++t)
+    mesh.regions.push_back(
+        static_cast<int>(io.tetrahedronattributelist[t * io.numberoftetrahedronattributes]));
   return mesh;
 }
 

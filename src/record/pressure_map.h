@@ -1,4 +1,4 @@
-// The pressure over a contact as a grid of pixels.
+// Pressure, traction and gap over the contacts as a grid of pixels.
 #pragma once
 
 #include <string>
@@ -18,7 +18,10 @@ struct PressureMap {
   std::string scenario_case;    // the case's name
   int step = 0;                 // counted from 1
   double contact_force = 0.0;   // N, what the map must integrate to
-  std::vector<float> pressure;  // Pa, compression positive, width * height values
+  // width * height values each
+  std::vector<float> pressure;  // Pa, compression positive
+  std::vector<float> traction_x, traction_y, traction_z;  // Pa, of the finger on the tissue
+  std::vector<float> gap;  // m, between finger and tissue; 0 in contact, infinite beside the finger
 };
 
 // The map's integral over its area, in N.

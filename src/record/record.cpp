@@ -19,14 +19,17 @@ Table contact_table(const std::vector<CaseRecord>& records) {
                    "contact_radius_mm",
                    "peak_pressure_kPa",
                    "tissue_radius_mm",
-                   "contacts"};
+                   "contacts",
+                   "slide_mm",
+                   "tangential_N"};
   for (const CaseRecord& record : records)
     for (const ContactRow& row : record.contact)
       table.rows.push_back(
           {record.name, static_cast<double>(row.step), row.time, unit::mm.from_si(row.travel),
            unit::mm.from_si(row.indentation), row.force, row.contact_force, row.friction,
            row.ambient, unit::mm.from_si(row.contact_radius), unit::kPa.from_si(row.peak_pressure),
-           unit::mm.from_si(row.tissue_radius), static_cast<double>(row.contacts)});
+           unit::mm.from_si(row.tissue_radius), static_cast<double>(row.contacts),
+           unit::mm.from_si(row.slide), row.tangential});
   return table;
 }
 

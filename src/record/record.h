@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/tet_mesh.h"
 #include "record/pressure_map.h"
 #include "record/table.h"
 
@@ -23,6 +24,8 @@ struct ContactRow {
   double peak_pressure = 0.0;   // Pa
   double tissue_radius = 0.0;   // m, infinite on a flat
   int contacts = 0;
+  double slide = 0.0;       // m, sideways
+  double tangential = 0.0;  // N, size of the tangential forces together
 };
 
 // One row of strain_time.csv, SI; compression positive.
@@ -31,6 +34,15 @@ struct StrainRow {
   double time = 0.0;
   double stress = 0.0;  // Pa
   double strain = 0.0;
+};
+
+// The deformed specimen at one moment.
+struct TissueFrame {
+  int step = 0;
+  double time = 0.0;                     // s
+  std::vector<Vec3> displacement;        // m, one a node
+  std::vector<double> contact_pressure;  // Pa, one a node: its part of the contact forces over its
+                                         // part of the skin
 };
 
 // A named number (or word); the unit is the name's last part.
@@ -49,6 +61,8 @@ struct CaseRecord {
   std::vector<ContactRow> contact;
   std::vector<StrainRow> strain;
   std::vector<PressureMap> maps;
+  geometry::TetMesh mesh;  // of `frames`; empty where none are asked for
+  std::vector<TissueFrame> frames;
   std::vector<Finding> findings;
   std::vector<std::string> remarks;  // on validity, in sentences
   double seconds = 0.0;              // that the case took: for run.json only

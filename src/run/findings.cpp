@@ -89,22 +89,22 @@ class Findings {
     const auto peak = *std::max_element(
         record_.contact.begin(), record_.contact.end(),
         [](const auto& a, const auto& b) { return a.contact_force < b.contact_force; });
-    const double radius = scene_.law.radius;
-    const auto& size = std::get<scenario::Cuboid>(scene_.scenario.tissue.shape).size;
-    add("effective_modulus_kPa", unit::kPa.from_si(scene_.law.modulus));
-    add("finger_compliance_share", scene_.finger_share);
+    const double radius = scene_.law().radius;
+    const double thickness = scene_.thickness();
+    add("effective_modulus_kPa", unit::kPa.from_si(scene_.law().modulus));
+    add("finger_compliance_share", scene_.finger.compliance_share);
     add("peak_force_N", peak.force);
     add("peak_friction_N", peak.friction);
     add("peak_indentation_mm", unit::mm.from_si(peak.indentation));
     add("peak_travel_mm", unit::mm.from_si(peak.travel));
     add("depth_ratio", peak.indentation / radius);
     add("contact_radius_ratio", peak.contact_radius / radius);
-    add("thickness_ratio", peak.contact_radius / size[2]);
+    add("thickness_ratio", peak.contact_radius / thickness);
     // JKR pull-off 1.5 pi w R at w = 0.05 J/m^2, of the order of wet skin    docs/theory.md (29)
     const double pull_off = 1.5 * std::numbers::pi * 0.05 * radius;
     add("force_over_pull_off", peak.contact_force / pull_off);
     identities();
-    validity(peak, size[2]);
+    validity(peak, thickness);
     if (peak.contact_force < 10.0 * pull_off)
       remark("the greatest force is below ten times the adhesive pull-off of about " +
              rounded_text(pull_off, 2) +
@@ -126,7 +126,7 @@ class Findings {
           record_.contact.rbegin(), record_.contact.rend(),
           [&](const auto& one) { return one.step == map.step && one.time <= map.time; });
       friction_error = std::max(
-          friction_error, std::abs(mu * (force + scene_.finger_weight) / row->friction - 1.0));
+          friction_error, std::abs(mu * (force + scene_.finger.weight) / row->friction - 1.0));
     }
     if (record_.maps.empty()) return;
     add("pressure_map_imbalance", map_error);
@@ -138,11 +138,11 @@ class Findings {
     if (!scene_.specimen)
       remark("hertz is elastic and massless: the tissue's viscosity and inertia take no part");
     const bool alone = !scene_.specimen || coupling == contact::Coupling::one_way;
-    if (peak.indentation > 0.1 * scene_.law.radius)
-      remark("the indentation reached " + rounded_text(peak.indentation / scene_.law.radius, 2) +
+    if (peak.indentation > 0.1 * scene_.law().radius)
+      remark("the indentation reached " + rounded_text(peak.indentation / scene_.law().radius, 2) +
              " of the sphere's radius: Hertz assumes far less; true forces differ by up to 6 % "
              "at a quarter of the radius (docs/paper.md, 13)");
-    const double thickness = (1.0 - scene_.finger_share) * 1.127 * peak.contact_radius / height;
+    const double thickness = (1.0 - scene_.finger.compliance_share) * 1.127 * peak.contact_radius / height;
     if (alone && thickness > scene_.scenario.solver.tolerance)
       remark(
           "the force is that of a half-space: on a bonded base at this thickness it would be "
@@ -156,7 +156,7 @@ class Findings {
           rounded_text(lag, 2) + ") would meet more force");
     if (scene_.specimen && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
-             percent(1.0 - std::pow(1.0 + (1.0 - scene_.finger_share), -1.5)) +
+             percent(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +
              " of the force is lost, and the answer drifts with the mesh");
   }
 

@@ -1,15 +1,17 @@
-// Travel over time, and a row of results at every output interval.
+// Travel and slide over time, and a row of results at every output interval.
 #include "run/press.h"
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "contact/friction.h"
 #include "contact/hertz.h"
-#include "run/hertz_map.h"
-#include "run/monitor.h"
+#include "run/half_space_contact.h"
 #include "run/pace.h"
-#include "run/touch.h"
+#include "run/pressed_mesh.h"
+#include "run/pressure_map.h"
+#include "scene/first_touch.h"
 
 namespace palpate::run {
 namespace {
@@ -17,87 +19,106 @@ namespace {
 using scenario::Hold;
 using scenario::Indent;
 using scenario::Retract;
+using scenario::Slide;
 
-// A step of the programme as travel over time.
-struct Ramp {
-  double from = 0.0;                                       // m
-  double duration = 0.0;                                   // s; infinite until a force
+// A step of the programme as travel and slide over time.
+struct Motion {
+  double from = 0.0, to = 0.0;                             // m, travel
+  Vec3 start = Vec3::Zero(), end = Vec3::Zero();           // m, sideways
+  double duration = 0.0;                                   // s; the longest, until a force
   double force = std::numeric_limits<double>::infinity();  // N, to stop at
-  double to = 0.0;                                         // m
+  bool keeps_force = false;
 
   [[nodiscard]] double travel(double time) const {
     return time >= duration ? to : from + (to - from) * time / duration;
   }
+  [[nodiscard]] Vec3 sideways(double time) const {
+    return time >= duration ? end : Vec3(start + (end - start) * (time / duration));
+  }
 };
 
-Ramp make_ramp(const scenario::Step& step, double travel, const scene::Scene& scene) {
-  Ramp ramp{.from = travel, .to = travel};
+Motion make_motion(const scenario::Step& step, double travel, const Vec3& sideways,
+                   const scene::Scene& scene) {
+  Motion motion{.from = travel, .to = travel, .start = sideways, .end = sideways};
   if (const auto* indent = std::get_if<Indent>(&step)) {
     // A force that never comes must not press for ever: to the radius, where Hertz ends.
-    ramp.to = indent->to.second ? std::max(travel, scene.scenario.finger.radius) : indent->to.value;
-    if (indent->to.second) ramp.force = indent->to.value;
-    ramp.duration = (ramp.to - travel) / indent->rate;
+    motion.to =
+        indent->to.second ? std::max(travel, scene.scenario.finger.radius) : indent->to.value;
+    if (indent->to.second) motion.force = indent->to.value;
+    motion.duration = (motion.to - travel) / indent->rate;
   } else if (const auto* retract = std::get_if<Retract>(&step)) {
-    ramp.to = retract->to;
-    ramp.duration = (travel - retract->to) / retract->rate;
+    motion.to = retract->to;
+    motion.duration = (travel - retract->to) / retract->rate;
+  } else if (const auto* slide = std::get_if<Slide>(&step)) {
+    const double angle = slide->direction * std::numbers::pi / 180.0;
+    motion.end += slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0);
+    motion.duration = slide->by / slide->rate;
+    motion.keeps_force = slide->keep == Slide::Keep::force;
   } else {
-    ramp.duration = std::get<Hold>(step).time;
+    motion.duration = std::get<Hold>(step).time;
   }
-  return ramp;
+  return motion;
 }
 
 class Press {
  public:
   Press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record)
       : scene_(scene), stop_(stop), record_(record) {
-    if (!scene.specimen) return;
-    const scene::Specimen& specimen = *scene.specimen;
-    body_.emplace(specimen.network, specimen.kinematics, specimen.law, specimen.held);
-    const Eigen::Index size = body_->mass().size();
-    state_.displacement = integrate::Vector::Zero(size);
-    state_.velocity = integrate::Vector::Zero(size);
-    state_.memory = body_->memory_at(state_.displacement);
-    touch_.load = integrate::Vector::Zero(size);
-    stepper_.emplace(scene, *body_);
-    if (scene.scenario.contact.coupling == contact::Coupling::series)
-      series_.emplace(scene, *body_);
-    else
-      static_.emplace(scene, *body_);
-    monitor_.emplace(*body_);
+    if (!scene.specimen) {
+      first_ = scene::pressed_place(scene);
+      touch_.finger = first_ + scene.finger.sphere_radius * Vec3::UnitZ();
+      return;
+    }
+    mesh_.emplace(scene);
+    first_ = scene::first_touch(scene).finger;
+    touch_.finger = first_;
+    if (scene.scenario.output.tissue) record_.mesh = scene.specimen->mesh;
   }
 
   void all() {
-    double travel = 0.0;
+    Vec3 sideways = Vec3::Zero();
     for (std::size_t i = 0; i < scene_.scenario.steps.size(); ++i) {
       step_ = static_cast<int>(i) + 1;
-      const Ramp ramp = make_ramp(scene_.scenario.steps[i], travel, scene_);
+      const Motion motion =
+          make_motion(scene_.scenario.steps[i], touch_.travel, sideways, scene_);
       if (i == 0) write_row();
-      if (ramp.duration <= 0.0) {  // after a step to a force nobody knows the travel beforehand
+      if (motion.duration <= 0.0) {  // after a step to a force nobody knows the travel beforehand
         record_.remarks.push_back("step " + std::to_string(step_) +
                                   " has nothing to do: the finger is there already");
         continue;
       }
-      if (!run(ramp)) return;
-      travel = touch_.travel;
-      if (scene_.scenario.output.pressure_maps) record_.maps.push_back(draw_map());
+      if (!run(motion)) return;
+      sideways = motion.end;
+      if (scene_.scenario.output.pressure_maps) add_map();
+      if (scene_.scenario.output.tissue && mesh_) add_frame();
     }
-    if (monitor_) record_.findings.push_back({"energy_imbalance", monitor_->imbalance()});
+    if (mesh_) record_.findings.push_back({"energy_imbalance", mesh_->imbalance()});
+    if (scene_.scenario.solver.rings)
+      record_.findings.push_back({"edge_reaction_over_force", edge_share_});
+    if (on_crease_)
+      record_.remarks.push_back(
+          "the finger touched the specimen at a crease or rim: the curvature there is that of the "
+          "side it touched");
+    if (one_sided_)
+      record_.remarks.push_back(
+          "near a boundary or crease the curvature was read from one side only, to first order");
   }
 
  private:
   // False where the case ended early.
-  bool run(const Ramp& ramp) {
-    const bool to_force = std::isfinite(ramp.force);
+  bool run(const Motion& motion) {
+    const bool to_force = std::isfinite(motion.force);
     const Pace pace =
-        to_force ? make_open_pace(scene_, ramp.duration) : make_pace(scene_, ramp.duration);
+        to_force ? make_open_pace(scene_, motion.duration) : make_pace(scene_, motion.duration);
     const double start = time_;
-    if (stepper_) stepper_->set_step(pace.step());
+    kept_force_ = touch_.force();
+    if (mesh_) mesh_->set_step(pace.step());
     for (int row = 0; row < pace.rows; ++row) {
       if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
       for (int k = 1; k <= pace.steps; ++k) {
         const double time = pace.time(row, k);
-        if (!advance(ramp.travel(time), start + time)) return false;
-        if (touch_.force >= ramp.force) {
+        if (!advance(motion, time, start + time)) return false;
+        if (touch_.force() >= motion.force) {
           time_ = start + time;
           write_row();
           return true;
@@ -105,42 +126,54 @@ class Press {
       }
       time_ = start + pace.time(row + 1, 0);
       write_row();
-      if (scene_.specimen && tissue::inverted(scene_.specimen->mesh, state_.displacement))
-        return diverged("a tetrahedron has turned inside out");
+      if (mesh_ && mesh_->inverted()) return diverged("a tetrahedron has turned inside out");
     }
     if (to_force) return diverged("the force of the step was not reached");
     return true;
   }
 
-  // To the finger's next travel, m, at `time`, s.
-  bool advance(double travel, double time) {
-    if (!scene_.specimen) {
-      press_half_space(travel);
+  // To the finger's place after `time` s of the motion, at `now`, s.
+  bool advance(const Motion& motion, double time, double now) {
+    const Vec3 sideways = motion.sideways(time);
+    if (!motion.keeps_force) touch_.travel = motion.travel(time);
+    touch_.slide = sideways.norm();
+    if (!mesh_) {
+      if (auto wrong = press_half_space(scene_, first_ + sideways, touch_))
+        return diverged(*wrong);
       return true;
     }
-    const integrate::State before = state_;
-    const integrate::Vector load_before = touch_.load;
-    const auto wrong = series_ ? series_->step(*stepper_, state_, travel, touch_)
-                               : step_freely(travel, load_before);
-    if (wrong) return diverged(*wrong);
-    state_.time = time;  // a sum of steps would carry their rounding
-    if (const auto unstable = monitor_->step(before, state_, load_before, touch_.load))
-      return diverged(*unstable);
-    record_.last_stable_time = time;
+    if (motion.keeps_force)
+      if (auto wrong = keep_force(sideways)) return diverged(*wrong);
+    if (auto wrong = mesh_->step(place(sideways), now, touch_)) return diverged(*wrong);
+    record_.last_stable_time = now;
     return true;
   }
 
-  void press_half_space(double travel) {
-    touch_.travel = travel;
-    touch_.indentation = std::max(0.0, travel);
-    touch_.force = contact::hertz::force(touch_.indentation, scene_.law.radius, scene_.law.modulus);
-    touch_.contact_radius = contact::hertz::contact_radius(touch_.indentation, scene_.law.radius);
+  [[nodiscard]] Vec3 place(const Vec3& sideways) const {
+    return first_ + sideways - touch_.travel * Vec3::UnitZ();
   }
 
-  // The force does not wait for the mesh, which moves under it.
-  std::optional<std::string> step_freely(double travel, const integrate::Vector& load_before) {
-    if (auto wrong = static_->touch(travel, touch_)) return wrong;
-    return stepper_->step(state_, load_before, touch_.load, integrate::MemoryRule::exact);
+  // Sets the travel at which the force is what it was when the slide began. Where the force waits
+  // for the mesh, one Newton step a solver step follows it.
+  std::optional<std::string> keep_force(const Vec3& sideways) {
+    constexpr int most_tries = 50;
+    Touch tried = touch_;
+    for (int i = 0; i < most_tries; ++i) {
+      if (mesh_->forces_follow_finger()) {
+        tried = touch_;
+        if (auto wrong = mesh_->try_out(place(sideways), tried)) return wrong;
+      }
+      double stiffness = 0.0;
+      for (const SphereContact& contact : tried.contacts)
+        stiffness += contact.law.point.stiffness(contact.depth) * contact.patch.normal.z();
+      const double missing = kept_force_ - tried.force();
+      // Out of touch, down by a little.
+      touch_.travel +=
+          stiffness > 0.0 ? missing / stiffness : 1e-3 * scene_.finger.sphere_radius;
+      if (!mesh_->forces_follow_finger() || std::abs(missing) <= 1e-9 * kept_force_)
+        return std::nullopt;
+    }
+    return "no depth gives the force that the slide keeps";
   }
 
   bool diverged(const std::string& reason) {
@@ -153,43 +186,77 @@ class Press {
     row.step = step_;
     row.time = time_;
     row.travel = touch_.travel;
-    row.indentation = touch_.indentation;
-    row.contact_force = touch_.force;
+    row.slide = touch_.slide;
+    row.contact_force = touch_.normal_force();
     row.ambient = contact.ambient_force;
-    row.force = touch_.force + contact.ambient_force;
-    row.friction = touch_.force > 0.0 ? contact::friction::limit(contact.friction, touch_.force,
-                                                                 scene_.finger_weight)
-                                      : 0.0;
-    row.contact_radius = touch_.contact_radius;
-    row.peak_pressure = contact::hertz::peak_pressure(touch_.force, touch_.contact_radius);
+    row.force = touch_.force() + contact.ambient_force;
+    row.friction = touch_.contacts.empty() ? 0.0
+                                           : contact::friction::limit(contact.friction,
+                                                                      touch_.pressed(),
+                                                                      scene_.finger.weight);
+    row.tangential = touch_.drag().norm();
     row.tissue_radius = std::numeric_limits<double>::infinity();
-    row.contacts = touch_.force > 0.0 ? 1 : 0;
+    if (const SphereContact* deepest = touch_.deepest()) {
+      row.indentation = deepest->depth;
+      row.contact_radius = deepest->patch.radius();
+      row.peak_pressure = contact::hertz::peak_pressure(deepest->force, row.contact_radius);
+      if (deepest->law.mean_curvature != 0.0) row.tissue_radius = 1.0 / deepest->law.mean_curvature;
+    }
+    row.contacts = static_cast<int>(touch_.contacts.size());
     record_.contact.push_back(row);
-    if (!scene_.specimen) record_.last_stable_time = time_;
+    for (const SphereContact& one : touch_.contacts) {
+      on_crease_ = on_crease_ || one.on_crease;
+      one_sided_ = one_sided_ || one.one_sided;
+    }
+    if (scene_.scenario.solver.rings && touch_.pressed() > 0.0)
+      edge_share_ = std::max(edge_share_, mesh_->edge_reaction() / touch_.pressed());
+    if (!mesh_) record_.last_stable_time = time_;
   }
 
-  record::PressureMap draw_map() const {
-    record::PressureMap map = hertz_map(touch_.force, touch_.contact_radius);
-    const auto& size = std::get<scenario::Cuboid>(scene_.scenario.tissue.shape).size;
-    map.origin += Vec3(0.5 * size[0], 0.5 * size[1], size[2]);
+  void add_map() {
+    record::PressureMap map = draw_map(scene_, touch_);
     map.time = time_;
     map.scenario_case = scene_.name;
     map.step = step_;
-    return map;
+    record_.maps.push_back(std::move(map));
+  }
+
+  void add_frame() {
+    const scene::Specimen& specimen = *scene_.specimen;
+    record::TissueFrame frame;
+    frame.step = step_;
+    frame.time = time_;
+    const integrate::Vector displacement = mesh_->displacement();
+    for (int n = 0; n < specimen.network.nodes(); ++n)
+      frame.displacement.emplace_back(displacement.segment<3>(3 * n));
+    std::vector<double> area(specimen.skin.size(), 0.0);
+    const geometry::Surface& surface = specimen.surface->surface();
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      for (const int vertex : surface.triangles[t])
+        area[static_cast<std::size_t>(vertex)] +=
+            geometry::twice_area(surface, static_cast<int>(t)).norm() / 6.0;
+    frame.contact_pressure.assign(specimen.mesh.nodes.size(), 0.0);
+    for (const SphereContact& contact : touch_.contacts)
+      for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
+        const auto vertex = static_cast<std::size_t>(contact.load.vertices[k]);
+        frame.contact_pressure[static_cast<std::size_t>(specimen.skin[vertex])] +=
+            contact.force * contact.load.shares[k] / area[vertex];
+      }
+    record_.frames.push_back(std::move(frame));
   }
 
   const scene::Scene& scene_;
   const std::atomic<bool>& stop_;
   record::CaseRecord& record_;
-  std::optional<scene::SpringBody> body_;
-  std::optional<Stepper> stepper_;
-  std::optional<StaticContact> static_;
-  std::optional<SeriesContact> series_;
-  std::optional<EnergyMonitor> monitor_;
-  integrate::State state_;
+  std::optional<PressedMesh> mesh_;
+  Vec3 first_ = Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
   Touch touch_;
+  double kept_force_ = 0.0;  // N, during a slide
+  double edge_share_ = 0.0;
   double time_ = 0.0;
   int step_ = 1;
+  bool on_crease_ = false;
+  bool one_sided_ = false;
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ class Checker {
   void all() {
     const std::size_t before = problems_.size();
     steps();
+    shapes();
     methods();
     time_step();
     if (problems_.size() == before) rows();  // a wrong step is a wrong duration too
@@ -38,6 +39,10 @@ class Checker {
       return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
     };
     const bool uniform = loads_end_faces(scenario_.steps.front());
+    if (uniform && std::holds_alternative<Ellipsoid>(scenario_.tissue.shape))
+      problem("tissue.shape",
+              "`creep` and `relax` need flat end faces, which an `ellipsoid` does not have; use "
+              "`cuboid`, `cylinder`, `ligament`, `bone_shaft` or `layered_limb`");
     Reached reached;
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
       const std::string path = "step." + std::to_string(i + 1);
@@ -102,18 +107,54 @@ class Checker {
 
   void too_deep(const std::string& path, double travel) {
     const double radius = scenario_.finger.radius;
-    const auto& size = std::get<Cuboid>(scenario_.tissue.shape).size;
     const std::string to = "`to` of " + quantity_text(travel, unit::mm);
     if (travel > radius)
       problem(path, to + " is deeper than the finger's radius of " +
                         quantity_text(radius, unit::mm) +
                         ", where no Hertz contact is left; press less deep");
-    else if (travel > 0.9 * size[2])
+    const auto* box = std::get_if<Cuboid>(&scenario_.tissue.shape);
+    if (travel > radius || box == nullptr) return;
+    if (travel > 0.9 * box->size[2])
       problem(path, to + " presses through the specimen, which is " +
-                        quantity_text(size[2], unit::mm) + " high; press less deep");
-    else if (std::sqrt(radius * travel) > 0.5 * std::min(size[0], size[1]))
+                        quantity_text(box->size[2], unit::mm) + " high; press less deep");
+    else if (std::sqrt(radius * travel) > 0.5 * std::min(box->size[0], box->size[1]))
       problem(path, to + " makes a contact wider than the specimen's top; press less deep or use a "
                          "wider specimen");
+  }
+
+  // What kinds of shape, mesh and model go together.
+  void shapes() {
+    const Tissue& tissue = scenario_.tissue;
+    const bool lattice =
+        std::holds_alternative<Kuhn>(tissue.mesh) || std::holds_alternative<Mirrored>(tissue.mesh);
+    const bool hertz = scenario_.solver.model == Solver::Model::hertz;
+    const bool box = std::holds_alternative<Cuboid>(tissue.shape);
+    const bool half_space = std::holds_alternative<HalfSpace>(tissue.shape);
+    const bool ready = std::holds_alternative<MeshFile>(tissue.mesh);
+    if (std::holds_alternative<AsMeshed>(tissue.shape) && !ready)
+      problem("tissue.shape", "`as_meshed` needs a ready mesh; set `tissue.mesh = { file = ..., "
+                              "unit = \"mm\" }`");
+    if (scenario_.solver.model == Solver::Model::mass_spring && half_space)
+      problem("tissue.shape",
+              "a `half_space` has no mesh; set `solver.model = \"hertz\"` or another shape");
+    if (half_space && !scenario_.regions.empty())
+      problem("region", "a `half_space` has no regions; use another `tissue.shape`");
+    if (!hertz && !half_space && lattice && !box)
+      problem("tissue.mesh",
+              "`kuhn` and `mirrored` cells fill a `cuboid` only; set `tissue.mesh = { kind = "
+              "\"tetgen\", nodes = 728 }`");
+    const bool lumps = std::any_of(
+        scenario_.regions.begin(), scenario_.regions.end(),
+        [](const Region& region) { return std::holds_alternative<Lump>(region); });
+    if (!hertz && lumps && !std::holds_alternative<Tetgen>(tissue.mesh))
+      problem("tissue.mesh", "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
+                             "kind = \"tetgen\", nodes = 1500 }`");
+    const auto* tetgen = std::get_if<Tetgen>(&tissue.mesh);
+    if (tetgen != nullptr && tetgen->tetrahedra &&
+        (box || tetgen->edge || std::holds_alternative<SurfaceFile>(tissue.shape)))
+      problem("tissue.mesh.tetrahedra",
+              "`tetrahedra` can be aimed at besides `nodes`, on shapes other than `cuboid` and "
+              "files; remove it");
   }
 
   void methods() {
@@ -179,6 +220,7 @@ class Checker {
       return time;
     }
     if (const auto* hold = std::get_if<Hold>(&step)) return hold->time;
+    if (const auto* slide = std::get_if<Slide>(&step)) return slide->by / slide->rate;
     if (const auto* creep = std::get_if<Creep>(&step))
       return creep->load_time + creep->recovery_time;
     return std::get<Relax>(step).time;

@@ -20,6 +20,18 @@ constexpr std::array bases{Word{"auto", "bonded under a finger, frictionless in 
                            Word{"frictionless", "it slides on the table"}};
 constexpr std::array weights{Word{"in_contact", "the weight is part of the contact force"},
                              Word{"apart", "friction counts the weight besides, eq. (4)"}};
+constexpr std::array calibrations{
+    Word{"mass", "eq. (5) alone: they press spheres^(5/6) times as hard"},
+    Word{"force", "together they press a flat like the one sphere of `radius`"}};
+constexpr std::array keeps{Word{"travel", "the depth"}, Word{"force", "the force"}};
+constexpr std::array laws{Word{"elliptic", "both principal curvatures, exactly"},
+                          Word{"geometric", "a circle with R = 1 / sqrt(k_1 k_2)"},
+                          Word{"mean", "a circle with the mean curvature, eq. (2)"}};
+constexpr std::array curvature_methods{Word{"quadric", "a local quadric, second order"},
+                                       Word{"taubin", "eq. (6)-(9), signed; does not converge"}};
+constexpr std::array curvature_surfaces{
+    Word{"rest", "the tissue's own shape"},
+    Word{"deformed", "as it is pressed; where it conforms to the finger the run ends"}};
 constexpr std::array couplings{
     Word{"one_way", "eq. (2) with the finger's travel; the mesh only follows"},
     Word{"series", "travel less the mesh's sinking under the contact; counts the tissue twice"},
@@ -44,6 +56,42 @@ constexpr std::array kinematics_words{Word{"linear", "eq. (11)-(12)"},
 static void fields(FieldVisitor& visitor, Cuboid& cuboid) {
   visitor.quantities({"size", "Length, width and height."}, cuboid.size, unit::mm, above(0));
 }
+static void fields(FieldVisitor& visitor, Cylinder& shape) {
+  visitor.quantity({"radius", "Of the bar."}, shape.radius, unit::mm, above(0));
+  visitor.quantity({"length", "Along y."}, shape.length, unit::mm, above(0));
+}
+static void fields(FieldVisitor& visitor, Ellipsoid& shape) {
+  visitor.quantities({"size", "Its three axes in full."}, {shape.size.data(), 3}, unit::mm, above(0));
+}
+static void fields(FieldVisitor& visitor, Ligament& shape) {
+  visitor.quantity({"length", "Along y."}, shape.length, unit::mm, above(0));
+  visitor.quantity({"width", "In the middle."}, shape.width, unit::mm, above(0));
+  visitor.quantity({"thickness", "In the middle."}, shape.thickness, unit::mm, above(0));
+}
+static void fields(FieldVisitor& visitor, BoneShaft& shape) {
+  visitor.quantity({"length", "Along y."}, shape.length, unit::mm, above(0));
+  visitor.quantity({"radius", "In the middle."}, shape.radius, unit::mm, above(0));
+  visitor.quantity({"end_radius", "At both ends."}, shape.end_radius, unit::mm, above(0));
+}
+static void fields(FieldVisitor& visitor, LayeredLimb& shape) {
+  visitor.quantity({"length", "Along y."}, shape.length, unit::mm, above(0));
+  visitor.quantity({"radius", "At y = 0."}, shape.radius, unit::mm, above(0));
+  visitor.quantity({"end_radius", "At the other end."}, shape.end_radius, unit::mm, above(0));
+  visitor.quantity({"skin_thickness", "Of region 0."}, shape.skin_thickness, unit::mm, above(0));
+  visitor.quantity({"bone_radius", "Of region 2."}, shape.bone_radius, unit::mm, above(0));
+}
+static void fields(FieldVisitor& visitor, HalfSpace& shape) {
+  visitor.quantity({"curvature", "Of the surface, convex positive; 0 is a flat."}, shape.curvature,
+                   unit::per_metre, {});
+  visitor.quantity({"curvature_2", "Across the first. Default: the same."}, shape.curvature_2,
+                   unit::per_metre, {});
+}
+static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
+  visitor.text({"file", "Path of the surface, from the scenario's folder."}, shape.file);
+  visitor.text({"unit", "The length unit of its coordinates, such as `mm`. Required."}, shape.unit);
+}
+static void fields(FieldVisitor&, AsMeshed&) {}
+
 static void fields(FieldVisitor& visitor, Kuhn& mesh) {
   visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
 }
@@ -52,9 +100,14 @@ static void fields(FieldVisitor& visitor, Mirrored& mesh) {
 }
 static void fields(FieldVisitor& visitor, Tetgen& mesh) {
   visitor.count({"nodes", "How many nodes to aim at."}, mesh.nodes, between(8, 1e6));
+  visitor.count_or("auto",
+                   {"tetrahedra", "How many tetrahedra to aim at besides; not for cuboids and files."},
+                   mesh.tetrahedra, between(1, 1e7));
+  visitor.quantity_or("auto", {"edge", "A length of edges to aim at instead of a count."}, mesh.edge,
+                      unit::mm, above(0));
 }
 static void fields(FieldVisitor& visitor, MeshFile& mesh) {
-  visitor.text({"file", "Path of the .node file, from the scenario's folder."}, mesh.file);
+  visitor.text({"file", "Path of the .node or .msh file, from the scenario's folder."}, mesh.file);
   visitor.text({"unit", "The length unit of its coordinates, such as `mm`. Required."}, mesh.unit);
 }
 
@@ -71,6 +124,12 @@ static void fields(FieldVisitor& visitor, Retract& step) {
                    unit::mm, {});
   visitor.quantity({"rate", "Speed of the finger."}, step.rate, unit::mm_per_s, above(0));
 }
+static void fields(FieldVisitor& visitor, Slide& step) {
+  visitor.quantity({"by", "How far."}, step.by, unit::mm, above(0));
+  visitor.quantity({"rate", "Speed of the finger."}, step.rate, unit::mm_per_s, above(0));
+  visitor.number({"direction", "Degrees from x towards y."}, step.direction, between(-360, 360));
+  visitor.choice({"keep", "What stays as it was when the slide began."}, step.keep, keeps);
+}
 static void fields(FieldVisitor& visitor, Creep& step) {
   visitor.quantity({"stress", "On the end faces, compression positive."}, step.stress, unit::kPa,
                    above(0));
@@ -82,6 +141,33 @@ static void fields(FieldVisitor& visitor, Relax& step) {
   visitor.number({"strain", "Shortening over height."}, step.strain,
                  {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false});
   visitor.quantity({"time", "How long it is held."}, step.time, unit::s, above(0));
+}
+
+namespace {
+
+void fields(FieldVisitor& visitor, Substance& substance) {
+  visitor.text({"material", "As `tissue.material`."}, substance.material);
+  visitor.quantity({"young_modulus", "Default: the material's."}, substance.young_modulus,
+                   unit::kPa, above(0));
+  visitor.number({"poisson_ratio", "Default: the material's."}, substance.poisson_ratio,
+                 {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false});
+  visitor.quantity({"density", "Default: the material's."}, substance.density, unit::density,
+                   above(0));
+}
+
+}  // namespace
+
+static void fields(FieldVisitor& visitor, TaggedRegion& region) {
+  visitor.count({"tag", "The region's number: of the shape, or the mesh file's own."}, region.tag,
+                between(0, 1e9));
+  fields(visitor, region.substance);
+}
+static void fields(FieldVisitor& visitor, Lump& region) {
+  visitor.quantities({"centre", "In the specimen's coordinates; their origin is the lowest corner "
+                                "of its bounding box."},
+                     region.centre, unit::mm, {});
+  visitor.quantity({"radius", "Of the lump."}, region.radius, unit::mm, above(0));
+  fields(visitor, region.substance);
 }
 
 namespace {
@@ -101,7 +187,7 @@ struct Conditions {
         std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& s) {
           return !std::holds_alternative<Creep>(s) && !std::holds_alternative<Relax>(s);
         });
-    finger = {presses || scenario.steps.empty(), "by steps with a finger (indent, hold, retract)"};
+    finger = {presses || scenario.steps.empty(), "by steps with a finger (indent, hold, retract, slide)"};
   }
 };
 
@@ -144,14 +230,26 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                     with(tissue::Viscosity::nodal_drag, "with `viscosity = \"nodal_drag\"`")},
                    tissue.drag, unit::per_second, at_least(0));
   visitor.choice({"base", "What the specimen stands on.", use.mesh}, tissue.base, bases);
+  visitor.quantity_or("auto",
+                      {"base_height",
+                       "The skin up to this height is its base; `auto`: the lowest plane of a "
+                       "cuboid and in uniform tests, else a tenth of the specimen's height.",
+                       use.mesh},
+                      tissue.base_height, unit::mm, at_least(0));
 }
 
 void fields(FieldVisitor& visitor, Finger& finger) {
   visitor.text({"material", "`finger` (the paper's silicone rubber), any tissue, or `rigid`."},
                finger.material);
-  visitor.quantity({"radius", "Of the sphere."}, finger.radius, unit::mm, above(0));
-  visitor.count({"spheres", "Sphere bodies of the finger; one for now."}, finger.spheres,
-                between(1, 1));
+  visitor.quantity({"radius", "Of the one sphere that has the finger's mass."}, finger.radius, unit::mm, above(0));
+  visitor.count({"spheres", "Sphere bodies of equal mass that make up the finger, eq. (5)."},
+                finger.spheres, between(1, 64));
+  visitor.choice({"calibration", "What several spheres keep of the one that they replace.",
+                  {finger.spheres > 1, "with more than one of `spheres`", Use::Otherwise::note}},
+                 finger.calibration, calibrations);
+  visitor.quantity_or("auto", {"x", "Where it presses; `auto`: the middle of the specimen."},
+                      finger.x, unit::mm, {});
+  visitor.quantity_or("auto", {"y", "Likewise."}, finger.y, unit::mm, {});
   const Use elastic{finger.material != "rigid", "where the finger is not `rigid`"};
   visitor.quantity({"young_modulus", "Default: the material's.", elastic}, finger.young_modulus,
                    unit::kPa, above(0));
@@ -167,6 +265,14 @@ void fields(FieldVisitor& visitor, Finger& finger) {
 void fields(FieldVisitor& visitor, Contact& contact, const Conditions& use) {
   visitor.choice({"coupling", "How the contact sits on the mesh.", use.mesh}, contact.coupling,
                  couplings);
+  visitor.choice({"law", "How the tissue's curvature enters."}, contact.law, laws);
+  visitor.choice({"curvature", "How curvature is read from a mesh.", use.mesh}, contact.curvature,
+                 curvature_methods);
+  visitor.choice({"curvature_on", "Whose curvature.", use.mesh}, contact.curvature_on,
+                 curvature_surfaces);
+  visitor.count({"curvature_rings", "Rings of vertices around the contact that it is read from.",
+                 use.mesh},
+                contact.curvature_rings, between(1, 8));
   visitor.number({"friction", "Coulomb's coefficient mu."}, contact.friction, at_least(0));
   visitor.quantity({"ambient_force", "F_a of eq. (1), added to the force."}, contact.ambient_force,
                    unit::N, {});
@@ -201,11 +307,11 @@ void fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
                 stepped},
                solver.allow_unstable);
   visitor.count_or("all",
-                   {"rings", "Rings of nodes that move around the contact; all for now.", use.mesh},
-                   solver.rings, {.low = 1, .high = 0});
+                   {"rings", "Rings of nodes around the contact that move; the others stand.", use.mesh},
+                   solver.rings, between(1, 1000));
 }
 
-void fields(FieldVisitor& visitor, Output& output, const Use& finger) {
+void fields(FieldVisitor& visitor, Output& output, const Use& finger, const Use& mesh) {
   visitor.quantity({"interval", "Time between rows of the CSV files."}, output.interval, unit::ms,
                    above(0));
   visitor.flag({"pressure_maps", "An EXR map at the end of every step.", finger},
@@ -213,6 +319,9 @@ void fields(FieldVisitor& visitor, Output& output, const Use& finger) {
   visitor.flag({"fits", "Regressions of the curves."}, output.fits);
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
   visitor.flag({"pdf", "Figures as PDF too."}, output.pdf);
+  visitor.flag({"tissue", "The deformed mesh at the end of every step, for ParaView.", mesh},
+               output.tissue);
+  visitor.flag({"picture", "A picture of the scene.", mesh}, output.picture);
   visitor.numbers_by_name(
       {"display_scale", "Factors by case, for figures and an extra fit; CSV stays in newtons."},
       output.display_scale, above(0));
@@ -232,7 +341,14 @@ void fields(FieldVisitor& visitor, Scenario& scenario) {
   visitor.text({"title", "For figures and reports."}, scenario.title);
   visitor.table({"tissue", "The specimen."},
                 [&](FieldVisitor& inner) { fields(inner, scenario.tissue, use); });
-  visitor.table({"finger", "The sphere that presses.", use.finger},
+  visitor.tables(
+      {"region", "Parts of the specimen that are made of something else."},
+      static_cast<int>(scenario.regions.size()),
+      [&](int size) { scenario.regions.resize(static_cast<std::size_t>(size)); },
+      [&](FieldVisitor& inner, int i) {
+        inner.alternatives(scenario.regions[static_cast<std::size_t>(i)]);
+      });
+  visitor.table({"finger", "The spheres that press.", use.finger},
                 [&](FieldVisitor& inner) { fields(inner, scenario.finger); });
   visitor.table({"contact", "The contact law.", use.finger},
                 [&](FieldVisitor& inner) { fields(inner, scenario.contact, use); });
@@ -245,7 +361,7 @@ void fields(FieldVisitor& visitor, Scenario& scenario) {
         inner.alternatives(scenario.steps[static_cast<std::size_t>(i)]);
       });
   visitor.table({"output", "What is written."}, [&](FieldVisitor& inner) {
-    fields(inner, scenario.output, {use.finger.used, use.finger.when, Use::Otherwise::note});
+    fields(inner, scenario.output, {use.finger.used, use.finger.when, Use::Otherwise::note}, use.mesh);
   });
 }
 

@@ -47,32 +47,47 @@ void fill_viscous(std::optional<double>& value, const std::optional<material::So
   value = from->value;
 }
 
-void read_mesh_file(const MeshFile& mesh, const Node& document, const std::string& folder,
-                    std::vector<InputFile>& inputs) {
-  const Place place = place_of(document, "tissue.mesh");
-  if (mesh.file.empty())
-    throw InputError(place, "`mesh` of kind `file` lacks `file`; write `file = \"box.node\"`");
-  if (mesh.unit.empty())
-    throw InputError(place, "`mesh` lacks the unit of its coordinates; write `unit = \"mm\"`");
+// The geometry in files that a key of [tissue] names, as inputs of the run.
+struct NamedFile {
+  const char* key;      // "mesh"
+  const char* example;  // "box.node"
+  const std::string& file;
+  const std::string& unit;
+};
+
+void read_named_file(const NamedFile& named, const Node& document, const std::string& folder,
+                     std::vector<InputFile>& inputs) {
+  const std::string path = std::string("tissue.") + named.key;
+  const Place place = place_of(document, path);
+  const std::string quoted = std::string("`") + named.key + "`";
+  if (named.file.empty())
+    throw InputError(place, quoted + " of kind `file` lacks `file`; write `file = \"" +
+                                named.example + "\"`");
+  if (named.unit.empty())
+    throw InputError(place, quoted + " lacks the unit of its coordinates; write `unit = \"mm\"`");
   try {
-    (void)parse_quantity("1 " + mesh.unit, unit::mm);
+    (void)parse_quantity("1 " + named.unit, unit::mm);
   } catch (const std::invalid_argument&) {
     throw InputError(
-        place_of(document, "tissue.mesh.unit"),
-        "`unit` wants a unit of length, got `" + mesh.unit + "`; write `unit = \"mm\"`");
+        place_of(document, path + ".unit"),
+        "`unit` wants a unit of length, got `" + named.unit + "`; write `unit = \"mm\"`");
   }
-  for (const char* extension : {".node", ".ele"}) {
-    auto path = std::filesystem::path(folder) / mesh.file;
-    path.replace_extension(extension);
+  const auto file = std::filesystem::path(folder) / named.file;
+  std::vector<std::filesystem::path> files{file};
+  if (file.extension() == ".node" || file.extension() == ".ele") {
+    files = {file, file};
+    files[0].replace_extension(".node");
+    files[1].replace_extension(".ele");
+  }
+  for (const auto& one : files) {
     std::string content;
     try {
-      content = read_text(path.string());
+      content = read_text(one.string());
     } catch (const InputError& error) {
-      throw InputError(
-          place_of(document, "tissue.mesh.file"),
-          "`file` names `" + path.string() + "`, which " + error.problems()[0].message);
+      throw InputError(place_of(document, path + ".file"),
+                       "`file` names `" + one.string() + "`, which " + error.problems()[0].message);
     }
-    remember_input(inputs, {path.filename().string(), content}, place);
+    remember_input(inputs, {one.filename().string(), content}, place);
   }
 }
 
@@ -100,6 +115,34 @@ void fill_in_tissue(Scenario& scenario, const material::Tissue& material, const 
     fill_viscous(tissue.drag, material.drag, "drag", tissue, document);
 }
 
+void fill_in_substance(Substance& substance, const material::Tissue& material, const Place& place) {
+  if (!substance.density) substance.density = material.density.value;
+  if (!substance.young_modulus) substance.young_modulus = material.young_modulus.value;
+  if (!substance.poisson_ratio) substance.poisson_ratio = material.poisson_ratio.value;
+  if (*substance.poisson_ratio >= 0.5)
+    throw InputError(place, "`" + substance.material +
+                                "` has a Poisson's ratio of 0.5, and a tissue needs less; set "
+                                "`poisson_ratio = 0.49`");
+}
+
+// A limb's muscle and bone, unless the scenario says what its regions are; the mesh of shapes that
+// are no boxes, unless it says how.
+void complete_shape(Scenario& scenario, const Node& document) {
+  const Member* tissue = document.find("tissue");
+  const auto given = [&](const char* key) {
+    return tissue != nullptr && tissue->value.find(key) != nullptr;
+  };
+  if (std::holds_alternative<MeshFile>(scenario.tissue.mesh) && !given("shape"))
+    scenario.tissue.shape = AsMeshed{};
+  if (!given("mesh") && !std::holds_alternative<Cuboid>(scenario.tissue.shape))
+    scenario.tissue.mesh = Tetgen{};
+  const auto* limb = std::get_if<LayeredLimb>(&scenario.tissue.shape);
+  if (limb == nullptr || document.find("region") != nullptr) return;
+  scenario.regions.clear();
+  if (limb->skin_thickness > 0.0) scenario.regions.emplace_back(TaggedRegion{.tag = 1, .substance = {.material = "muscle"}});
+  if (limb->bone_radius > 0.0) scenario.regions.emplace_back(TaggedRegion{.tag = 2, .substance = {.material = "bone"}});
+}
+
 void fill_in_finger(Finger& finger, const material::Tissue& rubber) {
   if (!finger.density) finger.density = rubber.density.value;
   if (finger.material == "rigid") return;
@@ -124,13 +167,33 @@ void fill_in(Scenario& scenario, const Node& document, const std::string& folder
         scenario.tissue.material, place_of(document, "tissue.material"), folder, inputs);
     if (readable) fill_in_tissue(scenario, material, document);
   });
+  complete_shape(scenario, document);
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
+    Substance& substance = std::visit([](auto& one) -> Substance& { return one.substance; },
+                                      scenario.regions[i]);
+    const Place place = place_of(document, "region." + std::to_string(i + 1) + ".material");
+    attempt([&] {
+      const material::Tissue material = find_material(substance.material, place, folder, inputs);
+      if (readable) fill_in_substance(substance, material, place);
+    });
+  }
+  const bool meshed = scenario.solver.model != Solver::Model::hertz;
   const auto* mesh = std::get_if<MeshFile>(&scenario.tissue.mesh);
-  if (mesh != nullptr && readable && scenario.solver.model != Solver::Model::hertz)
-    attempt([&] { read_mesh_file(*mesh, document, folder, inputs); });
+  if (mesh != nullptr && readable && meshed)
+    attempt([&] {
+      read_named_file({"mesh", "box.node", mesh->file, mesh->unit}, document, folder, inputs);
+    });
+  const auto* surface = std::get_if<SurfaceFile>(&scenario.tissue.shape);
+  if (surface != nullptr && readable && meshed)
+    attempt([&] {
+      read_named_file({"shape", "leg.stl", surface->file, surface->unit}, document, folder, inputs);
+    });
 
   Finger& finger = scenario.finger;
   const bool rigid = finger.material == "rigid";
-  if (scenario.uniform() || (rigid && finger.weight == Finger::Weight::in_contact)) return;
+  if (scenario.uniform() ||
+      (rigid && finger.spheres == 1 && finger.weight == Finger::Weight::in_contact))
+    return;
   attempt([&] {
     const material::Tissue rubber = find_material(
         rigid ? "finger" : finger.material, place_of(document, "finger.material"), folder, inputs);

@@ -10,6 +10,10 @@
 
 #include "base/fields.h"
 #include "contact/coupling.h"
+#include "contact/law.h"
+#include "finger/layer.h"
+#include "geometry/curvature.h"
+#include "geometry/shapes.h"
 #include "integrate/central_difference.h"
 #include "tissue/springs.h"
 #include "tissue/stiffness.h"
@@ -21,7 +25,39 @@ struct Cuboid {
   static constexpr Word word{"cuboid", "A box; the finger presses the middle of its top."};
   std::array<double, 3> size{0.060, 0.060, 0.030};  // m
 };
-using Shape = std::variant<Cuboid>;
+struct Cylinder : geometry::Cylinder {
+  static constexpr Word word{"cylinder", "A round bar along y, lying; flat ends."};
+};
+struct Ellipsoid : geometry::Ellipsoid {
+  static constexpr Word word{"ellipsoid", "An ellipsoid, such as a head."};
+};
+struct Ligament : geometry::Ligament {
+  static constexpr Word word{"ligament", "A strap along y with rounded sides, broader at its ends."};
+};
+struct BoneShaft : geometry::BoneShaft {
+  static constexpr Word word{"bone_shaft", "A round shaft along y that widens towards its ends."};
+};
+struct LayeredLimb : geometry::LayeredLimb {
+  static constexpr Word word{
+      "layered_limb",
+      "A tapered limb along y: region 0 is its skin, 1 the muscle inside, 2 the bone."};
+};
+struct HalfSpace {
+  static constexpr Word word{"half_space",
+                             "Endless tissue under a flat, a dome or a bowl: for `hertz` only."};
+  double curvature = 0.0;             // 1/m, convex positive
+  std::optional<double> curvature_2;  // 1/m, across; empty: the same
+};
+struct SurfaceFile {
+  static constexpr Word word{"file", "A closed surface from an STL, OBJ, PLY or OFF file."};
+  std::string file;
+  std::string unit;  // a length unit's symbol
+};
+struct AsMeshed {
+  static constexpr Word word{"as_meshed", "Whatever `tissue.mesh`, a ready mesh, holds."};
+};
+using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb, HalfSpace,
+                           SurfaceFile, AsMeshed>;
 
 struct Kuhn {
   static constexpr Word word{"kuhn", "Cells of six tetrahedra, all alike (the paper's cube)."};
@@ -34,9 +70,11 @@ struct Mirrored {
 struct Tetgen {
   static constexpr Word word{"tetgen", "An unstructured mesh by TetGen."};
   int nodes = 728;
+  std::optional<int> tetrahedra;  // empty: as the nodes give
+  std::optional<double> edge;     // m; where given, `nodes` does not count
 };
 struct MeshFile {
-  static constexpr Word word{"file", "A ready mesh in TetGen's .node and .ele files."};
+  static constexpr Word word{"file", "A ready mesh: TetGen's .node and .ele, or Gmsh's .msh."};
   std::string file;
   std::string unit;  // a length unit's symbol
 };
@@ -56,13 +94,39 @@ struct Tissue {
   std::optional<double> instantaneous_ratio;  // E_0 / E_inf
   std::optional<double> drag;                 // 1/s
   Base base = Base::automatic;
+  std::optional<double> base_height;  // m; empty: 0 on flat undersides, else a tenth of the height
 };
+
+// What a part of the specimen is made of, where that is not `tissue.material`.
+struct Substance {
+  std::string material = "muscle";
+  std::optional<double> density = {};        // kg/m^3; empty properties come from the material
+  std::optional<double> young_modulus = {};  // Pa
+  std::optional<double> poisson_ratio = {};
+};
+struct TaggedRegion {
+  static constexpr Word word{"tagged", "A region of the shape or of the mesh file, by its number."};
+  int tag = 1;
+  Substance substance;
+};
+struct Lump {
+  static constexpr Word word{"sphere", "A lump inside the specimen."};
+  std::array<double, 3> centre{0.030, 0.030, 0.022};  // m
+  double radius = 0.005;                              // m
+  Substance substance;
+};
+using Region = std::variant<TaggedRegion, Lump>;
+[[nodiscard]] inline const Substance& substance(const Region& region) {
+  return std::visit([](const auto& one) -> const Substance& { return one.substance; }, region);
+}
 
 struct Finger {
   enum class Weight { in_contact, apart };
   std::string material = "finger";  // or `rigid`
   double radius = 0.011;            // m
   int spheres = 1;
+  finger::Calibration calibration = finger::Calibration::force;
+  std::optional<double> x, y;  // m, where it presses; empty: the middle of the specimen
   std::optional<double> density;
   std::optional<double> young_modulus;
   std::optional<double> poisson_ratio;
@@ -70,6 +134,11 @@ struct Finger {
 };
 
 struct Contact {
+  enum class CurvatureOn { rest, deformed };
+  contact::CurvatureLaw law = contact::CurvatureLaw::elliptic;
+  geometry::CurvatureMethod curvature = geometry::CurvatureMethod::quadric;
+  CurvatureOn curvature_on = CurvatureOn::rest;
+  int curvature_rings = 2;
   contact::Coupling coupling = contact::Coupling::consistent;
   double friction = 0.0;
   double ambient_force = 0.0;  // N, F_a of eq. (1)
@@ -104,6 +173,14 @@ struct Retract {
   double to = 0.0;      // m
   double rate = 0.005;  // m/s
 };
+struct Slide {
+  enum class Keep { travel, force };
+  static constexpr Word word{"slide", "Move sideways at the same depth or the same force."};
+  double by = 0.010;         // m
+  double rate = 0.005;       // m/s
+  double direction = 0.0;    // degrees from x towards y
+  Keep keep = Keep::travel;
+};
 struct Creep {
   static constexpr Word word{
       "creep", "Stress on the specimen's end faces at once, held, withdrawn: strain over time."};
@@ -117,7 +194,7 @@ struct Relax {
   double strain = 0.05;  // shortening over height
   double time = 1.0;     // s
 };
-using Step = std::variant<Indent, Hold, Retract, Creep, Relax>;
+using Step = std::variant<Indent, Hold, Retract, Slide, Creep, Relax>;
 
 struct Output {
   double interval = 1e-3;  // s
@@ -125,6 +202,8 @@ struct Output {
   bool fits = true;
   bool figures = true;
   bool pdf = false;
+  bool tissue = false;   // deformed meshes for ParaView
+  bool picture = false;  // of the scene
   std::map<std::string, double> display_scale;  // by case, for figures and fits only
 };
 
@@ -132,6 +211,7 @@ struct Scenario {
   int schema = 1;
   std::string title;
   Tissue tissue;
+  std::vector<Region> regions;
   Finger finger;
   Contact contact;
   Solver solver;

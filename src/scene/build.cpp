@@ -1,48 +1,19 @@
 // Case to scene: mesh, springs, supports, time steps.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 
 #include "base/text.h"
-#include "base/units.h"
 #include "contact/hertz.h"
-#include "finger/sphere.h"
-#include "geometry/cuboid.h"
-#include "geometry/mesh_check.h"
-#include "geometry/mesh_files.h"
-#include "geometry/tetgen.h"
+#include "contact/patch.h"
+#include "scene/first_touch.h"
 #include "scene/scene.h"
+#include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
 namespace {
 
-constexpr double gravity = 9.80665;     // m/s^2, standard
-constexpr double meshing_time = 120.0;  // s, that TetGen may take
 constexpr int most_modal_nodes = 1000;  // an eigen-decomposition grows with the cube
-
-geometry::TetMesh make_mesh(const scenario::Scenario& scenario, const std::string& folder) {
-  const auto& size = std::get<scenario::Cuboid>(scenario.tissue.shape).size;
-  const Vec3 box(size[0], size[1], size[2]);
-  geometry::TetMesh mesh;
-  std::string name;
-  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh)) {
-    mesh = geometry::cuboid(box, kuhn->cells, geometry::CellPattern::kuhn);
-    name = "the kuhn mesh";
-  } else if (const auto* mirrored = std::get_if<scenario::Mirrored>(&scenario.tissue.mesh)) {
-    mesh = geometry::cuboid(box, mirrored->cells, geometry::CellPattern::mirrored);
-    name = "the mirrored mesh";
-  } else if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh)) {
-    mesh = geometry::tetgen_cuboid(box, tetgen->nodes, meshing_time);
-    name = "TetGen's mesh";
-  } else {
-    const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
-    const auto path = std::filesystem::path(folder) / file.file;
-    mesh = geometry::read_node_ele(path.string(), parse_quantity("1 " + file.unit, unit::mm));
-    name = "the mesh of " + file.file;
-  }
-  geometry::check(mesh, name, box.prod());
-  return mesh;
-}
 
 tissue::ViscousLaw make_law(const scenario::Tissue& tissue) {
   tissue::ViscousLaw law;
@@ -63,18 +34,29 @@ tissue::Base make_base(const scenario::Scenario& scenario) {
   return scenario.tissue.base == Base::bonded ? tissue::Base::bonded : tissue::Base::frictionless;
 }
 
-// k_c sum_j w_j^2 / m_j at the deepest contact of the programme, where the mesh is read back.
+// k_c sum_j w_j^2 / m_j at the deepest contact of the programme, where the mesh is read back: at
+// most k_c over the least mass of a node of the skin.
 double contact_frequency_squared(const Scene& scene) {
   if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::series)
     return 0.0;
-  const double depth = deepest_travel(scene.scenario, scene.law);
-  const contact::Reading reading =
-      make_contact(scene).at(contact::hertz::contact_radius(depth, scene.law.radius));
+  const Specimen& specimen = *scene.specimen;
+  const double depth = deepest_travel(scene.scenario, scene.law());
+  contact::Spreader spreader(*specimen.surface);
+  contact::Spread load;
+  contact::Patch patch;
+  patch.at = first_touch(scene).at;
+  patch.position = specimen.surface->position(patch.at);
+  patch.normal = specimen.surface->normal(patch.at);
+  patch.axis = patch.normal.unitOrthogonal();
+  patch.a = patch.b = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
+  spreader.spread(patch, load);
   double sum = 0.0;
-  for (std::size_t j = 0; j < reading.load.nodes.size(); ++j)
-    sum += reading.load.shares[j] * reading.load.shares[j] /
-           scene.specimen->network.node_mass[static_cast<std::size_t>(reading.load.nodes[j])];
-  return sum * contact::hertz::stiffness(depth, scene.law.radius, scene.law.modulus);
+  for (std::size_t j = 0; j < load.vertices.size(); ++j)
+    sum += load.shares[j] * load.shares[j] /
+           specimen.network.node_mass[static_cast<std::size_t>(
+               specimen.skin[static_cast<std::size_t>(load.vertices[j])])];
+  return sum * scene.finger.force_factor *
+         contact::hertz::stiffness(depth, scene.law().radius, scene.law().modulus);
 }
 
 void refuse_unstable(const Scene& scene, const scenario::Family& family) {
@@ -103,48 +85,101 @@ void refuse_large_modal(const Scene& scene, const scenario::Family& family) {
                        "; use fewer cells or another integrator");
 }
 
+// The properties of the tissue and of the scenario's regions, in the order of the mesh's numbers.
+std::vector<double> by_region(const scenario::Scenario& scenario,
+                              std::optional<double> scenario::Tissue::*of_tissue,
+                              std::optional<double> scenario::Substance::*of_region) {
+  std::vector<double> values{*(scenario.tissue.*of_tissue)};
+  for (const scenario::Region& region : scenario.regions)
+    values.push_back(*(scenario::substance(region).*of_region));
+  return values;
+}
+
+// The area of the skin's triangles that lie in the plane at height `z`, m^2.
+double flat_area(const geometry::Skin& skin, double z, double tolerance) {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
+    bool inside = true;
+    for (const int v : skin.surface.triangles[t])
+      inside = inside &&
+               std::abs(skin.surface.vertices[static_cast<std::size_t>(v)].z() - z) <= tolerance;
+    if (inside) sum += 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t)).norm();
+  }
+  return sum;
+}
+
+void measure_size(Specimen& specimen) {
+  specimen.low = specimen.high = specimen.mesh.nodes.front();
+  for (const Vec3& node : specimen.mesh.nodes) {
+    specimen.low = specimen.low.cwiseMin(node);
+    specimen.high = specimen.high.cwiseMax(node);
+  }
+}
+
 std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
                                         const std::string& folder) {
   auto specimen = std::make_unique<Specimen>();
-  specimen->mesh = make_mesh(scenario, folder);
+  specimen->mesh = specimen_mesh(scenario, folder);
   specimen->law = make_law(scenario.tissue);
   specimen->kinematics = scenario.solver.kinematics;
   specimen->base = make_base(scenario);
-  specimen->network =
-      tissue::make_network(specimen->mesh, *scenario.tissue.density,
-                           tissue::spring_stiffness(scenario.solver.stiffness, specimen->mesh,
-                                                    *scenario.tissue.young_modulus));
-  specimen->top_height = std::get<scenario::Cuboid>(scenario.tissue.shape).size[2];
-  specimen->top.emplace(specimen->mesh, specimen->top_height);
-  specimen->top_area = specimen->top->area();
-  const auto test = [&](tissue::Base base) {
-    return tissue::uniaxial_test(specimen->network, specimen->mesh, base, specimen->top_height,
-                                 specimen->top_area);
+  measure_size(*specimen);
+  specimen->base_height = scenario.tissue.base_height.value_or(
+      flat_underside(scenario) ? 0.0 : 0.1 * specimen->height());
+
+  const std::vector<double> moduli = by_region(scenario, &scenario::Tissue::young_modulus,
+                                               &scenario::Substance::young_modulus);
+  const std::vector<double> densities =
+      by_region(scenario, &scenario::Tissue::density, &scenario::Substance::density);
+  const tissue::StiffnessRule rule = scenario.solver.stiffness;
+  specimen->network = tissue::make_network(specimen->mesh, densities,
+                                           tissue::spring_stiffness(rule, specimen->mesh, moduli));
+  geometry::Skin skin = geometry::skin(specimen->mesh);
+  const double top = specimen->high.z();
+  const double top_area = flat_area(skin, top, 1e-9 * geometry::diagonal(specimen->mesh));
+  if (scenario.uniform() && top_area <= 0.0)
+    throw MeshError(
+        "the specimen has no flat upper end for a platen; `creep` and `relax` need a shape with "
+        "flat ends, such as `cuboid` or `ligament`");
+  // What the springs make of the tissue's modulus is asked of a specimen of that tissue alone.
+  tissue::Network alone = specimen->network;
+  if (moduli.size() > 1)
+    alone.stiffness = tissue::spring_stiffness(
+        rule, specimen->mesh, std::vector<double>(moduli.size(), moduli.front()));
+  const bool platens =
+      scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
+  const auto measure = [&] {
+    return platens ? tissue::uniaxial_test(alone, specimen->mesh, tissue::Base::frictionless, top,
+                                           top_area)
+                   : tissue::traction_test(alone, specimen->mesh);
   };
-  specimen->measured = test(tissue::Base::frictionless);
-  if (scenario.solver.stiffness == tissue::StiffnessRule::fitted) {
+  specimen->measured = measure();
+  if (rule == tissue::StiffnessRule::fitted) {
     // The fit makes the neighbourhoods isotropic; one factor more gives the specimen as a whole the
     // tissue's modulus under uniaxial load.
-    const double factor = *scenario.tissue.young_modulus / specimen->measured.young_modulus;
+    const double factor = moduli.front() / specimen->measured.young_modulus;
+    for (double& stiffness : alone.stiffness) stiffness *= factor;
     for (double& stiffness : specimen->network.stiffness) stiffness *= factor;
-    specimen->measured = test(tissue::Base::frictionless);
+    specimen->measured = measure();
   }
-  specimen->pressed =
-      specimen->base == tissue::Base::frictionless ? specimen->measured : test(specimen->base);
-  specimen->held = tissue::held_by_base(specimen->mesh, specimen->base);
-  specimen->held_between_platens =
-      tissue::held_between_platens(specimen->mesh, specimen->base, specimen->top_height);
+  if (scenario.uniform()) {
+    specimen->pressed = tissue::uniaxial_test(specimen->network, specimen->mesh, specimen->base,
+                                              top, top_area);
+    specimen->held_between_platens =
+        tissue::held_between_platens(specimen->mesh, specimen->base, top);
+  }
+  specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height);
+  specimen->skin = skin.nodes;
+  specimen->surface.emplace(std::move(skin.surface));
   return specimen;
 }
 
 }  // namespace
 
-contact::FlatContact make_contact(const Scene& scene) {
-  const Specimen& specimen = *scene.specimen;
-  const auto& size = std::get<scenario::Cuboid>(scene.scenario.tissue.shape).size;
-  const double nu = specimen.measured.poisson_ratio;
-  return {*specimen.top, specimen.network.rest, Vec3(0.5 * size[0], 0.5 * size[1], size[2]),
-          scene.scenario.contact.coupling, specimen.measured.young_modulus / (1.0 - nu * nu)};
+double Scene::thickness() const {
+  if (specimen) return specimen->height();
+  const auto shape = parametric(scenario.tissue.shape);
+  return shape ? geometry::extent(*shape).z() : std::numeric_limits<double>::infinity();
 }
 
 Scene build(const scenario::Case& one, const scenario::Family& family) {
@@ -152,24 +187,14 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
   scene.name = one.name;
   scene.scenario = one.scenario;
   scene.choice = choose(one.scenario);
-  if (!one.scenario.uniform()) {
-    const scenario::Finger& asked = one.scenario.finger;
-    const bool rigid = asked.material == "rigid";
-    finger::Sphere sphere;
-    sphere.radius = asked.radius;
-    sphere.density = asked.density.value_or(0.0);
-    if (!rigid) sphere.elastic = {*asked.young_modulus, *asked.poisson_ratio};
-    const contact::Elastic tissue{*one.scenario.tissue.young_modulus,
-                                  *one.scenario.tissue.poisson_ratio};
-    const double lambda_1 = rigid ? 0.0 : sphere.elastic.compliance();
-    const double lambda_2 = tissue.compliance();
-    scene.law = {contact::hertz::effective_radius(sphere.radius, 0.0),
-                 contact::hertz::effective_modulus(lambda_1, lambda_2)};
-    scene.finger_share = lambda_1 / (lambda_1 + lambda_2);
-    if (asked.weight == scenario::Finger::Weight::apart)
-      scene.finger_weight = sphere.mass() * gravity;
+  if (!one.scenario.uniform()) scene.finger = make_finger(one.scenario);
+  if (scene.choice.model == scenario::Solver::Model::hertz) {
+    if (const auto reason = beyond_hertz(one.scenario))
+      throw InputError(scenario::place_of(family.document, "solver.model"),
+                       "`hertz` does not know this scene: " + *reason +
+                           "; set `solver.model = \"mass_spring\"`");
+    return scene;
   }
-  if (scene.choice.model == scenario::Solver::Model::hertz) return scene;
   scene.specimen = make_specimen(one.scenario, family.folder);
   scene.specimen->plan = plan_time(one.scenario, *scene.specimen, contact_frequency_squared(scene));
   refuse_unstable(scene, family);

@@ -1,9 +1,11 @@
 // The questions of the ladder, in order; the first that settles it ends the list.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/hertz.h"
 #include "scene/scene.h"
+#include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
 namespace {
@@ -25,6 +27,38 @@ double time_ratio(const scenario::Scenario& scenario, double travel) {
 }
 
 }  // namespace
+
+std::optional<TopCurvature> top_curvature(const scenario::Shape& shape) {
+  if (std::holds_alternative<scenario::Cuboid>(shape)) return TopCurvature{};
+  if (const auto* half = std::get_if<scenario::HalfSpace>(&shape)) {
+    const double across = half->curvature_2.value_or(half->curvature);
+    if (half->curvature >= across) return TopCurvature{half->curvature, across};
+    return TopCurvature{across, half->curvature, Vec3::UnitY()};
+  }
+  if (const auto* cylinder = std::get_if<scenario::Cylinder>(&shape))
+    return TopCurvature{1.0 / cylinder->radius, 0.0};
+  if (const auto* ellipsoid = std::get_if<scenario::Ellipsoid>(&shape)) {
+    // z = c sqrt(1 - x^2/a^2 - y^2/b^2) curves with c/a^2 and c/b^2 at its top.
+    const Vec3 half = 0.5 * ellipsoid->size;
+    const double x = half.z() / (half.x() * half.x());
+    const double y = half.z() / (half.y() * half.y());
+    return x >= y ? TopCurvature{x, y} : TopCurvature{y, x, Vec3::UnitY()};
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> beyond_hertz(const scenario::Scenario& scenario) {
+  if (!scenario.regions.empty()) return "it has regions of other tissues";
+  const auto top = top_curvature(scenario.tissue.shape);
+  if (!top) return "no formula gives the curvature of its shape";
+  if (top->kappa_1 == 0.0 && top->kappa_2 == 0.0) return std::nullopt;
+  if (scenario.finger.spheres > 1) return "several spheres press a curved surface";
+  if (scenario.finger.x || scenario.finger.y) return "the finger may stand off the curved top";
+  for (const scenario::Step& step : scenario.steps)
+    if (std::holds_alternative<scenario::Slide>(step))
+      return "the finger slides over a curved surface";
+  return std::nullopt;
+}
 
 double deepest_travel(const scenario::Scenario& scenario, const contact::SphereLaw& law) {
   double travel = 0.0;
@@ -63,10 +97,16 @@ Choice choose(const scenario::Scenario& scenario) {
   const contact::SphereLaw law{scenario.finger.radius,
                                contact::hertz::effective_modulus(lambda_1, lambda_2)};
   const double travel = deepest_travel(scenario, law);
-  if (scenario.contact.coupling == contact::Coupling::one_way) {
+  if (scenario.contact.coupling == contact::Coupling::one_way &&
+      !beyond_hertz(scenario)) {
     choice.questions.push_back({"does the force know the mesh?", "coupling is one_way", 0, 1,
                                 "no: it is eq. (2) alone, hertz says the same"});
     choice.model = Model::hertz;
+    return choice;
+  }
+  if (const auto reason = beyond_hertz(scenario)) {
+    choice.questions.push_back(
+        {"a scene that a formula knows?", "reasons against", 1, 1, "no: " + *reason});
     return choice;
   }
   const double tolerance = scenario.solver.tolerance;
@@ -76,7 +116,9 @@ Choice choose(const scenario::Scenario& scenario) {
     choice.model = Model::hertz;
     return choice;
   }
-  const auto& size = std::get<scenario::Cuboid>(scenario.tissue.shape).size;
+  const auto shape = parametric(scenario.tissue.shape);
+  const Vec3 size = shape ? geometry::extent(*shape)
+                          : Vec3(Vec3::Constant(std::numeric_limits<double>::infinity()));
   const double near = std::min({size[2], 0.5 * size[0], 0.5 * size[1]});
   // The finite thickness adds c1 chi to the force, c1 at most 1.127 (bonded, nu = 1/2).
   const double thickness = 1.127 * std::sqrt(law.radius * travel) / near;

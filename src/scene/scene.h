@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "contact/coupling.h"
-#include "geometry/flat_top.h"
+#include "contact/balance.h"
+#include "contact/law.h"
+#include "geometry/smooth_surface.h"
 #include "scenario/family.h"
 #include "scene/spring_body.h"
 #include "scene/time_plan.h"
@@ -31,42 +32,72 @@ struct Choice {
 };
 [[nodiscard]] Choice choose(const scenario::Scenario& scenario);
 
+// The finger: equal spheres about a point that travels.
+struct Finger {
+  double sphere_radius = 0.0;      // m, of each
+  std::vector<Vec3> centres;       // m, from the finger's point
+  double sphere_modulus = 0.0;     // Pa, E* of each, its calibration included
+  contact::SphereLaw whole;        // the one sphere that they replace: radius and E*
+  double weight = 0.0;             // N, where it counts besides the contact force
+  double compliance_share = 0.0;   // lambda_1 / (lambda_1 + lambda_2)
+  double shear_compliance = 0.0;   // 1/Pa, q of Cattaneo and Mindlin
+  double force_factor = 1.0;       // of all spheres together over the whole, on a flat
+};
+
+[[nodiscard]] Finger make_finger(const scenario::Scenario& scenario);
+
 // The deepest travel of the programme, m; a force counts as the depth that Hertz gives it.
 [[nodiscard]] double deepest_travel(const scenario::Scenario& scenario,
                                     const contact::SphereLaw& law);
 
 // The specimen as springs. Holds everything that a step needs.
 struct Specimen {
-  geometry::TetMesh mesh;
+  geometry::TetMesh mesh;  // its regions count the tissue and the scenario's regions from 0
   tissue::Network network;
   tissue::ViscousLaw law;
   tissue::Kinematics kinematics = tissue::Kinematics::linear;
   tissue::Base base = tissue::Base::bonded;
-  double top_height = 0.0;  // m
-  double top_area = 0.0;    // m^2
-  std::optional<geometry::FlatTop> top;
-  tissue::Uniaxial measured;               // on frictionless platens: the network's own E and nu
-  tissue::Uniaxial pressed;                // on the scene's own base: how platens load it
+  double base_height = 0.0;  // m, of the skin that is the base
+  Vec3 low = Vec3::Zero();   // m, corners of the bounding box
+  Vec3 high = Vec3::Zero();
+  std::vector<int> skin;     // the node of every vertex of `surface`
+  std::optional<geometry::SmoothSurface> surface;
+  tissue::Uniaxial measured;               // the network's own E and nu, were it one tissue
+  tissue::Uniaxial pressed;                // how platens load it, in a uniform test
   std::vector<char> held;                  // of a pressed specimen
   std::vector<char> held_between_platens;  // of a relaxing one
   TimePlan plan;
+
+  [[nodiscard]] double height() const { return high.z() - low.z(); }
 };
 
 struct Scene {
   std::string name;
   scenario::Scenario scenario;
   Choice choice;
-  contact::SphereLaw law;              // of the finger on the flat
-  double finger_weight = 0.0;          // N, where it counts besides the contact force
-  double finger_share = 0.0;           // lambda_1 / (lambda_1 + lambda_2)
+  Finger finger;
   std::unique_ptr<Specimen> specimen;  // none for `hertz`
+
+  // From the top to what the specimen stands on, m; infinite for a half-space.
+  [[nodiscard]] double thickness() const;
+
+  // The finger's law on the flat as one sphere, for estimates.
+  [[nodiscard]] const contact::SphereLaw& law() const { return finger.whole; }
 };
 
 // Builds a case. Relative mesh files are looked for in `folder`.
 // Throws MeshError for a mesh that cannot serve, InputError for a time step above its limit.
 [[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family);
 
-// The contact in the middle of the specimen's top.
-[[nodiscard]] contact::FlatContact make_contact(const Scene& scene);
+// The principal curvatures (1/m, convex positive) where `hertz` presses: of the flat or half-space,
+// or of the parametric shape's top. Nothing for shapes that only a mesh knows.
+struct TopCurvature {
+  double kappa_1 = 0.0, kappa_2 = 0.0;  // kappa_1 >= kappa_2
+  Vec3 direction_1 = Vec3::UnitX();
+};
+[[nodiscard]] std::optional<TopCurvature> top_curvature(const scenario::Shape& shape);
+
+// Why `hertz` cannot serve a scene with a finger; nothing where it can.
+[[nodiscard]] std::optional<std::string> beyond_hertz(const scenario::Scenario& scenario);
 
 }  // namespace palpate::scene

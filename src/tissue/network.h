@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "base/vec3.h"
@@ -22,11 +23,14 @@ struct Network {
   [[nodiscard]] int springs() const { return static_cast<int>(ends.size()); }
 };
 
-// Nodes, masses and springs of a mesh; `density` in kg/m^3; `stiffness` one a sorted edge, N/m.
-[[nodiscard]] Network make_network(const geometry::TetMesh& mesh, double density,
+// Nodes, masses and springs of a mesh; `density` in kg/m^3, one a region of the mesh; `stiffness`
+// one a sorted edge, N/m.
+[[nodiscard]] Network make_network(const geometry::TetMesh& mesh, std::span<const double> density,
                                    std::vector<double> stiffness);
 
-// The volume around each node: a quarter of each tetrahedron that it is a corner of, m^3.
-[[nodiscard]] std::vector<double> node_volumes(const geometry::TetMesh& mesh);
+// At each node a quarter of the volume (m^3) of each tetrahedron that it is a corner of, times the
+// weight of the tetrahedron's region.
+[[nodiscard]] std::vector<double> node_volumes(const geometry::TetMesh& mesh,
+                                               std::span<const double> weight);
 
 }  // namespace palpate::tissue

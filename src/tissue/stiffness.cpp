@@ -34,14 +34,23 @@ SymmetricTensor isotropic() {
   return {1.2, 1.2, 1.2, 0, 0, 0, 0, 0, 0, 0.4 * r6, 0.4 * r6, 0.4 * r6, 0, 0, 0};
 }
 
-// The volume of the tetrahedra around each sorted edge, m^3.
+// The moduli over the first one: all sums are volumes, weighted with these.
+std::vector<double> relative(std::span<const double> young_modulus) {
+  std::vector<double> weights(young_modulus.begin(), young_modulus.end());
+  for (double& weight : weights) weight /= young_modulus[0];
+  return weights;
+}
+
+// The weighted volume of the tetrahedra around each sorted edge, m^3.
 std::vector<double> edge_volumes(const geometry::TetMesh& mesh,
-                                 const std::vector<std::array<int, 2>>& edges) {
+                                 const std::vector<std::array<int, 2>>& edges,
+                                 const std::vector<double>& weight) {
   constexpr std::array<std::array<std::size_t, 2>, 6> corners{
       {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
   std::vector<double> volumes(edges.size(), 0.0);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const double volume = geometry::signed_volume(mesh, static_cast<int>(t));
+    const double volume = geometry::signed_volume(mesh, static_cast<int>(t)) *
+                          weight[static_cast<std::size_t>(mesh.region(static_cast<int>(t)))];
     for (const auto& [i, j] : corners) {
       const int a = mesh.tetrahedra[t][i];
       const int b = mesh.tetrahedra[t][j];
@@ -60,18 +69,18 @@ Vec3 span_of(const geometry::TetMesh& mesh, const std::array<int, 2>& edge) {
 
 }  // namespace
 
-std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh, double young_modulus) {
+std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh, std::span<const double> young_modulus) {
   const auto edges = geometry::edges(mesh);
-  std::vector<double> stiffness = edge_volumes(mesh, edges);
+  std::vector<double> stiffness = edge_volumes(mesh, edges, relative(young_modulus));
   for (std::size_t e = 0; e < edges.size(); ++e)
-    stiffness[e] *= young_modulus / span_of(mesh, edges[e]).squaredNorm();
+    stiffness[e] *= young_modulus[0] / span_of(mesh, edges[e]).squaredNorm();
   return stiffness;
 }
 
-std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, double young_modulus) {
+std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, std::span<const double> young_modulus) {
   const auto edges = geometry::edges(mesh);
-  const std::vector<double> start = edge_volumes(mesh, edges);
-  const std::vector<double> volumes = node_volumes(mesh);
+  const std::vector<double> start = edge_volumes(mesh, edges, relative(young_modulus));
+  const std::vector<double> volumes = node_volumes(mesh, relative(young_modulus));
   std::vector<SymmetricTensor> powers;
   powers.reserve(edges.size());
   for (const auto& edge : edges) powers.push_back(fourth_power(span_of(mesh, edge).normalized()));
@@ -111,12 +120,12 @@ std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, double young
   }
   std::vector<double> stiffness(edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e)
-    stiffness[e] = y[e] * young_modulus / span_of(mesh, edges[e]).squaredNorm();
+    stiffness[e] = y[e] * young_modulus[0] / span_of(mesh, edges[e]).squaredNorm();
   return stiffness;
 }
 
 std::vector<double> spring_stiffness(StiffnessRule rule, const geometry::TetMesh& mesh,
-                                     double young_modulus) {
+                                     std::span<const double> young_modulus) {
   return rule == StiffnessRule::van_gelder ? van_gelder_stiffness(mesh, young_modulus)
                                            : fitted_stiffness(mesh, young_modulus);
 }

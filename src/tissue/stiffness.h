@@ -1,6 +1,8 @@
-// Spring stiffness from Young's modulus: two rules for independent springs.
+// Spring stiffness from Young's modulus: two rules for independent springs. Moduli are in Pa, one a
+// region of the mesh; the answer is one stiffness (N/m) a sorted edge.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geometry/tet_mesh.h"
@@ -9,20 +11,19 @@ namespace palpate::tissue {
 
 enum class StiffnessRule { van_gelder, fitted };
 
-// k_e = E sum(V_t) / l_e^2 over the tetrahedra at the edge, N/m.      Van Gelder 1998, in space
+// k_e = sum(E_t V_t) / l_e^2 over the tetrahedra at the edge.         Van Gelder 1998, in space
 [[nodiscard]] std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh,
-                                                       double young_modulus);
+                                                       std::span<const double> young_modulus);
 
 // Bounded least squares towards isotropy: k_e, at least a tenth of Van Gelder's, that minimise
-//   sum_v || sum_{e at v} 1/2 k_e l_e^2 n n n n  -  V_v C ||^2,
+//   sum_v || sum_{e at v} 1/2 k_e l_e^2 n n n n  -  sum_t V_t/4 C_t ||^2,
 // C the isotropic stiffness of E and nu = 1/4, the only ratio that central forces have; drawn
 // weakly to Van Gelder's values where the nodes leave a choice.             docs/theory.md (16)
 [[nodiscard]] std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
-                                                   double young_modulus);
+                                                   std::span<const double> young_modulus);
 
-// One stiffness (N/m) a sorted edge of the mesh; E in Pa.
 [[nodiscard]] std::vector<double> spring_stiffness(StiffnessRule rule,
                                                    const geometry::TetMesh& mesh,
-                                                   double young_modulus);
+                                                   std::span<const double> young_modulus);
 
 }  // namespace palpate::tissue

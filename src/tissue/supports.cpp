@@ -3,14 +3,22 @@
 
 #include <algorithm>
 
+#include "geometry/surface.h"
+
 namespace palpate::tissue {
 
-std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base) {
+std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double base_height) {
   std::vector<char> held(3 * mesh.nodes.size(), 0);
   const auto height = [](const Vec3& node) { return node.z(); };
   double low = height(mesh.nodes.front());
   for (const Vec3& node : mesh.nodes) low = std::min(low, height(node));
-  const std::vector<int> nodes = geometry::nodes_at_height(mesh, low);
+  std::vector<int> nodes = geometry::nodes_at_height(mesh, low);
+  if (base_height > 0.0) {
+    nodes.clear();
+    for (const int node : geometry::skin(mesh).nodes)
+      if (height(mesh.nodes[static_cast<std::size_t>(node)]) <= low + base_height)
+        nodes.push_back(node);
+  }
   const auto hold = [&](int node, int axis) {
     held[static_cast<std::size_t>(3 * node + axis)] = 1;
   };

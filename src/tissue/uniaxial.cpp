@@ -3,6 +3,7 @@
 
 #include "base/cholesky.h"
 #include "base/error.h"
+#include "geometry/surface.h"
 
 namespace palpate::tissue {
 namespace {
@@ -30,7 +31,70 @@ double widening(const geometry::TetMesh& mesh, const Vector& displacement, int a
   return apart / (high - low);
 }
 
+constexpr const char* not_rigid =
+    "the spring network is not rigid: some nodes can move without stretching a spring; use more "
+    "cells or another mesh kind";
+
+// Six degrees of freedom that keep a body from moving as a whole, and no more.
+std::vector<char> held_lightly(const geometry::TetMesh& mesh) {
+  std::vector<char> held(3 * mesh.nodes.size(), 0);
+  const auto hold = [&](std::size_t node, Eigen::Index axis) {
+    held[3 * node + static_cast<std::size_t>(axis)] = 1;
+  };
+  const auto farthest = [&](const auto& measure) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < mesh.nodes.size(); ++i)
+      if (measure(mesh.nodes[i]) > measure(mesh.nodes[best])) best = i;
+    return best;
+  };
+  const Vec3 first = mesh.nodes.front();
+  const std::size_t second = farthest([&](const Vec3& x) { return (x - first).norm(); });
+  const Vec3 line = mesh.nodes[second] - first;
+  const std::size_t third = farthest([&](const Vec3& x) { return line.cross(x - first).norm(); });
+  Eigen::Index along = 0;
+  line.cwiseAbs().maxCoeff(&along);
+  Eigen::Index around = 0;
+  line.cross(mesh.nodes[third] - first).cwiseAbs().maxCoeff(&around);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    hold(0, axis);
+    if (axis != along) hold(second, axis);
+  }
+  hold(third, around);
+  return held;
+}
+
 }  // namespace
+
+Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh) {
+  const std::vector<char> held = held_lightly(mesh);
+  const geometry::Skin skin = geometry::skin(mesh);
+  const auto node = [&](int vertex) { return skin.nodes[static_cast<std::size_t>(vertex)]; };
+  Vector load = Vector::Zero(3 * network.nodes());
+  for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
+    const Vec3 face = 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t));
+    for (const int vertex : skin.surface.triangles[t]) load[3 * node(vertex) + 2] += face.z() / 3.0;
+  }
+  for (std::size_t d = 0; d < held.size(); ++d)  // the tractions balance: nothing is held back here
+    if (held[d] != 0) load[static_cast<Eigen::Index>(d)] = 0.0;
+  const std::vector<double> zero(network.stiffness.size(), 0.0);
+  const Vector rest = Vector::Zero(load.size());
+  Cholesky factors;
+  if (!factors.factor(tangent(network, Kinematics::linear, rest, network.stiffness, zero, held)))
+    throw MeshError(not_rigid);
+  const Vector displacement = factors.solve(load);
+  // mean strain = 1/V sum over the skin of (mean displacement) x (area vector)
+  Vec3 stretch = Vec3::Zero();
+  for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
+    const Vec3 face = 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t));
+    for (const int vertex : skin.surface.triangles[t])
+      stretch += displacement.segment<3>(3 * node(vertex)).cwiseProduct(face) / 3.0;
+  }
+  stretch /= geometry::volume(mesh);
+  Uniaxial result;
+  result.young_modulus = 1.0 / stretch.z();
+  result.poisson_ratio = -0.5 * (stretch.x() + stretch.y()) / stretch.z();
+  return result;
+}
 
 Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Base base, double top,
                        double area) {
@@ -50,9 +114,7 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
   Cholesky factors;
   if (!factors.factor(
           tangent(network, Kinematics::linear, prescribed, network.stiffness, zero, held)))
-    throw MeshError(
-        "the spring network is not rigid: some nodes can move without stretching a spring; use "
-        "more cells or another mesh kind");
+    throw MeshError(not_rigid);
   std::vector<double> tension(network.stiffness.size());
   Vector force;
   const auto forces_at = [&](const Vector& displacement) {

@@ -23,4 +23,9 @@ struct Uniaxial {
 [[nodiscard]] Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh,
                                      Base base, double top, double area);
 
+// The same of a body of any shape, under the tractions on its whole skin that stretch it evenly
+// along z; modulus and ratio follow from the mean strain, the rest of the answer is left empty.
+// Throws as above.                                                          docs/theory.md (45)
+[[nodiscard]] Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh);
+
 }  // namespace palpate::tissue

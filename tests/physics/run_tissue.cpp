@@ -26,7 +26,7 @@ struct Cube {
   geometry::TetMesh mesh =
       geometry::cuboid(Vec3(0.02, 0.03, 0.04), {2, 3, 4}, geometry::CellPattern::mirrored);
   tissue::Network network =
-      tissue::make_network(mesh, 1100.0, tissue::van_gelder_stiffness(mesh, 72.4e3));
+      tissue::make_network(mesh, std::array{1100.0}, tissue::van_gelder_stiffness(mesh, std::array{72.4e3}));
 
   [[nodiscard]] tissue::ViscousLaw law(Viscosity kind) const {
     return {.kind = kind, .time = 0.1, .branch = 1.5, .drag = 50.0};

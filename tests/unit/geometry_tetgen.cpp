@@ -10,12 +10,12 @@
 #include <chrono>
 #include <csignal>
 #include <functional>
+#include <map>
 #include <set>
 #include <thread>
 
 #include "base/error.h"
 #include "geometry/cuboid.h"
-#include "geometry/flat_top.h"
 #include "geometry/mesh_check.h"
 
 namespace palpate::geometry {
@@ -83,8 +83,16 @@ TEST_P(NearTarget, edges_on_the_surface_are_as_long_as_inside) {
 INSTANTIATE_TEST_SUITE_P(Counts, NearTarget, testing::Values(140, 728, 3000));
 
 TEST(TetGen, top_is_flat_and_whole) {
-  const FlatTop top(tetgen_cuboid(kCube, 728, kTime), kCube.z());
-  EXPECT_NEAR(top.area(), 3e-4, 1e-15);  // rounding of some 100 triangles
+  const Surface surface = skin(tetgen_cuboid(kCube, 728, kTime)).surface;
+  Vec3 top = Vec3::Zero();
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& corners = surface.triangles[t];
+    if (std::all_of(corners.begin(), corners.end(), [&](int corner) {
+          return surface.vertices[static_cast<std::size_t>(corner)].z() == kCube.z();
+        }))
+      top += 0.5 * twice_area(surface, static_cast<int>(t));
+  }
+  EXPECT_NEAR(top.z(), 3e-4, 1e-15);  // rounding of some 100 triangles
 }
 
 TEST(TetGen, two_runs_give_the_same_bits) {
@@ -186,6 +194,26 @@ TEST(TetGen, meshes_any_closed_surface) {
   const TetMesh mesh = tetgen_surface(surface, "pq1.414a0.01", kTime);
   EXPECT_GT(mesh.tetrahedra.size(), 133u);  // 4/3 in pieces of at most 0.01
   EXPECT_NO_THROW(check(mesh, "octahedron", 4.0 / 3.0));
+}
+
+// A box of side 1 within one of side 3.
+TEST(TetGen, numbers_the_regions_where_asked) {
+  Surface surface = box({3, 3, 3});
+  const auto first = static_cast<int>(surface.vertices.size());
+  for (const Vec3& vertex : box({1, 1, 1}).vertices)
+    surface.vertices.push_back(vertex + Vec3(1, 1, 1));
+  for (const auto& [a, b, c] : box({1, 1, 1}).triangles)
+    surface.triangles.push_back({first + a, first + b, first + c});
+  EXPECT_TRUE(tetgen_surface(surface, "pq", kTime).regions.empty());
+  const TetMesh mesh = tetgen_surface(surface, "pqA", kTime);
+  ASSERT_EQ(mesh.regions.size(), mesh.tetrahedra.size());
+  std::map<int, double> volumes;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    volumes[mesh.regions[t]] += signed_volume(mesh, static_cast<int>(t));
+  ASSERT_EQ(volumes.size(), 2u);
+  const auto [less, more] = std::minmax(volumes.begin()->second, volumes.rbegin()->second);
+  EXPECT_NEAR(less, 1.0, 1e-12);   // rounding
+  EXPECT_NEAR(more, 26.0, 1e-12);  // rounding
 }
 
 }  // namespace

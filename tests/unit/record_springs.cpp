@@ -31,7 +31,7 @@ double limit(const std::string& name) {
   const auto tissue = material::find(name, "", {}).tissue;
   const auto mesh = cube();
   const auto network = tissue::make_network(
-      mesh, tissue.density.value, tissue::van_gelder_stiffness(mesh, tissue.young_modulus.value));
+      mesh, std::array{tissue.density.value}, tissue::van_gelder_stiffness(mesh, std::array{tissue.young_modulus.value}));
   return 2.0 / std::sqrt(tissue::largest_frequency_squared(network, network.stiffness,
                                                            on_its_base(mesh)));
 }
@@ -54,7 +54,7 @@ TEST(StableStep, SmallestCellsForThePapersSteps) {
 TEST(StableStep, MatrixFreeBoundIsSafe) {
   const auto mesh = cube();
   const auto network =
-      tissue::make_network(mesh, 1000.0, tissue::van_gelder_stiffness(mesh, 1000.0));
+      tissue::make_network(mesh, std::array{1000.0}, tissue::van_gelder_stiffness(mesh, std::array{1000.0}));
   // c = 1 m/s, so that dt c / h = dt / 0.01 m
   const double safe = tissue::safe_frequency_squared(network, network.stiffness);
   expect_case("dt-07", 2.0 / std::sqrt(safe) / 0.01);
@@ -66,7 +66,7 @@ TEST(StableStep, MatrixFreeBoundIsSafe) {
 TEST(StableStep, GershgorinOfTheMatrix) {
   const auto mesh = cube();
   const auto network =
-      tissue::make_network(mesh, 1000.0, tissue::van_gelder_stiffness(mesh, 1000.0));
+      tissue::make_network(mesh, std::array{1000.0}, tissue::van_gelder_stiffness(mesh, std::array{1000.0}));
   const std::vector<double> zero(network.stiffness.size(), 0.0);
   const auto held = std::vector<char>(3 * mesh.nodes.size(), 0);
   const Eigen::MatrixXd matrix =
@@ -81,7 +81,7 @@ TEST(StableStep, GershgorinOfTheMatrix) {
 
 tissue::Uniaxial measured(const geometry::TetMesh& mesh, const std::vector<double>& stiffness,
                           const Vec3& size) {
-  const auto network = tissue::make_network(mesh, 1000.0, stiffness);
+  const auto network = tissue::make_network(mesh, std::array{1000.0}, stiffness);
   return tissue::uniaxial_test(network, mesh, tissue::Base::frictionless, size.z(),
                                size.x() * size.y());
 }
@@ -92,7 +92,7 @@ TEST(Stiffness, MirroredBlockByVanGelder) {
   const Vec3 size(0.08, 0.08, 0.12);
   const auto mesh = geometry::cuboid(size, {8, 8, 12}, CellPattern::mirrored);
   expect_case("mss-12",
-              measured(mesh, tissue::van_gelder_stiffness(mesh, 1.0), size).young_modulus);
+              measured(mesh, tissue::van_gelder_stiffness(mesh, std::array{1.0}), size).young_modulus);
 }
 
 // Class stiffness (axis .56, face .48, body .48) E h, times the tetrahedra at the edge over the
@@ -104,7 +104,7 @@ TEST(Stiffness, MirroredBlockByClasses) {
   const double classes[] = {0.0, 0.56, 0.48, 0.48};  // by the squared length in cells
   const double mean[] = {0.0, 6.0, 4.0, 6.0};
   // Van Gelder's k counts the tetrahedra, each of volume h^3 / 6: k l^2 = E n h^3 / 6.
-  std::vector<double> stiffness = tissue::van_gelder_stiffness(mesh, 1.0);
+  std::vector<double> stiffness = tissue::van_gelder_stiffness(mesh, std::array{1.0});
   const auto edges = geometry::edges(mesh);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const double l2 = (mesh.nodes[static_cast<std::size_t>(edges[e][1])] -
@@ -120,9 +120,9 @@ TEST(Stiffness, MirroredBlockByClasses) {
 TEST(Stiffness, FittedIsNeverNegativeAndNearIsotropic) {
   const Vec3 size(0.06, 0.06, 0.03);
   const auto mesh = geometry::cuboid(size, {6, 6, 4}, CellPattern::mirrored);
-  const auto fitted = tissue::fitted_stiffness(mesh, 1.0);
+  const auto fitted = tissue::fitted_stiffness(mesh, std::array{1.0});
   for (const double k : fitted) EXPECT_GE(k, 0.0);
-  const auto plain = measured(mesh, tissue::van_gelder_stiffness(mesh, 1.0), size);
+  const auto plain = measured(mesh, tissue::van_gelder_stiffness(mesh, std::array{1.0}), size);
   const auto better = measured(mesh, fitted, size);
   // Towards E = 1 and nu = 1/4, the only ratio that central forces have.
   EXPECT_LT(std::abs(better.young_modulus - 1.0), std::abs(plain.young_modulus - 1.0));
@@ -132,8 +132,8 @@ TEST(Stiffness, FittedIsNeverNegativeAndNearIsotropic) {
 TEST(Stiffness, VanGelderHasTheVoigtMeanModulus) {
   // sum k l^2 = 6 E V: the mean over directions is right whatever the mesh.
   const auto mesh = cube();
-  const auto stiffness = tissue::van_gelder_stiffness(mesh, 3.0);
-  const auto network = tissue::make_network(mesh, 1000.0, stiffness);
+  const auto stiffness = tissue::van_gelder_stiffness(mesh, std::array{3.0});
+  const auto network = tissue::make_network(mesh, std::array{1000.0}, stiffness);
   double sum = 0.0;
   for (std::size_t e = 0; e < stiffness.size(); ++e)
     sum += stiffness[e] * network.rest_length[e] * network.rest_length[e];

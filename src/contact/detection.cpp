@@ -1,0 +1,71 @@
+// Broad search by boxes, then one foot for every local minimum of the distance.
+#include "contact/detection.h"
+
+#include <algorithm>
+
+namespace palpate::contact {
+
+Vec3 displacement_at(const geometry::Surface& surface, const geometry::SurfacePoint& point,
+                     std::span<const Vec3> displacement) {
+  if (displacement.empty()) return Vec3::Zero();
+  const auto& [a, b, c] = surface.triangles[static_cast<std::size_t>(point.triangle)];
+  return point.weights[0] * displacement[static_cast<std::size_t>(a)] +
+         point.weights[1] * displacement[static_cast<std::size_t>(b)] +
+         point.weights[2] * displacement[static_cast<std::size_t>(c)];
+}
+
+Detector::Detector(const geometry::SmoothSurface& surface)
+    : surface_(&surface), tree_(surface.surface()), moved_(surface.surface().vertices) {}
+
+void Detector::refit(std::span<const Vec3> displacement) {
+  const auto& rest = surface_->surface().vertices;
+  for (std::size_t v = 0; v < rest.size(); ++v) moved_[v] = rest[v] + displacement[v];
+  tree_.refit(moved_);
+}
+
+bool Detector::nearest_around(const geometry::Near& near) const {
+  const auto distance = [&](int triangle) {
+    const auto found = std::lower_bound(
+        near_.begin(), near_.end(), triangle,
+        [](const geometry::Near& one, int number) { return one.triangle < number; });
+    return found != near_.end() && found->triangle == triangle ? &*found : nullptr;
+  };
+  for (const int corner :
+       surface_->surface().triangles[static_cast<std::size_t>(near.triangle)])
+    for (const int triangle : surface_->neighbours().triangles_at(corner)) {
+      if (triangle == near.triangle) continue;
+      const geometry::Near* other = distance(triangle);
+      if (other == nullptr) continue;
+      if (other->distance_squared < near.distance_squared ||
+          (other->distance_squared == near.distance_squared && triangle < near.triangle))
+        return false;
+    }
+  return true;
+}
+
+void Detector::find(const Vec3& centre, double radius, std::span<const Vec3> displacement,
+                    std::vector<geometry::SmoothSurface::Foot>& feet) {
+  feet.clear();
+  tree_.within(centre, radius, near_);
+  // A centre deeper than the radius has no surface within reach, but lies inside.
+  if (near_.empty()) near_.push_back(tree_.nearest(centre));
+  const auto first = std::min_element(near_.begin(), near_.end(), [](const auto& a, const auto& b) {
+    return a.distance_squared < b.distance_squared;
+  });
+  for (const geometry::Near& near : near_) {
+    if (!nearest_around(near)) continue;
+    const Vec3 carried =
+        centre - displacement_at(surface_->surface(), {near.triangle, near.weights}, displacement);
+    const auto foot = surface_->foot(carried, near);
+    if (foot.height >= radius) continue;
+    // Seen from outside, a face turned away is the tissue's far side; from inside only the nearest
+    // way out counts.
+    if (foot.height < 0.0 && &near != &*first) continue;
+    const bool known = std::any_of(feet.begin(), feet.end(), [&](const auto& other) {
+      return (other.position - foot.position).norm() <= 1e-6 * radius;
+    });
+    if (!known) feet.push_back(foot);
+  }
+}
+
+}  // namespace palpate::contact

@@ -1,0 +1,33 @@
+// The three ways to a law of two curvatures.
+#include "contact/law.h"
+
+#include <cmath>
+
+#include "contact/elliptic.h"
+#include "contact/hertz.h"
+
+namespace palpate::contact {
+
+std::optional<ContactLaw> contact_law(CurvatureLaw kind, const SphereLaw& sphere,
+                                      const geometry::Curvature& curvature) {
+  const auto exact =
+      elliptic_law(sphere.modulus, sphere.radius, curvature.kappa_1, curvature.kappa_2);
+  if (!exact) return std::nullopt;
+  ContactLaw law;
+  law.mean_curvature = 0.5 * (curvature.kappa_1 + curvature.kappa_2);
+  law.axis = curvature.direction_2;
+  double force_radius = exact->force_radius;
+  if (kind == CurvatureLaw::elliptic) {
+    law.a = std::sqrt(exact->along_radius);
+    law.b = law.a * exact->axis_ratio;
+  } else {
+    force_radius = kind == CurvatureLaw::mean
+                       ? mean_radius(sphere.radius, curvature.kappa_1, curvature.kappa_2)
+                       : geometric_radius(sphere.radius, curvature.kappa_1, curvature.kappa_2);
+    law.a = law.b = std::sqrt(force_radius);
+  }
+  law.point.coefficient = hertz::force(1.0, force_radius, sphere.modulus);  // of h = 1 m
+  return law;
+}
+
+}  // namespace palpate::contact

@@ -1,0 +1,44 @@
+// The ring of surface around a patch where `consistent` coupling reads the mesh.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/patch.h"
+
+namespace palpate::contact {
+
+// What the surface's displacements say about a patch: sum of weights[i] * displacement of
+// vertices[i], along the normal.
+struct Reading {
+  std::vector<int> vertices;
+  std::vector<double> weights;
+};
+
+// What of a surface the ring needs, found once.
+class RingReader {
+ public:
+  explicit RingReader(const geometry::SmoothSurface& surface);
+
+  // The ring that carries the sinking of the surface around a patch to its centre: weighted least
+  // squares of c0 + c1 r^2 over the vertices that face as the patch does; the reading is c0.
+  // `shares`: the greatest share of any patch's load that each vertex carries (one a vertex of the
+  // surface); a vertex that carries a hundredth is not read.              docs/theory.md (11)
+  void read(const Patch& patch, std::span<const double> shares, Reading& reading) const;
+
+  // The edge of a typical triangle in the patch's part of the surface, m: that of the equilateral
+  // triangle of the mean area between creases.
+  [[nodiscard]] double spacing(const Patch& patch) const;
+
+  // sum_j s_j / (pi E' |x - x_j|), the sinking of a half-space at vertex x per newton, m/N.
+  [[nodiscard]] double half_space(int vertex, const Spread& load, double plane_modulus,
+                                  double spacing) const;
+
+ private:
+  const geometry::SmoothSurface* surface_;
+  std::vector<std::vector<Vec3>> normals_;  // of every vertex, one a side of its creases
+  std::vector<int> part_;                   // of every triangle
+  std::vector<double> spacing_;             // of every part, m
+};
+
+}  // namespace palpate::contact

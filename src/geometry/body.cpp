@@ -1,0 +1,93 @@
+// Inside and outside by the solid angle of a surface; near and far by its triangles.
+#include "geometry/body.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "geometry/box_tree.h"
+#include "geometry/shape_loops.h"
+
+namespace palpate::geometry {
+namespace {
+
+// A triangle's solid angle from the origin (Van Oosterom & Strackee 1983), summed: 4 pi inside.
+bool encloses(const Surface& surface, const Vec3& point) {
+  double half_angles = 0.0;
+  for (const auto& triangle : surface.triangles) {
+    const Vec3 a = surface.vertices[static_cast<std::size_t>(triangle[0])] - point;
+    const Vec3 b = surface.vertices[static_cast<std::size_t>(triangle[1])] - point;
+    const Vec3 c = surface.vertices[static_cast<std::size_t>(triangle[2])] - point;
+    const double la = a.norm();
+    const double lb = b.norm();
+    const double lc = c.norm();
+    half_angles +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return std::abs(half_angles) > std::numbers::pi;
+}
+
+double distance_to(const Surface& surface, const Vec3& point) {
+  return std::sqrt(BoxTree(surface).nearest(point).distance_squared);
+}
+
+std::string named(const Lump& lump) {
+  std::string text = "the lump of radius " + rounded_text(1e3 * lump.radius) + " mm about (";
+  for (int axis = 0; axis < 3; ++axis)
+    text += (axis ? ", " : "") + rounded_text(1e3 * lump.centre[axis]);
+  return text + ") mm ";
+}
+
+}  // namespace
+
+void add_lump(Body& body, const Lump& lump, double spacing) {
+  const Surface& whole = body.parts.front().surface;
+  if (!encloses(whole, lump.centre) || distance_to(whole, lump.centre) <= lump.radius)
+    throw MeshError(named(lump) +
+                    "does not lie wholly inside the body; move it inwards or make it smaller");
+  for (std::size_t p = 1; p < body.parts.size(); ++p)
+    if (distance_to(body.parts[p].surface, lump.centre) <= lump.radius)
+      throw MeshError(named(lump) + "touches the boundary of region " +
+                      std::to_string(body.parts[p].region) +
+                      "; move it away from there or make it smaller");
+  body.parts.push_back({ellipsoid_surface(lump.centre, Vec3::Constant(2.0 * lump.radius),
+                                          std::min(spacing, 0.8 * lump.radius)),
+                        lump.region});
+}
+
+Surface facets(const Body& body) {
+  Surface all;
+  std::map<std::array<double, 3>, int> numbers;
+  std::set<std::array<int, 3>> known;
+  for (const Part& part : body.parts) {
+    std::vector<int> number;
+    for (const Vec3& vertex : part.surface.vertices) {
+      const auto [entry, fresh] = numbers.try_emplace({vertex.x(), vertex.y(), vertex.z()},
+                                                      static_cast<int>(all.vertices.size()));
+      if (fresh) all.vertices.push_back(vertex);
+      number.push_back(entry->second);
+    }
+    for (std::array<int, 3> triangle : part.surface.triangles) {
+      for (int& corner : triangle) corner = number[static_cast<std::size_t>(corner)];
+      std::array<int, 3> key = triangle;
+      std::sort(key.begin(), key.end());
+      if (known.insert(key).second) all.triangles.push_back(triangle);
+    }
+  }
+  return all;
+}
+
+std::optional<int> region_at(const Body& body, const Vec3& point) {
+  if (!encloses(body.parts.front().surface, point)) return std::nullopt;
+  for (std::size_t p = body.parts.size(); p-- > 1;)
+    if (encloses(body.parts[p].surface, point)) return body.parts[p].region;
+  return body.parts.front().region;
+}
+
+}  // namespace palpate::geometry

@@ -1,0 +1,141 @@
+// Every shape as loops of points, or as a box; its profile along y where it has one.
+#include "geometry/shapes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "geometry/box_surface.h"
+#include "geometry/shape_loops.h"
+
+namespace palpate::geometry {
+namespace {
+
+constexpr double ligament_ends = 1.2;  // their width and thickness over the middle's: assumed
+
+// 0 in the middle of a length, 1 at both ends.
+double towards_ends(double y, double length) {
+  const double part = 2.0 * (y / length) - 1.0;
+  return part * part;
+}
+
+Body one_part(Surface surface) { return {{{std::move(surface), 0}}}; }
+
+Body one_part(const Sweep& sweep, const Spacing& spacing) {
+  return one_part(std::move(sweep_surfaces(sweep, spacing).front()));
+}
+
+struct Sampler {
+  Spacing spacing;
+
+  Body operator()(const Cuboid& cuboid) const {
+    std::array<int, 3> cells{};
+    for (int axis = 0; axis < 3; ++axis)
+      cells[static_cast<std::size_t>(axis)] =
+          std::max(1, static_cast<int>(std::lround(cuboid.size[axis] / spacing.outer)));
+    return one_part(box_surface(cuboid.size, cells));
+  }
+
+  Body operator()(const Cylinder& cylinder) const {
+    const auto section = [=](double) { return Section{0.0, cylinder.radius}; };
+    return one_part({cylinder.length, cylinder.radius, cylinder.radius, {section}}, spacing);
+  }
+
+  Body operator()(const Ellipsoid& ellipsoid) const {
+    return one_part(ellipsoid_surface(0.5 * ellipsoid.size, ellipsoid.size, spacing.outer));
+  }
+
+  Body operator()(const Ligament& ligament) const {
+    assert(ligament.width > ligament.thickness);
+    const auto section = [=](double y) {
+      const double factor = 1.0 + (ligament_ends - 1.0) * towards_ends(y, ligament.length);
+      return Section{0.5 * factor * (ligament.width - ligament.thickness),
+                     0.5 * factor * ligament.thickness};
+    };
+    const Vec3 middle = 0.5 * extent(ligament);
+    return one_part({ligament.length, middle.x(), middle.z(), {section}}, spacing);
+  }
+
+  Body operator()(const BoneShaft& bone) const {
+    const auto section = [=](double y) {
+      const double part = towards_ends(y, bone.length);
+      return Section{0.0, bone.radius + (bone.end_radius - bone.radius) * part * part};
+    };
+    const Vec3 middle = 0.5 * extent(bone);
+    return one_part({bone.length, middle.x(), middle.z(), {section}}, spacing);
+  }
+
+  Body operator()(const LayeredLimb& limb) const {
+    const double thinnest = std::min(limb.radius, limb.end_radius);
+    if (limb.skin_thickness + limb.bone_radius >= thinnest)
+      throw MeshError("a limb of radius " + rounded_text(1e3 * thinnest) +
+                      " mm has no room for muscle between a skin of " +
+                      rounded_text(1e3 * limb.skin_thickness) + " mm and a bone of radius " +
+                      rounded_text(1e3 * limb.bone_radius) + " mm; make one of them thinner");
+    const auto inset = [=](double depth) {
+      return [=](double y) {
+        return Section{0.0,
+                       limb.radius + (limb.end_radius - limb.radius) * (y / limb.length) - depth};
+      };
+    };
+    const bool skin = limb.skin_thickness > 0.0;
+    const Vec3 middle = 0.5 * extent(limb);
+    Sweep sweep{limb.length, middle.x(), middle.z(), {inset(0.0)}};
+    std::vector<int> regions{skin ? 0 : 1};
+    if (skin) {
+      sweep.sections.push_back(inset(limb.skin_thickness));
+      regions.push_back(1);
+    }
+    if (limb.bone_radius > 0.0) {
+      sweep.sections.push_back([=](double) { return Section{0.0, limb.bone_radius}; });
+      regions.push_back(2);
+    }
+    // A chord h of a circle of radius R lies h^2 / (8 R) within it: at most half of what is there.
+    const auto chord = [](double radius, double thickness) {
+      return 2.0 * std::sqrt(radius * thickness);
+    };
+    const double muscle = thinnest - limb.skin_thickness;
+    const Spacing fine{std::min(spacing.outer, skin ? chord(thinnest, limb.skin_thickness)
+                                                    : chord(thinnest, muscle - limb.bone_radius)),
+                       std::min(spacing.inner, chord(muscle, muscle - limb.bone_radius))};
+    Body body;
+    std::vector<Surface> surfaces = sweep_surfaces(sweep, fine);
+    for (std::size_t s = 0; s < surfaces.size(); ++s)
+      body.parts.push_back({std::move(surfaces[s]), regions[s]});
+    return body;
+  }
+};
+
+struct Extent {
+  Vec3 operator()(const Cuboid& cuboid) const { return cuboid.size; }
+  Vec3 operator()(const Cylinder& cylinder) const {
+    return {2.0 * cylinder.radius, cylinder.length, 2.0 * cylinder.radius};
+  }
+  Vec3 operator()(const Ellipsoid& ellipsoid) const { return ellipsoid.size; }
+  Vec3 operator()(const Ligament& ligament) const {
+    return {ligament_ends * ligament.width, ligament.length, ligament_ends * ligament.thickness};
+  }
+  Vec3 operator()(const BoneShaft& bone) const {
+    const double radius = std::max(bone.radius, bone.end_radius);
+    return {2.0 * radius, bone.length, 2.0 * radius};
+  }
+  Vec3 operator()(const LayeredLimb& limb) const {
+    const double radius = std::max(limb.radius, limb.end_radius);
+    return {2.0 * radius, limb.length, 2.0 * radius};
+  }
+};
+
+}  // namespace
+
+Body sampled(const Shape& shape, const Spacing& spacing) {
+  assert(spacing.outer > 0.0 && spacing.inner > 0.0);
+  return std::visit(Sampler{spacing}, shape);
+}
+
+Vec3 extent(const Shape& shape) { return std::visit(Extent{}, shape); }
+
+}  // namespace palpate::geometry

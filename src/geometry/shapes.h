@@ -1,0 +1,66 @@
+// The bodies that a scenario can name instead of a file, and their surfaces.
+#pragma once
+
+#include <variant>
+
+#include "geometry/body.h"
+#include "geometry/shape_loops.h"
+
+namespace palpate::geometry {
+
+// All lengths in m. Every shape's bounding box begins at the origin.
+
+struct Cuboid {
+  Vec3 size{0.060, 0.060, 0.030};
+};
+
+// Lies along y: its lowest line is at z = 0.
+struct Cylinder {
+  double radius = 0.030;
+  double length = 0.080;
+};
+
+// Full axes along x, y and z. The default is the size of a man's head: breadth 154 and length 199
+// mm of the 2012 survey of the US Army (Gordon et al. 2014, NATICK/TR-15/007), height assumed.
+struct Ellipsoid {
+  Vec3 size{0.154, 0.199, 0.230};
+};
+
+// A strap along y with rounded edges, a fifth wider and thicker at its ends than in the middle.
+// The default is a patellar ligament: 44 mm long (Exp Ther Med 2013; 5: 917, men of 15 to 24), 27
+// wide in the middle (Knee 2019, 32 specimens), thickness assumed.
+struct Ligament {
+  double length = 0.044;
+  double width = 0.027;      // in the middle
+  double thickness = 0.005;  // in the middle
+};
+
+// A round shaft along y that flares towards its ends.
+struct BoneShaft {
+  double length = 0.200;
+  double radius = 0.014;  // in the middle
+  double end_radius = 0.022;
+};
+
+// The upper leg: round along y, slightly tapered, with a bone in its axis and a skin all around.
+// Regions: 0 skin with the fat under it, 1 muscle, 2 bone; all run through to the flat end faces.
+// A thickness or bone radius of 0 leaves that region out.
+struct LayeredLimb {
+  double length = 0.350;
+  double radius = 0.090;      // at y = 0
+  double end_radius = 0.065;  // at y = length
+  double skin_thickness = 0.012;
+  double bone_radius = 0.016;
+};
+
+using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb>;
+
+// The shape's closed surfaces, sampled with edges of about `spacing`. The vertices lie on the
+// shape, so what they enclose is a little less than it where it is round. Throws MeshError for a
+// limb whose bone and skin leave no muscle.
+[[nodiscard]] Body sampled(const Shape& shape, const Spacing& spacing);
+
+// What the shape's bounding box measures along x, y and z.
+[[nodiscard]] Vec3 extent(const Shape& shape);
+
+}  // namespace palpate::geometry

@@ -1,0 +1,69 @@
+// A triangulated surface read as the smooth one that it samples, with its creases kept.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "geometry/box_tree.h"
+#include "geometry/surface.h"
+
+namespace palpate::geometry {
+
+// A place on a surface: a triangle and the weights of its corners, which sum to 1.
+struct SurfacePoint {
+  int triangle = -1;
+  Vec3 weights = Vec3::Zero();
+};
+
+// Two triangles whose normals differ by more than this meet in a crease; a boundary is one too.
+inline constexpr double crease_cosine = 0.766044443118978;  // 40 degrees
+
+// Normals vary linearly over a triangle between those of its corners, and points bulge with them:
+// Phong tessellation (Boubekeur & Alexa 2008) with the factor 1/2, which follows a quadratic
+// surface to second order. On flat parts both are the triangles' own, exactly.
+class SmoothSurface {
+ public:
+  explicit SmoothSurface(Surface surface);
+
+  [[nodiscard]] const Surface& surface() const { return surface_; }
+  [[nodiscard]] const Neighbours& neighbours() const { return neighbours_; }
+
+  // Edge i of a triangle runs from its corner i to the next.
+  [[nodiscard]] bool crease(int triangle, std::size_t edge) const {
+    return crease_[static_cast<std::size_t>(triangle)][edge];
+  }
+
+  // The smooth side's unit normal at a triangle's corner.
+  [[nodiscard]] const Vec3& corner_normal(int triangle, std::size_t corner) const {
+    return normals_[static_cast<std::size_t>(triangle)][corner];
+  }
+
+  [[nodiscard]] Vec3 flat_position(const SurfacePoint& point) const;  // m, on the triangle
+  [[nodiscard]] Vec3 position(const SurfacePoint& point) const;       // m, on the smooth surface
+  [[nodiscard]] Vec3 normal(const SurfacePoint& point) const;         // unit, outwards
+
+  // Where the perpendicular from a point meets the surface.
+  struct Foot {
+    SurfacePoint at;
+    Vec3 position = Vec3::Zero();
+    Vec3 normal = Vec3::UnitZ();
+    double height = 0.0;  // m, of the point above the surface; negative inside
+    bool on_crease = false;
+  };
+  // Searched from the nearest point of the flat triangles, which also serves where the search ends
+  // at a crease. Continuous as `point` moves, until another foot is nearer.
+  [[nodiscard]] Foot foot(const Vec3& point, const Near& start) const;
+
+ private:
+  [[nodiscard]] Foot flat_foot(const Vec3& point, const Near& start) const;
+  [[nodiscard]] Foot at(const Vec3& point, const SurfacePoint& where) const;
+  void find_creases();
+  void find_normals();
+
+  Surface surface_;
+  Neighbours neighbours_;
+  std::vector<std::array<bool, 3>> crease_;
+  std::vector<std::array<Vec3, 3>> normals_;
+};
+
+}  // namespace palpate::geometry

@@ -1,0 +1,165 @@
+// XML with the numbers in base64.
+#include "report/vtu.h"
+
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "base/text.h"
+#include "base/units.h"
+
+namespace palpate::report {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
+
+constexpr std::string_view head = "<?xml version=\"1.0\"?>\n";
+
+// RFC 4648, section 4.
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t j) {
+      return j < bytes.size() ? static_cast<unsigned char>(bytes[j]) : 0U;
+    };
+    const std::uint32_t three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
+    for (int shift = 18; shift >= 0; shift -= 6) text += digits[three >> shift & 63U];
+    if (i + 2 >= bytes.size()) text.back() = '=';
+    if (i + 1 >= bytes.size()) text[text.size() - 2] = '=';
+  }
+  return text;
+}
+
+// One array. Its number of bytes stands before the numbers, inside the same base64 text.
+template <class Number>
+std::string array(std::string_view type, const std::string& name, const std::string& attributes,
+                  const std::vector<Number>& values) {
+  const std::uint64_t size = values.size() * sizeof(Number);
+  std::string bytes(sizeof size + size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+  return "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\"" + attributes +
+         " format=\"binary\">" + base64(bytes) + "</DataArray>\n";
+}
+
+std::string doubles(const std::string& name, int components, const std::vector<double>& values) {
+  const std::string attributes =
+      components == 1 ? "" : " NumberOfComponents=\"" + std::to_string(components) + "\"";
+  return array("Float64", name, attributes, values);
+}
+
+std::vector<double> in_mm(std::span<const Vec3> vectors) {
+  std::vector<double> values;
+  for (const Vec3& vector : vectors)
+    for (int axis = 0; axis < 3; ++axis) values.push_back(unit::mm.from_si(vector[axis]));
+  return values;
+}
+
+std::string points(const VtuFrame& frame) {
+  std::vector<Vec3> deformed = frame.mesh.nodes;
+  for (std::size_t n = 0; n < frame.displacement.size(); ++n) deformed[n] += frame.displacement[n];
+  return "<Points>\n" + doubles("Points", 3, in_mm(deformed)) + "</Points>\n";
+}
+
+std::string cells(const geometry::TetMesh& mesh) {
+  constexpr std::uint8_t vtk_tetra = 10;
+  std::vector<std::int32_t> corners, ends;
+  for (const auto& tetrahedron : mesh.tetrahedra) {
+    corners.insert(corners.end(), tetrahedron.begin(), tetrahedron.end());
+    ends.push_back(static_cast<std::int32_t>(corners.size()));
+  }
+  const std::vector<std::uint8_t> types(mesh.tetrahedra.size(), vtk_tetra);
+  return "<Cells>\n" + array("Int32", "connectivity", "", corners) +
+         array("Int32", "offsets", "", ends) + array("UInt8", "types", "", types) + "</Cells>\n";
+}
+
+std::string point_data(const VtuFrame& frame) {
+  std::string text = "<PointData>\n";
+  if (!frame.displacement.empty()) text += doubles("displacement_mm", 3, in_mm(frame.displacement));
+  if (!frame.contact_pressure.empty()) {
+    std::vector<double> shown;
+    for (const double pressure : frame.contact_pressure)
+      shown.push_back(unit::kPa.from_si(pressure));
+    text += doubles("contact_pressure_kPa", 1, shown);
+  }
+  return text + "</PointData>\n";
+}
+
+// sqrt(2/3 e:e) of the deviator, whose shears count twice.
+double equivalent(const Strain& strain, double volume_change) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double normal = strain[i] - volume_change / 3.0;
+    sum += normal * normal + 2.0 * strain[i + 3] * strain[i + 3];
+  }
+  return std::sqrt(2.0 / 3.0 * sum);
+}
+
+std::string cell_data(const VtuFrame& frame) {
+  std::vector<std::int32_t> tissues;
+  for (std::size_t t = 0; t < frame.mesh.tetrahedra.size(); ++t)
+    tissues.push_back(frame.mesh.region(static_cast<int>(t)));
+  std::string text = "<CellData>\n" + array("Int32", "tissue", "", tissues);
+  if (!frame.strain.empty()) {
+    std::vector<double> components, volume_changes, equivalents;
+    for (const Strain& strain : frame.strain) {
+      components.insert(components.end(), strain.begin(), strain.end());
+      volume_changes.push_back(strain[0] + strain[1] + strain[2]);
+      equivalents.push_back(equivalent(strain, volume_changes.back()));
+    }
+    text += doubles("strain", 6, components) + doubles("volume_change", 1, volume_changes) +
+            doubles("equivalent_strain", 1, equivalents);
+  }
+  return text + "</CellData>\n";
+}
+
+// A text between quotes.
+std::string quoted(std::string_view text) {
+  std::string safe = "\"";
+  for (const char letter : text) {
+    if (letter == '&')
+      safe += "&amp;";
+    else if (letter == '<')
+      safe += "&lt;";
+    else if (letter == '"')
+      safe += "&quot;";
+    else
+      safe += letter;
+  }
+  return safe + "\"";
+}
+
+}  // namespace
+
+std::string vtu_bytes(const VtuFrame& frame) {
+  const std::size_t nodes = frame.mesh.nodes.size();
+  const std::size_t tetrahedra = frame.mesh.tetrahedra.size();
+  assert(frame.displacement.empty() || frame.displacement.size() == nodes);
+  assert(frame.contact_pressure.empty() || frame.contact_pressure.size() == nodes);
+  assert(frame.strain.empty() || frame.strain.size() == tetrahedra);
+  return std::string(head) +
+         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+         "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
+         array("Float64", "TimeValue", " NumberOfTuples=\"1\"", std::vector<double>{frame.time}) +
+         "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(nodes) + "\" NumberOfCells=\"" +
+         std::to_string(tetrahedra) + "\">\n" + point_data(frame) + cell_data(frame) +
+         points(frame) + cells(frame.mesh) + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+std::string pvd_bytes(std::span<const TimedFile> files) {
+  std::string text = std::string(head) +
+                     "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                     "header_type=\"UInt64\">\n<Collection>\n";
+  for (const TimedFile& entry : files)
+    text += "<DataSet timestep=\"" + number_text(entry.time) +
+            "\" part=\"0\" file=" + quoted(entry.file) + "/>\n";
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+}  // namespace palpate::report

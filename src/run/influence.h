@@ -1,0 +1,57 @@
+// The mesh's answer to unit loads, found when first asked for and kept.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <map>
+#include <span>
+
+#include "contact/patch.h"
+#include "integrate/body.h"
+
+namespace palpate::run {
+
+class Influence {
+ public:
+  // The displacement (m) under a load (N), both one entry a degree of freedom.
+  using Respond = std::function<integrate::Vector(const integrate::Vector&)>;
+
+  explicit Influence(Respond respond) : respond_(std::move(respond)) {}
+
+  // The displacement of node `at` along `direction` per newton of a load along `push` that is
+  // spread over nodes, m/N. Nodes below 0 neither move nor take load.
+  [[nodiscard]] double between(const Vec3& direction, int at, const Vec3& push,
+                               std::span<const int> nodes, std::span<const double> shares,
+                               Eigen::Index freedoms) {
+    if (at < 0) return 0.0;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (nodes[k] < 0) continue;
+      for (int axis = 0; axis < 3; ++axis)
+        if (push[axis] != 0.0)
+          sum += shares[k] * push[axis] *
+                 direction.dot(column(3 * nodes[k] + axis, freedoms).segment<3>(3 * at));
+    }
+    return sum;
+  }
+
+  // The displacement of every degree of freedom under 1 N there, m.
+  [[nodiscard]] const integrate::Vector& column(int freedom, Eigen::Index freedoms) {
+    auto known = known_.find(freedom);
+    if (known == known_.end()) {
+      integrate::Vector unit = integrate::Vector::Zero(freedoms);
+      unit[freedom] = 1.0;
+      known = known_.emplace(freedom, respond_(unit)).first;
+    }
+    return known->second;
+  }
+
+  // What is answered has changed.
+  void forget() { known_.clear(); }
+
+ private:
+  Respond respond_;
+  std::map<int, integrate::Vector> known_;
+};
+
+}  // namespace palpate::run

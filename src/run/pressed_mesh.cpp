@@ -1,0 +1,229 @@
+// The couplings in time, and the part of the specimen that follows the contact.
+#include "run/pressed_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scene/first_touch.h"
+
+namespace palpate::run {
+namespace {
+
+using contact::Coupling;
+using integrate::State;
+using integrate::Vector;
+
+}  // namespace
+
+PressedMesh::PressedMesh(const scene::Scene& scene)
+    : scene_(&scene), specimen_(&*scene.specimen), contacts_(scene) {
+  const auto& rings = scene.scenario.solver.rings;
+  if (!rings) {
+    take(tissue::whole_part(specimen_->network));
+    return;
+  }
+  const auto& corners = specimen_->surface->surface().triangles[static_cast<std::size_t>(
+      scene::first_touch(scene).at.triangle)];
+  std::vector<int> start;
+  for (const int vertex : corners)
+    start.push_back(specimen_->skin[static_cast<std::size_t>(vertex)]);
+  take(tissue::part_around(specimen_->network, start, *rings));
+}
+
+// Makes `part` what moves; what it has in common with the part before keeps its state.
+void PressedMesh::take(tissue::Part part) {
+  const tissue::Part before = std::exchange(part_, std::move(part));
+  const State old = std::exchange(state_, {});
+  std::vector<int> number(specimen_->network.rest.size(), -1);
+  for (std::size_t i = 0; i < part_.nodes.size(); ++i)
+    number[static_cast<std::size_t>(part_.nodes[i])] = static_cast<int>(i);
+  skin_nodes_.clear();
+  for (const int node : specimen_->skin)
+    skin_nodes_.push_back(number[static_cast<std::size_t>(node)]);
+
+  std::vector<char> held(3 * part_.nodes.size());
+  for (std::size_t d = 0; d < held.size(); ++d)
+    held[d] = part_.edge[d / 3] != 0
+                  ? 1
+                  : specimen_->held[3 * static_cast<std::size_t>(part_.nodes[d / 3]) + d % 3];
+  body_.emplace(part_.network, specimen_->kinematics, specimen_->law, held);
+  const auto freedoms = static_cast<Eigen::Index>(held.size());
+  state_.time = old.time;
+  state_.displacement = Vector::Zero(freedoms);
+  state_.velocity = Vector::Zero(freedoms);
+  for (std::size_t i = 0; i < before.nodes.size(); ++i) {
+    const int now = number[static_cast<std::size_t>(before.nodes[i])];
+    if (now < 0 || part_.edge[static_cast<std::size_t>(now)] != 0) continue;
+    const auto from = 3 * static_cast<Eigen::Index>(i);
+    state_.displacement.segment<3>(3 * now) = old.displacement.segment<3>(from);
+    state_.velocity.segment<3>(3 * now) = old.velocity.segment<3>(from);
+  }
+  state_.memory = body_->memory_at(state_.displacement);
+  const std::size_t per_spring = state_.memory.size() / std::max<std::size_t>(1, part_.springs.size());
+  for (std::size_t s = 0; s < before.springs.size(); ++s) {
+    const auto now =
+        std::lower_bound(part_.springs.begin(), part_.springs.end(), before.springs[s]);
+    if (now == part_.springs.end() || *now != before.springs[s]) continue;
+    const auto to = static_cast<std::size_t>(now - part_.springs.begin());
+    for (std::size_t k = 0; k < per_spring; ++k)
+      state_.memory[per_spring * to + k] = old.memory[per_spring * s + k];
+  }
+  load_ = Vector::Zero(freedoms);
+  imbalance_ = imbalance();
+  monitor_.emplace(*body_);
+  monitor_->begin(state_);
+  stepper_.emplace(*scene_, *body_);
+  if (time_step_ > 0.0) stepper_->set_step(time_step_);
+
+  influence_.reset();
+  if (scene_->scenario.contact.coupling == Coupling::one_way) return;
+  if (scene_->scenario.contact.coupling == Coupling::series) {
+    influence_.emplace([this](const Vector& unit) -> Vector {
+      if (auto* implicit = std::get_if<integrate::Implicit>(&stepper_->method()))
+        return implicit->response(unit);
+      return std::get<integrate::Modal>(stepper_->method()).response(unit);
+    });
+    return;
+  }
+  // The measurement of the network's modulus has shown that it is rigid.
+  [[maybe_unused]] const bool factored = factors_.factor(body_->stiffness());
+  eigen_assert(factored);
+  influence_.emplace([this](Vector unit) -> Vector {
+    for (Eigen::Index d = 0; d < unit.size(); ++d)
+      if (body_->held()[static_cast<std::size_t>(d)] != 0) unit[d] = 0.0;
+    return factors_.solve(unit);
+  });
+}
+
+void PressedMesh::set_step(double time_step) {
+  if (time_step != time_step_ && influence_ &&
+      scene_->scenario.contact.coupling == Coupling::series)
+    influence_->forget();
+  time_step_ = time_step;
+  stepper_->set_step(time_step);
+}
+
+MeshAnswer PressedMesh::answer() const {
+  MeshAnswer mesh{.nodes = skin_nodes_, .freedoms = state_.displacement.size()};
+  if (scene_->scenario.contact.curvature_on == scenario::Contact::CurvatureOn::deformed)
+    mesh.shape = &state_.displacement;
+  return mesh;
+}
+
+bool PressedMesh::forces_follow_finger() const {
+  return scene_->scenario.contact.coupling != Coupling::series;
+}
+
+std::optional<std::string> PressedMesh::try_out(const Vec3& finger, Touch& touch) {
+  MeshAnswer mesh = answer();
+  if (influence_) mesh.influence = &*influence_;
+  return contacts_.find(finger, mesh, touch);
+}
+
+std::optional<std::string> PressedMesh::step_freely(const Vec3& finger, Touch& touch) {
+  if (auto wrong = try_out(finger, touch)) return wrong;
+  Vector load = Contacts::load(touch, answer());
+  auto wrong = stepper_->step(state_, load_, load, integrate::MemoryRule::exact);
+  load_ = std::move(load);
+  return wrong;
+}
+
+std::optional<std::string> PressedMesh::step_in_series(const Vec3& finger, Touch& touch) {
+  if (auto* implicit = std::get_if<integrate::Implicit>(&stepper_->method()))
+    return balance(*implicit, finger, touch);
+  if (auto* modal = std::get_if<integrate::Modal>(&stepper_->method()))
+    return balance(*modal, finger, touch);
+  if (auto wrong = stepper_->step(state_, load_, load_, integrate::MemoryRule::exact))
+    return wrong;
+  // Explicit: the force follows from what is, over the patch of the step before, which changes by
+  // less than a step's travel.
+  MeshAnswer mesh = answer();
+  mesh.displacement = &state_.displacement;
+  if (auto wrong = contacts_.find(finger, mesh, touch)) return wrong;
+  load_ = Contacts::load(touch, mesh);
+  return std::nullopt;
+}
+
+template <class Linearised>
+std::optional<std::string> PressedMesh::balance(Linearised& method, const Vec3& finger,
+                                                Touch& touch) {
+  MeshAnswer mesh = answer();
+  mesh.influence = &*influence_;
+  Vector displacement = state_.displacement;
+  // Friction acts as it did; the balance finds the normal forces.
+  Touch rubbing = touch;
+  for (SphereContact& contact : rubbing.contacts) contact.force = 0.0;
+  const Vector friction = Contacts::load(rubbing, mesh);
+  method.begin(state_, time_step_, integrate::MemoryRule::exact);
+  for (int i = 0; i < most_linearisations; ++i) {
+    if (!body_->linear()) influence_->forget();
+    if (!method.linearise(displacement, friction)) return "the tangent stiffness is not positive";
+    const Vector base = method.base();
+    mesh.displacement = &base;
+    Touch next = touch;
+    if (auto wrong = contacts_.find(finger, mesh, next)) return wrong;
+    const Vector load = Contacts::load(next, mesh);
+    const Vector moved = base + method.response(load - friction);
+    const double change = (moved - displacement).cwiseAbs().maxCoeff();
+    displacement = moved;
+    if (!std::isfinite(change)) return "the motion has left the finite numbers";
+    if (body_->linear() || change <= settled_length) {
+      method.finish(state_, displacement, load);
+      touch = std::move(next);
+      load_ = load;
+      return std::nullopt;
+    }
+  }
+  return "the non-linear equations did not settle in 100 iterations";
+}
+
+std::optional<std::string> PressedMesh::step(const Vec3& finger, double time, Touch& touch) {
+  const State before = state_;
+  const Vector load_before = load_;
+  auto wrong = forces_follow_finger() ? step_freely(finger, touch) : step_in_series(finger, touch);
+  if (wrong) return wrong;
+  state_.time = time;  // a sum of steps would carry their rounding
+  if (auto unstable = monitor_->step(before, state_, load_before, load_)) return unstable;
+  if (scene_->scenario.solver.rings) follow(touch);
+  return std::nullopt;
+}
+
+// Moves the part where the contact has moved.
+void PressedMesh::follow(const Touch& touch) {
+  std::vector<int> start;
+  for (const SphereContact& contact : touch.contacts)
+    for (const int vertex : contact.load.vertices)
+      start.push_back(specimen_->skin[static_cast<std::size_t>(vertex)]);
+  if (start.empty()) return;
+  tissue::Part part =
+      tissue::part_around(specimen_->network, start, *scene_->scenario.solver.rings);
+  if (part.nodes == part_.nodes && part.edge == part_.edge) return;
+  take(std::move(part));
+  load_ = Contacts::load(touch, answer());
+}
+
+Vector PressedMesh::displacement() const {
+  Vector all = Vector::Zero(3 * specimen_->network.nodes());
+  for (std::size_t i = 0; i < part_.nodes.size(); ++i)
+    all.segment<3>(3 * part_.nodes[i]) =
+        state_.displacement.segment<3>(3 * static_cast<Eigen::Index>(i));
+  return all;
+}
+
+bool PressedMesh::inverted() const { return tissue::inverted(specimen_->mesh, displacement()); }
+
+double PressedMesh::edge_reaction() const {
+  Vector force;
+  body_->force(state_.displacement, state_.memory, force);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < part_.nodes.size(); ++i)
+    if (part_.edge[i] != 0) sum += force.segment<3>(3 * static_cast<Eigen::Index>(i));
+  return sum.norm();
+}
+
+double PressedMesh::imbalance() const {
+  return std::max(imbalance_, monitor_ ? monitor_->imbalance() : 0.0);
+}
+
+}  // namespace palpate::run

@@ -1,0 +1,82 @@
+// The specimen under the finger: what of it moves, how it moves, and how it answers contacts.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/cholesky.h"
+#include "run/contacts.h"
+#include "run/monitor.h"
+#include "run/stepper.h"
+#include "tissue/part.h"
+
+namespace palpate::run {
+
+// With `rings`, a part of the specimen around the contact moves and the rest stands at rest; the
+// part follows the contact. Nodes that join it start from rest.
+class PressedMesh {
+ public:
+  explicit PressedMesh(const scene::Scene& scene);
+
+  // The next steps have this size, s.
+  void set_step(double time_step);
+
+  // One step with the finger's point at `finger` (m) at its end, `time` (s). Returns what is wrong
+  // where no balance is found or the motion has left the stable.
+  //
+  // one_way and consistent: the forces follow from the finger alone, because the sinking that
+  // Hertz does not know is taken from statics, h = approach - (c - g) F, c the mesh's compliance
+  // where it is read and g the half-space's there: the motion of the mesh cannot feed back on them.
+  // series: the forces follow from the mesh as it is, in implicit steps as it will be.
+  [[nodiscard]] std::optional<std::string> step(const Vec3& finger, double time, Touch& touch);
+
+  // The forces at a place of the finger without moving the mesh; only where they follow from the
+  // finger alone.
+  [[nodiscard]] bool forces_follow_finger() const;
+  [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
+
+  // Of all nodes of the specimen, m.
+  [[nodiscard]] integrate::Vector displacement() const;
+
+  // Whether a tetrahedron has turned inside out.
+  [[nodiscard]] bool inverted() const;
+
+  // The force on the edge of the part that moves, N; 0 for all of the specimen.
+  [[nodiscard]] double edge_reaction() const;
+
+  // The greatest energy imbalance so far.
+  [[nodiscard]] double imbalance() const;
+
+  [[nodiscard]] const scene::SpringBody& body() const { return *body_; }
+  [[nodiscard]] const integrate::State& state() const { return state_; }
+  [[nodiscard]] MeshAnswer answer() const;
+  [[nodiscard]] Contacts& contacts() { return contacts_; }
+
+ private:
+  void take(tissue::Part part);
+  void follow(const Touch& touch);
+  [[nodiscard]] std::optional<std::string> step_freely(const Vec3& finger, Touch& touch);
+  [[nodiscard]] std::optional<std::string> step_in_series(const Vec3& finger, Touch& touch);
+  template <class Linearised>
+  [[nodiscard]] std::optional<std::string> balance(Linearised& method, const Vec3& finger,
+                                                   Touch& touch);
+
+  const scene::Scene* scene_;
+  const scene::Specimen* specimen_;
+  Contacts contacts_;
+  tissue::Part part_;
+  std::vector<int> skin_nodes_;  // of the part, one a vertex of the skin; -1 outside
+  std::optional<scene::SpringBody> body_;
+  std::optional<Stepper> stepper_;
+  std::optional<EnergyMonitor> monitor_;
+  std::optional<Influence> influence_;
+  Cholesky factors_;  // of statics, for `consistent`
+  integrate::State state_;
+  integrate::Vector load_;
+  double time_step_ = 0.0;
+  double imbalance_ = 0.0;
+};
+
+}  // namespace palpate::run

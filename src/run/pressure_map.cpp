@@ -1,0 +1,126 @@
+// Pixels by supersampling, so that the rim is shared by the pixels it runs through.
+#include "run/pressure_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "contact/half_space.h"
+
+namespace palpate::run {
+namespace {
+
+// A contact's patch as the picture needs it.
+struct View {
+  const SphereContact* contact;
+  Vec3 across;
+  double peak;  // Pa
+
+  explicit View(const SphereContact& one)
+      : contact(&one),
+        across(one.patch.normal.cross(one.patch.axis)),
+        peak(1.5 * one.force / (std::numbers::pi * one.patch.a * one.patch.b)) {}
+
+  // From the patch's centre to where the vertical through (x, y) meets its tangent plane.
+  [[nodiscard]] Vec3 arm(double x, double y) const {
+    const contact::Patch& patch = contact->patch;
+    Vec3 away(x - patch.position.x(), y - patch.position.y(), 0.0);
+    away.z() = -(away.x() * patch.normal.x() + away.y() * patch.normal.y()) / patch.normal.z();
+    return away;
+  }
+  [[nodiscard]] double pressure(double x, double y) const {
+    const Vec3 away = arm(x, y);
+    const double u = away.dot(contact->patch.axis) / contact->patch.a;
+    const double v = away.dot(across) / contact->patch.b;
+    const double inside = 1.0 - u * u - v * v;
+    return inside > 0.0 ? peak * std::sqrt(inside) : 0.0;
+  }
+};
+
+// Between finger and tissue along the vertical, m: the spheres' own shapes against the curved
+// tissue, less the depth, plus what the half-space sinks around all contacts; 0 in contact.
+double gap(const std::vector<View>& views, const scene::Scene& scene, double x, double y) {
+  double least = std::numeric_limits<double>::infinity();
+  double sinking = 0.0;
+  for (const View& view : views)
+    sinking += contact::half_space_sinking(view.arm(x, y).norm(), view.contact->force,
+                                           view.contact->patch.radius(),
+                                           scene.finger.sphere_modulus);
+  const double sphere = scene.finger.sphere_radius;
+  for (const View& view : views) {
+    const double r = view.arm(x, y).norm();
+    if (r >= sphere) continue;
+    const double own = r * r * (0.5 / sphere + 0.5 * view.contact->law.mean_curvature);
+    least = std::min(least, own - view.contact->depth);
+  }
+  return std::isfinite(least) ? std::max(0.0, least + sinking)
+                              : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch) {
+  record::PressureMap map;
+  map.contact_force = touch.normal_force();
+  std::vector<View> views;
+  for (const SphereContact& contact : touch.contacts)
+    if (contact.patch.normal.z() > 0.1) views.emplace_back(contact);
+  if (views.empty()) {
+    map.width = map.height = 1;
+    map.pitch = 1e-3;
+    map.pressure = {0.0F};
+    map.traction_x = map.traction_y = map.traction_z = map.gap = map.pressure;
+    map.origin = touch.finger;
+    return map;
+  }
+  constexpr int longest = 128;  // pixels
+  constexpr int samples = 8;
+  constexpr double margin = 1.25;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (const View& view : views) {
+    const contact::Patch& patch = view.contact->patch;
+    const Vec3 reach = margin * Vec3::Constant(patch.a);
+    low = low.cwiseMin(patch.position - reach);
+    high = high.cwiseMax(patch.position + reach);
+  }
+  const Vec3 size = high - low;
+  map.pitch = std::max(size.x(), size.y()) / longest;
+  map.width = std::min(longest, static_cast<int>(std::ceil(size.x() / map.pitch - 1e-9)));
+  map.height = std::min(longest, static_cast<int>(std::ceil(size.y() / map.pitch - 1e-9)));
+  const Vec3 middle = 0.5 * (low + high);
+  map.origin = Vec3(middle.x() - 0.5 * (map.width - 1) * map.pitch,
+                    middle.y() - 0.5 * (map.height - 1) * map.pitch,
+                    touch.deepest()->patch.position.z());
+  for (int row = 0; row < map.height; ++row) {
+    for (int column = 0; column < map.width; ++column) {
+      double pressure = 0.0;
+      Vec3 traction = Vec3::Zero();
+      for (const View& view : views) {
+        double sum = 0.0;
+        for (int i = 0; i < samples; ++i) {
+          const double y = map.origin.y() + map.pitch * (row - 0.5 + (i + 0.5) / samples);
+          for (int j = 0; j < samples; ++j) {
+            const double x = map.origin.x() + map.pitch * (column - 0.5 + (j + 0.5) / samples);
+            sum += view.pressure(x, y);
+          }
+        }
+        sum /= samples * samples;
+        pressure += sum;
+        const SphereContact& contact = *view.contact;
+        traction += sum * (contact.drag / contact.force - contact.patch.normal);
+      }
+      map.pressure.push_back(static_cast<float>(pressure));
+      map.traction_x.push_back(static_cast<float>(traction.x()));
+      map.traction_y.push_back(static_cast<float>(traction.y()));
+      map.traction_z.push_back(static_cast<float>(traction.z()));
+      const double x = map.origin.x() + column * map.pitch;
+      const double y = map.origin.y() + row * map.pitch;
+      map.gap.push_back(pressure > 0.0 ? 0.0F : static_cast<float>(gap(views, scene, x, y)));
+    }
+  }
+  return map;
+}
+
+}  // namespace palpate::run

@@ -1,0 +1,171 @@
+// Lattices, TetGen and files behind one door.
+#include "scene/specimen_mesh.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "geometry/cuboid.h"
+#include "geometry/mesh_check.h"
+#include "geometry/mesh_files.h"
+#include "geometry/surface_check.h"
+#include "geometry/surface_files.h"
+#include "geometry/tetgen.h"
+#include "geometry/tetgen_body.h"
+
+namespace palpate::scene {
+namespace {
+
+using scenario::Scenario;
+
+constexpr double meshing_time = 120.0;  // s, that TetGen may take
+
+// Lumps get numbers that no shape or file uses, in the order of the scenario.
+constexpr int first_lump = 1'000'000'000;
+
+std::vector<geometry::Lump> lumps(const Scenario& scenario) {
+  std::vector<geometry::Lump> found;
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i)
+    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i]))
+      found.push_back({Vec3(lump->centre[0], lump->centre[1], lump->centre[2]), lump->radius,
+                       first_lump + static_cast<int>(i)});
+  return found;
+}
+
+std::string path_in(const std::string& folder, const std::string& file) {
+  return (std::filesystem::path(folder) / file).string();
+}
+
+double metres_per(const std::string& symbol) { return parse_quantity("1 " + symbol, unit::mm); }
+
+geometry::Target target(const scenario::Tetgen& mesh) {
+  geometry::Target target{.nodes = mesh.nodes, .tetrahedra = mesh.tetrahedra.value_or(0)};
+  if (mesh.edge) target = {.edge_length = *mesh.edge};
+  return target;
+}
+
+geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& mesh,
+                              const std::string& folder) {
+  const std::vector<geometry::Lump> inside = lumps(scenario);
+  if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
+    geometry::Body body;
+    body.parts.push_back(
+        {geometry::read_surface(path_in(folder, file->file), metres_per(file->unit)), 0});
+    geometry::check_closed(body.parts[0].surface, file->file);
+    const double spacing =
+        std::sqrt(geometry::area(body.parts[0].surface) /
+                  (0.433 * static_cast<double>(body.parts[0].surface.triangles.size())));
+    for (const geometry::Lump& lump : inside) geometry::add_lump(body, lump, spacing);
+    return geometry::tetgen_body(body, target(mesh), meshing_time);
+  }
+  const geometry::Shape shape = *parametric(scenario.tissue.shape);
+  const auto* box = std::get_if<geometry::Cuboid>(&shape);
+  if (box != nullptr && inside.empty() && !mesh.edge)
+    return geometry::tetgen_cuboid(box->size, mesh.nodes, meshing_time);
+  return geometry::tetgen_shape(shape, inside, target(mesh), meshing_time);
+}
+
+geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) {
+  geometry::TetMesh mesh;
+  std::string name;
+  double volume = 0.0;
+  const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
+  const Vec3 size =
+      box != nullptr ? Vec3(box->size[0], box->size[1], box->size[2]) : Vec3(Vec3::Zero());
+  if (box != nullptr) volume = size.prod();
+  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh)) {
+    mesh = geometry::cuboid(size, kuhn->cells, geometry::CellPattern::kuhn);
+    name = "the kuhn mesh";
+  } else if (const auto* mirrored = std::get_if<scenario::Mirrored>(&scenario.tissue.mesh)) {
+    mesh = geometry::cuboid(size, mirrored->cells, geometry::CellPattern::mirrored);
+    name = "the mirrored mesh";
+  } else if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh)) {
+    mesh = tetgen_mesh(scenario, *tetgen, folder);
+    name = "TetGen's mesh";
+  } else {
+    const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
+    mesh = geometry::read_mesh(path_in(folder, file.file), metres_per(file.unit));
+    name = "the mesh of " + file.file;
+  }
+  geometry::check(mesh, name, volume);
+  return mesh;
+}
+
+// From the numbers of shapes and files to 0 for the tissue and 1... for the scenario's regions.
+void number_regions(geometry::TetMesh& mesh, const Scenario& scenario) {
+  std::vector<char> used(scenario.regions.size(), 0);
+  const auto substance = [&](int number) {
+    for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
+      const auto* tagged = std::get_if<scenario::TaggedRegion>(&scenario.regions[i]);
+      if (tagged != nullptr ? tagged->tag != number : first_lump + static_cast<int>(i) != number)
+        continue;
+      used[i] = 1;
+      return static_cast<int>(i) + 1;
+    }
+    return 0;
+  };
+  if (mesh.regions.empty()) mesh.regions.assign(mesh.tetrahedra.size(), 0);
+  for (int& region : mesh.regions) region = substance(region);
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i] == 0)
+      throw MeshError("the specimen's mesh has no tetrahedron of `[[region]]` " +
+                      std::to_string(i + 1) +
+                      "; check its `tag` against the mesh, or mesh a lump finer");
+  if (std::all_of(mesh.regions.begin(), mesh.regions.end(), [](int r) { return r == 0; }))
+    mesh.regions.clear();
+}
+
+// What lies along y is stood up on its end at y = 0.
+void stand_up(geometry::TetMesh& mesh) {
+  double low = 0.0;
+  for (Vec3& node : mesh.nodes) {
+    node = Vec3(node.x(), -node.z(), node.y());
+    low = std::min(low, node.y());
+  }
+  for (Vec3& node : mesh.nodes) node.y() -= low;
+}
+
+}  // namespace
+
+std::optional<geometry::Shape> parametric(const scenario::Shape& shape) {
+  struct Convert {
+    std::optional<geometry::Shape> operator()(const scenario::Cuboid& box) const {
+      return geometry::Cuboid{Vec3(box.size[0], box.size[1], box.size[2])};
+    }
+    std::optional<geometry::Shape> operator()(const scenario::Cylinder& s) const {
+      return geometry::Shape(static_cast<const geometry::Cylinder&>(s));
+    }
+    std::optional<geometry::Shape> operator()(const scenario::Ellipsoid& s) const {
+      return geometry::Shape(static_cast<const geometry::Ellipsoid&>(s));
+    }
+    std::optional<geometry::Shape> operator()(const scenario::Ligament& s) const {
+      return geometry::Shape(static_cast<const geometry::Ligament&>(s));
+    }
+    std::optional<geometry::Shape> operator()(const scenario::BoneShaft& s) const {
+      return geometry::Shape(static_cast<const geometry::BoneShaft&>(s));
+    }
+    std::optional<geometry::Shape> operator()(const scenario::LayeredLimb& s) const {
+      return geometry::Shape(static_cast<const geometry::LayeredLimb&>(s));
+    }
+    std::optional<geometry::Shape> operator()(const scenario::HalfSpace&) const { return {}; }
+    std::optional<geometry::Shape> operator()(const scenario::SurfaceFile&) const { return {}; }
+    std::optional<geometry::Shape> operator()(const scenario::AsMeshed&) const { return {}; }
+  };
+  return std::visit(Convert{}, shape);
+}
+
+bool flat_underside(const Scenario& scenario) {
+  return scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
+}
+
+geometry::TetMesh specimen_mesh(const Scenario& scenario, const std::string& folder) {
+  geometry::TetMesh mesh = any_mesh(scenario, folder);
+  if (!scenario.regions.empty() || !mesh.regions.empty()) number_regions(mesh, scenario);
+  const auto shape = parametric(scenario.tissue.shape);
+  const bool lies = shape && !std::holds_alternative<geometry::Cuboid>(*shape);
+  if (scenario.uniform() && lies) stand_up(mesh);
+  return mesh;
+}
+
+}  // namespace palpate::scene
