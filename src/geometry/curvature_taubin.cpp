@@ -20,7 +20,7 @@ CurvatureEstimate CurvatureStars::taubin(const Surface& now, int side) const {
     const double angle = std::atan2(other_normal.dot(tangent), other_normal.dot(normal));
     // The arc over the chord, exact on a sphere.
     const double half = 0.5 * angle;
-    const double arc = d.norm() * (half != 0.0 ? 1.0 : 1.0);
+    const double arc = d.norm() * (half != 0.0 ? half / std::sin(half) : 1.0);
     const double kappa = angle / arc;
     double weight = 0.0;
     for (const int triangle : triangles_of(other)) weight += twice_area(now, triangle).norm();

@@ -156,6 +156,7 @@ void ascii(TableLines lines, const Header& header, SurfaceText& text) {
         lines.fail("the file ends after " + std::to_string(i) + " of " +
                    std::to_string(element.count) + " lines of element `" + element.name +
                    "`; it is cut short: export it again");
+      no_comma(lines);
       std::size_t word = 0;
       for (const Property& property : element.properties) {
         if (word >= lines.words().size())

@@ -41,6 +41,7 @@ Point point(const TableLines& lines, std::size_t first, std::string& content) {
     lines.fail("a vertex wants three coordinates, got " +
                std::to_string(lines.words().size() - std::min(first, lines.words().size())) +
                "; the file may be cut short: export it again");
+  no_comma(lines);
   Point at{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double value = lines.number(first + axis, "a coordinate");
@@ -265,6 +266,14 @@ bool is_text(const std::string& content) {
     if (word > longest_word) return false;
   }
   return true;
+}
+
+void no_comma(const TableLines& lines) {
+  const char* const first = lines.words().front().data();
+  const char* const last = lines.words().back().data();  // in the same line
+  const auto comma = std::string_view(first, static_cast<std::size_t>(last - first)).find(',');
+  if (comma != std::string_view::npos)
+    lines.fail("a number has a comma; write decimal points, and blanks between numbers");
 }
 
 SurfaceText go_over_obj(const std::string& path) { return over_lines(path, "OBJ", obj); }

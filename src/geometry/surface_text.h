@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "geometry/table_lines.h"
+
 namespace palpate::geometry {
 
 // OpenMesh skips what it does not understand and reports success. So every file is gone over first:
@@ -24,5 +26,9 @@ struct SurfaceText {
 
 // Whether these bytes can be the text of a mesh: no control characters, no word longer than 200.
 [[nodiscard]] bool is_text(const std::string& content);
+
+// Refuses a comma between the line's first and last word: TableLines parts words there, so that the
+// decimal comma of another country would give two numbers. Throws InputError.
+void no_comma(const TableLines& lines);
 
 }  // namespace palpate::geometry

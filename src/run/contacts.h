@@ -81,6 +81,14 @@ class Contacts {
   void shape_patches(std::vector<SphereContact>& contacts);
   void approach_moving_skin(const Vec3& finger, SphereContact& contact);
   void find_compliance(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts);
+  [[nodiscard]] bool presses_as_one() const;
+  [[nodiscard]] contact::Patch read_patch(const std::vector<SphereContact>& contacts,
+                                          const SphereContact& own) const;
+  [[nodiscard]] double sinking(const MeshAnswer& mesh, const contact::Patch& patch,
+                               const contact::Reading& reading, const SphereContact& pressed) const;
+  [[nodiscard]] double unknown_to_hertz(const contact::Patch& patch,
+                                        const SphereContact& other) const;
+  [[nodiscard]] double plane_modulus() const;  // Pa, E' of the tissue's network
   void share_places(std::vector<SphereContact>& contacts);
 
   const scene::Scene* scene_;

@@ -206,7 +206,7 @@ class Press {
     record_.contact.push_back(row);
     for (const SphereContact& one : touch_.contacts) {
       on_crease_ = on_crease_ || one.on_crease;
-      one_sided_ = one_sided_ || one.one_sided;
+      one_sided_ = one_sided_ || (one.one_sided && one.law.mean_curvature != 0.0);
     }
     if (scene_.scenario.solver.rings && touch_.pressed() > 0.0)
       edge_share_ = std::max(edge_share_, mesh_->edge_reaction() / touch_.pressed());

@@ -133,6 +133,23 @@ TEST(Quadric, BetweenVerticesToo) {
   EXPECT_GT(std::log2(coarse.rms() / fine.rms()), 1.8);  // as above
 }
 
+// The sine of the largest angle between the fit's normal and the surface's.
+TEST(Quadric, NormalsToo) {
+  const auto largest = [](const Known& body) {
+    const CurvatureStars stars(body.surface, Neighbours(body.surface));
+    double off = 0.0;
+    for (std::size_t v = 0; v < body.surface.vertices.size(); ++v) {
+      const CurvatureEstimate found = stars.at_vertex(body.surface, static_cast<int>(v));
+      const Vec3 want = body.normal(body.surface.vertices[v]);
+      off = std::max(off, found.curvature.normal.cross(want).norm());
+    }
+    return off;
+  };
+  const double coarse = largest(torus(1.0 / 8));
+  EXPECT_LT(coarse, 2e-3);                                       // a tenth of a degree
+  EXPECT_GT(std::log2(coarse / largest(torus(1.0 / 16))), 2.5);  // third order by its cubic terms
+}
+
 // More rings see farther and err more, with the square of their reach; one ring bears no cubic
 // terms and is of first order on an irregular mesh.
 TEST(Quadric, RingsAgainstError) {

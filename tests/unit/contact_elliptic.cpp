@@ -167,6 +167,7 @@ TEST(Elliptic, RefusesConformingSurfaces) {
   const double limit = -1.0 / finger_radius;
   EXPECT_FALSE(elliptic_law(modulus, finger_radius, limit, 0.0).has_value());
   EXPECT_FALSE(elliptic_law(modulus, finger_radius, 10.0, 1.01 * limit).has_value());
+  EXPECT_FALSE(elliptic_law(modulus, finger_radius, 10.0, (1.0 + 1e-12) * limit).has_value());
   EXPECT_FALSE(elliptic_law(modulus, finger_radius, 2.0 * limit, 2.0 * limit).has_value());
   const double nothing = std::nan("");
   const double infinite = std::numeric_limits<double>::infinity();

@@ -302,6 +302,15 @@ TEST_F(BrokenSurfaces, numbers_that_are_none) {
             "mesh: b.obj:2:3: a coordinate wants single precision, got `1e39`; use a larger unit");
 }
 
+TEST_F(BrokenSurfaces, decimal_commas) {
+  const std::string want = "a number has a comma; write decimal points, and blanks between numbers";
+  EXPECT_EQ(complaint("a.obj", with(kObj, "v 1 0 0", "v 1,5 0 0")), "mesh: a.obj:2: " + want);
+  EXPECT_EQ(complaint("a.off", with(kOff, "1 0 0", "1 0 0,5")), "mesh: a.off:4: " + want);
+  EXPECT_EQ(complaint("a.stl", with(kStl, "vertex 0 1 0", "vertex 0 1,5 0")),
+            "mesh: a.stl:5: " + want);
+  EXPECT_EQ(complaint("a.ply", with(kPly, "\n1 0 0", "\n1,5 0 0")), "mesh: a.ply:11: " + want);
+}
+
 TEST_F(BrokenSurfaces, binary_numbers_that_are_none) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float inf = std::numeric_limits<float>::infinity();

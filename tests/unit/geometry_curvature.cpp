@@ -236,6 +236,13 @@ TEST(Curvature, RefusesWithAReason) {
       EXPECT_EQ(stars(good, {.method = method}).at_vertex(broken, 34).status,
                 StarStatus::degenerate);
     }
+  // A neighbour that has come to lie upon the vertex.
+  for (const auto method : {CurvatureMethod::quadric, CurvatureMethod::taubin}) {
+    Surface folded = flat(1);
+    const CurvatureStars before = stars(folded, {.method = method});
+    folded.vertices[34] = folded.vertices[33];
+    EXPECT_EQ(before.at_vertex(folded, 33).status, StarStatus::degenerate);
+  }
   Surface lump = flat(1);
   const CurvatureStars at = stars(lump);
   for (Vec3& x : lump.vertices) x = Vec3(1, 2, 3);
