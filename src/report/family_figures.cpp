@@ -39,6 +39,40 @@ std::vector<Series> series_of(const scenario::Family& family,
   return all;
 }
 
+// The first step that the predicate holds for, counted from 1; 0: none.
+int first_step(const scenario::Scenario& scenario, bool (*is)(const scenario::Step&)) {
+  const auto found = std::find_if(scenario.steps.begin(), scenario.steps.end(), is);
+  return found == scenario.steps.end() ? 0 : static_cast<int>(found - scenario.steps.begin()) + 1;
+}
+
+bool is_slide(const scenario::Step& step) {
+  return std::holds_alternative<scenario::Slide>(step);
+}
+
+// Over cases whose curvatures differ: one curve a tissue, where tissues are swept too.
+std::optional<Figure> curvature_figure(const scenario::Family& family,
+                                       const std::vector<record::CaseRecord>& records) {
+  std::vector<double> curvatures;
+  for (const record::CaseRecord& record : records)
+    for (const record::Finding& finding : record.findings)
+      if (finding.name == "local_curvature_per_m")
+        curvatures.push_back(std::get<double>(finding.value));
+  std::sort(curvatures.begin(), curvatures.end());
+  curvatures.erase(std::unique(curvatures.begin(), curvatures.end()), curvatures.end());
+  if (curvatures.size() < 3) return std::nullopt;
+  std::vector<Series> all;
+  const auto materials =
+      std::find_if(family.sweep.begin(), family.sweep.end(),
+                   [](const auto& entry) { return entry.first == "tissue.material"; });
+  if (materials == family.sweep.end()) {
+    all.push_back({.label = "all cases"});
+  } else {
+    for (const Node& material : materials->second)
+      all.push_back({.case_name = material.text, .column = "tissue.material"});
+  }
+  return figure_force_curvature(all);
+}
+
 }  // namespace
 
 std::vector<Figure> family_figures(const scenario::Family& family,
@@ -48,6 +82,14 @@ std::vector<Figure> family_figures(const scenario::Family& family,
   if (records.empty()) return figures;
   if (!family.base.uniform()) {
     figures.push_back(figure_force_indentation(series_of(family, records, fits, is_logarithmic)));
+    if (const int slide = first_step(family.base, is_slide)) {
+      const auto nothing = [](const fit::NamedFit&) { return false; };
+      std::vector<Series> along = series_of(family, records, fits, nothing);
+      for (Series& series : along) series.step = slide;
+      figures.push_back(figure_force_slide(along));
+      for (Series& series : figures.front().series) series.step = 1;  // before it slid
+    }
+    if (const auto figure = curvature_figure(family, records)) figures.push_back(*figure);
   } else {
     const bool solid = family.base.tissue.viscosity == tissue::Viscosity::standard_linear_solid;
     const char* const fit_label = solid ? "Standard linear solid fit" : "Kelvin-Voigt fit";

@@ -46,6 +46,32 @@ Figure figure_force_indentation(std::vector<Series> series) {
           .series = std::move(series)};
 }
 
+Figure figure_force_curvature(std::vector<Series> series) {
+  for (Series& each : series) {
+    set_where_empty(each.csv_file, "findings.csv");
+    set_where_empty(each.x_column, "local_curvature_per_m");
+    set_where_empty(each.y_column, "peak_force_N");
+  }
+  return {.name = "figure_force_curvature",
+          .title = "Palpation force against local curvature",
+          .x_label = "Mean curvature, convex positive (1/m)",
+          .y_label = "Force F (N)",
+          .series = std::move(series)};
+}
+
+Figure figure_force_slide(std::vector<Series> series) {
+  for (Series& each : series) {
+    set_where_empty(each.csv_file, "force_indentation.csv");
+    set_where_empty(each.x_column, "slide_mm");
+    set_where_empty(each.y_column, "force_N");
+  }
+  return {.name = "figure_force_slide",
+          .title = "Force along the slide",
+          .x_label = "Slide (mm)",
+          .y_label = "Force F (N)",
+          .series = std::move(series)};
+}
+
 Figure figure_strain_time(std::vector<Series> series) {
   for (Series& each : series) {
     set_where_empty(each.csv_file, "strain_time.csv");

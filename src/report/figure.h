@@ -19,7 +19,8 @@ struct FittedCurve {
 
 struct Series {
   std::string csv_file = {};   // relative to the result folder
-  std::string case_name = {};  // rows whose column `case` says so; empty: all rows
+  std::string case_name = {};  // rows whose column `column` says so; empty: all rows
+  std::string column = "case";
   std::string x_column = {};
   std::string y_column = {};
   double scale = 1.0;      // for display; the fits are scaled with it, the label says so
@@ -43,6 +44,13 @@ struct Figure {
 // Force against indentation (Figure 6 of the paper). An empty column or file of a series means
 // force_indentation.csv, indentation_mm, force_N.
 [[nodiscard]] Figure figure_force_indentation(std::vector<Series> series);
+
+// Force against the tissue's curvature where it is pressed (Figure 6 of the paper, lower graph), one
+// point a case: findings.csv, local_curvature_per_m, peak_force_N.
+[[nodiscard]] Figure figure_force_curvature(std::vector<Series> series);
+
+// Force along a slide: force_indentation.csv, slide_mm, force_N.
+[[nodiscard]] Figure figure_force_slide(std::vector<Series> series);
 
 // Strain against time (Figure 7 of the paper): strain_time.csv, time_s, strain.
 [[nodiscard]] Figure figure_strain_time(std::vector<Series> series);

@@ -97,6 +97,7 @@ class Findings {
     add("peak_friction_N", peak.friction);
     add("peak_indentation_mm", unit::mm.from_si(peak.indentation));
     add("peak_travel_mm", unit::mm.from_si(peak.travel));
+    add("local_curvature_per_m", 1.0 / peak.tissue_radius);
     add("depth_ratio", peak.indentation / radius);
     add("contact_radius_ratio", peak.contact_radius / radius);
     add("thickness_ratio", peak.contact_radius / thickness);
