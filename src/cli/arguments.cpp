@@ -19,6 +19,8 @@ struct Parser {
   Fit fit;
   Compare compare;
   Bless bless;
+  Mesh mesh;
+  Bench bench;
   CLI::App* bless_verb = nullptr;
 
   Parser() {
@@ -62,6 +64,27 @@ struct Parser {
     bless_verb->add_option("name", bless.names, "Folders below golden/")->required();
     bless_verb->add_option("--reason", bless.reason, "Why they may change")->required();
 
+    verb = app.add_subcommand("mesh", "Check and mesh a surface, a mesh or a scenario's specimen");
+    verb->add_option("subject", mesh.subject,
+                     "Surface (.stl .obj .ply .off), mesh (.node .ele .msh) or scenario (.toml)")
+        ->required();
+    verb->add_option("--unit", mesh.unit, "Of the file's coordinates, as mm; not for scenarios");
+    CLI::Option* nodes = verb->add_option("--nodes", mesh.nodes, "About so many, of a surface")
+                             ->check(CLI::Range(4, 1000000));
+    verb->add_option("--edge", mesh.edge, "About such edges, as \"3 mm\", of a surface")
+        ->excludes(nodes);
+    verb->add_option("--out", mesh.out, "File to write: .node, .ele (both, in metres) or .vtu")
+        ->allow_extra_args(false);
+    verb->add_option("--set", mesh.settings, "Set a scenario's key: KEY=VALUE")
+        ->allow_extra_args(false);
+    verb->add_flag("--force", mesh.force, "Replace files");
+
+    verb = app.add_subcommand("bench", "Time the frames of a press: the paper's Table 2");
+    verb->add_option("scenario", bench.scenarios, "Scenario files; none: the paper's four models");
+    verb->add_option("--frames", bench.frames, "How many, of 1 ms each")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000000));
+
     app.add_subcommand("manual", "The reference of all scenario keys, in markdown");
   }
 
@@ -78,6 +101,8 @@ struct Parser {
     if (app.got_subcommand("fit")) return fit;
     if (app.got_subcommand("compare")) return compare;
     if (app.got_subcommand("golden")) return bless;
+    if (app.got_subcommand("mesh")) return mesh;
+    if (app.got_subcommand("bench")) return bench;
     return Manual{};
   }
 };

@@ -41,9 +41,22 @@ struct Bless {
   std::vector<std::string> names;
   std::string reason;
 };
+struct Mesh {
+  std::string subject;  // a surface, a ready mesh or a scenario, by its ending
+  std::string unit;     // of a surface's or mesh's coordinates
+  int nodes = 0;        // 0: as `edge` says
+  std::string edge;     // empty: as fine as the surface's own triangles
+  std::vector<std::string> out;
+  std::vector<std::string> settings;
+  bool force = false;
+};
+struct Bench {
+  std::vector<std::string> scenarios;  // none: the paper's four models
+  int frames = 1000;
+};
 struct Manual {};
 
-using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Manual>;
+using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Bench, Manual>;
 
 struct Arguments {
   Manner manner;

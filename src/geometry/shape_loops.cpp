@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace palpate::geometry {
 namespace {
@@ -125,8 +126,9 @@ int count_around(const Sweep& sweep, std::size_t which, double y, double spacing
 }
 
 // The heights of a side's rows: each a triangle's height above the last, as wide as those are
-// there. Of an even or odd number as `parity` is.
-std::vector<double> row_heights(const Sweep& sweep, std::size_t which, double spacing, int parity) {
+// there. An even or odd number as `like` is.
+std::vector<double> row_heights(const Sweep& sweep, std::size_t which, double spacing,
+                                std::optional<int> like) {
   constexpr int slices = 1000;
   std::vector<double> rows{0.0};  // how many fit up to each slice
   for (int i = 0; i < slices; ++i) {
@@ -138,7 +140,7 @@ std::vector<double> row_heights(const Sweep& sweep, std::size_t which, double sp
     rows.push_back(rows.back() + sweep.length / slices / (row_height * width));
   }
   int count = count_of(rows.back(), 1.0, 1);
-  count += (count - parity) % 2 != 0;
+  if (like) count += (count - *like) % 2 != 0;
   std::vector<double> heights;
   std::size_t slice = 1;
   for (int row = 0; row <= count; ++row) {
@@ -163,8 +165,8 @@ Loop middle(const Sweep& sweep, double straight, double y, double spacing) {
   return loop;
 }
 
-// An end face from its middle outwards, up to the edge of the sweep's section `which`; loop k is
-// turned as row + k says. Between two edges the spacing changes evenly.
+// An end face from its middle outwards, up to the edge of the sweep's section `which`; all edges
+// are turned as `row` says. Between two edges the spacing changes evenly.
 std::vector<Loop> end_face(const Sweep& sweep, double y, std::size_t which, const Spacing& spacing,
                            int row) {
   const std::size_t last = sweep.sections.size() - 1;
@@ -179,18 +181,17 @@ std::vector<Loop> end_face(const Sweep& sweep, double y, std::size_t which, cons
       const double part = static_cast<double>(k) / rows;
       const Section within{edge.straight, inner + part * (edge.radius - inner)};
       const int count = count_of(perimeter(within), from + part * (to - from), 6);
-      loops.push_back(section_loop(sweep, within, y, count, row + static_cast<int>(loops.size())));
+      loops.push_back(section_loop(sweep, within, y, count, row + rows - k));
     }
     // The edge itself is the side's loop to the bit.
-    loops.push_back(section_loop(sweep, edge, y, count_around(sweep, s, y, to),
-                                 row + static_cast<int>(loops.size())));
+    loops.push_back(section_loop(sweep, edge, y, count_around(sweep, s, y, to), row));
     inner = edge.radius;
   }
   return loops;
 }
 
-// The angles of a quarter of an ellipse's parameter at equal arcs: `count` intervals over
-// [0, to] of the curve (a sin t, b cos t), by 2000 chords.
+// Parameters at the ends of `count` equal arcs of the curve (a sin t, b cos t) over [0, to]; by
+// 2000 chords.
 std::vector<double> equal_arcs(double a, double b, double to, int count) {
   constexpr int chords = 2000;
   std::vector<double> arc{0.0};
@@ -229,22 +230,21 @@ Surface stitched(const std::vector<Loop>& loops) {
 }
 
 std::vector<Surface> sweep_surfaces(const Sweep& sweep, const Spacing& spacing) {
-  int rows_outside = 0;
+  std::optional<int> rows_outside;
   std::vector<Surface> surfaces;
   for (std::size_t which = 0; which < sweep.sections.size(); ++which) {
     const double edge = spacing.of(which);
     // All sides meet the far end face turned alike.
     const std::vector<double> heights = row_heights(sweep, which, edge, rows_outside);
     const int rows = static_cast<int>(heights.size()) - 1;
-    if (which == 0) rows_outside = rows;
+    if (!rows_outside) rows_outside = rows;
     std::vector<Loop> loops = end_face(sweep, 0.0, which, spacing, 0);
-    const int first = static_cast<int>(loops.size()) - 1;
     for (int row = 1; row < rows; ++row) {
       const double y = heights[static_cast<std::size_t>(row)];
       loops.push_back(section_loop(sweep, sweep.sections[which](y), y,
-                                   count_around(sweep, which, y, edge), first + row));
+                                   count_around(sweep, which, y, edge), row));
     }
-    std::vector<Loop> far = end_face(sweep, sweep.length, which, spacing, rows_outside);
+    std::vector<Loop> far = end_face(sweep, sweep.length, which, spacing, *rows_outside);
     loops.insert(loops.end(), far.rbegin(), far.rend());
     surfaces.push_back(stitched(loops));
   }

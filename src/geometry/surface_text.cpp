@@ -282,14 +282,10 @@ SurfaceText go_over_off(const std::string& path) { return over_lines(path, "OFF"
 
 SurfaceText go_over_stl(const std::string& path) {
   std::string content = read_text(path);
-  std::uint32_t facets = 0;
-  if (content.size() >= stl_header)
-    std::memcpy(&facets, content.data() + stl_header - sizeof(facets), sizeof(facets));
-  // Many binary files begin with `solid` as well, so that their length decides.
-  const bool fits =
-      content.size() >= stl_header && content.size() == stl_header + stl_facet * facets;
-  const bool ascii = !fits && is_text(content) && !content.empty();
-  return ascii ? over_lines(path, "STL", ascii_stl) : binary_stl(path, std::move(content));
+  // Many binary files begin with `solid` as well. Their facet count has a zero byte, which no text
+  // has, up to 2^24 facets.
+  if (content.empty() || !is_text(content)) return binary_stl(path, std::move(content));
+  return over_lines(path, "STL", ascii_stl);
 }
 
 }  // namespace palpate::geometry

@@ -256,9 +256,9 @@ TetMesh tetgen_shape(const Shape& shape, std::span<const Lump> lumps, const Targ
     return search.taken();
   }
   // Surfaces inside make tetrahedra too: where there are too many, they have to be coarser.
-  tune_both(sampling, spacing, 1.0, search);
-  if (search.miss() > fair_miss && std::holds_alternative<LayeredLimb>(shape))
-    tune_both(sampling, spacing, 2.0, search);
+  const bool layered = std::holds_alternative<LayeredLimb>(shape);
+  for (const double inner : layered ? std::vector{1.0, 2.0, 2.5} : std::vector{1.0})
+    if (search.miss() > fair_miss) tune_both(sampling, spacing, inner, search);
   return search.taken();
 }
 

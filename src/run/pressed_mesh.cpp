@@ -123,6 +123,10 @@ std::optional<std::string> PressedMesh::try_out(const Vec3& finger, Touch& touch
 
 std::optional<std::string> PressedMesh::step_freely(const Vec3& finger, Touch& touch) {
   if (auto wrong = try_out(finger, touch)) return wrong;
+  return move(touch);
+}
+
+std::optional<std::string> PressedMesh::move(const Touch& touch) {
   Vector load = Contacts::load(touch, answer());
   auto wrong = stepper_->step(state_, load_, load, integrate::MemoryRule::exact);
   load_ = std::move(load);

@@ -37,6 +37,9 @@ class PressedMesh {
   [[nodiscard]] bool forces_follow_finger() const;
   [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
 
+  // One step of the mesh alone, under the forces of `touch`; public for timing.
+  [[nodiscard]] std::optional<std::string> move(const Touch& touch);
+
   // Of all nodes of the specimen, m.
   [[nodiscard]] integrate::Vector displacement() const;
 

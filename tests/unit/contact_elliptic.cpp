@@ -55,7 +55,7 @@ TEST(Elliptic, ComesToTheCircleWithoutLoss) {
   }
 }
 
-// Roots of [E/(1-m) - K]/(K - E) = B/A and what follows from them, in 120 digits (mpmath 1.2).
+// Roots of [E/(1-m) - K]/(K - E) = B/A and what follows from them, to 60 digits (mpmath).
 TEST(Elliptic, ReferencesFromCircleToLine) {
   struct Row {
     double ratio, axes, along, force;

@@ -1,0 +1,271 @@
+// `palpate mesh`: surface, ready mesh or specimen in; its quality, and files for other programs,
+// out.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "cli/program.h"
+#include "cli/table_text.h"
+#include "cli/verbs.h"
+#include "geometry/mesh_check.h"
+#include "geometry/mesh_files.h"
+#include "geometry/mesh_quality.h"
+#include "geometry/surface_check.h"
+#include "geometry/surface_files.h"
+#include "geometry/tetgen_body.h"
+#include "report/vtu.h"
+#include "scene/scene.h"
+
+namespace palpate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double meshing_time = 120.0;  // s, that TetGen may take, as in a run
+
+enum class Kind { surface, mesh, scenario };
+
+[[noreturn]] void refuse(const std::string& sentence) {
+  throw InputError({}, "palpate: " + sentence);
+}
+
+std::string ending_of(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+Kind kind_of(const std::string& path) {
+  const std::string ending = ending_of(path);
+  for (const char* known : {".stl", ".obj", ".ply", ".off"})
+    if (ending == known) return Kind::surface;
+  for (const char* known : {".node", ".ele", ".msh"})
+    if (ending == known) return Kind::mesh;
+  if (ending == ".toml") return Kind::scenario;
+  throw InputError({path, 0, 0},
+                   "is neither a surface (.stl, .obj, .ply, .off) nor a mesh (.node, .ele, .msh) "
+                   "nor a scenario (.toml); save it as one of them");
+}
+
+// Options that the subject would not listen to are mistakes.
+void check_options(const Mesh& command, Kind kind) {
+  if (kind == Kind::scenario && !command.unit.empty())
+    refuse("a scenario names the units of its files itself; leave out `--unit`");
+  if (kind != Kind::scenario && command.unit.empty())
+    refuse("`palpate mesh` lacks the unit of the coordinates in " + command.subject +
+           "; write `--unit mm`");
+  if (kind != Kind::scenario && !command.settings.empty())
+    refuse("`--set` is for scenarios; leave it out");
+  if (kind == Kind::surface || (command.nodes == 0 && command.edge.empty())) return;
+  const std::string option = command.nodes > 0 ? "`--nodes`" : "`--edge`";
+  if (kind == Kind::mesh)
+    refuse(option + " is for surfaces, " + command.subject + " is a mesh already; leave it out");
+  refuse(option +
+         " is for surfaces; write `--set tissue.mesh.nodes=728` or what else the "
+         "scenario's mesh knows");
+}
+
+double metres_per(const std::string& symbol) {
+  try {
+    return parse_quantity("1 " + symbol, unit::mm);
+  } catch (const std::invalid_argument&) {
+    refuse("`--unit` wants a unit of length, got `" + symbol + "`; write `--unit mm`");
+  }
+}
+
+double edge_length(const std::string& text) {
+  double edge = 0.0;
+  try {
+    edge = parse_quantity(text, unit::mm);
+  } catch (const std::invalid_argument& error) {
+    refuse(std::string("`--edge` ") + error.what());
+  }
+  if (!(edge > 0.0)) refuse("`--edge` must be above 0 mm, got `" + text + "`; write it as `3 mm`");
+  return edge;
+}
+
+// The files that an `--out` names, as they will be called.
+std::vector<std::string> files_of(const std::string& out) {
+  const fs::path path(out);
+  const std::string ending = path.extension().string();
+  if (ending == ".vtu") return {out};
+  if (ending != ".node" && ending != ".ele")
+    throw InputError({out, 0, 0}, "`--out` wants the ending `.node`, `.ele` or `.vtu`");
+  return {fs::path(path).replace_extension(".node").string(),
+          fs::path(path).replace_extension(".ele").string()};
+}
+
+// Before any work is done.
+void check_outputs(const Mesh& command) {
+  for (const std::string& out : command.out)
+    for (const std::string& file : files_of(out)) {
+      const fs::path folder = fs::absolute(file).parent_path();
+      if (!fs::is_directory(folder))
+        throw InputError({file, 0, 0}, "has no folder to stand in; make it first");
+      if (!fs::exists(file)) continue;
+      if (fs::is_directory(file)) throw InputError({file, 0, 0}, "is a folder; name a file");
+      std::error_code unrelated;
+      for (const std::string& read :
+           kind_of(command.subject) == Kind::mesh && ending_of(command.subject) != ".msh"
+               ? files_of(command.subject)
+               : std::vector<std::string>{})
+        if (fs::equivalent(file, read, unrelated))
+          throw InputError({file, 0, 0}, "is what is read; give another name to `--out`");
+      if (!command.force)
+        throw InputError({file, 0, 0}, "is there already; give another name, or `--force`");
+    }
+}
+
+geometry::TetMesh mesh_of_surface(const Mesh& command) {
+  geometry::Target target{.nodes = command.nodes};
+  if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
+  geometry::Surface surface = geometry::read_surface(command.subject, metres_per(command.unit));
+  geometry::check_closed(surface, command.subject);
+  // An equilateral triangle of edge l has an area of sqrt(3) / 4 l^2.
+  if (target.nodes == 0 && target.edge_length == 0.0)
+    target.edge_length = std::sqrt(geometry::area(surface) /
+                                   (0.433 * static_cast<double>(surface.triangles.size())));
+  geometry::Body body;
+  body.parts.push_back({std::move(surface), 0});
+  return geometry::tetgen_body(body, target, meshing_time);
+}
+
+// The specimen of the first case, with all that a run computes of it.
+scene::Scene scene_of(const Mesh& command, const Talk& talk) {
+  const scenario::Family family = scenario::read(command.subject, command.settings);
+  for (const Problem& note : family.notes) talk.say("note: " + note.text());
+  const scenario::Case& first = family.cases.front();
+  if (family.cases.size() > 1)
+    talk.say("note: " + command.subject + " has " + std::to_string(family.cases.size()) +
+             " cases; this is the mesh of the first, " + first.name);
+  scene::Scene scene = scene::build(first, family);
+  if (!scene.specimen)
+    throw InputError(scenario::place_of(family.document, "solver.model"),
+                     "the scenario is computed by `hertz`, which has no mesh; give `--set "
+                     "solver.model=mass_spring` to see the one it would have");
+  return scene;
+}
+
+// A table of one row that grows by columns.
+class Report {
+ public:
+  void add(const std::string& name, record::Cell value) {
+    table_.columns.push_back(name);
+    table_.rows.front().push_back(std::move(value));
+  }
+  void count(const std::string& name, std::size_t value) { add(name, static_cast<double>(value)); }
+
+  void mesh(const geometry::TetMesh& mesh, const scenario::Scenario* scenario) {
+    const geometry::Skin skin = geometry::skin(mesh);
+    count("nodes", mesh.nodes.size());
+    count("tetrahedra", mesh.tetrahedra.size());
+    count("skin_vertices", skin.nodes.size());
+    count("skin_triangles", skin.surface.triangles.size());
+    add("volume_mm3", 1e9 * geometry::volume(mesh));
+    add("skin_area_mm2", 1e6 * geometry::area(skin.surface));
+    Vec3 low = mesh.nodes.front();
+    Vec3 high = low;
+    for (const Vec3& node : mesh.nodes) {
+      low = low.cwiseMin(node);
+      high = high.cwiseMax(node);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string name(1, "xyz"[axis]);
+      add("lowest_" + name + "_mm", unit::mm.from_si(low[axis]));
+      add("highest_" + name + "_mm", unit::mm.from_si(high[axis]));
+    }
+    regions(mesh, scenario);
+    shapes(geometry::quality(mesh), mesh.tetrahedra.size());
+  }
+
+  [[nodiscard]] const record::Table& table() const { return table_; }
+
+ private:
+  void regions(const geometry::TetMesh& mesh, const scenario::Scenario* scenario) {
+    struct Share {
+      std::size_t tetrahedra = 0;
+      double volume = 0.0;
+    };
+    std::map<int, Share> shares;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      Share& share = shares[mesh.region(static_cast<int>(t))];
+      ++share.tetrahedra;
+      share.volume += geometry::signed_volume(mesh, static_cast<int>(t));
+    }
+    count("regions", shares.size());
+    for (const auto& [number, share] : shares) {
+      const std::string name = "region_" + std::to_string(number);
+      if (scenario != nullptr)
+        add(name + "_material",
+            number == 0
+                ? scenario->tissue.material
+                : scenario::substance(scenario->regions[static_cast<std::size_t>(number) - 1])
+                      .material);
+      count(name + "_tetrahedra", share.tetrahedra);
+      add(name + "_volume_mm3", 1e9 * share.volume);
+    }
+  }
+
+  void shapes(const geometry::Quality& quality, std::size_t tetrahedra) {
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    add("smallest_dihedral_angle_deg", degrees * quality.smallest_angle);
+    add("largest_dihedral_angle_deg", degrees * quality.largest_angle);
+    add("share_of_angles_below_10_deg",
+        quality.angles[0] / (6.0 * static_cast<double>(tetrahedra)));
+    add("largest_edge_ratio", quality.largest_edge_ratio);
+    add("smallest_mean_ratio", quality.smallest_mean_ratio);
+    add("shortest_edge_mm", unit::mm.from_si(quality.shortest_edge));
+    add("longest_edge_mm", unit::mm.from_si(quality.longest_edge));
+    add("smallest_tetrahedron_mm3", 1e9 * quality.smallest_volume);
+    add("largest_tetrahedron_mm3", 1e9 * quality.largest_volume);
+    add("limiting_tetrahedron", static_cast<double>(quality.limiting_tetrahedron));
+    add("limiting_altitude_mm", unit::mm.from_si(quality.shortest_altitude));
+  }
+
+  record::Table table_{{}, {{}}};
+};
+
+void write(const std::string& out, const geometry::TetMesh& mesh) {
+  if (ending_of(out) != ".vtu") return geometry::write_node_ele(out, mesh);
+  const std::vector<Vec3> still(mesh.nodes.size(), Vec3::Zero());
+  write_atomically(out, report::vtu_bytes({.mesh = mesh, .displacement = still}));
+}
+
+}  // namespace
+
+int mesh(const Mesh& command, const Talk& talk) {
+  const Kind kind = kind_of(command.subject);
+  check_options(command, kind);
+  check_outputs(command);
+  Report report;
+  geometry::TetMesh mesh;
+  if (kind == Kind::scenario) {
+    const scene::Scene scene = scene_of(command, talk);
+    mesh = scene.specimen->mesh;
+    report.mesh(mesh, &scene.scenario);
+    report.count("springs", static_cast<std::size_t>(scene.specimen->network.springs()));
+    report.add("stable_step_ms", unit::ms.from_si(scene.specimen->plan.limit));
+  } else {
+    if (kind == Kind::surface) {
+      mesh = mesh_of_surface(command);
+    } else {
+      mesh = geometry::read_mesh(command.subject, metres_per(command.unit));
+      geometry::check(mesh, command.subject, 0.0);
+    }
+    report.mesh(mesh, nullptr);
+  }
+  for (const std::string& out : command.out) write(out, mesh);
+  print(talk.json() ? json_lines(report.table()) : names_and_values(report.table()));
+  return exit_good;
+}
+
+}  // namespace palpate::cli

@@ -1,0 +1,112 @@
+// Calls what a press calls, with a clock around it.
+#include "run/bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "run/pressed_mesh.h"
+#include "scene/first_touch.h"
+
+namespace palpate::run {
+namespace {
+
+constexpr int warm_up = 50;  // frames: caches are filled, the processor is awake
+
+template <class Work>
+double seconds(const Work& work) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  work();
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The stages one by one.
+class Stages {
+ public:
+  Stages(const scene::Scene& scene, int substeps)
+      : mesh_(scene), seeing_(scene), substeps_(substeps) {
+    mesh_.set_step(scene.specimen->plan.substep);
+  }
+
+  // `before` and `after` are the touches of the whole before and after its frame.
+  std::optional<std::string> frame(const Vec3& finger, Touch before, const Touch& after,
+                                   FrameTime& time) {
+    std::optional<std::string> wrong;
+    MeshAnswer deformed = mesh_.answer();
+    deformed.displacement = &mesh_.state().displacement;
+    time.collision = seconds([&] { seeing_.detect(finger, deformed, found_); });
+    if (mesh_.forces_follow_finger()) {
+      // Such forces look at the skin at rest, a search of its own.
+      const MeshAnswer resting = mesh_.answer();
+      const double search = seconds([&] { mesh_.contacts().detect(finger, resting, found_); });
+      time.force = seconds([&] { wrong = mesh_.try_out(finger, before); }) - search;
+    } else {
+      time.force =
+          seconds([&] { wrong = seeing_.find(finger, deformed, before); }) - time.collision;
+    }
+    if (wrong) return wrong;
+    time.deformation = seconds([&] {
+      for (int k = 0; k < substeps_ && !wrong; ++k) wrong = mesh_.move(after);
+    });
+    return wrong;
+  }
+
+  [[nodiscard]] double displacement() const {
+    return mesh_.displacement()
+        .reshaped<Eigen::RowMajor>(Eigen::AutoSize, 3)
+        .rowwise()
+        .norm()
+        .maxCoeff();
+  }
+
+ private:
+  PressedMesh mesh_;
+  Contacts seeing_;  // its boxes move with the mesh
+  int substeps_;
+  std::vector<SphereContact> found_;
+};
+
+}  // namespace
+
+Bench bench(const scene::Scene& scene, int frames) {
+  const scene::TimePlan& plan = scene.specimen->plan;
+  const int all = warm_up + frames;
+  const double deepest = scene::deepest_travel(scene.scenario, scene.law());
+  PressedMesh mesh(scene);
+  mesh.set_step(plan.substep);
+  Stages stages(scene, plan.substeps);
+  Touch touch;
+  const Vec3 first = scene::first_touch(scene).finger;
+  touch.finger = first;
+  Bench found;
+  for (int frame = 0; frame < all; ++frame) {
+    FrameTime time;
+    const Touch before = touch;
+    std::optional<std::string> wrong;
+    time.whole = seconds([&] {
+      for (int k = 1; k <= plan.substeps && !wrong; ++k) {
+        const double done = frame + static_cast<double>(k) / plan.substeps;
+        touch.travel = deepest * done / all;
+        wrong = mesh.step(first - touch.travel * Vec3::UnitZ(), done * plan.time_step, touch);
+      }
+    });
+    if (!wrong) wrong = stages.frame(touch.finger, before, touch, time);
+    if (wrong) {
+      found.wrong = "frame " + std::to_string(frame + 1) + ": " + *wrong;
+      break;
+    }
+    if (frame >= warm_up) found.frames.push_back(time);
+  }
+  found.force = touch.force();
+  found.displacement = stages.displacement();
+  return found;
+}
+
+double percentile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+}  // namespace palpate::run
