@@ -30,8 +30,7 @@ bool Detector::nearest_around(const geometry::Near& near) const {
         [](const geometry::Near& one, int number) { return one.triangle < number; });
     return found != near_.end() && found->triangle == triangle ? &*found : nullptr;
   };
-  for (const int corner :
-       surface_->surface().triangles[static_cast<std::size_t>(near.triangle)])
+  for (const int corner : surface_->surface().triangles[static_cast<std::size_t>(near.triangle)])
     for (const int triangle : surface_->neighbours().triangles_at(corner)) {
       if (triangle == near.triangle) continue;
       const geometry::Near* other = distance(triangle);

@@ -16,8 +16,7 @@ namespace palpate::contact {
   // u = p0 [(2 a^2 - r^2) asin(a/r) + a sqrt(r^2 - a^2)] / (2 a E'), p0 = 3 F / (2 pi a^2)
   const double scale = 3.0 * force / (4.0 * std::numbers::pi * a * a * a * plane_modulus);
   if (r <= a) return scale * 0.5 * std::numbers::pi * (2.0 * a * a - r * r);
-  return scale *
-         ((2.0 * a * a - r * r) * std::asin(a / r) + a * std::sqrt((r - a) * (r + a)));
+  return scale * ((2.0 * a * a - r * r) * std::asin(a / r) + a * std::sqrt((r - a) * (r + a)));
 }
 
 }  // namespace palpate::contact

@@ -22,8 +22,8 @@ enum class CurvatureLaw { elliptic, geometric, mean };
 // F = c h^(3/2) over an ellipse whose semi-axes grow with sqrt(h).
 struct ContactLaw {
   PointLaw point;
-  double a = 0.0, b = 0.0;     // sqrt(m): semi-axes over sqrt(h), a >= b
-  Vec3 axis = Vec3::UnitX();   // along a: the direction of least curvature
+  double a = 0.0, b = 0.0;      // sqrt(m): semi-axes over sqrt(h), a >= b
+  Vec3 axis = Vec3::UnitX();    // along a: the direction of least curvature
   double mean_curvature = 0.0;  // 1/m, of the tissue
 };
 

@@ -69,7 +69,8 @@ bool Spreader::meets(const Patch& patch, const Vec3& target, geometry::SurfacePo
     Eigen::Index least = 0;
     const double lowest = weights.minCoeff(&least);
     constexpr double rounding = 1e-12;
-    const int next = surface_->neighbours().across(triangle)[static_cast<std::size_t>(least + 1) % 3];
+    const int next =
+        surface_->neighbours().across(triangle)[static_cast<std::size_t>(least + 1) % 3];
     if (lowest >= -rounding || (next < 0 && lowest >= -1e-9)) {
       met = {triangle, weights};
       return true;

@@ -121,8 +121,8 @@ Near BoxTree::near(const Vec3& point, int triangle) const {
   const Vec3& a = vertices_[static_cast<std::size_t>(i)];
   const Vec3& b = vertices_[static_cast<std::size_t>(j)];
   const Vec3& c = vertices_[static_cast<std::size_t>(k)];
-  Near near{.distance_squared = 0.0, .triangle = triangle,
-            .weights = nearest_weights(point, a, b, c)};
+  Near near{
+      .distance_squared = 0.0, .triangle = triangle, .weights = nearest_weights(point, a, b, c)};
   near.distance_squared =
       (near.weights[0] * a + near.weights[1] * b + near.weights[2] * c - point).squaredNorm();
   return near;
@@ -134,8 +134,8 @@ void BoxTree::within(const Vec3& point, double radius, std::vector<Near>& found)
   std::array<int, 64> stack;  // the tree is balanced: its depth is below 32
   int waiting = 0;
   stack[0] = 0;
-  for (int next = 0; next >= 0; next = waiting > 0 ? stack[static_cast<std::size_t>(--waiting)]
-                                                   : -1) {
+  for (int next = 0; next >= 0;
+       next = waiting > 0 ? stack[static_cast<std::size_t>(--waiting)] : -1) {
     const Box& box = boxes_[static_cast<std::size_t>(next)];
     if (box_distance_squared(point, box.low, box.high) > most) continue;
     if (box.count == 0) {
@@ -156,8 +156,8 @@ Near BoxTree::nearest(const Vec3& point) const {
   Near best{.distance_squared = std::numeric_limits<double>::infinity()};
   std::array<int, 64> stack;
   int waiting = 0;
-  for (int next = 0; next >= 0; next = waiting > 0 ? stack[static_cast<std::size_t>(--waiting)]
-                                                   : -1) {
+  for (int next = 0; next >= 0;
+       next = waiting > 0 ? stack[static_cast<std::size_t>(--waiting)] : -1) {
     const Box& box = boxes_[static_cast<std::size_t>(next)];
     if (box_distance_squared(point, box.low, box.high) > best.distance_squared) continue;
     if (box.count == 0) {

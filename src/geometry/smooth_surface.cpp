@@ -99,8 +99,7 @@ Vec3 SmoothSurface::position(const SurfacePoint& point) const {
   for (std::size_t i = 0; i < 3; ++i) {
     const int vertex = surface_.triangles[static_cast<std::size_t>(point.triangle)][i];
     const Vec3& normal = corner_normal(point.triangle, i);
-    const double rise =
-        (surface_.vertices[static_cast<std::size_t>(vertex)] - flat).dot(normal);
+    const double rise = (surface_.vertices[static_cast<std::size_t>(vertex)] - flat).dot(normal);
     smooth += 0.5 * point.weights[static_cast<Eigen::Index>(i)] * rise * normal;
   }
   return smooth;
@@ -133,8 +132,8 @@ SmoothSurface::Foot SmoothSurface::flat_foot(const Vec3& point, const Near& star
   // Beside an edge the perpendicular leans; in its plane it is the triangle's own.
   if (distance > 0.0 && foot.height > 0.0) foot.normal = away / distance;
   for (std::size_t edge = 0; edge < 3; ++edge)
-    if (crease(start.triangle, edge) && start.weights[static_cast<Eigen::Index>((edge + 2) % 3)] <=
-                                            1e-12)
+    if (crease(start.triangle, edge) &&
+        start.weights[static_cast<Eigen::Index>((edge + 2) % 3)] <= 1e-12)
       foot.on_crease = true;
   return foot;
 }

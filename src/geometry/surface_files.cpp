@@ -156,7 +156,7 @@ class Reading {
     Vec3 mean = Vec3::Zero();
     for (const auto& triangle : fan(corners, 0)) mean += normal(triangle);
     for (std::size_t start = 0; start < corners.size(); ++start) {
-      const auto tried = fan(corners, start);
+      auto tried = fan(corners, start);
       if (std::all_of(tried.begin(), tried.end(),
                       [&](const auto& triangle) { return normal(triangle).dot(mean) > 0.0; }))
         return tried;

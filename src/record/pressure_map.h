@@ -12,14 +12,14 @@ namespace palpate::record {
 struct PressureMap {
   int width = 0;
   int height = 0;
-  double pitch = 0.0;           // m, side of a pixel
-  Vec3 origin = Vec3::Zero();   // m, centre of the first pixel
-  double time = 0.0;            // s
-  std::string scenario_case;    // the case's name
-  int step = 0;                 // counted from 1
-  double contact_force = 0.0;   // N, what the map must integrate to
+  double pitch = 0.0;          // m, side of a pixel
+  Vec3 origin = Vec3::Zero();  // m, centre of the first pixel
+  double time = 0.0;           // s
+  std::string scenario_case;   // the case's name
+  int step = 0;                // counted from 1
+  double contact_force = 0.0;  // N, what the map must integrate to
   // width * height values each
-  std::vector<float> pressure;  // Pa, compression positive
+  std::vector<float> pressure;                            // Pa, compression positive
   std::vector<float> traction_x, traction_y, traction_z;  // Pa, of the finger on the tissue
   std::vector<float> gap;  // m, between finger and tissue; 0 in contact, infinite beside the finger
 };

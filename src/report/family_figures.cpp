@@ -45,9 +45,7 @@ int first_step(const scenario::Scenario& scenario, bool (*is)(const scenario::St
   return found == scenario.steps.end() ? 0 : static_cast<int>(found - scenario.steps.begin()) + 1;
 }
 
-bool is_slide(const scenario::Step& step) {
-  return std::holds_alternative<scenario::Slide>(step);
-}
+bool is_slide(const scenario::Step& step) { return std::holds_alternative<scenario::Slide>(step); }
 
 // Over cases whose curvatures differ: one curve a tissue, where tissues are swept too.
 std::optional<Figure> curvature_figure(const scenario::Family& family,

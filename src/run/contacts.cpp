@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "contact/half_space.h"
 
 namespace palpate::run {
 namespace {
@@ -22,41 +21,7 @@ geometry::CurvatureOptions curvature_options(const scene::Scene& scene) {
   return options;
 }
 
-std::vector<int> nodes_of(const MeshAnswer& mesh, const contact::Spread& spread) {
-  std::vector<int> nodes;
-  for (const int vertex : spread.vertices)
-    nodes.push_back(mesh.nodes[static_cast<std::size_t>(vertex)]);
-  return nodes;
-}
-
 }  // namespace
-
-const SphereContact* Touch::deepest() const {
-  const auto found =
-      std::max_element(contacts.begin(), contacts.end(),
-                       [](const auto& a, const auto& b) { return a.depth < b.depth; });
-  return found == contacts.end() ? nullptr : &*found;
-}
-
-double Touch::normal_force() const {
-  double sum = 0.0;
-  for (const SphereContact& contact : contacts) sum += contact.force * contact.patch.normal.z();
-  return sum;
-}
-
-double Touch::force() const { return normal_force() - drag().z(); }
-
-Vec3 Touch::drag() const {
-  Vec3 sum = Vec3::Zero();
-  for (const SphereContact& contact : contacts) sum += contact.drag;
-  return sum;
-}
-
-double Touch::pressed() const {
-  double sum = 0.0;
-  for (const SphereContact& contact : contacts) sum += contact.force;
-  return sum;
-}
 
 Contacts::Contacts(const scene::Scene& scene)
     : scene_(&scene),
@@ -134,14 +99,15 @@ std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereCont
     weights[i] = corners[i].known() ? contact.patch.at.weights[static_cast<Eigen::Index>(i)] : 0.0;
     sum += weights[i];
   }
-  if (sum <= 0.0) weights = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+  if (sum <= 0.0)
+    weights = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
   else
     for (double& weight : weights) weight /= sum;
   contact.one_sided = worst != geometry::StarStatus::full;
   const geometry::Curvature here = geometry::between(curvatures, weights);
-  const auto law = contact::contact_law(
-      scene_->scenario.contact.law,
-      {scene_->finger.sphere_radius, scene_->finger.sphere_modulus}, here);
+  const auto law =
+      contact::contact_law(scene_->scenario.contact.law,
+                           {scene_->finger.sphere_radius, scene_->finger.sphere_modulus}, here);
   if (!law)
     return "the tissue is hollow and conforms to the finger (curvature " +
            rounded_text(here.kappa_2) + " 1/m): Hertz does not hold there";
@@ -187,126 +153,19 @@ void Contacts::approach_moving_skin(const Vec3& finger, SphereContact& contact) 
   contact.approach = scene_->finger.sphere_radius - foot.height;
 }
 
-// Where `consistent` reads the mesh for a contact: around its own patch; spheres that are calibrated
-// to press as one are read as that one, around the patch which it would have.
-contact::Patch Contacts::read_patch(const std::vector<SphereContact>& contacts,
-                                    const SphereContact& own) const {
-  if (!presses_as_one() || contacts.size() == 1) return own.patch;
-  contact::Patch joint = own.patch;
-  joint.position.setZero();
-  joint.normal.setZero();
-  double sum = 0.0;
-  double widest = 0.0;
-  for (const SphereContact& contact : contacts) {
-    const double weight = std::max(contact.depth, 1e-9 * scene_->finger.sphere_radius);
-    sum += weight;
-    joint.position += weight * contact.patch.position;
-    joint.normal += weight * contact.patch.normal;
-    if (contact.patch.radius() < widest) continue;
-    widest = contact.patch.radius();
-    joint.at = contact.patch.at;
-  }
-  joint.position /= sum;
-  joint.normal.normalize();
-  // a^2 = R h, and R is n^(1/3) times a sphere's radius.
-  joint.a = joint.b =
-      widest * std::pow(static_cast<double>(scene_->finger.centres.size()), 1.0 / 6.0);
-  return joint;
-}
-
-bool Contacts::presses_as_one() const {
-  return scene_->finger.centres.size() > 1 &&
-         scene_->scenario.finger.calibration == finger::Calibration::force;
-}
-
-// How far the skin at each contact gives way to a newton on each.          docs/theory.md (44)
-void Contacts::find_compliance(const MeshAnswer& mesh,
-                               const std::vector<SphereContact>& contacts) {
-  const auto count = static_cast<Eigen::Index>(contacts.size());
-  compliance_.setZero(count, count);
-  if (mesh.influence == nullptr) return;
-  const bool consistent = scene_->scenario.contact.coupling == Coupling::consistent;
-  if (consistent)
-    for (const SphereContact& contact : contacts)
-      for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
-        double& share = shares_[static_cast<std::size_t>(contact.load.vertices[k])];
-        share = std::max(share, contact.load.shares[k]);
-      }
-  contact::Reading reading;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    if (i > 0 && consistent && presses_as_one()) {
-      compliance_.row(i) = compliance_.row(0);
-      continue;
-    }
-    const SphereContact& own = contacts[static_cast<std::size_t>(i)];
-    const contact::Patch patch = read_patch(contacts, own);
-    if (consistent) {
-      rings_.read(patch, shares_, reading);
-    } else {
-      reading.vertices = own.load.vertices;
-      reading.weights = own.load.shares;
-    }
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const SphereContact& pressed = contacts[static_cast<std::size_t>(j)];
-      compliance_(i, j) = sinking(mesh, patch, reading, pressed);
-      if (i != j && !presses_as_one()) compliance_(i, j) += unknown_to_hertz(patch, pressed);
-    }
-  }
-  if (consistent)
-    for (const SphereContact& contact : contacts)
-      for (const int vertex : contact.load.vertices) shares_[static_cast<std::size_t>(vertex)] = 0.0;
-}
-
-// What a reading says of the sinking under a patch per newton on a contact, m/N; with `consistent`
-// less what a half-space would sink there under the same loads.
-double Contacts::sinking(const MeshAnswer& mesh, const contact::Patch& patch,
-                         const contact::Reading& reading, const SphereContact& pressed) const {
-  const bool consistent = scene_->scenario.contact.coupling == Coupling::consistent;
-  const double aligned = patch.normal.dot(pressed.patch.normal);
-  const double spacing = rings_.spacing(patch);
-  const std::vector<int> nodes = nodes_of(mesh, pressed.load);
-  double sum = 0.0;
-  for (std::size_t a = 0; a < reading.vertices.size(); ++a) {
-    const int vertex = reading.vertices[a];
-    double moved = mesh.influence->between(
-        -patch.normal, mesh.nodes[static_cast<std::size_t>(vertex)], -pressed.patch.normal, nodes,
-        pressed.load.shares, mesh.freedoms);
-    if (consistent)
-      moved -= aligned * rings_.half_space(vertex, pressed.load, plane_modulus(), spacing);
-    sum += reading.weights[a] * moved;
-  }
-  return sum;
-}
-
-// What another contact makes the half-space sink under a patch, per newton: Hertz's law of a
-// single contact does not know it.
-double Contacts::unknown_to_hertz(const contact::Patch& patch, const SphereContact& other) const {
-  if (scene_->scenario.contact.coupling != Coupling::consistent) return 0.0;
-  return patch.normal.dot(other.patch.normal) *
-         contact::half_space_sinking((patch.position - other.patch.position).norm(), 1.0,
-                                     other.patch.radius(), plane_modulus());
-}
-
-double Contacts::plane_modulus() const {
-  const tissue::Uniaxial& measured = scene_->specimen->measured;
-  return measured.young_modulus / (1.0 - measured.poisson_ratio * measured.poisson_ratio);
-}
-
 // Contacts at one place press it once: each gets its part, without a jump as they come together.
 void Contacts::share_places(std::vector<SphereContact>& contacts) {
   std::vector<double> parts(contacts.size(), 1.0);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     for (std::size_t j = 0; j < contacts.size(); ++j) {
       if (i == j) continue;
-      const double reach =
-          0.5 * std::max(contacts[i].patch.radius(), contacts[j].patch.radius());
+      const double reach = 0.5 * std::max(contacts[i].patch.radius(), contacts[j].patch.radius());
       const double apart = (contacts[i].patch.position - contacts[j].patch.position).norm();
       if (apart >= reach) continue;
       const double overlap = 1.0 - apart / reach;
       parts[i] += overlap * overlap;
     }
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    contacts[i].law.point.coefficient /= parts[i];
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].law.point.coefficient /= parts[i];
 }
 
 std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch) {
@@ -335,40 +194,15 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
       return "no penetration balances the contact: the layer is too thin for this coupling";
     double change = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-      change = std::max(change, contacts[i].law.a * std::abs(std::sqrt(depths[i]) -
-                                                             std::sqrt(std::max(
-                                                                 0.0, contacts[i].depth))));
+      change = std::max(
+          change, contacts[i].law.a *
+                      std::abs(std::sqrt(depths[i]) - std::sqrt(std::max(0.0, contacts[i].depth))));
       contacts[i].depth = depths[i];
       contacts[i].force = laws[i].force(depths[i]);
     }
     if (change <= settled || passes == 1) return std::nullopt;
   }
   return "the contact radius did not settle in 100 iterations";
-}
-
-void rub(const scene::Scene& scene, const Vec3& move, Touch& touch) {
-  const double friction = scene.scenario.contact.friction;
-  for (SphereContact& contact : touch.contacts) {
-    contact.drag.setZero();
-    const double limit = friction * contact.force;
-    if (!(limit > 0.0)) {
-      contact.stretch.setZero();
-      continue;
-    }
-    const Vec3& normal = contact.patch.normal;
-    contact.stretch += move;
-    contact.stretch -= contact.stretch.dot(normal) * normal;
-    // The stretch at which the whole patch slips: 3 mu F q / (16 a).
-    const double most =
-        3.0 * limit * scene.finger.shear_compliance / (16.0 * contact.patch.radius());
-    const double stretch = contact.stretch.norm();
-    if (stretch <= 0.0) continue;
-    const Vec3 direction = contact.stretch / stretch;
-    if (stretch > most) contact.stretch = most * direction;
-    // Q = mu F [1 - (1 - stretch / most)^(3/2)]
-    const double left = std::max(0.0, 1.0 - stretch / most);
-    contact.drag = limit * (1.0 - left * std::sqrt(left)) * direction;
-  }
 }
 
 std::optional<std::string> Contacts::find(const Vec3& finger, const MeshAnswer& mesh,

@@ -19,11 +19,11 @@ namespace palpate::run {
 struct SphereContact {
   int sphere = 0;
   contact::Patch patch;
-  contact::ContactLaw law;  // its coefficient less what it shares with contacts at the same place
-  double approach = 0.0;    // m, of the sphere into the skin as the mesh's own motion leaves it
-  double depth = 0.0;       // m, h of eq. (2)
-  double force = 0.0;       // N, along the patch's normal
-  Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue
+  contact::ContactLaw law;   // its coefficient less what it shares with contacts at the same place
+  double approach = 0.0;     // m, of the sphere into the skin as the mesh's own motion leaves it
+  double depth = 0.0;        // m, h of eq. (2)
+  double force = 0.0;        // N, along the patch's normal
+  Vec3 drag = Vec3::Zero();  // N, tangential, on the tissue
   Vec3 stretch = Vec3::Zero();  // m, of finger against tissue since the contact last slipped
   contact::Spread load;
   bool on_crease = false;
@@ -46,15 +46,16 @@ struct Touch {
 
 // The mesh as contacts see it. Without it the skin stays as it is at rest.
 struct MeshAnswer {
-  std::span<const int> nodes;                         // of every vertex of the skin; -1: stands
+  std::span<const int> nodes;  // of every vertex of the skin; -1: stands
   Eigen::Index freedoms = 0;
-  const integrate::Vector* displacement = nullptr;    // m, without these contacts' own forces
-  Influence* influence = nullptr;                     // of these contacts' forces on it
-  const integrate::Vector* shape = nullptr;           // m, that curvature is read from
+  const integrate::Vector* displacement = nullptr;  // m, without these contacts' own forces
+  Influence* influence = nullptr;                   // of these contacts' forces on it
+  const integrate::Vector* shape = nullptr;         // m, that curvature is read from
 };
 
-// Stick and slip as the finger moves by `move` (m): the stretch between finger and tissue grows, and
-// the drag is what Cattaneo and Mindlin's partial slip makes of it, at most mu F. theory.md (46)
+// Stick and slip as the finger moves by `move` (m): the stretch between finger and tissue grows,
+// and the drag is what Cattaneo and Mindlin's partial slip makes of it, at most mu F. theory.md
+// (46)
 void rub(const scene::Scene& scene, const Vec3& move, Touch& touch);
 
 class Contacts {
@@ -74,8 +75,7 @@ class Contacts {
   void detect(const Vec3& finger, const MeshAnswer& mesh, std::vector<SphereContact>& found);
 
  private:
-  [[nodiscard]] std::optional<std::string> give_law(const MeshAnswer& mesh,
-                                                    SphereContact& contact);
+  [[nodiscard]] std::optional<std::string> give_law(const MeshAnswer& mesh, SphereContact& contact);
   [[nodiscard]] std::optional<std::string> settle(const MeshAnswer& mesh, Touch& touch);
   void carry_on(const Touch& before, SphereContact& contact) const;
   void shape_patches(std::vector<SphereContact>& contacts);
@@ -97,11 +97,12 @@ class Contacts {
   contact::Spreader spreader_;
   contact::RingReader rings_;
   geometry::CurvatureStars stars_;
-  std::map<int, std::array<geometry::CurvatureEstimate, 3>> known_curvature_;  // by triangle, at rest
-  std::vector<Vec3> moved_;                               // displacement of every vertex, m
+  std::map<int, std::array<geometry::CurvatureEstimate, 3>>
+      known_curvature_;      // by triangle, at rest
+  std::vector<Vec3> moved_;  // displacement of every vertex, m
   std::vector<geometry::SmoothSurface::Foot> feet_;
-  std::vector<double> shares_;                            // the greatest at every vertex
-  Eigen::MatrixXd compliance_;                            // m/N
+  std::vector<double> shares_;  // the greatest at every vertex
+  Eigen::MatrixXd compliance_;  // m/N
   bool moving_ = false;
 };
 

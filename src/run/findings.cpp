@@ -143,7 +143,8 @@ class Findings {
       remark("the indentation reached " + rounded_text(peak.indentation / scene_.law().radius, 2) +
              " of the sphere's radius: Hertz assumes far less; true forces differ by up to 6 % "
              "at a quarter of the radius (docs/paper.md, 13)");
-    const double thickness = (1.0 - scene_.finger.compliance_share) * 1.127 * peak.contact_radius / height;
+    const double thickness =
+        (1.0 - scene_.finger.compliance_share) * 1.127 * peak.contact_radius / height;
     if (alone && thickness > scene_.scenario.solver.tolerance)
       remark(
           "the force is that of a half-space: on a bonded base at this thickness it would be "

@@ -79,8 +79,7 @@ class Press {
     Vec3 sideways = Vec3::Zero();
     for (std::size_t i = 0; i < scene_.scenario.steps.size(); ++i) {
       step_ = static_cast<int>(i) + 1;
-      const Motion motion =
-          make_motion(scene_.scenario.steps[i], touch_.travel, sideways, scene_);
+      const Motion motion = make_motion(scene_.scenario.steps[i], touch_.travel, sideways, scene_);
       if (i == 0) write_row();
       if (motion.duration <= 0.0) {  // after a step to a force nobody knows the travel beforehand
         record_.remarks.push_back("step " + std::to_string(step_) +
@@ -138,8 +137,7 @@ class Press {
     if (!motion.keeps_force) touch_.travel = motion.travel(time);
     touch_.slide = sideways.norm();
     if (!mesh_) {
-      if (auto wrong = press_half_space(scene_, first_ + sideways, touch_))
-        return diverged(*wrong);
+      if (auto wrong = press_half_space(scene_, first_ + sideways, touch_)) return diverged(*wrong);
       return true;
     }
     if (motion.keeps_force)
@@ -168,8 +166,7 @@ class Press {
         stiffness += contact.law.point.stiffness(contact.depth) * contact.patch.normal.z();
       const double missing = kept_force_ - tried.force();
       // Out of touch, down by a little.
-      touch_.travel +=
-          stiffness > 0.0 ? missing / stiffness : 1e-3 * scene_.finger.sphere_radius;
+      touch_.travel += stiffness > 0.0 ? missing / stiffness : 1e-3 * scene_.finger.sphere_radius;
       if (!mesh_->forces_follow_finger() || std::abs(missing) <= 1e-9 * kept_force_)
         return std::nullopt;
     }
@@ -190,10 +187,10 @@ class Press {
     row.contact_force = touch_.normal_force();
     row.ambient = contact.ambient_force;
     row.force = touch_.force() + contact.ambient_force;
-    row.friction = touch_.contacts.empty() ? 0.0
-                                           : contact::friction::limit(contact.friction,
-                                                                      touch_.pressed(),
-                                                                      scene_.finger.weight);
+    row.friction =
+        touch_.contacts.empty()
+            ? 0.0
+            : contact::friction::limit(contact.friction, touch_.pressed(), scene_.finger.weight);
     row.tangential = touch_.drag().norm();
     row.tissue_radius = std::numeric_limits<double>::infinity();
     if (const SphereContact* deepest = touch_.deepest()) {
@@ -249,7 +246,8 @@ class Press {
   const std::atomic<bool>& stop_;
   record::CaseRecord& record_;
   std::optional<PressedMesh> mesh_;
-  Vec3 first_ = Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
+  Vec3 first_ =
+      Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
   Touch touch_;
   double kept_force_ = 0.0;  // N, during a slide
   double edge_share_ = 0.0;

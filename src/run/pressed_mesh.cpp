@@ -23,8 +23,9 @@ PressedMesh::PressedMesh(const scene::Scene& scene)
     take(tissue::whole_part(specimen_->network));
     return;
   }
-  const auto& corners = specimen_->surface->surface().triangles[static_cast<std::size_t>(
-      scene::first_touch(scene).at.triangle)];
+  const auto& corners =
+      specimen_->surface->surface()
+          .triangles[static_cast<std::size_t>(scene::first_touch(scene).at.triangle)];
   std::vector<int> start;
   for (const int vertex : corners)
     start.push_back(specimen_->skin[static_cast<std::size_t>(vertex)]);
@@ -60,7 +61,8 @@ void PressedMesh::take(tissue::Part part) {
     state_.velocity.segment<3>(3 * now) = old.velocity.segment<3>(from);
   }
   state_.memory = body_->memory_at(state_.displacement);
-  const std::size_t per_spring = state_.memory.size() / std::max<std::size_t>(1, part_.springs.size());
+  const std::size_t per_spring =
+      state_.memory.size() / std::max<std::size_t>(1, part_.springs.size());
   for (std::size_t s = 0; s < before.springs.size(); ++s) {
     const auto now =
         std::lower_bound(part_.springs.begin(), part_.springs.end(), before.springs[s]);
@@ -138,8 +140,7 @@ std::optional<std::string> PressedMesh::step_in_series(const Vec3& finger, Touch
     return balance(*implicit, finger, touch);
   if (auto* modal = std::get_if<integrate::Modal>(&stepper_->method()))
     return balance(*modal, finger, touch);
-  if (auto wrong = stepper_->step(state_, load_, load_, integrate::MemoryRule::exact))
-    return wrong;
+  if (auto wrong = stepper_->step(state_, load_, load_, integrate::MemoryRule::exact)) return wrong;
   // Explicit: the force follows from what is, over the patch of the step before, which changes by
   // less than a step's travel.
   MeshAnswer mesh = answer();

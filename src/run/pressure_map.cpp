@@ -44,9 +44,9 @@ double gap(const std::vector<View>& views, const scene::Scene& scene, double x, 
   double least = std::numeric_limits<double>::infinity();
   double sinking = 0.0;
   for (const View& view : views)
-    sinking += contact::half_space_sinking(view.arm(x, y).norm(), view.contact->force,
-                                           view.contact->patch.radius(),
-                                           scene.finger.sphere_modulus);
+    sinking +=
+        contact::half_space_sinking(view.arm(x, y).norm(), view.contact->force,
+                                    view.contact->patch.radius(), scene.finger.sphere_modulus);
   const double sphere = scene.finger.sphere_radius;
   for (const View& view : views) {
     const double r = view.arm(x, y).norm();
@@ -90,9 +90,9 @@ record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch) {
   map.width = std::min(longest, static_cast<int>(std::ceil(size.x() / map.pitch - 1e-9)));
   map.height = std::min(longest, static_cast<int>(std::ceil(size.y() / map.pitch - 1e-9)));
   const Vec3 middle = 0.5 * (low + high);
-  map.origin = Vec3(middle.x() - 0.5 * (map.width - 1) * map.pitch,
-                    middle.y() - 0.5 * (map.height - 1) * map.pitch,
-                    touch.deepest()->patch.position.z());
+  map.origin =
+      Vec3(middle.x() - 0.5 * (map.width - 1) * map.pitch,
+           middle.y() - 0.5 * (map.height - 1) * map.pitch, touch.deepest()->patch.position.z());
   for (int row = 0; row < map.height; ++row) {
     for (int column = 0; column < map.width; ++column) {
       double pressure = 0.0;

@@ -132,8 +132,9 @@ class Checker {
     const bool half_space = std::holds_alternative<HalfSpace>(tissue.shape);
     const bool ready = std::holds_alternative<MeshFile>(tissue.mesh);
     if (std::holds_alternative<AsMeshed>(tissue.shape) && !ready)
-      problem("tissue.shape", "`as_meshed` needs a ready mesh; set `tissue.mesh = { file = ..., "
-                              "unit = \"mm\" }`");
+      problem("tissue.shape",
+              "`as_meshed` needs a ready mesh; set `tissue.mesh = { file = ..., "
+              "unit = \"mm\" }`");
     if (scenario_.solver.model == Solver::Model::mass_spring && half_space)
       problem("tissue.shape",
               "a `half_space` has no mesh; set `solver.model = \"hertz\"` or another shape");
@@ -143,12 +144,13 @@ class Checker {
       problem("tissue.mesh",
               "`kuhn` and `mirrored` cells fill a `cuboid` only; set `tissue.mesh = { kind = "
               "\"tetgen\", nodes = 728 }`");
-    const bool lumps = std::any_of(
-        scenario_.regions.begin(), scenario_.regions.end(),
-        [](const Region& region) { return std::holds_alternative<Lump>(region); });
+    const bool lumps =
+        std::any_of(scenario_.regions.begin(), scenario_.regions.end(),
+                    [](const Region& region) { return std::holds_alternative<Lump>(region); });
     if (!hertz && lumps && !std::holds_alternative<Tetgen>(tissue.mesh))
-      problem("tissue.mesh", "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
-                             "kind = \"tetgen\", nodes = 1500 }`");
+      problem("tissue.mesh",
+              "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
+              "kind = \"tetgen\", nodes = 1500 }`");
     const auto* tetgen = std::get_if<Tetgen>(&tissue.mesh);
     if (tetgen != nullptr && tetgen->tetrahedra &&
         (box || tetgen->edge || std::holds_alternative<SurfaceFile>(tissue.shape)))

@@ -61,7 +61,8 @@ static void fields(FieldVisitor& visitor, Cylinder& shape) {
   visitor.quantity({"length", "Along y."}, shape.length, unit::mm, above(0));
 }
 static void fields(FieldVisitor& visitor, Ellipsoid& shape) {
-  visitor.quantities({"size", "Its three axes in full."}, {shape.size.data(), 3}, unit::mm, above(0));
+  visitor.quantities({"size", "Its three axes in full."}, {shape.size.data(), 3}, unit::mm,
+                     above(0));
 }
 static void fields(FieldVisitor& visitor, Ligament& shape) {
   visitor.quantity({"length", "Along y."}, shape.length, unit::mm, above(0));
@@ -100,11 +101,11 @@ static void fields(FieldVisitor& visitor, Mirrored& mesh) {
 }
 static void fields(FieldVisitor& visitor, Tetgen& mesh) {
   visitor.count({"nodes", "How many nodes to aim at."}, mesh.nodes, between(8, 1e6));
-  visitor.count_or("auto",
-                   {"tetrahedra", "How many tetrahedra to aim at besides; not for cuboids and files."},
-                   mesh.tetrahedra, between(1, 1e7));
-  visitor.quantity_or("auto", {"edge", "A length of edges to aim at instead of a count."}, mesh.edge,
-                      unit::mm, above(0));
+  visitor.count_or(
+      "auto", {"tetrahedra", "How many tetrahedra to aim at besides; not for cuboids and files."},
+      mesh.tetrahedra, between(1, 1e7));
+  visitor.quantity_or("auto", {"edge", "A length of edges to aim at instead of a count."},
+                      mesh.edge, unit::mm, above(0));
 }
 static void fields(FieldVisitor& visitor, MeshFile& mesh) {
   visitor.text({"file", "Path of the .node or .msh file, from the scenario's folder."}, mesh.file);
@@ -163,8 +164,9 @@ static void fields(FieldVisitor& visitor, TaggedRegion& region) {
   fields(visitor, region.substance);
 }
 static void fields(FieldVisitor& visitor, Lump& region) {
-  visitor.quantities({"centre", "In the specimen's coordinates; their origin is the lowest corner "
-                                "of its bounding box."},
+  visitor.quantities({"centre",
+                      "In the specimen's coordinates; their origin is the lowest corner "
+                      "of its bounding box."},
                      region.centre, unit::mm, {});
   visitor.quantity({"radius", "Of the lump."}, region.radius, unit::mm, above(0));
   fields(visitor, region.substance);
@@ -187,7 +189,8 @@ struct Conditions {
         std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& s) {
           return !std::holds_alternative<Creep>(s) && !std::holds_alternative<Relax>(s);
         });
-    finger = {presses || scenario.steps.empty(), "by steps with a finger (indent, hold, retract, slide)"};
+    finger = {presses || scenario.steps.empty(),
+              "by steps with a finger (indent, hold, retract, slide)"};
   }
 };
 
@@ -241,10 +244,12 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
 void fields(FieldVisitor& visitor, Finger& finger) {
   visitor.text({"material", "`finger` (the paper's silicone rubber), any tissue, or `rigid`."},
                finger.material);
-  visitor.quantity({"radius", "Of the one sphere that has the finger's mass."}, finger.radius, unit::mm, above(0));
+  visitor.quantity({"radius", "Of the one sphere that has the finger's mass."}, finger.radius,
+                   unit::mm, above(0));
   visitor.count({"spheres", "Sphere bodies of equal mass that make up the finger, eq. (5)."},
                 finger.spheres, between(1, 64));
-  visitor.choice({"calibration", "What several spheres keep of the one that they replace.",
+  visitor.choice({"calibration",
+                  "What several spheres keep of the one that they replace.",
                   {finger.spheres > 1, "with more than one of `spheres`", Use::Otherwise::note}},
                  finger.calibration, calibrations);
   visitor.quantity_or("auto", {"x", "Where it presses; `auto`: the middle of the specimen."},
@@ -270,9 +275,9 @@ void fields(FieldVisitor& visitor, Contact& contact, const Conditions& use) {
                  curvature_methods);
   visitor.choice({"curvature_on", "Whose curvature.", use.mesh}, contact.curvature_on,
                  curvature_surfaces);
-  visitor.count({"curvature_rings", "Rings of vertices around the contact that it is read from.",
-                 use.mesh},
-                contact.curvature_rings, between(1, 8));
+  visitor.count(
+      {"curvature_rings", "Rings of vertices around the contact that it is read from.", use.mesh},
+      contact.curvature_rings, between(1, 8));
   visitor.number({"friction", "Coulomb's coefficient mu."}, contact.friction, at_least(0));
   visitor.quantity({"ambient_force", "F_a of eq. (1), added to the force."}, contact.ambient_force,
                    unit::N, {});
@@ -306,9 +311,9 @@ void fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
                 "fail.",
                 stepped},
                solver.allow_unstable);
-  visitor.count_or("all",
-                   {"rings", "Rings of nodes around the contact that move; the others stand.", use.mesh},
-                   solver.rings, between(1, 1000));
+  visitor.count_or(
+      "all", {"rings", "Rings of nodes around the contact that move; the others stand.", use.mesh},
+      solver.rings, between(1, 1000));
 }
 
 void fields(FieldVisitor& visitor, Output& output, const Use& finger, const Use& mesh) {
@@ -361,7 +366,8 @@ void fields(FieldVisitor& visitor, Scenario& scenario) {
         inner.alternatives(scenario.steps[static_cast<std::size_t>(i)]);
       });
   visitor.table({"output", "What is written."}, [&](FieldVisitor& inner) {
-    fields(inner, scenario.output, {use.finger.used, use.finger.when, Use::Otherwise::note}, use.mesh);
+    fields(inner, scenario.output, {use.finger.used, use.finger.when, Use::Otherwise::note},
+           use.mesh);
   });
 }
 

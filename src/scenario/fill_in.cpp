@@ -61,8 +61,8 @@ void read_named_file(const NamedFile& named, const Node& document, const std::st
   const Place place = place_of(document, path);
   const std::string quoted = std::string("`") + named.key + "`";
   if (named.file.empty())
-    throw InputError(place, quoted + " of kind `file` lacks `file`; write `file = \"" +
-                                named.example + "\"`");
+    throw InputError(
+        place, quoted + " of kind `file` lacks `file`; write `file = \"" + named.example + "\"`");
   if (named.unit.empty())
     throw InputError(place, quoted + " lacks the unit of its coordinates; write `unit = \"mm\"`");
   try {
@@ -139,8 +139,10 @@ void complete_shape(Scenario& scenario, const Node& document) {
   const auto* limb = std::get_if<LayeredLimb>(&scenario.tissue.shape);
   if (limb == nullptr || document.find("region") != nullptr) return;
   scenario.regions.clear();
-  if (limb->skin_thickness > 0.0) scenario.regions.emplace_back(TaggedRegion{.tag = 1, .substance = {.material = "muscle"}});
-  if (limb->bone_radius > 0.0) scenario.regions.emplace_back(TaggedRegion{.tag = 2, .substance = {.material = "bone"}});
+  if (limb->skin_thickness > 0.0)
+    scenario.regions.emplace_back(TaggedRegion{.tag = 1, .substance = {.material = "muscle"}});
+  if (limb->bone_radius > 0.0)
+    scenario.regions.emplace_back(TaggedRegion{.tag = 2, .substance = {.material = "bone"}});
 }
 
 void fill_in_finger(Finger& finger, const material::Tissue& rubber) {
@@ -169,8 +171,8 @@ void fill_in(Scenario& scenario, const Node& document, const std::string& folder
   });
   complete_shape(scenario, document);
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
-    Substance& substance = std::visit([](auto& one) -> Substance& { return one.substance; },
-                                      scenario.regions[i]);
+    Substance& substance =
+        std::visit([](auto& one) -> Substance& { return one.substance; }, scenario.regions[i]);
     const Place place = place_of(document, "region." + std::to_string(i + 1) + ".material");
     attempt([&] {
       const material::Tissue material = find_material(substance.material, place, folder, inputs);

@@ -32,7 +32,8 @@ struct Ellipsoid : geometry::Ellipsoid {
   static constexpr Word word{"ellipsoid", "An ellipsoid, such as a head."};
 };
 struct Ligament : geometry::Ligament {
-  static constexpr Word word{"ligament", "A strap along y with rounded sides, broader at its ends."};
+  static constexpr Word word{"ligament",
+                             "A strap along y with rounded sides, broader at its ends."};
 };
 struct BoneShaft : geometry::BoneShaft {
   static constexpr Word word{"bone_shaft", "A round shaft along y that widens towards its ends."};
@@ -176,9 +177,9 @@ struct Retract {
 struct Slide {
   enum class Keep { travel, force };
   static constexpr Word word{"slide", "Move sideways at the same depth or the same force."};
-  double by = 0.010;         // m
-  double rate = 0.005;       // m/s
-  double direction = 0.0;    // degrees from x towards y
+  double by = 0.010;       // m
+  double rate = 0.005;     // m/s
+  double direction = 0.0;  // degrees from x towards y
   Keep keep = Keep::travel;
 };
 struct Creep {
@@ -202,8 +203,8 @@ struct Output {
   bool fits = true;
   bool figures = true;
   bool pdf = false;
-  bool tissue = false;   // deformed meshes for ParaView
-  bool picture = false;  // of the scene
+  bool tissue = false;                          // deformed meshes for ParaView
+  bool picture = false;                         // of the scene
   std::map<std::string, double> display_scale;  // by case, for figures and fits only
 };
 

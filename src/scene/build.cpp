@@ -127,8 +127,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
   specimen->base_height = scenario.tissue.base_height.value_or(
       flat_underside(scenario) ? 0.0 : 0.1 * specimen->height());
 
-  const std::vector<double> moduli = by_region(scenario, &scenario::Tissue::young_modulus,
-                                               &scenario::Substance::young_modulus);
+  const std::vector<double> moduli =
+      by_region(scenario, &scenario::Tissue::young_modulus, &scenario::Substance::young_modulus);
   const std::vector<double> densities =
       by_region(scenario, &scenario::Tissue::density, &scenario::Substance::density);
   const tissue::StiffnessRule rule = scenario.solver.stiffness;
@@ -144,8 +144,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
   // What the springs make of the tissue's modulus is asked of a specimen of that tissue alone.
   tissue::Network alone = specimen->network;
   if (moduli.size() > 1)
-    alone.stiffness = tissue::spring_stiffness(
-        rule, specimen->mesh, std::vector<double>(moduli.size(), moduli.front()));
+    alone.stiffness = tissue::spring_stiffness(rule, specimen->mesh,
+                                               std::vector<double>(moduli.size(), moduli.front()));
   const bool platens =
       scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
   const auto measure = [&] {
@@ -163,8 +163,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
     specimen->measured = measure();
   }
   if (scenario.uniform()) {
-    specimen->pressed = tissue::uniaxial_test(specimen->network, specimen->mesh, specimen->base,
-                                              top, top_area);
+    specimen->pressed =
+        tissue::uniaxial_test(specimen->network, specimen->mesh, specimen->base, top, top_area);
     specimen->held_between_platens =
         tissue::held_between_platens(specimen->mesh, specimen->base, top);
   }

@@ -97,8 +97,7 @@ Choice choose(const scenario::Scenario& scenario) {
   const contact::SphereLaw law{scenario.finger.radius,
                                contact::hertz::effective_modulus(lambda_1, lambda_2)};
   const double travel = deepest_travel(scenario, law);
-  if (scenario.contact.coupling == contact::Coupling::one_way &&
-      !beyond_hertz(scenario)) {
+  if (scenario.contact.coupling == contact::Coupling::one_way && !beyond_hertz(scenario)) {
     choice.questions.push_back({"does the force know the mesh?", "coupling is one_way", 0, 1,
                                 "no: it is eq. (2) alone, hertz says the same"});
     choice.model = Model::hertz;

@@ -34,14 +34,14 @@ struct Choice {
 
 // The finger: equal spheres about a point that travels.
 struct Finger {
-  double sphere_radius = 0.0;      // m, of each
-  std::vector<Vec3> centres;       // m, from the finger's point
-  double sphere_modulus = 0.0;     // Pa, E* of each, its calibration included
-  contact::SphereLaw whole;        // the one sphere that they replace: radius and E*
-  double weight = 0.0;             // N, where it counts besides the contact force
-  double compliance_share = 0.0;   // lambda_1 / (lambda_1 + lambda_2)
-  double shear_compliance = 0.0;   // 1/Pa, q of Cattaneo and Mindlin
-  double force_factor = 1.0;       // of all spheres together over the whole, on a flat
+  double sphere_radius = 0.0;     // m, of each
+  std::vector<Vec3> centres;      // m, from the finger's point
+  double sphere_modulus = 0.0;    // Pa, E* of each, its calibration included
+  contact::SphereLaw whole;       // the one sphere that they replace: radius and E*
+  double weight = 0.0;            // N, where it counts besides the contact force
+  double compliance_share = 0.0;  // lambda_1 / (lambda_1 + lambda_2)
+  double shear_compliance = 0.0;  // 1/Pa, q of Cattaneo and Mindlin
+  double force_factor = 1.0;      // of all spheres together over the whole, on a flat
 };
 
 [[nodiscard]] Finger make_finger(const scenario::Scenario& scenario);
@@ -60,7 +60,7 @@ struct Specimen {
   double base_height = 0.0;  // m, of the skin that is the base
   Vec3 low = Vec3::Zero();   // m, corners of the bounding box
   Vec3 high = Vec3::Zero();
-  std::vector<int> skin;     // the node of every vertex of `surface`
+  std::vector<int> skin;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
   tissue::Uniaxial measured;               // the network's own E and nu, were it one tissue
   tissue::Uniaxial pressed;                // how platens load it, in a uniform test

@@ -8,9 +8,8 @@ namespace palpate::tissue {
 std::vector<double> node_volumes(const geometry::TetMesh& mesh, std::span<const double> weight) {
   std::vector<double> volumes(mesh.nodes.size(), 0.0);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const double quarter =
-        0.25 * geometry::signed_volume(mesh, static_cast<int>(t)) *
-        weight[static_cast<std::size_t>(mesh.region(static_cast<int>(t)))];
+    const double quarter = 0.25 * geometry::signed_volume(mesh, static_cast<int>(t)) *
+                           weight[static_cast<std::size_t>(mesh.region(static_cast<int>(t)))];
     for (const int node : mesh.tetrahedra[t]) volumes[static_cast<std::size_t>(node)] += quarter;
   }
   return volumes;

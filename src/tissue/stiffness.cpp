@@ -69,7 +69,8 @@ Vec3 span_of(const geometry::TetMesh& mesh, const std::array<int, 2>& edge) {
 
 }  // namespace
 
-std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh, std::span<const double> young_modulus) {
+std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh,
+                                         std::span<const double> young_modulus) {
   const auto edges = geometry::edges(mesh);
   std::vector<double> stiffness = edge_volumes(mesh, edges, relative(young_modulus));
   for (std::size_t e = 0; e < edges.size(); ++e)
@@ -77,7 +78,8 @@ std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh, std::spa
   return stiffness;
 }
 
-std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, std::span<const double> young_modulus) {
+std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
+                                     std::span<const double> young_modulus) {
   const auto edges = geometry::edges(mesh);
   const std::vector<double> start = edge_volumes(mesh, edges, relative(young_modulus));
   const std::vector<double> volumes = node_volumes(mesh, relative(young_modulus));

@@ -21,10 +21,9 @@ std::vector<Strain> small_strain(const geometry::TetMesh& mesh,
     }
     // H X = U for the edges X and their changes U
     const Eigen::Matrix3d gradient = changes * edges.inverse();
-    strains.push_back({gradient(0, 0), gradient(1, 1), gradient(2, 2),
-                       0.5 * (gradient(0, 1) + gradient(1, 0)),
-                       0.5 * (gradient(1, 2) + gradient(2, 1)),
-                       0.5 * (gradient(0, 2) + gradient(2, 0))});
+    strains.push_back(
+        {gradient(0, 0), gradient(1, 1), gradient(2, 2), 0.5 * (gradient(0, 1) + gradient(1, 0)),
+         0.5 * (gradient(1, 2) + gradient(2, 1)), 0.5 * (gradient(0, 2) + gradient(2, 0))});
   }
   return strains;
 }

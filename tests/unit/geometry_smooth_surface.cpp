@@ -188,10 +188,10 @@ TEST(SmoothSurface, FeetDoNotJumpOverCreases) {
   expect_no_jumps("over a corner", block, {0.05, 0.04, 0.04}, {0.07, 0.06, 0.03}, 120.0);
   const Searched sharp(wedge());
   expect_no_jumps("over an acute edge", sharp, {-1.5, 2.1, 0.5}, {1.5, 1.7, 0.4}, 4.0);
-  const Searched bar(
-      geometry::sampled(geometry::Cylinder{.radius = 0.03, .length = 0.08}, {.everywhere = 0.006})
-          .parts[0]
-          .surface);
+  const Searched bar(geometry::sampled(geometry::Cylinder{.radius = 0.03, .length = 0.08},
+                                       {.outer = 0.006, .inner = 0.006})
+                         .parts[0]
+                         .surface);
   expect_no_jumps("off a bar's end", bar, {0.031, 0.06, 0.07}, {0.036, 0.095, 0.069}, 120.0);
   expect_no_jumps("down a bar's end", bar, {0.031, 0.087, 0.075}, {0.036, 0.09, 0.03}, 150.0);
 }

@@ -1,0 +1,126 @@
+// How far the skin at each contact gives way to a force on each of them.
+#include <cmath>
+
+#include "contact/half_space.h"
+#include "run/contacts.h"
+
+namespace palpate::run {
+namespace {
+
+using contact::Coupling;
+
+std::vector<int> nodes_of(const MeshAnswer& mesh, const contact::Spread& spread) {
+  std::vector<int> nodes;
+  for (const int vertex : spread.vertices)
+    nodes.push_back(mesh.nodes[static_cast<std::size_t>(vertex)]);
+  return nodes;
+}
+
+}  // namespace
+
+// Where `consistent` reads the mesh for a contact: around its own patch; spheres that are
+// calibrated to press as one are read as that one, around the patch which it would have.
+contact::Patch Contacts::read_patch(const std::vector<SphereContact>& contacts,
+                                    const SphereContact& own) const {
+  if (!presses_as_one() || contacts.size() == 1) return own.patch;
+  contact::Patch joint = own.patch;
+  joint.position.setZero();
+  joint.normal.setZero();
+  double sum = 0.0;
+  double widest = 0.0;
+  for (const SphereContact& contact : contacts) {
+    const double weight = std::max(contact.depth, 1e-9 * scene_->finger.sphere_radius);
+    sum += weight;
+    joint.position += weight * contact.patch.position;
+    joint.normal += weight * contact.patch.normal;
+    if (contact.patch.radius() < widest) continue;
+    widest = contact.patch.radius();
+    joint.at = contact.patch.at;
+  }
+  joint.position /= sum;
+  joint.normal.normalize();
+  // a^2 = R h, and R is n^(1/3) times a sphere's radius.
+  joint.a = joint.b =
+      widest * std::pow(static_cast<double>(scene_->finger.centres.size()), 1.0 / 6.0);
+  return joint;
+}
+
+bool Contacts::presses_as_one() const {
+  return scene_->finger.centres.size() > 1 &&
+         scene_->scenario.finger.calibration == finger::Calibration::force;
+}
+
+// How far the skin at each contact gives way to a newton on each.          docs/theory.md (44)
+void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts) {
+  const auto count = static_cast<Eigen::Index>(contacts.size());
+  compliance_.setZero(count, count);
+  if (mesh.influence == nullptr) return;
+  const bool consistent = scene_->scenario.contact.coupling == Coupling::consistent;
+  if (consistent)
+    for (const SphereContact& contact : contacts)
+      for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
+        double& share = shares_[static_cast<std::size_t>(contact.load.vertices[k])];
+        share = std::max(share, contact.load.shares[k]);
+      }
+  contact::Reading reading;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    if (i > 0 && consistent && presses_as_one()) {
+      compliance_.row(i) = compliance_.row(0);
+      continue;
+    }
+    const SphereContact& own = contacts[static_cast<std::size_t>(i)];
+    const contact::Patch patch = read_patch(contacts, own);
+    if (consistent) {
+      rings_.read(patch, shares_, reading);
+    } else {
+      reading.vertices = own.load.vertices;
+      reading.weights = own.load.shares;
+    }
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const SphereContact& pressed = contacts[static_cast<std::size_t>(j)];
+      compliance_(i, j) = sinking(mesh, patch, reading, pressed);
+      if (i != j && !presses_as_one()) compliance_(i, j) += unknown_to_hertz(patch, pressed);
+    }
+  }
+  if (consistent)
+    for (const SphereContact& contact : contacts)
+      for (const int vertex : contact.load.vertices)
+        shares_[static_cast<std::size_t>(vertex)] = 0.0;
+}
+
+// What a reading says of the sinking under a patch per newton on a contact, m/N; with `consistent`
+// less what a half-space would sink there under the same loads.
+double Contacts::sinking(const MeshAnswer& mesh, const contact::Patch& patch,
+                         const contact::Reading& reading, const SphereContact& pressed) const {
+  const bool consistent = scene_->scenario.contact.coupling == Coupling::consistent;
+  const double aligned = patch.normal.dot(pressed.patch.normal);
+  const double spacing = rings_.spacing(patch);
+  const std::vector<int> nodes = nodes_of(mesh, pressed.load);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < reading.vertices.size(); ++a) {
+    const int vertex = reading.vertices[a];
+    double moved =
+        mesh.influence->between(-patch.normal, mesh.nodes[static_cast<std::size_t>(vertex)],
+                                -pressed.patch.normal, nodes, pressed.load.shares, mesh.freedoms);
+    if (consistent)
+      moved -= aligned * rings_.half_space(vertex, pressed.load, plane_modulus(), spacing);
+    sum += reading.weights[a] * moved;
+  }
+  return sum;
+}
+
+// What another contact makes the half-space sink under a patch, per newton: Hertz's law of a
+// single contact does not know it.
+double Contacts::unknown_to_hertz(const contact::Patch& patch, const SphereContact& other) const {
+  if (scene_->scenario.contact.coupling != Coupling::consistent) return 0.0;
+  return patch.normal.dot(other.patch.normal) *
+         contact::half_space_sinking((patch.position - other.patch.position).norm(), 1.0,
+                                     other.patch.radius(), plane_modulus());
+}
+
+double Contacts::plane_modulus() const {
+  const tissue::Uniaxial& measured = scene_->specimen->measured;
+  return measured.young_modulus / (1.0 - measured.poisson_ratio * measured.poisson_ratio);
+}
+
+}  // namespace palpate::run
