@@ -26,11 +26,12 @@ struct Paper {
 };
 struct Model {
   const char* name;
-  const char* tissue;  // of the scenario: its table
+  const char* tissue;  // tables of the scenario
   Paper paper;
 };
 
-// Chen 2007, Table 2. The paper gives no tissues: skin where the name says none.
+// Chen 2007, Table 2. The paper says no tissues here: skin where the name says none, and the limb's
+// layers are all the upper leg of its Table 1.
 constexpr Model models[] = {
     {"cube",
      "material = \"skin\"\nshape = { kind = \"cuboid\" }\n"
@@ -46,7 +47,9 @@ constexpr Model models[] = {
      {0.37, 0.43, 0.21}},
     {"upper_leg",
      "material = \"upper_leg\"\nshape = { kind = \"layered_limb\" }\n"
-     "mesh = { kind = \"tetgen\", nodes = 728, tetrahedra = 2550 }\n",
+     "mesh = { kind = \"tetgen\", nodes = 728, tetrahedra = 2550 }\n"
+     "[[region]]\nkind = \"tagged\"\ntag = 1\nmaterial = \"upper_leg\"\n"
+     "[[region]]\nkind = \"tagged\"\ntag = 2\nmaterial = \"upper_leg\"\n",
      {0.31, 0.57, 0.29}},
 };
 
@@ -107,7 +110,7 @@ class Table {
     if (paper != nullptr) {
       const double sum = paper->collision + paper->force + paper->deformation;
       for (const double time : {paper->collision, paper->force, paper->deformation, sum})
-        row.emplace_back(rounded(time, 1e-6));
+        row.emplace_back(to_nanoseconds(time));
     } else {
       row.resize(row.size() + 4);
     }
@@ -140,15 +143,15 @@ class Table {
   }
 
  private:
-  static double rounded(double value, double to) { return std::round(value / to) * to; }
+  // ms, to what the clock tells.
+  static double to_nanoseconds(double time) { return std::round(1e6 * time) / 1e6; }
 
-  // In ms, to the nanosecond that the clock tells.
   static void add_percentiles(const run::Bench& bench, std::vector<record::Cell>& row) {
     const auto add = [&](const auto& time_of) {
       std::vector<double> times;
       for (const run::FrameTime& frame : bench.frames) times.push_back(time_of(frame));
       for (const double share : {0.5, 0.99})
-        row.emplace_back(std::round(1e9 * run::percentile(times, share)) / 1e6);
+        row.emplace_back(to_nanoseconds(1e3 * run::percentile(times, share)));
     };
     add([](const run::FrameTime& frame) { return frame.collision; });
     add([](const run::FrameTime& frame) { return frame.force; });

@@ -10,6 +10,7 @@
 #include "cli/verbs.h"
 #include "run/family.h"
 #include "scenario/family.h"
+#include "scene/specimen_mesh.h"
 
 namespace palpate::cli {
 namespace {
@@ -79,7 +80,12 @@ class Explanation {
   std::string text() {
     line("case " + scene_.name);
     tissue();
-    if (!scene_.scenario.uniform()) contact();
+    shape();
+    regions();
+    if (!scene_.scenario.uniform()) {
+      finger();
+      contact();
+    }
     choice();
     if (scene_.specimen) {
       mesh(*scene_.specimen);
@@ -116,13 +122,100 @@ class Explanation {
     }
   }
 
+  void shape() {
+    const scenario::Tissue& tissue = scene_.scenario.tissue;
+    std::string text = std::visit(
+        [](const auto& one) -> std::string { return std::decay_t<decltype(one)>::word.word; },
+        tissue.shape);
+    if (const auto shape = scene::parametric(tissue.shape)) {
+      const Vec3 size = geometry::extent(*shape);
+      text += ", ";
+      for (int axis = 0; axis < 3; ++axis)
+        text += (axis == 0 ? "" : " x ") + rounded_text(unit::mm.from_si(size[axis]));
+      text += " mm";
+    } else if (const auto* file = std::get_if<scenario::SurfaceFile>(&tissue.shape)) {
+      text += " " + file->file + ", in " + file->unit;
+    }
+    line("  shape        " + text);
+    if (!scene_.specimen) {
+      top();
+      return;
+    }
+    const double height = scene_.specimen->base_height;
+    line(
+        "  base         " +
+        std::string(height > 0.0
+                        ? "the skin up to " + rounded_text(unit::mm.from_si(height)) + " mm"
+                        : "the lowest plane") +
+        (scene_.specimen->base == tissue::Base::bonded ? " stands still" : " slides on the table"));
+  }
+
+  // Of a closed form.
+  void top() {
+    const auto top = scene::top_curvature(scene_.scenario.tissue.shape);
+    if (!top || (top->kappa_1 == 0.0 && top->kappa_2 == 0.0)) return;
+    line("  top          curves with " + rounded_text(top->kappa_1) + " and " +
+         rounded_text(top->kappa_2) + " 1/m, convex positive");
+  }
+
+  void regions() {
+    const auto& regions = scene_.scenario.regions;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      const scenario::Substance& substance = scenario::substance(regions[i]);
+      std::string text = "  region " + std::to_string(i + 1) + "     ";
+      text.resize(15, ' ');
+      if (const auto* lump = std::get_if<scenario::Lump>(&regions[i]))
+        text += "a sphere of radius " + quantity_text(lump->radius, unit::mm);
+      else
+        text += "tag " + std::to_string(std::get<scenario::TaggedRegion>(regions[i]).tag);
+      text += ", " + substance.material + ": E " +
+              quantity_text(*substance.young_modulus, unit::kPa) + ", density " +
+              quantity_text(*substance.density, unit::density);
+      if (scene_.specimen)
+        text += "; " + region_size(scene_.specimen->mesh, static_cast<int>(i) + 1);
+      line(text);
+    }
+    if (!regions.empty() && !scene_.scenario.uniform())
+      line("  note         the contact takes the tissue's own E and nu, whatever region it meets");
+  }
+
+  static std::string region_size(const geometry::TetMesh& mesh, int region) {
+    int count = 0;
+    double volume = 0.0;
+    for (int t = 0; t < static_cast<int>(mesh.tetrahedra.size()); ++t)
+      if (mesh.region(t) == region) {
+        ++count;
+        volume += geometry::signed_volume(mesh, t);
+      }
+    return std::to_string(count) + " tetrahedra, " + rounded_text(1e6 * volume) + " cm^3";
+  }
+
+  void finger() {
+    const scenario::Finger& asked = scene_.scenario.finger;
+    const scene::Finger& finger = scene_.finger;
+    if (asked.spheres == 1) {
+      line("  finger       one sphere of radius " + quantity_text(asked.radius, unit::mm));
+    } else {
+      line("  finger       " + std::to_string(asked.spheres) + " spheres of radius " +
+           rounded_text(unit::mm.from_si(finger.sphere_radius)) + " mm for one of " +
+           quantity_text(asked.radius, unit::mm) + ": together they press a flat " +
+           rounded_text(finger.force_factor) + " times as hard (calibration " +
+           (asked.calibration == finger::Calibration::force ? "force" : "mass") + ")");
+    }
+    if (finger.weight > 0.0)
+      line("  weight       " + rounded_text(finger.weight) + " N, counted by friction besides");
+  }
+
   void contact() {
+    const scenario::Contact& contact = scene_.scenario.contact;
     line("  contact      E* " + rounded_text(unit::kPa.from_si(scene_.law().modulus)) +
          " kPa, radius " + quantity_text(scene_.law().radius, unit::mm) +
          " on a flat; the finger has " + rounded_text(100.0 * scene_.finger.compliance_share, 2) +
          " % of the compliance");
+    if (contact.friction > 0.0) line("  friction     mu " + number_text(contact.friction));
+    curvature();
     if (!scene_.specimen) return;
-    switch (scene_.scenario.contact.coupling) {
+    switch (contact.coupling) {
       case contact::Coupling::one_way:
         line(
             "  coupling     one way: the mesh follows the force of eq. (2) and does not change it");
@@ -135,6 +228,30 @@ class Explanation {
       case contact::Coupling::consistent:
         line("  coupling     consistent: less that sinking of the mesh which Hertz does not know");
     }
+    const auto& rings = scene_.scenario.solver.rings;
+    if (rings)
+      line("  rings        " + std::to_string(*rings) +
+           " rings of nodes around the contact move, the others stand");
+    else
+      line("  rings        all: the whole specimen moves");
+  }
+
+  void curvature() {
+    const scenario::Contact& contact = scene_.scenario.contact;
+    std::string text = "  curvature    ";
+    switch (contact.law) {
+      case contact::CurvatureLaw::elliptic: text += "elliptic: both curvatures, exactly"; break;
+      case contact::CurvatureLaw::geometric: text += "geometric: 1 / sqrt(R_1 R_2)"; break;
+      case contact::CurvatureLaw::mean: text += "mean: the mean curvature, eq. (2)"; break;
+    }
+    if (scene_.specimen)
+      text += std::string("; read by ") +
+              (contact.curvature == geometry::CurvatureMethod::quadric ? "quadrics" : "Taubin") +
+              " over " + std::to_string(contact.curvature_rings) +
+              (contact.curvature_rings == 1 ? " ring" : " rings") + " of vertices, " +
+              (contact.curvature_on == scenario::Contact::CurvatureOn::rest ? "at rest"
+                                                                            : "as it is pressed");
+    line(text);
   }
 
   void choice() {
@@ -153,11 +270,14 @@ class Explanation {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
-    line("  network      measured on the specimen: E " +
+    const bool several = !scene_.scenario.regions.empty();
+    line(std::string("  network      measured on the specimen") +
+         (several ? ", were it all `tissue.material`" : "") + ": E " +
          rounded_text(unit::kPa.from_si(specimen.measured.young_modulus)) + " kPa (" +
          rounded_text(specimen.measured.young_modulus / *scene_.scenario.tissue.young_modulus) +
          " of the tissue's), nu " + rounded_text(specimen.measured.poisson_ratio) +
-         "; the tissue's own nu reaches the contact only");
+         (scene_.scenario.uniform() ? "; the tissue's own nu does not count"
+                                    : "; the tissue's own nu reaches the contact only"));
   }
 
   void time(const scene::Specimen& specimen) {
@@ -186,8 +306,7 @@ class Explanation {
     if (literal <= plan.limit) return;
     line("  the paper    its literal time step of " + milliseconds(literal) + " is " +
          rounded_text(literal / plan.limit, 3) +
-         " times the limit: central differences would have diverged; here it is only how often a "
-         "row is written");
+         " times the limit: central differences would have diverged");
   }
 
   const scene::Scene& scene_;

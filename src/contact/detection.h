@@ -14,7 +14,7 @@ namespace palpate::contact {
 // The surface is searched where it is now (a tree of boxes, refitted as it moves). The foot is then
 // taken on the surface at rest, from the centre carried back by the surface's displacement there:
 // on the deformed surface the nearest point is not unique, because under a contact the surface
-// takes the very shape of the sphere.                                   docs/decisions.md
+// takes the very shape of the sphere.                               docs/decisions.md, 29
 class Detector {
  public:
   explicit Detector(const geometry::SmoothSurface& surface);

@@ -6,6 +6,7 @@
 
 #include "geometry/tet_mesh.h"
 #include "record/pressure_map.h"
+#include "record/scene_picture.h"
 #include "record/table.h"
 
 namespace palpate::record {
@@ -63,6 +64,7 @@ struct CaseRecord {
   std::vector<PressureMap> maps;
   geometry::TetMesh mesh;  // of `frames`; empty where none are asked for
   std::vector<TissueFrame> frames;
+  ScenePicture picture;  // without faces where none is asked for
   std::vector<Finding> findings;
   std::vector<std::string> remarks;  // on validity, in sentences
   double seconds = 0.0;              // that the case took: for run.json only

@@ -12,6 +12,7 @@
 #include <ImfVecAttribute.h>
 #include <OpenEXRConfig.h>
 
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <exception>
@@ -24,7 +25,18 @@
 namespace palpate::report {
 namespace {
 
-constexpr const char* channel = "pressure.Z";
+// What a channel shows of a map.
+struct Shown {
+  const char* channel;
+  const std::vector<float> record::PressureMap::*values;
+  const Unit& unit;
+};
+using record::PressureMap;
+constexpr std::array<Shown, 5> channels{{{"pressure.Z", &PressureMap::pressure, unit::kPa},
+                                         {"traction.X", &PressureMap::traction_x, unit::kPa},
+                                         {"traction.Y", &PressureMap::traction_y, unit::kPa},
+                                         {"traction.Z", &PressureMap::traction_z, unit::kPa},
+                                         {"gap.Z", &PressureMap::gap, unit::mm}}};
 
 // A file in memory.
 class Memory final : public Imf::OStream {
@@ -52,8 +64,12 @@ Imf::Header header(const record::PressureMap& map,
   const auto mm = [](double metres) { return unit::mm.from_si(metres); };
   Imf::Header header(map.width, map.height);
   header.compression() = Imf::ZIP_COMPRESSION;
-  header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
-  header.insert("palpate:unit:pressure", Imf::StringAttribute("kPa"));
+  for (const Shown& shown : channels) {
+    const std::string channel = shown.channel;
+    header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+    header.insert("palpate:unit:" + channel.substr(0, channel.find('.')),
+                  Imf::StringAttribute(shown.unit.symbol));
+  }
   header.insert("palpate:pixelPitch_mm", Imf::DoubleAttribute(mm(map.pitch)));
   header.insert(
       "palpate:origin_mm",
@@ -72,18 +88,22 @@ std::string exr_bytes(const record::PressureMap& map,
                       const std::map<std::string, std::string>& more_attributes) {
   const auto width = static_cast<std::size_t>(map.width);
   assert(map.width > 0 && map.height > 0);
-  assert(map.pressure.size() == width * static_cast<std::size_t>(map.height));
-  std::vector<float> shown;  // kPa
-  for (const float pressure : map.pressure)
-    shown.push_back(static_cast<float>(unit::kPa.from_si(static_cast<double>(pressure))));
+  std::array<std::vector<float>, channels.size()> pixels;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    assert((map.*channels[i].values).size() == width * static_cast<std::size_t>(map.height));
+    for (const float value : map.*channels[i].values)
+      pixels[i].push_back(static_cast<float>(channels[i].unit.from_si(static_cast<double>(value))));
+  }
   try {
     Memory memory;
     {
       constexpr int no_threads = 0;
       Imf::OutputFile file(memory, header(map, more_attributes), no_threads);
       Imf::FrameBuffer frame;
-      frame.insert(channel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(shown.data()),
-                                       sizeof(float), sizeof(float) * width));
+      for (std::size_t i = 0; i < channels.size(); ++i)
+        frame.insert(channels[i].channel,
+                     Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels[i].data()),
+                                sizeof(float), sizeof(float) * width));
       file.setFrameBuffer(frame);
       file.writePixels(map.height);
     }  // the file ends its tables where it is destroyed

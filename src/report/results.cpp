@@ -16,6 +16,9 @@
 #include "report/family_figures.h"
 #include "report/gnuplot.h"
 #include "report/manifest.h"
+#include "report/scene_picture.h"
+#include "report/vtu.h"
+#include "tissue/strain.h"
 
 namespace palpate::report {
 namespace {
@@ -52,6 +55,12 @@ std::string numbered(const char* stem, std::size_t number, const char* ending) {
   std::string digits = std::to_string(number);
   while (digits.size() < 3) digits.insert(digits.begin(), '0');
   return std::string(stem) + "_" + digits + ending;
+}
+
+// A file that every case has: by the case's row in findings.csv where there are several.
+std::string case_file(const char* stem, std::size_t index, std::size_t cases, const char* ending) {
+  if (cases == 1) return std::string(stem) + ending;
+  return numbered((std::string(stem) + "_case").c_str(), index + 1, ending);
 }
 
 }  // namespace
@@ -133,6 +142,33 @@ void ResultFolder::write(const std::string& name, const std::string& content) {
   files_.push_back(name);
 }
 
+void ResultFolder::write_tissue(const std::vector<record::CaseRecord>& records) {
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    std::vector<TimedFile> series;
+    for (const record::TissueFrame& frame : records[i].frames) {
+      const std::vector<Strain> strain = tissue::small_strain(records[i].mesh, frame.displacement);
+      series.push_back({frame.time, numbered("tissue", ++number, ".vtu")});
+      write(series.back().file, vtu_bytes({.mesh = records[i].mesh,
+                                           .time = frame.time,
+                                           .displacement = frame.displacement,
+                                           .contact_pressure = frame.contact_pressure,
+                                           .strain = strain}));
+    }
+    if (!series.empty())
+      write(case_file("tissue", i, family_->cases.size(), ".pvd"), pvd_bytes(series));
+  }
+}
+
+void ResultFolder::write_pictures(const std::vector<record::CaseRecord>& records) {
+  const bool several = family_->cases.size() > 1;
+  for (std::size_t i = 0; i < records.size(); ++i)
+    if (!records[i].picture.faces.empty())
+      write(case_file("scene", i, family_->cases.size(), ".svg"),
+            scene_svg(records[i].picture,
+                      several ? family_->title + ": " + records[i].name : family_->title));
+}
+
 std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseRecord>& records,
                                               const std::vector<fit::NamedFit>& fits,
                                               const Origin& origin) {
@@ -151,6 +187,8 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
     for (const record::PressureMap& map : record.maps)
       write(numbered("pressure", ++number, ".exr"),
             exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
+  write_tissue(records);
+  write_pictures(records);
 
   if (family_->base.output.figures) {
     for (const Figure& figure : family_figures(*family_, records, fits)) {

@@ -56,6 +56,8 @@ class ResultFolder {
 
  private:
   void write(const std::string& name, const std::string& content);
+  void write_tissue(const std::vector<record::CaseRecord>& records);
+  void write_pictures(const std::vector<record::CaseRecord>& records);
   void put_in_place();
 
   const scenario::Family* family_;

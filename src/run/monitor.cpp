@@ -12,6 +12,14 @@ void EnergyMonitor::begin(const integrate::State& state) {
   greatest_ = given_;
 }
 
+void EnergyMonitor::go_on(const scene::SpringBody& body, const integrate::State& state) {
+  body_ = &body;
+  const double now = body.stored(state) + body.kinetic(state);
+  given_ += now - held_;
+  held_ = now;
+  greatest_ = std::max(greatest_, given_ + work_);
+}
+
 std::optional<std::string> EnergyMonitor::step(const integrate::State& before,
                                                const integrate::State& after,
                                                const integrate::Vector& load_before,

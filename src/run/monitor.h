@@ -15,6 +15,10 @@ class EnergyMonitor {
   // Energy that is in the body without work of ours, such as that of a strain applied at once.
   void begin(const integrate::State& state);
 
+  // Another body goes on from `state`, such as another part of the specimen: the energy that the
+  // change brings or takes is not the motion's.
+  void go_on(const scene::SpringBody& body, const integrate::State& state);
+
   // Accounts for a step under the loads (N) at its start and its end. Returns what is wrong where
   // the motion has left the stable: numbers that are not finite, or more energy than ever came in.
   [[nodiscard]] std::optional<std::string> step(const integrate::State& before,

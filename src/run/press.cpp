@@ -11,6 +11,7 @@
 #include "run/pace.h"
 #include "run/pressed_mesh.h"
 #include "run/pressure_map.h"
+#include "run/scene_picture.h"
 #include "scene/first_touch.h"
 
 namespace palpate::run {
@@ -73,6 +74,7 @@ class Press {
     first_ = scene::first_touch(scene).finger;
     touch_.finger = first_;
     if (scene.scenario.output.tissue) record_.mesh = scene.specimen->mesh;
+    if (scene.scenario.output.picture) record_.picture = make_picture(scene);
   }
 
   void all() {

@@ -61,20 +61,18 @@ void PressedMesh::take(tissue::Part part) {
     state_.velocity.segment<3>(3 * now) = old.velocity.segment<3>(from);
   }
   state_.memory = body_->memory_at(state_.displacement);
-  const std::size_t per_spring =
-      state_.memory.size() / std::max<std::size_t>(1, part_.springs.size());
   for (std::size_t s = 0; s < before.springs.size(); ++s) {
     const auto now =
         std::lower_bound(part_.springs.begin(), part_.springs.end(), before.springs[s]);
     if (now == part_.springs.end() || *now != before.springs[s]) continue;
-    const auto to = static_cast<std::size_t>(now - part_.springs.begin());
-    for (std::size_t k = 0; k < per_spring; ++k)
-      state_.memory[per_spring * to + k] = old.memory[per_spring * s + k];
+    body_->inherit(old.memory, s, static_cast<std::size_t>(now - part_.springs.begin()),
+                   state_.memory);
   }
   load_ = Vector::Zero(freedoms);
-  imbalance_ = imbalance();
-  monitor_.emplace(*body_);
-  monitor_->begin(state_);
+  if (monitor_)
+    monitor_->go_on(*body_, state_);
+  else
+    monitor_.emplace(*body_);
   stepper_.emplace(*scene_, *body_);
   if (time_step_ > 0.0) stepper_->set_step(time_step_);
 
@@ -227,8 +225,6 @@ double PressedMesh::edge_reaction() const {
   return sum.norm();
 }
 
-double PressedMesh::imbalance() const {
-  return std::max(imbalance_, monitor_ ? monitor_->imbalance() : 0.0);
-}
+double PressedMesh::imbalance() const { return monitor_->imbalance(); }
 
 }  // namespace palpate::run

@@ -49,7 +49,7 @@ class PressedMesh {
   // The force on the edge of the part that moves, N; 0 for all of the specimen.
   [[nodiscard]] double edge_reaction() const;
 
-  // The greatest energy imbalance so far.
+  // EnergyMonitor::imbalance().
   [[nodiscard]] double imbalance() const;
 
   [[nodiscard]] const scene::SpringBody& body() const { return *body_; }
@@ -79,7 +79,6 @@ class PressedMesh {
   integrate::State state_;
   integrate::Vector load_;
   double time_step_ = 0.0;
-  double imbalance_ = 0.0;
 };
 
 }  // namespace palpate::run

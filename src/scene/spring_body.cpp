@@ -143,6 +143,11 @@ integrate::SparseMatrix SpringBody::step_stiffness(const Vector& displacement,
   return tissue::tangent(*network_, kinematics_, displacement, slope_, tension_, held_);
 }
 
+void SpringBody::inherit(std::span<const double> other, std::size_t from, std::size_t to,
+                         std::vector<double>& memory) const {
+  if (law_.kind == Viscosity::standard_linear_solid) memory[2 * to + 1] = other[2 * from + 1];
+}
+
 double SpringBody::stored(const integrate::State& state) const {
   return tissue::stored_energy(*network_, law_, memories(state.memory));
 }

@@ -43,6 +43,11 @@ class SpringBody final : public integrate::Body {
                                             const integrate::TimeStep& step) const override;
 
   // Energies of a state, J, and what was lost on the way from one state to the next.
+  // Spring `to` of `memory` takes over what spring `from` of another body remembers beyond its
+  // elongation.
+  void inherit(std::span<const double> other, std::size_t from, std::size_t to,
+               std::vector<double>& memory) const;
+
   [[nodiscard]] double stored(const integrate::State& state) const;
   [[nodiscard]] double kinetic(const integrate::State& state) const;
   [[nodiscard]] double dissipated(const integrate::State& before,
