@@ -176,7 +176,8 @@ class Explanation {
       line(text);
     }
     if (!regions.empty() && !scene_.scenario.uniform())
-      line("  note         the contact takes the tissue's own E and nu, whatever region it meets");
+      line(
+          "  note         Hertz takes the tissue's own E and nu, whatever region the finger meets");
   }
 
   static std::string region_size(const geometry::TetMesh& mesh, int region) {
@@ -241,7 +242,9 @@ class Explanation {
     std::string text = "  curvature    ";
     switch (contact.law) {
       case contact::CurvatureLaw::elliptic: text += "elliptic: both curvatures, exactly"; break;
-      case contact::CurvatureLaw::geometric: text += "geometric: 1 / sqrt(R_1 R_2)"; break;
+      case contact::CurvatureLaw::geometric:
+        text += "geometric: the geometric mean of both curvatures";
+        break;
       case contact::CurvatureLaw::mean: text += "mean: the mean curvature, eq. (2)"; break;
     }
     if (scene_.specimen)

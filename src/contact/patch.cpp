@@ -75,7 +75,8 @@ bool Spreader::meets(const Patch& patch, const Vec3& target, geometry::SurfacePo
       met = {triangle, weights};
       return true;
     }
-    if (next < 0) return false;
+    // Crossing a crease would load the side beyond at once, as soon as it faces the patch.
+    if (surface_->crease(triangle, static_cast<std::size_t>(least + 1) % 3)) return false;
     triangle = next;
   }
   return false;

@@ -32,8 +32,9 @@ class Spreader {
   explicit Spreader(const geometry::SmoothSurface& surface);
 
   // Every quadrature point is shared by the linear shape functions of the triangle that it meets
-  // along the normal. Where one of two opposite points misses the surface, or meets it turned away,
-  // both are drawn back to the rim. All on the triangle under the centre for a = b = 0.
+  // along the normal. Where one of two opposite points misses the surface, or is beyond a crease or
+  // turned away, both are drawn back to the rim. All on the triangle under the centre for a = b =
+  // 0.
   void spread(const Patch& patch, Spread& spread);
 
  private:

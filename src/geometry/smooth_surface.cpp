@@ -25,13 +25,20 @@ Exit first_exit(const Vec3& weights, const Vec3& move) {
   return exit;
 }
 
+std::size_t corner_of(const Surface& surface, int triangle, int vertex) {
+  const auto& corners = surface.triangles[static_cast<std::size_t>(triangle)];
+  return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) -
+                                  corners.begin());
+}
+
 }  // namespace
 
 SmoothSurface::SmoothSurface(Surface surface)
     : surface_(std::move(surface)),
       neighbours_(surface_),
       crease_(surface_.triangles.size()),
-      normals_(surface_.triangles.size()) {
+      normals_(surface_.triangles.size()),
+      vertex_normals_(vertex_normals(surface_)) {
   find_creases();
   find_normals();
 }
@@ -66,8 +73,7 @@ void SmoothSurface::find_normals() {
       Vec3 sum = Vec3::Zero();
       for (const int triangle : fan) {
         const auto& corners = surface_.triangles[static_cast<std::size_t>(triangle)];
-        const auto here = static_cast<std::size_t>(
-            std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+        const std::size_t here = corner_of(surface_, triangle, vertex);
         const auto point = [&](std::size_t i) -> const Vec3& {
           return surface_.vertices[static_cast<std::size_t>(corners[i % 3])];
         };
@@ -87,9 +93,10 @@ void SmoothSurface::find_normals() {
 
 Vec3 SmoothSurface::flat_position(const SurfacePoint& point) const {
   const auto& [a, b, c] = surface_.triangles[static_cast<std::size_t>(point.triangle)];
-  return point.weights[0] * surface_.vertices[static_cast<std::size_t>(a)] +
-         point.weights[1] * surface_.vertices[static_cast<std::size_t>(b)] +
-         point.weights[2] * surface_.vertices[static_cast<std::size_t>(c)];
+  // Not the sum of three parts: on a flat at z the weights' rounding must leave z alone.
+  const Vec3& origin = surface_.vertices[static_cast<std::size_t>(a)];
+  return origin + point.weights[1] * (surface_.vertices[static_cast<std::size_t>(b)] - origin) +
+         point.weights[2] * (surface_.vertices[static_cast<std::size_t>(c)] - origin);
 }
 
 Vec3 SmoothSurface::position(const SurfacePoint& point) const {
@@ -121,6 +128,22 @@ SmoothSurface::Foot SmoothSurface::at(const Vec3& point, const SurfacePoint& whe
   return foot;
 }
 
+// Tells outside from inside at a nearest point, also on edges sharper than a right angle, where the
+// triangles' own normals do not: Baerentzen & Aanaes 2005.
+Vec3 SmoothSurface::pseudo_normal(const SurfacePoint& point) const {
+  constexpr double rounding = 1e-12;
+  Vec3 sum = twice_area(surface_, point.triangle).normalized();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (point.weights[static_cast<Eigen::Index>(i)] >= 1.0 - rounding)
+      return vertex_normals_[static_cast<std::size_t>(
+          surface_.triangles[static_cast<std::size_t>(point.triangle)][i])];
+    const int other = neighbours_.across(point.triangle)[i];
+    if (point.weights[static_cast<Eigen::Index>((i + 2) % 3)] <= rounding && other >= 0)
+      sum += twice_area(surface_, other).normalized();
+  }
+  return sum;
+}
+
 SmoothSurface::Foot SmoothSurface::flat_foot(const Vec3& point, const Near& start) const {
   Foot foot;
   foot.at = {start.triangle, start.weights};
@@ -128,13 +151,119 @@ SmoothSurface::Foot SmoothSurface::flat_foot(const Vec3& point, const Near& star
   foot.normal = twice_area(surface_, start.triangle).normalized();
   const Vec3 away = point - foot.position;
   const double distance = away.norm();
-  foot.height = away.dot(foot.normal) < 0.0 ? -distance : distance;
+  foot.height = away.dot(pseudo_normal(foot.at)) < 0.0 ? -distance : distance;
   // Beside an edge the perpendicular leans; in its plane it is the triangle's own.
   if (distance > 0.0 && foot.height > 0.0) foot.normal = away / distance;
   for (std::size_t edge = 0; edge < 3; ++edge)
     if (crease(start.triangle, edge) &&
         start.weights[static_cast<Eigen::Index>((edge + 2) % 3)] <= 1e-12)
       foot.on_crease = true;
+  return foot;
+}
+
+struct SmoothSurface::Crease {
+  std::array<int, 2> ends{};                     // vertices
+  std::array<int, 2> sides{};                    // triangles; -1 beyond a boundary
+  std::array<std::array<Vec3, 2>, 2> normals{};  // of each side, at both ends
+  double s = 0.0;                                // from the first end, 0 to 1
+  Vec3 away = Vec3::Zero();                      // m, from the curve to the point
+  Vec3 along = Vec3::Zero();                     // m, the curve's derivative
+
+  [[nodiscard]] std::size_t count() const { return sides[1] < 0 ? 1 : 2; }
+};
+
+// The curve bulges from the edge as both its sides do: each of them moves the edge by s (1 - s) / 2
+// times a vector, of which the curve has what is along that side's normal.  docs/theory.md (42)
+SmoothSurface::Crease SmoothSurface::nearest_on_crease(const Vec3& point, int triangle,
+                                                       std::size_t edge, double start) const {
+  const auto& corners = surface_.triangles[static_cast<std::size_t>(triangle)];
+  Crease crease;
+  crease.ends = {corners[edge], corners[(edge + 1) % 3]};
+  crease.sides = {triangle, neighbours_.across(triangle)[edge]};
+  crease.s = start;
+  const Vec3& from = surface_.vertices[static_cast<std::size_t>(crease.ends[0])];
+  const Vec3 side = surface_.vertices[static_cast<std::size_t>(crease.ends[1])] - from;
+  std::array<Vec3, 2> middle;
+  std::array<double, 2> rise{};
+  for (std::size_t k = 0; k < crease.count(); ++k) {
+    for (std::size_t end = 0; end < 2; ++end)
+      crease.normals[k][end] =
+          corner_normal(crease.sides[k], corner_of(surface_, crease.sides[k], crease.ends[end]));
+    const auto& [n0, n1] = crease.normals[k];
+    middle[k] = (n0 + n1).normalized();
+    rise[k] = middle[k].dot(side.dot(n1) * n1 - side.dot(n0) * n0);
+  }
+  Vec3 bulge = rise[0] * middle[0];
+  if (crease.count() == 2) {
+    const double both = middle[0].dot(middle[1]);
+    const double determinant = 1.0 - both * both;
+    bulge.setZero();  // on a knife's edge
+    if (determinant > 0.1)
+      bulge = ((rise[0] - both * rise[1]) * middle[0] + (rise[1] - both * rise[0]) * middle[1]) /
+              determinant;
+  }
+  constexpr int most_steps = 50;
+  for (int i = 0; i < most_steps; ++i) {
+    const double s = crease.s;
+    crease.away = point - (from + s * side + 0.5 * s * (1.0 - s) * bulge);
+    crease.along = side + 0.5 * (1.0 - 2.0 * s) * bulge;
+    const double slope = crease.along.squaredNorm() + crease.away.dot(bulge);
+    const double move =
+        crease.away.dot(crease.along) / (slope > 0.0 ? slope : crease.along.squaredNorm());
+    crease.s = std::clamp(s + move, 0.0, 1.0);
+    if (std::abs(crease.s - s) <= 1e-15) break;
+  }
+  return crease;
+}
+
+SmoothSurface::Foot SmoothSurface::crease_foot(const Vec3& point, const SurfacePoint& start,
+                                               std::size_t edge) const {
+  Crease crease = nearest_on_crease(point, start.triangle, edge,
+                                    start.weights[static_cast<Eigen::Index>((edge + 1) % 3)]);
+  // At an end the crease may go on along other edges.
+  if (crease.s == 0.0 || crease.s == 1.0) {
+    const int vertex = crease.ends[crease.s == 0.0 ? 0 : 1];
+    for (const int triangle : neighbours_.triangles_at(vertex))
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& corners = surface_.triangles[static_cast<std::size_t>(triangle)];
+        const bool begins = corners[i] == vertex;
+        if (!this->crease(triangle, i) || (!begins && corners[(i + 1) % 3] != vertex)) continue;
+        const Crease next = nearest_on_crease(point, triangle, i, begins ? 0.0 : 1.0);
+        if (next.away.squaredNorm() < crease.away.squaredNorm()) crease = next;
+      }
+  }
+  const double s = crease.s;
+  const auto place = [&](int triangle) {
+    SurfacePoint at{triangle, Vec3::Zero()};
+    at.weights[static_cast<Eigen::Index>(corner_of(surface_, triangle, crease.ends[0]))] = 1.0 - s;
+    at.weights[static_cast<Eigen::Index>(corner_of(surface_, triangle, crease.ends[1]))] = s;
+    return at;
+  };
+  Foot foot;
+  foot.on_crease = true;
+  foot.at = place(crease.sides[0]);
+  foot.position = flat_position(foot.at);  // where loads can be put
+  std::array<double, 2> past{};            // how far the point is past each side
+  for (std::size_t k = 0; k < crease.count(); ++k) {
+    const auto& [n0, n1] = crease.normals[k];
+    const Vec3 normal = ((1.0 - s) * n0 + s * n1).normalized();
+    past[k] = crease.away.dot(crease.along.cross(normal)) * (k == 0 ? 1.0 : -1.0);
+    if (past[k] > 0.0 || s == 0.0 || s == 1.0) continue;
+    // Between edge and curve a side goes on for a little, as flat as it is there.
+    foot.at = place(crease.sides[k]);
+    foot.normal = normal;
+    foot.height = crease.away.dot(normal);
+    return foot;
+  }
+  past = {std::max(0.0, past[0]), std::max(0.0, past[1])};
+  if (crease.count() == 2 && past[0] > 0.0) {
+    foot.beyond = place(crease.sides[1]);
+    foot.turned = past[0] / (past[0] + past[1]);
+  }
+  foot.normal = pseudo_normal(foot.at).normalized();
+  const double distance = crease.away.norm();
+  foot.height = crease.away.dot(foot.normal) < 0.0 ? -distance : distance;
+  if (distance > 0.0) foot.normal = crease.away / foot.height;
   return foot;
 }
 
@@ -175,7 +304,11 @@ SmoothSurface::Foot SmoothSurface::foot(const Vec3& point, const Near& start) co
       continue;
     }
     const auto edge = static_cast<std::size_t>(exit.edge);
-    if (crease(here.triangle, edge)) return flat_foot(point, start);
+    if (crease(here.triangle, edge)) {
+      // A long move may have overshot: only one that starts at the crease means it.
+      if (exit.part <= 1e-12 || ++stuck > 6) return crease_foot(point, here, edge);
+      continue;
+    }
     // Across the edge, at the same point of it.
     const int next = neighbours_.across(here.triangle)[edge];
     const auto& old_corners = surface_.triangles[static_cast<std::size_t>(here.triangle)];

@@ -49,14 +49,25 @@ class SmoothSurface {
     Vec3 normal = Vec3::UnitZ();
     double height = 0.0;  // m, of the point above the surface; negative inside
     bool on_crease = false;
+    // On a crease: the same place seen from its other side, and how far the perpendicular has
+    // turned from this side's normal to that one's, 0 to 1.
+    SurfacePoint beyond;
+    double turned = 0.0;
   };
-  // Searched from the nearest point of the flat triangles, which also serves where the search ends
-  // at a crease. Continuous as `point` moves, until another foot is nearer.
+  // Searched from the nearest point of the flat triangles. Where the search ends at a crease, the
+  // foot is on the crease's own curve. Continuous as `point` moves, until another foot is nearer.
   [[nodiscard]] Foot foot(const Vec3& point, const Near& start) const;
 
  private:
   [[nodiscard]] Foot flat_foot(const Vec3& point, const Near& start) const;
+  // The smooth course of a crease along edge `edge` of a triangle, and where it is nearest.
+  struct Crease;
+  [[nodiscard]] Crease nearest_on_crease(const Vec3& point, int triangle, std::size_t edge,
+                                         double start) const;
+  [[nodiscard]] Foot crease_foot(const Vec3& point, const SurfacePoint& start,
+                                 std::size_t edge) const;
   [[nodiscard]] Foot at(const Vec3& point, const SurfacePoint& where) const;
+  [[nodiscard]] Vec3 pseudo_normal(const SurfacePoint& point) const;
   void find_creases();
   void find_normals();
 
@@ -64,6 +75,7 @@ class SmoothSurface {
   Neighbours neighbours_;
   std::vector<std::array<bool, 3>> crease_;
   std::vector<std::array<Vec3, 3>> normals_;
+  std::vector<Vec3> vertex_normals_;  // over creases as well
 };
 
 }  // namespace palpate::geometry

@@ -19,8 +19,9 @@ struct PressureMap {
   int step = 0;                // counted from 1
   double contact_force = 0.0;  // N, what the map must integrate to
   // width * height values each
-  std::vector<float> pressure;                            // Pa, compression positive
-  std::vector<float> traction_x, traction_y, traction_z;  // Pa, of the finger on the tissue
+  std::vector<float> pressure;  // Pa, compression positive
+  // Pa of the map, of the finger on the tissue
+  std::vector<float> traction_x, traction_y, traction_z;
   std::vector<float> gap;  // m, between finger and tissue; 0 in contact, infinite beside the finger
 };
 

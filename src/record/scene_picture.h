@@ -13,7 +13,7 @@ struct ScenePicture {
   struct Face {
     std::array<Vec3, 3> corners;  // m, counter-clockwise from outside
     int region = 0;               // that it bounds
-    bool inside = false;          // between two regions, not on the skin
+    int within = -1;              // the region around that one; -1: none, it is on the skin
   };
   struct Sphere {
     Vec3 centre = Vec3::Zero();  // m

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "base/text.h"
@@ -93,6 +95,8 @@ View fitting(const ScenePicture& picture) {
   for (const auto& face : picture.faces)
     for (const Vec3& corner : face.corners) take(corner, 0.0);
   for (const auto& sphere : picture.finger) take(sphere.centre, sphere.radius);
+  Vec3 at = picture.touch;
+  for (const Vec3& slide : picture.slides) take(at += slide, 0.0);
   View view;
   view.scale = std::min((width - 2.0 * margin) / (most_right - left),
                         (height - head - foot) / (top - bottom));
@@ -101,21 +105,19 @@ View fitting(const ScenePicture& picture) {
   return view;
 }
 
-// The faces that look at the eye, the farthest first; neighbours of one colour in one path.
-std::string painted(const ScenePicture& picture, const View& view, bool inside) {
+// Those of `faces` that look at the eye, the farthest first; neighbours of one colour in one path.
+std::string painted(const std::vector<const ScenePicture::Face*>& faces, const View& view) {
   struct Seen {
     double nearness;
     const ScenePicture::Face* face;
     double brightness;
   };
   std::vector<Seen> seen;
-  for (const ScenePicture::Face& face : picture.faces) {
-    if (face.inside != inside) continue;
-    const auto& [a, b, c] = face.corners;
+  for (const ScenePicture::Face* face : faces) {
+    const auto& [a, b, c] = face->corners;
     const Vec3 normal = (b - a).cross(c - a).normalized();
     if (normal.dot(towards) <= 0.0) continue;
-    seen.push_back(
-        {(a + b + c).dot(towards), &face, 0.62 + 0.42 * std::max(0.0, normal.dot(light))});
+    seen.push_back({(a + b + c).dot(towards), face, 0.74 + 0.3 * normal.dot(light)});
   }
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& one, const Seen& other) {
     return one.nearness < other.nearness;
@@ -134,6 +136,23 @@ std::string painted(const ScenePicture& picture, const View& view, bool inside) 
     text += "M" + view(a).text() + "L" + view(b).text() + " " + view(c).text() + "z";
   }
   return before.empty() ? text : text + "\"/>\n";
+}
+
+// Solid regions first, then those with others inside, the innermost first, as seen through glass.
+std::string specimen(const ScenePicture& picture, const View& view) {
+  using Faces = std::vector<const ScenePicture::Face*>;
+  Faces solid;
+  std::map<int, Faces, std::greater<>> glass;
+  for (const ScenePicture::Face& face : picture.faces)
+    if (face.within >= 0) glass[face.within];
+  for (const ScenePicture::Face& face : picture.faces) {
+    const auto found = glass.find(face.region);
+    (found == glass.end() ? solid : found->second).push_back(&face);
+  }
+  std::string text = "<g stroke-width=\"0.6\" stroke-linejoin=\"round\">\n" + painted(solid, view);
+  for (const auto& [region, faces] : glass)
+    text += "<g opacity=\"0.45\">\n" + painted(faces, view) + "</g>\n";
+  return text + "</g>\n";
 }
 
 std::string label(const Point& at, const std::string& attributes, const std::string& words) {
@@ -251,26 +270,20 @@ constexpr const char* gradient =
 std::string scene_svg(const ScenePicture& picture, const std::string& title) {
   assert(!picture.faces.empty());
   const View view = fitting(picture);
-  const bool hollow = std::any_of(picture.faces.begin(), picture.faces.end(),
-                                  [](const auto& face) { return face.inside; });
-  const std::string thin = "<g stroke-width=\"0.6\" stroke-linejoin=\"round\"";
+  const std::string size = "width=\"" + px(width) + "\" height=\"" + px(height) + "\"";
+  const std::string ink = "<g fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n";
   std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(width) + " " +
-                     px(height) + "\" width=\"" + px(width) + "\" height=\"" + px(height) +
-                     "\" font-family=\"sans-serif\" font-size=\"14\">\n<title>" + escaped(title) +
-                     "</title>\n" + gradient + "<rect width=\"" + px(width) + "\" height=\"" +
-                     px(height) + "\" fill=\"#fff\"/>\n";
-  if (hollow) text += thin + ">\n" + painted(picture, view, true) + "</g>\n";
-  text +=
-      thin + (hollow ? " opacity=\"0.45\">\n" : ">\n") + painted(picture, view, false) + "</g>\n";
-  text +=
-      "<g fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n" + slides(picture, view) + "</g>\n";
+                     px(height) + "\" " + size +
+                     " font-family=\"sans-serif\" font-size=\"14\">\n<title>" + escaped(title) +
+                     "</title>\n" + gradient + "<rect " + size + " fill=\"#fff\"/>\n" +
+                     specimen(picture, view) + ink + slides(picture, view) + "</g>\n";
   if (!picture.finger.empty())
     text += "<g fill=\"url(#ball)\" stroke=\"#4a5666\" stroke-width=\"0.8\">\n" +
             finger(picture, view) + "</g>\n";
-  text += "<g fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n";
+  text += ink;
   if (!picture.finger.empty()) text += travel(picture, view);
-  text += scale_bar(view) + axes() + "</g>\n<g fill=\"#222\">\n";
-  text += label({margin, 40.0}, " font-size=\"18\"", title);
+  text += scale_bar(view) + axes() + "</g>\n<g fill=\"#222\">\n" +
+          label({margin, 40.0}, " font-size=\"18\"", title);
   if (picture.materials.size() > 1) text += legend(picture);
   return text + "</g>\n</svg>\n";
 }

@@ -64,12 +64,12 @@ void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereC
       }
   contact::Reading reading;
   for (Eigen::Index i = 0; i < count; ++i) {
+    const SphereContact& own = contacts[static_cast<std::size_t>(i)];
+    const contact::Patch patch = read_patch(contacts, own);
     if (i > 0 && consistent && presses_as_one()) {
       compliance_.row(i) = compliance_.row(0);
       continue;
     }
-    const SphereContact& own = contacts[static_cast<std::size_t>(i)];
-    const contact::Patch patch = read_patch(contacts, own);
     if (consistent) {
       rings_.read(patch, shares_, reading);
     } else {
@@ -82,6 +82,10 @@ void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereC
       if (i != j && !presses_as_one()) compliance_(i, j) += unknown_to_hertz(patch, pressed);
     }
   }
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = 0; j < count; ++j)
+      compliance_(i, j) += other_tissues(mesh, contacts[static_cast<std::size_t>(i)],
+                                         contacts[static_cast<std::size_t>(j)]);
   if (consistent)
     for (const SphereContact& contact : contacts)
       for (const int vertex : contact.load.vertices)
@@ -99,12 +103,30 @@ double Contacts::sinking(const MeshAnswer& mesh, const contact::Patch& patch,
   double sum = 0.0;
   for (std::size_t a = 0; a < reading.vertices.size(); ++a) {
     const int vertex = reading.vertices[a];
-    double moved =
-        mesh.influence->between(-patch.normal, mesh.nodes[static_cast<std::size_t>(vertex)],
+    Influence& read = mesh.one_tissue != nullptr ? *mesh.one_tissue : *mesh.influence;
+    double moved = read.between(-patch.normal, mesh.nodes[static_cast<std::size_t>(vertex)],
                                 -pressed.patch.normal, nodes, pressed.load.shares, mesh.freedoms);
     if (consistent)
       moved -= aligned * rings_.half_space(vertex, pressed.load, plane_modulus(), spacing);
     sum += reading.weights[a] * moved;
+  }
+  return sum;
+}
+
+// What the other tissues of the specimen change of the sinking under a contact per newton on another,
+// m/N. It is read under the contact itself: between two answers of one mesh its own errors cancel.
+double Contacts::other_tissues(const MeshAnswer& mesh, const SphereContact& own,
+                               const SphereContact& pressed) const {
+  if (mesh.one_tissue == nullptr) return 0.0;
+  const std::vector<int> nodes = nodes_of(mesh, pressed.load);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < own.load.vertices.size(); ++k) {
+    const int node = mesh.nodes[static_cast<std::size_t>(own.load.vertices[k])];
+    const auto moved = [&](Influence& influence) {
+      return influence.between(-own.patch.normal, node, -pressed.patch.normal, nodes,
+                               pressed.load.shares, mesh.freedoms);
+    };
+    sum += own.load.shares[k] * (moved(*mesh.influence) - moved(*mesh.one_tissue));
   }
   return sum;
 }

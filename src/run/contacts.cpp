@@ -54,13 +54,18 @@ void Contacts::detect(const Vec3& finger, const MeshAnswer& mesh,
       contact.patch.normal = foot.normal;
       contact.approach = radius - foot.height;
       contact.on_crease = foot.on_crease;
+      contact.beyond = foot.beyond;
+      contact.turned = foot.turned;
       found.push_back(std::move(contact));
     }
   }
 }
 
-std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereContact& contact) {
-  const int triangle = contact.patch.at.triangle;
+std::optional<std::string> Contacts::find_curvature(const MeshAnswer& mesh,
+                                                    const geometry::SurfacePoint& at,
+                                                    SphereContact& contact,
+                                                    geometry::Curvature& here) {
+  const int triangle = at.triangle;
   std::array<geometry::CurvatureEstimate, 3> corners;
   const auto estimate = [&](const geometry::Surface& now) {
     for (std::size_t i = 0; i < 3; ++i)
@@ -96,15 +101,27 @@ std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereCont
            std::string(geometry::explanation(worst)) + "; use a finer mesh";
   for (std::size_t i = 0; i < 3; ++i) {
     curvatures[i] = corners[i].known() ? corners[i].curvature : *any;
-    weights[i] = corners[i].known() ? contact.patch.at.weights[static_cast<Eigen::Index>(i)] : 0.0;
+    weights[i] = corners[i].known() ? at.weights[static_cast<Eigen::Index>(i)] : 0.0;
     sum += weights[i];
   }
   if (sum <= 0.0)
     weights = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
   else
     for (double& weight : weights) weight /= sum;
-  contact.one_sided = worst != geometry::StarStatus::full;
-  const geometry::Curvature here = geometry::between(curvatures, weights);
+  contact.one_sided = contact.one_sided || worst != geometry::StarStatus::full;
+  here = geometry::between(curvatures, weights);
+  return std::nullopt;
+}
+
+std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereContact& contact) {
+  geometry::Curvature here;
+  if (auto wrong = find_curvature(mesh, contact.patch.at, contact, here)) return wrong;
+  if (contact.turned > 0.0) {
+    // Around a crease from one side's curvature to the other's, as the perpendicular turns.
+    geometry::Curvature there;
+    if (auto wrong = find_curvature(mesh, contact.beyond, contact, there)) return wrong;
+    here = geometry::between({here, there, there}, {1.0 - contact.turned, contact.turned, 0.0});
+  }
   const auto law =
       contact::contact_law(scene_->scenario.contact.law,
                            {scene_->finger.sphere_radius, scene_->finger.sphere_modulus}, here);

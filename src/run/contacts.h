@@ -27,6 +27,8 @@ struct SphereContact {
   Vec3 stretch = Vec3::Zero();  // m, of finger against tissue since the contact last slipped
   contact::Spread load;
   bool on_crease = false;
+  geometry::SurfacePoint beyond;  // as in SmoothSurface::Foot
+  double turned = 0.0;
   bool one_sided = false;  // its curvature
 };
 
@@ -49,8 +51,9 @@ struct MeshAnswer {
   std::span<const int> nodes;  // of every vertex of the skin; -1: stands
   Eigen::Index freedoms = 0;
   const integrate::Vector* displacement = nullptr;  // m, without these contacts' own forces
-  Influence* influence = nullptr;                   // of these contacts' forces on it
-  const integrate::Vector* shape = nullptr;         // m, that curvature is read from
+  Influence* one_tissue = nullptr;  // the same of a mesh that is all of one tissue, where it is not
+  Influence* influence = nullptr;   // of these contacts' forces on it
+  const integrate::Vector* shape = nullptr;  // m, that curvature is read from
 };
 
 // Stick and slip as the finger moves by `move` (m): the stretch between finger and tissue grows,
@@ -75,6 +78,10 @@ class Contacts {
   void detect(const Vec3& finger, const MeshAnswer& mesh, std::vector<SphereContact>& found);
 
  private:
+  [[nodiscard]] std::optional<std::string> find_curvature(const MeshAnswer& mesh,
+                                                          const geometry::SurfacePoint& at,
+                                                          SphereContact& contact,
+                                                          geometry::Curvature& here);
   [[nodiscard]] std::optional<std::string> give_law(const MeshAnswer& mesh, SphereContact& contact);
   [[nodiscard]] std::optional<std::string> settle(const MeshAnswer& mesh, Touch& touch);
   void carry_on(const Touch& before, SphereContact& contact) const;
@@ -86,6 +93,8 @@ class Contacts {
                                           const SphereContact& own) const;
   [[nodiscard]] double sinking(const MeshAnswer& mesh, const contact::Patch& patch,
                                const contact::Reading& reading, const SphereContact& pressed) const;
+  [[nodiscard]] double other_tissues(const MeshAnswer& mesh, const SphereContact& own,
+                                     const SphereContact& pressed) const;
   [[nodiscard]] double unknown_to_hertz(const contact::Patch& patch,
                                         const SphereContact& other) const;
   [[nodiscard]] double plane_modulus() const;  // Pa, E' of the tissue's network

@@ -86,14 +86,23 @@ void PressedMesh::take(tissue::Part part) {
     });
     return;
   }
-  // The measurement of the network's modulus has shown that it is rigid.
-  [[maybe_unused]] const bool factored = factors_.factor(body_->stiffness());
-  eigen_assert(factored);
-  influence_.emplace([this](Vector unit) -> Vector {
-    for (Eigen::Index d = 0; d < unit.size(); ++d)
-      if (body_->held()[static_cast<std::size_t>(d)] != 0) unit[d] = 0.0;
-    return factors_.solve(unit);
-  });
+  const auto statics = [this](Cholesky& factors, const integrate::SparseMatrix& stiffness) {
+    // The measurement of the network's modulus has shown that it is rigid.
+    [[maybe_unused]] const bool factored = factors.factor(stiffness);
+    eigen_assert(factored);
+    return [this, &factors](Vector unit) -> Vector {
+      for (Eigen::Index d = 0; d < unit.size(); ++d)
+        if (body_->held()[static_cast<std::size_t>(d)] != 0) unit[d] = 0.0;
+      return factors.solve(unit);
+    };
+  };
+  influence_.emplace(statics(factors_, body_->stiffness()));
+  if (specimen_->one_tissue.empty()) return;
+  tissue::Network alike = part_.network;
+  for (std::size_t s = 0; s < alike.stiffness.size(); ++s)
+    alike.stiffness[s] = specimen_->one_tissue[static_cast<std::size_t>(part_.springs[s])];
+  const scene::SpringBody body(alike, specimen_->kinematics, specimen_->law, held);
+  one_tissue_.emplace(statics(one_factors_, body.stiffness()));
 }
 
 void PressedMesh::set_step(double time_step) {
@@ -118,6 +127,7 @@ bool PressedMesh::forces_follow_finger() const {
 std::optional<std::string> PressedMesh::try_out(const Vec3& finger, Touch& touch) {
   MeshAnswer mesh = answer();
   if (influence_) mesh.influence = &*influence_;
+  if (one_tissue_) mesh.one_tissue = &*one_tissue_;
   return contacts_.find(finger, mesh, touch);
 }
 

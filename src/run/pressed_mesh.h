@@ -75,7 +75,9 @@ class PressedMesh {
   std::optional<Stepper> stepper_;
   std::optional<EnergyMonitor> monitor_;
   std::optional<Influence> influence_;
-  Cholesky factors_;  // of statics, for `consistent`
+  std::optional<Influence> one_tissue_;
+  Cholesky factors_;      // of statics, for `consistent`
+  Cholesky one_factors_;  // were the specimen of one tissue
   integrate::State state_;
   integrate::Vector load_;
   double time_step_ = 0.0;

@@ -109,7 +109,9 @@ record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch) {
         sum /= samples * samples;
         pressure += sum;
         const SphereContact& contact = *view.contact;
-        traction += sum * (contact.drag / contact.force - contact.patch.normal);
+        // Per area of the picture, so that it integrates to the force on a slope too.
+        traction +=
+            sum / contact.patch.normal.z() * (contact.drag / contact.force - contact.patch.normal);
       }
       map.pressure.push_back(static_cast<float>(pressure));
       map.traction_x.push_back(static_cast<float>(traction.x()));

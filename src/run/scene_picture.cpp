@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "scene/first_touch.h"
 
@@ -26,10 +27,10 @@ std::vector<Face> faces(const geometry::TetMesh& mesh) {
     Face one = face(mesh, uses[i]);
     if (i + 1 < uses.size() && uses[i + 1].key == uses[i].key) {
       // Two uses: what a later region has inside an earlier one is seen from the earlier one.
-      const Face other = face(mesh, uses[++i]);
+      Face other = face(mesh, uses[++i]);
       if (one.region == other.region) continue;
-      if (other.region > one.region) one = other;
-      one.inside = true;
+      if (one.region < other.region) std::swap(one, other);
+      one.within = other.region;
     }
     found.push_back(one);
   }

@@ -162,6 +162,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
     for (double& stiffness : specimen->network.stiffness) stiffness *= factor;
     specimen->measured = measure();
   }
+  if (moduli.size() > 1) specimen->one_tissue = std::move(alone.stiffness);
   if (scenario.uniform()) {
     specimen->pressed =
         tissue::uniaxial_test(specimen->network, specimen->mesh, specimen->base, top, top_area);

@@ -62,6 +62,7 @@ struct Specimen {
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
+  std::vector<double> one_tissue;          // N/m, springs were it all the tissue; empty: it is
   tissue::Uniaxial measured;               // the network's own E and nu, were it one tissue
   tissue::Uniaxial pressed;                // how platens load it, in a uniform test
   std::vector<char> held;                  // of a pressed specimen

@@ -81,8 +81,10 @@ std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh,
 std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
                                      std::span<const double> young_modulus) {
   const auto edges = geometry::edges(mesh);
-  const std::vector<double> start = edge_volumes(mesh, edges, relative(young_modulus));
-  const std::vector<double> volumes = node_volumes(mesh, relative(young_modulus));
+  const std::vector<double> alike(young_modulus.size(), 1.0);
+  const std::vector<double> start = edge_volumes(mesh, edges, alike);
+  const std::vector<double> stiffer = edge_volumes(mesh, edges, relative(young_modulus));
+  const std::vector<double> volumes = node_volumes(mesh, alike);
   std::vector<SymmetricTensor> powers;
   powers.reserve(edges.size());
   for (const auto& edge : edges) powers.push_back(fourth_power(span_of(mesh, edge).normalized()));
@@ -122,7 +124,7 @@ std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
   }
   std::vector<double> stiffness(edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e)
-    stiffness[e] = y[e] * young_modulus[0] / span_of(mesh, edges[e]).squaredNorm();
+    stiffness[e] = y[e] * (stiffer[e] / start[e]) * young_modulus[0] / span_of(mesh, edges[e]).squaredNorm();
   return stiffness;
 }
 

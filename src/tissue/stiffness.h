@@ -16,9 +16,12 @@ enum class StiffnessRule { van_gelder, fitted };
                                                        std::span<const double> young_modulus);
 
 // Bounded least squares towards isotropy: k_e, at least a tenth of Van Gelder's, that minimise
-//   sum_v || sum_{e at v} 1/2 k_e l_e^2 n n n n  -  sum_t V_t/4 C_t ||^2,
+//   sum_v || sum_{e at v} 1/2 k_e l_e^2 n n n n  -  V_v C ||^2,
 // C the isotropic stiffness of E and nu = 1/4, the only ratio that central forces have; drawn
-// weakly to Van Gelder's values where the nodes leave a choice.             docs/theory.md (16)
+// weakly to Van Gelder's values where the nodes leave a choice. The fit is that of one tissue; a
+// spring between tissues then gets the mean modulus of the volume around it: a fit across a stiff
+// interface would take from the soft side's springs what the stiff side has too much.
+//                                                                           docs/theory.md (16)
 [[nodiscard]] std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
                                                    std::span<const double> young_modulus);
 

@@ -41,12 +41,13 @@ const std::array single_file_libraries{
     HeavyLibrary{"Ceres", [](std::string_view include) { return include.starts_with("ceres/"); }},
     HeavyLibrary{"toml++", [](std::string_view include) { return include.starts_with("toml"); }},
     HeavyLibrary{"OpenEXR", is_openexr},
+    HeavyLibrary{"OpenMesh",
+                 [](std::string_view include) { return include.starts_with("OpenMesh/"); }},
+    HeavyLibrary{"CGAL", [](std::string_view include) { return include.starts_with("CGAL/"); }},
 };
 
 // Any .cpp may include these, but no header of ours.
 const std::array source_only_libraries{
-    HeavyLibrary{"OpenMesh",
-                 [](std::string_view include) { return include.starts_with("OpenMesh/"); }},
     HeavyLibrary{"CLI11", [](std::string_view include) { return include.starts_with("CLI/"); }},
     HeavyLibrary{"nlohmann_json",
                  [](std::string_view include) { return include.starts_with("nlohmann/"); }},

@@ -55,6 +55,14 @@ TEST(Arguments, OfTheOtherVerbs) {
   EXPECT_EQ(compare.got + compare.want + compare.tolerances, "abt.toml");
   const Bless bless = accepted<Bless>({"golden", "bless", "one", "two", "--reason", "why"});
   EXPECT_EQ(bless.names, (Words{"one", "two"}));
+  const Mesh mesh = accepted<Mesh>({"mesh", "leg.stl", "--unit", "mm", "--edge", "3 mm", "--out",
+                                    "a.node", "--out", "a.vtu", "--force"});
+  EXPECT_EQ(mesh.subject + mesh.unit + mesh.edge, "leg.stlmm3 mm");
+  EXPECT_EQ(mesh.out, (Words{"a.node", "a.vtu"}));
+  EXPECT_TRUE(mesh.force);
+  EXPECT_EQ(accepted<Mesh>({"mesh", "leg.stl", "--nodes", "500"}).nodes, 500);
+  EXPECT_EQ(accepted<Bench>({"bench"}).frames, 1000);
+  EXPECT_EQ(accepted<Bench>({"bench", "a.toml", "b.toml"}).scenarios, (Words{"a.toml", "b.toml"}));
   (void)accepted<Manual>({"manual"});
 }
 
@@ -76,10 +84,12 @@ TEST(Arguments, AValueMayLookLikeAnythingElse) {
 TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
   const std::pair<Words, const char*> cases[] = {
       {{},
-       "`palpate` wants a verb: run, explain, fit, compare, golden, manual; `palpate --help` shows "
+       "`palpate` wants a verb: run, explain, fit, compare, golden, mesh, bench, manual; `palpate "
+       "--help` shows "
        "how to write it"},
       {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
-      {{"xyzzy"}, "unknown verb `xyzzy`; known: run, explain, fit, compare, golden, manual"},
+      {{"xyzzy"},
+       "unknown verb `xyzzy`; known: run, explain, fit, compare, golden, mesh, bench, manual"},
       {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
       {{"golden"},
        "`palpate golden` wants a verb: bless; `palpate golden --help` shows how to write "
@@ -116,7 +126,7 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
 TEST(Arguments, HelpAndVersionAreAnswers) {
   EXPECT_TRUE(answer({"--version"}).starts_with("palpate 0."));
   EXPECT_NE(answer({"--help"}).find("Exit codes: 0 good"), std::string::npos);
-  for (const char* verb : {"run", "explain", "fit", "compare", "golden", "manual"})
+  for (const char* verb : {"run", "explain", "fit", "compare", "golden", "mesh", "bench", "manual"})
     EXPECT_NE(answer({verb, "--help"}).find("Usage: palpate " + std::string(verb)),
               std::string::npos)
         << verb;

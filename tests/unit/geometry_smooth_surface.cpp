@@ -53,7 +53,7 @@ TEST(SmoothSurface, IsTheFlatItselfOnFlats) {
   for (int i = 0; i < 200; ++i) {
     const double x = size.x() * (0.02 + 0.96 * dice.roll());
     const double y = size.y() * (0.02 + 0.96 * dice.roll());
-    const double up = 0.02 * (dice.roll() - 0.1);
+    const double up = 0.02 * dice.roll() - 0.0009;  // not deeper than the sides are far
     const auto foot = block.foot({x, y, size.z() + up});
     EXPECT_EQ(foot.normal, Vec3::UnitZ());
     EXPECT_EQ(foot.position.z(), size.z());
@@ -69,7 +69,7 @@ TEST(SmoothSurface, IsTheFlatItselfOnFlats) {
     }
 }
 
-// A foot's errors in height and normal, the greatest over points near the surface.
+// A foot's errors over points near the surface: the greatest in height, the mean in the normal.
 struct Errors {
   double height = 0.0, normal = 0.0;
 };
@@ -80,12 +80,13 @@ Errors errors(const Surface& surface, const Point& point, const Height& height,
               const Normal& normal) {
   const Searched searched(surface);
   Dice dice(7);
+  constexpr int points = 400;
   Errors worst;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < points; ++i) {
     const Vec3 x = point(dice.roll(), dice.roll(), 0.4 * (dice.roll() - 0.2));
     const auto foot = searched.foot(x);
     worst.height = std::max(worst.height, std::abs(foot.height - height(x)));
-    worst.normal = std::max(worst.normal, (foot.normal - normal(x)).norm());
+    worst.normal += (foot.normal - normal(x)).norm() / points;
   }
   return worst;
 }
@@ -184,7 +185,7 @@ TEST(SmoothSurface, FeetDoNotJumpOnCurvedSurfaces) {
 TEST(SmoothSurface, FeetDoNotJumpOverCreases) {
   const Searched block(box({0.06, 0.05, 0.03}, {5, 6, 3}));
   // Off the rim and around it; a normal turns by 1 / distance there.
-  expect_no_jumps("over an edge", block, {0.03, 0.024, 0.04}, {0.08, 0.026, 0.02}, 100.0);
+  expect_no_jumps("over an edge", block, {0.03, 0.024, 0.05}, {0.08, 0.026, 0.025}, 100.0);
   expect_no_jumps("over a corner", block, {0.05, 0.04, 0.04}, {0.07, 0.06, 0.03}, 120.0);
   const Searched sharp(wedge());
   expect_no_jumps("over an acute edge", sharp, {-1.5, 2.1, 0.5}, {1.5, 1.7, 0.4}, 4.0);

@@ -51,8 +51,7 @@ TEST(Strain, of_a_turn_is_of_second_order) {
   const geometry::TetMesh mesh = block();
   const double angle = 0.02;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
-  const Strain strain =
-      small_strain(mesh, field(mesh, turn - Eigen::Matrix3d::Identity())).front();
+  const Strain strain = small_strain(mesh, field(mesh, turn - Eigen::Matrix3d::Identity())).front();
   EXPECT_NEAR(strain[0], -0.5 * angle * angle, 1e-8);  // the next term is angle^4 / 24
   EXPECT_NEAR(strain[3], 0.0, 1e-15);                  // rounding
 }

@@ -1,0 +1,126 @@
+// The scene's picture: what it shows, what hides what, its size, its text.
+#include "report/scene_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace palpate::report {
+namespace {
+
+using record::ScenePicture;
+
+// A flat of 2 x 2 cm at height z, looking up.
+void add_flat(ScenePicture& picture, double z, int region, int within) {
+  const Vec3 a(0, 0, z), b(0.02, 0, z), c(0.02, 0.02, z), d(0, 0.02, z);
+  picture.faces.push_back({{a, b, c}, region, within});
+  picture.faces.push_back({{a, c, d}, region, within});
+}
+
+ScenePicture flat() {
+  ScenePicture picture;
+  add_flat(picture, 0.0, 0, -1);
+  picture.materials = {"skin"};
+  picture.finger = {{Vec3(0.01, 0.01, 0.005), 0.005}};
+  picture.travel = 0.003;
+  picture.touch = {0.01, 0.01, 0.0};
+  return picture;
+}
+
+std::size_t count(const std::string& text, const std::string& piece) {
+  std::size_t number = 0;
+  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1))
+    ++number;
+  return number;
+}
+
+TEST(ScenePicture, shows_finger_travel_and_scale) {
+  const std::string svg = scene_svg(flat(), "A press");
+  EXPECT_EQ(svg.substr(0, 5), "<svg ");
+  EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
+  EXPECT_EQ(count(svg, "A press"), 2U);  // as title and in the picture
+  EXPECT_EQ(count(svg, "<circle"), 1U);
+  EXPECT_EQ(count(svg, ">3 mm<"), 1U);
+  EXPECT_EQ(count(svg, ">5 mm<"), 1U) << "the scale bar";
+  EXPECT_EQ(svg, scene_svg(flat(), "A press"));
+}
+
+TEST(ScenePicture, scale_bar_and_finger_have_one_scale) {
+  const std::string svg = scene_svg(flat(), "");
+  const double radius = std::stod(svg.substr(svg.find(" r=\"", svg.find("<circle")) + 4));
+  const std::size_t bar = svg.find("H", svg.find("v10M"));
+  EXPECT_NEAR(std::stod(svg.substr(bar + 1)) - 60.0, radius, 0.11);  // 5 mm both; 0.1 px digits
+}
+
+TEST(ScenePicture, draws_what_looks_up_and_merges_one_colour) {
+  ScenePicture picture = flat();
+  const auto paths = [&] { return count(scene_svg(picture, ""), "<path fill=\"#"); };
+  EXPECT_EQ(paths(), 1U);
+  std::swap(picture.faces[1].corners[0], picture.faces[1].corners[1]);  // looks down
+  EXPECT_EQ(count(scene_svg(picture, ""), "z\"/>"), 1U);
+  picture = flat();
+  picture.faces[1].region = 1;
+  EXPECT_EQ(paths(), 2U);
+}
+
+TEST(ScenePicture, paints_the_nearest_last) {
+  const auto first_fill = [](const ScenePicture& picture) {
+    const std::string svg = scene_svg(picture, "");
+    return svg.substr(svg.find("<path fill="), 19);
+  };
+  ScenePicture low = flat();  // of region 1
+  for (auto& face : low.faces) face.region = 1;
+  ScenePicture above = low;
+  add_flat(above, 0.004, 0, -1);
+  ScenePicture below = low;
+  add_flat(below, -0.004, 0, -1);
+  EXPECT_EQ(first_fill(above), first_fill(low));
+  EXPECT_EQ(first_fill(below), first_fill(flat()));
+}
+
+TEST(ScenePicture, shows_a_region_through_the_one_around_it) {
+  ScenePicture picture = flat();
+  EXPECT_EQ(count(scene_svg(picture, ""), "opacity=\"0.45\""), 0U);
+  EXPECT_EQ(count(scene_svg(picture, ""), "region 1"), 0U);
+  add_flat(picture, -0.005, 1, 0);
+  picture.materials = {"skin", "<lump>"};
+  const std::string svg = scene_svg(picture, "");
+  EXPECT_EQ(count(svg, "opacity=\"0.45\""), 1U);
+  EXPECT_EQ(count(svg, "&lt;lump&gt; (region 1)"), 1U);
+  EXPECT_LT(svg.find("<path fill="), svg.find("opacity=")) << "first the lump, then the glass";
+}
+
+TEST(ScenePicture, follows_slides_one_after_the_other) {
+  ScenePicture picture = flat();
+  EXPECT_EQ(count(scene_svg(picture, ""), "stroke-dasharray"), 0U);
+  picture.slides = {{0.01, 0.0, 0.0}, {0.0, 0.02, 0.0}};
+  const std::string svg = scene_svg(picture, "");
+  EXPECT_EQ(count(svg, "stroke-dasharray"), 2U);
+  EXPECT_EQ(count(svg, ">10 mm<"), 1U);
+  EXPECT_EQ(count(svg, ">20 mm<"), 1U);
+}
+
+TEST(ScenePicture, text_is_safe_in_xml) {
+  const std::string svg = scene_svg(flat(), "a < b & c\n\x01");
+  EXPECT_EQ(count(svg, "a &lt; b &amp; c  <"), 2U);
+  EXPECT_EQ(svg.find('\x01'), std::string::npos);
+}
+
+TEST(ScenePicture, of_5000_triangles_stays_below_2_MB) {
+  ScenePicture picture;
+  const auto height = [](int i, int j) {
+    return Vec3(1e-3 * i, 1e-3 * j, 2e-3 * std::sin(0.3 * i) * std::cos(0.4 * j));
+  };
+  for (int i = 0; i < 50; ++i)
+    for (int j = 0; j < 50; ++j) {
+      picture.faces.push_back({{height(i, j), height(i + 1, j), height(i + 1, j + 1)}, 0, -1});
+      picture.faces.push_back({{height(i, j), height(i + 1, j + 1), height(i, j + 1)}, 0, -1});
+    }
+  const std::string svg = scene_svg(picture, "bumps");
+  EXPECT_GT(count(svg, "z"), 4000U);
+  EXPECT_LT(svg.size(), 2'000'000U);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::report

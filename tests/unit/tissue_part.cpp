@@ -1,0 +1,119 @@
+// Parts of a network: their rings, their edge, and what they keep of the whole.
+#include "tissue/part.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/cuboid.h"
+#include "tissue/stiffness.h"
+
+namespace palpate {
+namespace {
+
+using tissue::Network;
+using tissue::Part;
+
+Network block() {
+  const auto mesh =
+      geometry::cuboid(Vec3(0.05, 0.04, 0.03), {5, 4, 3}, geometry::CellPattern::mirrored);
+  return tissue::make_network(mesh, std::array{1000.0},
+                              tissue::van_gelder_stiffness(mesh, std::array{5e4}));
+}
+
+// The springs on the shortest way from `start` to every node, by relaxing all springs until nothing
+// changes.
+std::vector<int> distances(const Network& network, const std::vector<int>& start) {
+  std::vector<int> far(network.rest.size(), std::numeric_limits<int>::max() - 1);
+  for (const int node : start) far[static_cast<std::size_t>(node)] = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [a, b] : network.ends) {
+      int& one = far[static_cast<std::size_t>(a)];
+      int& other = far[static_cast<std::size_t>(b)];
+      if (one > other + 1) one = other + 1, changed = true;
+      if (other > one + 1) other = one + 1, changed = true;
+    }
+  }
+  return far;
+}
+
+TEST(Part, HoldsTheRingsAndOneMoreAsItsEdge) {
+  const Network whole = block();
+  for (const std::vector<int>& start : {std::vector{0}, std::vector{47, 60, 48}}) {
+    const auto far = distances(whole, start);
+    for (const int rings : {1, 2, 3}) {
+      const Part part = tissue::part_around(whole, start, rings);
+      std::vector<int> expected;
+      for (std::size_t n = 0; n < far.size(); ++n)
+        if (far[n] <= rings + 1) expected.push_back(static_cast<int>(n));
+      ASSERT_EQ(part.nodes, expected) << rings;
+      for (std::size_t i = 0; i < part.nodes.size(); ++i)
+        EXPECT_EQ(part.edge[i] != 0, far[static_cast<std::size_t>(part.nodes[i])] == rings + 1);
+    }
+  }
+}
+
+TEST(Part, KeepsWhatItTakes) {
+  const Network whole = block();
+  const Part part = tissue::part_around(whole, std::array{60}, 1);
+  ASSERT_LT(part.nodes.size(), whole.rest.size());
+  ASSERT_EQ(part.network.rest.size(), part.nodes.size());
+  for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+    EXPECT_EQ(part.network.rest[i], whole.rest[static_cast<std::size_t>(part.nodes[i])]);
+    EXPECT_EQ(part.network.node_mass[i], whole.node_mass[static_cast<std::size_t>(part.nodes[i])]);
+  }
+  ASSERT_EQ(part.network.ends.size(), part.springs.size());
+  EXPECT_TRUE(std::is_sorted(part.springs.begin(), part.springs.end()));
+  std::size_t between = 0;
+  const auto has = [&](int node) {
+    return std::binary_search(part.nodes.begin(), part.nodes.end(), node);
+  };
+  for (const auto& [a, b] : whole.ends) between += has(a) && has(b) ? 1 : 0;
+  EXPECT_EQ(part.springs.size(), between);
+  for (std::size_t s = 0; s < part.springs.size(); ++s) {
+    const auto of_whole = static_cast<std::size_t>(part.springs[s]);
+    for (std::size_t end = 0; end < 2; ++end)
+      EXPECT_EQ(part.nodes[static_cast<std::size_t>(part.network.ends[s][end])],
+                whole.ends[of_whole][end]);
+    EXPECT_EQ(part.network.stiffness[s], whole.stiffness[of_whole]);
+    EXPECT_EQ(part.network.rest_length[s], whole.rest_length[of_whole]);
+    EXPECT_EQ(part.network.direction[s], whole.direction[of_whole]);
+  }
+}
+
+// Every spring of a node that moves is there: the part pulls at it as the whole does.
+TEST(Part, CutsSpringsOnlyAtItsEdge) {
+  const Network whole = block();
+  const Part part = tissue::part_around(whole, std::array{60}, 1);
+  std::vector<int> springs_of_whole(whole.rest.size(), 0);
+  for (const auto& [a, b] : whole.ends) {
+    ++springs_of_whole[static_cast<std::size_t>(a)];
+    ++springs_of_whole[static_cast<std::size_t>(b)];
+  }
+  std::vector<int> springs(part.nodes.size(), 0);
+  for (const auto& [a, b] : part.network.ends) {
+    ++springs[static_cast<std::size_t>(a)];
+    ++springs[static_cast<std::size_t>(b)];
+  }
+  for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+    if (part.edge[i] == 0) {
+      EXPECT_EQ(springs[i], springs_of_whole[static_cast<std::size_t>(part.nodes[i])]);
+    }
+  }
+}
+
+TEST(Part, ManyRingsAreTheWhole) {
+  const Network whole = block();
+  const Part part = tissue::part_around(whole, std::array{0}, 100);
+  const Part all = tissue::whole_part(whole);
+  EXPECT_EQ(part.nodes, all.nodes);
+  EXPECT_EQ(part.springs, all.springs);
+  EXPECT_EQ(part.edge, all.edge);
+  EXPECT_EQ(std::count(part.edge.begin(), part.edge.end(), 0),
+            static_cast<std::ptrdiff_t>(whole.rest.size()));
+}
+
+}  // namespace
+}  // namespace palpate
