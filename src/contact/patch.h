@@ -11,10 +11,12 @@ namespace palpate::contact {
 // An ellipse in the tangent plane of a surface point; the pressure over it is Hertz's.
 struct Patch {
   geometry::SurfacePoint at;
-  Vec3 position = Vec3::Zero();  // m
-  Vec3 normal = Vec3::UnitZ();   // unit, out of the tissue
-  Vec3 axis = Vec3::UnitX();     // unit, tangential, along the semi-axis a
-  double a = 0.0, b = 0.0;       // m, semi-axes
+  Vec3 position = Vec3::Zero();   // m
+  Vec3 normal = Vec3::UnitZ();    // unit, out of the tissue
+  Vec3 axis = Vec3::UnitX();      // unit, tangential, along the semi-axis a
+  double a = 0.0, b = 0.0;        // m, semi-axes
+  geometry::SurfacePoint beyond;  // as in SmoothSurface::Foot
+  double turned = 0.0;
 
   [[nodiscard]] double radius() const;  // m, of the circle of the same area: sqrt(a b)
 };

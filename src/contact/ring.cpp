@@ -60,7 +60,11 @@ RingReader::RingReader(const geometry::SmoothSurface& surface)
 }
 
 double RingReader::spacing(const Patch& patch) const {
-  return spacing_[static_cast<std::size_t>(part_[static_cast<std::size_t>(patch.at.triangle)])];
+  const auto of = [&](int triangle) {
+    return spacing_[static_cast<std::size_t>(part_[static_cast<std::size_t>(triangle)])];
+  };
+  const double here = of(patch.at.triangle);
+  return patch.turned > 0.0 ? here + patch.turned * (of(patch.beyond.triangle) - here) : here;
 }
 
 void RingReader::read(const Patch& patch, std::span<const double> shares, Reading& reading) const {

@@ -54,8 +54,8 @@ void Contacts::detect(const Vec3& finger, const MeshAnswer& mesh,
       contact.patch.normal = foot.normal;
       contact.approach = radius - foot.height;
       contact.on_crease = foot.on_crease;
-      contact.beyond = foot.beyond;
-      contact.turned = foot.turned;
+      contact.patch.beyond = foot.beyond;
+      contact.patch.turned = foot.turned;
       found.push_back(std::move(contact));
     }
   }
@@ -116,11 +116,12 @@ std::optional<std::string> Contacts::find_curvature(const MeshAnswer& mesh,
 std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereContact& contact) {
   geometry::Curvature here;
   if (auto wrong = find_curvature(mesh, contact.patch.at, contact, here)) return wrong;
-  if (contact.turned > 0.0) {
+  if (contact.patch.turned > 0.0) {
     // Around a crease from one side's curvature to the other's, as the perpendicular turns.
     geometry::Curvature there;
-    if (auto wrong = find_curvature(mesh, contact.beyond, contact, there)) return wrong;
-    here = geometry::between({here, there, there}, {1.0 - contact.turned, contact.turned, 0.0});
+    if (auto wrong = find_curvature(mesh, contact.patch.beyond, contact, there)) return wrong;
+    here = geometry::between({here, there, there},
+                             {1.0 - contact.patch.turned, contact.patch.turned, 0.0});
   }
   const auto law =
       contact::contact_law(scene_->scenario.contact.law,

@@ -27,8 +27,6 @@ struct SphereContact {
   Vec3 stretch = Vec3::Zero();  // m, of finger against tissue since the contact last slipped
   contact::Spread load;
   bool on_crease = false;
-  geometry::SurfacePoint beyond;  // as in SmoothSurface::Foot
-  double turned = 0.0;
   bool one_sided = false;  // its curvature
 };
 

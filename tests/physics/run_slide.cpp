@@ -88,22 +88,15 @@ TEST(Slide, ForceHasNoJumps) {
       double most = 0.0;
       double fine_change = 0.0;
       double coarse_change = 0.0;
-      std::vector<double> changes;
       for (std::size_t i = 0; i < forces.size(); ++i) {
         most = std::max(most, forces[i]);
-        if (i > 0) {
-          changes.push_back(std::abs(forces[i] - forces[i - 1]));
-          fine_change = std::max(fine_change, changes.back());
-        }
+        if (i > 0) fine_change = std::max(fine_change, std::abs(forces[i] - forces[i - 1]));
         if (i >= coarse)
           coarse_change = std::max(coarse_change, std::abs(forces[i] - forces[i - coarse]));
       }
-      std::nth_element(changes.begin(), changes.begin() + steps / 2, changes.end());
-      std::printf("%s %s: greatest %.4f N, change a step %.2e (median %.2e), of 8 steps %.2e\n",
-                  coupling, way.name, most, fine_change, changes[steps / 2], coarse_change);
       EXPECT_GT(most, 0.05) << way.name;
-      // An eighth for what is smooth; as much again for slopes that change within 8 steps.
-      EXPECT_LE(fine_change, 0.25 * coarse_change) << coupling << " " << way.name;
+      // An eighth for what is smooth; a quarter more for slopes that change within 8 steps.
+      EXPECT_LE(fine_change, 0.16 * coarse_change) << coupling << " " << way.name;
     }
   }
 }

@@ -223,6 +223,12 @@ TEST(SmoothSurface, RimPointsSayThatTheyAreOnACrease) {
   EXPECT_TRUE(rim.on_crease);
   EXPECT_NEAR(rim.height, 0.005, 1e-15);
   EXPECT_NEAR((rim.normal - Vec3(0.6, 0.0, 0.8)).norm(), 0.0, 1e-13);  // rounding over 5 mm
+  // From one side's normal to the other's: 0.6 beyond the one and 0.8 beyond the other.
+  const auto& near = block.smooth.corner_normal(rim.at.triangle, 0);
+  const auto& far = block.smooth.corner_normal(rim.beyond.triangle, 0);
+  EXPECT_EQ(near + far, Vec3(1.0, 0.0, 1.0));
+  EXPECT_NEAR(rim.turned, (near == Vec3::UnitZ() ? 0.6 : 0.8) / 1.4, 1e-13);
+  EXPECT_EQ(block.foot({0.03, 0.02, 0.034}).turned, 0.0);
 }
 
 }  // namespace

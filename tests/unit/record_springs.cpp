@@ -5,7 +5,6 @@
 
 #include "cases.h"
 #include "geometry/cuboid.h"
-#include "geometry/flat_top.h"
 #include "material/tissue_table.h"
 #include "tissue/network.h"
 #include "tissue/stable_step.h"
@@ -31,7 +30,8 @@ double limit(const std::string& name) {
   const auto tissue = material::find(name, "", {}).tissue;
   const auto mesh = cube();
   const auto network = tissue::make_network(
-      mesh, std::array{tissue.density.value}, tissue::van_gelder_stiffness(mesh, std::array{tissue.young_modulus.value}));
+      mesh, std::array{tissue.density.value},
+      tissue::van_gelder_stiffness(mesh, std::array{tissue.young_modulus.value}));
   return 2.0 / std::sqrt(tissue::largest_frequency_squared(network, network.stiffness,
                                                            on_its_base(mesh)));
 }
@@ -53,8 +53,8 @@ TEST(StableStep, SmallestCellsForThePapersSteps) {
 
 TEST(StableStep, MatrixFreeBoundIsSafe) {
   const auto mesh = cube();
-  const auto network =
-      tissue::make_network(mesh, std::array{1000.0}, tissue::van_gelder_stiffness(mesh, std::array{1000.0}));
+  const auto network = tissue::make_network(mesh, std::array{1000.0},
+                                            tissue::van_gelder_stiffness(mesh, std::array{1000.0}));
   // c = 1 m/s, so that dt c / h = dt / 0.01 m
   const double safe = tissue::safe_frequency_squared(network, network.stiffness);
   expect_case("dt-07", 2.0 / std::sqrt(safe) / 0.01);
@@ -65,8 +65,8 @@ TEST(StableStep, MatrixFreeBoundIsSafe) {
 // Row sums of |M^-1 K|.
 TEST(StableStep, GershgorinOfTheMatrix) {
   const auto mesh = cube();
-  const auto network =
-      tissue::make_network(mesh, std::array{1000.0}, tissue::van_gelder_stiffness(mesh, std::array{1000.0}));
+  const auto network = tissue::make_network(mesh, std::array{1000.0},
+                                            tissue::van_gelder_stiffness(mesh, std::array{1000.0}));
   const std::vector<double> zero(network.stiffness.size(), 0.0);
   const auto held = std::vector<char>(3 * mesh.nodes.size(), 0);
   const Eigen::MatrixXd matrix =
@@ -91,8 +91,9 @@ tissue::Uniaxial measured(const geometry::TetMesh& mesh, const std::vector<doubl
 TEST(Stiffness, MirroredBlockByVanGelder) {
   const Vec3 size(0.08, 0.08, 0.12);
   const auto mesh = geometry::cuboid(size, {8, 8, 12}, CellPattern::mirrored);
-  expect_case("mss-12",
-              measured(mesh, tissue::van_gelder_stiffness(mesh, std::array{1.0}), size).young_modulus);
+  expect_case(
+      "mss-12",
+      measured(mesh, tissue::van_gelder_stiffness(mesh, std::array{1.0}), size).young_modulus);
 }
 
 // Class stiffness (axis .56, face .48, body .48) E h, times the tetrahedra at the edge over the
