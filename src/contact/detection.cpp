@@ -60,10 +60,20 @@ void Detector::find(const Vec3& centre, double radius, std::span<const Vec3> dis
     // Seen from outside, a face turned away is the tissue's far side; from inside only the nearest
     // way out counts.
     if (foot.height < 0.0 && &near != &*first) continue;
-    const bool known = std::any_of(feet.begin(), feet.end(), [&](const auto& other) {
-      return (other.position - foot.position).norm() <= 1e-6 * radius;
+    // Where the surface took the sphere's shape there are many minima, all of one contact: from the
+    // one's centre the search leads from the other's foot to its own. The deepest stands for all.
+    const auto known = std::find_if(feet.begin(), feet.end(), [&](const auto& other) {
+      const double same = 1e-6 * radius;
+      if ((other.position - foot.position).norm() <= same) return true;
+      if (displacement.empty()) return false;
+      const auto led =
+          surface_->foot(carried, {.triangle = other.at.triangle, .weights = other.at.weights});
+      return (led.position - foot.position).norm() <= same;
     });
-    if (!known) feet.push_back(foot);
+    if (known == feet.end())
+      feet.push_back(foot);
+    else if (foot.height < known->height)
+      *known = foot;
   }
 }
 

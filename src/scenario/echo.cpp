@@ -101,9 +101,7 @@ std::string properties_comment(const Case& one) {
 }  // namespace
 
 std::string echo(const Family& family) {
-  const auto meshed = [](const Case& one) {
-    return one.scenario.solver.model != Solver::Model::hertz;
-  };
+  const auto meshed = [](const Case& one) { return one.scenario.meshed(); };
   std::string text =
       "# The scenario as it was run: every default spelled out. It reads back to the "
       "same run.\n";

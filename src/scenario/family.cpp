@@ -86,11 +86,17 @@ std::size_t count_cases(const std::vector<Swept>& sweep, const Place& place) {
   return count;
 }
 
-// A swept value as a word of the case's name: files without their folder, tables by number.
+// A swept value as a word of the case's name: files without their folder, lists as `3 x 4 x 6` or
+// the one value that they repeat, tables by number.
 std::string value_word(const std::string& key, const Node& value, std::size_t index) {
   const std::string last = key.substr(key.rfind('.') + 1);
-  if (value.kind == Node::Kind::table || value.kind == Node::Kind::array)
-    return last + std::to_string(index + 1);
+  if (value.kind == Node::Kind::table) return last + std::to_string(index + 1);
+  if (value.kind == Node::Kind::array) {
+    std::vector<std::string> words;
+    for (const Node& item : value.items) words.push_back(item.shown());
+    const std::set<std::string> different(words.begin(), words.end());
+    return different.size() == 1 ? words.front() : joined(words, " x ");
+  }
   const std::string shown = value.shown();
   const bool file = last == "material" || last == "file";
   return file ? std::filesystem::path(shown).filename().string() : shown;

@@ -100,7 +100,10 @@ static void fields(FieldVisitor& visitor, Mirrored& mesh) {
   visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
 }
 static void fields(FieldVisitor& visitor, Tetgen& mesh) {
-  visitor.count({"nodes", "How many nodes to aim at."}, mesh.nodes, between(8, 1e6));
+  visitor.count({"nodes",
+                 "How many nodes to aim at.",
+                 {!mesh.edge, "without `edge`", Use::Otherwise::note}},
+                mesh.nodes, between(8, 1e6));
   visitor.count_or(
       "auto", {"tetrahedra", "How many tetrahedra to aim at besides; not for cuboids and files."},
       mesh.tetrahedra, between(1, 1e7));
@@ -150,8 +153,6 @@ void fields(FieldVisitor& visitor, Substance& substance) {
   visitor.text({"material", "As `tissue.material`."}, substance.material);
   visitor.quantity({"young_modulus", "Default: the material's."}, substance.young_modulus,
                    unit::kPa, above(0));
-  visitor.number({"poisson_ratio", "Default: the material's."}, substance.poisson_ratio,
-                 {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false});
   visitor.quantity({"density", "Default: the material's."}, substance.density, unit::density,
                    above(0));
 }
@@ -178,12 +179,15 @@ struct Conditions {
   Use mesh;          // machinery of a mesh: left unread without one
   Use finger;        // physics of a finger
   Use mesh_physics;  // physics that only a mesh can honour
-  Use viscous;       // per law, below
+  Use pressed_mesh;  // machinery of a mesh under a finger
 
   explicit Conditions(const Scenario& scenario) {
-    const bool meshed = scenario.solver.model != Model::hertz;
-    mesh = {meshed, "with `solver.model = \"mass_spring\"`", Use::Otherwise::note};
-    mesh_physics = {meshed, "with `solver.model = \"mass_spring\"`"};
+    const bool meshed = scenario.meshed();
+    const char* const when = scenario.solver.model == Model::automatic
+                                 ? "on another `tissue.shape` than `half_space`"
+                                 : "with `solver.model = \"mass_spring\"`";
+    mesh = {meshed, when, Use::Otherwise::note};
+    mesh_physics = {meshed, when};
     // Of steps of both kinds, the mixture is the mistake, not the finger.
     const bool presses =
         std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& s) {
@@ -191,6 +195,7 @@ struct Conditions {
         });
     finger = {presses || scenario.steps.empty(),
               "by steps with a finger (indent, hold, retract, slide)"};
+    pressed_mesh = meshed ? Use{finger.used, finger.when, Use::Otherwise::note} : mesh;
   }
 };
 
@@ -236,8 +241,8 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.quantity_or("auto",
                       {"base_height",
                        "The skin up to this height is its base; `auto`: the lowest plane of a "
-                       "cuboid and in uniform tests, else a tenth of the specimen's height.",
-                       use.mesh},
+                       "cuboid, else a tenth of the specimen's height.",
+                       use.mesh.used ? use.finger : use.mesh},
                       tissue.base_height, unit::mm, at_least(0));
 }
 
@@ -312,21 +317,26 @@ void fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
                 stepped},
                solver.allow_unstable);
   visitor.count_or(
-      "all", {"rings", "Rings of nodes around the contact that move; the others stand.", use.mesh},
+      "all",
+      {"rings", "Rings of nodes around the contact that move; the others stand.",
+       use.pressed_mesh},
       solver.rings, between(1, 1000));
 }
 
-void fields(FieldVisitor& visitor, Output& output, const Use& finger, const Use& mesh) {
+void fields(FieldVisitor& visitor, Output& output, const Conditions& use) {
   visitor.quantity({"interval", "Time between rows of the CSV files."}, output.interval, unit::ms,
                    above(0));
-  visitor.flag({"pressure_maps", "An EXR map at the end of every step.", finger},
+  visitor.flag({"pressure_maps",
+                "An EXR map at the end of every step.",
+                {use.finger.used, use.finger.when, Use::Otherwise::note}},
                output.pressure_maps);
   visitor.flag({"fits", "Regressions of the curves."}, output.fits);
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
   visitor.flag({"pdf", "Figures as PDF too."}, output.pdf);
-  visitor.flag({"tissue", "The deformed mesh at the end of every step, for ParaView.", mesh},
+  visitor.flag({"tissue", "The deformed mesh at the end of every step, for ParaView.",
+                use.pressed_mesh},
                output.tissue);
-  visitor.flag({"picture", "A picture of the scene.", mesh}, output.picture);
+  visitor.flag({"picture", "A picture of the scene.", use.pressed_mesh}, output.picture);
   visitor.numbers_by_name(
       {"display_scale", "Factors by case, for figures and an extra fit; CSV stays in newtons."},
       output.display_scale, above(0));
@@ -338,6 +348,11 @@ bool Scenario::uniform() const {
   for (const Step& step : steps)
     if (std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step)) return true;
   return false;
+}
+
+bool Scenario::meshed() const {
+  return solver.model == Model::mass_spring ||
+         (solver.model == Model::automatic && !std::holds_alternative<HalfSpace>(tissue.shape));
 }
 
 void fields(FieldVisitor& visitor, Scenario& scenario) {
@@ -365,10 +380,8 @@ void fields(FieldVisitor& visitor, Scenario& scenario) {
       [&](FieldVisitor& inner, int i) {
         inner.alternatives(scenario.steps[static_cast<std::size_t>(i)]);
       });
-  visitor.table({"output", "What is written."}, [&](FieldVisitor& inner) {
-    fields(inner, scenario.output, {use.finger.used, use.finger.when, Use::Otherwise::note},
-           use.mesh);
-  });
+  visitor.table({"output", "What is written."},
+                [&](FieldVisitor& inner) { fields(inner, scenario.output, use); });
 }
 
 }  // namespace palpate::scenario

@@ -101,7 +101,7 @@ void fill_in_tissue(Scenario& scenario, const material::Tissue& material, const 
                      "`" + tissue.material +
                          "` has a Poisson's ratio of 0.5, and a tissue needs "
                          "less; set `tissue.poisson_ratio = 0.49`");
-  if (scenario.solver.model == Solver::Model::hertz) return;
+  if (!scenario.meshed()) return;
   if (tissue.viscosity == tissue::Viscosity::kelvin_voigt)
     fill_viscous(tissue.retardation_time, material.retardation_time, "retardation_time", tissue,
                  document);
@@ -115,14 +115,9 @@ void fill_in_tissue(Scenario& scenario, const material::Tissue& material, const 
     fill_viscous(tissue.drag, material.drag, "drag", tissue, document);
 }
 
-void fill_in_substance(Substance& substance, const material::Tissue& material, const Place& place) {
+void fill_in_substance(Substance& substance, const material::Tissue& material) {
   if (!substance.density) substance.density = material.density.value;
   if (!substance.young_modulus) substance.young_modulus = material.young_modulus.value;
-  if (!substance.poisson_ratio) substance.poisson_ratio = material.poisson_ratio.value;
-  if (*substance.poisson_ratio >= 0.5)
-    throw InputError(place, "`" + substance.material +
-                                "` has a Poisson's ratio of 0.5, and a tissue needs less; set "
-                                "`poisson_ratio = 0.49`");
 }
 
 // A limb's muscle and bone, unless the scenario says what its regions are; the mesh of shapes that
@@ -176,10 +171,10 @@ void fill_in(Scenario& scenario, const Node& document, const std::string& folder
     const Place place = place_of(document, "region." + std::to_string(i + 1) + ".material");
     attempt([&] {
       const material::Tissue material = find_material(substance.material, place, folder, inputs);
-      if (readable) fill_in_substance(substance, material, place);
+      if (readable) fill_in_substance(substance, material);
     });
   }
-  const bool meshed = scenario.solver.model != Solver::Model::hertz;
+  const bool meshed = scenario.meshed();
   const auto* mesh = std::get_if<MeshFile>(&scenario.tissue.mesh);
   if (mesh != nullptr && readable && meshed)
     attempt([&] {

@@ -98,12 +98,12 @@ struct Tissue {
   std::optional<double> base_height;  // m; empty: 0 on flat undersides, else a tenth of the height
 };
 
-// What a part of the specimen is made of, where that is not `tissue.material`.
+// What a part of the specimen is made of, where that is not `tissue.material`. Springs have a
+// Poisson's ratio of their own, so that a part's could reach nothing.
 struct Substance {
   std::string material = "muscle";
   std::optional<double> density = {};        // kg/m^3; empty properties come from the material
   std::optional<double> young_modulus = {};  // Pa
-  std::optional<double> poisson_ratio = {};
 };
 struct TaggedRegion {
   static constexpr Word word{"tagged", "A region of the shape or of the mesh file, by its number."};
@@ -221,6 +221,9 @@ struct Scenario {
 
   // Whether the steps load the end faces of the specimen, without a finger.
   [[nodiscard]] bool uniform() const;
+
+  // False where it is plain that no mesh will be made; `auto` may still do without one.
+  [[nodiscard]] bool meshed() const;
 };
 
 // The one list of a scenario's keys, with their units, ranges, defaults and where they count.

@@ -11,7 +11,7 @@ namespace palpate::tissue {
 struct Part {
   std::vector<int> nodes;    // of the whole, ascending: node i of the part is nodes[i]
   std::vector<int> springs;  // of the whole, ascending
-  std::vector<char> edge;    // one a node: 1 where a spring was cut off
+  std::vector<char> edge;    // one a node: 1 in the outermost ring, which is held
   Network network;
 };
 

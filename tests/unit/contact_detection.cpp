@@ -113,6 +113,15 @@ TEST(Detection, TwoSeparateBumps) {
     EXPECT_NEAR(foot.position.y(), 0.0, 0.05);
   }
   EXPECT_EQ(find(bumps, {0.1, 0.0, 1.12}, 0.92).size(), 1U);  // the nearer one alone
+  // Neither do they become one where the surface has moved.
+  Detector detector(bumps);
+  std::vector<Vec3> displacement;
+  for (const Vec3& x : bumps.surface().vertices)
+    displacement.emplace_back(0.01 * x.y(), -0.01 * x.x(), -0.02 * x.squaredNorm());
+  detector.refit(displacement);
+  Feet moved;
+  detector.find({0.0, 0.0, 1.1}, 0.98, displacement, moved);
+  EXPECT_EQ(moved.size(), 2U);
 }
 
 TEST(Detection, TheFarSideOfAPlateIsNoContact) {
@@ -187,7 +196,7 @@ TEST(Detection, EqualsALookAtEveryTriangle) {
   for (int i = 0; i < poses; ++i) {
     const Vec3 centre(dice.roll() - 0.5, dice.roll() - 0.5, 0.25 + 0.35 * dice.roll());
     const double radius = 0.1 + 0.5 * dice.roll();
-    Vec3 nearest;
+    Vec3 nearest = Vec3::Zero();
     const std::size_t expected = minima(surface, centre, radius, nearest);
     detector.find(centre, radius, {}, feet);
     several += feet.size() > 1 ? 1 : 0;
@@ -242,10 +251,13 @@ TEST(Detection, OneContactOnASurfaceThatTookTheSpheresShape) {
     std::vector<Vec3> displacement(surface.vertices.size(), Vec3::Zero());
     for (std::size_t v = 0; v < displacement.size(); ++v) {
       const Vec3& x = surface.vertices[v];
-      const double r2 = (x - centre).head<2>().squaredNorm();
-      if (x.z() < 0.03 || r2 >= radius * radius) continue;
+      const Vec3 arm(x.x() - centre.x(), x.y() - centre.y(), 0.0);
+      if (x.z() < 0.03 || arm.norm() >= radius) continue;
+      // On the sphere up to 4.5 mm from its axis, a little rough, and drawn towards the middle by
+      // up to a tenth of a millimetre.
+      displacement[v] = -0.08 * arm / (1.0 + arm.squaredNorm() / 1e-5);
+      const double r2 = (arm + displacement[v]).squaredNorm();
       const double sphere = centre.z() - std::sqrt(radius * radius - r2);
-      // The surface, a little rough, lies on the sphere up to 4.5 mm from its axis.
       displacement[v].z() = std::min(0.0, sphere - 0.03 + 2e-5 * (dice.roll() - 0.5));
     }
     detector.refit(displacement);

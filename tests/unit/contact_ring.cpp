@@ -34,7 +34,10 @@ struct Block {
 
   [[nodiscard]] Patch patch(double x, double y, double radius) const {
     const auto foot = smooth.foot({x, y, 0.04}, tree.nearest({x, y, 0.04}));
-    Patch patch{.at = foot.at, .position = foot.position, .normal = foot.normal};
+    Patch patch;
+    patch.at = foot.at;
+    patch.position = foot.position;
+    patch.normal = foot.normal;
     patch.axis = Vec3::UnitX();
     patch.a = patch.b = radius;
     return patch;
