@@ -30,7 +30,7 @@ struct Skin {
 
 // What a closed surface encloses: negative where it is inside out.            docs/theory.md (19)
 struct Enclosed {
-  double volume = 0.0;            // m^3
+  double volume = 0.0;           // m^3
   Vec3 centroid = Vec3::Zero();  // m, of a homogeneous inside
 };
 [[nodiscard]] Enclosed enclosed(const Surface& surface);

@@ -45,8 +45,8 @@ struct Figure {
 // force_indentation.csv, indentation_mm, force_N.
 [[nodiscard]] Figure figure_force_indentation(std::vector<Series> series);
 
-// Force against the tissue's curvature where it is pressed (Figure 6 of the paper, lower graph), one
-// point a case: findings.csv, local_curvature_per_m, peak_force_N.
+// Force against the tissue's curvature where it is pressed (Figure 6 of the paper, lower graph),
+// one point a case: findings.csv, local_curvature_per_m, peak_force_N.
 [[nodiscard]] Figure figure_force_curvature(std::vector<Series> series);
 
 // Force along a slide: force_indentation.csv, slide_mm, force_N.

@@ -101,7 +101,8 @@ std::string label(const Series& series) {
 std::string x_expression(const Series& series) {
   const std::string x = "column(" + quoted(series.x_column) + ")";
   std::string condition;
-  if (!series.case_name.empty()) condition = "strcol(" + quoted(series.column) + ") eq " + quoted(series.case_name);
+  if (!series.case_name.empty())
+    condition = "strcol(" + quoted(series.column) + ") eq " + quoted(series.case_name);
   if (series.step) {
     if (!condition.empty()) condition += " && ";
     condition += "column('step') == " + std::to_string(*series.step);

@@ -113,8 +113,9 @@ double Contacts::sinking(const MeshAnswer& mesh, const contact::Patch& patch,
   return sum;
 }
 
-// What the other tissues of the specimen change of the sinking under a contact per newton on another,
-// m/N. It is read under the contact itself: between two answers of one mesh its own errors cancel.
+// What the other tissues of the specimen change of the sinking under a contact per newton on
+// another, m/N. It is read under the contact itself: between two answers of one mesh its own errors
+// cancel.
 double Contacts::other_tissues(const MeshAnswer& mesh, const SphereContact& own,
                                const SphereContact& pressed) const {
   if (mesh.one_tissue == nullptr) return 0.0;

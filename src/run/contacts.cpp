@@ -9,7 +9,6 @@
 namespace palpate::run {
 namespace {
 
-using contact::Coupling;
 using integrate::Vector;
 
 constexpr int most_patches = 100;

@@ -1,6 +1,7 @@
 // Checks that look at several keys at once.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/text.h"
 #include "base/units.h"
@@ -39,10 +40,13 @@ class Checker {
       return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
     };
     const bool uniform = loads_end_faces(scenario_.steps.front());
-    if (uniform && std::holds_alternative<Ellipsoid>(scenario_.tissue.shape))
+    const bool ellipsoid = std::holds_alternative<Ellipsoid>(scenario_.tissue.shape);
+    if (uniform && (ellipsoid || std::holds_alternative<HalfSpace>(scenario_.tissue.shape)))
       problem("tissue.shape",
-              "`creep` and `relax` need flat end faces, which an `ellipsoid` does not have; use "
-              "`cuboid`, `cylinder`, `ligament`, `bone_shaft` or `layered_limb`");
+              std::string("`creep` and `relax` need flat end faces, which ") +
+                  (ellipsoid ? "an `ellipsoid`" : "a `half_space`") +
+                  " does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
+                  "`layered_limb`");
     Reached reached;
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
       const std::string path = "step." + std::to_string(i + 1);
@@ -127,11 +131,12 @@ class Checker {
     const Tissue& tissue = scenario_.tissue;
     const bool lattice =
         std::holds_alternative<Kuhn>(tissue.mesh) || std::holds_alternative<Mirrored>(tissue.mesh);
-    const bool hertz = scenario_.solver.model == Solver::Model::hertz;
+    const bool meshed = scenario_.meshed();
     const bool box = std::holds_alternative<Cuboid>(tissue.shape);
     const bool half_space = std::holds_alternative<HalfSpace>(tissue.shape);
+    const bool as_meshed = std::holds_alternative<AsMeshed>(tissue.shape);
     const bool ready = std::holds_alternative<MeshFile>(tissue.mesh);
-    if (std::holds_alternative<AsMeshed>(tissue.shape) && !ready)
+    if (as_meshed && !ready)
       problem("tissue.shape",
               "`as_meshed` needs a ready mesh; set `tissue.mesh = { file = ..., "
               "unit = \"mm\" }`");
@@ -140,14 +145,19 @@ class Checker {
               "a `half_space` has no mesh; set `solver.model = \"hertz\"` or another shape");
     if (half_space && !scenario_.regions.empty())
       problem("region", "a `half_space` has no regions; use another `tissue.shape`");
-    if (!hertz && !half_space && lattice && !box)
+    if (half_space) curved_half_space(std::get<HalfSpace>(tissue.shape));
+    if (meshed && ready && !half_space && !box && !as_meshed)
+      problem("tissue.shape",
+              "a ready mesh brings its own shape; remove `shape`, or mesh it with `tissue.mesh = { "
+              "kind = \"tetgen\", nodes = 728 }`");
+    if (meshed && !half_space && lattice && !box && !as_meshed)
       problem("tissue.mesh",
               "`kuhn` and `mirrored` cells fill a `cuboid` only; set `tissue.mesh = { kind = "
               "\"tetgen\", nodes = 728 }`");
     const bool lumps =
         std::any_of(scenario_.regions.begin(), scenario_.regions.end(),
                     [](const Region& region) { return std::holds_alternative<Lump>(region); });
-    if (!hertz && lumps && !std::holds_alternative<Tetgen>(tissue.mesh))
+    if (meshed && lumps && !std::holds_alternative<Tetgen>(tissue.mesh))
       problem("tissue.mesh",
               "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
               "kind = \"tetgen\", nodes = 1500 }`");
@@ -157,6 +167,35 @@ class Checker {
       problem("tissue.mesh.tetrahedra",
               "`tetrahedra` can be aimed at besides `nodes`, on shapes other than `cuboid` and "
               "files; remove it");
+    tags();
+  }
+
+  // Hertz knows one sphere on the top of a curved half-space.
+  void curved_half_space(const HalfSpace& shape) {
+    if (shape.curvature == 0.0 && shape.curvature_2.value_or(0.0) == 0.0) return;
+    const auto wrong = [&](const std::string& path, const std::string& what,
+                           const std::string& remedy) {
+      problem(path, "no formula knows " + what + " a curved `half_space`; " + remedy +
+                        ", or use another `tissue.shape`, such as `ellipsoid`");
+    };
+    const Finger& finger = scenario_.finger;
+    if (finger.spheres > 1) wrong("finger.spheres", "several spheres on", "set `spheres = 1`");
+    if (finger.x || finger.y)
+      wrong(finger.x ? "finger.x" : "finger.y", "a finger beside the top of", "remove `x` and `y`");
+    for (std::size_t i = 0; i < scenario_.steps.size(); ++i)
+      if (std::holds_alternative<Slide>(scenario_.steps[i]))
+        wrong("step." + std::to_string(i + 1), "a `slide` over", "remove it");
+  }
+
+  void tags() {
+    std::set<int> known;
+    for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
+      const auto* tagged = std::get_if<TaggedRegion>(&scenario_.regions[i]);
+      if (tagged != nullptr && !known.insert(tagged->tag).second)
+        problem("region." + std::to_string(i + 1) + ".tag", "another `[[region]]` has `tag` " +
+                                                                std::to_string(tagged->tag) +
+                                                                " too; keep one of the two");
+    }
   }
 
   void methods() {
@@ -165,7 +204,7 @@ class Checker {
       problem("solver.model",
               "`hertz` has no specimen to creep or relax; set "
               "`solver.model = \"mass_spring\"`");
-    if (solver.model == Solver::Model::hertz) return;
+    if (!scenario_.meshed()) return;
     if (solver.integrator == Integrator::modal &&
         solver.kinematics == tissue::Kinematics::nonlinear)
       problem("solver.kinematics",
@@ -180,7 +219,7 @@ class Checker {
   }
 
   void time_step() {
-    if (scenario_.solver.model == Solver::Model::hertz) return;  // left unread
+    if (!scenario_.meshed()) return;  // left unread
     const Output& output = scenario_.output;
     const double step = scenario_.solver.time_step.value_or(output.interval);
     const double ratio = output.interval / step;

@@ -89,11 +89,12 @@ std::string properties_comment(const Case& one) {
   Scenario only = one.scenario;
   const std::string all = fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, only); });
   std::string text = "# " + one.name + ":";
-  for (const std::string& line : split(all, '\n'))
+  for (const std::string& line : split(all, '\n')) {
+    if (line.starts_with('[') && line != "[tissue]") break;  // regions and the finger have some too
     for (const char* key : {"young_modulus", "poisson_ratio", "density", "retardation_time",
                             "relaxation_time", "instantaneous_ratio", "drag"})
-      if (line.starts_with(std::string(key) + " =") && all.find(line) < all.find("[finger]"))
-        text += " " + line + ",";
+      if (line.starts_with(std::string(key) + " =")) text += " " + line + ",";
+  }
   text.back() = '\n';
   return text;
 }

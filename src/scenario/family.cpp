@@ -90,8 +90,13 @@ std::size_t count_cases(const std::vector<Swept>& sweep, const Place& place) {
 // the one value that they repeat, tables by number.
 std::string value_word(const std::string& key, const Node& value, std::size_t index) {
   const std::string last = key.substr(key.rfind('.') + 1);
-  if (value.kind == Node::Kind::table) return last + std::to_string(index + 1);
-  if (value.kind == Node::Kind::array) {
+  const auto holds_more = [](const Node& node) {
+    return node.kind == Node::Kind::table || node.kind == Node::Kind::array;
+  };
+  if (value.kind == Node::Kind::table ||
+      std::any_of(value.items.begin(), value.items.end(), holds_more))
+    return last + std::to_string(index + 1);
+  if (value.kind == Node::Kind::array && !value.items.empty()) {
     std::vector<std::string> words;
     for (const Node& item : value.items) words.push_back(item.shown());
     const std::set<std::string> different(words.begin(), words.end());

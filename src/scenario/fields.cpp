@@ -100,10 +100,9 @@ static void fields(FieldVisitor& visitor, Mirrored& mesh) {
   visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
 }
 static void fields(FieldVisitor& visitor, Tetgen& mesh) {
-  visitor.count({"nodes",
-                 "How many nodes to aim at.",
-                 {!mesh.edge, "without `edge`", Use::Otherwise::note}},
-                mesh.nodes, between(8, 1e6));
+  visitor.count(
+      {"nodes", "How many nodes to aim at.", {!mesh.edge, "without `edge`", Use::Otherwise::note}},
+      mesh.nodes, between(8, 1e6));
   visitor.count_or(
       "auto", {"tetrahedra", "How many tetrahedra to aim at besides; not for cuboids and files."},
       mesh.tetrahedra, between(1, 1e7));
@@ -183,7 +182,7 @@ struct Conditions {
 
   explicit Conditions(const Scenario& scenario) {
     const bool meshed = scenario.meshed();
-    const char* const when = scenario.solver.model == Model::automatic
+    const char* const when = !meshed && scenario.solver.model == Model::automatic
                                  ? "on another `tissue.shape` than `half_space`"
                                  : "with `solver.model = \"mass_spring\"`";
     mesh = {meshed, when, Use::Otherwise::note};
@@ -318,8 +317,7 @@ void fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
                solver.allow_unstable);
   visitor.count_or(
       "all",
-      {"rings", "Rings of nodes around the contact that move; the others stand.",
-       use.pressed_mesh},
+      {"rings", "Rings of nodes around the contact that move; the others stand.", use.pressed_mesh},
       solver.rings, between(1, 1000));
 }
 
@@ -333,9 +331,9 @@ void fields(FieldVisitor& visitor, Output& output, const Conditions& use) {
   visitor.flag({"fits", "Regressions of the curves."}, output.fits);
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
   visitor.flag({"pdf", "Figures as PDF too."}, output.pdf);
-  visitor.flag({"tissue", "The deformed mesh at the end of every step, for ParaView.",
-                use.pressed_mesh},
-               output.tissue);
+  visitor.flag(
+      {"tissue", "The deformed mesh at the end of every step, for ParaView.", use.pressed_mesh},
+      output.tissue);
   visitor.flag({"picture", "A picture of the scene.", use.pressed_mesh}, output.picture);
   visitor.numbers_by_name(
       {"display_scale", "Factors by case, for figures and an extra fit; CSV stays in newtons."},

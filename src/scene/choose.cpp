@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "contact/hertz.h"
 #include "scene/scene.h"
@@ -24,6 +25,23 @@ double time_ratio(const scenario::Scenario& scenario, double travel) {
     if (const auto* indent = std::get_if<scenario::Indent>(&step))
       rate = std::max(rate, indent->rate);
   return travel > 0.0 ? viscous * rate / travel : 0.0;
+}
+
+// How near the finger comes to a side of a cuboid on its way, m; negative beside it.
+double nearest_side(const scenario::Scenario& scenario, const scenario::Cuboid& box) {
+  double x = scenario.finger.x.value_or(0.5 * box.size[0]);
+  double y = scenario.finger.y.value_or(0.5 * box.size[1]);
+  const auto side = [&] { return std::min({x, box.size[0] - x, y, box.size[1] - y}); };
+  double nearest = side();
+  for (const scenario::Step& step : scenario.steps) {
+    const auto* slide = std::get_if<scenario::Slide>(&step);
+    if (slide == nullptr) continue;
+    const double angle = slide->direction * std::numbers::pi / 180.0;
+    x += slide->by * std::cos(angle);
+    y += slide->by * std::sin(angle);
+    nearest = std::min(nearest, side());
+  }
+  return nearest;
 }
 
 }  // namespace
@@ -51,6 +69,9 @@ std::optional<std::string> beyond_hertz(const scenario::Scenario& scenario) {
   if (!scenario.regions.empty()) return "it has regions of other tissues";
   const auto top = top_curvature(scenario.tissue.shape);
   if (!top) return "no formula gives the curvature of its shape";
+  const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
+  if (box != nullptr && nearest_side(scenario, *box) < 0.0)
+    return "the finger leaves the specimen's top";
   if (top->kappa_1 == 0.0 && top->kappa_2 == 0.0) return std::nullopt;
   if (scenario.finger.spheres > 1) return "several spheres press a curved surface";
   if (scenario.finger.x || scenario.finger.y) return "the finger may stand off the curved top";
@@ -86,6 +107,12 @@ Choice choose(const scenario::Scenario& scenario) {
   if (!ask("a uniform test?", "steps that load the end faces", scenario.uniform() ? 1 : 0, 0.5,
            "no: a finger presses", "yes: only a specimen can creep or relax"))
     return choice;
+  if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape)) {
+    choice.questions.push_back({"a specimen that has a mesh?", "shapes with an end", 0, 1,
+                                "no: a half_space goes on for ever, hertz is all there is"});
+    choice.model = Model::hertz;
+    return choice;
+  }
 
   const contact::Elastic tissue{*scenario.tissue.young_modulus, *scenario.tissue.poisson_ratio};
   const double lambda_2 = tissue.compliance();
@@ -118,7 +145,10 @@ Choice choose(const scenario::Scenario& scenario) {
   const auto shape = parametric(scenario.tissue.shape);
   const Vec3 size = shape ? geometry::extent(*shape)
                           : Vec3(Vec3::Constant(std::numeric_limits<double>::infinity()));
-  const double near = std::min({size[2], 0.5 * size[0], 0.5 * size[1]});
+  const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
+  const double side =
+      box != nullptr ? nearest_side(scenario, *box) : 0.5 * std::min(size[0], size[1]);
+  const double near = std::min(size[2], side);
   // The finite thickness adds c1 chi to the force, c1 at most 1.127 (bonded, nu = 1/2).
   const double thickness = 1.127 * std::sqrt(law.radius * travel) / near;
   if (!ask("half-space?", "1.127 sqrt(R h) / nearest support or side", thickness, tolerance,

@@ -124,7 +124,8 @@ std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
   }
   std::vector<double> stiffness(edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e)
-    stiffness[e] = y[e] * (stiffer[e] / start[e]) * young_modulus[0] / span_of(mesh, edges[e]).squaredNorm();
+    stiffness[e] =
+        y[e] * (stiffer[e] / start[e]) * young_modulus[0] / span_of(mesh, edges[e]).squaredNorm();
   return stiffness;
 }
 

@@ -25,8 +25,8 @@ constexpr Viscosity all_viscosities[] = {Viscosity::none, Viscosity::nodal_drag,
 struct Cube {
   geometry::TetMesh mesh =
       geometry::cuboid(Vec3(0.02, 0.03, 0.04), {2, 3, 4}, geometry::CellPattern::mirrored);
-  tissue::Network network =
-      tissue::make_network(mesh, std::array{1100.0}, tissue::van_gelder_stiffness(mesh, std::array{72.4e3}));
+  tissue::Network network = tissue::make_network(
+      mesh, std::array{1100.0}, tissue::van_gelder_stiffness(mesh, std::array{72.4e3}));
 
   [[nodiscard]] tissue::ViscousLaw law(Viscosity kind) const {
     return {.kind = kind, .time = 0.1, .branch = 1.5, .drag = 50.0};

@@ -68,7 +68,8 @@ std::vector<std::string> numbering_faults(const std::string& markdown) {
   return faults;
 }
 
-// Citations such as `theory.md (39), (40)` or `theory.md (10)-(15)` of equations that are not there.
+// Citations such as `theory.md (39), (40)` or `theory.md (10)-(15)` of equations that are not
+// there.
 std::vector<std::string> citation_faults(const std::vector<Text>& files,
                                          const std::string& theory) {
   static const std::regex cited(R"(theory\.md ((?:\(\d+\)(?:, |-)?)+))");

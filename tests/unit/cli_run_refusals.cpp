@@ -105,9 +105,9 @@ TEST_F(RunRefusals, a_write_that_fails_keeps_the_old_result) {
 TEST_F(RunRefusals, a_full_disk_keeps_the_old_result) {
   const std::string disk = (folder_ / "disk").string();
   fs::create_directory(disk);
-  // Room for one result (about 60 kB), not for two.
+  // Room for one result (about 110 kB), not for two.
   const std::string script =
-      "mount -t tmpfs -o size=96k none '" + disk + "' || exit 99; '" + PALPATE_PROGRAM +
+      "mount -t tmpfs -o size=160k none '" + disk + "' || exit 99; '" + PALPATE_PROGRAM +
       "' run press.toml --out '" + disk + "' --quiet || exit 98; echo old > '" + disk +
       "/press/mark'; '" + PALPATE_PROGRAM + "' run press.toml --out '" + disk +
       "' --force; code=$?; ls '" + disk + "' '" + disk + "/press'; exit $code";
@@ -204,7 +204,7 @@ TEST_F(RunRefusals, one_diverged_case_does_not_stop_a_sweep) {
 // The committed box said to be in other units has another volume than the shape.
 TEST_F(RunRefusals, a_mesh_that_does_not_fit) {
   write_file(folder_ / "mesh.toml",
-             "[tissue]\nmesh = { kind = \"file\", file = \"" +
+             "[tissue]\nshape = { kind = \"cuboid\" }\nmesh = { kind = \"file\", file = \"" +
                  project_file("golden/meshes/box.node") + "\", unit = \"dm\" }\n" +
                  "[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = \"indent\"\n");
   const Ended ended = palpate(folder_.path(), {"run", "mesh.toml"});

@@ -68,10 +68,11 @@ TEST_F(OfAPress, has_all_its_files) {
 }
 
 TEST_F(OfAPress, has_the_promised_columns) {  // DESIGN.md section 6
-  EXPECT_EQ(record::read_csv(result() / "force_indentation.csv").columns,
-            (Strings{"case", "step", "time_s", "travel_mm", "indentation_mm", "force_N",
-                     "contact_force_N", "friction_N", "ambient_N", "contact_radius_mm",
-                     "peak_pressure_kPa", "tissue_radius_mm", "contacts"}));
+  EXPECT_EQ(
+      record::read_csv(result() / "force_indentation.csv").columns,
+      (Strings{"case", "step", "time_s", "travel_mm", "indentation_mm", "force_N",
+               "contact_force_N", "friction_N", "ambient_N", "contact_radius_mm",
+               "peak_pressure_kPa", "tissue_radius_mm", "contacts", "slide_mm", "tangential_N"}));
   EXPECT_EQ(
       record::read_csv(result() / "fits.csv").columns,
       (Strings{"case", "curve", "model", "parameter", "unit", "estimate", "std_error", "ci95_low",

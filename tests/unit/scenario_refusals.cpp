@@ -31,8 +31,8 @@ TEST(Refusals, ThePlainScenarioIsAccepted) { EXPECT_EQ(refusal(press), "accepted
 
 TEST(Refusals, UnknownKeys) {
   const std::string tissue_keys =
-      "base, density, drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
-      "retardation_time, shape, viscosity, young_modulus";
+      "base, base_height, density, drag, instantaneous_ratio, material, mesh, poisson_ratio, "
+      "relaxation_time, retardation_time, shape, viscosity, young_modulus";
   EXPECT_EQ(refusal("shema = 1\n" + press),
             "press.toml:1:1: `shema` is not a key here; did you mean `schema`?");
   expect_refused({
@@ -45,7 +45,8 @@ TEST(Refusals, UnknownKeys) {
       {"[tissue]\nmesh = { kind = \"kuhn\", cels = [1, 2, 3] }\n",
        "press.toml:5:25: `cels` is not a key here; did you mean `cells`?"},
       {"[tissue]\nmesh = { kind = \"tetgen\", cells = [1, 2, 3] }\n",
-       "press.toml:5:27: `cells` is not a key here; known keys: kind, nodes"},
+       "press.toml:5:27: `cells` is not a key here; known keys: edge, kind, nodes, "
+       "tetrahedra"},
       {"rat = \"5 mm/s\"\n", "press.toml:4:1: `rat` is not a key here; did you mean `rate`?"},
       {"[[step]]\nkind = \"hold\"\nrate = \"5 mm/s\"\n",
        "press.toml:6:1: `rate` is not a key here; known keys: kind, time"},
@@ -67,12 +68,13 @@ TEST(Refusals, UnknownWords) {
        "mirrored, tetgen, file"},
       {"[[step]]\nkind = \"intend\"\nto = 5\n",
        "press.toml:5:8: `kind` does not know `intend`; did you mean `indent`? It is one of indent, "
-       "hold, retract, creep, relax"},
+       "hold, retract, slide, creep, relax"},
       {"[solver]\ntime_step = \"autp\"\n",
        "press.toml:5:13: `time_step` wants `auto` or a time, got `autp`; write `auto`"},
       {"[solver]\nsubsteps = \"many\"\n",
        "press.toml:5:12: `substeps` wants `auto` or a whole number, got `many`; write `auto`"},
-      {"[solver]\nrings = 3\n", "press.toml:5:9: `rings` must be `all`, got `3`; write `all`"},
+      {"[solver]\nrings = \"some\"\n",
+       "press.toml:5:9: `rings` wants `all` or a whole number, got `some`; write `all`"},
   });
 }
 
@@ -109,9 +111,9 @@ TEST(Refusals, KeysThatTheModelCannotHonour) {
   const std::string creep = "[[step]]\nkind = \"creep\"\n";
   EXPECT_EQ(refusal(creep + "[finger]\nradius = \"5 kPa\"\n[contact]\nfriction = -1\n"),
             "press.toml:3:2: `finger` has no effect here: it is used only by steps with a finger "
-            "(indent, hold, retract); remove it or change that\n"
+            "(indent, hold, retract, slide); remove it or change that\n"
             "press.toml:5:2: `contact` has no effect here: it is used only by steps with a finger "
-            "(indent, hold, retract); remove it or change that");
+            "(indent, hold, retract, slide); remove it or change that");
   EXPECT_EQ(refusal(creep + "[solver]\nmodel = \"hertz\"\n"),
             "press.toml:4:9: `hertz` has no specimen to creep or relax; set `solver.model = "
             "\"mass_spring\"`");
@@ -184,7 +186,8 @@ TEST(Refusals, Ranges) {
        "press.toml:5:13: `tolerance` must be above 0 and below 1, got `0" + range},
       {"[solver]\nsubsteps = 0\n",
        "press.toml:5:12: `substeps` must be at least 1 and at most 1e+08, got `0" + range},
-      {"[finger]\nspheres = 3\n", "press.toml:5:11: `spheres` must be 1, got `3`; write that"},
+      {"[finger]\nspheres = 65\n",
+       "press.toml:5:11: `spheres` must be at least 1 and at most 64, got `65" + range},
       {"[output]\ninterval = \"0 s\"\n",
        "press.toml:5:12: `interval` must be above 0 ms, got `0 s" + range},
   });
@@ -262,20 +265,20 @@ TEST(Refusals, DuplicatesAndBrokenFiles) {
 }
 
 TEST(Refusals, TwoMistakesAreToldInTheOrderOfTheFile) {
-  EXPECT_EQ(
-      refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
-              "radius = \"5\"\n" +
-              press),
-      "press.toml:2:1: `yung` is not a key here; known keys: base, density, drag, "
-      "instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, retardation_time, "
-      "shape, viscosity, young_modulus\n"
-      "press.toml:3:12: `material` does not know `skn`; did you mean `skin`? Known here: "
-      "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-      "`file.toml#name`\n"
-      "press.toml:5:12: `material` does not know `fingr`; did you mean `finger`? Known here: "
-      "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-      "`file.toml#name`\n"
-      "press.toml:6:10: `radius` wants a length with its unit, got `5`; write it as `5 mm`");
+  EXPECT_EQ(refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
+                    "radius = \"5\"\n" +
+                    press),
+            "press.toml:2:1: `yung` is not a key here; known keys: base, base_height, density, "
+            "drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
+            "retardation_time, "
+            "shape, viscosity, young_modulus\n"
+            "press.toml:3:12: `material` does not know `skn`; did you mean `skin`? Known here: "
+            "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+            "`file.toml#name`\n"
+            "press.toml:5:12: `material` does not know `fingr`; did you mean `finger`? Known here: "
+            "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+            "`file.toml#name`\n"
+            "press.toml:6:10: `radius` wants a length with its unit, got `5`; write it as `5 mm`");
 }
 
 TEST(Refusals, OneMistakeIsOneMessage) {

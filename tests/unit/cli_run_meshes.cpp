@@ -1,0 +1,360 @@
+// Runs on surfaces and meshes of other programs, broken ones too; meshes and fingers that do not
+// fit together; and every scenario of ours up to the first touch.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/text.h"
+#include "geometry/cuboid.h"
+#include "program.h"
+#include "record/csv.h"
+#include "scene/first_touch.h"
+
+namespace palpate::test {
+namespace {
+
+using Faces = std::vector<std::array<int, 4>>;
+
+// A box of 60 x 60 x 30 units as quadrilaterals.
+const std::vector<Vec3> kCorners{{0, 0, 0},  {60, 0, 0},  {60, 60, 0},  {0, 60, 0},
+                                 {0, 0, 30}, {60, 0, 30}, {60, 60, 30}, {0, 60, 30}};
+const Faces kSides{{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5},
+                   {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
+
+std::string point(const Vec3& p) {
+  return number_text(p.x()) + " " + number_text(p.y()) + " " + number_text(p.z());
+}
+
+std::string off(const std::vector<Vec3>& corners, const Faces& faces) {
+  std::string text =
+      "OFF\n" + std::to_string(corners.size()) + " " + std::to_string(faces.size()) + " 0\n";
+  for (const Vec3& corner : corners) text += point(corner) + "\n";
+  for (const auto& f : faces)
+    text += "4 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) +
+            " " + std::to_string(f[3]) + "\n";
+  return text;
+}
+
+std::string obj() {
+  std::string text;
+  for (const Vec3& corner : kCorners) text += "v " + point(corner) + "\n";
+  for (const auto& f : kSides)
+    text += "f " + std::to_string(f[0] + 1) + " " + std::to_string(f[1] + 1) + " " +
+            std::to_string(f[2] + 1) + " " + std::to_string(f[3] + 1) + "\n";
+  return text;
+}
+
+std::string ply() {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string body = off(kCorners, kSides);
+  return text + body.substr(body.find("0\n") + 2);
+}
+
+std::string stl() {
+  std::string text = "solid box\n";
+  for (const auto& f : kSides)
+    for (const auto& three : {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}}) {
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (const int v : three)
+        text += "vertex " + point(kCorners[static_cast<std::size_t>(v)]) + "\n";
+      text += "endloop\nendfacet\n";
+    }
+  return text + "endsolid box\n";
+}
+
+const std::string kSteps =
+    "[solver]\nmodel = \"mass_spring\"\nintegrator = \"quasi_static\"\n"
+    "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n"
+    "[output]\ninterval = \"100 ms\"\nfigures = false\nfits = false\npressure_maps = false\n";
+
+class RunMeshes : public testing::Test {
+ protected:
+  Ended run(const std::string& text, const std::vector<std::string>& more = {}) const {
+    write_file(folder_ / "press.toml", text);
+    std::vector<std::string> arguments{"run", "press.toml", "--force"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return palpate(folder_.path(), arguments);
+  }
+  [[nodiscard]] fs::path result() const { return folder_ / "out/press"; }
+  [[nodiscard]] double last_force(const fs::path& folder = {}) const {
+    const record::Table table =
+        record::read_csv((folder.empty() ? result() : folder) / "force_indentation.csv");
+    return std::get<double>(table.rows.back()[static_cast<std::size_t>(table.find("force_N"))]);
+  }
+  void expect_refused(const std::string& text, int code, const std::string& sentence) const {
+    const Ended ended = run(text);
+    EXPECT_EQ(ended.code, code) << ended.err;
+    EXPECT_EQ(ended.out, "");
+    EXPECT_NE(ended.err.find(sentence), std::string::npos) << ended.err;
+    EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out")) << "no leftovers";
+  }
+
+  TemporaryFolder folder_;
+};
+
+std::string of_surface(const std::string& name, int nodes = 200) {
+  return "[tissue]\nshape = { file = \"" + name +
+         "\", unit = \"mm\" }\nmesh = { kind = \"tetgen\", "
+         "nodes = " +
+         std::to_string(nodes) + " }\n" + kSteps;
+}
+
+TEST_F(RunMeshes, surfaces_of_every_format_give_one_result) {
+  write_file(folder_ / "box.off", off(kCorners, kSides));
+  write_file(folder_ / "box.obj", obj());
+  write_file(folder_ / "box.ply", ply());
+  write_file(folder_ / "box.stl", stl());
+  std::string first;
+  for (const char* name : {"box.off", "box.obj", "box.ply", "box.stl"}) {
+    const Ended ended = run(of_surface(name));
+    ASSERT_EQ(ended.code, 0) << name << ": " << ended.err;
+    const std::string curve = read_file(folder_ / "out/press/force_indentation.csv");
+    if (first.empty()) first = curve;
+    EXPECT_EQ(curve, first) << name;
+    EXPECT_EQ(read_file(folder_ / "out/press" / name), read_file(folder_ / name));
+    // The echo finds the copy beside it.
+    const Ended again =
+        palpate(folder_ / "out/press", {"run", "scenario.toml", "--out", "../../again", "--force"});
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(last_force(folder_ / "again/scenario"), last_force()) << name;
+  }
+}
+
+TEST_F(RunMeshes, broken_surfaces_are_refused_and_leave_nothing) {
+  const std::string sound = off(kCorners, kSides);
+  const auto refused = [&](const std::string& text, const std::string& sentence) {
+    write_file(folder_ / "leg.off", text);
+    expect_refused(of_surface("leg.off"), 5, sentence);
+  };
+  refused(off(kCorners, Faces(kSides.begin(), kSides.end() - 1)),
+          "palpate: surface `leg.off`: is open: 4 edges in 1 hole belong to one face only");
+  std::vector<Vec3> pierced = kCorners;
+  pierced[6] = Vec3(20, 20, -10);  // the top's corner, through the bottom
+  refused(off(pierced, kSides),
+          "palpate: surface `leg.off`: faces 0 and 6 cut, touch or overlap each other");
+  std::vector<Vec3> two = kCorners;
+  Faces twice = kSides;
+  for (const Vec3& corner : kCorners) two.push_back(corner + Vec3(100, 0, 0));
+  for (const auto& f : kSides) twice.push_back({f[0] + 8, f[1] + 8, f[2] + 8, f[3] + 8});
+  refused(off(two, twice), "palpate: surface `leg.off`: has 2 parts");
+  refused(
+      sound.substr(0, sound.size() / 2),
+      "palpate: leg.off:10: a vertex wants three coordinates, got 2; the file may be cut short");
+  Faces inverted = kSides;
+  for (auto& f : inverted) std::swap(f[1], f[3]);
+  refused(off(kCorners, inverted), "palpate: surface `leg.off`: is inside out");
+}
+
+TEST_F(RunMeshes, only_flat_ends_take_platens) {
+  const std::string creep =
+      "[[step]]\nkind = \"creep\"\n[solver]\nintegrator = \"quasi_static\"\n"
+      "[output]\ninterval = \"100 ms\"\nfigures = false\nfits = false\n";
+  write_file(folder_ / "box.off", off(kCorners, kSides));
+  const Ended flat =
+      run("[tissue]\nshape = { file = \"box.off\", unit = \"mm\" }\nmesh = { kind = \"tetgen\", "
+          "nodes = 100 }\n" +
+          creep);
+  EXPECT_EQ(flat.code, 0) << flat.err;
+  fs::remove_all(folder_ / "out");
+  const Ended made = palpate(
+      folder_.path(), {"mesh", project_file("scenarios/model_head.toml"), "--out", "head.node"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  expect_refused("[tissue]\nmesh = { file = \"head.node\", unit = \"m\" }\n" + creep, 5,
+                 "the specimen has no flat upper end for a platen");
+}
+
+// --- ready meshes
+
+// The box of 60 x 60 x 30 mm in two layers, groups 7 below and 3 above, as Gmsh writes it.
+struct Layered {
+  geometry::TetMesh mesh =
+      geometry::cuboid({0.06, 0.06, 0.03}, {4, 4, 2}, geometry::CellPattern::mirrored);
+
+  [[nodiscard]] std::string nodes() const {
+    std::string text;
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+      text += std::to_string(i + 1) + " " + point(1e3 * mesh.nodes[i]) + "\n";
+    return text;
+  }
+  [[nodiscard]] bool below(const std::array<int, 4>& t) const {
+    double sum = 0.0;
+    for (const int n : t) sum += mesh.nodes[static_cast<std::size_t>(n)].z();
+    return sum < 4 * 0.015;
+  }
+  [[nodiscard]] static std::string words(const std::array<int, 4>& t) {
+    std::string text;
+    for (const int n : t) text += " " + std::to_string(n + 1);
+    return text + "\n";
+  }
+  [[nodiscard]] std::string version2() const {
+    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" +
+                       std::to_string(mesh.nodes.size()) + "\n" + nodes() +
+                       "$EndNodes\n$Elements\n" + std::to_string(mesh.tetrahedra.size()) + "\n";
+    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
+      text += std::to_string(i + 1) + " 4 2 " + (below(mesh.tetrahedra[i]) ? "7 1" : "3 2") +
+              words(mesh.tetrahedra[i]);
+    return text + "$EndElements\n";
+  }
+  // Elements stand in blocks of an entity: those below come first.
+  [[nodiscard]] std::string version4() const {
+    const std::string count = std::to_string(mesh.nodes.size());
+    std::string text =
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 2\n1 0 0 0 60 60 15 1 7 0\n2 0 0 "
+        "15 "
+        "60 60 30 1 3 0\n$EndEntities\n$Nodes\n1 " +
+        count + " 1 " + count + "\n3 1 0 " + count + "\n";
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) text += std::to_string(i + 1) + "\n";
+    for (const Vec3& node : mesh.nodes) text += point(1e3 * node) + "\n";
+    const std::string all = std::to_string(mesh.tetrahedra.size());
+    text += "$EndNodes\n$Elements\n2 " + all + " 1 " + all + "\n";
+    int number = 0;
+    for (const bool lower : {true, false}) {
+      const auto here = [&](const auto& t) { return below(t) == lower; };
+      text += std::string("3 ") + (lower ? "1" : "2") + " 4 " +
+              std::to_string(std::count_if(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), here)) +
+              "\n";
+      for (const auto& t : mesh.tetrahedra)
+        if (here(t)) text += std::to_string(++number) + words(t);
+    }
+    return text + "$EndElements\n";
+  }
+};
+
+std::string of_mesh(const std::string& regions, const std::string& name = "box.msh") {
+  return "[tissue]\nmaterial = \"muscle\"\nmesh = { file = \"" + name + "\", unit = \"mm\" }\n" +
+         regions + kSteps;
+}
+
+TEST_F(RunMeshes, gmsh_files_of_both_versions_have_regions) {
+  const Layered layered;
+  const std::string stiff = "[[region]]\ntag = 7\nmaterial = \"ligament\"\n";
+  std::vector<double> forces;
+  for (const std::string& text : {layered.version2(), layered.version4()}) {
+    write_file(folder_ / "box.msh", text);
+    const Ended ended = run(of_mesh(stiff + "[[region]]\ntag = 3\n"));
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    forces.push_back(last_force());
+  }
+  EXPECT_NEAR(forces[0], forces[1], 1e-6 * forces[0]);  // the same tetrahedra in another order
+  ASSERT_EQ(run(of_mesh("")).code, 0) << "regions without a table are the tissue";
+  EXPECT_GT(forces[0], 1.01 * last_force()) << "five times as stiff below";
+}
+
+TEST_F(RunMeshes, regions_that_are_not_there) {
+  write_file(folder_ / "box.msh", Layered().version2());
+  expect_refused(of_mesh("[[region]]\ntag = 3\n[[region]]\ntag = 9\n"), 5,
+                 "the specimen's mesh has no tetrahedron of `[[region]]` 2; check its `tag`");
+  expect_refused("[[region]]\ntag = 1\n" + kSteps, 5,
+                 "the specimen's mesh has no tetrahedron of `[[region]]` 1; check its `tag`");
+  const std::string lump =
+      "[tissue]\nmesh = { kind = \"tetgen\", nodes = 300 }\n[[region]]\nkind = \"sphere\"\nradius "
+      "= "
+      "\"4 mm\"\n";
+  expect_refused(
+      lump + "centre = [\"90 mm\", \"30 mm\", \"15 mm\"]\n" + kSteps, 5,
+      "the lump of radius 4 mm about (90, 30, 15) mm does not lie wholly inside the body");
+  expect_refused(
+      lump + "centre = [\"30 mm\", \"30 mm\", \"28 mm\"]\n" + kSteps, 5,
+      "the lump of radius 4 mm about (30, 30, 28) mm does not lie wholly inside the body");
+}
+
+TEST_F(RunMeshes, a_finger_beside_the_specimen) {
+  expect_refused("[finger]\nx = \"500 mm\"\n" + kSteps, 5,
+                 "the finger passes beside the specimen at x 500 mm, y 30 mm; set `finger.x` and "
+                 "`finger.y` to a place above it");
+}
+
+// --- what `hertz` does not know
+
+TEST_F(RunMeshes, hertz_refuses_what_only_a_mesh_knows) {
+  const std::string hertz =
+      "[[step]]\nkind = \"indent\"\n[output]\nfigures = false\n[solver]\nmodel = \"hertz\"\n";
+  const auto sentence = [](const std::string& reason) {
+    return "press.toml:6:9: `hertz` does not know this scene: " + reason +
+           "; set `solver.model = \"mass_spring\"`";
+  };
+  expect_refused(hertz + "[tissue]\nshape = { kind = \"ligament\" }\n", 2,
+                 sentence("no formula gives the curvature of its shape"));
+  const std::string cylinder = hertz + "[tissue]\nshape = { kind = \"cylinder\" }\n";
+  expect_refused(cylinder + "[finger]\nspheres = 3\n", 2,
+                 sentence("several spheres press a curved surface"));
+  expect_refused(cylinder + "[finger]\nx = \"3 mm\"\n", 2,
+                 sentence("the finger may stand off the curved top"));
+  expect_refused(cylinder + "[[step]]\nkind = \"slide\"\n", 2,
+                 sentence("the finger slides over a curved surface"));
+  expect_refused(hertz + "[[region]]\ntag = 1\n", 2, sentence("it has regions of other tissues"));
+  expect_refused(hertz + "[finger]\ny = \"61 mm\"\n", 2,
+                 sentence("the finger leaves the specimen's top"));
+  expect_refused(hertz + "[[step]]\nkind = \"slide\"\nby = \"31 mm\"\n", 2,
+                 sentence("the finger leaves the specimen's top"));
+  EXPECT_EQ(run(cylinder).code, 0);
+  EXPECT_EQ(run(hertz + "[[step]]\nkind = \"slide\"\nby = \"29 mm\"\n").code, 0);
+}
+
+TEST_F(RunMeshes, auto_is_hertz_on_a_half_space) {
+  const std::string half =
+      "[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = "
+      "\"indent\"\n[output]\nfigures = false\n";
+  const Ended ended = run(half);
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const double force = last_force();
+  ASSERT_EQ(run(half + "[solver]\nmodel = \"hertz\"\n").code, 0);
+  EXPECT_EQ(force, last_force());
+}
+
+TEST_F(RunMeshes, rings_are_left_unread_without_a_mesh) {
+  const std::string hertz =
+      "[[step]]\nkind = \"indent\"\n[output]\nfigures = false\n[solver]\n"
+      "model = \"hertz\"\n";
+  const Ended ended = run(hertz + "rings = 3\n");
+  EXPECT_EQ(ended.code, 0) << ended.signal << ended.err;
+  EXPECT_NE(ended.err.find("note: press.toml:7:1: `rings` is left unread"), std::string::npos);
+}
+
+TEST_F(RunMeshes, tissue_that_conforms_to_the_finger_diverges) {
+  const Ended ended =
+      run("[tissue]\nshape = { kind = \"half_space\", curvature = \"-200 1/m\" }\n"
+          "[[step]]\nkind = \"indent\"\n[output]\nfigures = false\n");
+  EXPECT_EQ(ended.code, 4);
+  EXPECT_NE(ended.err.find("the tissue is hollow and conforms to the finger (curvature -200 1/m): "
+                           "Hertz does not hold there"),
+            std::string::npos)
+      << ended.err;
+  const record::Table findings = record::read_csv(result() / "findings.csv");
+  EXPECT_EQ(findings.rows.at(0).at(static_cast<std::size_t>(findings.find("outcome"))),
+            record::Cell("diverged"));
+}
+
+// --- every scenario of ours
+
+std::vector<std::string> our_scenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(project_file("scenarios")))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class OurScenario : public testing::TestWithParam<std::string> {};
+
+TEST_P(OurScenario, builds_its_first_case) {
+  const scenario::Family family =
+      scenario::read(project_file("scenarios/" + GetParam() + ".toml"), {});
+  const scene::Scene scene = scene::build(family.cases.at(0), family);
+  EXPECT_TRUE(family.notes.empty() || GetParam() == "eight_spheres") << family.notes[0].text();
+  if (!scene.specimen) return;
+  EXPECT_GT(scene.specimen->plan.limit, 0.0);
+  EXPECT_GT(scene.specimen->measured.young_modulus, 0.0);
+  if (!scene.scenario.uniform()) {
+    EXPECT_GT(scene::first_touch(scene).finger.z(), 0.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OurScenario, testing::ValuesIn(our_scenarios()),
+                         [](const auto& name) { return name.param; });
+
+}  // namespace
+}  // namespace palpate::test
