@@ -94,8 +94,13 @@ class Press {
       if (scene_.scenario.output.tissue && mesh_) add_frame();
     }
     if (mesh_) record_.findings.push_back({"energy_imbalance", mesh_->imbalance()});
-    if (scene_.scenario.solver.rings)
+    if (mesh_ && scene_.scenario.solver.rings)
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
+    if (!mesh_ && (scene_.scenario.output.tissue || scene_.scenario.output.picture))
+      record_.remarks.push_back(
+          "there is no mesh to show: `auto` chose `hertz`; set `solver.model = \"mass_spring\"` "
+          "for "
+          "`output.tissue` and `output.picture`");
     if (on_crease_)
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "
@@ -207,7 +212,7 @@ class Press {
       on_crease_ = on_crease_ || one.on_crease;
       one_sided_ = one_sided_ || (one.one_sided && one.law.mean_curvature != 0.0);
     }
-    if (scene_.scenario.solver.rings && touch_.pressed() > 0.0)
+    if (mesh_ && scene_.scenario.solver.rings && touch_.pressed() > 0.0)
       edge_share_ = std::max(edge_share_, mesh_->edge_reaction() / touch_.pressed());
     if (!mesh_) record_.last_stable_time = time_;
   }

@@ -59,6 +59,12 @@ class Checker {
         reached = indented(path + ".to", *indent, reached);
       if (const auto* retract = std::get_if<Retract>(&step))
         reached = retracted(path + ".to", *retract, reached);
+      const auto* slide = std::get_if<Slide>(&step);
+      if (slide != nullptr && slide->keep == Slide::Keep::force && reached.travel <= 0.0 &&
+          reached.in_order)
+        problem(path + ".keep",
+                "`slide` has no force to keep, for the finger does not press yet; put an `indent` "
+                "before it, or write `keep = \"travel\"`");
     }
   }
 

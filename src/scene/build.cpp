@@ -200,6 +200,8 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
   scene.specimen->plan = plan_time(one.scenario, *scene.specimen, contact_frequency_squared(scene));
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);
+  // A finger that passes beside its specimen is found before the first case runs.
+  if (!one.scenario.uniform()) (void)first_touch(scene);
   return scene;
 }
 

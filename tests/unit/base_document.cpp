@@ -225,9 +225,10 @@ TEST(DocumentWriter, WritesWhatReadsBack) {
 RC_GTEST_PROP(DocumentWriter, AnyTextReadsBack, (const std::string& any)) {
   std::string text;  // ASCII with its control characters; other bytes are refused as no UTF-8
   for (const char c : any) text += static_cast<char>(c & 0x7f);
-  const Node root = parse_toml("a = " + toml_text(text) + "\n" + toml_key(text) + " = 1", "f.toml");
+  const Node root =
+      parse_toml("a = " + toml_text(text) + "\n" + toml_key("_" + text) + " = 1", "f.toml");
   RC_ASSERT(root.members[0].value.text == text);
-  RC_ASSERT(root.members[1].key == text || text == "a");
+  RC_ASSERT(root.members[1].key == "_" + text);
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ TEST_F(RunMeshes, only_flat_ends_take_platens) {
   write_file(folder_ / "box.off", off(kCorners, kSides));
   const Ended flat =
       run("[tissue]\nshape = { file = \"box.off\", unit = \"mm\" }\nmesh = { kind = \"tetgen\", "
-          "nodes = 100 }\n" +
+          "nodes = 200 }\n" +
           creep);
   EXPECT_EQ(flat.code, 0) << flat.err;
   fs::remove_all(folder_ / "out");
@@ -303,6 +303,21 @@ TEST_F(RunMeshes, auto_is_hertz_on_a_half_space) {
   const double force = last_force();
   ASSERT_EQ(run(half + "[solver]\nmodel = \"hertz\"\n").code, 0);
   EXPECT_EQ(force, last_force());
+}
+
+// A scene whose finger slides towards a side is no half-space to `auto`, wherever it began.
+TEST_F(RunMeshes, auto_sees_the_side_that_the_finger_slides_to) {
+  const std::string slow =
+      "[tissue]\nshape = { size = [\"600 mm\", \"600 mm\", \"600 mm\"] }\nviscosity = "
+      "\"none\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+  const auto chosen = [&](const std::string& more) {
+    write_file(folder_ / "far.toml", slow + more);
+    const std::string said = palpate(folder_.path(), {"explain", "far.toml"}).out;
+    return said.find("model        hertz, chosen") != std::string::npos ? "hertz" : "mass_spring";
+  };
+  EXPECT_STREQ(chosen("[[step]]\nkind = \"slide\"\nby = \"100 mm\"\n"), "hertz");
+  EXPECT_STREQ(chosen("[[step]]\nkind = \"slide\"\nby = \"280 mm\"\n"), "mass_spring");
+  EXPECT_STREQ(chosen("[finger]\ny = \"20 mm\"\n"), "mass_spring");
 }
 
 TEST_F(RunMeshes, rings_are_left_unread_without_a_mesh) {

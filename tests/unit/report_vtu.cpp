@@ -127,7 +127,7 @@ std::vector<Number> numbers(const Element& array, const std::string& type) {
   std::memcpy(&size, bytes.data(), sizeof size);
   EXPECT_EQ(size, bytes.size() - sizeof size);
   std::vector<Number> values(size / sizeof(Number));
-  std::memcpy(values.data(), bytes.data() + sizeof size, size);
+  if (size > 0) std::memcpy(values.data(), bytes.data() + sizeof size, size);
   return values;
 }
 

@@ -116,6 +116,20 @@ TEST(LocalContact, HasRanges) {
   });
 }
 
+TEST(LocalContact, SlidesKeepAForceThatIsThere) {
+  const std::string slide = "[[step]]\nkind = \"slide\"\nkeep = \"force\"\n";
+  const std::string away = "[[step]]\nkind = \"retract\"\nto = \"-1 mm\"\n";
+  const std::string sentence =
+      "`slide` has no force to keep, for the finger does not press yet; put an `indent` before it, "
+      "or write `keep = \"travel\"`";
+  EXPECT_EQ(refusal(press + slide), "accepted");
+  EXPECT_EQ(refusal("[[step]]\nto = \"1 N\"\n" + slide), "accepted");
+  EXPECT_EQ(refusal(slide + press), "press.toml:3:8: " + sentence);
+  EXPECT_EQ(refusal(press + away + slide), "press.toml:9:8: " + sentence);
+  EXPECT_EQ(refusal(press + away + "[[step]]\nkind = \"slide\"\n"), "accepted")
+      << "on the way to another place";
+}
+
 TEST(LocalContact, IsLeftUnreadWithANoteWhereNothingUsesIt) {
   const std::string mesh =
       "` is left unread: it is used only with `solver.model = "
