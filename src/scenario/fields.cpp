@@ -239,8 +239,8 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.choice({"base", "What the specimen stands on.", use.mesh}, tissue.base, bases);
   visitor.quantity_or("auto",
                       {"base_height",
-                       "The skin up to this height is its base; `auto`: the lowest plane of a "
-                       "cuboid, else a tenth of the specimen's height.",
+                       "The skin up to this height is its base; `auto`: the underside where it is "
+                       "flat, else the lowest tenth of the specimen.",
                        use.mesh.used ? use.finger : use.mesh},
                       tissue.base_height, unit::mm, at_least(0));
 }

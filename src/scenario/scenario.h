@@ -95,7 +95,7 @@ struct Tissue {
   std::optional<double> instantaneous_ratio;  // E_0 / E_inf
   std::optional<double> drag;                 // 1/s
   Base base = Base::automatic;
-  std::optional<double> base_height;  // m; empty: 0 on flat undersides, else a tenth of the height
+  std::optional<double> base_height;  // m; empty: 0 on a flat underside, else a tenth of the height
 };
 
 // What a part of the specimen is made of, where that is not `tissue.material`. Springs have a

@@ -124,9 +124,6 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
   specimen->kinematics = scenario.solver.kinematics;
   specimen->base = make_base(scenario);
   measure_size(*specimen);
-  specimen->base_height = scenario.tissue.base_height.value_or(
-      flat_underside(scenario) ? 0.0 : 0.1 * specimen->height());
-
   const std::vector<double> moduli =
       by_region(scenario, &scenario::Tissue::young_modulus, &scenario::Substance::young_modulus);
   const std::vector<double> densities =
@@ -136,7 +133,10 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
                                            tissue::spring_stiffness(rule, specimen->mesh, moduli));
   geometry::Skin skin = geometry::skin(specimen->mesh);
   const double top = specimen->high.z();
-  const double top_area = flat_area(skin, top, 1e-9 * geometry::diagonal(specimen->mesh));
+  const double flat = 1e-9 * geometry::diagonal(specimen->mesh);
+  const double top_area = flat_area(skin, top, flat);
+  specimen->base_height = scenario.tissue.base_height.value_or(
+      flat_area(skin, specimen->low.z(), flat) > 0.0 ? 0.0 : 0.1 * specimen->height());
   if (scenario.uniform() && top_area <= 0.0)
     throw MeshError(
         "the specimen has no flat upper end for a platen; `creep` and `relax` need a shape with "

@@ -63,8 +63,8 @@ FirstTouch first_touch(const Scene& scene) {
   for (double middle = 0.5 * (clear + touching); middle > touching && middle < clear;
        middle = 0.5 * (clear + touching))
     (touches(middle) ? touching : clear) = middle;
-  [[maybe_unused]] const bool reached = touches(touching);
-  touch.finger.z() = touching;
+  [[maybe_unused]] const bool reached = touches(touching);  // leaves in `touch` where it does
+  touch.finger.z() = clear;                                 // at a travel of 0 nothing is pressed
   return touch;
 }
 

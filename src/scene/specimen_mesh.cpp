@@ -155,10 +155,6 @@ std::optional<geometry::Shape> parametric(const scenario::Shape& shape) {
   return std::visit(Convert{}, shape);
 }
 
-bool flat_underside(const Scenario& scenario) {
-  return scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
-}
-
 geometry::TetMesh specimen_mesh(const Scenario& scenario, const std::string& folder) {
   geometry::TetMesh mesh = any_mesh(scenario, folder);
   if (!scenario.regions.empty() || !mesh.regions.empty()) number_regions(mesh, scenario);

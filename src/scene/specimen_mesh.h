@@ -14,9 +14,6 @@ namespace palpate::scene {
 // The parametric shape, where it is one.
 [[nodiscard]] std::optional<geometry::Shape> parametric(const scenario::Shape& shape);
 
-// Whether the skin's lowest plane is what the specimen stands on.
-[[nodiscard]] bool flat_underside(const scenario::Scenario& scenario);
-
 // The mesh and the substances that its regions name: TetMesh::regions counts from 0 for
 // `tissue.material`, then the scenario's regions in order. A uniform test stands a shape that lies
 // along y up on its end. Files are looked for in `folder`.
