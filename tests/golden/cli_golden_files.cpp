@@ -63,8 +63,10 @@ TEST_P(Golden, a_changed_number_is_found) {
   const auto stress = static_cast<std::size_t>(table.find(strains ? "stress_kPa" : "force_N"));
   // Where a strain is held the stress is the result.
   const bool relaxes = strains && table.rows.front()[column] == table.rows.back()[column];
-  const std::size_t row = table.rows.size() / 4;  // within the first load
-  double& number = std::get<double>(table.rows[row][relaxes ? stress : column]);
+  const std::size_t value = relaxes ? stress : column;
+  std::size_t row = table.rows.size() / 4;  // within the first load, or at the start of a case
+  if (std::get<double>(table.rows[row][value]) == 0.0) ++row;
+  double& number = std::get<double>(table.rows[row][value]);
   ASSERT_NE(number, 0.0);
   number *= 1.001;
   write_file(path, record::csv_text(table));
