@@ -19,18 +19,19 @@
 namespace palpate::geometry {
 
 // A corner of a cube of 1 cm in each format: vertex 0 in the origin, the others on the axes.
-inline const std::string kObj =
+inline const std::string good_obj =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-inline const std::string kOff =
+inline const std::string good_off =
     "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
-inline const std::string kPlyHeader =
+inline const std::string good_ply_header =
     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n"
     "property list uchar int vertex_indices\nend_header\n";
-inline const std::string kPly = "ply\nformat ascii 1.0\n" + kPlyHeader +
-                                "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
-inline const std::array<std::array<float, 3>, 4> kPoints{
+inline const std::string good_ply =
+    "ply\nformat ascii 1.0\n" + good_ply_header +
+    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+inline const std::array<std::array<float, 3>, 4> corner_points{
     {{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}}};
-inline const std::array<std::array<std::int32_t, 3>, 4> kFaces{
+inline const std::array<std::array<std::int32_t, 3>, 4> corner_faces{
     {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 
 inline std::string facet(const std::string& a, const std::string& b, const std::string& c) {
@@ -38,7 +39,7 @@ inline std::string facet(const std::string& a, const std::string& b, const std::
          "\nendloop\nendfacet\n";
 }
 
-inline const std::string kStl =
+inline const std::string good_stl =
     "solid paw\n" + facet("0 0 0", "0 1 0", "1 0 0") + facet("0 0 0", "1 0 0", "0 0 1") +
     facet("0 0 0", "0 0 1", "0 1 0") + facet("1 0 0", "0 1 0", "0 0 1") + "endsolid paw\n";
 
@@ -50,18 +51,18 @@ void put(std::string& bytes, const Item& item) {
 inline std::string binary_stl(std::uint32_t count = 4) {
   std::string bytes(80, ' ');
   put(bytes, count);
-  for (const auto& face : kFaces) {
+  for (const auto& face : corner_faces) {
     bytes.append(12, '\0');
-    for (const std::int32_t v : face) put(bytes, kPoints[static_cast<std::size_t>(v)]);
+    for (const std::int32_t v : face) put(bytes, corner_points[static_cast<std::size_t>(v)]);
     bytes.append(2, '\0');
   }
   return bytes;
 }
 
 inline std::string binary_ply() {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\n" + kPlyHeader;
-  for (const auto& point : kPoints) put(bytes, point);
-  for (const auto& face : kFaces) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\n" + good_ply_header;
+  for (const auto& point : corner_points) put(bytes, point);
+  for (const auto& face : corner_faces) {
     bytes += '\3';
     put(bytes, face);
   }

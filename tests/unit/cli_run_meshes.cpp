@@ -17,10 +17,10 @@ namespace {
 using Faces = std::vector<std::array<int, 4>>;
 
 // A box of 60 x 60 x 30 units as quadrilaterals.
-const std::vector<Vec3> kCorners{{0, 0, 0},  {60, 0, 0},  {60, 60, 0},  {0, 60, 0},
-                                 {0, 0, 30}, {60, 0, 30}, {60, 60, 30}, {0, 60, 30}};
-const Faces kSides{{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5},
-                   {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
+const std::vector<Vec3> corners_given{{0, 0, 0},  {60, 0, 0},  {60, 60, 0},  {0, 60, 0},
+                                      {0, 0, 30}, {60, 0, 30}, {60, 60, 30}, {0, 60, 30}};
+const Faces sides{{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5},
+                  {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
 
 std::string point(const Vec3& p) {
   return number_text(p.x()) + " " + number_text(p.y()) + " " + number_text(p.z());
@@ -38,8 +38,8 @@ std::string off(const std::vector<Vec3>& corners, const Faces& faces) {
 
 std::string obj() {
   std::string text;
-  for (const Vec3& corner : kCorners) text += "v " + point(corner) + "\n";
-  for (const auto& f : kSides)
+  for (const Vec3& corner : corners_given) text += "v " + point(corner) + "\n";
+  for (const auto& f : sides)
     text += "f " + std::to_string(f[0] + 1) + " " + std::to_string(f[1] + 1) + " " +
             std::to_string(f[2] + 1) + " " + std::to_string(f[3] + 1) + "\n";
   return text;
@@ -49,23 +49,23 @@ std::string ply() {
   std::string text =
       "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float "
       "z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n";
-  const std::string body = off(kCorners, kSides);
+  const std::string body = off(corners_given, sides);
   return text + body.substr(body.find("0\n") + 2);
 }
 
 std::string stl() {
   std::string text = "solid box\n";
-  for (const auto& f : kSides)
+  for (const auto& f : sides)
     for (const auto& three : {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}}) {
       text += "facet normal 0 0 0\nouter loop\n";
       for (const int v : three)
-        text += "vertex " + point(kCorners[static_cast<std::size_t>(v)]) + "\n";
+        text += "vertex " + point(corners_given[static_cast<std::size_t>(v)]) + "\n";
       text += "endloop\nendfacet\n";
     }
   return text + "endsolid box\n";
 }
 
-const std::string kSteps =
+const std::string steps =
     "[solver]\nmodel = \"mass_spring\"\nintegrator = \"quasi_static\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n"
     "[output]\ninterval = \"100 ms\"\nfigures = false\nfits = false\npressure_maps = false\n";
@@ -99,11 +99,11 @@ std::string of_surface(const std::string& name, int nodes = 200) {
   return "[tissue]\nshape = { file = \"" + name +
          "\", unit = \"mm\" }\nmesh = { kind = \"tetgen\", "
          "nodes = " +
-         std::to_string(nodes) + " }\n" + kSteps;
+         std::to_string(nodes) + " }\n" + steps;
 }
 
 TEST_F(RunMeshes, surfaces_of_every_format_give_one_result) {
-  write_file(folder_ / "box.off", off(kCorners, kSides));
+  write_file(folder_ / "box.off", off(corners_given, sides));
   write_file(folder_ / "box.obj", obj());
   write_file(folder_ / "box.ply", ply());
   write_file(folder_ / "box.stl", stl());
@@ -124,35 +124,35 @@ TEST_F(RunMeshes, surfaces_of_every_format_give_one_result) {
 }
 
 TEST_F(RunMeshes, broken_surfaces_are_refused_and_leave_nothing) {
-  const std::string sound = off(kCorners, kSides);
+  const std::string sound = off(corners_given, sides);
   const auto refused = [&](const std::string& text, const std::string& sentence) {
     write_file(folder_ / "leg.off", text);
     expect_refused(of_surface("leg.off"), 5, sentence);
   };
-  refused(off(kCorners, Faces(kSides.begin(), kSides.end() - 1)),
+  refused(off(corners_given, Faces(sides.begin(), sides.end() - 1)),
           "palpate: surface `leg.off`: is open: 4 edges in 1 hole belong to one face only");
-  std::vector<Vec3> pierced = kCorners;
+  std::vector<Vec3> pierced = corners_given;
   pierced[6] = Vec3(20, 20, -10);  // the top's corner, through the bottom
-  refused(off(pierced, kSides),
+  refused(off(pierced, sides),
           "palpate: surface `leg.off`: faces 0 and 6 cut, touch or overlap each other");
-  std::vector<Vec3> two = kCorners;
-  Faces twice = kSides;
-  for (const Vec3& corner : kCorners) two.push_back(corner + Vec3(100, 0, 0));
-  for (const auto& f : kSides) twice.push_back({f[0] + 8, f[1] + 8, f[2] + 8, f[3] + 8});
+  std::vector<Vec3> two = corners_given;
+  Faces twice = sides;
+  for (const Vec3& corner : corners_given) two.push_back(corner + Vec3(100, 0, 0));
+  for (const auto& f : sides) twice.push_back({f[0] + 8, f[1] + 8, f[2] + 8, f[3] + 8});
   refused(off(two, twice), "palpate: surface `leg.off`: has 2 parts");
   refused(
       sound.substr(0, sound.size() / 2),
       "palpate: leg.off:10: a vertex wants three coordinates, got 2; the file may be cut short");
-  Faces inverted = kSides;
+  Faces inverted = sides;
   for (auto& f : inverted) std::swap(f[1], f[3]);
-  refused(off(kCorners, inverted), "palpate: surface `leg.off`: is inside out");
+  refused(off(corners_given, inverted), "palpate: surface `leg.off`: is inside out");
 }
 
 TEST_F(RunMeshes, only_flat_ends_take_platens) {
   const std::string creep =
       "[[step]]\nkind = \"creep\"\n[solver]\nintegrator = \"quasi_static\"\n"
       "[output]\ninterval = \"100 ms\"\nfigures = false\nfits = false\n";
-  write_file(folder_ / "box.off", off(kCorners, kSides));
+  write_file(folder_ / "box.off", off(corners_given, sides));
   const Ended flat =
       run("[tissue]\nshape = { file = \"box.off\", unit = \"mm\" }\nmesh = { kind = \"tetgen\", "
           "nodes = 200 }\n" +
@@ -225,7 +225,7 @@ struct Layered {
 
 std::string of_mesh(const std::string& regions, const std::string& name = "box.msh") {
   return "[tissue]\nmaterial = \"muscle\"\nmesh = { file = \"" + name + "\", unit = \"mm\" }\n" +
-         regions + kSteps;
+         regions + steps;
 }
 
 TEST_F(RunMeshes, gmsh_files_of_both_versions_have_regions) {
@@ -247,22 +247,22 @@ TEST_F(RunMeshes, regions_that_are_not_there) {
   write_file(folder_ / "box.msh", Layered().version2());
   expect_refused(of_mesh("[[region]]\ntag = 3\n[[region]]\ntag = 9\n"), 5,
                  "the specimen's mesh has no tetrahedron of `[[region]]` 2; check its `tag`");
-  expect_refused("[[region]]\ntag = 1\n" + kSteps, 5,
+  expect_refused("[[region]]\ntag = 1\n" + steps, 5,
                  "the specimen's mesh has no tetrahedron of `[[region]]` 1; check its `tag`");
   const std::string lump =
       "[tissue]\nmesh = { kind = \"tetgen\", nodes = 300 }\n[[region]]\nkind = \"sphere\"\nradius "
       "= "
       "\"4 mm\"\n";
   expect_refused(
-      lump + "centre = [\"90 mm\", \"30 mm\", \"15 mm\"]\n" + kSteps, 5,
+      lump + "centre = [\"90 mm\", \"30 mm\", \"15 mm\"]\n" + steps, 5,
       "the lump of radius 4 mm about (90, 30, 15) mm does not lie wholly inside the body");
   expect_refused(
-      lump + "centre = [\"30 mm\", \"30 mm\", \"28 mm\"]\n" + kSteps, 5,
+      lump + "centre = [\"30 mm\", \"30 mm\", \"28 mm\"]\n" + steps, 5,
       "the lump of radius 4 mm about (30, 30, 28) mm does not lie wholly inside the body");
 }
 
 TEST_F(RunMeshes, a_finger_beside_the_specimen) {
-  expect_refused("[finger]\nx = \"500 mm\"\n" + kSteps, 5,
+  expect_refused("[finger]\nx = \"500 mm\"\n" + steps, 5,
                  "the finger passes beside the specimen at x 500 mm, y 30 mm; set `finger.x` and "
                  "`finger.y` to a place above it");
 }

@@ -9,7 +9,7 @@
 namespace palpate::test {
 namespace {
 
-const std::string kPress =
+const std::string press_given =
     "title = \"A press\"\n[tissue]\nmesh = { kind = \"mirrored\", cells = [4, 4, 3] }\n"
     "[solver]\nmodel = \"mass_spring\"\nintegrator = \"quasi_static\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\nrate = \"10 mm/s\"\n"
@@ -28,7 +28,7 @@ std::set<std::string> files_of(const fs::path& folder) {
 
 TEST(RunOutputs, of_one_case) {
   const TemporaryFolder folder;
-  write_file(folder / "press.toml", kPress);
+  write_file(folder / "press.toml", press_given);
   const Ended ended = palpate(folder.path(), {"run", "press.toml"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   const fs::path result = folder / "out/press";
@@ -59,7 +59,7 @@ TEST(RunOutputs, of_one_case) {
 TEST(RunOutputs, of_several_cases) {
   const TemporaryFolder folder;
   write_file(folder / "press.toml",
-             kPress + "[sweep]\n\"finger.radius\" = [\"8 mm\", \"11 mm\"]\n");
+             press_given + "[sweep]\n\"finger.radius\" = [\"8 mm\", \"11 mm\"]\n");
   const Ended ended = palpate(folder.path(), {"run", "press.toml"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   const fs::path result = folder / "out/press";
@@ -97,7 +97,7 @@ TEST(RunOutputs, show_a_hidden_lump) {
 
 TEST(RunOutputs, only_on_request) {
   const TemporaryFolder folder;
-  write_file(folder / "press.toml", kPress);
+  write_file(folder / "press.toml", press_given);
   const Ended ended = palpate(folder.path(), {"run", "press.toml", "--set", "output.tissue=false",
                                               "--set", "output.picture=false"});
   ASSERT_EQ(ended.code, 0) << ended.err;

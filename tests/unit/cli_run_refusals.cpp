@@ -10,7 +10,7 @@
 namespace palpate::test {
 namespace {
 
-const std::string kHertz =
+const std::string hertz_given =
     "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\n"
     "[output]\ninterval = \"10 ms\"\nfigures = false\n";
 
@@ -20,7 +20,7 @@ bool says(const Ended& ended, const std::string& words) {
 
 class RunRefusals : public testing::Test {
  protected:
-  RunRefusals() { write_file(folder_ / "press.toml", kHertz); }
+  RunRefusals() { write_file(folder_ / "press.toml", hertz_given); }
 
   // A finished result, and a mark in it by which it is known again.
   void finish_one() {
@@ -63,7 +63,7 @@ TEST_F(RunRefusals, a_folder_that_is_no_result_is_never_replaced) {
 }
 
 TEST_F(RunRefusals, the_same_name_twice) {
-  write_file(folder_ / "other/press.toml", kHertz);
+  write_file(folder_ / "other/press.toml", hertz_given);
   const Ended ended = palpate(folder_.path(), {"run", "press.toml", "other/press.toml"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(says(ended, "other/press.toml: has the same name as another scenario of this run"))
@@ -72,14 +72,14 @@ TEST_F(RunRefusals, the_same_name_twice) {
 }
 
 TEST_F(RunRefusals, two_scenarios_at_once) {
-  write_file(folder_ / "second.toml", kHertz);
+  write_file(folder_ / "second.toml", hertz_given);
   const Ended ended = palpate(folder_.path(), {"run", "press.toml", "second.toml"});
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(names_in(folder_ / "out"), (std::set<std::string>{"press", "second"}));
 }
 
 TEST_F(RunRefusals, one_wrong_scenario_of_two_runs_none) {
-  write_file(folder_ / "wrong.toml", "[finger]\nradius = \"3 kPa\"\n" + kHertz);
+  write_file(folder_ / "wrong.toml", "[finger]\nradius = \"3 kPa\"\n" + hertz_given);
   const Ended ended = palpate(folder_.path(), {"run", "press.toml", "wrong.toml"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(says(ended, "wrong.toml:2:10: `radius` wants a length, got `3 kPa`")) << ended.err;
@@ -143,7 +143,7 @@ TEST_F(RunRefusals, a_folder_without_permission) {
   EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out"));
 }
 
-const std::string kUnstable =
+const std::string unstable_given =
     "[tissue]\nmaterial = \"skin\"\nmesh = { kind = \"kuhn\", cells = [3, 4, 6] }\n"
     "viscosity = \"none\"\n"  // dashpots slow the growth beyond this programme's 0.6 s
     "[solver]\nmodel = \"mass_spring\"\nintegrator = \"central_difference\"\n"
@@ -152,7 +152,7 @@ const std::string kUnstable =
     "[output]\ninterval = \"10 ms\"\nfigures = false\n";
 
 TEST_F(RunRefusals, a_step_above_the_stability_limit) {
-  write_file(folder_ / "unstable.toml", kUnstable);
+  write_file(folder_ / "unstable.toml", unstable_given);
   const Ended ended = palpate(folder_.path(), {"run", "unstable.toml"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(says(ended,
@@ -163,7 +163,7 @@ TEST_F(RunRefusals, a_step_above_the_stability_limit) {
 }
 
 TEST_F(RunRefusals, divergence_keeps_what_was_stable) {
-  write_file(folder_ / "unstable.toml", kUnstable);
+  write_file(folder_ / "unstable.toml", unstable_given);
   const Ended ended =
       palpate(folder_.path(), {"run", "unstable.toml", "--set", "solver.allow_unstable=true"});
   EXPECT_EQ(ended.code, 4);
@@ -190,7 +190,7 @@ TEST_F(RunRefusals, divergence_keeps_what_was_stable) {
 
 TEST_F(RunRefusals, one_diverged_case_does_not_stop_a_sweep) {
   write_file(folder_ / "unstable.toml",
-             kUnstable + "[sweep]\n\"solver.substeps\" = [1, \"auto\"]\n");
+             unstable_given + "[sweep]\n\"solver.substeps\" = [1, \"auto\"]\n");
   const Ended ended =
       palpate(folder_.path(), {"run", "unstable.toml", "--set", "solver.allow_unstable=true"});
   EXPECT_EQ(ended.code, 4);

@@ -8,7 +8,7 @@ namespace palpate::test {
 namespace {
 
 // A quick case, then one of minutes, by one worker. Rows come every few milliseconds.
-const std::string kSlow =
+const std::string slow_given =
     "[tissue]\nmesh = { kind = \"kuhn\", cells = [3, 4, 6] }\n"
     "[solver]\nmodel = \"mass_spring\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"0.005 mm\"\nrate = \"0.005 mm/s\"\n"
@@ -17,7 +17,7 @@ const std::string kSlow =
 
 class RunStops : public testing::Test {
  protected:
-  RunStops() { write_file(folder_ / "slow.toml", kSlow); }
+  RunStops() { write_file(folder_ / "slow.toml", slow_given); }
 
   [[nodiscard]] Invocation call(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{"run", "slow.toml", "--jobs", "1"};

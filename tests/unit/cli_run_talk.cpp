@@ -9,14 +9,14 @@
 namespace palpate::test {
 namespace {
 
-const std::string kSweep =
+const std::string sweep_given =
     "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\n"
     "[output]\ninterval = \"100 ms\"\nfigures = false\n"
     "[sweep]\n\"tissue.material\" = [\"skin\", \"bone\"]\n";
 
 class RunTalk : public testing::Test {
  protected:
-  RunTalk() { write_file(folder_ / "press.toml", kSweep); }
+  RunTalk() { write_file(folder_ / "press.toml", sweep_given); }
   Ended run(const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"run", "press.toml", "--jobs", "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "contact/hertz.h"
@@ -15,23 +16,21 @@
 namespace palpate::finger {
 namespace {
 
-constexpr double kRadius = 11e-3;
-constexpr double kDensity = 1370.0;
-const double kVolume = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3);
+constexpr double finger_radius = 11e-3;
+constexpr double finger_density = 1370.0;
+const double finger_volume = 4.0 / 3.0 * std::numbers::pi * std::pow(finger_radius, 3);
 
 const geometry::Surface& tip() {
-  static const geometry::Surface surface = geometry::fingertip(kVolume);
+  static const geometry::Surface surface = geometry::fingertip(finger_volume);
   return surface;
 }
 
-// The layers of 1 to most_spheres, packed once.
+// Packed when first asked for: every test runs in a process of its own.
 const Layer& layer_of(int count) {
-  static const std::vector<Layer> layers = [] {
-    std::vector<Layer> all;
-    for (int n = 1; n <= most_spheres; ++n) all.push_back(pack(tip(), kDensity, n));
-    return all;
-  }();
-  return layers[static_cast<std::size_t>(count) - 1];
+  static std::map<int, Layer> layers;
+  const auto found = layers.find(count);
+  if (found != layers.end()) return found->second;
+  return layers.emplace(count, pack(tip(), finger_density, count)).first->second;
 }
 
 class EachCount : public testing::TestWithParam<int> {
@@ -42,11 +41,12 @@ class EachCount : public testing::TestWithParam<int> {
 TEST_P(EachCount, keeps_mass_and_centre_of_gravity) {
   const auto n = static_cast<double>(GetParam());
   ASSERT_EQ(layer_.centres.size(), static_cast<std::size_t>(GetParam()));
-  EXPECT_NEAR(layer_.mass(), kDensity * kVolume, 1e-13 * kDensity * kVolume);  // rounding
-  EXPECT_NEAR(layer_.radius, kRadius / std::cbrt(n), 1e-13 * kRadius);         // rounding
+  EXPECT_NEAR(layer_.mass(), finger_density * finger_volume,
+              1e-13 * finger_density * finger_volume);                              // rounding
+  EXPECT_NEAR(layer_.radius, finger_radius / std::cbrt(n), 1e-13 * finger_radius);  // rounding
   Vec3 sum = Vec3::Zero();
   for (const Vec3& centre : layer_.centres) sum += centre;
-  EXPECT_LT((sum / n).norm(), 1e-15 * kRadius);  // rounding of a mean
+  EXPECT_LT((sum / n).norm(), 1e-15 * finger_radius);  // rounding of a mean
 }
 
 TEST_P(EachCount, is_flat_and_its_own_mirror_image) {
@@ -90,7 +90,7 @@ TEST_P(EachCount, presses_a_flat_as_calibrated) {
     return sum;
   };
   for (const double depth : {0.1e-3, 0.5e-3, 1e-3, 3e-3}) {
-    const double one = contact::hertz::force(depth, kRadius, modulus);
+    const double one = contact::hertz::force(depth, finger_radius, modulus);
     EXPECT_NEAR(pressed(depth, Calibration::force), one, 1e-12 * one) << depth;  // rounding
     const double by_mass = std::pow(n, 5.0 / 6.0) * one;
     EXPECT_NEAR(pressed(depth, Calibration::mass), by_mass, 1e-12 * by_mass) << depth;
@@ -100,22 +100,23 @@ TEST_P(EachCount, presses_a_flat_as_calibrated) {
 INSTANTIATE_TEST_SUITE_P(Counts, EachCount, testing::Range(1, most_spheres + 1));
 
 TEST(Layer, ComesOutTheSameTwice) {
-  for (const int n : {2, 13, 40}) EXPECT_EQ(pack(tip(), kDensity, n).centres, layer_of(n).centres);
+  for (const int n : {2, 13, 40})
+    EXPECT_EQ(pack(tip(), finger_density, n).centres, layer_of(n).centres);
 }
 
 TEST(Layer, ScalesWithTheFinger) {
   for (const int n : {1, 2, 13, 40}) {
-    const Layer large = pack(geometry::fingertip(8.0 * kVolume), kDensity, n);
-    EXPECT_NEAR(large.radius, 2.0 * layer_of(n).radius, 1e-13 * kRadius);  // rounding
+    const Layer large = pack(geometry::fingertip(8.0 * finger_volume), finger_density, n);
+    EXPECT_NEAR(large.radius, 2.0 * layer_of(n).radius, 1e-13 * finger_radius);  // rounding
     for (std::size_t i = 0; i < large.centres.size(); ++i)
       // rounding that some 1000 sweeps carry on
-      EXPECT_LT((large.centres[i] - 2.0 * layer_of(n).centres[i]).norm(), 1e-6 * kRadius);
+      EXPECT_LT((large.centres[i] - 2.0 * layer_of(n).centres[i]).norm(), 1e-6 * finger_radius);
   }
 }
 
 TEST(Layer, OneSphereIsTheSphere) {
   const Layer& layer = layer_of(1);
-  const Sphere sphere{.radius = kRadius, .density = kDensity};
+  const Sphere sphere{.radius = finger_radius, .density = finger_density};
   EXPECT_NEAR(layer.mass(), sphere.mass(), 1e-13 * sphere.mass());  // rounding
   EXPECT_EQ(layer.centres[0], Vec3::Zero());
   EXPECT_EQ(smallest_spacing(layer), std::numeric_limits<double>::infinity());
@@ -128,7 +129,8 @@ TEST(Layer, EightSpheresPressFiveTimesAsHard) {
 }
 
 TEST(Layer, AClosedFingerGivesTheSame) {
-  EXPECT_EQ(pack(geometry::with_closed_base(tip()), kDensity, 7).centres, layer_of(7).centres);
+  EXPECT_EQ(pack(geometry::with_closed_base(tip()), finger_density, 7).centres,
+            layer_of(7).centres);
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ namespace palpate::geometry {
 namespace {
 
 TEST_F(BrokenSurfaces, whole_ones_are_sound) {
-  EXPECT_EQ(complaint("a.obj", kObj), "sound");
-  EXPECT_EQ(complaint("a.off", kOff), "sound");
-  EXPECT_EQ(complaint("a.ply", kPly), "sound");
-  EXPECT_EQ(complaint("a.stl", kStl), "sound");
+  EXPECT_EQ(complaint("a.obj", good_obj), "sound");
+  EXPECT_EQ(complaint("a.off", good_off), "sound");
+  EXPECT_EQ(complaint("a.ply", good_ply), "sound");
+  EXPECT_EQ(complaint("a.stl", good_stl), "sound");
   EXPECT_EQ(complaint("b.ply", binary_ply()), "sound");
   EXPECT_EQ(complaint("b.stl", binary_stl()), "sound");
 }
@@ -23,17 +23,17 @@ TEST_F(BrokenSurfaces, whole_ones_are_sound) {
 TEST_F(BrokenSurfaces, files_that_cannot_be_read) {
   EXPECT_EQ(verdict("none.stl"),
             "input: none.stl: cannot be read: No such file or directory; check the path");
-  EXPECT_EQ(complaint("a.step", kObj),
+  EXPECT_EQ(complaint("a.step", good_obj),
             "input: a.step: a surface wants the ending `.stl`, `.obj`, `.ply` or `.off`; export it "
             "as one of these");
-  EXPECT_TRUE(complaint("stl", kStl).starts_with("input: stl: a surface wants the ending"));
+  EXPECT_TRUE(complaint("stl", good_stl).starts_with("input: stl: a surface wants the ending"));
   for (const char* name : {"folder.stl", "folder.obj", "folder.ply", "folder.off"}) {
     std::filesystem::create_directory(path(name));
     EXPECT_EQ(verdict(name),
               std::string("input: ") + name + ": is not a file; give the path of a file");
   }
   if (getuid() == 0) return;  // who may read everything
-  write_atomically(path("locked.obj"), kObj);
+  write_atomically(path("locked.obj"), good_obj);
   ::chmod(path("locked.obj").c_str(), 0);
   EXPECT_EQ(verdict("locked.obj"), "input: locked.obj: cannot be read; check its permissions");
 }
@@ -60,23 +60,24 @@ TEST_F(BrokenSurfaces, no_faces) {
   EXPECT_EQ(complaint("a.off", "OFF\n1 0 0\n0 0 0\n"), "mesh: a.off: " + want);
   EXPECT_EQ(complaint("a.stl", "solid\nendsolid\n"), "mesh: a.stl: " + want);
   EXPECT_EQ(complaint("b.stl", std::string(84, '\0')), "mesh: b.stl: " + want);
-  EXPECT_EQ(complaint("a.ply", with(with(with(kPly, "face 4", "face 0"), "3 0 2 1\n3 0 1 3\n", ""),
-                                    "3 0 3 2\n3 1 2 3\n", "")),
-            "mesh: a.ply: " + want);
+  EXPECT_EQ(
+      complaint("a.ply", with(with(with(good_ply, "face 4", "face 0"), "3 0 2 1\n3 0 1 3\n", ""),
+                              "3 0 3 2\n3 1 2 3\n", "")),
+      "mesh: a.ply: " + want);
 }
 
 TEST_F(BrokenSurfaces, another_format_under_this_ending) {
   EXPECT_EQ(complaint("a.obj", binary_stl()),
             "mesh: a.obj: is not a text file in OBJ format; export it again, or give it the ending "
             "of its real format");
-  EXPECT_EQ(complaint("b.obj", kOff), "mesh: b.obj: holds no faces; export the surface again");
-  EXPECT_EQ(complaint("a.off", kObj),
+  EXPECT_EQ(complaint("b.obj", good_off), "mesh: b.obj: holds no faces; export the surface again");
+  EXPECT_EQ(complaint("a.off", good_obj),
             "mesh: a.off:1: the file wants to begin with `OFF`; export it again, or give it the "
             "ending of its real format");
-  EXPECT_EQ(complaint("a.ply", kStl),
+  EXPECT_EQ(complaint("a.ply", good_stl),
             "mesh: a.ply: does not begin with `ply`; export it again, or give it the ending of its "
             "real format");
-  EXPECT_EQ(complaint("a.stl", kObj),
+  EXPECT_EQ(complaint("a.stl", good_obj),
             "mesh: a.stl:1: the line wants `solid`, got `v`; export the "
             "file again");
 }
@@ -102,13 +103,13 @@ TEST_F(BrokenSurfaces, garbage) {
 // Wherever a file ends, it is refused; text may lack its last line end, and an OBJ that ends
 // between two lines, or in a number that is still a vertex, is found by its holes.
 TEST_F(BrokenSurfaces, cut_short_anywhere) {
-  for (const auto& [name, content] :
-       std::vector<std::pair<std::string, std::string>>{{"a.obj", kObj},
-                                                        {"a.off", kOff},
-                                                        {"a.ply", kPly},
-                                                        {"a.stl", kStl.substr(0, kStl.size() - 5)},
-                                                        {"b.ply", binary_ply()},
-                                                        {"b.stl", binary_stl()}})
+  for (const auto& [name, content] : std::vector<std::pair<std::string, std::string>>{
+           {"a.obj", good_obj},
+           {"a.off", good_off},
+           {"a.ply", good_ply},
+           {"a.stl", good_stl.substr(0, good_stl.size() - 5)},
+           {"b.ply", binary_ply()},
+           {"b.stl", binary_stl()}})
     for (std::size_t size = 0; size + 1 < content.size(); ++size) {
       const std::string got = complaint(name, content.substr(0, size));
       ASSERT_TRUE(got.starts_with("mesh: ")) << name << " of " << size << " bytes: " << got;
@@ -117,23 +118,23 @@ TEST_F(BrokenSurfaces, cut_short_anywhere) {
 }
 
 TEST_F(BrokenSurfaces, says_where_it_is_cut_short) {
-  EXPECT_EQ(complaint("a.obj", kObj.substr(0, kObj.size() - 3)),
+  EXPECT_EQ(complaint("a.obj", good_obj.substr(0, good_obj.size() - 3)),
             "mesh: a.obj:8: a face wants three corners or more, got 2; the file may be cut short: "
             "export it again");
   EXPECT_EQ(complaint("b.obj", "v 0 0 0\nv 1 0"),
             "mesh: b.obj:2: a vertex wants three coordinates, got 2; the file may be cut short: "
             "export it again");
-  EXPECT_EQ(complaint("a.off", kOff.substr(0, kOff.size() - 16)),
+  EXPECT_EQ(complaint("a.off", good_off.substr(0, good_off.size() - 16)),
             "mesh: a.off:8: the file ends after 2 of 4 faces; it is cut short: export it again");
   EXPECT_EQ(complaint("b.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n"),
             "mesh: b.off:4: the file ends after 2 of 4 vertices; it is cut short: export it again");
-  EXPECT_EQ(complaint("a.ply", kPly.substr(0, kPly.size() - 9)),
+  EXPECT_EQ(complaint("a.ply", good_ply.substr(0, good_ply.size() - 9)),
             "mesh: a.ply:16: the file ends after 3 of 4 lines of element `face`; it is cut short: "
             "export it again");
-  EXPECT_EQ(complaint("d.ply", kPly.substr(0, kPly.size() - 2)),
+  EXPECT_EQ(complaint("d.ply", good_ply.substr(0, good_ply.size() - 2)),
             "mesh: d.ply:17: a face wants three corners or more, got 2; the file may be cut short: "
             "export it again");
-  EXPECT_EQ(complaint("a.stl", kStl.substr(0, kStl.size() - 13)),
+  EXPECT_EQ(complaint("a.stl", good_stl.substr(0, good_stl.size() - 13)),
             "mesh: a.stl:29: the file ends before `endsolid`, in or after facet 4; it is cut "
             "short: export it again");
   EXPECT_EQ(complaint("b.ply", binary_ply().substr(0, binary_ply().size() - 1)),
@@ -152,20 +153,20 @@ TEST_F(BrokenSurfaces, counts_that_lie) {
     EXPECT_NE(
         complaint("a.stl", binary_stl(count)).find(std::to_string(count) + " facets, not 284"),
         std::string::npos);
-  EXPECT_EQ(complaint("a.off", with(kOff, "4 4 6", "4 3 6")),
+  EXPECT_EQ(complaint("a.off", with(good_off, "4 4 6", "4 3 6")),
             "mesh: a.off:10: the header counts 4 vertices and 3 faces, but another line follows; "
             "mend the counts");
-  EXPECT_EQ(complaint("b.off", with(kOff, "4 4 6", "4 5 6")),
+  EXPECT_EQ(complaint("b.off", with(good_off, "4 4 6", "4 5 6")),
             "mesh: b.off:10: the file ends after 4 of 5 faces; it is cut short: export it again");
-  EXPECT_EQ(complaint("c.off", with(kOff, "4 4 6", "2000000000 4 6")),
+  EXPECT_EQ(complaint("c.off", with(good_off, "4 4 6", "2000000000 4 6")),
             "mesh: c.off:10: the file ends after 8 of 2000000000 vertices; it is cut short: export "
             "it again");
-  EXPECT_EQ(complaint("d.off", with(kOff, "4 4 6", "-4 4 6")),
+  EXPECT_EQ(complaint("d.off", with(good_off, "4 4 6", "-4 4 6")),
             "mesh: d.off:2: the number of vertices is missing or negative; after `OFF` write the "
             "numbers of vertices, faces and edges");
-  EXPECT_EQ(complaint("a.ply", with(kPly, "face 4", "face 3")),
+  EXPECT_EQ(complaint("a.ply", with(good_ply, "face 4", "face 3")),
             "mesh: a.ply:17: the header counts 3 faces, but another line follows; mend the count");
-  EXPECT_EQ(complaint("b.ply", with(kPly, "face 4", "face 1000000000")),
+  EXPECT_EQ(complaint("b.ply", with(good_ply, "face 4", "face 1000000000")),
             "mesh: b.ply:17: the file ends after 4 of 1000000000 lines of element `face`; it is "
             "cut short: export it again");
   EXPECT_EQ(
@@ -174,7 +175,7 @@ TEST_F(BrokenSurfaces, counts_that_lie) {
   EXPECT_EQ(complaint("d.ply", with(binary_ply(), "vertex 4", "vertex 900000000")),
             "mesh: d.ply: the file ends in number 8 of 900000000 of element `vertex`; it is cut "
             "short: export it again");
-  EXPECT_EQ(complaint("e.ply", with(kPly, "vertex 4", "vertex 4e99")),
+  EXPECT_EQ(complaint("e.ply", with(good_ply, "vertex 4", "vertex 4e99")),
             "mesh: e.ply: line 3 of its header wants a count from 0 to 1e9; export it again");
 }
 

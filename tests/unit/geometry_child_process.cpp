@@ -12,7 +12,7 @@
 namespace palpate::geometry {
 namespace {
 
-constexpr ChildLimits kLimits{10.0, 1e9};
+constexpr ChildLimits limits{10.0, 1e9};
 
 template <typename Kind>
 Kind expect(const ChildResult& result) {
@@ -23,15 +23,15 @@ Kind expect(const ChildResult& result) {
 TEST(ChildProcess, brings_back_every_byte) {
   std::string long_text;  // many times a pipe's 64 KiB
   for (int i = 0; i < 3000000; ++i) long_text += static_cast<char>(i % 251);
-  EXPECT_EQ(expect<ChildAnswer>(run_in_child([&] { return long_text; }, kLimits)).bytes, long_text);
-  EXPECT_EQ(expect<ChildAnswer>(run_in_child([] { return ""; }, kLimits)).bytes, "");
+  EXPECT_EQ(expect<ChildAnswer>(run_in_child([&] { return long_text; }, limits)).bytes, long_text);
+  EXPECT_EQ(expect<ChildAnswer>(run_in_child([] { return ""; }, limits)).bytes, "");
 }
 
 TEST(ChildProcess, tells_exit_codes_and_exceptions) {
   const auto leave = []() -> std::string { _exit(5); };
   const auto fail = []() -> std::string { throw std::runtime_error("no"); };
-  EXPECT_EQ(expect<ChildExit>(run_in_child(leave, kLimits)).code, 5);
-  EXPECT_EQ(expect<ChildExit>(run_in_child(fail, kLimits)).code, 1);
+  EXPECT_EQ(expect<ChildExit>(run_in_child(leave, limits)).code, 5);
+  EXPECT_EQ(expect<ChildExit>(run_in_child(fail, limits)).code, 1);
 }
 
 TEST(ChildProcess, tells_signals) {
@@ -39,7 +39,7 @@ TEST(ChildProcess, tells_signals) {
     std::raise(SIGSEGV);
     return "";
   };
-  EXPECT_EQ(expect<ChildSignal>(run_in_child(crash, kLimits)).number, SIGSEGV);
+  EXPECT_EQ(expect<ChildSignal>(run_in_child(crash, limits)).number, SIGSEGV);
 }
 
 TEST(ChildProcess, is_ended_at_its_time) {
@@ -63,7 +63,7 @@ TEST(ChildProcess, neither_talks_nor_repeats_what_waits_in_a_buffer) {
     std::fflush(stdout);
     return std::string("answer");
   };
-  EXPECT_EQ(expect<ChildAnswer>(run_in_child(talk, kLimits)).bytes, "answer");
+  EXPECT_EQ(expect<ChildAnswer>(run_in_child(talk, limits)).bytes, "answer");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "once ");
 }
 

@@ -13,8 +13,8 @@
 namespace palpate::geometry {
 namespace {
 
-const std::string kNodes = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
-const std::string kTetrahedra = "1 4 0\n0 0 1 2 3\n";
+const std::string nodes_given = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
+const std::string tetrahedra_given = "1 4 0\n0 0 1 2 3\n";
 
 class MeshFiles : public testing::Test {
  protected:
@@ -64,7 +64,7 @@ TEST_F(MeshFiles, round_trip_keeps_every_bit) {
 }
 
 TEST_F(MeshFiles, units_become_metres) {
-  EXPECT_EQ(read(kNodes, kTetrahedra, 1e-3).nodes[3], Vec3(0, 0, 1e-3));
+  EXPECT_EQ(read(nodes_given, tetrahedra_given, 1e-3).nodes[3], Vec3(0, 0, 1e-3));
 }
 
 TEST_F(MeshFiles, counting_may_start_from_one) {
@@ -82,7 +82,7 @@ TEST_F(MeshFiles, comments_attributes_markers_and_short_headers_are_read_over) {
 }
 
 TEST_F(MeshFiles, tetrahedra_are_turned_the_right_way_round) {
-  const TetMesh mesh = read(kNodes, "1 4 0\n0 0 2 1 3\n");
+  const TetMesh mesh = read(nodes_given, "1 4 0\n0 0 2 1 3\n");
   EXPECT_GT(signed_volume(mesh, 0), 0.0);
 }
 
@@ -102,7 +102,7 @@ TEST_F(MeshFiles, other_endings_are_refused) {
 
 TEST_F(MeshFiles, missing_files_are_named) {
   for (const char* there : {"", "paw.node"}) {
-    if (*there != 0) write_atomically(path(there), kNodes);
+    if (*there != 0) write_atomically(path(there), nodes_given);
     const std::string missing = *there == 0 ? "paw.node" : "paw.ele";
     try {
       (void)read_node_ele(path("paw.ele"), 1.0);
@@ -118,7 +118,7 @@ TEST_F(MeshFiles, a_folder_that_is_not_there_is_the_systems_fault) {
 }
 
 TEST_F(MeshFiles, bad_nodes_have_a_place_and_a_remedy) {
-  const auto nodes = [&](const std::string& text) { return complaint(text, kTetrahedra); };
+  const auto nodes = [&](const std::string& text) { return complaint(text, tetrahedra_given); };
   EXPECT_EQ(nodes(""),
             "paw.node: the file holds no header line; begin it with `nodes 3 attributes markers`");
   EXPECT_EQ(nodes("4\n"),
@@ -151,13 +151,13 @@ TEST_F(MeshFiles, bad_nodes_have_a_place_and_a_remedy) {
         << bad;
   EXPECT_EQ(nodes("4 3\n0 0 0 0\n1 1 0 0\n"),
             "paw.node:3: the file ends after 2 of 4 nodes; write it again from its source");
-  EXPECT_EQ(nodes(kNodes + "4 0 0 2\n"),
+  EXPECT_EQ(nodes(nodes_given + "4 0 0 2\n"),
             "paw.node:6: the header counts 4 nodes, but another line follows; mend the count or "
             "remove the line");
 }
 
 TEST_F(MeshFiles, bad_tetrahedra_have_a_place_and_a_remedy) {
-  const auto tetrahedra = [&](const std::string& text) { return complaint(kNodes, text); };
+  const auto tetrahedra = [&](const std::string& text) { return complaint(nodes_given, text); };
   EXPECT_EQ(tetrahedra("1\n"),
             "paw.ele:1: the header has 1 words; write it as `tetrahedra 4 attributes`");
   EXPECT_EQ(tetrahedra("1 4 0 0\n").substr(0, 30), "paw.ele:1: the header has 4 wo");

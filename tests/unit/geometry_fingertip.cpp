@@ -11,7 +11,7 @@ namespace palpate::geometry {
 namespace {
 
 // Of the sphere of 11 mm that stands for a finger elsewhere.
-const double kVolume = 4.0 / 3.0 * std::numbers::pi * std::pow(11e-3, 3);
+const double volume_given = 4.0 / 3.0 * std::numbers::pi * std::pow(11e-3, 3);
 
 double highest(const Surface& surface, int axis) {
   double most = -1.0;
@@ -26,14 +26,14 @@ double lowest(const Surface& surface, int axis) {
 }
 
 TEST(Fingertip, HasTheVolumeAskedFor) {
-  for (const double volume : {1e-9, kVolume, 3e-5}) {
+  for (const double volume : {1e-9, volume_given, 3e-5}) {
     const Enclosed inside = enclosed(with_closed_base(fingertip(volume)));
     EXPECT_NEAR(inside.volume, volume, 1e-14 * volume);  // rounding of 194 terms
   }
 }
 
 TEST(Fingertip, HasItsTriangles) {
-  const Surface finger = fingertip(kVolume);
+  const Surface finger = fingertip(volume_given);
   EXPECT_EQ(finger.triangles.size(), 179u);
   EXPECT_EQ(finger.vertices.size(), 98u);
   const Surface closed = with_closed_base(finger);
@@ -43,7 +43,7 @@ TEST(Fingertip, HasItsTriangles) {
 
 // Each edge of the closed finger lies between two triangles that run along it in opposite ways.
 TEST(Fingertip, ClosesToAnOrientedSurface) {
-  const Surface closed = with_closed_base(fingertip(kVolume));
+  const Surface closed = with_closed_base(fingertip(volume_given));
   std::vector<std::array<int, 2>> sides;
   for (const auto& triangle : closed.triangles)
     for (std::size_t i = 0; i < 3; ++i) sides.push_back({triangle[i], triangle[(i + 1) % 3]});
@@ -54,7 +54,7 @@ TEST(Fingertip, ClosesToAnOrientedSurface) {
 }
 
 TEST(Fingertip, IsOpenOnlyAtItsBasePlane) {
-  const Surface finger = fingertip(kVolume);
+  const Surface finger = fingertip(volume_given);
   const Neighbours neighbours(finger);
   int rim = 0;
   for (std::size_t v = 0; v < finger.vertices.size(); ++v) {
@@ -66,7 +66,7 @@ TEST(Fingertip, IsOpenOnlyAtItsBasePlane) {
 }
 
 TEST(Fingertip, IsItsMirrorImageToTheBit) {
-  const Surface finger = fingertip(kVolume);
+  const Surface finger = fingertip(volume_given);
   for (const Vec3& vertex : finger.vertices) {
     const Vec3 image(vertex.x(), -vertex.y(), vertex.z());
     EXPECT_NE(std::find(finger.vertices.begin(), finger.vertices.end(), image),
@@ -77,7 +77,7 @@ TEST(Fingertip, IsItsMirrorImageToTheBit) {
 }
 
 TEST(Fingertip, HasTheProportionsOfAFinger) {
-  const Surface finger = fingertip(kVolume);
+  const Surface finger = fingertip(volume_given);
   const double breadth = highest(finger, 1) - lowest(finger, 1);
   const double depth = highest(finger, 2) - lowest(finger, 2);
   EXPECT_GT(breadth, 16e-3);  // Dandekar 2003: 16 to 20 mm
@@ -88,7 +88,7 @@ TEST(Fingertip, HasTheProportionsOfAFinger) {
 
 // Every triangle faces away from the axis, so the surface does not fold.
 TEST(Fingertip, FacesOutwards) {
-  const Surface finger = fingertip(kVolume);
+  const Surface finger = fingertip(volume_given);
   const Vec3 inside = enclosed(with_closed_base(finger)).centroid;
   for (std::size_t t = 0; t < finger.triangles.size(); ++t) {
     const Vec3 normal = twice_area(finger, static_cast<int>(t));
@@ -100,7 +100,7 @@ TEST(Fingertip, FacesOutwards) {
 // On the pad side the section is fuller than the ellipse of the nail side: half way out, an ellipse
 // keeps 0.87 of its height.
 TEST(Fingertip, HasAFlattishPad) {
-  const Surface finger = fingertip(kVolume);
+  const Surface finger = fingertip(volume_given);
   const double bottom = lowest(finger, 2);
   int flat = 0;
   for (const Vec3& vertex : finger.vertices)
@@ -109,7 +109,7 @@ TEST(Fingertip, HasAFlattishPad) {
 }
 
 TEST(Fingertip, ClosedSurfacesStayAsTheyAre) {
-  const Surface closed = with_closed_base(fingertip(kVolume));
+  const Surface closed = with_closed_base(fingertip(volume_given));
   EXPECT_EQ(with_closed_base(closed).vertices, closed.vertices);
 }
 

@@ -15,11 +15,11 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 
 // Every second corner of a cube of side 1: edges of sqrt(2), altitude 2 / sqrt(3).
-const TetMesh kRegular{{{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}, {{0, 2, 1, 3}}};
+const TetMesh regular{{{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}, {{0, 2, 1, 3}}};
 
 TEST(Quality, a_regular_tetrahedron_is_perfect) {
-  ASSERT_GT(signed_volume(kRegular, 0), 0.0);
-  const Quality q = quality(kRegular);
+  ASSERT_GT(signed_volume(regular, 0), 0.0);
+  const Quality q = quality(regular);
   EXPECT_NEAR(q.smallest_angle, std::acos(1.0 / 3.0), 1e-15);  // rounding, as all below
   EXPECT_NEAR(q.largest_angle, std::acos(1.0 / 3.0), 1e-15);
   EXPECT_EQ(q.angles[7], 6);  // 70 to 80 degrees
@@ -47,7 +47,7 @@ TEST(Quality, path_tetrahedra_of_a_cube) {
 
 TEST(Quality, names_the_tetrahedron_with_the_shortest_altitude) {
   // A fifth node on the way from the middle to node 3 cuts it into four.
-  TetMesh one = kRegular;
+  TetMesh one = regular;
   one.nodes.push_back(0.25 * (one.nodes[0] + one.nodes[1] + one.nodes[2] + one.nodes[3]));
   one.nodes.back() += 0.2 * (one.nodes[3] - one.nodes.back());
   one.tetrahedra = {{0, 2, 1, 4}, {2, 3, 1, 4}, {0, 3, 2, 4}, {0, 1, 3, 4}};

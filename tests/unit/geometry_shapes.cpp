@@ -18,8 +18,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-const std::vector<Shape> kShapes{Cuboid{},   Cylinder{},  Ellipsoid{},
-                                 Ligament{}, BoneShaft{}, LayeredLimb{}};
+const std::vector<Shape> shapes_given{Cuboid{},   Cylinder{},  Ellipsoid{},
+                                      Ligament{}, BoneShaft{}, LayeredLimb{}};
 
 Surface outer(const Shape& shape, double spacing) {
   return sampled(shape, {spacing, spacing}).parts.front().surface;
@@ -105,7 +105,7 @@ struct Volume {
 };
 
 TEST(Shapes, surfaces_are_closed_and_look_outwards) {
-  for (const Shape& shape : kShapes)
+  for (const Shape& shape : shapes_given)
     for (const double edges : {0.7, 2.0, 5.0, 11.0})
       for (const Part& part :
            sampled(shape, {spacing(shape, edges), spacing(shape, edges)}).parts) {
@@ -135,7 +135,7 @@ TEST(Shapes, any_size_and_spacing_closes) {
 }
 
 TEST(Shapes, bounding_boxes_begin_at_the_origin) {
-  for (const Shape& shape : kShapes) {
+  for (const Shape& shape : shapes_given) {
     const Surface surface = outer(shape, spacing(shape, 12.0));
     Vec3 low = surface.vertices.front();
     Vec3 high = low;
@@ -197,7 +197,7 @@ TEST(Shapes, a_ligament_is_a_strap_with_round_edges) {
 
 // Chords cut off a part that falls with the square of the spacing.
 TEST(Shapes, volumes_tend_to_the_shapes_with_the_square_of_the_spacing) {
-  for (const Shape& shape : kShapes) {
+  for (const Shape& shape : shapes_given) {
     const double exact = std::visit(Volume{}, shape);
     const auto lost = [&](double edges) {
       return 1.0 - enclosed(outer(shape, spacing(shape, edges))).volume / exact;
@@ -215,7 +215,7 @@ TEST(Shapes, volumes_tend_to_the_shapes_with_the_square_of_the_spacing) {
 
 // Where a ring has more points than the last, and on end faces, angles of 60 degrees cannot be.
 TEST(Shapes, triangles_are_nearly_equilateral) {
-  for (const Shape& shape : kShapes) {
+  for (const Shape& shape : shapes_given) {
     const Extremes found = angles(outer(shape, spacing(shape, 16.0)));
     EXPECT_GT(found.low, 33.0) << shape.index();    // degrees; measured 37 to 45
     EXPECT_LT(found.high, 103.0) << shape.index();  // measured 90 to 100
@@ -246,7 +246,7 @@ TEST(Shapes, sides_along_y_have_equilateral_triangles) {
 }
 
 TEST(Shapes, edges_are_about_as_long_as_asked) {
-  for (const Shape& shape : kShapes) {
+  for (const Shape& shape : shapes_given) {
     const double wanted = spacing(shape, 16.0);
     const Surface surface = outer(shape, wanted);
     for (const auto& triangle : surface.triangles)

@@ -21,8 +21,8 @@
 namespace palpate::geometry {
 namespace {
 
-constexpr double kTime = 60.0;  // s: a thousand times what these meshes need
-const Vec3 kCube(0.015, 0.020, 0.030);
+constexpr double time_given = 60.0;  // s: a thousand times what these meshes need
+const Vec3 cube(0.015, 0.020, 0.030);
 
 void expect_same(const TetMesh& a, const TetMesh& b) {
   EXPECT_EQ(a.nodes, b.nodes);
@@ -47,14 +47,14 @@ class NearTarget : public testing::TestWithParam<int> {};
 
 TEST_P(NearTarget, within_three_percent_and_sound) {
   const int target = GetParam();
-  const TetMesh mesh = tetgen_cuboid(kCube, target, kTime);
+  const TetMesh mesh = tetgen_cuboid(cube, target, time_given);
   const auto count = static_cast<double>(mesh.nodes.size());
   EXPECT_NEAR(count, target, 0.03 * target);  // the promise in tetgen.h
-  EXPECT_NO_THROW(check(mesh, "box", kCube.prod()));
+  EXPECT_NO_THROW(check(mesh, "box", cube.prod()));
 }
 
 TEST_P(NearTarget, edges_on_the_surface_are_as_long_as_inside) {
-  const TetMesh mesh = tetgen_cuboid(kCube, GetParam(), kTime);
+  const TetMesh mesh = tetgen_cuboid(cube, GetParam(), time_given);
   std::set<std::array<int, 2>> on_surface;
   for (const auto& face : boundary_faces(mesh))
     for (std::size_t i = 0; i < 3; ++i) {
@@ -83,12 +83,12 @@ TEST_P(NearTarget, edges_on_the_surface_are_as_long_as_inside) {
 INSTANTIATE_TEST_SUITE_P(Counts, NearTarget, testing::Values(140, 728, 3000));
 
 TEST(TetGen, top_is_flat_and_whole) {
-  const Surface surface = skin(tetgen_cuboid(kCube, 728, kTime)).surface;
+  const Surface surface = skin(tetgen_cuboid(cube, 728, time_given)).surface;
   Vec3 top = Vec3::Zero();
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& corners = surface.triangles[t];
     if (std::all_of(corners.begin(), corners.end(), [&](int corner) {
-          return surface.vertices[static_cast<std::size_t>(corner)].z() == kCube.z();
+          return surface.vertices[static_cast<std::size_t>(corner)].z() == cube.z();
         }))
       top += 0.5 * twice_area(surface, static_cast<int>(t));
   }
@@ -96,30 +96,30 @@ TEST(TetGen, top_is_flat_and_whole) {
 }
 
 TEST(TetGen, two_runs_give_the_same_bits) {
-  expect_same(tetgen_cuboid(kCube, 728, kTime), tetgen_cuboid(kCube, 728, kTime));
+  expect_same(tetgen_cuboid(cube, 728, time_given), tetgen_cuboid(cube, 728, time_given));
 }
 
 // TetGen's predicates keep filters that depend on the size of the body, so sizes differ here.
 TEST(TetGen, four_threads_at_once_give_what_one_gives) {
-  const std::array<Vec3, 4> sizes{kCube, 10.0 * kCube, Vec3(0.06, 0.06, 0.03), Vec3(1, 2, 3)};
+  const std::array<Vec3, 4> sizes{cube, 10.0 * cube, Vec3(0.06, 0.06, 0.03), Vec3(1, 2, 3)};
   std::array<TetMesh, 4> alone;
-  for (std::size_t i = 0; i < 4; ++i) alone[i] = tetgen_cuboid(sizes[i], 500, kTime);
+  for (std::size_t i = 0; i < 4; ++i) alone[i] = tetgen_cuboid(sizes[i], 500, time_given);
   for (int round = 0; round < 5; ++round) {
     std::array<TetMesh, 4> together;
     std::vector<std::thread> threads;
     for (std::size_t i = 0; i < 4; ++i)
-      threads.emplace_back([&, i] { together[i] = tetgen_cuboid(sizes[i], 500, kTime); });
+      threads.emplace_back([&, i] { together[i] = tetgen_cuboid(sizes[i], 500, time_given); });
     for (std::thread& thread : threads) thread.join();
     for (std::size_t i = 0; i < 4; ++i) expect_same(together[i], alone[i]);
   }
 }
 
 TEST(TetGen, signals_do_not_disturb_the_answer) {
-  const TetMesh quiet = tetgen_cuboid(kCube, 728, kTime);
+  const TetMesh quiet = tetgen_cuboid(cube, 728, time_given);
   const auto before = std::signal(SIGALRM, [](int) {});
   const itimerval every_millisecond{{0, 1000}, {0, 1000}};
   setitimer(ITIMER_REAL, &every_millisecond, nullptr);
-  const TetMesh disturbed = tetgen_cuboid(kCube, 728, kTime);
+  const TetMesh disturbed = tetgen_cuboid(cube, 728, time_given);
   const itimerval never{};
   setitimer(ITIMER_REAL, &never, nullptr);
   std::signal(SIGALRM, before);
@@ -129,33 +129,33 @@ TEST(TetGen, signals_do_not_disturb_the_answer) {
 TEST(TetGen, prints_nothing_even_when_asked_to_talk) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  (void)tetgen_surface(box(kCube), "pqVV", kTime);
+  (void)tetgen_surface(box(cube), "pqVV", time_given);
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(TetGen, stops_at_its_time_limit_and_leaves_no_child) {
   const auto start = std::chrono::steady_clock::now();
-  const std::string message = complaint([] { (void)tetgen_cuboid(kCube, 1000000, 0.05); });
+  const std::string message = complaint([] { (void)tetgen_cuboid(cube, 1000000, 0.05); });
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   EXPECT_TRUE(message.ends_with("ask for fewer nodes or allow more time")) << message;
   EXPECT_LT(spent.count(), 5.0);  // s; alone this mesh takes about 10 s a try
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
-  EXPECT_EQ(complaint([] { (void)tetgen_surface(box(kCube), "p", 0.0); }),
+  EXPECT_EQ(complaint([] { (void)tetgen_surface(box(cube), "p", 0.0); }),
             "TetGen did not finish within 0 s; ask for fewer nodes or allow more time");
 }
 
 TEST(TetGen, refuses_fewer_nodes_than_a_box_has) {
-  EXPECT_EQ(complaint([] { (void)tetgen_cuboid(kCube, 7, kTime); }),
+  EXPECT_EQ(complaint([] { (void)tetgen_cuboid(cube, 7, time_given); }),
             "a box cannot be meshed with 7 nodes, as it has 8 corners; ask for 8 nodes or more");
-  EXPECT_EQ(tetgen_cuboid(kCube, 8, kTime).nodes.size(), 8u);
+  EXPECT_EQ(tetgen_cuboid(cube, 8, time_given).nodes.size(), 8u);
 }
 
 // A rod of 100 x 2 x 1 needs nodes all along to keep its shapes good.
 TEST(TetGen, refuses_a_target_it_cannot_come_near) {
   const std::string message = complaint([] {
-    (void)tetgen_cuboid({0.1, 0.002, 0.001}, 20, kTime);
+    (void)tetgen_cuboid({0.1, 0.002, 0.001}, 20, time_given);
   });
   EXPECT_TRUE(message.starts_with("no box mesh near 20 nodes was found, the nearest has "))
       << message;
@@ -168,21 +168,21 @@ TEST(TetGen, names_a_surface_that_cuts_itself) {
   surface.vertices.insert(surface.vertices.end(),
                           {{0.3, 0.3, -0.5}, {0.7, 0.4, -0.5}, {0.5, 0.5, 0.5}});
   surface.triangles.push_back({first, first + 1, first + 2});
-  EXPECT_EQ(complaint([&] { (void)tetgen_surface(surface, "pq", kTime); }),
+  EXPECT_EQ(complaint([&] { (void)tetgen_surface(surface, "pq", time_given); }),
             "TetGen found that the surface cuts itself; mend the surface where its facets cross");
 }
 
 TEST(TetGen, names_an_open_surface) {
   Surface surface = box({1, 1, 1});
   surface.triangles.pop_back();
-  EXPECT_EQ(complaint([&] { (void)tetgen_surface(surface, "pq", kTime); }),
+  EXPECT_EQ(complaint([&] { (void)tetgen_surface(surface, "pq", time_given); }),
             "TetGen found no inside; close the surface, so that every edge has two faces");
 }
 
 TEST(TetGen, survives_a_crash) {
   Surface surface = box({1, 1, 1});
   surface.triangles[0][0] = 1 << 28;  // far beyond the vertices
-  const std::string message = complaint([&] { (void)tetgen_surface(surface, "pq", kTime); });
+  const std::string message = complaint([&] { (void)tetgen_surface(surface, "pq", time_given); });
   EXPECT_TRUE(message.starts_with("TetGen ")) << message;
 }
 
@@ -191,7 +191,7 @@ TEST(TetGen, meshes_any_closed_surface) {
   const Surface surface{
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
       {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
-  const TetMesh mesh = tetgen_surface(surface, "pq1.414a0.01", kTime);
+  const TetMesh mesh = tetgen_surface(surface, "pq1.414a0.01", time_given);
   EXPECT_GT(mesh.tetrahedra.size(), 133u);  // 4/3 in pieces of at most 0.01
   EXPECT_NO_THROW(check(mesh, "octahedron", 4.0 / 3.0));
 }
@@ -204,8 +204,8 @@ TEST(TetGen, numbers_the_regions_where_asked) {
     surface.vertices.push_back(vertex + Vec3(1, 1, 1));
   for (const auto& [a, b, c] : box({1, 1, 1}).triangles)
     surface.triangles.push_back({first + a, first + b, first + c});
-  EXPECT_TRUE(tetgen_surface(surface, "pq", kTime).regions.empty());
-  const TetMesh mesh = tetgen_surface(surface, "pqA", kTime);
+  EXPECT_TRUE(tetgen_surface(surface, "pq", time_given).regions.empty());
+  const TetMesh mesh = tetgen_surface(surface, "pqA", time_given);
   ASSERT_EQ(mesh.regions.size(), mesh.tetrahedra.size());
   std::map<int, double> volumes;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)

@@ -18,11 +18,11 @@
 namespace palpate::geometry {
 namespace {
 
-constexpr double kTime = 60.0;  // s: a hundred times what these meshes need
+constexpr double time_given = 60.0;  // s: a hundred times what these meshes need
 constexpr double degree = std::numbers::pi / 180.0;
 
-const std::vector<Shape> kShapes{Cuboid{},   Cylinder{},  Ellipsoid{},
-                                 Ligament{}, BoneShaft{}, LayeredLimb{}};
+const std::vector<Shape> shapes{Cuboid{},   Cylinder{},  Ellipsoid{},
+                                Ligament{}, BoneShaft{}, LayeredLimb{}};
 
 std::string complaint(const std::function<void()>& work) {
   try {
@@ -34,7 +34,7 @@ std::string complaint(const std::function<void()>& work) {
 }
 
 TetMesh shape_mesh(const Shape& shape, const Target& target, const std::vector<Lump>& lumps = {}) {
-  return tetgen_shape(shape, lumps, target, kTime);
+  return tetgen_shape(shape, lumps, target, time_given);
 }
 
 std::map<int, double> volumes(const TetMesh& mesh) {
@@ -54,7 +54,7 @@ Surface box(double side, const Vec3& at, int cells) {
 }
 
 TEST(TetGenBody, comes_within_three_percent_of_most_targets) {
-  for (const Shape& shape : kShapes)
+  for (const Shape& shape : shapes)
     for (const int target : {400, 800, 3000}) {
       const TetMesh mesh = shape_mesh(shape, {.nodes = target});
       EXPECT_NEAR(static_cast<double>(mesh.nodes.size()), target, 0.03 * target) << shape.index();
@@ -84,7 +84,7 @@ TEST(TetGenBody, meets_the_papers_models) {
 }
 
 TEST(TetGenBody, an_edge_length_is_met_on_average) {
-  for (const Shape& shape : kShapes) {
+  for (const Shape& shape : shapes) {
     const double wanted = extent(shape).minCoeff() / 6.0;
     const TetMesh mesh = shape_mesh(shape, {.edge_length = wanted});
     double sum = 0.0;
@@ -113,7 +113,7 @@ TEST(TetGenBody, a_body_of_one_tissue_names_no_regions) {
 TEST(TetGenBody, a_limbs_regions_fill_what_their_surfaces_enclose) {
   const Body body = sampled(LayeredLimb{}, {0.02, 0.02});
   const auto inside = [&](std::size_t p) { return enclosed(body.parts[p].surface).volume; };
-  const TetMesh mesh = tetgen_body(body, {.edge_length = 0.02}, kTime);
+  const TetMesh mesh = tetgen_body(body, {.edge_length = 0.02}, time_given);
   const auto sums = volumes(mesh);
   ASSERT_EQ(sums.size(), 3u);
   EXPECT_NEAR(sums.at(0), inside(0) - inside(1), 1e-12 * inside(0));  // rounding, as below
@@ -123,7 +123,7 @@ TEST(TetGenBody, a_limbs_regions_fill_what_their_surfaces_enclose) {
 
 // Also where it takes the middle of the shape.
 TEST(TetGenBody, a_lump_has_its_own_region_in_every_shape) {
-  for (const Shape& shape : kShapes) {
+  for (const Shape& shape : shapes) {
     const Vec3 size = extent(shape);
     const bool limb = std::holds_alternative<LayeredLimb>(shape);
     Lump lump{0.5 * size, 0.3 * size.minCoeff(), 7};
@@ -176,7 +176,7 @@ TEST(TetGenBody, surfaces_of_a_user_may_nest) {
   const Body body{{{box(0.06, Vec3::Zero(), 6), 0},
                    {box(0.03, {0.015, 0.015, 0.015}, 4), 5},
                    {box(0.01, {0.02, 0.02, 0.02}, 2), 9}}};
-  const auto sums = volumes(tetgen_body(body, {.nodes = 900}, kTime));
+  const auto sums = volumes(tetgen_body(body, {.nodes = 900}, time_given));
   ASSERT_EQ(sums.size(), 3u);
   EXPECT_NEAR(sums.at(0), 0.06 * 0.06 * 0.06 - 27e-6, 1e-16);  // rounding, as below
   EXPECT_NEAR(sums.at(5), 26e-6, 1e-16);
@@ -186,7 +186,7 @@ TEST(TetGenBody, surfaces_of_a_user_may_nest) {
 TEST(TetGenBody, parts_may_share_a_face) {
   const Body body{
       {{box_surface({0.02, 0.01, 0.01}, {4, 2, 2}), 0}, {box(0.01, Vec3::Zero(), 2), 3}}};
-  const auto sums = volumes(tetgen_body(body, {.nodes = 120}, kTime));
+  const auto sums = volumes(tetgen_body(body, {.nodes = 120}, time_given));
   EXPECT_NEAR(sums.at(0), 1e-6, 1e-18);  // rounding
   EXPECT_NEAR(sums.at(3), 1e-6, 1e-18);
 }
@@ -194,7 +194,7 @@ TEST(TetGenBody, parts_may_share_a_face) {
 TEST(TetGenBody, keeps_the_triangles_of_a_fine_surface) {
   const Body body = sampled(Cylinder{}, {0.01, 0.01});
   const Surface& surface = body.parts.front().surface;
-  const TetMesh mesh = tetgen_body(body, {.nodes = 700}, kTime);
+  const TetMesh mesh = tetgen_body(body, {.nodes = 700}, time_given);
   EXPECT_NEAR(static_cast<double>(mesh.nodes.size()), 700, 0.03 * 700);
   const Skin outside = skin(mesh);
   EXPECT_EQ(outside.surface.vertices.size(), surface.vertices.size());
@@ -206,14 +206,14 @@ TEST(TetGenBody, keeps_the_triangles_of_a_fine_surface) {
 // Twelve triangles leave no room for nodes unless they may be split.
 TEST(TetGenBody, splits_the_triangles_of_a_coarse_surface) {
   const Body body{{{box_surface({0.06, 0.06, 0.03}, {1, 1, 1}), 0}}};
-  const TetMesh by_nodes = tetgen_body(body, {.nodes = 700}, kTime);
+  const TetMesh by_nodes = tetgen_body(body, {.nodes = 700}, time_given);
   EXPECT_NEAR(static_cast<double>(by_nodes.nodes.size()), 700, 0.25 * 700);  // the refusal's bound
-  EXPECT_GT(tetgen_body(body, {.edge_length = 0.01}, kTime).nodes.size(), 300u);
+  EXPECT_GT(tetgen_body(body, {.edge_length = 0.01}, time_given).nodes.size(), 300u);
 }
 
 TEST(TetGenBody, refuses_what_cannot_be_met) {
   const Body cylinder = sampled(Cylinder{}, {0.01, 0.01});
-  EXPECT_EQ(complaint([&] { (void)tetgen_body(cylinder, {.nodes = 100}, kTime); }),
+  EXPECT_EQ(complaint([&] { (void)tetgen_body(cylinder, {.nodes = 100}, time_given); }),
             "no mesh near 100 nodes was found, as the surfaces alone have " +
                 std::to_string(cylinder.parts.front().surface.vertices.size()) +
                 "; ask for about as many, or change the surface");
@@ -230,11 +230,11 @@ TEST(TetGenBody, refuses_surfaces_that_are_inside_out_or_outside) {
   Surface turned = box(0.01, Vec3::Zero(), 2);
   for (auto& triangle : turned.triangles) std::swap(triangle[0], triangle[1]);
   EXPECT_EQ(complaint([&] {
-              (void)tetgen_body({{{turned, 0}}}, {.nodes = 50}, kTime);
+              (void)tetgen_body({{{turned, 0}}}, {.nodes = 50}, time_given);
             }),
             "a surface of the body is inside out; turn its triangles round");
   const Body apart{{{box(0.01, Vec3::Zero(), 2), 0}, {box(0.01, {0.02, 0, 0}, 2), 1}}};
-  EXPECT_EQ(complaint([&] { (void)tetgen_body(apart, {.nodes = 80}, kTime); }),
+  EXPECT_EQ(complaint([&] { (void)tetgen_body(apart, {.nodes = 80}, time_given); }),
             "a part of the body lies outside its outer surface; move it inwards");
 }
 
