@@ -24,7 +24,7 @@ struct PointLaw {
 
 // The penetrations h_i with h_i + sum_j C_ij F_j(h_j) = approach_i wherever h_i > 0; h_i = 0 where
 // the left side would be more. `compliance` is n x n, m/N; `depths` holds a first guess and then
-// the answer. False where nothing balances.                             docs/theory.md (16)
+// the answer. False where nothing balances.                             docs/theory.md (15)
 [[nodiscard]] bool balance(std::span<const PointLaw> laws, std::span<const double> approaches,
                            const Eigen::MatrixXd& compliance, std::span<double> depths);
 

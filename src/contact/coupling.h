@@ -6,7 +6,7 @@ namespace palpate::contact {
 // h is the penetration of eq. (2), travel how far the finger has come below the tissue at rest.
 // one_way: h = travel. series: h = travel - u, u the pressure-weighted sinking of the mesh under
 // the contact. consistent: h = travel - v, v the sinking that Hertz's half-space does not know,
-// read in the ring of surface around the contact.                 docs/theory.md (10)-(15)
+// read in the ring of surface around the contact.                 docs/theory.md (9)-(14)
 enum class Coupling { one_way, series, consistent };
 
 }  // namespace palpate::contact

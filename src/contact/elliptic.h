@@ -33,7 +33,7 @@ struct EllipticLaw {
 // number is not finite. Good to rounding until 1/R_1 + kappa in one direction is 1e-30 of that in
 // the other; as it goes to 0 the ellipse becomes a line and the force grows without bound, long
 // after a half-space has ceased to be a model: `nearly_conforming` says when to stop believing.
-//                                                                  docs/theory.md (24)-(26)
+//                                                                  docs/theory.md (23)-(25)
 [[nodiscard]] std::optional<EllipticLaw> elliptic_law(double modulus, double sphere_radius,
                                                       double kappa_1, double kappa_2);
 
@@ -43,7 +43,7 @@ struct EllipticLaw {
 
 // Radii for `hertz::force` from both curvatures, m. Need R_1 kappa > -1 in both directions.
 // Against the ellipse at a ratio 1:2 of the relative curvatures the force is 4 % and 1 % low, at
-// 1:5 18 % and 5 %.                                                    docs/theory.md (27)
+// 1:5 18 % and 5 %.                                                    docs/theory.md (26)
 [[nodiscard]] double mean_radius(double sphere_radius, double kappa_1,
                                  double kappa_2);  // the paper
 [[nodiscard]] double geometric_radius(double sphere_radius, double kappa_1, double kappa_2);

@@ -1,4 +1,4 @@
-// Friction of the finger: Coulomb's limit (eq. 4), its direction, and stick before slip.
+// Friction of the finger: Coulomb's limit (eq. 4), and stick before slip.
 #pragma once
 
 #include "base/vec3.h"
@@ -10,11 +10,6 @@ namespace palpate::contact::friction {
 // where it does not already rest in F_c, else 0.                Chen 2007 eq. (4); theory.md (7)
 [[nodiscard]] double limit(double coefficient, double contact_force, double weight);
 
-// The friction force on the finger, N: against the slip velocity (m/s, tangential), growing
-// smoothly with it and reaching the limit where the speed is far above `regular_speed` (m/s):
-// -limit v / sqrt(|v|^2 + v_0^2). Zero without slip.                            theory.md (8)
-[[nodiscard]] Vec3 force(double limit, const Vec3& slip_velocity, double regular_speed);
-
 // Cattaneo-Mindlin stick before slip under a tangential force Q below the limit.
 // `shear_compliance` is q = (2 - nu_1)/G_1 + (2 - nu_2)/G_2, 1/Pa.     K. L. Johnson 1985, sec. 7.2
 struct Stick {
@@ -24,5 +19,11 @@ struct Stick {
 };
 [[nodiscard]] Stick stick(double tangential_force, double limit, double contact_radius,
                           double shear_compliance);
+
+// The other way round, N: the tangential force on the tissue where the finger has moved by
+// `stretch` (m, tangential) against it; at most the limit, where all of the contact slips. A longer
+// stretch is cut to what slip leaves of it. Zero without a limit. docs/theory.md (8)
+[[nodiscard]] Vec3 drag(Vec3& stretch, double limit, double contact_radius,
+                        double shear_compliance);
 
 }  // namespace palpate::contact::friction

@@ -8,7 +8,7 @@ namespace palpate::contact {
 
 // The sinking at distance `r` (m) from the centre of a contact of radius `a` (m) that carries
 // `force` (N), on a half-space of E' = E / (1 - nu^2) (Pa); a point load for a = 0. In m.
-// K. L. Johnson 1985, eq. (3.42); docs/theory.md (17)
+// K. L. Johnson 1985, eq. (3.42); docs/theory.md (16)
 [[nodiscard]] inline double half_space_sinking(double r, double force, double a,
                                                double plane_modulus) {
   if (a <= 0.0) return force / (std::numbers::pi * plane_modulus * r);

@@ -23,7 +23,7 @@ inline constexpr int most_spheres = 64;
 // The finger's mass M in `count` spheres (1 to 64) of equal mass M/n, so of radius
 // (3 M / (4 pi rho n))^(1/3), with the finger's centre of gravity:   Chen 2007 eq. (5)
 // in the plane through it, spread as far apart as the finger's outline seen along z allows with the
-// spheres inside where they fit, and mirror-symmetric in y.          docs/theory.md (29)
+// spheres inside where they fit, and mirror-symmetric in y.          docs/theory.md (28)
 // Spheres overlap: a layer of the whole mass does not fit beside one another. `fingertip` is as
 // geometry::fingertip makes it: pad facing -z, symmetric in y, convex seen along z, open at one
 // rim or closed. `density` in kg/m^3.
@@ -38,7 +38,7 @@ enum class Calibration {
   force,  // they press a flat as the one sphere does at the same depth
 };
 
-// The factor on E* of each of `count` spheres.                        docs/theory.md (30)
+// The factor on E* of each of `count` spheres.                        docs/theory.md (29)
 [[nodiscard]] double modulus_factor(Calibration calibration, int count);
 
 }  // namespace palpate::finger

@@ -21,7 +21,7 @@ struct Curvature {
   Vec3 normal = Vec3::UnitZ();  // unit, outward
 };
 
-// kappa_1 t_1 t_1^T + kappa_2 t_2 t_2^T, 1/m.                                docs/theory.md (20)
+// kappa_1 t_1 t_1^T + kappa_2 t_2 t_2^T, 1/m.                                docs/theory.md (19)
 [[nodiscard]] Eigen::Matrix3d shape_tensor(const Curvature& curvature);
 
 // How well a vertex's neighbours tell its curvature.
@@ -101,7 +101,7 @@ class CurvatureStars {
 };
 
 // The mean of three tensors, each turned by the shortest way to the mean normal: continuous as a
-// point moves over the surface, exact on a sphere.                            docs/theory.md (23)
+// point moves over the surface, exact on a sphere.                            docs/theory.md (22)
 [[nodiscard]] Curvature between(const std::array<Curvature, 3>& corners,
                                 const std::array<double, 3>& weights);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double smallest_pivot = 1e-4;
 constexpr double smallest_cubic_pivot = 3e-3;
 
-// Least squares with n unknowns by normal equations.                          docs/theory.md (21)
+// Least squares with n unknowns by normal equations.                          docs/theory.md (20)
 template <std::size_t n>
 class Fit {
  public:
@@ -75,7 +75,7 @@ std::optional<std::array<double, n>> fit(std::size_t count, const Offset& offset
     // The circle that touches the plane in the vertex and goes through the neighbour has the
     // radius (r^2 + z^2) / (2 z), so that z r^2/(r^2 + z^2) is the height of its parabola: on a
     // sphere exact, where z itself has terms of fourth order. Near neighbours count more, for
-    // what the fit leaves out is smaller there.                            docs/theory.md (21)
+    // what the fit leaves out is smaller there.                            docs/theory.md (20)
     const double square = x * x + y * y;
     const double distance = square + z * z;
     fit.add(terms<n>(x, y), z * square / distance, 1.0 / distance);

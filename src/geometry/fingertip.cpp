@@ -40,7 +40,7 @@ std::array<Ring, 7> rings() {
 // The vertex of a ring at `angle` from the pad's line, counter-clockwise seen from the tip.
 Vec3 on_ring(const Ring& ring, double angle) {
   // The outline from above and the nail side are ellipses, the pad side and the pad's line are
-  // |y|^4 + |z|^4 = 1 and |x|^4 + |z|^4 = 1, flatter.                 docs/theory.md (28)
+  // |y|^4 + |z|^4 = 1 and |x|^4 + |z|^4 = 1, flatter.                 docs/theory.md (27)
   const double square = ring.cosine * ring.cosine;
   const double round = std::sqrt(1.0 - square);
   const double flat = std::sqrt(std::sqrt(1.0 - square * square));

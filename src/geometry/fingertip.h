@@ -10,7 +10,7 @@ namespace palpate::geometry {
 // it encloses `volume` (m^3, above 0) once the base is closed. Its proportions are 18 mm breadth to
 // 15 mm depth to 26 mm length: the breadth is the middle of the 16 to 20 mm that K. Dandekar, B. I.
 // Raju and M. A. Srinivasan give for human fingertips (J. Biomech. Eng. 125, 2003); depth and
-// length are assumed. Shape: docs/theory.md (28).
+// length are assumed. Shape: docs/theory.md (27).
 [[nodiscard]] Surface fingertip(double volume);
 
 // The same surface with its rim closed by triangles around one new vertex, the rim's mean; flat

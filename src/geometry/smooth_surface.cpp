@@ -100,7 +100,7 @@ Vec3 SmoothSurface::flat_position(const SurfacePoint& point) const {
 }
 
 Vec3 SmoothSurface::position(const SurfacePoint& point) const {
-  // p + 1/2 sum_i w_i [(v_i - p) . n_i] n_i                              docs/theory.md (18)
+  // p + 1/2 sum_i w_i [(v_i - p) . n_i] n_i                              docs/theory.md (17)
   const Vec3 flat = flat_position(point);
   Vec3 smooth = flat;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -173,7 +173,7 @@ struct SmoothSurface::Crease {
 };
 
 // The curve bulges from the edge as both its sides do: each of them moves the edge by s (1 - s) / 2
-// times a vector, of which the curve has what is along that side's normal.  docs/theory.md (18)
+// times a vector, of which the curve has what is along that side's normal.  docs/theory.md (17)
 SmoothSurface::Crease SmoothSurface::nearest_on_crease(const Vec3& point, int triangle,
                                                        std::size_t edge, double start) const {
   const auto& corners = surface_.triangles[static_cast<std::size_t>(triangle)];

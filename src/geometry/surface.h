@@ -28,7 +28,7 @@ struct Skin {
 
 [[nodiscard]] double area(const Surface& surface);  // m^2
 
-// What a closed surface encloses: negative where it is inside out.            docs/theory.md (19)
+// What a closed surface encloses: negative where it is inside out.            docs/theory.md (18)
 struct Enclosed {
   double volume = 0.0;           // m^3
   Vec3 centroid = Vec3::Zero();  // m, of a homogeneous inside

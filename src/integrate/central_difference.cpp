@@ -28,7 +28,7 @@ void CentralDifference::factor(const Vector& displacement) {
 
 void CentralDifference::step(State& state, const Vector& load) {
   // (2 M + D dt) w = 2 dt^2 (F - f(u)) + (2 M - D dt) (u - u_before)   Chen 2007 eq. (12) in
-  // increments; the consistent first one is dt^2 (F - f) + 2 M dt v   docs/theory.md (39), (40)
+  // increments; the consistent first one is dt^2 (F - f) + 2 M dt v   docs/theory.md (38), (39)
   const bool consistent = first_ && start_ == Start::consistent;
   if (first_) before_ = time_step_ * state.velocity;
   if (first_ && start_ == Start::paper) before_.setZero();

@@ -8,7 +8,7 @@ namespace palpate::integrate {
 
 // How the first step begins. paper: U(-dt) = U(0), first order. consistent: second order; without
 // damping it is U(-dt) = U0 - dt V0 + dt^2 A0 / 2, and under heavy damping, where that would throw
-// the body, it is the trapezoidal rule.                                  docs/theory.md (40)
+// the body, it is the trapezoidal rule.                                  docs/theory.md (39)
 enum class Start { consistent, paper };
 
 // Second order; stable for dt < 2 / omega_max whatever the damping, because mass, drag and

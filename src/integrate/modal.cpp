@@ -39,7 +39,7 @@ void Modal::prepare(double time_step) {
   propagators_.resize(static_cast<std::size_t>(omega_.size()));
   for (Eigen::Index i = 0; i < omega_.size(); ++i) {
     // x = (q, q'/omega, z): q'' + (drag + retardation omega^2) q' + omega^2 q
-    //   + branch omega^2 (q - z) = f,  z' = (q - z) / relaxation           docs/theory.md (42)
+    //   + branch omega^2 (q - z) = f,  z' = (q - z) / relaxation           docs/theory.md (41)
     const double omega = std::max(omega_[i], 1e-9 * omega_[omega_.size() - 1]);
     const double damping = p.drag_rate + p.retardation_time * omega * omega;
     Eigen::Matrix<double, 5, 5> system = Eigen::Matrix<double, 5, 5>::Zero();

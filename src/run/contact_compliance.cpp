@@ -50,7 +50,7 @@ bool Contacts::presses_as_one() const {
          scene_->scenario.finger.calibration == finger::Calibration::force;
 }
 
-// How far the skin at each contact gives way to a newton on each.          docs/theory.md (16)
+// How far the skin at each contact gives way to a newton on each.          docs/theory.md (15)
 void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
   compliance_.setZero(count, count);

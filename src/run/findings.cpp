@@ -101,7 +101,7 @@ class Findings {
     add("depth_ratio", peak.indentation / radius);
     add("contact_radius_ratio", peak.contact_radius / radius);
     add("thickness_ratio", peak.contact_radius / thickness);
-    // JKR pull-off 1.5 pi w R at w = 0.05 J/m^2, of the order of wet skin    docs/theory.md (45)
+    // JKR pull-off 1.5 pi w R at w = 0.05 J/m^2, of the order of wet skin    docs/theory.md (44)
     const double pull_off = 1.5 * std::numbers::pi * 0.05 * radius;
     add("force_over_pull_off", peak.contact_force / pull_off);
     identities();

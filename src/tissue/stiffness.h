@@ -21,7 +21,7 @@ enum class StiffnessRule { van_gelder, fitted };
 // weakly to Van Gelder's values where the nodes leave a choice. The fit is that of one tissue; a
 // spring between tissues then gets the mean modulus of the volume around it: a fit across a stiff
 // interface would take from the soft side's springs what the stiff side has too much.
-//                                                                           docs/theory.md (32)
+//                                                                           docs/theory.md (31)
 [[nodiscard]] std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
                                                    std::span<const double> young_modulus);
 

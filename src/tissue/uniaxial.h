@@ -25,7 +25,7 @@ struct Uniaxial {
 
 // The same of a body of any shape, under the tractions on its whole skin that stretch it evenly
 // along z; modulus and ratio follow from the mean strain, the rest of the answer is left empty.
-// Throws as above.                                                          docs/theory.md (47)
+// Throws as above.                                                          docs/theory.md (46)
 [[nodiscard]] Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh);
 
 }  // namespace palpate::tissue

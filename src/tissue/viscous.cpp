@@ -28,12 +28,12 @@ StepTension step_tension(const ViscousLaw& law, const Memory& memory, const Memo
   // A dashpot that is stretched at once gives an impulse and is then as slack as before.
   if (law.kind == Viscosity::kelvin_voigt && step.end == 0.0) return {elongation, 1.0};
   if (law.kind == Viscosity::kelvin_voigt) {
-    // e_1 = keep e_0 + begin s_0/k + end s_1/k, solved for s_1/k          docs/theory.md (37)
+    // e_1 = keep e_0 + begin s_0/k + end s_1/k, solved for s_1/k          docs/theory.md (36)
     const double past = step.keep * memory.elongation + step.begin * memory.internal;
     return {(elongation - past) / step.end, 1.0 / step.end};
   }
   if (law.kind == Viscosity::standard_linear_solid) {
-    // s/k = e + k_1/k (e - q_1)                                          docs/theory.md (38)
+    // s/k = e + k_1/k (e - q_1)                                          docs/theory.md (37)
     const double past = step.keep * memory.internal + step.begin * memory.elongation;
     const double branch = elongation * (1.0 - step.end) - past;
     return {elongation + law.branch * branch, 1.0 + law.branch * (1.0 - step.end)};

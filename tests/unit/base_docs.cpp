@@ -68,7 +68,7 @@ std::vector<std::string> numbering_faults(const std::string& markdown) {
   return faults;
 }
 
-// Citations such as `theory.md (39), (40)` or `theory.md (10)-(15)` of equations that are not
+// Citations such as `theory.md (38), (39)` or `theory.md (9)-(14)` of equations that are not
 // there.
 std::vector<std::string> citation_faults(const std::vector<Text>& files,
                                          const std::string& theory) {

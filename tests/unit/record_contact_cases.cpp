@@ -151,15 +151,25 @@ TEST(FrictionCases, CattaneoMindlin) {
   expect_case("friction-02", stick.displacement);
 }
 
-TEST(Friction, OpposesSlipAndSaturates) {
-  const Vec3 slip(0.3, -0.4, 0.0);
-  const Vec3 full = contact::friction::force(2.0, slip, 1e-6);
-  EXPECT_NEAR(full.norm(), 2.0, 1e-9);                    // (v0/v)^2 / 2 = 2e-12
-  EXPECT_NEAR(full.dot(slip), -2.0 * slip.norm(), 1e-9);  // straight against
-  const Vec3 slow = contact::friction::force(2.0, 1e-3 * slip, 0.05);
-  EXPECT_LT(slow.norm(), 0.1);  // 2 * 0.0005 / 0.05
-  EXPECT_EQ(contact::friction::force(2.0, Vec3::Zero(), 0.0), Vec3::Zero());
-  EXPECT_EQ(contact::friction::force(2.0, Vec3::Zero(), 1e-3), Vec3::Zero());
+TEST(Friction, DragIsTheInverseOfStick) {
+  const double limit = 2.0;
+  const double radius = 3e-3;
+  const double compliance = 1e-4;
+  const Vec3 along = Vec3(3.0, -4.0, 0.0) / 5.0;
+  for (const double force : {0.0, 0.1, 1.0, 1.99}) {
+    Vec3 stretch = contact::friction::stick(force, limit, radius, compliance).displacement * along;
+    const Vec3 before = stretch;
+    const Vec3 drag = contact::friction::drag(stretch, limit, radius, compliance);
+    EXPECT_NEAR((drag - force * along).norm(), 0.0, 1e-12 * limit);  // rounding of a cube root
+    EXPECT_EQ(stretch, before);
+  }
+  Vec3 far = 1.0 * along;  // m
+  EXPECT_NEAR((contact::friction::drag(far, limit, radius, compliance) - limit * along).norm(), 0.0,
+              1e-15 * limit);  // rounding of a unit vector
+  const double slip = contact::friction::stick(limit, limit, radius, compliance).displacement;
+  EXPECT_NEAR(far.norm(), slip, 1e-15 * slip);  // rounding
+  EXPECT_EQ(contact::friction::drag(far, 0.0, radius, compliance), Vec3::Zero());
+  EXPECT_EQ(far, Vec3::Zero());
 }
 
 TEST(Friction, WeightCountsOnce) {
