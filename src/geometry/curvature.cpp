@@ -65,11 +65,11 @@ Curvature between(const std::array<Curvature, 3>& corners, const std::array<doub
   Vec3 normal = Vec3::Zero();
   for (std::size_t i = 0; i < 3; ++i) normal += weights[i] * corners[i].normal;
   normal.normalize();
-  const auto [axis_x, axis_y] = tangent_axes(normal);
+  const std::array<Vec3, 2> axes = tangent_axes(normal);
   std::array<double, 3> matrix{};
   const auto add = [&](double kappa, const Vec3& direction) {
-    const double x = direction.dot(axis_x);
-    const double y = direction.dot(axis_y);
+    const double x = direction.dot(axes[0]);
+    const double y = direction.dot(axes[1]);
     matrix[0] += kappa * x * x;
     matrix[1] += kappa * x * y;
     matrix[2] += kappa * y * y;
@@ -99,7 +99,7 @@ CurvatureEstimate CurvatureStars::at_point(const Surface& now, int triangle,
   std::array<Curvature, 3> corners;
   CurvatureEstimate all{.status = StarStatus::full, .curvature = {}};
   for (std::size_t i = 0; i < 3; ++i) {
-    const CurvatureEstimate corner = at_side(now, corners_[static_cast<std::size_t>(triangle)][i]);
+    CurvatureEstimate corner = at_side(now, corners_[static_cast<std::size_t>(triangle)][i]);
     if (!corner.known()) return corner;
     if (corner.status == StarStatus::one_sided) all.status = StarStatus::one_sided;
     corners[i] = corner.curvature;

@@ -106,7 +106,7 @@ CurvatureEstimate CurvatureStars::quadric(const Surface& now, int side) const {
   if (star.size() < 5) return {.status = StarStatus::too_few, .curvature = {}};
   const Vec3& origin = position(now, side);
   const auto offset = [&](std::size_t i) -> Vec3 { return position(now, star[i]) - origin; };
-  const CurvatureEstimate degenerate{.status = StarStatus::degenerate, .curvature = {}};
+  CurvatureEstimate degenerate{.status = StarStatus::degenerate, .curvature = {}};
   const double length = spread(now, side);
   // The normal of the triangles is good enough to see the slope by; then once more.
   Vec3 normal = this->normal(now, side).normalized();
