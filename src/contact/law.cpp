@@ -16,6 +16,7 @@ std::optional<ContactLaw> contact_law(CurvatureLaw kind, const SphereLaw& sphere
   ContactLaw law;
   law.mean_curvature = 0.5 * (curvature.kappa_1 + curvature.kappa_2);
   law.axis = curvature.direction_2;
+  law.nearly_conforming = nearly_conforming(sphere.radius, curvature.kappa_1, curvature.kappa_2);
   double force_radius = exact->force_radius;
   if (kind == CurvatureLaw::elliptic) {
     law.a = std::sqrt(exact->along_radius);

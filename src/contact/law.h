@@ -25,6 +25,7 @@ struct ContactLaw {
   double a = 0.0, b = 0.0;      // sqrt(m): semi-axes over sqrt(h), a >= b
   Vec3 axis = Vec3::UnitX();    // along a: the direction of least curvature
   double mean_curvature = 0.0;  // 1/m, of the tissue
+  bool nearly_conforming = false;
 };
 
 // Of a sphere of radius R_1 (m) and E* (Pa) on a tissue so curved (1/m, convex positive). Nothing

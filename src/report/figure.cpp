@@ -8,8 +8,20 @@
 namespace palpate::report {
 namespace {
 
-void set_where_empty(std::string& text, const char* standard) {
-  if (text.empty()) text = standard;
+// The columns of a result folder that a figure draws where a series names none of its own.
+struct Columns {
+  const char* file;
+  const char* x;
+  const char* y;
+};
+
+std::vector<Series> completed(std::vector<Series> series, const Columns& columns) {
+  for (Series& each : series) {
+    if (each.csv_file.empty()) each.csv_file = columns.file;
+    if (each.x_column.empty()) each.x_column = columns.x;
+    if (each.y_column.empty()) each.y_column = columns.y;
+  }
+  return series;
 }
 
 // Negative numbers in brackets, so that they may follow an operator.
@@ -33,57 +45,39 @@ std::string formula(fit::Model model, const std::vector<std::string>& p) {
 }  // namespace
 
 Figure figure_force_indentation(std::vector<Series> series) {
-  for (Series& each : series) {
-    set_where_empty(each.csv_file, "force_indentation.csv");
-    set_where_empty(each.x_column, "indentation_mm");
-    set_where_empty(each.y_column, "force_N");
-  }
   return {.name = "figure_force_indentation",
           .title = "Palpation force against indentation",
           .x_label = "Indentation h (mm)",
           .y_label = "Force F (N)",
           .fit_label = "fit F = a + b ln h",
-          .series = std::move(series)};
+          .series =
+              completed(std::move(series), {"force_indentation.csv", "indentation_mm", "force_N"})};
 }
 
 Figure figure_force_curvature(std::vector<Series> series) {
-  for (Series& each : series) {
-    set_where_empty(each.csv_file, "findings.csv");
-    set_where_empty(each.x_column, "local_curvature_per_m");
-    set_where_empty(each.y_column, "peak_force_N");
-  }
   return {.name = "figure_force_curvature",
           .title = "Palpation force against local curvature",
           .x_label = "Mean curvature, convex positive (1/m)",
           .y_label = "Force F (N)",
-          .series = std::move(series)};
+          .series = completed(std::move(series),
+                              {"findings.csv", "local_curvature_per_m", "peak_force_N"})};
 }
 
 Figure figure_force_slide(std::vector<Series> series) {
-  for (Series& each : series) {
-    set_where_empty(each.csv_file, "force_indentation.csv");
-    set_where_empty(each.x_column, "slide_mm");
-    set_where_empty(each.y_column, "force_N");
-  }
   return {.name = "figure_force_slide",
           .title = "Force along the slide",
           .x_label = "Slide (mm)",
           .y_label = "Force F (N)",
-          .series = std::move(series)};
+          .series = completed(std::move(series), {"force_indentation.csv", "slide_mm", "force_N"})};
 }
 
 Figure figure_strain_time(std::vector<Series> series) {
-  for (Series& each : series) {
-    set_where_empty(each.csv_file, "strain_time.csv");
-    set_where_empty(each.x_column, "time_s");
-    set_where_empty(each.y_column, "strain");
-  }
   return {.name = "figure_strain_time",
           .title = "Strain against time",
           .x_label = "Time (s)",
           .y_label = "Strain",
           .fit_label = "Kelvin-Voigt fit",
-          .series = std::move(series)};
+          .series = completed(std::move(series), {"strain_time.csv", "time_s", "strain"})};
 }
 
 std::optional<FittedCurve> fitted_curve(const fit::Fit& fit) {

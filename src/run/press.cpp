@@ -105,6 +105,11 @@ class Press {
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "
           "side it touched");
+    if (nearly_conforming_)
+      record_.remarks.push_back(
+          "the tissue is hollow beyond half the finger's curvature where it was pressed: the "
+          "contact "
+          "grows wide against the sphere, and Hertz's law is a poor one");
     if (one_sided_)
       record_.remarks.push_back(
           "near a boundary or crease the curvature was read from one side only, to first order");
@@ -210,6 +215,7 @@ class Press {
     record_.contact.push_back(row);
     for (const SphereContact& one : touch_.contacts) {
       on_crease_ = on_crease_ || one.on_crease;
+      nearly_conforming_ = nearly_conforming_ || one.law.nearly_conforming;
       one_sided_ = one_sided_ || (one.one_sided && one.law.mean_curvature != 0.0);
     }
     if (mesh_ && scene_.scenario.solver.rings && touch_.pressed() > 0.0)
@@ -262,6 +268,7 @@ class Press {
   int step_ = 1;
   bool on_crease_ = false;
   bool one_sided_ = false;
+  bool nearly_conforming_ = false;
 };
 
 }  // namespace

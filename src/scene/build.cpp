@@ -34,8 +34,8 @@ tissue::Base make_base(const scenario::Scenario& scenario) {
   return scenario.tissue.base == Base::bonded ? tissue::Base::bonded : tissue::Base::frictionless;
 }
 
-// k_c sum_j w_j^2 / m_j at the deepest contact of the programme, where the mesh is read back: at
-// most k_c over the least mass of a node of the skin.
+// k_c sum_j w_j^2 / m_j at the deepest contact of the programme, where the mesh is read back, as if
+// one sphere pressed with all of the finger's force.
 double contact_frequency_squared(const Scene& scene) {
   if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::series)
     return 0.0;

@@ -1,42 +1,8 @@
 // Where the finger presses, its spheres, local curvature, rings and slides: read, refused, echoed.
-#include <gtest/gtest.h>
-
-#include "scenario/family.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
-
-// Three lines each; what is tested starts on line 4.
-const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
-const std::string creep = "[[step]]\nkind = \"creep\"\nstress = \"1 kPa\"\n";
-
-Scenario read_one(const std::string& text) {
-  return parse(text, "press.toml", {}).cases.at(0).scenario;
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)parse(text, "press.toml", {});
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-
-std::string notes(const std::string& text) {
-  std::string all;
-  for (const Problem& note : parse(text, "press.toml", {}).notes) all += note.text() + "\n";
-  return all;
-}
-
-struct Refused {
-  std::string text;
-  std::string sentence;
-};
-
-void expect_refused(const std::vector<Refused>& cases, const std::string& before = press) {
-  for (const Refused& one : cases) EXPECT_EQ(refusal(before + one.text), one.sentence) << one.text;
-}
 
 // The echo of a text reads back to itself, and holds every line that is wanted.
 void expect_echo(const std::string& text, const std::vector<std::string>& lines) {

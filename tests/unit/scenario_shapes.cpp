@@ -1,11 +1,10 @@
 // Shapes, regions and the files that hold them: read, refused, swept, written back.
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 
 #include "base/files.h"
-#include "scenario/family.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
@@ -13,38 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_literals;
 
-// Three lines each; what is tested starts on line 4.
-const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
-const std::string creep = "[[step]]\nkind = \"creep\"\nstress = \"1 kPa\"\n";
 const std::string tetgen = "mesh = { kind = \"tetgen\", nodes = 100 }\n";
-
-Scenario read_one(const std::string& text) {
-  return parse(text, "press.toml", {}).cases.at(0).scenario;
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)parse(text, "press.toml", {});
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-
-std::string notes(const std::string& text) {
-  std::string all;
-  for (const Problem& note : parse(text, "press.toml", {}).notes) all += note.text() + "\n";
-  return all;
-}
-
-struct Refused {
-  std::string text;
-  std::string sentence;
-};
-
-void expect_refused(const std::vector<Refused>& cases, const std::string& before = press) {
-  for (const Refused& one : cases) EXPECT_EQ(refusal(before + one.text), one.sentence) << one.text;
-}
 
 std::string shape(const std::string& inside) { return "[tissue]\nshape = { " + inside + " }\n"; }
 

@@ -1,0 +1,45 @@
+// What tests of scenarios ask of a text: what is read, refused, noted.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "scenario/family.h"
+
+namespace palpate::scenario {
+
+// Three lines each; what is tested starts on line 4.
+inline const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
+inline const std::string creep = "[[step]]\nkind = \"creep\"\nstress = \"1 kPa\"\n";
+
+inline Scenario read_one(const std::string& text) {
+  return parse(text, "press.toml", {}).cases.at(0).scenario;
+}
+
+inline std::string refusal(const std::string& text) {
+  try {
+    (void)parse(text, "press.toml", {});
+    return "accepted";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+inline std::string notes(const std::string& text) {
+  std::string all;
+  for (const Problem& note : parse(text, "press.toml", {}).notes) all += note.text() + "\n";
+  return all;
+}
+
+struct Refused {
+  std::string text;
+  std::string sentence;
+};
+
+inline void expect_refused(const std::vector<Refused>& cases, const std::string& before = press) {
+  for (const Refused& one : cases) EXPECT_EQ(refusal(before + one.text), one.sentence) << one.text;
+}
+
+}  // namespace palpate::scenario
