@@ -94,17 +94,36 @@ CurvatureEstimate CurvatureStars::at_vertex(const Surface& now, int vertex, int 
   return at_side(now, first);
 }
 
-CurvatureEstimate CurvatureStars::at_point(const Surface& now, int triangle,
-                                           const std::array<double, 3>& weights) const {
-  std::array<Curvature, 3> corners;
+std::array<CurvatureEstimate, 3> CurvatureStars::at_corners(const Surface& now,
+                                                            int triangle) const {
+  std::array<CurvatureEstimate, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i)
+    corners[i] = at_side(now, corners_[static_cast<std::size_t>(triangle)][i]);
+  return corners;
+}
+
+CurvatureEstimate between(const std::array<CurvatureEstimate, 3>& corners,
+                          const std::array<double, 3>& weights) {
   CurvatureEstimate all{.status = StarStatus::full, .curvature = {}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    CurvatureEstimate corner = at_side(now, corners_[static_cast<std::size_t>(triangle)][i]);
-    if (!corner.known()) return corner;
-    if (corner.status == StarStatus::one_sided) all.status = StarStatus::one_sided;
-    corners[i] = corner.curvature;
+  const Curvature* known = nullptr;
+  for (const CurvatureEstimate& corner : corners) {
+    if (corner.status != StarStatus::full) all.status = corner.status;
+    if (corner.known()) known = &corner.curvature;
   }
-  all.curvature = between(corners, weights);
+  if (known == nullptr) return all;
+  if (all.status != StarStatus::full) all.status = StarStatus::one_sided;
+  std::array<Curvature, 3> curvatures;
+  std::array<double, 3> left{};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    curvatures[i] = corners[i].known() ? corners[i].curvature : *known;
+    left[i] = corners[i].known() ? weights[i] : 0.0;
+    sum += left[i];
+  }
+  // All of the point's weight is on corners that tell nothing: any of the others must do.
+  if (sum <= 0.0) left = {1.0, 1.0, 1.0};
+  for (double& weight : left) weight /= sum > 0.0 ? sum : 3.0;
+  all.curvature = between(curvatures, left);
   return all;
 }
 

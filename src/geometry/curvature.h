@@ -65,10 +65,8 @@ class CurvatureStars {
   [[nodiscard]] CurvatureEstimate at_vertex(const Surface& now, int vertex,
                                             int triangle = -1) const;
 
-  // At a point of a triangle, the weights of whose corners sum to 1: see `between`. Refused where
-  // one of the corners is; `one_sided` where one of them is.
-  [[nodiscard]] CurvatureEstimate at_point(const Surface& now, int triangle,
-                                           const std::array<double, 3>& weights) const;
+  // At the corners of a triangle, on its side of any crease.
+  [[nodiscard]] std::array<CurvatureEstimate, 3> at_corners(const Surface& now, int triangle) const;
 
  private:
   // A side is a vertex together with those of its triangles that hang together without a crease.
@@ -108,6 +106,11 @@ class CurvatureStars {
 // The same curvature in another tangent plane, turned there by the shortest way. `normal` is of
 // unit length and not opposite to the old one.
 [[nodiscard]] Curvature turned_to(const Curvature& curvature, const Vec3& normal);
+
+// The same of estimates: corners that tell nothing leave their part to the others, and the answer
+// is then as doubtful as the worst of them; refused only where none tells anything.
+[[nodiscard]] CurvatureEstimate between(const std::array<CurvatureEstimate, 3>& corners,
+                                        const std::array<double, 3>& weights);
 
 // The symmetric matrix (xx, xy, yy) in the tangent plane of a unit normal, in the axes that
 // `tangent_axes` gives, by its principal values.

@@ -64,51 +64,27 @@ std::optional<std::string> Contacts::find_curvature(const MeshAnswer& mesh,
                                                     const geometry::SurfacePoint& at,
                                                     SphereContact& contact,
                                                     geometry::Curvature& here) {
-  const int triangle = at.triangle;
   std::array<geometry::CurvatureEstimate, 3> corners;
-  const auto estimate = [&](const geometry::Surface& now) {
-    for (std::size_t i = 0; i < 3; ++i)
-      corners[i] = stars_.at_vertex(
-          now, surface_->surface().triangles[static_cast<std::size_t>(triangle)][i], triangle);
-  };
   if (mesh.shape != nullptr) {
     geometry::Surface now = surface_->surface();
     for (std::size_t v = 0; v < now.vertices.size(); ++v)
       if (mesh.nodes[v] >= 0) now.vertices[v] += mesh.shape->segment<3>(3 * mesh.nodes[v]);
-    estimate(now);
+    corners = stars_.at_corners(now, at.triangle);
   } else {
-    const auto known = known_curvature_.find(triangle);
-    if (known != known_curvature_.end()) {
-      corners = known->second;
-    } else {
-      estimate(surface_->surface());
-      known_curvature_[triangle] = corners;
-    }
+    auto known = known_curvature_.find(at.triangle);
+    if (known == known_curvature_.end())
+      known =
+          known_curvature_.emplace(at.triangle, stars_.at_corners(surface_->surface(), at.triangle))
+              .first;
+    corners = known->second;
   }
-  // Corners that tell nothing leave their part to the others.
-  std::array<geometry::Curvature, 3> curvatures;
-  std::array<double, 3> weights{};
-  double sum = 0.0;
-  geometry::StarStatus worst = geometry::StarStatus::full;
-  const geometry::Curvature* any = nullptr;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (corners[i].status != geometry::StarStatus::full) worst = corners[i].status;
-    if (corners[i].known()) any = &corners[i].curvature;
-  }
-  if (any == nullptr)
+  const geometry::CurvatureEstimate found =
+      geometry::between(corners, {at.weights[0], at.weights[1], at.weights[2]});
+  if (!found.known())
     return "the skin's curvature at the contact cannot be told: " +
-           std::string(geometry::explanation(worst)) + "; use a finer mesh";
-  for (std::size_t i = 0; i < 3; ++i) {
-    curvatures[i] = corners[i].known() ? corners[i].curvature : *any;
-    weights[i] = corners[i].known() ? at.weights[static_cast<Eigen::Index>(i)] : 0.0;
-    sum += weights[i];
-  }
-  if (sum <= 0.0)
-    weights = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-  else
-    for (double& weight : weights) weight /= sum;
-  contact.one_sided = contact.one_sided || worst != geometry::StarStatus::full;
-  here = geometry::between(curvatures, weights);
+           std::string(geometry::explanation(found.status)) + "; use a finer mesh";
+  contact.one_sided = contact.one_sided || found.status == geometry::StarStatus::one_sided;
+  here = found.curvature;
   return std::nullopt;
 }
 

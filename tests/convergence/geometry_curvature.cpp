@@ -52,7 +52,7 @@ Errors at_centres(const Known& body, const std::function<Vec3(const Vec3&)>& foo
   Errors errors;
   for (std::size_t t = 0; t < body.surface.triangles.size(); ++t) {
     const CurvatureEstimate found =
-        stars.at_point(body.surface, static_cast<int>(t), {1.0 / 3, 1.0 / 3, 1.0 / 3});
+        between(stars.at_corners(body.surface, static_cast<int>(t)), {1.0 / 3, 1.0 / 3, 1.0 / 3});
     Vec3 centre = Vec3::Zero();
     for (const int v : body.surface.triangles[t])
       centre += body.surface.vertices[static_cast<std::size_t>(v)] / 3.0;

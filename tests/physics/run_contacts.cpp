@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "contact/elliptic.h"
@@ -159,6 +160,19 @@ TEST(Contacts, HertzIsTheEllipticClosedForm) {
 }
 
 // The mesh gives place and curvature only; both are of second order in its edges.
+TEST(Contacts, NearlyConformingTissueIsSaid) {
+  const auto said = [](const std::string& curvature) {
+    const auto record =
+        run_text({"tissue.shape={ kind = \"half_space\", curvature = \"" + curvature + "\" }"},
+                 press_closed_form);
+    return std::any_of(record.remarks.begin(), record.remarks.end(), [](const std::string& remark) {
+      return remark.find("hollow beyond half") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(said("-45 1/m"));  // the limit is 1 / (2 * 11 mm)
+  EXPECT_TRUE(said("-46 1/m"));
+}
+
 TEST(Contacts, OneWayOnAMeshApproachesTheClosedForm) {
   for (const Top& top : tops) {
     double before = 1.0;

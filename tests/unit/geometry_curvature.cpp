@@ -188,7 +188,7 @@ TEST(Curvature, TwoSidesOfARim) {
   EXPECT_NEAR(wall.curvature.kappa_1, 1.0, 0.01);  // the figure, here met by one side too
   EXPECT_NEAR(wall.curvature.kappa_2, 0.0, 0.01);  // as above
   // The middle of a rim triangle mixes sides of one kind only.
-  const CurvatureEstimate point = at.at_point(surface, rim_triangle, {0.2, 0.3, 0.5});
+  const CurvatureEstimate point = between(at.at_corners(surface, rim_triangle), {0.2, 0.3, 0.5});
   ASSERT_EQ(point.status, StarStatus::one_sided);
   EXPECT_NEAR(point.curvature.kappa_1, 0.0, 1e-11);  // rounding
 }
@@ -219,7 +219,7 @@ TEST(Curvature, RefusesWithAReason) {
   const Surface one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}}, {{0, 1, 2}}};
   EXPECT_EQ(stars(one).at_vertex(one, 0).status, StarStatus::too_few);
   EXPECT_EQ(stars(one).at_vertex(one, 3).status, StarStatus::too_few) << "no triangle at all";
-  EXPECT_EQ(stars(one).at_point(one, 0, {1.0, 0.0, 0.0}).status, StarStatus::too_few);
+  EXPECT_EQ(between(stars(one).at_corners(one, 0), {1.0, 0.0, 0.0}).status, StarStatus::too_few);
 
   // A band one cell wide: its two lines of vertices cannot tell how it bends across.
   const Surface band = test::split_quads({.cells = {9, 1}, .wraps = {false, false}, .jitter = 0.0},
@@ -262,8 +262,8 @@ TEST(Curvature, IsOneValueOnEveryEdgeFromBothItsTriangles) {
       if (theirs[i] == mine[0]) weights[i] = 0.3;
       if (theirs[i] == mine[1]) weights[i] = 0.7;
     }
-    const auto here = at.at_point(body.surface, static_cast<int>(t), {0.3, 0.7, 0.0});
-    const auto there = at.at_point(body.surface, other, weights);
+    const auto here = between(at.at_corners(body.surface, static_cast<int>(t)), {0.3, 0.7, 0.0});
+    const auto there = between(at.at_corners(body.surface, other), weights);
     EXPECT_LT((shape_tensor(here.curvature) - shape_tensor(there.curvature)).norm(),
               1e-13);  // rounding of curvatures near 1
   }
