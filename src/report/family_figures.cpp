@@ -84,7 +84,9 @@ std::vector<Figure> family_figures(const scenario::Family& family,
       const auto nothing = [](const fit::NamedFit&) { return false; };
       std::vector<Series> along = series_of(family, records, fits, nothing);
       for (Series& series : along) series.step = slide;
-      figures.push_back(figure_force_slide(along));
+      const auto& step = family.base.steps[static_cast<std::size_t>(slide) - 1];
+      const bool keeps_force = std::get<scenario::Slide>(step).keep == scenario::Slide::Keep::force;
+      figures.push_back(keeps_force ? figure_travel_slide(along) : figure_force_slide(along));
       for (Series& series : figures.front().series) series.step = 1;  // before it slid
     }
     if (const auto figure = curvature_figure(family, records)) figures.push_back(*figure);

@@ -71,6 +71,15 @@ Figure figure_force_slide(std::vector<Series> series) {
           .series = completed(std::move(series), {"force_indentation.csv", "slide_mm", "force_N"})};
 }
 
+Figure figure_travel_slide(std::vector<Series> series) {
+  return {
+      .name = "figure_travel_slide",
+      .title = "Travel along the slide at the same force",
+      .x_label = "Slide (mm)",
+      .y_label = "Travel (mm)",
+      .series = completed(std::move(series), {"force_indentation.csv", "slide_mm", "travel_mm"})};
+}
+
 Figure figure_strain_time(std::vector<Series> series) {
   return {.name = "figure_strain_time",
           .title = "Strain against time",

@@ -52,6 +52,9 @@ struct Figure {
 // Force along a slide: force_indentation.csv, slide_mm, force_N.
 [[nodiscard]] Figure figure_force_slide(std::vector<Series> series);
 
+// Travel along a slide that keeps its force: force_indentation.csv, slide_mm, travel_mm.
+[[nodiscard]] Figure figure_travel_slide(std::vector<Series> series);
+
 // Strain against time (Figure 7 of the paper): strain_time.csv, time_s, strain.
 [[nodiscard]] Figure figure_strain_time(std::vector<Series> series);
 

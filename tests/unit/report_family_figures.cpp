@@ -26,5 +26,52 @@ TEST(FamilyFigures, NameTheFitThatIsDrawn) {
   EXPECT_EQ(relax.series.at(0).y_column, "stress_kPa");
 }
 
+const std::string indent = "[[step]]\nkind = \"indent\"\n";
+
+TEST(FamilyFigures, ASlideIsDrawnAlongItsWay) {
+  const auto drawn = [](const std::string& keep) {
+    const auto family = scenario::parse(
+        "schema = 1\n" + indent + "[[step]]\nkind = \"slide\"\nkeep = \"" + keep + "\"\n",
+        "test.toml", {});
+    record::CaseRecord record;
+    record.name = "test";
+    return report::family_figures(family, {record}, {});
+  };
+  const auto force = drawn("travel");
+  ASSERT_EQ(force.size(), 2U);
+  EXPECT_EQ(force[0].series.at(0).step, 1);  // the slide is no indentation
+  EXPECT_EQ(force[1].name, "figure_force_slide");
+  EXPECT_EQ(force[1].series.at(0).x_column, "slide_mm");
+  EXPECT_EQ(force[1].series.at(0).y_column, "force_N");
+  EXPECT_EQ(force[1].series.at(0).step, 2);
+  // Where the force stays, the travel is what is felt.
+  const auto travel = drawn("force");
+  ASSERT_EQ(travel.size(), 2U);
+  EXPECT_EQ(travel[1].name, "figure_travel_slide");
+  EXPECT_EQ(travel[1].series.at(0).y_column, "travel_mm");
+}
+
+TEST(FamilyFigures, CurvaturesAreDrawnWhereThreeDiffer) {
+  const auto family = scenario::parse(
+      "schema = 1\n" + indent + "[sweep]\n\"tissue.material\" = [\"skin\", \"muscle\"]\n",
+      "test.toml", {});
+  const auto drawn = [&](const std::vector<double>& curvatures) {
+    std::vector<record::CaseRecord> records;
+    for (const double curvature : curvatures) {
+      record::CaseRecord record;
+      record.findings.push_back({"local_curvature_per_m", curvature});
+      records.push_back(record);
+    }
+    return report::family_figures(family, records, {});
+  };
+  EXPECT_EQ(drawn({1.0, 2.0, 1.0}).size(), 1U);
+  const auto figures = drawn({1.0, 2.0, 3.0});
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[1].name, "figure_force_curvature");
+  ASSERT_EQ(figures[1].series.size(), 2U);  // a curve a tissue
+  EXPECT_EQ(figures[1].series[1].case_name, "muscle");
+  EXPECT_EQ(figures[1].series[1].column, "tissue.material");
+}
+
 }  // namespace
 }  // namespace palpate
