@@ -10,7 +10,6 @@ namespace palpate::test {
 // m u'' + d u' + (tau k) u' + k u = F, along x.
 struct OneMass final : integrate::Body {
   using Vector = integrate::Vector;
-  using SparseMatrix = integrate::SparseMatrix;
 
   double k = 1.0;
   double m = 1.0;
@@ -36,16 +35,17 @@ struct OneMass final : integrate::Body {
   [[nodiscard]] bool linear() const override { return true; }
   [[nodiscard]] const integrate::Proportional& proportional() const override { return damping; }
   void force(const Vector& u, std::span<const double>, Vector& f) const override { f = k * u; }
-  [[nodiscard]] SparseMatrix diagonal(double x) const {
-    SparseMatrix matrix(3, 3);
-    matrix.insert(0, 0) = x;
-    matrix.insert(1, 1) = 1.0;
-    matrix.insert(2, 2) = 1.0;
+  [[nodiscard]] SplitMatrix diagonal(double x) const {
+    SplitMatrix matrix;
+    matrix.local.resize(3, 3);
+    matrix.local.insert(0, 0) = x;
+    matrix.local.insert(1, 1) = 1.0;
+    matrix.local.insert(2, 2) = 1.0;
     return matrix;
   }
-  [[nodiscard]] SparseMatrix stiffness() const override { return diagonal(k); }
+  [[nodiscard]] SplitMatrix stiffness() const override { return diagonal(k); }
   [[nodiscard]] bool has_dashpots() const override { return tau > 0.0; }
-  [[nodiscard]] SparseMatrix dashpots(const Vector&) const override { return diagonal(tau * k); }
+  [[nodiscard]] SplitMatrix dashpots(const Vector&) const override { return diagonal(tau * k); }
   void dashpot_force(const Vector&, const Vector& v, Vector& f) const override { f = tau * k * v; }
   [[nodiscard]] std::vector<double> memory_at(const Vector& u) const override { return {u[0]}; }
   void remember(const Vector& u, const integrate::TimeStep&,
@@ -58,7 +58,7 @@ struct OneMass final : integrate::Body {
     f = k * u;
     if (step.size > 0.0) f[0] += tau * k * (u[0] - memory[0]) / step.size;
   }
-  [[nodiscard]] SparseMatrix step_stiffness(const Vector&, std::span<const double>,
+  [[nodiscard]] SplitMatrix step_stiffness(const Vector&, std::span<const double>,
                                             const integrate::TimeStep& step) const override {
     return diagonal(k + (step.size > 0.0 ? tau * k / step.size : 0.0));
   }

@@ -15,6 +15,7 @@
 #include "cli/verbs.h"
 #include "record/csv.h"
 #include "run/bench.h"
+#include "scenario/words.h"
 
 namespace palpate::cli {
 namespace {
@@ -53,25 +54,6 @@ constexpr Model models[] = {
      {0.31, 0.57, 0.29}},
 };
 
-const char* integrator_word(Solver::Integrator integrator) {
-  switch (integrator) {
-    case Solver::Integrator::central_difference: return "central_difference";
-    case Solver::Integrator::backward_difference: return "backward_difference";
-    case Solver::Integrator::quasi_static: return "quasi_static";
-    case Solver::Integrator::modal: return "modal";
-  }
-  return "";
-}
-
-const char* coupling_word(contact::Coupling coupling) {
-  switch (coupling) {
-    case contact::Coupling::one_way: return "one_way";
-    case contact::Coupling::series: return "series";
-    case contact::Coupling::consistent: return "consistent";
-  }
-  return "";
-}
-
 class Table {
  public:
   explicit Table(int frames, const Talk& talk) : frames_(frames), talk_(talk) {
@@ -89,21 +71,24 @@ class Table {
   bool measure(const std::string& name, const scene::Scene& scene, const Paper* paper) {
     const Solver& solver = scene.scenario.solver;
     const std::string rings = solver.rings ? std::to_string(*solver.rings) : "all";
-    talk_.progress(name + ", " + integrator_word(solver.integrator) + ", rings " + rings);
+    talk_.progress(name + ", " +
+                   scenario::words::word(scenario::words::integrators, solver.integrator) +
+                   ", rings " + rings);
     const run::Bench bench = run::bench(scene, frames_);
     talk_.progress("");
     if (bench.wrong) {
-      Talk::error("palpate: " + name + ", " + integrator_word(solver.integrator) + ", rings " +
-                  rings + ", " + *bench.wrong);
+      Talk::error("palpate: " + name + ", " +
+                  scenario::words::word(scenario::words::integrators, solver.integrator) +
+                  ", rings " + rings + ", " + *bench.wrong);
       return false;
     }
     std::vector<record::Cell> row{
         name,
         static_cast<double>(scene.specimen->mesh.nodes.size()),
         static_cast<double>(scene.specimen->mesh.tetrahedra.size()),
-        integrator_word(solver.integrator),
+        scenario::words::word(scenario::words::integrators, solver.integrator),
         solver.rings ? record::Cell(static_cast<double>(*solver.rings)) : record::Cell("all"),
-        coupling_word(scene.scenario.contact.coupling),
+        scenario::words::word(scenario::words::couplings, scene.scenario.contact.coupling),
         static_cast<double>(scene.specimen->plan.substeps),
         static_cast<double>(bench.frames.size())};
     add_percentiles(bench, row);

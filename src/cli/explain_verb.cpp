@@ -10,6 +10,7 @@
 #include "cli/verbs.h"
 #include "run/family.h"
 #include "scenario/family.h"
+#include "scenario/words.h"
 #include "scene/specimen_mesh.h"
 
 namespace palpate::cli {
@@ -69,6 +70,7 @@ const char* integrator_word(Solver::Integrator integrator) {
     case Solver::Integrator::backward_difference: return "backward differences (implicit Euler)";
     case Solver::Integrator::quasi_static: return "quasi-static steps, without inertia";
     case Solver::Integrator::modal: return "modal coordinates, exact in time";
+    case Solver::Integrator::automatic: break;  // has been answered when the scene was built
   }
   return "";
 }
@@ -103,7 +105,10 @@ class Explanation {
          quantity_text(*tissue.young_modulus, unit::kPa) + ", nu " +
          number_text(*tissue.poisson_ratio) + ", density " +
          quantity_text(*tissue.density, unit::density));
-    if (scene_.choice.model == Solver::Model::hertz) return;
+    if (!scene_.specimen && scene_.relaxation.elastic()) {
+      line("  viscosity    takes no part");
+      return;
+    }
     using tissue::Viscosity;
     switch (tissue.viscosity) {
       case Viscosity::none: line("  viscosity    none"); break;
@@ -119,7 +124,18 @@ class Explanation {
         line("  viscosity    standard linear solid, relaxation time " +
              quantity_text(*tissue.relaxation_time, unit::s) + ", E_0 / E_inf " +
              number_text(*tissue.instantaneous_ratio));
+        break;
+      case Viscosity::prony:
+        for (const scenario::Branch& branch : tissue.branches)
+          line("  viscosity    Prony branch, relaxation time " +
+               quantity_text(branch.relaxation_time, unit::s) + ", ratio " +
+               number_text(branch.ratio));
     }
+    if (!scene_.scenario.uniform())
+      line(
+          scene_.relaxation.elastic()
+              ? "               the contact's force is that of the relaxed tissue"
+              : "               in the contact too: Lee and Radok's force, Ting's on the way back");
   }
 
   void shape() {
@@ -227,7 +243,14 @@ class Explanation {
             "is lost; `consistent` does not");
         break;
       case contact::Coupling::consistent:
-        line("  coupling     consistent: less that sinking of the mesh which Hertz does not know");
+        line(scene_.layer
+                 ? "  coupling     consistent: the flat layer's exact law, less what the mesh "
+                   "sinks besides"
+                 : "  coupling     consistent: less that sinking of the mesh which Hertz does "
+                   "not know");
+        break;
+      case contact::Coupling::resolved:
+        line("  coupling     resolved: the mesh carries all of the tissue, node by node");
     }
     const auto& rings = scene_.scenario.solver.rings;
     if (rings)
@@ -258,21 +281,36 @@ class Explanation {
   }
 
   void choice() {
-    const bool hertz = scene_.choice.model == Solver::Model::hertz;
-    const bool given = scene_.scenario.solver.model != Solver::Model::automatic;
-    line(std::string("  model        ") + (hertz ? "hertz" : "mass_spring") +
-         (given ? ", as the scenario says" : ", chosen by these questions:"));
+    const Solver::Model model = scene_.scenario.solver.model;
+    const auto model_word = [](Solver::Model one) {
+      return scenario::words::word(scenario::words::models, one);
+    };
+    line(std::string("  model        ") + model_word(model) +
+         (scene_.choice.given ? ", as the scenario says; `auto` would ask:"
+                              : ", chosen by these questions:"));
     for (const scene::Question& question : scene_.choice.questions)
       line("                 " + question.asked + " " + question.measure + " = " +
            rounded_text(question.number) + ", threshold " + rounded_text(question.threshold) +
            ": " + question.answer);
-    if (hertz) line("  cost         a closed form: no mesh, no time steps");
+    for (const scene::Rung& rung : scene_.choice.rungs) {
+      std::string text =
+          std::string("  ") + (rung.model == model ? "> " : "  ") + model_word(rung.model);
+      text.resize(22, ' ');
+      line(text + (rung.cannot.empty()
+                       ? "error about " + rounded_text(100.0 * rung.error, 2) + " %, about " +
+                             rounded_text(rung.seconds, 1) + " s to set up"
+                       : "cannot: " + rung.cannot));
+    }
   }
 
   void mesh(const scene::Specimen& specimen) {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
+    if (scene_.scenario.solver.model == Solver::Model::coupled_springs) {
+      line("  network      coupled in every tetrahedron: it has the tissue's own E and nu");
+      return;
+    }
     const bool several = !scene_.scenario.regions.empty();
     line(std::string("  network      measured on the specimen") +
          (several ? ", were it all `tissue.material`" : "") + ": E " +

@@ -7,24 +7,52 @@
 namespace palpate::contact {
 
 double PointLaw::force(double depth) const {
-  return depth > 0.0 ? coefficient * depth * std::sqrt(depth) : 0.0;
+  if (depth <= 0.0) return 0.0;
+  if (layer != nullptr) return share * part * layer->force(depth);
+  const double root = std::sqrt(depth);
+  return part * coefficient * depth * root * (1.0 + deep_root * root + deep * depth);
 }
 
 double PointLaw::stiffness(double depth) const {
-  return depth > 0.0 ? 1.5 * coefficient * std::sqrt(depth) : 0.0;
+  if (depth <= 0.0) return 0.0;
+  if (layer != nullptr) return share * part * layer->stiffness(depth);
+  const double root = std::sqrt(depth);
+  return part * coefficient * root * (1.5 + 2.0 * deep_root * root + 2.5 * deep * depth);
 }
+
+double PointLaw::last_depth() const { return layer != nullptr ? layer->last_depth() : deepest; }
+
+namespace {
+
+// Where h + C F(h), C < 0, stops growing: its slope 1 + C dF/dh is zero there, dF/dh growing with
+// h.
+double greatest_balance(const PointLaw& law, double compliance, double high) {
+  double low = 0.0;
+  while (!std::isfinite(high)) {
+    low = 1e-9;
+    high = 2e-9;
+    while (1.0 + compliance * law.stiffness(high) > 0.0) {
+      low = high;
+      high *= 2.0;
+    }
+  }
+  if (1.0 + compliance * law.stiffness(high) > 0.0) return high;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (1.0 + compliance * law.stiffness(middle) > 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
 
 std::optional<double> penetration(const PointLaw& law, double approach, double compliance) {
   if (approach <= 0.0) return 0.0;
   const auto excess = [&](double h) { return h + compliance * law.force(h) - approach; };
   double low = 0.0;
-  double high = approach;
-  if (compliance < 0.0) {
-    // h + C F(h) grows until its slope 1 + C dF/dh is zero, at sqrt(h) = -2 / (3 C c).
-    const double root = -2.0 / (3.0 * compliance * law.coefficient);
-    high = root * root;
-    if (excess(high) < 0.0) return std::nullopt;
-  }
+  double high = std::min(approach, law.last_depth());
+  if (compliance < 0.0) high = greatest_balance(law, compliance, law.last_depth());
+  if (excess(high) < 0.0) return std::nullopt;
   // Newton within a bracket: the function rises all the way, so it cannot miss.
   double h = std::min(approach, high);
   for (int i = 0; i < 100; ++i) {

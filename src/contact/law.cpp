@@ -8,8 +8,19 @@
 
 namespace palpate::contact {
 
+std::array<double, 2> ContactLaw::semi_axes(double depth) const {
+  if (depth <= 0.0) return {0.0, 0.0};
+  if (point.layer != nullptr) {
+    const double radius = radius_share * point.layer->contact_radius(depth);
+    return {radius, radius};
+  }
+  const double root = std::sqrt(depth);
+  return {a * root, b * root};
+}
+
 std::optional<ContactLaw> contact_law(CurvatureLaw kind, const SphereLaw& sphere,
-                                      const geometry::Curvature& curvature) {
+                                      const geometry::Curvature& curvature,
+                                      const LayerContact* layer) {
   const auto exact =
       elliptic_law(sphere.modulus, sphere.radius, curvature.kappa_1, curvature.kappa_2);
   if (!exact) return std::nullopt;
@@ -27,6 +38,7 @@ std::optional<ContactLaw> contact_law(CurvatureLaw kind, const SphereLaw& sphere
                        : geometric_radius(sphere.radius, curvature.kappa_1, curvature.kappa_2);
     law.a = law.b = std::sqrt(force_radius);
   }
+  law.point.layer = layer;
   law.point.coefficient = hertz::force(1.0, force_radius, sphere.modulus);  // of h = 1 m
   return law;
 }

@@ -67,8 +67,9 @@ double RingReader::spacing(const Patch& patch) const {
   return patch.turned > 0.0 ? here + patch.turned * (of(patch.beyond.triangle) - here) : here;
 }
 
-void RingReader::read(const Patch& patch, std::span<const double> shares, Reading& reading) const {
-  const double spacing = this->spacing(patch);
+void RingReader::read(const Patch& patch, std::span<const double> shares, double away,
+                      Reading& reading) const {
+  const double spacing = std::max(this->spacing(patch), away);
   const double radius = patch.radius();
   const auto& vertices = surface_->surface().vertices;
   struct Candidate {

@@ -23,8 +23,10 @@ class RingReader {
   // The ring that carries the sinking of the surface around a patch to its centre: weighted least
   // squares of c0 + c1 r^2 over the vertices that face as the patch does; the reading is c0.
   // `shares`: the greatest share of any patch's load that each vertex carries (one a vertex of the
-  // surface); a vertex that carries a hundredth is not read.              docs/theory.md (11)
-  void read(const Patch& patch, std::span<const double> shares, Reading& reading) const;
+  // surface); a vertex that carries a hundredth is not read. The ring stands a spacing beyond the
+  // patch, or `away` (m) where that is more.                             docs/theory.md (11)
+  void read(const Patch& patch, std::span<const double> shares, double away,
+            Reading& reading) const;
 
   // The edge of a typical triangle in the patch's part of the surface, m: that of the equilateral
   // triangle of the mean area between creases.

@@ -1,10 +1,13 @@
 // Nodes on a lattice; in each cell one walk along its edges for each order of the axes.
 #include "geometry/cuboid.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 
@@ -41,6 +44,66 @@ void refuse_too_many(const Triple& cells) {
                   " cells has more tetrahedra than can be numbered; ask for fewer cells");
 }
 
+// The q above 1 with q^count = target. By halves and products alone: pow() differs between
+// processors, and the places of nodes reach every number of a run.
+double root(int count, double target) {
+  double low = 1.0;
+  double high = target;
+  for (double q = 0.5 * (low + high); q > low && q < high; q = 0.5 * (low + high)) {
+    double power = 1.0;
+    for (int i = 0; i < count; ++i) power *= q;
+    (power < target ? low : high) = q;
+  }
+  return high;
+}
+
+// Where `count` cells end that reach a `length` (m) together, from their finest end. Cells that are
+// as long as sqrt(1 + d^2 / core^2) says at the distance d end at d_i = core sinh(i theta):
+//   d_i = length (q^i - q^-i) / (q^count - q^-count),  (q^count - q^-count) / 2 = length / core
+std::vector<double> growing(double length, int count, double core) {
+  const double steepness = length / core;
+  const double target = steepness + std::sqrt(1.0 + steepness * steepness);
+  const double q = root(count, target);
+  std::vector<double> ends;
+  double power = 1.0;
+  for (int i = 1; i < count; ++i) {
+    power *= q;
+    ends.push_back(length * ((power - 1.0 / power) / (target - 1.0 / target)));
+  }
+  ends.push_back(length);
+  return ends;
+}
+
+// The cells' ends along an axis of length `size` (m), from 0.
+std::vector<double> borders(double size, int cells, double ratio, double finest) {
+  std::vector<double> all{0.0};
+  if (ratio == 1.0 || cells == 1) {
+    // i / n first, so that the last node lies exactly at `size`.
+    for (int i = 1; i <= cells; ++i) all.push_back(size * (static_cast<double>(i) / cells));
+    return all;
+  }
+  const double below = finest;
+  const double above = size - finest;
+  // sqrt(1 + d^2 / core^2) is the ratio at the farther end.
+  const double core = std::max(below, above) / std::sqrt((ratio - 1.0) * (ratio + 1.0));
+  // Both sides get cells as they hold of the integral of 1 / sqrt(1 + d^2 / core^2), and one at
+  // least; nothing but a whole number remains of the logarithms.
+  const double density = std::asinh(below / core);
+  const double share = density / (density + std::asinh(above / core));
+  const int count = std::clamp(static_cast<int>(std::lround(share * cells)), below > 0.0 ? 1 : 0,
+                               above > 0.0 ? cells - 1 : cells);
+  if (count > 0) {
+    const std::vector<double> down = growing(below, count, core);
+    for (int i = count - 2; i >= 0; --i) all.push_back(finest - down[static_cast<std::size_t>(i)]);
+    all.push_back(finest);
+  }
+  if (count < cells) {
+    for (const double up : growing(above, cells - count, core)) all.push_back(finest + up);
+    all.back() = size;
+  }
+  return all;
+}
+
 // The walk from the cell's start corner to the opposite one, one axis after the other.
 std::array<int, 4> path_tetrahedron(const Lattice& lattice, const Triple& cell,
                                     const std::array<bool, 3>& reflected, const AxisOrder& order) {
@@ -63,19 +126,22 @@ std::array<int, 4> path_tetrahedron(const Lattice& lattice, const Triple& cell,
 
 }  // namespace
 
-TetMesh cuboid(const Vec3& size, const Triple& cells, CellPattern pattern) {
+TetMesh cuboid(const Vec3& size, const Triple& cells, CellPattern pattern, const Grading& grading) {
   assert(size.minCoeff() > 0.0 && size.allFinite());
   assert(cells[0] >= 1 && cells[1] >= 1 && cells[2] >= 1);
   refuse_too_many(cells);
 
+  assert(grading.ratio >= 1.0);
+  std::array<std::vector<double>, 3> places;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<Eigen::Index>(axis);
+    places[axis] =
+        borders(size[a], cells[axis], grading.ratio, std::clamp(grading.finest[a], 0.0, size[a]));
+  }
   TetMesh mesh;
-  // i / n first, so that the last node lies exactly at `size`.
-  for (int k = 0; k <= cells[2]; ++k)
-    for (int j = 0; j <= cells[1]; ++j)
-      for (int i = 0; i <= cells[0]; ++i)
-        mesh.nodes.emplace_back(size.x() * (static_cast<double>(i) / cells[0]),
-                                size.y() * (static_cast<double>(j) / cells[1]),
-                                size.z() * (static_cast<double>(k) / cells[2]));
+  for (const double z : places[2])
+    for (const double y : places[1])
+      for (const double x : places[0]) mesh.nodes.emplace_back(x, y, z);
 
   const Lattice lattice{cells};
   const bool mirrored = pattern == CellPattern::mirrored;

@@ -13,13 +13,22 @@ enum class CellPattern {
   mirrored,  // reflected along an axis in that axis's every second cell ("Union Jack")
 };
 
+// Where the cells of a box are small: at `finest` (m, in the box), alike around it, and from there
+// along each axis ever longer, in geometric growth, to `ratio` (at least 1) times that at its
+// farther end. With 1 all cells are alike, wherever `finest` is. More cells divide the same course
+// of sizes: meshes of one grading are one family.
+struct Grading {
+  double ratio = 1.0;
+  Vec3 finest = Vec3::Zero();
+};
+
 // A box with one corner in the origin and z upwards. `size` in m, each above 0; `cells` along x, y
 // and z, each at least 1. Every cell becomes the six path tetrahedra 000 -> ... -> 111, one for
 // each order of the axes (Kuhn 1960; Freudenthal 1942), so that neighbours share whole faces.
 // Nodes are numbered x fastest, then y, then z. With `mirrored` and even counts the mesh is its
-// own mirror image in the box's three middle planes.
+// own mirror image in the box's three middle planes; a graded one in those that hold `finest`.
 // Throws MeshError where the tetrahedra cannot be counted in an int.
-[[nodiscard]] TetMesh cuboid(const Vec3& size, const std::array<int, 3>& cells,
-                             CellPattern pattern);
+[[nodiscard]] TetMesh cuboid(const Vec3& size, const std::array<int, 3>& cells, CellPattern pattern,
+                             const Grading& grading = {});
 
 }  // namespace palpate::geometry

@@ -1,14 +1,14 @@
 // What a time integrator may ask of a body: masses, forces, matrices. It knows no springs.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <span>
 #include <vector>
+
+#include "base/split_matrix.h"
 
 namespace palpate::integrate {
 
 using Vector = Eigen::VectorXd;
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // How the viscous memory passes through a step: exactly for a linear course of elongation, exactly
 // for a load that is held, by implicit Euler, or not at all (a jump that takes no time).
@@ -22,10 +22,13 @@ struct TimeStep {
 
 // Damping and memory that are proportional to mass or stiffness, as a modal solution needs them.
 struct Proportional {
+  struct Branch {
+    double time = 0.0;   // s, of relaxation
+    double ratio = 0.0;  // its stiffness is ratio K
+  };
   double drag_rate = 0.0;         // 1/s: D = drag_rate M
   double retardation_time = 0.0;  // s: D = retardation_time K
-  double relaxation_time = 0.0;   // s: a branch of stiffness branch K behind a dashpot
-  double branch = 0.0;
+  std::vector<Branch> branches;   // springs behind dashpots
 };
 
 // All vectors have one entry a degree of freedom. Held ones do not move.
@@ -44,11 +47,11 @@ class Body {
                      Vector& force) const = 0;
 
   // The elastic stiffness at rest, N/m; held rows are the identity's.
-  [[nodiscard]] virtual SparseMatrix stiffness() const = 0;
+  [[nodiscard]] virtual SplitMatrix stiffness() const = 0;
 
   // Dashpots between nodes: their matrix (N s/m; held rows are the identity's), and their force.
   [[nodiscard]] virtual bool has_dashpots() const = 0;
-  [[nodiscard]] virtual SparseMatrix dashpots(const Vector& displacement) const = 0;
+  [[nodiscard]] virtual SplitMatrix dashpots(const Vector& displacement) const = 0;
   virtual void dashpot_force(const Vector& displacement, const Vector& velocity,
                              Vector& force) const = 0;
 
@@ -62,7 +65,7 @@ class Body {
   // included, and its derivative (held rows are the identity's).
   virtual void step_force(const Vector& displacement, std::span<const double> memory,
                           const TimeStep& step, Vector& force) const = 0;
-  [[nodiscard]] virtual SparseMatrix step_stiffness(const Vector& displacement,
+  [[nodiscard]] virtual SplitMatrix step_stiffness(const Vector& displacement,
                                                     std::span<const double> memory,
                                                     const TimeStep& step) const = 0;
 };

@@ -18,8 +18,9 @@ CentralDifference::CentralDifference(const Body& body, double time_step, Start s
 
 void CentralDifference::factor(const Vector& displacement) {
   dashpots_ = body_->dashpots(displacement);
-  SparseMatrix left = time_step_ * dashpots_;
-  left.diagonal() += diagonal_;
+  SplitMatrix left = dashpots_;
+  left *= time_step_;
+  left.local.diagonal() += diagonal_;
   // A sum of positive masses and non-negative dashpots: always positive definite.
   [[maybe_unused]] const bool factored = factors_.factor(left);
   eigen_assert(factored || !displacement.allFinite());

@@ -36,7 +36,7 @@ class CentralDifference {
   Vector before_;    // u(t) - u(t - dt)
   Vector diagonal_;  // 2 M + D dt, where no dashpots are
   Cholesky factors_;
-  SparseMatrix dashpots_;
+  SplitMatrix dashpots_;
   Vector force_;
   Vector right_;
 };

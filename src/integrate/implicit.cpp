@@ -12,9 +12,9 @@ bool Implicit::linearise(const Vector& displacement, const Vector& load) {
   const double dt = step_.size;
   const bool moving = inertia_ == Inertia::backward_difference && dt > 0.0;
   if (!has_factors_ || !body_->linear() || !(factored_ == step_)) {
-    SparseMatrix matrix = body_->step_stiffness(displacement, state_->memory, step_);
+    SplitMatrix matrix = body_->step_stiffness(displacement, state_->memory, step_);
     // M / dt^2 + D / dt + K                              docs/theory.md (40)
-    if (moving) matrix.diagonal() += body_->mass() / (dt * dt) + body_->drag() / dt;
+    if (moving) matrix.local.diagonal() += body_->mass() / (dt * dt) + body_->drag() / dt;
     if (!factors_.factor(matrix)) return false;
     factored_ = step_;
     has_factors_ = true;

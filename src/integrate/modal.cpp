@@ -12,7 +12,7 @@ Modal::Modal(const Body& body) : body_(&body) {
   const auto held = body.held();
   for (std::size_t d = 0; d < held.size(); ++d)
     if (held[d] == 0) free_.push_back(static_cast<Eigen::Index>(d));
-  const SparseMatrix stiffness = body.stiffness();
+  const SplitMatrix stiffness = body.stiffness();
   const auto size = static_cast<Eigen::Index>(free_.size());
   Vector scale(size);
   std::vector<Eigen::Index> position(held.size(), -1);
@@ -21,12 +21,17 @@ Modal::Modal(const Body& body) : body_(&body) {
     position[static_cast<std::size_t>(free_[static_cast<std::size_t>(i)])] = i;
   }
   Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(size, size);
-  for (Eigen::Index column = 0; column < stiffness.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry) {
-      const Eigen::Index i = position[static_cast<std::size_t>(entry.row())];
-      const Eigen::Index j = position[static_cast<std::size_t>(entry.col())];
-      if (i >= 0 && j >= 0) scaled(i, j) = entry.value() * scale[i] * scale[j];
-    }
+  const auto add = [&](const Eigen::SparseMatrix<double>& matrix) {
+    for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
+        const Eigen::Index i = position[static_cast<std::size_t>(entry.row())];
+        const Eigen::Index j = position[static_cast<std::size_t>(entry.col())];
+        if (i >= 0 && j >= 0) scaled(i, j) += entry.value() * scale[i] * scale[j];
+      }
+  };
+  add(stiffness.local);
+  if (stiffness.weights.size() > 0)
+    add(stiffness.shared.transpose() * stiffness.weights.asDiagonal() * stiffness.shared);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposition(scaled);
   omega_ = decomposition.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   shapes_ = scale.asDiagonal() * decomposition.eigenvectors();
@@ -38,28 +43,32 @@ void Modal::prepare(double time_step) {
   const Proportional& p = body_->proportional();
   propagators_.resize(static_cast<std::size_t>(omega_.size()));
   for (Eigen::Index i = 0; i < omega_.size(); ++i) {
-    // x = (q, q'/omega, z): q'' + (drag + retardation omega^2) q' + omega^2 q
-    //   + branch omega^2 (q - z) = f,  z' = (q - z) / relaxation           docs/theory.md (41)
+    // x = (q, q'/omega, z_1, ...): q'' + (drag + retardation omega^2) q' + omega^2 q
+    //   + sum of ratio omega^2 (q - z_i) = f,  z_i' = (q - z_i) / time_i     docs/theory.md (41)
     const double omega = std::max(omega_[i], 1e-9 * omega_[omega_.size() - 1]);
     const double damping = p.drag_rate + p.retardation_time * omega * omega;
-    Eigen::Matrix<double, 5, 5> system = Eigen::Matrix<double, 5, 5>::Zero();
+    const auto inner = static_cast<Eigen::Index>(p.branches.size());
+    const Eigen::Index size = 2 + inner;
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size + 2, size + 2);
     system(0, 1) = omega;
-    system(1, 0) = -omega * (1.0 + p.branch);
+    system(1, 0) = -omega;
     system(1, 1) = -damping;
-    system(1, 2) = omega * p.branch;
-    if (p.relaxation_time > 0.0) {
-      system(2, 0) = 1.0 / p.relaxation_time;
-      system(2, 2) = -1.0 / p.relaxation_time;
+    for (Eigen::Index b = 0; b < inner; ++b) {
+      const auto& branch = p.branches[static_cast<std::size_t>(b)];
+      system(1, 0) -= omega * branch.ratio;
+      system(1, 2 + b) = omega * branch.ratio;
+      system(2 + b, 0) = 1.0 / branch.time;
+      system(2 + b, 2 + b) = -1.0 / branch.time;
     }
     // The force is f0 + (f1 - f0) s with s' = 1/dt, carried as two more unknowns.
-    system(1, 3) = 1.0 / omega;
-    system(3, 4) = 1.0 / time_step;
-    const Eigen::Matrix<double, 5, 5> exponent = system * time_step;
-    const Eigen::Matrix<double, 5, 5> whole = exponent.exp();
+    system(1, size) = 1.0 / omega;
+    system(size, size + 1) = 1.0 / time_step;
+    const Eigen::MatrixXd exponent = system * time_step;
+    const Eigen::MatrixXd whole = exponent.exp();
     Propagator& propagator = propagators_[static_cast<std::size_t>(i)];
-    propagator.keep = whole.topLeftCorner<3, 3>();
-    propagator.end = whole.block<3, 1>(0, 4);
-    propagator.begin = whole.block<3, 1>(0, 3) - propagator.end;
+    propagator.keep = whole.topLeftCorner(size, size);
+    propagator.end = whole.block(0, size + 1, size, 1);
+    propagator.begin = whole.block(0, size, size, 1) - propagator.end;
   }
 }
 
@@ -74,7 +83,8 @@ void Modal::begin(const State& state, double time_step, MemoryRule rule) {
   if (!started_) {
     // The modes move about the displacement of the start, which must be in balance.
     started_ = true;
-    modes_.assign(static_cast<std::size_t>(omega_.size()), Mode::Zero());
+    modes_.assign(static_cast<std::size_t>(omega_.size()),
+                  Mode::Zero(2 + static_cast<Eigen::Index>(body_->proportional().branches.size())));
     load_before_ = Vector::Zero(omega_.size());
     settled_ = state.displacement;
   }

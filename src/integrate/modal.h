@@ -25,12 +25,12 @@ class Modal {
   [[nodiscard]] const Vector& frequencies() const { return omega_; }  // 1/s, ascending
 
  private:
-  // One mode's position, velocity over omega, and inner position of the viscous branch.
-  using Mode = Eigen::Vector3d;
+  // One mode's position, velocity over omega, and inner position of every viscous branch.
+  using Mode = Eigen::VectorXd;
   struct Propagator {
-    Eigen::Matrix3d keep;
-    Eigen::Vector3d begin;  // per modal force at the start of the step
-    Eigen::Vector3d end;    // per modal force at its end
+    Eigen::MatrixXd keep;
+    Mode begin;  // per modal force at the start of the step
+    Mode end;    // per modal force at its end
   };
 
   void prepare(double time_step);

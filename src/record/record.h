@@ -67,6 +67,7 @@ struct CaseRecord {
   ScenePicture picture;  // without faces where none is asked for
   std::vector<Finding> findings;
   std::vector<std::string> remarks;  // on validity, in sentences
+  std::string chosen;                // what stands for every `auto`, as `key = word`, by commas
   double seconds = 0.0;              // that the case took: for run.json only
 };
 

@@ -174,7 +174,9 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
                                               const Origin& origin) {
   std::vector<std::string> warnings;
   files_.clear();
-  const std::string echo = scenario::echo(*family_);
+  scenario::Chosen chosen;
+  for (const record::CaseRecord& record : records) chosen.emplace_back(record.name, record.chosen);
+  const std::string echo = scenario::echo(*family_, chosen);
   write("scenario.toml", echo);
   for (const scenario::InputFile& input : family_->inputs)
     if (&input != &family_->inputs.front()) write(input.name, input.content);

@@ -76,6 +76,7 @@ Bench bench(const scene::Scene& scene, int frames) {
   PressedMesh mesh(scene);
   mesh.set_step(plan.substep);
   Stages stages(scene, plan.substeps);
+  ContactHistory history(scene);
   Touch touch;
   const Vec3 first = scene::first_touch(scene).finger;
   touch.finger = first;
@@ -88,7 +89,8 @@ Bench bench(const scene::Scene& scene, int frames) {
       for (int k = 1; k <= plan.substeps && !wrong; ++k) {
         const double done = frame + static_cast<double>(k) / plan.substeps;
         touch.travel = deepest * done / all;
-        wrong = mesh.step(first - touch.travel * Vec3::UnitZ(), done * plan.time_step, touch);
+        wrong = mesh.step(first - touch.travel * Vec3::UnitZ(), done * plan.time_step, history,
+                          touch);
       }
     });
     if (!wrong) wrong = stages.frame(touch.finger, before, touch, time);

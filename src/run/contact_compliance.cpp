@@ -1,5 +1,6 @@
 // How far the skin at each contact gives way to a force on each of them.
 #include <cmath>
+#include <numbers>
 
 #include "contact/half_space.h"
 #include "run/contacts.h"
@@ -71,7 +72,8 @@ void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereC
       continue;
     }
     if (consistent) {
-      rings_.read(patch, shares_, reading);
+      // What is left beside a layer comes from the sides: it is as smooth as the layer is thick.
+      rings_.read(patch, shares_, scene_->layer ? scene_->layer->thickness : 0.0, reading);
     } else {
       reading.vertices = own.load.vertices;
       reading.weights = own.load.shares;
@@ -79,6 +81,9 @@ void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereC
     for (Eigen::Index j = 0; j < count; ++j) {
       const SphereContact& pressed = contacts[static_cast<std::size_t>(j)];
       compliance_(i, j) = sinking(mesh, patch, reading, pressed);
+      // A block cannot be stiffer than the endless layer it is cut from: what a coarse mesh says
+      // against that is its own error.
+      if (cut_from_layer() && i == j) compliance_(i, j) = std::max(0.0, compliance_(i, j));
       if (i != j && !presses_as_one()) compliance_(i, j) += unknown_to_hertz(patch, pressed);
     }
   }
@@ -107,7 +112,9 @@ double Contacts::sinking(const MeshAnswer& mesh, const contact::Patch& patch,
     double moved = read.between(-patch.normal, mesh.nodes[static_cast<std::size_t>(vertex)],
                                 -pressed.patch.normal, nodes, pressed.load.shares, mesh.freedoms);
     if (consistent)
-      moved -= aligned * rings_.half_space(vertex, pressed.load, plane_modulus(), spacing);
+      moved -= aligned * rings_.half_space(vertex, pressed.load, plane_modulus(), spacing) -
+               stiffer_layer(aligned, surface_->surface().vertices[static_cast<std::size_t>(vertex)],
+                             pressed);
     sum += reading.weights[a] * moved;
   }
   return sum;
@@ -137,8 +144,31 @@ double Contacts::other_tissues(const MeshAnswer& mesh, const SphereContact& own,
 double Contacts::unknown_to_hertz(const contact::Patch& patch, const SphereContact& other) const {
   if (scene_->scenario.contact.coupling != Coupling::consistent) return 0.0;
   return patch.normal.dot(other.patch.normal) *
-         contact::half_space_sinking((patch.position - other.patch.position).norm(), 1.0,
-                                     other.patch.radius(), plane_modulus());
+             contact::half_space_sinking((patch.position - other.patch.position).norm(), 1.0,
+                                         other.patch.radius(), plane_modulus()) -
+         stiffer_layer(patch.normal.dot(other.patch.normal), patch.position, other);
+}
+
+// Whether the whole specimen moves, of one tissue, and what is read is read beside a layer.
+bool Contacts::cut_from_layer() const {
+  return scene_->layer && scene_->specimen && !scene_->specimen->one_tissue &&
+         !scene_->scenario.solver.rings &&
+         scene_->scenario.contact.coupling == Coupling::consistent;
+}
+
+// How much less than a half-space the flat layer that the law knows sinks at a place, per newton on
+// a contact, m/N.
+double Contacts::stiffer_layer(double aligned, const Vec3& at, const SphereContact& pressed) const {
+  if (!scene_->layer) return 0.0;
+  const double thickness = scene_->layer->thickness;
+  const auto& vertices = surface_->surface().vertices;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < pressed.load.vertices.size(); ++j) {
+    const double r =
+        (at - vertices[static_cast<std::size_t>(pressed.load.vertices[j])]).norm();
+    sum += pressed.load.shares[j] * scene_->specimen->sinking->gamma(r / thickness);
+  }
+  return aligned * sum / (std::numbers::pi * plane_modulus() * thickness);
 }
 
 double Contacts::plane_modulus() const {

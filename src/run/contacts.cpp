@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "run/resolved_contact.h"
 
 namespace palpate::run {
 namespace {
@@ -29,7 +30,16 @@ Contacts::Contacts(const scene::Scene& scene)
       spreader_(*surface_),
       rings_(*surface_),
       stars_(surface_->surface(), surface_->neighbours(), curvature_options(scene)),
-      shares_(surface_->surface().vertices.size(), 0.0) {}
+      shares_(surface_->surface().vertices.size(), 0.0) {
+  if (scene.scenario.contact.coupling == contact::Coupling::resolved)
+    resolved_ = std::make_unique<ResolvedContact>(scene);
+  // C = 3.4 a^2 sqrt(rho G) / (1 - nu) beside F' = 2 E' a = 4 G a / (1 - nu)   Lysmer 1966
+  const tissue::Uniaxial& measured = scene.specimen->measured;
+  const double shear = measured.young_modulus / (2.0 * (1.0 + measured.poisson_ratio));
+  radiation_ = 0.425 / plane_modulus() * std::sqrt(*scene.scenario.tissue.density / shear);
+}
+
+Contacts::~Contacts() = default;
 
 void Contacts::detect(const Vec3& finger, const MeshAnswer& mesh,
                       std::vector<SphereContact>& found) {
@@ -42,9 +52,11 @@ void Contacts::detect(const Vec3& finger, const MeshAnswer& mesh,
     detector_.refit(moved_);
   }
   const double radius = scene_->finger.sphere_radius;
+  // Skin that swings may come up to a finger which does not reach it at rest.
+  const double reach = radius + rise(mesh);
   found.clear();
   for (std::size_t i = 0; i < scene_->finger.centres.size(); ++i) {
-    detector_.find(finger + scene_->finger.centres[i], radius, moved_, feet_);
+    detector_.find(finger + scene_->finger.centres[i], reach, moved_, feet_);
     for (const auto& foot : feet_) {
       SphereContact contact;
       contact.sphere = static_cast<int>(i);
@@ -100,11 +112,18 @@ std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereCont
   }
   const auto law =
       contact::contact_law(scene_->scenario.contact.law,
-                           {scene_->finger.sphere_radius, scene_->finger.sphere_modulus}, here);
+                           {scene_->finger.sphere_radius, scene_->finger.sphere_modulus}, here,
+                           scene_->layer ? &*scene_->layer : nullptr);
   if (!law)
     return "the tissue is hollow and conforms to the finger (curvature " +
            rounded_text(here.kappa_2) + " 1/m): Hertz does not hold there";
   contact.law = *law;
+  if (contact.law.point.layer != nullptr && presses_as_one()) {
+    // The layer is that of the one sphere: a^2 = R h, and each R is n^(-1/3) of its radius.
+    const auto count = static_cast<double>(scene_->finger.centres.size());
+    contact.law.point.share = 1.0 / count;
+    contact.law.radius_share = std::pow(count, -1.0 / 6.0);
+  }
   // The curvature's axis turned into the patch's own tangent plane.
   Vec3 axis = law->axis - law->axis.dot(contact.patch.normal) * contact.patch.normal;
   contact.patch.axis =
@@ -127,9 +146,9 @@ void Contacts::carry_on(const Touch& before, SphereContact& contact) const {
 
 void Contacts::shape_patches(std::vector<SphereContact>& contacts) {
   for (SphereContact& contact : contacts) {
-    const double root = std::sqrt(std::max(0.0, contact.depth));
-    contact.patch.a = contact.law.a * root;
-    contact.patch.b = contact.law.b * root;
+    const auto [a, b] = contact.law.semi_axes(contact.depth);
+    contact.patch.a = a;
+    contact.patch.b = b;
     spreader_.spread(contact.patch, contact.load);
   }
 }
@@ -158,23 +177,21 @@ void Contacts::share_places(std::vector<SphereContact>& contacts) {
       const double overlap = 1.0 - apart / reach;
       parts[i] += overlap * overlap;
     }
-  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].law.point.coefficient /= parts[i];
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].law.point.part = 1.0 / parts[i];
 }
 
 std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch) {
   std::vector<SphereContact>& contacts = touch.contacts;
   const std::size_t count = contacts.size();
   std::vector<contact::PointLaw> laws(count);
-  std::vector<double> coefficients(count);
-  for (std::size_t i = 0; i < count; ++i) coefficients[i] = contacts[i].law.point.coefficient;
   std::vector<double> approaches(count);
   std::vector<double> depths(count);
   const double settled = 1e-12 * scene_->finger.sphere_radius;
+  if (mesh.moving != nullptr) find_motion(mesh, contacts);
   // Explicit steps read the mesh once, over the patch of the step before.
   const int passes = moving_ && mesh.influence == nullptr ? 1 : most_patches;
   for (int pass = 0; pass < passes; ++pass) {
     shape_patches(contacts);
-    for (std::size_t i = 0; i < count; ++i) contacts[i].law.point.coefficient = coefficients[i];
     share_places(contacts);
     for (std::size_t i = 0; i < count; ++i) {
       if (moving_) approach_moving_skin(touch.finger, contacts[i]);
@@ -183,15 +200,16 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
       depths[i] = contacts[i].depth;
     }
     find_compliance(mesh, contacts);
-    if (!contact::balance(laws, approaches, compliance_, depths))
-      return "no penetration balances the contact: the layer is too thin for this coupling";
+    if (mesh.moving != nullptr) add_motion(*mesh.moving, contacts, approaches);
+    if (!contact::balance(laws, approaches,
+                          mesh.moving != nullptr ? whole_compliance_ : compliance_, depths))
+      return "no penetration balances the contact: the layer is too thin for this depth";
     double change = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-      change = std::max(
-          change, contacts[i].law.a *
-                      std::abs(std::sqrt(depths[i]) - std::sqrt(std::max(0.0, contacts[i].depth))));
+      change = std::max(change, std::abs(contacts[i].law.semi_axes(depths[i])[0] -
+                                         contacts[i].law.semi_axes(contacts[i].depth)[0]));
       contacts[i].depth = depths[i];
-      contacts[i].force = laws[i].force(depths[i]);
+      contacts[i].force = contacts[i].elastic = laws[i].force(depths[i]);
     }
     if (change <= settled || passes == 1) return std::nullopt;
   }
@@ -200,16 +218,24 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
 
 std::optional<std::string> Contacts::find(const Vec3& finger, const MeshAnswer& mesh,
                                           Touch& touch) {
+  if (resolved_) return resolved_->find(finger, mesh, touch);
   std::vector<SphereContact> found;
   detect(finger, mesh, found);
+  if (mesh.moving != nullptr) leave_apart(mesh, found);
   for (SphereContact& contact : found) {
     if (auto wrong = give_law(mesh, contact)) return wrong;
     carry_on(touch, contact);
+    if (mesh.moving != nullptr) spread_wide(contact);
   }
   const Vec3 move = finger - touch.finger;
   touch.finger = finger;
   touch.contacts = std::move(found);
   if (auto wrong = settle(mesh, touch)) return wrong;
+  if (mesh.moving != nullptr) {
+    while (release(*mesh.moving, touch.contacts))
+      if (auto wrong = settle(mesh, touch)) return wrong;
+    remember(*mesh.moving, touch.contacts);
+  }
   std::erase_if(touch.contacts, [](const SphereContact& contact) { return contact.depth <= 0.0; });
   shape_patches(touch.contacts);
   rub(*scene_, move, touch);
@@ -220,9 +246,14 @@ Vector Contacts::load(const Touch& touch, const MeshAnswer& mesh) {
   Vector load = Vector::Zero(mesh.freedoms);
   for (const SphereContact& contact : touch.contacts) {
     const Vec3 push = contact.drag - contact.force * contact.patch.normal;
-    for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
-      const int node = mesh.nodes[static_cast<std::size_t>(contact.load.vertices[k])];
-      if (node >= 0) load.segment<3>(3 * node) += contact.load.shares[k] * push;
+    const contact::Spread& spread = contact.wide.vertices.empty() ? contact.load : contact.wide;
+    const std::vector<Vec3>& pushes = contact.nodal.push;
+    for (std::size_t k = 0; k < spread.vertices.size(); ++k) {
+      const int node = mesh.nodes[static_cast<std::size_t>(spread.vertices[k])];
+      if (node >= 0)
+        load.segment<3>(3 * node) +=
+            pushes.empty() ? Vec3(spread.shares[k] * push)
+                           : Vec3(spread.shares[k] * contact.drag + contact.force * pushes[k]);
     }
   }
   return load;

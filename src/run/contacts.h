@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,20 +16,35 @@
 
 namespace palpate::run {
 
+// What `resolved` knows of a contact, node by node.
+struct NodalContact {
+  std::vector<Vec3> push;      // on the tissue per newton of the force, one a vertex of the load
+  double peak_pressure = 0.0;  // Pa, the greatest of the nodes'
+  std::vector<int> vertices;   // of the skin around the contact, ascending
+  std::vector<double> gap;     // m, between them and the sphere
+};
+
 // One sphere at one place of the skin.
 struct SphereContact {
   int sphere = 0;
   contact::Patch patch;
-  contact::ContactLaw law;   // its coefficient less what it shares with contacts at the same place
+  contact::ContactLaw law;
   double approach = 0.0;     // m, of the sphere into the skin as the mesh's own motion leaves it
   double depth = 0.0;        // m, h of eq. (2)
   double force = 0.0;        // N, along the patch's normal
+  double elastic = 0.0;      // N, of it, the law's, were the tissue relaxed
+  double radiated = 0.0;     // N, of it, what makes waves too short for the mesh
   Vec3 drag = Vec3::Zero();  // N, tangential, on the tissue
   Vec3 stretch = Vec3::Zero();  // m, of finger against tissue since the contact last slipped
-  contact::Spread load;
+  contact::Spread load;  // of the pressure
+  contact::Spread wide;  // of what loads a mesh whose inertia reaches the force; else empty
+  NodalContact nodal;    // of `resolved`; else empty
   bool on_crease = false;
   bool one_sided = false;  // its curvature
 };
+
+// In the middle of the contact, Pa: 3/2 of the mean under Hertz, a layer's own.
+[[nodiscard]] double peak_pressure(const SphereContact& contact);
 
 // What the finger does at one moment.
 struct Touch {
@@ -44,6 +60,19 @@ struct Touch {
   [[nodiscard]] double pressed() const;       // N, sum of the normal forces' sizes
 };
 
+// A mesh in motion, as `consistent` reads it. The forces that are sought act on it by
+// share (past force + slope (elastic force - past elastic force)).           docs/theory.md (60)
+struct MovingMesh {
+  const integrate::Vector* displacement = nullptr;  // m, at the end of the step without them
+  const integrate::Vector* still = nullptr;  // N: the load whose static answer is no motion, as far
+                                             // as it is known; empty: none
+  bool still_has_past = false;               // the contacts' past elastic forces are in it
+  Influence* response = nullptr;             // of such forces, to the end of the step; or none
+  double share = 1.0;
+  double slope = 1.0;
+  double time_step = 0.0;  // s
+};
+
 // The mesh as contacts see it. Without it the skin stays as it is at rest.
 struct MeshAnswer {
   std::span<const int> nodes;  // of every vertex of the skin; -1: stands
@@ -52,6 +81,7 @@ struct MeshAnswer {
   Influence* one_tissue = nullptr;  // the same of a mesh that is all of one tissue, where it is not
   Influence* influence = nullptr;   // of these contacts' forces on it
   const integrate::Vector* shape = nullptr;  // m, that curvature is read from
+  const MovingMesh* moving = nullptr;        // where inertia reaches the force
 };
 
 // Stick and slip as the finger moves by `move` (m): the stretch between finger and tissue grows,
@@ -59,9 +89,12 @@ struct MeshAnswer {
 // (46)
 void rub(const scene::Scene& scene, const Vec3& move, Touch& touch);
 
+class ResolvedContact;
+
 class Contacts {
  public:
   explicit Contacts(const scene::Scene& scene);
+  ~Contacts();
 
   // Finds the contacts of the finger at `finger` (m) and their forces. `touch` holds those of the
   // moment before: their patches are where the search begins, their stretch goes on. Returns what
@@ -71,6 +104,12 @@ class Contacts {
 
   // The forces on the mesh, N.
   [[nodiscard]] static integrate::Vector load(const Touch& touch, const MeshAnswer& mesh);
+
+  // What the pressures' own spreads would load beyond the wide ones that do, relaxed, N; it sums to 0.
+  [[nodiscard]] static integrate::Vector finer_load(const Touch& touch, const MeshAnswer& mesh);
+
+  // What viscosity has made of the forces that find() found for a mesh in motion.
+  void keep_forces(const Touch& touch);
 
   // For timing: detection alone, of the finger at a place over the mesh as it is.
   void detect(const Vec3& finger, const MeshAnswer& mesh, std::vector<SphereContact>& found);
@@ -95,7 +134,34 @@ class Contacts {
                                      const SphereContact& pressed) const;
   [[nodiscard]] double unknown_to_hertz(const contact::Patch& patch,
                                         const SphereContact& other) const;
+  [[nodiscard]] bool cut_from_layer() const;
+  [[nodiscard]] double stiffer_layer(double aligned, const Vec3& at,
+                                     const SphereContact& pressed) const;
   [[nodiscard]] double plane_modulus() const;  // Pa, E' of the tissue's network
+  // In contact_inertia.cpp, for a mesh in motion:
+  struct Past {
+    int sphere = 0;
+    Vec3 position = Vec3::Zero();        // m
+    double approach = 0.0, depth = 0.0;  // m
+    double spread = 0.0;                 // N, the force as it has reached the wide patch
+    double elastic = 0.0, force = 0.0;   // N
+  };
+  struct NearField {
+    Past past;
+    double damping = 0.0;  // N s/m, of the contact
+    double delay = 0.0;    // s, of the wide patch
+  };
+  [[nodiscard]] double rise(const MeshAnswer& mesh) const;
+  void spread_wide(SphereContact& contact);
+  void leave_apart(const MeshAnswer& mesh, std::vector<SphereContact>& found);
+  void find_motion(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts);
+  void find_near_field(const MovingMesh& moving, const std::vector<SphereContact>& contacts,
+                       double part);
+  [[nodiscard]] double part_of_motion(const std::vector<SphereContact>& contacts) const;
+  void add_motion(const MovingMesh& moving, const std::vector<SphereContact>& contacts,
+                  std::vector<double>& approaches);
+  [[nodiscard]] bool release(const MovingMesh& moving, std::vector<SphereContact>& contacts);
+  void remember(const MovingMesh& moving, std::vector<SphereContact>& contacts);
   void share_places(std::vector<SphereContact>& contacts);
 
   const scene::Scene* scene_;
@@ -110,6 +176,15 @@ class Contacts {
   std::vector<geometry::SmoothSurface::Foot> feet_;
   std::vector<double> shares_;  // the greatest at every vertex
   Eigen::MatrixXd compliance_;  // m/N
+  Eigen::MatrixXd whole_compliance_;  // m/N, with what the mesh's motion adds
+  Eigen::VectorXd motion_;           // m, of a moving mesh under the contacts, less statics
+  Eigen::MatrixXd moving_by_force_;  // m/N, to the end of the step
+  Eigen::MatrixXd still_by_force_;   // m/N, in statics
+  std::vector<NearField> near_;
+  double radiation_ = 0.0;  // m s/N: C / F'^2 of a half-space
+  std::vector<Past> past_;
+  std::vector<Past> parted_;
+  std::unique_ptr<ResolvedContact> resolved_;  // instead of all this, for `resolved`
   bool moving_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include "run/findings.h"
 #include "run/press.h"
 #include "run/uniform.h"
+#include "scenario/words.h"
 
 namespace palpate::run {
 namespace {
@@ -38,6 +39,25 @@ void share_out(std::size_t count, int workers, const std::function<void(std::siz
 
 }  // namespace
 
+namespace {
+
+std::string chosen(const scenario::Scenario& scenario) {
+  namespace words = scenario::words;
+  const scenario::Solver& solver = scenario.solver;
+  std::string text = std::string("solver.model = ") + words::word(words::models, solver.model);
+  if (scenario.meshed())
+    text += std::string(", solver.integrator = ") +
+            words::word(words::integrators, solver.integrator) +
+            ", solver.volume = " + words::word(words::volumes, solver.volume);
+  if (!scenario.uniform())
+    text += std::string(", contact.viscosity = ") +
+            words::word(words::contact_viscosities, scenario.contact.viscosity) +
+            ", contact.depth = " + words::word(words::depths, scenario.contact.depth);
+  return text;
+}
+
+}  // namespace
+
 std::vector<scene::Scene> build_all(const scenario::Family& family, int workers) {
   std::vector<scene::Scene> scenes(family.cases.size());
   share_out(scenes.size(), workers,
@@ -49,6 +69,7 @@ record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& 
   const auto start = std::chrono::steady_clock::now();
   record::CaseRecord record;
   record.name = scene.name;
+  record.chosen = chosen(scene.scenario);
   if (scene.scenario.uniform())
     load_uniformly(scene, stop, record);
   else

@@ -7,6 +7,8 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "scenario/words.h"
+#include "scene/estimates.h"
 
 namespace palpate::run {
 namespace {
@@ -23,10 +25,10 @@ class Findings {
   }
 
   void all() {
-    const bool hertz = scene_.choice.model == scenario::Solver::Model::hertz;
     add("outcome", std::string(record::outcome_word(record_.outcome)));
     add("last_stable_time_s", record_.last_stable_time);
-    add("model", std::string(hertz ? "hertz" : "mass_spring"));
+    add("model",
+        std::string(scenario::words::word(scenario::words::models, scene_.scenario.solver.model)));
     if (scene_.specimen) specimen(*scene_.specimen);
     if (!record_.contact.empty()) contact();
     if (!record_.strain.empty()) strain();
@@ -105,7 +107,8 @@ class Findings {
     const double pull_off = 1.5 * std::numbers::pi * 0.05 * radius;
     add("force_over_pull_off", peak.contact_force / pull_off);
     identities();
-    validity(peak, thickness);
+    predictions(peak);
+    validity(peak);
     if (peak.contact_force < 10.0 * pull_off)
       remark("the greatest force is below ten times the adhesive pull-off of about " +
              rounded_text(pull_off, 2) +
@@ -134,42 +137,85 @@ class Findings {
     add("friction_imbalance", friction_error);
   }
 
-  void validity(const record::ContactRow& peak, double height) {
+  // What the ladder's questions said beforehand, beside what happened.
+  void predictions(const record::ContactRow& peak) {
+    expected_ = scene::estimate(scene_.scenario);
+    add("thickness_effect", expected_.thickness);
+    add("side_effect", expected_.sides);
+    add("body_effect", expected_.curved_body);
+    add("deep_effect", expected_.deep);
+    add("viscous_effect", expected_.viscous);
+    add("inertia_effect", expected_.inertia);
+    add("curvature_ratio", expected_.curvature_ratio);
+    for (const scene::Rung& rung : scene_.choice.rungs)
+      if (rung.model == scene_.scenario.solver.model && rung.cannot.empty())
+        add("predicted_error", rung.error);
+    const auto top = scene::top_curvature(scene_.scenario.tissue.shape);
+    if (!top || peak.travel <= 0.0) return;
+    geometry::Curvature curvature;
+    curvature.kappa_1 = top->kappa_1;
+    curvature.kappa_2 = top->kappa_2;
+    const auto law =
+        contact::contact_law(scene_.scenario.contact.law,
+                             {scene_.finger.whole.radius, scene_.finger.whole.modulus}, curvature);
+    if (!law) return;
+    if (std::isfinite(expected_.thickness))
+      add("predicted_force_over_hertz", (1.0 + expected_.thickness) * (1.0 - expected_.sides));
+    add("force_over_hertz", peak.contact_force / law->point.force(peak.travel));
+  }
+
+  void validity(const record::ContactRow& peak) {
     const auto coupling = scene_.scenario.contact.coupling;
-    if (!scene_.specimen)
-      remark("hertz is elastic and massless: the tissue's viscosity and inertia take no part");
-    const bool alone = !scene_.specimen || coupling == contact::Coupling::one_way;
-    if (peak.indentation > 0.1 * scene_.law().radius)
-      remark("the indentation reached " + rounded_text(peak.indentation / scene_.law().radius, 2) +
-             " of the sphere's radius: Hertz assumes far less; true forces differ by up to 6 % "
-             "at a quarter of the radius (docs/paper.md, 13)");
-    const double thickness =
-        (1.0 - scene_.finger.compliance_share) * 1.127 * peak.contact_radius / height;
-    if (alone && thickness > scene_.scenario.solver.tolerance)
+    const scene::Estimates& e = expected_;
+    const double tolerance = scene_.scenario.solver.tolerance;
+    const bool mesh = scene_.specimen != nullptr;
+    const bool hertz = !mesh && !scene_.layer;
+    const double depth = peak.indentation / scene_.law().radius;
+    if (depth > 0.1 && !scene_.deep)
+      remark("the indentation reached " + rounded_text(depth, 2) +
+             " of the sphere's radius: Hertz assumes far less, and at a quarter of the radius true "
+             "forces differ by up to 6 % (docs/paper.md, 13)" +
+             (e.deep > 0.0 ? "; in neo-Hookean tissue this one by about " + percent(e.deep) : ""));
+    if (hertz || coupling == contact::Coupling::one_way) {
+      if (e.thickness * e.tissue_share > tolerance)
+        remark("the force is that of a half-space: at this thickness it would be higher by about " +
+               percent(e.thickness));
+      if (e.sides > tolerance)
+        remark("the force is that of a half-space: free sides this near take about " +
+               percent(e.sides));
+      if (e.curved_body > tolerance)
+        remark(
+            "the force is that of an endless body of this curvature: its finite width changes "
+            "up to about " +
+            percent(e.curved_body));
+    }
+    if (!mesh && scene_.layer && e.sides > tolerance)
+      remark("the layer has no sides: free ones this near take about " + percent(e.sides));
+    if (scene_.relaxation.elastic() && coupling != contact::Coupling::series &&
+        coupling != contact::Coupling::resolved && e.viscous > 0.2 * tolerance)
       remark(
-          "the force is that of a half-space: on a bonded base at this thickness it would be "
-          "higher by up to about " +
-          percent(thickness));
-    const double lag = scene_.specimen ? viscous_time() * fastest_rate() / peak.travel : 0.0;
-    if (coupling != contact::Coupling::series && lag > 0.01)
-      remark(
-          "the contact force is that of the relaxed tissue: the tissue's viscosity moves the "
-          "mesh only, and a press this fast (viscous time * rate / travel = " +
-          rounded_text(lag, 2) + ") would meet more force");
-    if (scene_.specimen && coupling == contact::Coupling::series)
+          "the contact force is that of the relaxed tissue; with the tissue's viscosity it would "
+          "be "
+          "higher by about " +
+          percent(e.viscous) + " while it is pressed: give `contact.viscosity = \"tissue\"`");
+    if (!mesh && e.inertia > tolerance)
+      remark("a formula has no mass: waves would add about " + percent(e.inertia) +
+             " to the force of a press this fast");
+    if (mesh && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
              percent(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +
              " of the force is lost, and the answer drifts with the mesh");
-  }
-
-  [[nodiscard]] double viscous_time() const { return scene_.specimen->law.time; }
-
-  [[nodiscard]] double fastest_rate() const {
-    double rate = 0.0;
-    for (const scenario::Step& step : scene_.scenario.steps)
-      if (const auto* indent = std::get_if<scenario::Indent>(&step))
-        rate = std::max(rate, indent->rate);
-    return rate;
+    const double ratio_error =
+        mesh ? std::abs(scene_.specimen->measured.poisson_ratio -
+                        std::min(*scene_.scenario.tissue.poisson_ratio, 0.4995))
+             : 0.0;
+    if (ratio_error > 0.05 && coupling != contact::Coupling::one_way)
+      remark("the springs have a Poisson's ratio of " +
+             rounded_text(scene_.specimen->measured.poisson_ratio, 2) + ", the tissue " +
+             number_text(*scene_.scenario.tissue.poisson_ratio) +
+             ": what sides and other tissues change of the force may be wrong by about " +
+             percent(ratio_error * (e.sides + e.curved_body + (hertz ? 0.0 : 0.05))) +
+             " of it; `coupled_springs` has the tissue's");
   }
 
   void strain() {
@@ -195,6 +241,7 @@ class Findings {
   const scene::Scene& scene_;
   record::CaseRecord& record_;
   std::vector<Finding> before_;
+  scene::Estimates expected_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "contact/elliptic.h"
 
 namespace palpate::run {
 
@@ -16,12 +17,25 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
   curvature.kappa_2 = shape.kappa_2;
   curvature.direction_1 = shape.direction_1;
   curvature.direction_2 = Vec3::UnitZ().cross(shape.direction_1);
-  const auto law =
-      contact::contact_law(scene.scenario.contact.law,
-                           {scene.finger.sphere_radius, scene.finger.sphere_modulus}, curvature);
+  auto law = contact::contact_law(scene.scenario.contact.law,
+                                  {scene.finger.sphere_radius, scene.finger.sphere_modulus},
+                                  curvature, scene.layer ? &*scene.layer : nullptr);
   if (!law)
     return "the tissue is hollow and conforms to the finger (curvature " +
            rounded_text(curvature.kappa_2) + " 1/m): Hertz does not hold there";
+  if (scene.deep) {
+    const double round =
+        contact::geometric_radius(scene.finger.sphere_radius, curvature.kappa_1, curvature.kappa_2);
+    law->point.deep_root = scene.deep->p / std::sqrt(round);
+    law->point.deep = scene.deep->q / round;
+    law->point.deepest = contact::DeepLaw::deepest * round;
+  }
+  if (touch.travel > law->point.last_depth())
+    return scene.layer
+               ? "the layer is too thin for this depth: its solution is known to sqrt(R h) = 3 H"
+               : "the press is deeper than half the radius, where the factor for deep presses "
+                 "ends; "
+                 "set `contact.depth = \"hertz\"`";
   const double radius = scene.finger.sphere_radius;
   const Vec3 before = touch.finger;
   touch.finger = top + (radius - touch.travel) * Vec3::UnitZ();
@@ -37,8 +51,9 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
     contact.patch.axis = law->axis;
     contact.approach = contact.depth = touch.travel;
     contact.force = law->point.force(contact.depth);
-    contact.patch.a = law->a * std::sqrt(contact.depth);
-    contact.patch.b = law->b * std::sqrt(contact.depth);
+    const auto [a, b] = law->semi_axes(contact.depth);
+    contact.patch.a = a;
+    contact.patch.b = b;
     contacts.push_back(contact);
   }
   touch.contacts = std::move(contacts);

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <map>
 #include <span>
+#include <vector>
 
 #include "contact/patch.h"
 #include "integrate/body.h"
@@ -25,25 +25,31 @@ class Influence {
                                Eigen::Index freedoms) {
     if (at < 0) return 0.0;
     double sum = 0.0;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (nodes[k] < 0) continue;
-      for (int axis = 0; axis < 3; ++axis)
-        if (push[axis] != 0.0)
-          sum += shares[k] * push[axis] *
-                 direction.dot(column(3 * nodes[k] + axis, freedoms).segment<3>(3 * at));
-    }
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (nodes[k] >= 0) sum += shares[k] * between(direction, at, push, nodes[k], freedoms);
+    return sum;
+  }
+
+  // The same of a load on one node. Both are 0 or above.
+  [[nodiscard]] double between(const Vec3& direction, int at, const Vec3& push, int node,
+                               Eigen::Index freedoms) {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (push[axis] != 0.0)
+        sum += push[axis] * direction.dot(column(3 * node + axis, freedoms).segment<3>(3 * at));
     return sum;
   }
 
   // The displacement of every degree of freedom under 1 N there, m.
   [[nodiscard]] const integrate::Vector& column(int freedom, Eigen::Index freedoms) {
-    auto known = known_.find(freedom);
-    if (known == known_.end()) {
+    if (known_.empty()) known_.resize(static_cast<std::size_t>(freedoms));
+    integrate::Vector& known = known_[static_cast<std::size_t>(freedom)];
+    if (known.size() == 0) {
       integrate::Vector unit = integrate::Vector::Zero(freedoms);
       unit[freedom] = 1.0;
-      known = known_.emplace(freedom, respond_(unit)).first;
+      known = respond_(unit);
     }
-    return known->second;
+    return known;
   }
 
   // What is answered has changed.
@@ -51,7 +57,7 @@ class Influence {
 
  private:
   Respond respond_;
-  std::map<int, integrate::Vector> known_;
+  std::vector<integrate::Vector> known_;  // one a degree of freedom; empty: not asked for yet
 };
 
 }  // namespace palpate::run

@@ -64,7 +64,7 @@ Motion make_motion(const scenario::Step& step, double travel, const Vec3& sidewa
 class Press {
  public:
   Press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record)
-      : scene_(scene), stop_(stop), record_(record) {
+      : scene_(scene), stop_(stop), record_(record), history_(scene) {
     if (!scene.specimen) {
       first_ = scene::pressed_place(scene);
       touch_.finger = first_ + scene.finger.sphere_radius * Vec3::UnitZ();
@@ -124,6 +124,8 @@ class Press {
     const double start = time_;
     kept_force_ = touch_.force();
     if (mesh_) mesh_->set_step(pace.step());
+    solver_step_ = pace.step();
+    history_.slide(motion.start != motion.end);
     for (int row = 0; row < pace.rows; ++row) {
       if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
       for (int k = 1; k <= pace.steps; ++k) {
@@ -150,11 +152,12 @@ class Press {
     touch_.slide = sideways.norm();
     if (!mesh_) {
       if (auto wrong = press_half_space(scene_, first_ + sideways, touch_)) return diverged(*wrong);
+      history_.pass(scene_, solver_step_, touch_);
       return true;
     }
     if (motion.keeps_force)
       if (auto wrong = keep_force(sideways)) return diverged(*wrong);
-    if (auto wrong = mesh_->step(place(sideways), now, touch_)) return diverged(*wrong);
+    if (auto wrong = mesh_->step(place(sideways), now, history_, touch_)) return diverged(*wrong);
     record_.last_stable_time = now;
     return true;
   }
@@ -208,7 +211,7 @@ class Press {
     if (const SphereContact* deepest = touch_.deepest()) {
       row.indentation = deepest->depth;
       row.contact_radius = deepest->patch.radius();
-      row.peak_pressure = contact::hertz::peak_pressure(deepest->force, row.contact_radius);
+      row.peak_pressure = peak_pressure(*deepest);
       if (deepest->law.mean_curvature != 0.0) row.tissue_radius = 1.0 / deepest->law.mean_curvature;
     }
     row.contacts = static_cast<int>(touch_.contacts.size());
@@ -258,7 +261,9 @@ class Press {
   const scene::Scene& scene_;
   const std::atomic<bool>& stop_;
   record::CaseRecord& record_;
+  ContactHistory history_;
   std::optional<PressedMesh> mesh_;
+  double solver_step_ = 0.0;  // s
   Vec3 first_ =
       Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
   Touch touch_;

@@ -11,16 +11,28 @@ namespace palpate::run {
 namespace {
 
 using contact::Coupling;
+using integrate::MemoryRule;
 using integrate::State;
 using integrate::Vector;
+
+// How the mesh's own memory goes through its steps.
+MemoryRule memory_rule(const scene::Scene& scene) {
+  return scene.scenario.solver.integrator == scenario::Solver::Integrator::backward_difference
+             ? MemoryRule::first_order
+             : MemoryRule::exact;
+}
 
 }  // namespace
 
 PressedMesh::PressedMesh(const scene::Scene& scene)
-    : scene_(&scene), specimen_(&*scene.specimen), contacts_(scene) {
+    : scene_(&scene),
+      specimen_(&*scene.specimen),
+      contacts_(scene),
+      inertia_(scene::inertia_reaches_force(scene)),
+      crept_(specimen_->law, memory_rule(scene)) {
   const auto& rings = scene.scenario.solver.rings;
   if (!rings) {
-    take(tissue::whole_part(specimen_->network));
+    take(tissue::whole_part(specimen_->network), {});
     return;
   }
   const auto& corners =
@@ -29,11 +41,12 @@ PressedMesh::PressedMesh(const scene::Scene& scene)
   std::vector<int> start;
   for (const int vertex : corners)
     start.push_back(specimen_->skin[static_cast<std::size_t>(vertex)]);
-  take(tissue::part_around(specimen_->network, start, *rings));
+  take(tissue::part_around(specimen_->network, start, *rings), start);
 }
 
-// Makes `part` what moves; what it has in common with the part before keeps its state.
-void PressedMesh::take(tissue::Part part) {
+// Makes `part`, the rings around `start`, what moves; what it has in common with the part before
+// keeps its state.
+void PressedMesh::take(tissue::Part part, const std::vector<int>& start) {
   const tissue::Part before = std::exchange(part_, std::move(part));
   const State old = std::exchange(state_, {});
   std::vector<int> number(specimen_->network.rest.size(), -1);
@@ -68,6 +81,16 @@ void PressedMesh::take(tissue::Part part) {
     body_->inherit(old.memory, s, static_cast<std::size_t>(now - part_.springs.begin()),
                    state_.memory);
   }
+  std::vector<Eigen::Index> freedom_before(held.size(), -1);
+  for (std::size_t i = 0; i < before.nodes.size(); ++i) {
+    const int now = number[static_cast<std::size_t>(before.nodes[i])];
+    if (now < 0) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      freedom_before[static_cast<std::size_t>(3 * now + axis)] =
+          3 * static_cast<Eigen::Index>(i) + axis;
+  }
+  crept_.renumber(freedom_before);
+  finer_.resize(0);
   load_ = Vector::Zero(freedoms);
   if (monitor_)
     monitor_->go_on(*body_, state_);
@@ -78,15 +101,12 @@ void PressedMesh::take(tissue::Part part) {
 
   influence_.reset();
   if (scene_->scenario.contact.coupling == Coupling::one_way) return;
-  if (scene_->scenario.contact.coupling == Coupling::series) {
-    influence_.emplace([this](const Vector& unit) -> Vector {
-      if (auto* implicit = std::get_if<integrate::Implicit>(&stepper_->method()))
-        return implicit->response(unit);
-      return std::get<integrate::Modal>(stepper_->method()).response(unit);
-    });
+  if (inertia_) response_.emplace([this](const Vector& unit) { return respond(unit); });
+  if (!inertia_ && !forces_follow_finger()) {
+    influence_.emplace([this](const Vector& unit) { return respond(unit); });
     return;
   }
-  const auto statics = [this](Cholesky& factors, const integrate::SparseMatrix& stiffness) {
+  const auto statics = [this](Cholesky& factors, const SplitMatrix& stiffness) {
     // The measurement of the network's modulus has shown that it is rigid.
     [[maybe_unused]] const bool factored = factors.factor(stiffness);
     eigen_assert(factored);
@@ -97,20 +117,25 @@ void PressedMesh::take(tissue::Part part) {
     };
   };
   influence_.emplace(statics(factors_, body_->stiffness()));
-  if (specimen_->one_tissue.empty()) return;
-  tissue::Network alike = part_.network;
-  for (std::size_t s = 0; s < alike.stiffness.size(); ++s)
-    alike.stiffness[s] = specimen_->one_tissue[static_cast<std::size_t>(part_.springs[s])];
-  const scene::SpringBody body(alike, specimen_->kinematics, specimen_->law, held);
-  one_tissue_.emplace(statics(one_factors_, body.stiffness()));
+  if (!specimen_->one_tissue) return;
+  const auto& rings = scene_->scenario.solver.rings;
+  const tissue::Part alike =
+      rings ? tissue::part_around(*specimen_->one_tissue, start, *rings)
+            : tissue::whole_part(*specimen_->one_tissue);
+  one_tissue_.emplace(statics(one_factors_, tissue::stiffness_matrix(alike.network, held)));
 }
 
 void PressedMesh::set_step(double time_step) {
-  if (time_step != time_step_ && influence_ &&
-      scene_->scenario.contact.coupling == Coupling::series)
-    influence_->forget();
+  if (time_step != time_step_) {
+    if (response_) response_->forget();
+    if (influence_ && !inertia_ && !forces_follow_finger()) influence_->forget();
+  }
   time_step_ = time_step;
   stepper_->set_step(time_step);
+  crept_.set_step(time_step);
+  slope_ = 1.0;
+  for (const contact::Branch& branch : scene_->relaxation.branches)
+    slope_ += branch.ratio * (1.0 - tissue::MemoryStep::exact(time_step, branch.time).end);
 }
 
 MeshAnswer PressedMesh::answer() const {
@@ -121,7 +146,8 @@ MeshAnswer PressedMesh::answer() const {
 }
 
 bool PressedMesh::forces_follow_finger() const {
-  return scene_->scenario.contact.coupling != Coupling::series;
+  const Coupling coupling = scene_->scenario.contact.coupling;
+  return coupling == Coupling::one_way || (coupling == Coupling::consistent && !inertia_);
 }
 
 std::optional<std::string> PressedMesh::try_out(const Vec3& finger, Touch& touch) {
@@ -131,8 +157,10 @@ std::optional<std::string> PressedMesh::try_out(const Vec3& finger, Touch& touch
   return contacts_.find(finger, mesh, touch);
 }
 
-std::optional<std::string> PressedMesh::step_freely(const Vec3& finger, Touch& touch) {
+std::optional<std::string> PressedMesh::step_freely(const Vec3& finger, ContactHistory& history,
+                                                    Touch& touch) {
   if (auto wrong = try_out(finger, touch)) return wrong;
+  history.pass(*scene_, time_step_, touch);
   return move(touch);
 }
 
@@ -191,13 +219,21 @@ std::optional<std::string> PressedMesh::balance(Linearised& method, const Vec3& 
   return "the non-linear equations did not settle in 100 iterations";
 }
 
-std::optional<std::string> PressedMesh::step(const Vec3& finger, double time, Touch& touch) {
+std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
+                                             ContactHistory& history, Touch& touch) {
   const State before = state_;
   const Vector load_before = load_;
-  auto wrong = forces_follow_finger() ? step_freely(finger, touch) : step_in_series(finger, touch);
+  auto wrong = inertia_                 ? step_with_inertia(finger, history, touch)
+               : forces_follow_finger() ? step_freely(finger, history, touch)
+                                        : step_in_series(finger, touch);
   if (wrong) return wrong;
   state_.time = time;  // a sum of steps would carry their rounding
-  if (auto unstable = monitor_->step(before, state_, load_before, load_)) return unstable;
+  // Modes with inertia take the mean load all along the step.
+  const bool mean = inertia_ && std::holds_alternative<integrate::Modal>(stepper_->method());
+  const Vector acted = mean ? Vector(0.5 * (load_before + load_)) : Vector();
+  auto unstable = mean ? monitor_->step(before, state_, acted, acted)
+                       : monitor_->step(before, state_, load_before, load_);
+  if (unstable) return unstable;
   if (scene_->scenario.solver.rings) follow(touch);
   return std::nullopt;
 }
@@ -212,19 +248,28 @@ void PressedMesh::follow(const Touch& touch) {
   tissue::Part part =
       tissue::part_around(specimen_->network, start, *scene_->scenario.solver.rings);
   if (part.nodes == part_.nodes && part.edge == part_.edge) return;
-  take(std::move(part));
+  take(std::move(part), start);
   load_ = Contacts::load(touch, answer());
 }
 
-Vector PressedMesh::displacement() const {
+Vector PressedMesh::of_specimen(const Vector& of_part) const {
   Vector all = Vector::Zero(3 * specimen_->network.nodes());
   for (std::size_t i = 0; i < part_.nodes.size(); ++i)
-    all.segment<3>(3 * part_.nodes[i]) =
-        state_.displacement.segment<3>(3 * static_cast<Eigen::Index>(i));
+    all.segment<3>(3 * part_.nodes[i]) = of_part.segment<3>(3 * static_cast<Eigen::Index>(i));
   return all;
 }
 
-bool PressedMesh::inverted() const { return tissue::inverted(specimen_->mesh, displacement()); }
+Vector PressedMesh::displacement() const {
+  if (finer_.size() == 0) return of_specimen(state_.displacement);
+  Vector load = finer_;
+  for (Eigen::Index d = 0; d < load.size(); ++d)
+    if (body_->held()[static_cast<std::size_t>(d)] != 0) load[d] = 0.0;
+  return of_specimen(state_.displacement + factors_.solve(load));
+}
+
+bool PressedMesh::inverted() const {
+  return tissue::inverted(specimen_->mesh, of_specimen(state_.displacement));
+}
 
 double PressedMesh::edge_reaction() const {
   Vector force;

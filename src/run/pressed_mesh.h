@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "base/cholesky.h"
+#include "run/contact_history.h"
 #include "run/contacts.h"
+#include "run/crept_load.h"
 #include "run/monitor.h"
 #include "run/stepper.h"
 #include "tissue/part.h"
@@ -26,21 +28,24 @@ class PressedMesh {
   // One step with the finger's point at `finger` (m) at its end, `time` (s). Returns what is wrong
   // where no balance is found or the motion has left the stable.
   //
-  // one_way and consistent: the forces follow from the finger alone, because the sinking that
-  // Hertz does not know is taken from statics, h = approach - (c - g) F, c the mesh's compliance
-  // where it is read and g the half-space's there: the motion of the mesh cannot feed back on them.
+  // one_way, and consistent without inertia: the forces follow from the finger alone, because the
+  // sinking that Hertz does not know is taken from statics, h = approach - (c - g) F, c the mesh's
+  // compliance where it is read and g the half-space's there.
+  // consistent with inertia: and by how much the mesh is from its statics under the same loads.
   // series: the forces follow from the mesh as it is, in implicit steps as it will be.
-  [[nodiscard]] std::optional<std::string> step(const Vec3& finger, double time, Touch& touch);
+  // `history` then makes of the elastic forces what the tissue's viscosity does.
+  [[nodiscard]] std::optional<std::string> step(const Vec3& finger, double time,
+                                                ContactHistory& history, Touch& touch);
 
-  // The forces at a place of the finger without moving the mesh; only where they follow from the
-  // finger alone.
+  // The forces of statics at a place of the finger, without moving the mesh; not of series.
   [[nodiscard]] bool forces_follow_finger() const;
   [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
 
   // One step of the mesh alone, under the forces of `touch`; public for timing.
   [[nodiscard]] std::optional<std::string> move(const Touch& touch);
 
-  // Of all nodes of the specimen, m.
+  // Of all nodes of the specimen, m. Where the mesh is loaded through a wide spread, with what the
+  // pressure's own would add in statics.
   [[nodiscard]] integrate::Vector displacement() const;
 
   // Whether a tetrahedron has turned inside out.
@@ -58,10 +63,24 @@ class PressedMesh {
   [[nodiscard]] Contacts& contacts() { return contacts_; }
 
  private:
-  void take(tissue::Part part);
+  void take(tissue::Part part, const std::vector<int>& start);
   void follow(const Touch& touch);
-  [[nodiscard]] std::optional<std::string> step_freely(const Vec3& finger, Touch& touch);
+  [[nodiscard]] std::optional<std::string> step_freely(const Vec3& finger, ContactHistory& history,
+                                                       Touch& touch);
   [[nodiscard]] std::optional<std::string> step_in_series(const Vec3& finger, Touch& touch);
+  [[nodiscard]] std::optional<std::string> step_with_inertia(const Vec3& finger,
+                                                             ContactHistory& history, Touch& touch);
+  [[nodiscard]] std::optional<std::string> meet(const Vec3& finger, MovingMesh moving,
+                                                ContactHistory& history, Touch& touch);
+  [[nodiscard]] std::optional<std::string> step_implicitly(integrate::Implicit& method,
+                                                           const Vec3& finger,
+                                                           ContactHistory& history, Touch& touch);
+  [[nodiscard]] std::optional<std::string> step_in_modes(integrate::Modal& method,
+                                                         const Vec3& finger,
+                                                         ContactHistory& history, Touch& touch);
+  [[nodiscard]] integrate::Vector drag_load(const Touch& touch) const;
+  [[nodiscard]] integrate::Vector respond(const integrate::Vector& unit);
+  [[nodiscard]] integrate::Vector of_specimen(const integrate::Vector& of_part) const;
   template <class Linearised>
   [[nodiscard]] std::optional<std::string> balance(Linearised& method, const Vec3& finger,
                                                    Touch& touch);
@@ -76,11 +95,17 @@ class PressedMesh {
   std::optional<EnergyMonitor> monitor_;
   std::optional<Influence> influence_;
   std::optional<Influence> one_tissue_;
+  std::optional<Influence> response_;  // of an implicit step, for `consistent` with inertia
   Cholesky factors_;      // of statics, for `consistent`
   Cholesky one_factors_;  // were the specimen of one tissue
   integrate::State state_;
   integrate::Vector load_;
   double time_step_ = 0.0;
+  // Where inertia reaches the force:
+  bool inertia_;
+  CreptLoad crept_;
+  double slope_ = 1.0;  // of a force over its elastic one, within a step
+  integrate::Vector finer_;  // N: elastic, the pressure's own loads less the wide ones
 };
 
 }  // namespace palpate::run

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "contact/half_space.h"
+#include "run/nodal_map.h"
 
 namespace palpate::run {
 namespace {
@@ -15,12 +17,17 @@ namespace {
 struct View {
   const SphereContact* contact;
   Vec3 across;
-  double peak;  // Pa
+  double mean;                                    // Pa, over the ellipse
+  std::optional<contact::PressureProfile> shape;  // on a layer; else Hertz's
 
   explicit View(const SphereContact& one)
       : contact(&one),
         across(one.patch.normal.cross(one.patch.axis)),
-        peak(1.5 * one.force / (std::numbers::pi * one.patch.a * one.patch.b)) {}
+        mean(one.force / (std::numbers::pi * one.patch.a * one.patch.b)) {
+    const contact::LayerContact* layer = one.law.point.layer;
+    if (layer != nullptr)
+      shape = layer->law.pressure(contact::layer_chi(one.depth, layer->radius, layer->thickness));
+  }
 
   // From the patch's centre to where the vertical through (x, y) meets its tangent plane.
   [[nodiscard]] Vec3 arm(double x, double y) const {
@@ -34,19 +41,26 @@ struct View {
     const double u = away.dot(contact->patch.axis) / contact->patch.a;
     const double v = away.dot(across) / contact->patch.b;
     const double inside = 1.0 - u * u - v * v;
-    return inside > 0.0 ? peak * std::sqrt(inside) : 0.0;
+    if (inside <= 0.0) return 0.0;
+    return mean * (shape ? shape->at(std::sqrt(u * u + v * v)) : 1.5 * std::sqrt(inside));
   }
 };
 
 // Between finger and tissue along the vertical, m: the spheres' own shapes against the curved
-// tissue, less the depth, plus what the half-space sinks around all contacts; 0 in contact.
+// tissue, less the depth, plus what the half-space or layer sinks around all contacts; 0 in
+// contact.
 double gap(const std::vector<View>& views, const scene::Scene& scene, double x, double y) {
   double least = std::numeric_limits<double>::infinity();
   double sinking = 0.0;
-  for (const View& view : views)
+  for (const View& view : views) {
+    const double r = view.arm(x, y).norm();
+    const double modulus = scene.finger.sphere_modulus;
     sinking +=
-        contact::half_space_sinking(view.arm(x, y).norm(), view.contact->force,
-                                    view.contact->patch.radius(), scene.finger.sphere_modulus);
+        contact::half_space_sinking(r, view.contact->force, view.contact->patch.radius(), modulus);
+    if (scene.layer)
+      sinking -= view.contact->force * scene.layer_sinking->gamma(r / scene.layer->thickness) /
+                 (std::numbers::pi * modulus * scene.layer->thickness);
+  }
   const double sphere = scene.finger.sphere_radius;
   for (const View& view : views) {
     const double r = view.arm(x, y).norm();
@@ -81,7 +95,8 @@ record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch) {
   Vec3 high = -low;
   for (const View& view : views) {
     const contact::Patch& patch = view.contact->patch;
-    const Vec3 reach = margin * Vec3::Constant(patch.a);
+    const Vec3 reach =
+        Vec3::Constant(std::max(margin * patch.a, nodal_reach(scene, *view.contact)));
     low = low.cwiseMin(patch.position - reach);
     high = high.cwiseMax(patch.position + reach);
   }
@@ -93,6 +108,10 @@ record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch) {
   map.origin =
       Vec3(middle.x() - 0.5 * (map.width - 1) * map.pitch,
            middle.y() - 0.5 * (map.height - 1) * map.pitch, touch.deepest()->patch.position.z());
+  if (!views.front().contact->nodal.push.empty()) {
+    draw_nodes(scene, touch, map);
+    return map;
+  }
   for (int row = 0; row < map.height; ++row) {
     for (int column = 0; column < map.width; ++column) {
       double pressure = 0.0;

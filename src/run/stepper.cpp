@@ -9,6 +9,7 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
   using Integrator = scenario::Solver::Integrator;
   using Inertia = integrate::Implicit::Inertia;
   switch (scene.scenario.solver.integrator) {
+    case Integrator::automatic:  // has been answered when a scene is built
     case Integrator::central_difference:
       return integrate::CentralDifference(body, time_step, scene.scenario.solver.start);
     case Integrator::backward_difference:

@@ -1,10 +1,22 @@
 // Sums over the contacts of a moment, and their stick and slip.
 #include <algorithm>
+#include <numbers>
 
 #include "contact/friction.h"
 #include "run/contacts.h"
 
 namespace palpate::run {
+
+double peak_pressure(const SphereContact& contact) {
+  if (contact.force <= 0.0) return 0.0;
+  if (!contact.nodal.push.empty()) return contact.nodal.peak_pressure;
+  const double mean = contact.force / (std::numbers::pi * contact.patch.a * contact.patch.b);
+  const contact::LayerContact* layer = contact.law.point.layer;
+  if (layer == nullptr) return 1.5 * mean;
+  return mean * layer->law.pressure(
+                        contact::layer_chi(contact.depth, layer->radius, layer->thickness))
+                    .at(0.0);
+}
 
 const SphereContact* Touch::deepest() const {
   const auto found =

@@ -206,11 +206,45 @@ class Checker {
 
   void methods() {
     const Solver& solver = scenario_.solver;
-    if (solver.model == Solver::Model::hertz && scenario_.uniform())
-      problem("solver.model",
-              "`hertz` has no specimen to creep or relax; set "
-              "`solver.model = \"mass_spring\"`");
+    const bool closed_form =
+        solver.model == Solver::Model::hertz || solver.model == Solver::Model::layer;
+    if (closed_form && scenario_.uniform())
+      problem("solver.model", std::string("`") +
+                                  (solver.model == Solver::Model::hertz ? "hertz" : "layer") +
+                                  "` has no specimen to creep or relax; set `solver.model = "
+                                  "\"mass_spring\"` or `\"coupled_springs\"`");
+    viscosity();
+    if (scenario_.contact.depth == Contact::Depth::neo_hookean &&
+        solver.model != Solver::Model::hertz && !scenario_.uniform())
+      problem("contact.depth",
+              "`neo_hookean` is the factor of a half-space; set `solver.model = \"hertz\"`, or "
+              "`depth = \"auto\"`");
     if (!scenario_.meshed()) return;
+    const bool volume = solver.volume == Solver::Volume::nodal ||
+                        solver.volume == Solver::Volume::tetrahedron;
+    if (solver.model == Solver::Model::mass_spring && volume &&
+        *scenario_.tissue.poisson_ratio < 0.2)
+      problem("solver.volume",
+              "below a Poisson's ratio of 0.2 independent springs, which have 1/4, would need a "
+              "volume that pushes outwards; set `volume = \"none\"` or `model = "
+              "\"coupled_springs\"`");
+    if (solver.model == Solver::Model::mass_spring && !volume)
+      for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
+        const std::string path = "region." + std::to_string(i + 1) + ".poisson_ratio";
+        if (given(path))
+          problem(path,
+                  "independent springs have a Poisson's ratio of their own; set `solver.volume = "
+                  "\"nodal\"` or `solver.model = \"coupled_springs\"`, or leave it out");
+      }
+    if (solver.model == Solver::Model::coupled_springs && solver.volume == Solver::Volume::none)
+      problem("solver.volume",
+              "`coupled_springs` always resist a change of volume; set `solver.volume = "
+              "\"nodal\"`, or `solver.model = \"mass_spring\"`");
+    if (scenario_.contact.coupling == contact::Coupling::resolved &&
+        solver.integrator == Integrator::central_difference)
+      problem("solver.integrator",
+              "`resolved` finds its forces and the motion together, which an explicit method "
+              "cannot; set `integrator` to `quasi_static`, `backward_difference` or `modal`");
     if (solver.integrator == Integrator::modal &&
         solver.kinematics == tissue::Kinematics::nonlinear)
       problem("solver.kinematics",
@@ -222,6 +256,41 @@ class Checker {
               "`quasi_static` has no drag against the ground; set "
               "`solver.integrator = \"backward_difference\"` or another "
               "viscosity");
+  }
+
+  // Whether the scenario itself says what stands at a dotted path.
+  [[nodiscard]] bool given(const std::string& path) const {
+    const Place here = place_of(document_, path);
+    const Place around = place_of(document_, path.substr(0, path.rfind('.')));
+    return here.line != around.line || here.column != around.column;
+  }
+
+  void viscosity() {
+    using tissue::Viscosity;
+    const Tissue& tissue = scenario_.tissue;
+    if (tissue.viscosity == Viscosity::prony && tissue.branches.empty())
+      problem("tissue.viscosity",
+              "`prony` needs branches; add a `[[tissue.branch]]` with `relaxation_time` and "
+              "`ratio`");
+    if (scenario_.contact.viscosity != Contact::Viscosity::tissue || scenario_.uniform()) return;
+    if (tissue.viscosity == Viscosity::none || tissue.viscosity == Viscosity::nodal_drag)
+      problem("contact.viscosity",
+              std::string("a contact knows the viscosity of a material, and `tissue.viscosity` is "
+                          "`") +
+                  (tissue.viscosity == Viscosity::none ? "none" : "nodal_drag") +
+                  "`; set it to `kelvin_voigt`, `standard_linear_solid` or `prony`");
+    if (scenario_.meshed() && (scenario_.contact.coupling == contact::Coupling::series ||
+                               scenario_.contact.coupling == contact::Coupling::resolved))
+      problem("contact.viscosity",
+              "with this `coupling` the mesh carries the tissue's viscosity to the contact "
+              "already; write `viscosity = \"none\"`");
+    for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
+      const auto* slide = std::get_if<Slide>(&scenario_.steps[i]);
+      if (slide != nullptr && slide->keep == Slide::Keep::force)
+        problem("step." + std::to_string(i + 1) + ".keep",
+                "a slide cannot keep a force that relaxes; write `keep = \"travel\"`, or "
+                "`contact.viscosity = \"none\"`");
+    }
   }
 
   void time_step() {

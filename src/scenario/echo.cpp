@@ -101,18 +101,30 @@ std::string properties_comment(const Case& one) {
 
 }  // namespace
 
-std::string echo(const Family& family) {
-  const auto meshed = [](const Case& one) { return one.scenario.meshed(); };
+std::string echo(const Family& family, const Chosen& chosen) {
+  const auto springs = [](const Case& one) {
+    return one.scenario.solver.model == Solver::Model::mass_spring &&
+           (one.scenario.solver.volume == Solver::Volume::automatic ||
+            one.scenario.solver.volume == Solver::Volume::none);
+  };
   std::string text =
       "# The scenario as it was run: every default spelled out. It reads back to the "
       "same run.\n";
-  if (std::any_of(family.cases.begin(), family.cases.end(), meshed))
+  if (std::any_of(family.cases.begin(), family.cases.end(), springs))
     text +=
         "# tissue.poisson_ratio reaches the contact only: independent springs have a ratio of "
         "their own (findings.csv).\n";
   if (std::any_of(family.sweep.begin(), family.sweep.end(),
                   [](const auto& entry) { return entry.first == "tissue.material"; }))
     for (const Case& one : family.cases) text += properties_comment(one);
+  const bool alike = std::all_of(chosen.begin(), chosen.end(), [&](const auto& one) {
+    return one.second == chosen.front().second;
+  });
+  for (const auto& [name, words] : chosen) {
+    text +=
+        "# " + std::string(alike ? "`auto`" : name + ", `auto`") + " stands for: " + words + "\n";
+    if (alike) break;
+  }
   text += toml_document(common(family));
   if (!family.sweep.empty()) {
     text += "\n[sweep]\ndesign = \"grid\"\n";

@@ -45,8 +45,10 @@ struct Family {
 [[nodiscard]] Family parse(const std::string& text, const std::string& path,
                            const std::vector<std::string>& settings);
 
-// The resolved echo: TOML with every default spelled out, that reads back to the same run.
-[[nodiscard]] std::string echo(const Family& family);
+// The resolved echo: TOML with every default spelled out, that reads back to the same run. `chosen`
+// says for the cases that were run, by name, what stood for every `auto`.
+using Chosen = std::vector<std::pair<std::string, std::string>>;
+[[nodiscard]] std::string echo(const Family& family, const Chosen& chosen = {});
 
 // The reference manual of all keys in markdown: docs/scenario.md.
 [[nodiscard]] std::string manual();

@@ -3,52 +3,14 @@
 #include <array>
 
 #include "scenario/scenario.h"
+#include "scenario/words.h"
 
 namespace palpate::scenario {
 namespace {
 
 using Model = Solver::Model;
 using Integrator = Solver::Integrator;
-
-constexpr std::array viscosities{
-    Word{"none", "springs only"},
-    Word{"nodal_drag", "drag of every node against the ground, eq. (10)"},
-    Word{"kelvin_voigt", "a dashpot along every spring, Fig. 4"},
-    Word{"standard_linear_solid", "a spring and dashpot branch beside every spring"}};
-constexpr std::array bases{Word{"auto", "bonded under a finger, frictionless in uniform tests"},
-                           Word{"bonded", "it does not move"},
-                           Word{"frictionless", "it slides on the table"}};
-constexpr std::array weights{Word{"in_contact", "the weight is part of the contact force"},
-                             Word{"apart", "friction counts the weight besides, eq. (4)"}};
-constexpr std::array calibrations{
-    Word{"mass", "eq. (5) alone: they press spheres^(5/6) times as hard"},
-    Word{"force", "together they press a flat like the one sphere of `radius`"}};
-constexpr std::array keeps{Word{"travel", "the depth"}, Word{"force", "the force"}};
-constexpr std::array laws{Word{"elliptic", "both principal curvatures, exactly"},
-                          Word{"geometric", "a circle with R = 1 / sqrt(k_1 k_2)"},
-                          Word{"mean", "a circle with the mean curvature, eq. (2)"}};
-constexpr std::array curvature_methods{Word{"quadric", "a local quadric, second order"},
-                                       Word{"taubin", "eq. (6)-(9), signed; does not converge"}};
-constexpr std::array curvature_surfaces{
-    Word{"rest", "the tissue's own shape"},
-    Word{"deformed", "as it is pressed; where it conforms to the finger the run ends"}};
-constexpr std::array couplings{
-    Word{"one_way", "eq. (2) with the finger's travel; the mesh only follows"},
-    Word{"series", "travel less the mesh's sinking under the contact; counts the tissue twice"},
-    Word{"consistent", "less only that sinking which Hertz does not know"}};
-constexpr std::array models{Word{"auto", "the cheapest that meets `tolerance`"},
-                            Word{"hertz", "eq. (1)-(4), no mesh"},
-                            Word{"mass_spring", "the paper's springs along tetrahedron edges"}};
-constexpr std::array integrators{Word{"central_difference", "explicit, eq. (12)"},
-                                 Word{"backward_difference", "implicit Euler"},
-                                 Word{"quasi_static", "no inertia"},
-                                 Word{"modal", "exact in time, linear only, up to 1000 nodes"}};
-constexpr std::array starts{Word{"consistent", "second order"},
-                            Word{"paper", "U(-dt) = U(0), first order"}};
-constexpr std::array stiffnesses{Word{"van_gelder", "k = E sum(V) / l^2"},
-                                 Word{"fitted", "least squares towards isotropy"}};
-constexpr std::array kinematics_words{Word{"linear", "eq. (11)-(12)"},
-                                      Word{"nonlinear", "eq. (10)"}};
+using namespace words;
 
 }  // namespace
 
@@ -93,11 +55,19 @@ static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
 }
 static void fields(FieldVisitor&, AsMeshed&) {}
 
+static void grading(FieldVisitor& visitor, double& ratio) {
+  visitor.number({"grading",
+                  "Cells grow from under the finger to this many times their size at the farther "
+                  "ends; 1: all alike."},
+                 ratio, between(1, 1000));
+}
 static void fields(FieldVisitor& visitor, Kuhn& mesh) {
   visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
+  grading(visitor, mesh.grading);
 }
 static void fields(FieldVisitor& visitor, Mirrored& mesh) {
   visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
+  grading(visitor, mesh.grading);
 }
 static void fields(FieldVisitor& visitor, Tetgen& mesh) {
   visitor.count(
@@ -152,6 +122,11 @@ void fields(FieldVisitor& visitor, Substance& substance) {
   visitor.text({"material", "As `tissue.material`."}, substance.material);
   visitor.quantity({"young_modulus", "Default: the material's."}, substance.young_modulus,
                    unit::kPa, above(0));
+  visitor.number({"poisson_ratio",
+                  "Default: the material's. Independent springs without a volume term have a ratio "
+                  "of their own."},
+                 substance.poisson_ratio,
+                 {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = true});
   visitor.quantity({"density", "Default: the material's."}, substance.density, unit::density,
                    above(0));
 }
@@ -179,14 +154,20 @@ struct Conditions {
   Use finger;        // physics of a finger
   Use mesh_physics;  // physics that only a mesh can honour
   Use pressed_mesh;  // machinery of a mesh under a finger
+  Use springs;       // of independent springs
+  Use based;         // what stands on something: a mesh or a layer
 
   explicit Conditions(const Scenario& scenario) {
     const bool meshed = scenario.meshed();
     const char* const when = !meshed && scenario.solver.model == Model::automatic
                                  ? "on another `tissue.shape` than `half_space`"
-                                 : "with `solver.model = \"mass_spring\"`";
+                                 : "with `solver.model = \"mass_spring\"` or `\"coupled_springs\"`";
     mesh = {meshed, when, Use::Otherwise::note};
     mesh_physics = {meshed, when};
+    springs = meshed ? Use{scenario.solver.model != Model::coupled_springs,
+                           "with `solver.model = \"mass_spring\"`", Use::Otherwise::note}
+                     : mesh;
+    based = scenario.solver.model == Model::layer ? Use{} : mesh;
     // Of steps of both kinds, the mixture is the mistake, not the finger.
     const bool presses =
         std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& s) {
@@ -209,17 +190,16 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                 [&](FieldVisitor& inner) { inner.alternatives(tissue.mesh); });
   visitor.quantity({"young_modulus", "Of the relaxed tissue. Default: the material's."},
                    tissue.young_modulus, unit::kPa, above(0));
-  visitor.number({"poisson_ratio",
-                  "Default: the material's. Honoured in the contact only: independent springs have "
-                  "a ratio of their own, near 1/4."},
-                 tissue.poisson_ratio,
-                 {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false});
+  visitor.number(
+      {"poisson_ratio",
+       "Default: the material's. With `mass_spring` it reaches the contact and the volume "
+       "term only: independent springs have a ratio of their own, near 1/4."},
+      tissue.poisson_ratio, {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false});
   visitor.quantity({"density", "Default: the material's.", use.mesh_physics}, tissue.density,
                    unit::density, above(0));
-  visitor.choice({"viscosity", "How the tissue takes time.", use.mesh_physics}, tissue.viscosity,
-                 viscosities);
+  visitor.choice({"viscosity", "How the tissue takes time."}, tissue.viscosity, viscosities);
   const auto with = [&](tissue::Viscosity law, const char* when) {
-    return use.mesh_physics.used ? Use{tissue.viscosity == law, when} : use.mesh_physics;
+    return Use{tissue.viscosity == law, when};
   };
   visitor.quantity({"retardation_time", "tau = eta / E of Kelvin-Voigt. Default: the material's.",
                     with(tissue::Viscosity::kelvin_voigt, "with `viscosity = \"kelvin_voigt\"`")},
@@ -233,10 +213,22 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                   "material's.",
                   solid},
                  tissue.instantaneous_ratio, at_least(1));
+  visitor.tables(
+      {"branch", "A branch of the Prony series, as often as wanted.",
+       with(tissue::Viscosity::prony, "with `viscosity = \"prony\"`")},
+      static_cast<int>(tissue.branches.size()),
+      [&](int size) { tissue.branches.resize(static_cast<std::size_t>(size)); },
+      [&](FieldVisitor& inner, int i) {
+        Branch& branch = tissue.branches[static_cast<std::size_t>(i)];
+        inner.quantity({"relaxation_time", "At constant strain."}, branch.relaxation_time, unit::s,
+                       above(0));
+        inner.number({"ratio", "Its modulus over that of the relaxed tissue."}, branch.ratio,
+                     above(0));
+      });
   visitor.quantity({"drag", "d / m of eq. (10). Default: the material's.",
                     with(tissue::Viscosity::nodal_drag, "with `viscosity = \"nodal_drag\"`")},
                    tissue.drag, unit::per_second, at_least(0));
-  visitor.choice({"base", "What the specimen stands on.", use.mesh}, tissue.base, bases);
+  visitor.choice({"base", "What the specimen stands on.", use.based}, tissue.base, bases);
   visitor.quantity_or("auto",
                       {"base_height",
                        "The skin up to this height is its base; `auto`: the underside where it is "
@@ -282,6 +274,14 @@ void fields(FieldVisitor& visitor, Contact& contact, const Conditions& use) {
   visitor.count(
       {"curvature_rings", "Rings of vertices around the contact that it is read from.", use.mesh},
       contact.curvature_rings, between(1, 8));
+  visitor.choice({"viscosity", "Whether the force knows the tissue's viscosity."},
+                 contact.viscosity, contact_viscosities);
+  visitor.choice({"depth", "How the force grows when the press is deep."}, contact.depth, depths);
+  visitor.choice({"direction",
+                  "Along what `resolved` measures gaps and presses.",
+                  {contact.coupling == contact::Coupling::resolved,
+                   "with `coupling = \"resolved\"`", Use::Otherwise::note}},
+                 contact.direction, directions);
   visitor.number({"friction", "Coulomb's coefficient mu."}, contact.friction, at_least(0));
   visitor.quantity({"ambient_force", "F_a of eq. (1), added to the force."}, contact.ambient_force,
                    unit::N, {});
@@ -292,12 +292,15 @@ void fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
   visitor.number({"tolerance", "Relative error of the force that `auto` may leave."},
                  solver.tolerance,
                  {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false});
-  visitor.choice({"stiffness", "Spring stiffness from Young's modulus.", use.mesh},
+  visitor.choice({"stiffness", "Spring stiffness from Young's modulus.", use.springs},
                  solver.stiffness, stiffnesses);
+  visitor.choice({"volume", "How a change of volume is resisted.", use.mesh}, solver.volume,
+                 volumes);
   visitor.choice({"kinematics", "Springs about their rest directions, or truly turning.", use.mesh},
                  solver.kinematics, kinematics_words);
   visitor.choice({"integrator", "How time is stepped.", use.mesh}, solver.integrator, integrators);
-  const bool is_explicit = solver.integrator == Integrator::central_difference;
+  const bool is_explicit = solver.integrator == Integrator::central_difference ||
+                           solver.integrator == Integrator::automatic;
   const Use stepped = use.mesh.used ? Use{is_explicit, "with `integrator = \"central_difference\"`",
                                           Use::Otherwise::note}
                                     : use.mesh;
@@ -349,8 +352,15 @@ bool Scenario::uniform() const {
 }
 
 bool Scenario::meshed() const {
-  return solver.model == Model::mass_spring ||
+  return solver.model == Model::mass_spring || solver.model == Model::coupled_springs ||
          (solver.model == Model::automatic && !std::holds_alternative<HalfSpace>(tissue.shape));
+}
+
+bool Scenario::viscous_contact() const {
+  return contact.viscosity == Contact::Viscosity::tissue &&
+         contact.coupling != contact::Coupling::one_way &&
+         tissue.viscosity != tissue::Viscosity::none &&
+         tissue.viscosity != tissue::Viscosity::nodal_drag;
 }
 
 void fields(FieldVisitor& visitor, Scenario& scenario) {

@@ -101,23 +101,28 @@ void fill_in_tissue(Scenario& scenario, const material::Tissue& material, const 
                      "`" + tissue.material +
                          "` has a Poisson's ratio of 0.5, and a tissue needs "
                          "less; set `tissue.poisson_ratio = 0.49`");
-  if (!scenario.meshed()) return;
+  // Where nothing flows, the material's values serve estimates and need not be there.
+  const bool flows = scenario.meshed() || scenario.viscous_contact();
+  const auto fill = [&](std::optional<double>& value, const auto& from, const char* key) {
+    if (flows || from) fill_viscous(value, from, key, tissue, document);
+  };
   if (tissue.viscosity == tissue::Viscosity::kelvin_voigt)
-    fill_viscous(tissue.retardation_time, material.retardation_time, "retardation_time", tissue,
-                 document);
+    fill(tissue.retardation_time, material.retardation_time, "retardation_time");
   if (tissue.viscosity == tissue::Viscosity::standard_linear_solid) {
-    fill_viscous(tissue.relaxation_time, material.relaxation_time, "relaxation_time", tissue,
-                 document);
-    fill_viscous(tissue.instantaneous_ratio, material.instantaneous_ratio, "instantaneous_ratio",
-                 tissue, document);
+    fill(tissue.relaxation_time, material.relaxation_time, "relaxation_time");
+    fill(tissue.instantaneous_ratio, material.instantaneous_ratio, "instantaneous_ratio");
   }
-  if (tissue.viscosity == tissue::Viscosity::nodal_drag)
-    fill_viscous(tissue.drag, material.drag, "drag", tissue, document);
+  if (tissue.viscosity == tissue::Viscosity::nodal_drag) fill(tissue.drag, material.drag, "drag");
 }
 
-void fill_in_substance(Substance& substance, const material::Tissue& material) {
+void fill_in_substance(Substance& substance, const material::Tissue& material,
+                       const Solver& solver) {
   if (!substance.density) substance.density = material.density.value;
   if (!substance.young_modulus) substance.young_modulus = material.young_modulus.value;
+  const bool honoured = solver.model != Solver::Model::mass_spring ||
+                        solver.volume == Solver::Volume::nodal ||
+                        solver.volume == Solver::Volume::tetrahedron;
+  if (honoured && !substance.poisson_ratio) substance.poisson_ratio = material.poisson_ratio.value;
 }
 
 // A limb's muscle and bone, unless the scenario says what its regions are; the mesh of shapes that
@@ -140,6 +145,19 @@ void complete_shape(Scenario& scenario, const Node& document) {
     scenario.regions.emplace_back(TaggedRegion{.tag = 2, .substance = {.material = "bone"}});
 }
 
+// The viscosity of the contact, where the scenario leaves it open: most materials' viscosity is
+// assumed, and a force does not take part in an assumption that nobody made in the scenario.
+void complete_contact(Scenario& scenario, const Node& document) {
+  using Viscosity = Contact::Viscosity;
+  if (scenario.contact.viscosity != Viscosity::automatic) return;
+  const Member* tissue = document.find("tissue");
+  const bool given = tissue != nullptr && tissue->value.find("viscosity") != nullptr;
+  const bool hertz_knows = scenario.contact.coupling == contact::Coupling::consistent;
+  const bool flows = scenario.tissue.viscosity != tissue::Viscosity::none &&
+                     scenario.tissue.viscosity != tissue::Viscosity::nodal_drag;
+  scenario.contact.viscosity = given && hertz_knows && flows ? Viscosity::tissue : Viscosity::none;
+}
+
 void fill_in_finger(Finger& finger, const material::Tissue& rubber) {
   if (!finger.density) finger.density = rubber.density.value;
   if (finger.material == "rigid") return;
@@ -152,6 +170,7 @@ void fill_in_finger(Finger& finger, const material::Tissue& rubber) {
 void fill_in(Scenario& scenario, const Node& document, const std::string& folder,
              std::vector<InputFile>& inputs, std::vector<Problem>& problems) {
   const bool readable = problems.empty();
+  complete_contact(scenario, document);
   const auto attempt = [&](const auto& part) {
     try {
       part();
@@ -171,7 +190,7 @@ void fill_in(Scenario& scenario, const Node& document, const std::string& folder
     const Place place = place_of(document, "region." + std::to_string(i + 1) + ".material");
     attempt([&] {
       const material::Tissue material = find_material(substance.material, place, folder, inputs);
-      if (readable) fill_in_substance(substance, material);
+      if (readable) fill_in_substance(substance, material, scenario.solver);
     });
   }
   const bool meshed = scenario.meshed();

@@ -63,10 +63,12 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, Lay
 struct Kuhn {
   static constexpr Word word{"kuhn", "Cells of six tetrahedra, all alike (the paper's cube)."};
   std::array<int, 3> cells{3, 4, 6};
+  double grading = 1.0;  // of the longest cells over the shortest, which lie under the finger
 };
 struct Mirrored {
   static constexpr Word word{"mirrored", "Kuhn cells, every second one reflected."};
   std::array<int, 3> cells{3, 4, 6};
+  double grading = 1.0;
 };
 struct Tetgen {
   static constexpr Word word{"tetgen", "An unstructured mesh by TetGen."};
@@ -81,6 +83,12 @@ struct MeshFile {
 };
 using Mesh = std::variant<Kuhn, Mirrored, Tetgen, MeshFile>;
 
+// A spring behind a dashpot, of a Prony series.
+struct Branch {
+  double relaxation_time = 1.0;  // s
+  double ratio = 1.0;            // its modulus over that of the relaxed tissue
+};
+
 struct Tissue {
   enum class Base { automatic, bonded, frictionless };
   std::string material = "skin";
@@ -93,17 +101,18 @@ struct Tissue {
   std::optional<double> retardation_time;     // s
   std::optional<double> relaxation_time;      // s
   std::optional<double> instantaneous_ratio;  // E_0 / E_inf
+  std::vector<Branch> branches;               // of `prony`
   std::optional<double> drag;                 // 1/s
   Base base = Base::automatic;
   std::optional<double> base_height;  // m; empty: 0 on a flat underside, else a tenth of the height
 };
 
-// What a part of the specimen is made of, where that is not `tissue.material`. Springs have a
-// Poisson's ratio of their own, so that a part's could reach nothing.
+// What a part of the specimen is made of, where that is not `tissue.material`.
 struct Substance {
   std::string material = "muscle";
   std::optional<double> density = {};        // kg/m^3; empty properties come from the material
   std::optional<double> young_modulus = {};  // Pa
+  std::optional<double> poisson_ratio = {};  // independent springs have one of their own
 };
 struct TaggedRegion {
   static constexpr Word word{"tagged", "A region of the shape or of the mesh file, by its number."};
@@ -136,23 +145,31 @@ struct Finger {
 
 struct Contact {
   enum class CurvatureOn { rest, deformed };
+  enum class Viscosity { automatic, none, tissue };
+  enum class Depth { automatic, hertz, neo_hookean };
+  enum class Direction { automatic, skin, sphere };
   contact::CurvatureLaw law = contact::CurvatureLaw::elliptic;
   geometry::CurvatureMethod curvature = geometry::CurvatureMethod::quadric;
   CurvatureOn curvature_on = CurvatureOn::rest;
   int curvature_rings = 2;
   contact::Coupling coupling = contact::Coupling::consistent;
+  Viscosity viscosity = Viscosity::automatic;
+  Depth depth = Depth::automatic;
+  Direction direction = Direction::automatic;
   double friction = 0.0;
   double ambient_force = 0.0;  // N, F_a of eq. (1)
 };
 
 struct Solver {
-  enum class Model { automatic, hertz, mass_spring };
-  enum class Integrator { central_difference, backward_difference, quasi_static, modal };
+  enum class Model { automatic, hertz, layer, mass_spring, coupled_springs };
+  enum class Integrator { automatic, central_difference, backward_difference, quasi_static, modal };
+  enum class Volume { automatic, none, tetrahedron, nodal };
   Model model = Model::automatic;
   double tolerance = 0.05;
   tissue::StiffnessRule stiffness = tissue::StiffnessRule::fitted;
+  Volume volume = Volume::automatic;
   tissue::Kinematics kinematics = tissue::Kinematics::linear;
-  Integrator integrator = Integrator::central_difference;
+  Integrator integrator = Integrator::automatic;
   integrate::Start start = integrate::Start::consistent;
   std::optional<double> time_step;  // s
   std::optional<int> substeps;      // a time step is cut into; empty: as many as are stable
@@ -224,6 +241,9 @@ struct Scenario {
 
   // False where it is plain that no mesh will be made; `auto` may still do without one.
   [[nodiscard]] bool meshed() const;
+
+  // Whether the contact force knows the tissue's viscosity, once that has been filled in.
+  [[nodiscard]] bool viscous_contact() const;
 };
 
 // The one list of a scenario's keys, with their units, ranges, defaults and where they count.

@@ -1,46 +1,38 @@
 // Case to scene: mesh, springs, supports, time steps.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/text.h"
 #include "contact/hertz.h"
 #include "contact/patch.h"
+#include "contact/ring.h"
+#include "contact/wide_patch.h"
 #include "scene/first_touch.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
+#include "tissue/coupled.h"
 
 namespace palpate::scene {
 namespace {
 
 constexpr int most_modal_nodes = 1000;  // an eigen-decomposition grows with the cube
+constexpr double most_poisson_ratio = 0.4995;
+constexpr double own_share = 0.05;  // of the shear modulus: the bulk stiffness of tetrahedra alone
 
-tissue::ViscousLaw make_law(const scenario::Tissue& tissue) {
-  tissue::ViscousLaw law;
-  law.kind = tissue.viscosity;
-  if (law.kind == tissue::Viscosity::kelvin_voigt) law.time = *tissue.retardation_time;
-  if (law.kind == tissue::Viscosity::standard_linear_solid) {
-    law.time = *tissue.relaxation_time;
-    law.branch = *tissue.instantaneous_ratio - 1.0;
-  }
-  if (law.kind == tissue::Viscosity::nodal_drag) law.drag = *tissue.drag;
-  return law;
-}
-
-tissue::Base make_base(const scenario::Scenario& scenario) {
-  using Base = scenario::Tissue::Base;
-  if (scenario.tissue.base == Base::automatic)
-    return scenario.uniform() ? tissue::Base::frictionless : tissue::Base::bonded;
-  return scenario.tissue.base == Base::bonded ? tissue::Base::bonded : tissue::Base::frictionless;
-}
-
-// k_c sum_j w_j^2 / m_j at the deepest contact of the programme, where the mesh is read back, as if
-// one sphere pressed with all of the finger's force.
+// The greatest k_c sum_j w_j^2 / m_j of the programme where the mesh is read back, as if one sphere
+// pressed with all of the finger's force: at the deepest contact; with inertia anywhere on the way
+// there, because the wide patch narrows as fast as the contact softens.
 double contact_frequency_squared(const Scene& scene) {
-  if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::series)
+  const bool inertia = inertia_reaches_force(scene);
+  if (scene.scenario.uniform() ||
+      (scene.scenario.contact.coupling != contact::Coupling::series && !inertia))
     return 0.0;
   const Specimen& specimen = *scene.specimen;
-  const double depth = deepest_travel(scene.scenario, scene.law());
+  const double deepest = deepest_travel(scene.scenario, scene.law());
+  const double spacing =
+      inertia ? contact::RingReader(*specimen.surface).spacing({.at = first_touch(scene).at}) : 0.0;
   contact::Spreader spreader(*specimen.surface);
   contact::Spread load;
   contact::Patch patch;
@@ -48,15 +40,26 @@ double contact_frequency_squared(const Scene& scene) {
   patch.position = specimen.surface->position(patch.at);
   patch.normal = specimen.surface->normal(patch.at);
   patch.axis = patch.normal.unitOrthogonal();
-  patch.a = patch.b = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
-  spreader.spread(patch, load);
-  double sum = 0.0;
-  for (std::size_t j = 0; j < load.vertices.size(); ++j)
-    sum += load.shares[j] * load.shares[j] /
-           specimen.network.node_mass[static_cast<std::size_t>(
-               specimen.skin[static_cast<std::size_t>(load.vertices[j])])];
-  return sum * scene.finger.force_factor *
-         contact::hertz::stiffness(depth, scene.law().radius, scene.law().modulus);
+  const auto squared = [&](double depth) {
+    const double a = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
+    patch.a = patch.b = a;
+    spreader.spread(inertia ? contact::wide_patch(patch, {a, a}, spacing) : patch, load);
+    double sum = 0.0;
+    for (std::size_t j = 0; j < load.vertices.size(); ++j)
+      sum += load.shares[j] * load.shares[j] /
+             specimen.network.node_mass[static_cast<std::size_t>(
+                 specimen.skin[static_cast<std::size_t>(load.vertices[j])])];
+    return sum * scene.finger.force_factor *
+           contact::hertz::stiffness(depth, scene.law().radius, scene.law().modulus);
+  };
+  if (!inertia) return squared(deepest);
+  // The mesh softens the contact by up to 0.47 of its compliance at the travel, and where the mesh
+  // lags by half the travel the contact itself has 1 / sqrt(1.5) of it: 1 / (0.82 - 0.47).
+  constexpr double stiffened = 3.0;
+  double most = 0.0;
+  for (double depth = deepest; depth > 1e-3 * deepest; depth *= 0.5)
+    most = std::max(most, squared(depth));
+  return stiffened * most;
 }
 
 void refuse_unstable(const Scene& scene, const scenario::Family& family) {
@@ -95,6 +98,20 @@ std::vector<double> by_region(const scenario::Scenario& scenario,
   return values;
 }
 
+// Elastic, of the tissue and of the regions. Near nu = 1/2 a mesh would have no answer: it takes
+// 0.4995 there.
+std::vector<tissue::Isotropic> tissues_of(const scenario::Scenario& scenario) {
+  const auto moduli =
+      by_region(scenario, &scenario::Tissue::young_modulus, &scenario::Substance::young_modulus);
+  std::vector<double> ratios{*scenario.tissue.poisson_ratio};
+  for (const scenario::Region& region : scenario.regions)
+    ratios.push_back(scenario::substance(region).poisson_ratio.value_or(ratios.front()));
+  std::vector<tissue::Isotropic> tissues;
+  for (std::size_t i = 0; i < moduli.size(); ++i)
+    tissues.push_back({moduli[i], std::min(ratios[i], most_poisson_ratio)});
+  return tissues;
+}
+
 // The area of the skin's triangles that lie in the plane at height `z`, m^2.
 double flat_area(const geometry::Skin& skin, double z, double tolerance) {
   double sum = 0.0;
@@ -116,21 +133,90 @@ void measure_size(Specimen& specimen) {
   }
 }
 
+// What a network of springs makes of one or several tissues.
+struct SpringMaker {
+  const scenario::Solver* solver;
+  const geometry::TetMesh* mesh;
+  std::vector<double> densities;
+
+  [[nodiscard]] bool coupled() const {
+    return solver->model == scenario::Solver::Model::coupled_springs;
+  }
+  [[nodiscard]] tissue::Volume volume() const {
+    using Volume = scenario::Solver::Volume;
+    switch (solver->volume) {
+      case Volume::none: return tissue::Volume::none;
+      case Volume::tetrahedron: return tissue::Volume::tetrahedron;
+      case Volume::nodal: return tissue::Volume::nodal;
+      case Volume::automatic: break;
+    }
+    return coupled() ? tissue::Volume::nodal : tissue::Volume::none;
+  }
+
+  // Independent springs first; `factor` is what they are multiplied with before the volume term.
+  [[nodiscard]] tissue::Network springs(const std::vector<tissue::Isotropic>& tissues) const {
+    std::vector<double> moduli;
+    for (const tissue::Isotropic& one : tissues)
+      moduli.push_back(volume() == tissue::Volume::none ? one.young_modulus
+                                                        : tissue::spring_modulus(one));
+    return tissue::make_network(*mesh, densities,
+                                tissue::spring_stiffness(solver->stiffness, *mesh, moduli));
+  }
+  void finish(tissue::Network& network, const std::vector<tissue::Isotropic>& tissues,
+              double factor) const {
+    for (double& stiffness : network.stiffness) stiffness *= factor;
+    if (volume() != tissue::Volume::none) tissue::add_volume(network, *mesh, tissues, volume());
+  }
+  [[nodiscard]] tissue::Network elements(const std::vector<tissue::Isotropic>& tissues) const {
+    tissue::Network network = tissue::make_network(
+        *mesh, densities, std::vector<double>(geometry::edges(*mesh).size(), 0.0));
+    tissue::couple(network, *mesh, tissues, volume(), own_share);
+    return network;
+  }
+};
+
+// Gives the specimen its springs, and says what E and nu they have, were all of it the tissue.
+void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>& tissues,
+                  const std::function<tissue::Uniaxial(const tissue::Network&)>& measure,
+                  Specimen& specimen) {
+  const std::vector<tissue::Isotropic> alike(tissues.size(), tissues.front());
+  const bool several = tissues.size() > 1;
+  if (maker.coupled()) {
+    specimen.network = maker.elements(tissues);
+    if (several) specimen.one_tissue = maker.elements(alike);
+    // The linear finite element passes the patch test: its E and nu are the tissue's.
+    specimen.measured.young_modulus = tissues.front().young_modulus;
+    specimen.measured.poisson_ratio = tissues.front().poisson_ratio;
+    return;
+  }
+  specimen.network = maker.springs(tissues);
+  tissue::Network alone = several ? maker.springs(alike) : specimen.network;
+  double factor = 1.0;
+  if (maker.solver->stiffness == tissue::StiffnessRule::fitted) {
+    // The fit makes the neighbourhoods isotropic; one factor more gives the specimen as a whole the
+    // modulus that the springs should have under uniaxial load.
+    const double wanted = maker.volume() == tissue::Volume::none
+                              ? tissues.front().young_modulus
+                              : tissue::spring_modulus(tissues.front());
+    factor = wanted / measure(alone).young_modulus;
+  }
+  maker.finish(specimen.network, tissues, factor);
+  maker.finish(alone, alike, factor);
+  specimen.measured = measure(alone);
+  if (several) specimen.one_tissue = std::move(alone);
+}
+
 std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
                                         const std::string& folder) {
   auto specimen = std::make_unique<Specimen>();
   specimen->mesh = specimen_mesh(scenario, folder);
-  specimen->law = make_law(scenario.tissue);
+  specimen->law = viscous_law(scenario.tissue);
   specimen->kinematics = scenario.solver.kinematics;
-  specimen->base = make_base(scenario);
+  if (scenario.solver.model == scenario::Solver::Model::coupled_springs &&
+      specimen->kinematics == tissue::Kinematics::nonlinear)
+    specimen->kinematics = tissue::Kinematics::squared;
+  specimen->base = base_of(scenario);
   measure_size(*specimen);
-  const std::vector<double> moduli =
-      by_region(scenario, &scenario::Tissue::young_modulus, &scenario::Substance::young_modulus);
-  const std::vector<double> densities =
-      by_region(scenario, &scenario::Tissue::density, &scenario::Substance::density);
-  const tissue::StiffnessRule rule = scenario.solver.stiffness;
-  specimen->network = tissue::make_network(specimen->mesh, densities,
-                                           tissue::spring_stiffness(rule, specimen->mesh, moduli));
   geometry::Skin skin = geometry::skin(specimen->mesh);
   const double top = specimen->high.z();
   const double flat = 1e-9 * geometry::diagonal(specimen->mesh);
@@ -141,28 +227,18 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
     throw MeshError(
         "the specimen has no flat upper end for a platen; `creep` and `relax` need a shape with "
         "flat ends, such as `cuboid` or `ligament`");
-  // What the springs make of the tissue's modulus is asked of a specimen of that tissue alone.
-  tissue::Network alone = specimen->network;
-  if (moduli.size() > 1)
-    alone.stiffness = tissue::spring_stiffness(rule, specimen->mesh,
-                                               std::vector<double>(moduli.size(), moduli.front()));
   const bool platens =
       scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
-  const auto measure = [&] {
-    return platens ? tissue::uniaxial_test(alone, specimen->mesh, tissue::Base::frictionless, top,
-                                           top_area)
-                   : tissue::traction_test(alone, specimen->mesh);
-  };
-  specimen->measured = measure();
-  if (rule == tissue::StiffnessRule::fitted) {
-    // The fit makes the neighbourhoods isotropic; one factor more gives the specimen as a whole the
-    // tissue's modulus under uniaxial load.
-    const double factor = moduli.front() / specimen->measured.young_modulus;
-    for (double& stiffness : alone.stiffness) stiffness *= factor;
-    for (double& stiffness : specimen->network.stiffness) stiffness *= factor;
-    specimen->measured = measure();
-  }
-  if (moduli.size() > 1) specimen->one_tissue = std::move(alone.stiffness);
+  make_springs(
+      {&scenario.solver, &specimen->mesh,
+       by_region(scenario, &scenario::Tissue::density, &scenario::Substance::density)},
+      tissues_of(scenario),
+      [&](const tissue::Network& network) {
+        return platens ? tissue::uniaxial_test(network, specimen->mesh, tissue::Base::frictionless,
+                                               top, top_area)
+                       : tissue::traction_test(network, specimen->mesh);
+      },
+      *specimen);
   if (scenario.uniform()) {
     specimen->pressed =
         tissue::uniaxial_test(specimen->network, specimen->mesh, specimen->base, top, top_area);
@@ -183,25 +259,63 @@ double Scene::thickness() const {
   return shape ? geometry::extent(*shape).z() : std::numeric_limits<double>::infinity();
 }
 
+namespace {
+
+void set_layer(Scene& scene) {
+  scene.layer = make_layer(scene.scenario, scene.finger);
+  scene.layer_sinking.emplace(contact::Layer{.poisson_ratio = *scene.scenario.tissue.poisson_ratio,
+                                             .base = layer_base(scene.scenario),
+                                             .share = 1.0 - scene.finger.compliance_share});
+}
+
+}  // namespace
+
 Scene build(const scenario::Case& one, const scenario::Family& family) {
+  using Model = scenario::Solver::Model;
   Scene scene;
   scene.name = one.name;
-  scene.scenario = one.scenario;
   scene.choice = choose(one.scenario);
-  if (!one.scenario.uniform()) scene.finger = make_finger(one.scenario);
-  if (scene.choice.model == scenario::Solver::Model::hertz) {
-    if (const auto reason = beyond_hertz(one.scenario))
+  scene.scenario = scene.choice.chosen;
+  const scenario::Scenario& scenario = scene.scenario;
+  if (!scenario.uniform()) scene.finger = make_finger(scenario);
+  const auto refuse = [&](const char* model, const std::optional<std::string>& reason) {
+    if (reason)
       throw InputError(scenario::place_of(family.document, "solver.model"),
-                       "`hertz` does not know this scene: " + *reason +
-                           "; set `solver.model = \"mass_spring\"`");
+                       std::string("`") + model + "` does not know this scene: " + *reason +
+                           "; set `solver.model = \"coupled_springs\"`");
+  };
+  scene.relaxation = contact_relaxation(scenario, scene.finger);
+  if (scenario.solver.model == Model::hertz) {
+    refuse("hertz", beyond_hertz(scenario));
+    if (scenario.contact.depth == scenario::Contact::Depth::neo_hookean) {
+      scene.deep = contact::deep_law(*scenario.tissue.poisson_ratio);
+      if (!scene.deep)
+        throw InputError(scenario::place_of(family.document, "contact.depth"),
+                         "`neo_hookean` is known for a Poisson's ratio of 0.27 to 0.5, and the "
+                         "tissue's is " +
+                             rounded_text(*scenario.tissue.poisson_ratio) +
+                             "; write `depth = \"hertz\"`");
+    }
     return scene;
   }
-  scene.specimen = make_specimen(one.scenario, family.folder);
-  scene.specimen->plan = plan_time(one.scenario, *scene.specimen, contact_frequency_squared(scene));
+  if (scenario.solver.model == Model::layer) {
+    refuse("layer", beyond_layer(scenario));
+    set_layer(scene);
+    return scene;
+  }
+  scene.specimen = make_specimen(scenario, family.folder);
+  if (!scenario.uniform() && scenario.contact.coupling == contact::Coupling::consistent &&
+      std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) {
+    set_layer(scene);
+    scene.specimen->sinking.emplace(
+        contact::Layer{.poisson_ratio = std::min(0.5, scene.specimen->measured.poisson_ratio),
+                       .base = layer_base(scenario)});
+  }
+  scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_frequency_squared(scene));
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);
   // A finger that passes beside its specimen is found before the first case runs.
-  if (!one.scenario.uniform()) (void)first_touch(scene);
+  if (!scenario.uniform()) (void)first_touch(scene);
   return scene;
 }
 

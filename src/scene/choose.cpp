@@ -1,165 +1,210 @@
-// The questions of the ladder, in order; the first that settles it ends the list.
+// The questions of the ladder, in order, and the cheapest rung that their answers leave.
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "contact/hertz.h"
+#include "base/text.h"
+#include "scene/estimates.h"
 #include "scene/scene.h"
-#include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
 namespace {
 
 using Model = scenario::Solver::Model;
+using Integrator = scenario::Solver::Integrator;
 
-// The viscous time over the time that the fastest press takes.
-double time_ratio(const scenario::Scenario& scenario, double travel) {
-  double viscous = 0.0;
-  if (scenario.tissue.viscosity == tissue::Viscosity::kelvin_voigt)
-    viscous = *scenario.tissue.retardation_time;
-  if (scenario.tissue.viscosity == tissue::Viscosity::standard_linear_solid)
-    viscous = *scenario.tissue.relaxation_time;
-  double rate = 0.0;
-  for (const scenario::Step& step : scenario.steps)
-    if (const auto* indent = std::get_if<scenario::Indent>(&step))
-      rate = std::max(rate, indent->rate);
-  return travel > 0.0 ? viscous * rate / travel : 0.0;
-}
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// How near the finger comes to a side of a cuboid on its way, m; negative beside it.
-double nearest_side(const scenario::Scenario& scenario, const scenario::Cuboid& box) {
-  double x = scenario.finger.x.value_or(0.5 * box.size[0]);
-  double y = scenario.finger.y.value_or(0.5 * box.size[1]);
-  const auto side = [&] { return std::min({x, box.size[0] - x, y, box.size[1] - y}); };
-  double nearest = side();
-  for (const scenario::Step& step : scenario.steps) {
-    const auto* slide = std::get_if<scenario::Slide>(&step);
-    if (slide == nullptr) continue;
-    const double angle = slide->direction * std::numbers::pi / 180.0;
-    x += slide->by * std::cos(angle);
-    y += slide->by * std::sin(angle);
-    nearest = std::min(nearest, side());
+// A rung's own error on a mesh, measured against converged elasticity: docs/accuracy.md.
+struct MeshError {
+  double flat;    // of the force on a flat cuboid
+  double sides;   // part of the sides' effect that it misses
+  double curved;  // of the force on a curved body, besides
+  double size;    // part of such a body's effect that it misses
+};
+constexpr MeshError mass_spring_error{.flat = 0.02, .sides = 0.3, .curved = 0.03, .size = 0.3};
+constexpr MeshError coupled_error{.flat = 0.02, .sides = 0.1, .curved = 0.03, .size = 0.1};
+
+constexpr double doubt = 0.2;  // of the sides' effect, which is a fit
+
+class Chooser {
+ public:
+  explicit Chooser(const scenario::Scenario& scenario) : asked_(scenario) {
+    choice_.chosen = scenario;
   }
-  return nearest;
-}
+
+  Choice choose() {
+    choice_.given = asked_.solver.model != Model::automatic;
+    if (asked_.uniform())
+      uniform();
+    else
+      pressed();
+    complete();
+    return choice_;
+  }
+
+ private:
+  void ask(const char* asked, const char* measure, double number, double threshold,
+           const std::string& below, const std::string& above) {
+    choice_.questions.push_back(
+        {asked, measure, number, threshold, number < threshold ? below : above});
+  }
+
+  [[nodiscard]] double tolerance() const { return asked_.solver.tolerance; }
+
+  // Strain or stress of a specimen between platens.
+  void uniform() {
+    const double nu = *asked_.tissue.poisson_ratio;
+    const bool bonded = base_of(asked_) == tissue::Base::bonded;
+    const bool several = !asked_.regions.empty();
+    // A bonded end, or a second tissue, makes the strain uneven, and nu matters: springs have 1/4.
+    const double error = bonded || several ? 0.5 * std::abs(nu - 0.25) : 0.001;
+    ask("a uniform test?", "steps that load the end faces", 1.0, 0.5, "",
+        "yes: only a specimen can creep or relax");
+    ask("does nu matter?",
+        bonded || several ? "|nu - 1/4| / 2, ends held or tissues mixed"
+                          : "ends slide on their platens",
+        error, tolerance(), "no: springs have the right Young's modulus",
+        "yes: springs have a Poisson's ratio of their own");
+    add_mesh(Model::mass_spring, error);
+    add_mesh(Model::coupled_springs, 0.001 + (bonded || several ? 0.02 : 0.0));
+    take_cheapest();
+  }
+
+  void pressed() {
+    const Estimates e = estimate(asked_);
+    const double limit = tolerance();
+    const auto percent = [](double part) { return rounded_text(100.0 * part, 2) + " %"; };
+    const auto beyond = beyond_hertz(asked_);
+    const auto beyond_flat = beyond_layer(asked_);
+    const bool endless = std::holds_alternative<scenario::HalfSpace>(asked_.tissue.shape);
+    const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
+    if (asked_.contact.coupling == contact::Coupling::one_way && !beyond) {
+      choice_.questions.push_back({"does the force know the mesh?", "coupling is one_way", 0, 1,
+                                   "no: it is eq. (2) alone, hertz says the same"});
+      if (!choice_.given) choice_.chosen.solver.model = Model::hertz;
+      return;
+    }
+    ask("rigid tissue?", "lambda_2 / (lambda_1 + lambda_2)", e.tissue_share, std::min(limit, 0.02),
+        "yes: only the finger deforms", "no: the tissue deforms");
+    const double size = std::abs((1.0 + e.thickness) * (1.0 - e.sides) - 1.0) + e.curved_body;
+    ask("half-space?", "what thickness and sides change of the force", size, limit,
+        "yes: the specimen's size does not matter",
+        "no: the thickness adds " + percent(e.thickness) +
+            (box ? ", the sides take " + percent(e.sides)
+                 : ", the body's width changes up to " + percent(e.curved_body)));
+    ask("layer?", "what the sides take of the force", box ? e.sides : 1.0, limit,
+        "yes: one thickness of one flat tissue, exactly known",
+        box ? "no: the sides matter" : "no: the tissue is not flat");
+    ask("deep?", "|F / F_Hertz - 1| of neo-Hookean tissue", e.deep, limit, "no: h^(3/2) holds",
+        "yes: times the factor of a deep press on `hertz`");
+    ask("curved?", "(1/R + kappa_1) / (1/R + kappa_2) - 1", e.curvature_ratio - 1.0, 0.1,
+        "no: one curvature says it all", "yes: both curvatures count, an elliptic contact");
+    // A fifth of the tolerance: what is left out here adds to what a rung leaves out.
+    ask("time dependent?", "what viscosity adds to the force", e.viscous, 0.2 * limit,
+        "no: slow against the tissue's own time", viscous_answer());
+    ask("inertia?", "what waves add to the force", e.inertia, limit,
+        "no: the press is slow against them", inertia_answer());
+    ask("shape or inclusion?", "reasons that only a mesh knows", beyond ? 1.0 : 0.0, 1.0,
+        "no: a formula knows this shape", beyond ? "yes: " + *beyond : "");
+
+    drop_viscosity_ = e.viscous < 0.2 * limit;
+    quasi_static_ = e.inertia < limit;
+    deepen_ = e.deep >= limit;
+    const double still = quasi_static_ ? 0.0 : e.inertia;
+    const double deep = deepen_ ? contact::DeepLaw::error : e.deep;
+    add({.model = Model::hertz,
+         .error = std::abs(1.0 / ((1.0 + e.thickness) * (1.0 - std::min(e.sides, 0.99))) - 1.0) +
+                  doubt * e.sides + e.curved_body + still + deep,
+         .seconds = 1e-6,
+         .cannot = beyond.value_or("")});
+    add({.model = Model::layer,
+         .error = 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt * e.sides + still,
+         .seconds = 0.02,
+         .cannot = beyond_flat.value_or("")});
+    if (endless) {
+      for (const Model model : {Model::mass_spring, Model::coupled_springs})
+        add({.model = model, .cannot = "a `half_space` has no end to be meshed to"});
+    } else {
+      const auto error = [&](const MeshError& of) {
+        return of.flat + of.sides * e.sides + (box ? 0.0 : of.curved + of.size * e.curved_body);
+      };
+      // A network's own nu blurs what another tissue changes.
+      const double mixed = asked_.regions.empty() ? 0.0 : 0.05;
+      add_mesh(Model::mass_spring, error(mass_spring_error) + mixed);
+      add_mesh(Model::coupled_springs, error(coupled_error));
+    }
+    take_cheapest();
+  }
+
+  [[nodiscard]] std::string viscous_answer() const {
+    if (asked_.contact.viscosity == scenario::Contact::Viscosity::tissue)
+      return "yes: Lee and Radok's force while it grows, Ting's while it shrinks";
+    return "yes, but the scenario leaves it out of the contact (`contact.viscosity`): the force is "
+           "that of the relaxed tissue";
+  }
+
+  [[nodiscard]] std::string inertia_answer() const {
+    return "yes: the tissue's mass takes part, on a mesh that moves";
+  }
+
+  void add(Rung rung) { choice_.rungs.push_back(std::move(rung)); }
+
+  // Seconds of a sparse Cholesky of so many nodes; coupled springs carry a pressure a node besides.
+  void add_mesh(Model model, double error) {
+    const double nodes = expected_nodes(asked_);
+    const double once = 0.4 * std::pow(nodes / 2200.0, 2.27) + 1e-4 * nodes;
+    add({.model = model,
+         .error = error,
+         .seconds = model == Model::coupled_springs ? 2.8 * once : once});
+  }
+
+  void take_cheapest() {
+    if (choice_.given) return;
+    const Rung* best = nullptr;
+    for (const Rung& rung : choice_.rungs) {
+      if (!rung.cannot.empty()) continue;
+      if (best == nullptr || rung.error < best->error) best = &rung;
+      if (rung.error > tolerance()) continue;
+      best = &rung;
+      break;
+    }
+    choice_.chosen.solver.model = best->model;
+  }
+
+  // The other keys that were left to `auto`.
+  void complete() {
+    scenario::Scenario& chosen = choice_.chosen;
+    const bool free = !choice_.given;
+    const bool closed_form =
+        chosen.solver.model == Model::hertz || chosen.solver.model == Model::layer;
+    if (chosen.contact.depth == scenario::Contact::Depth::automatic)
+      chosen.contact.depth = free && deepen_ && chosen.solver.model == Model::hertz
+                                 ? scenario::Contact::Depth::neo_hookean
+                                 : scenario::Contact::Depth::hertz;
+    if (free && drop_viscosity_) chosen.contact.viscosity = scenario::Contact::Viscosity::none;
+    if (chosen.solver.integrator == Integrator::automatic) {
+      const bool drag = chosen.tissue.viscosity == tissue::Viscosity::nodal_drag;
+      const bool still = chosen.contact.coupling == contact::Coupling::resolved ||
+                         (free && quasi_static_ && !drag);
+      chosen.solver.integrator =
+          still && !closed_form ? Integrator::quasi_static : Integrator::central_difference;
+    }
+    if (chosen.solver.volume == scenario::Solver::Volume::automatic)
+      chosen.solver.volume = chosen.solver.model == Model::coupled_springs
+                                 ? scenario::Solver::Volume::nodal
+                                 : scenario::Solver::Volume::none;
+  }
+
+  const scenario::Scenario& asked_;
+  Choice choice_;
+  bool drop_viscosity_ = false;
+  bool quasi_static_ = false;
+  bool deepen_ = false;
+};
 
 }  // namespace
 
-std::optional<TopCurvature> top_curvature(const scenario::Shape& shape) {
-  if (std::holds_alternative<scenario::Cuboid>(shape)) return TopCurvature{};
-  if (const auto* half = std::get_if<scenario::HalfSpace>(&shape)) {
-    const double across = half->curvature_2.value_or(half->curvature);
-    if (half->curvature >= across) return TopCurvature{half->curvature, across};
-    return TopCurvature{across, half->curvature, Vec3::UnitY()};
-  }
-  if (const auto* cylinder = std::get_if<scenario::Cylinder>(&shape))
-    return TopCurvature{1.0 / cylinder->radius, 0.0};
-  if (const auto* ellipsoid = std::get_if<scenario::Ellipsoid>(&shape)) {
-    // z = c sqrt(1 - x^2/a^2 - y^2/b^2) curves with c/a^2 and c/b^2 at its top.
-    const Vec3 half = 0.5 * ellipsoid->size;
-    const double x = half.z() / (half.x() * half.x());
-    const double y = half.z() / (half.y() * half.y());
-    return x >= y ? TopCurvature{x, y} : TopCurvature{y, x, Vec3::UnitY()};
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> beyond_hertz(const scenario::Scenario& scenario) {
-  if (!scenario.regions.empty()) return "it has regions of other tissues";
-  const auto top = top_curvature(scenario.tissue.shape);
-  if (!top) return "no formula gives the curvature of its shape";
-  const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
-  if (box != nullptr && nearest_side(scenario, *box) < 0.0)
-    return "the finger leaves the specimen's top";
-  if (top->kappa_1 == 0.0 && top->kappa_2 == 0.0) return std::nullopt;
-  if (scenario.finger.spheres > 1) return "several spheres press a curved surface";
-  if (scenario.finger.x || scenario.finger.y) return "the finger may stand off the curved top";
-  for (const scenario::Step& step : scenario.steps)
-    if (std::holds_alternative<scenario::Slide>(step))
-      return "the finger slides over a curved surface";
-  return std::nullopt;
-}
-
-double deepest_travel(const scenario::Scenario& scenario, const contact::SphereLaw& law) {
-  double travel = 0.0;
-  for (const scenario::Step& step : scenario.steps)
-    if (const auto* indent = std::get_if<scenario::Indent>(&step))
-      travel = std::max(travel, indent->to.second ? contact::hertz::depth(indent->to.value,
-                                                                          law.radius, law.modulus)
-                                                  : indent->to.value);
-  return travel;
-}
-
-Choice choose(const scenario::Scenario& scenario) {
-  Choice choice;
-  if (scenario.solver.model != Model::automatic) {
-    choice.model = scenario.solver.model;
-    return choice;
-  }
-  const auto ask = [&](const char* asked, const char* measure, double number, double threshold,
-                       const char* yes, const char* no) {
-    const bool hertz = number < threshold;
-    choice.questions.push_back({asked, measure, number, threshold, hertz ? yes : no});
-    return hertz;
-  };
-  choice.model = Model::mass_spring;
-  if (!ask("a uniform test?", "steps that load the end faces", scenario.uniform() ? 1 : 0, 0.5,
-           "no: a finger presses", "yes: only a specimen can creep or relax"))
-    return choice;
-  if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape)) {
-    choice.questions.push_back({"a specimen that has a mesh?", "shapes with an end", 0, 1,
-                                "no: a half_space goes on for ever, hertz is all there is"});
-    choice.model = Model::hertz;
-    return choice;
-  }
-
-  const contact::Elastic tissue{*scenario.tissue.young_modulus, *scenario.tissue.poisson_ratio};
-  const double lambda_2 = tissue.compliance();
-  const double lambda_1 =
-      scenario.finger.material == "rigid"
-          ? 0.0
-          : contact::Elastic{*scenario.finger.young_modulus, *scenario.finger.poisson_ratio}
-                .compliance();
-  const contact::SphereLaw law{scenario.finger.radius,
-                               contact::hertz::effective_modulus(lambda_1, lambda_2)};
-  const double travel = deepest_travel(scenario, law);
-  if (scenario.contact.coupling == contact::Coupling::one_way && !beyond_hertz(scenario)) {
-    choice.questions.push_back({"does the force know the mesh?", "coupling is one_way", 0, 1,
-                                "no: it is eq. (2) alone, hertz says the same"});
-    choice.model = Model::hertz;
-    return choice;
-  }
-  if (const auto reason = beyond_hertz(scenario)) {
-    choice.questions.push_back(
-        {"a scene that a formula knows?", "reasons against", 1, 1, "no: " + *reason});
-    return choice;
-  }
-  const double tolerance = scenario.solver.tolerance;
-  if (ask("rigid tissue?", "lambda_2 / (lambda_1 + lambda_2)", lambda_2 / (lambda_1 + lambda_2),
-          std::min(tolerance, 0.02), "yes: only the finger deforms, hertz is enough",
-          "no: the tissue deforms")) {
-    choice.model = Model::hertz;
-    return choice;
-  }
-  const auto shape = parametric(scenario.tissue.shape);
-  const Vec3 size = shape ? geometry::extent(*shape)
-                          : Vec3(Vec3::Constant(std::numeric_limits<double>::infinity()));
-  const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
-  const double side =
-      box != nullptr ? nearest_side(scenario, *box) : 0.5 * std::min(size[0], size[1]);
-  const double near = std::min(size[2], side);
-  // The finite thickness adds c1 chi to the force, c1 at most 1.127 (bonded, nu = 1/2).
-  const double thickness = 1.127 * std::sqrt(law.radius * travel) / near;
-  if (!ask("half-space?", "1.127 sqrt(R h) / nearest support or side", thickness, tolerance,
-           "yes: the specimen's size changes the force by less than the tolerance",
-           "no: thickness and sides matter"))
-    return choice;
-  if (!ask("time dependent?", "viscous time * rate / travel", time_ratio(scenario, travel), 0.01,
-           "no: slow against the tissue's own time", "yes: the tissue's viscosity takes part"))
-    return choice;
-  choice.model = Model::hertz;
-  return choice;
-}
+Choice choose(const scenario::Scenario& scenario) { return Chooser(scenario).choose(); }
 
 }  // namespace palpate::scene

@@ -6,13 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "contact/balance.h"
+#include "contact/deep.h"
 #include "contact/law.h"
+#include "contact/layer.h"
+#include "contact/layer_sinking.h"
+#include "contact/relaxation.h"
 #include "geometry/smooth_surface.h"
 #include "scenario/family.h"
 #include "scene/spring_body.h"
 #include "scene/time_plan.h"
 #include "tissue/uniaxial.h"
+#include "tissue/viscous.h"
 
 namespace palpate::scene {
 
@@ -25,10 +29,20 @@ struct Question {
   std::string answer;  // a sentence
 };
 
-// Which model serves the case, and why. Given models are kept.
+// What a rung of the ladder is expected to be worth for the case.
+struct Rung {
+  scenario::Solver::Model model = scenario::Solver::Model::hertz;
+  double error = 0.0;       // relative, of the force; of the strain in a uniform test
+  double seconds = 0.0;     // to set up and to run, on one core, roughly
+  std::string cannot = {};  // why it cannot serve at all, where it cannot
+};
+
+// Which model serves the case, and why. What the scenario gives is kept.
 struct Choice {
-  scenario::Solver::Model model = scenario::Solver::Model::mass_spring;
+  scenario::Scenario chosen;  // the scenario, with an answer in the place of every `auto`
+  bool given = false;         // the model was: there are no questions
   std::vector<Question> questions;
+  std::vector<Rung> rungs;  // cheapest first
 };
 [[nodiscard]] Choice choose(const scenario::Scenario& scenario);
 
@@ -62,11 +76,12 @@ struct Specimen {
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
-  std::vector<double> one_tissue;          // N/m, springs were it all the tissue; empty: it is
-  tissue::Uniaxial measured;               // the network's own E and nu, were it one tissue
-  tissue::Uniaxial pressed;                // how platens load it, in a uniform test
-  std::vector<char> held;                  // of a pressed specimen
-  std::vector<char> held_between_platens;  // of a relaxing one
+  std::optional<tissue::Network> one_tissue;     // were it all the tissue; none: it is
+  tissue::Uniaxial measured;                     // the network's own E and nu, were it one tissue
+  std::optional<contact::LayerSinking> sinking;  // of a flat layer of the network's nu
+  tissue::Uniaxial pressed;                      // how platens load it, in a uniform test
+  std::vector<char> held;                        // of a pressed specimen
+  std::vector<char> held_between_platens;        // of a relaxing one
   TimePlan plan;
 
   [[nodiscard]] double height() const { return high.z() - low.z(); }
@@ -74,10 +89,14 @@ struct Specimen {
 
 struct Scene {
   std::string name;
-  scenario::Scenario scenario;
+  scenario::Scenario scenario;  // with what `auto` chose in the place of every `auto`
   Choice choice;
   Finger finger;
-  std::unique_ptr<Specimen> specimen;  // none for `hertz`
+  contact::Relaxation relaxation;              // of the contact's modulus; elastic: it does not
+  std::optional<contact::DeepLaw> deep;        // for `hertz` with `contact.depth = "neo_hookean"`
+  std::optional<contact::LayerContact> layer;  // for `layer`, and where `consistent` builds on it
+  std::optional<contact::LayerSinking> layer_sinking;  // around the contact on it
+  std::unique_ptr<Specimen> specimen;                  // none for `hertz` and `layer`
 
   // From the top to what the specimen stands on, m; infinite for a half-space.
   [[nodiscard]] double thickness() const;
@@ -98,7 +117,24 @@ struct TopCurvature {
 };
 [[nodiscard]] std::optional<TopCurvature> top_curvature(const scenario::Shape& shape);
 
-// Why `hertz` cannot serve a scene with a finger; nothing where it can.
+// Why `hertz` or `layer` cannot serve a scene with a finger; nothing where they can.
 [[nodiscard]] std::optional<std::string> beyond_hertz(const scenario::Scenario& scenario);
+[[nodiscard]] std::optional<std::string> beyond_layer(const scenario::Scenario& scenario);
+
+// What the specimen stands on.
+[[nodiscard]] tissue::Base base_of(const scenario::Scenario& scenario);
+[[nodiscard]] contact::LayerBase layer_base(const scenario::Scenario& scenario);
+
+// The tissue's viscous law.
+[[nodiscard]] tissue::ViscousLaw viscous_law(const scenario::Tissue& tissue);
+
+// How the contact's modulus relaxes: the tissue's branches behind an elastic finger; elastic where
+// the contact does not know them.
+[[nodiscard]] contact::Relaxation contact_relaxation(const scenario::Scenario& scenario,
+                                                     const Finger& finger);
+
+// The finger on a flat layer as thick as the specimen.
+[[nodiscard]] contact::LayerContact make_layer(const scenario::Scenario& scenario,
+                                               const Finger& finger);
 
 }  // namespace palpate::scene

@@ -66,6 +66,12 @@ geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& 
   return geometry::tetgen_shape(shape, inside, target(mesh), meshing_time);
 }
 
+// Cells are small where the finger presses the top.
+geometry::Grading grading(const Scenario& scenario, const Vec3& size, double ratio) {
+  return {ratio, Vec3(scenario.finger.x.value_or(0.5 * size.x()),
+                      scenario.finger.y.value_or(0.5 * size.y()), size.z())};
+}
+
 geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) {
   geometry::TetMesh mesh;
   std::string name;
@@ -75,10 +81,12 @@ geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) 
       box != nullptr ? Vec3(box->size[0], box->size[1], box->size[2]) : Vec3(Vec3::Zero());
   if (box != nullptr) volume = size.prod();
   if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh)) {
-    mesh = geometry::cuboid(size, kuhn->cells, geometry::CellPattern::kuhn);
+    mesh = geometry::cuboid(size, kuhn->cells, geometry::CellPattern::kuhn,
+                            grading(scenario, size, kuhn->grading));
     name = "the kuhn mesh";
   } else if (const auto* mirrored = std::get_if<scenario::Mirrored>(&scenario.tissue.mesh)) {
-    mesh = geometry::cuboid(size, mirrored->cells, geometry::CellPattern::mirrored);
+    mesh = geometry::cuboid(size, mirrored->cells, geometry::CellPattern::mirrored,
+                            grading(scenario, size, mirrored->grading));
     name = "the mirrored mesh";
   } else if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh)) {
     mesh = tetgen_mesh(scenario, *tetgen, folder);

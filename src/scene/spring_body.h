@@ -1,6 +1,7 @@
 // A network of springs with its viscous law and supports, as integrators see it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "integrate/body.h"
@@ -12,7 +13,6 @@ namespace palpate::scene {
 class SpringBody final : public integrate::Body {
  public:
   using Vector = integrate::Vector;
-  using SparseMatrix = integrate::SparseMatrix;
 
   // The network must outlive the body. `held` has one flag a degree of freedom. One body serves
   // one thread: its methods share scratch space.
@@ -28,9 +28,9 @@ class SpringBody final : public integrate::Body {
   }
   void force(const Vector& displacement, std::span<const double> memory,
              Vector& force) const override;
-  [[nodiscard]] SparseMatrix stiffness() const override;
+  [[nodiscard]] SplitMatrix stiffness() const override;
   [[nodiscard]] bool has_dashpots() const override;
-  [[nodiscard]] SparseMatrix dashpots(const Vector& displacement) const override;
+  [[nodiscard]] SplitMatrix dashpots(const Vector& displacement) const override;
   void dashpot_force(const Vector& displacement, const Vector& velocity,
                      Vector& force) const override;
   [[nodiscard]] std::vector<double> memory_at(const Vector& displacement) const override;
@@ -38,23 +38,23 @@ class SpringBody final : public integrate::Body {
                 std::vector<double>& memory) const override;
   void step_force(const Vector& displacement, std::span<const double> memory,
                   const integrate::TimeStep& step, Vector& force) const override;
-  [[nodiscard]] SparseMatrix step_stiffness(const Vector& displacement,
-                                            std::span<const double> memory,
-                                            const integrate::TimeStep& step) const override;
+  [[nodiscard]] SplitMatrix step_stiffness(const Vector& displacement,
+                                           std::span<const double> memory,
+                                           const integrate::TimeStep& step) const override;
 
-  // Energies of a state, J, and what was lost on the way from one state to the next.
   // Spring `to` of `memory` takes over what spring `from` of another body remembers beyond its
   // elongation.
   void inherit(std::span<const double> other, std::size_t from, std::size_t to,
                std::vector<double>& memory) const;
 
+  // Energies of a state, J, and what was lost on the way from one state to the next.
   [[nodiscard]] double stored(const integrate::State& state) const;
   [[nodiscard]] double kinetic(const integrate::State& state) const;
   [[nodiscard]] double dissipated(const integrate::State& before,
                                   const integrate::State& after) const;
 
  private:
-  [[nodiscard]] tissue::MemoryStep memory_step(const integrate::TimeStep& step) const;
+  void prepare(const integrate::TimeStep& step) const;
   [[nodiscard]] Vector spread_mass(double factor) const;
 
   const tissue::Network* network_;
@@ -66,7 +66,9 @@ class SpringBody final : public integrate::Body {
   integrate::Proportional proportional_;
   mutable std::vector<double> elongation_;
   mutable std::vector<double> tension_;
-  mutable std::vector<double> slope_;
+  mutable std::vector<double> effective_;
+  mutable std::optional<integrate::TimeStep> prepared_;
+  mutable std::vector<tissue::MemoryStep> steps_;  // of `prepared_`
 };
 
 }  // namespace palpate::scene

@@ -15,26 +15,42 @@ TimePlan plan_time(const scenario::Scenario& scenario, const Specimen& specimen,
   const scenario::Solver& solver = scenario.solver;
   TimePlan plan;
   plan.time_step = solver.time_step.value_or(scenario.output.interval);
-  std::vector<double> stiffest = specimen.network.stiffness;
-  if (specimen.law.kind == tissue::Viscosity::standard_linear_solid)
-    for (double& k : stiffest) k *= 1.0 + specimen.law.branch;
-  plan.frequency_squared =
-      tissue::largest_frequency_squared(specimen.network, stiffest, specimen.held) +
-      contact_stiffness;
+  plan.frequency_squared = specimen.law.instantaneous_ratio() *
+                               tissue::largest_frequency_squared(specimen.network, specimen.held) +
+                           contact_stiffness;
   plan.limit = 2.0 / std::sqrt(plan.frequency_squared);
 
   constexpr double safety = 0.9;
   double wanted = plan.time_step;
   if (solver.integrator == Integrator::central_difference) {
     wanted = safety * plan.limit;
-  } else if (solver.integrator == Integrator::backward_difference && specimen.law.time > 0.0) {
+  } else if (solver.integrator == Integrator::backward_difference &&
+             specimen.law.shortest_time() > 0.0) {
     // Implicit Euler errs by about x/2 e^-1 at one viscous time, x = dt / tau.
-    wanted = specimen.law.time / 50.0;
+    wanted = specimen.law.shortest_time() / 50.0;
   }
   const double enough = std::max(1.0, std::ceil(plan.time_step / wanted));
   plan.substeps = solver.substeps.value_or(static_cast<int>(std::min(enough, 1e9)));
   plan.substep = plan.time_step / plan.substeps;
   return plan;
+}
+
+bool inertia_reaches_force(const Scene& scene) {
+  using tissue::Viscosity;
+  const scenario::Scenario& scenario = scene.scenario;
+  if (scenario.uniform() || !scene.specimen ||
+      scenario.contact.coupling != contact::Coupling::consistent ||
+      scenario.solver.integrator == scenario::Solver::Integrator::quasi_static ||
+      scene.specimen->kinematics != tissue::Kinematics::linear)
+    return false;
+  switch (scene.specimen->law.kind) {
+    case Viscosity::none:
+    case Viscosity::nodal_drag: return true;
+    case Viscosity::standard_linear_solid:
+    case Viscosity::prony: return !scene.relaxation.elastic();
+    case Viscosity::kelvin_voigt: break;
+  }
+  return false;
 }
 
 }  // namespace palpate::scene

@@ -5,6 +5,7 @@
 
 namespace palpate::scene {
 
+struct Scene;
 struct Specimen;
 
 struct TimePlan {
@@ -22,5 +23,12 @@ struct TimePlan {
 // `contact_stiffness` is sum_j k_c w_j^2 / m_j over the contact's nodes, 1/s^2.
 [[nodiscard]] TimePlan plan_time(const scenario::Scenario& scenario, const Specimen& specimen,
                                  double contact_stiffness);
+
+// Whether inertia of the tissue (and its drag against the ground) reaches the contact force: with
+// `consistent`, in steps that have inertia, where the static answer of the mesh under the same
+// loads is known, so that what is left of its motion is inertia. It is not known of springs that
+// turn, nor of a mesh whose viscosity the contact leaves out; and Kelvin-Voigt's contact has a
+// dashpot, which would need the force within the step that it makes.    docs/theory.md (60)
+[[nodiscard]] bool inertia_reaches_force(const Scene& scene);
 
 }  // namespace palpate::scene

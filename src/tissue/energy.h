@@ -1,4 +1,4 @@
-// Energy of a spring body: stored, moving, and lost in a step.
+// Energy of a spring body: stored, and lost in a step.
 #pragma once
 
 #include <span>
@@ -8,15 +8,16 @@
 
 namespace palpate::tissue {
 
-// sum 1/2 k e^2, and 1/2 k_1 (e - q)^2 in the branch of a standard linear solid, J.
+// 1/2 e.tensions(e), and the same of e - q times its ratio in every branch, J. `memory` is laid out
+// as in viscous.h.
 [[nodiscard]] double stored_energy(const Network& network, const ViscousLaw& law,
-                                   std::span<const Memory> memory);
+                                   std::span<const double> memory);
 
-// What the dampers took between two states `time_step` seconds apart, J: k tau (de)^2 / dt of
-// Kelvin-Voigt, k_1 (e - q) dq of the standard linear solid, d (du)^2 / dt of nodal drag.
+// What the dampers took between two states `time_step` seconds apart, J: tau (de).tensions(de) / dt
+// of Kelvin-Voigt, ratio (e - q).tensions(dq) of a branch, d (du)^2 / dt of nodal drag.
 [[nodiscard]] double dissipated_energy(const Network& network, const ViscousLaw& law,
-                                       std::span<const Memory> before,
-                                       std::span<const Memory> after, const Vector& moved,
+                                       std::span<const double> before,
+                                       std::span<const double> after, const Vector& moved,
                                        double time_step);
 
 }  // namespace palpate::tissue

@@ -1,6 +1,7 @@
 // A body of mass points joined by springs along the edges of tetrahedra.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <span>
 #include <vector>
@@ -10,14 +11,32 @@
 
 namespace palpate::tissue {
 
-// Built once and constant. Springs are numbered as the mesh's sorted edges.
+// The six springs of a tetrahedron where they pull on each other: their tensions are this matrix
+// times their elongations.
+struct CoupledSprings {
+  std::array<int, 6> springs{};
+  Eigen::Matrix<double, 6, 6> stiffness;  // N/m, symmetric
+};
+
+// A pressure against the change of a volume, which is averaged over the tetrahedra around a node:
+// the energy is 1/2 stiffness (sum of dilation * elongation over its springs)^2.
+struct SharedVolume {
+  std::vector<int> springs;
+  std::vector<double> dilation;  // 1/m, one a spring
+  double stiffness = 0.0;        // N m: modulus (Pa) times volume (m^3)
+};
+
+// Built once and constant. Springs are numbered as the mesh's sorted edges. A spring's tension is
+// its own stiffness times its elongation, and what its tetrahedra and volumes add.
 struct Network {
   std::vector<Vec3> rest;                // m, one a node
   std::vector<double> node_mass;         // kg, a quarter of each tetrahedron at its corners
   std::vector<std::array<int, 2>> ends;  // nodes of a spring, the lower first
   std::vector<double> rest_length;       // m
   std::vector<Vec3> direction;           // unit vector from the first end to the second, at rest
-  std::vector<double> stiffness;         // N/m
+  std::vector<double> stiffness;         // N/m, of each by itself
+  std::vector<CoupledSprings> coupled;
+  std::vector<SharedVolume> volumes;
 
   [[nodiscard]] int nodes() const { return static_cast<int>(rest.size()); }
   [[nodiscard]] int springs() const { return static_cast<int>(ends.size()); }

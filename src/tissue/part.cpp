@@ -1,9 +1,49 @@
 // Rings by sweeping over the springs.
 #include "tissue/part.h"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace palpate::tissue {
+namespace {
+
+// What couples the springs, as far as it can pull at a node of the part that moves. What is left
+// out cannot stretch: both its ends are held or outside.
+//   A tetrahedron reaches a moving node only if all its corners are neighbours of that node, so
+//   that
+// all its springs are in the part. A volume is averaged around a node that may be in the edge or
+// just outside of it; then some of its springs are missing, and these keep their length.
+void restrict_couplings(const Network& whole, Part& part) {
+  std::vector<int> number(whole.ends.size(), -1);
+  for (std::size_t s = 0; s < part.springs.size(); ++s)
+    number[static_cast<std::size_t>(part.springs[s])] = static_cast<int>(s);
+  const auto in_part = [&](int spring) { return number[static_cast<std::size_t>(spring)]; };
+  const auto moves = [&](int spring) {
+    const auto& [a, b] = part.network.ends[static_cast<std::size_t>(spring)];
+    return part.edge[static_cast<std::size_t>(a)] == 0 ||
+           part.edge[static_cast<std::size_t>(b)] == 0;
+  };
+  for (const CoupledSprings& six : whole.coupled) {
+    CoupledSprings kept{.springs = {}, .stiffness = six.stiffness};
+    std::transform(six.springs.begin(), six.springs.end(), kept.springs.begin(), in_part);
+    if (std::all_of(kept.springs.begin(), kept.springs.end(), [](int s) { return s >= 0; }))
+      part.network.coupled.push_back(kept);
+  }
+  for (const SharedVolume& volume : whole.volumes) {
+    SharedVolume kept{.springs = {}, .dilation = {}, .stiffness = volume.stiffness};
+    for (std::size_t k = 0; k < volume.springs.size(); ++k) {
+      const int spring = in_part(volume.springs[k]);
+      if (spring < 0) continue;
+      kept.springs.push_back(spring);
+      kept.dilation.push_back(volume.dilation[k]);
+    }
+    if (std::any_of(kept.springs.begin(), kept.springs.end(), moves))
+      part.network.volumes.push_back(std::move(kept));
+  }
+}
+
+}  // namespace
 
 Part part_around(const Network& whole, std::span<const int> start, int rings) {
   std::vector<char> inside(whole.rest.size(), 0);
@@ -37,6 +77,7 @@ Part part_around(const Network& whole, std::span<const int> start, int rings) {
     part.network.direction.push_back(whole.direction[s]);
     part.network.stiffness.push_back(whole.stiffness[s]);
   }
+  restrict_couplings(whole, part);
   return part;
 }
 

@@ -22,6 +22,7 @@ Vec3 direction_of(const Network& network, Kinematics kinematics, const Vector& d
                   std::size_t s) {
   if (kinematics == Kinematics::linear) return network.direction[s];
   const Vec3 span = span_of(network, displacement, s);
+  if (kinematics == Kinematics::squared) return span / network.rest_length[s];
   return span / std::sqrt(span.squaredNorm());
 }
 
@@ -39,9 +40,40 @@ void elongations(const Network& network, Kinematics kinematics, const Vector& di
       const Vec3 change = at(displacement, b) - at(displacement, a);
       const double rest = network.rest_length[s];
       const double squares = change.dot(2.0 * rest * network.direction[s] + change);
-      elongation[s] = squares / (std::sqrt(rest * rest + squares) + rest);
+      elongation[s] =
+          squares / (kinematics == Kinematics::squared ? 2.0 * rest
+                                                       : std::sqrt(rest * rest + squares) + rest);
     }
   }
+}
+
+void tensions(const Network& network, std::span<const double> elongation,
+              std::span<double> tension) {
+  for (std::size_t s = 0; s < tension.size(); ++s)
+    tension[s] = network.stiffness[s] * elongation[s];
+  for (const CoupledSprings& six : network.coupled)
+    for (int i = 0; i < 6; ++i) {
+      double sum = 0.0;
+      for (int j = 0; j < 6; ++j)
+        sum += six.stiffness(i, j) * elongation[index(six.springs[index(j)])];
+      tension[index(six.springs[index(i)])] += sum;
+    }
+  for (const SharedVolume& volume : network.volumes) {
+    double dilation = 0.0;
+    for (std::size_t k = 0; k < volume.springs.size(); ++k)
+      dilation += volume.dilation[k] * elongation[index(volume.springs[k])];
+    for (std::size_t k = 0; k < volume.springs.size(); ++k)
+      tension[index(volume.springs[k])] += volume.stiffness * dilation * volume.dilation[k];
+  }
+}
+
+double work(const Network& network, std::span<const double> elongation,
+            std::span<const double> along) {
+  std::vector<double> tension(elongation.size());
+  tensions(network, elongation, tension);
+  double sum = 0.0;
+  for (std::size_t s = 0; s < tension.size(); ++s) sum += tension[s] * along[s];
+  return sum;
 }
 
 void gather_forces(const Network& network, Kinematics kinematics, const Vector& displacement,
@@ -64,38 +96,114 @@ void elongation_rates(const Network& network, Kinematics kinematics, const Vecto
   }
 }
 
-SparseMatrix tangent(const Network& network, Kinematics kinematics, const Vector& displacement,
-                     std::span<const double> slope, std::span<const double> tension,
-                     std::span<const char> held) {
+namespace {
+
+// Gathers a matrix's entries between free degrees of freedom.
+class Entries {
+ public:
+  Entries(std::span<const char> held, std::size_t expected) : held_(held) {
+    entries_.reserve(expected + held.size());
+  }
+
+  // The 3 x 3 block of two springs: how the first one's ends are pulled as the second stretches.
+  void add_springs(const std::array<int, 2>& ends, const std::array<int, 2>& others,
+                   const Eigen::Matrix3d& block) {
+    for (std::size_t p = 0; p < 2; ++p)
+      for (std::size_t q = 0; q < 2; ++q) add_block(ends[p], others[q], p == q ? 1.0 : -1.0, block);
+  }
+
+  [[nodiscard]] Eigen::SparseMatrix<double> matrix() {
+    for (std::size_t d = 0; d < held_.size(); ++d)
+      if (held_[d] != 0) entries_.emplace_back(static_cast<int>(d), static_cast<int>(d), 1.0);
+    const auto size = static_cast<Eigen::Index>(held_.size());
+    Eigen::SparseMatrix<double> matrix(size, size);
+    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    return matrix;
+  }
+
+ private:
+  void add_block(int row_node, int column_node, double sign, const Eigen::Matrix3d& block) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const int row = 3 * row_node + i;
+        const int column = 3 * column_node + j;
+        if (held_[index(row)] == 0 && held_[index(column)] == 0)
+          entries_.emplace_back(row, column, sign * block(i, j));
+      }
+  }
+
+  std::span<const char> held_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+// Rows of the volumes' change per displacement, and their stiffness.
+void add_volumes(const Network& network, Kinematics kinematics, const Vector& displacement,
+                 double factor, std::span<const char> held, SplitMatrix& matrix) {
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(36 * network.ends.size() + held.size());
-  const auto add = [&](int row, int column, double value) {
-    if (held[index(row)] == 0 && held[index(column)] == 0) entries.emplace_back(row, column, value);
-  };
+  matrix.weights.resize(static_cast<Eigen::Index>(network.volumes.size()));
+  for (std::size_t v = 0; v < network.volumes.size(); ++v) {
+    const SharedVolume& volume = network.volumes[v];
+    matrix.weights[static_cast<Eigen::Index>(v)] = factor * volume.stiffness;
+    for (std::size_t k = 0; k < volume.springs.size(); ++k) {
+      const std::size_t s = index(volume.springs[k]);
+      const Vec3 pull = volume.dilation[k] * direction_of(network, kinematics, displacement, s);
+      for (int i = 0; i < 3; ++i)
+        for (std::size_t end = 0; end < 2; ++end) {
+          const int freedom = 3 * network.ends[s][end] + i;
+          if (held[index(freedom)] == 0)
+            entries.emplace_back(static_cast<int>(v), freedom, end == 0 ? -pull[i] : pull[i]);
+        }
+    }
+  }
+  matrix.shared.resize(matrix.weights.size(), matrix.local.cols());
+  matrix.shared.setFromTriplets(entries.begin(), entries.end());
+}
+
+}  // namespace
+
+SplitMatrix tangent(const Network& network, Kinematics kinematics, const Vector& displacement,
+                    double factor, std::span<const double> tension, std::span<const char> held) {
+  Entries entries(held, 36 * network.ends.size() + 324 * network.coupled.size());
   for (std::size_t s = 0; s < network.ends.size(); ++s) {
-    const auto [a, b] = network.ends[s];
     const Vec3 n = direction_of(network, kinematics, displacement, s);
-    // d(tension n)/dr = slope n n^T + tension / |r| (I - n n^T)
+    // d(tension n)/dr = k n n^T + tension / |r| (I - n n^T), and with n = r / l of squared lengths
+    // k n n^T + tension / l I
     double across = 0.0;
+    double along = factor * network.stiffness[s];
     if (kinematics == Kinematics::nonlinear) {
       const Vec3 span = span_of(network, displacement, s);
       across = std::max(0.0, tension[s]) / std::sqrt(span.squaredNorm());
+      along -= across;
+    } else if (kinematics == Kinematics::squared) {
+      across = std::max(0.0, tension[s]) / network.rest_length[s];
     }
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        const double value = (slope[s] - across) * n[i] * n[j] + (i == j ? across : 0.0);
-        add(3 * a + i, 3 * a + j, value);
-        add(3 * b + i, 3 * b + j, value);
-        add(3 * a + i, 3 * b + j, -value);
-        add(3 * b + i, 3 * a + j, -value);
-      }
-    }
+    if (along == 0.0 && across == 0.0) continue;
+    Eigen::Matrix3d block;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) block(i, j) = along * n[i] * n[j] + (i == j ? across : 0.0);
+    entries.add_springs(network.ends[s], network.ends[s], block);
   }
-  for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] != 0) entries.emplace_back(static_cast<int>(d), static_cast<int>(d), 1.0);
-  SparseMatrix matrix(3 * network.nodes(), 3 * network.nodes());
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  for (const CoupledSprings& six : network.coupled)
+    for (std::size_t p = 0; p < 6; ++p)
+      for (std::size_t q = 0; q < 6; ++q) {
+        const std::size_t first = index(six.springs[p]);
+        const std::size_t second = index(six.springs[q]);
+        const double k = factor * six.stiffness(static_cast<int>(p), static_cast<int>(q));
+        entries.add_springs(
+            network.ends[first], network.ends[second],
+            k * direction_of(network, kinematics, displacement, first) *
+                direction_of(network, kinematics, displacement, second).transpose());
+      }
+  SplitMatrix matrix;
+  matrix.local = entries.matrix();
+  if (!network.volumes.empty())
+    add_volumes(network, kinematics, displacement, factor, held, matrix);
   return matrix;
+}
+
+SplitMatrix stiffness_matrix(const Network& network, std::span<const char> held) {
+  const std::vector<double> none(network.ends.size(), 0.0);
+  return tangent(network, Kinematics::linear, Vector::Zero(3 * network.nodes()), 1.0, none, held);
 }
 
 bool inverted(const geometry::TetMesh& mesh, const Vector& displacement) {

@@ -1,26 +1,33 @@
 // What springs do: elongations from displacements, forces and stiffness from tensions.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <span>
-#include <vector>
 
+#include "base/split_matrix.h"
 #include "tissue/network.h"
 
 namespace palpate::tissue {
 
 // linear: elongations by the rest directions, forces along them (eq. 11-12).
 // nonlinear: lengths and directions of the moment (eq. 10).
-enum class Kinematics { linear, nonlinear };
+// squared: e = (|r|^2 - l^2) / (2 l), which six springs of a tetrahedron turn into Green's strain.
+enum class Kinematics { linear, nonlinear, squared };
 
 using Vector = Eigen::VectorXd;
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Displacements and forces are vectors of three times the nodes, x, y, z of a node together.
 
 // e_s in m for displacements u (m).
 void elongations(const Network& network, Kinematics kinematics, const Vector& displacement,
                  std::span<double> elongation);
+
+// Tensions (N) of springs with these elongations (m). Overwrites `tension`.
+void tensions(const Network& network, std::span<const double> elongation,
+              std::span<double> tension);
+
+// What the tensions of some elongations do along other elongations, J; symmetric in both.
+[[nodiscard]] double work(const Network& network, std::span<const double> elongation,
+                          std::span<const double> along);
 
 // f = sum over springs of tension (N) along the spring's direction, the gradient of the elastic
 // energy: what holds the displacement in balance is +f. Overwrites `force`.
@@ -31,12 +38,16 @@ void gather_forces(const Network& network, Kinematics kinematics, const Vector& 
 void elongation_rates(const Network& network, Kinematics kinematics, const Vector& displacement,
                       const Vector& velocity, std::span<double> rate);
 
-// The tangent matrix for springs of the given slopes d(tension)/d(elongation) (N/m) and, when
-// nonlinear, tensions (N); compressed springs give no geometric term, so that the matrix stays
-// positive definite. Rows and columns of `held` degrees of freedom are those of the identity.
-[[nodiscard]] SparseMatrix tangent(const Network& network, Kinematics kinematics,
-                                   const Vector& displacement, std::span<const double> slope,
-                                   std::span<const double> tension, std::span<const char> held);
+// The tangent matrix where tensions change by `factor` times tensions() of a change of elongations
+// and, unless linear, the springs have these tensions (N); compressed springs give no geometric
+// term, so that the matrix stays positive definite. Rows and columns of `held` degrees of freedom
+// are those of the identity.
+[[nodiscard]] SplitMatrix tangent(const Network& network, Kinematics kinematics,
+                                  const Vector& displacement, double factor,
+                                  std::span<const double> tension, std::span<const char> held);
+
+// The stiffness at rest, N/m.
+[[nodiscard]] SplitMatrix stiffness_matrix(const Network& network, std::span<const char> held);
 
 // Whether any tetrahedron has turned inside out under the displacement.
 [[nodiscard]] bool inverted(const geometry::TetMesh& mesh, const Vector& displacement);

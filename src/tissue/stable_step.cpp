@@ -8,13 +8,65 @@
 
 namespace palpate::tissue {
 
-double safe_frequency_squared(const Network& network, std::span<const double> stiffness) {
+namespace {
+
+using Springs = std::span<const int>;
+
+// The nodes of some springs, each once.
+std::vector<int> nodes_of(const Network& network, Springs springs) {
+  std::vector<int> nodes;
+  for (const int spring : springs)
+    for (const int node : network.ends[static_cast<std::size_t>(spring)]) nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+// How springs lengthen as a node moves: one column a spring, 3 x springs.
+Eigen::Matrix3Xd lengthening(const Network& network, Springs springs, int node) {
+  Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(springs.size()));
+  for (std::size_t k = 0; k < springs.size(); ++k) {
+    const auto spring = static_cast<std::size_t>(springs[k]);
+    const auto& [a, b] = network.ends[spring];
+    if (node == b) columns.col(static_cast<Eigen::Index>(k)) = network.direction[spring];
+    if (node == a) columns.col(static_cast<Eigen::Index>(k)) = -network.direction[spring];
+  }
+  return columns;
+}
+
+}  // namespace
+
+double safe_frequency_squared(const Network& network) {
+  // u.K u <= sum_i |u_i|^2 sum_j |K_ij| for the 3 x 3 blocks K_ij of each symmetric part of K. Not
+  // in elongations: those of a flat tetrahedron have a stiffness far above that of its nodes.
   std::vector<double> sum(network.rest.size(), 0.0);
+  const auto add = [&](int node, double sizes) { sum[static_cast<std::size_t>(node)] += sizes; };
   for (std::size_t s = 0; s < network.ends.size(); ++s)
-    for (const int node : network.ends[s]) sum[static_cast<std::size_t>(node)] += stiffness[s];
+    for (const int node : network.ends[s]) add(node, 2.0 * network.stiffness[s]);
+  for (const CoupledSprings& six : network.coupled) {
+    const std::vector<int> corners = nodes_of(network, six.springs);
+    for (const int i : corners)
+      for (const int j : corners)
+        add(i, (lengthening(network, six.springs, i) * six.stiffness *
+                lengthening(network, six.springs, j).transpose())
+                   .norm());
+  }
+  for (const SharedVolume& volume : network.volumes) {
+    const Eigen::Map<const Vector> dilation(volume.dilation.data(),
+                                            static_cast<Eigen::Index>(volume.dilation.size()));
+    const std::vector<int> nodes = nodes_of(network, volume.springs);
+    std::vector<double> size;  // of the volume's gradient at each node, 1/m
+    double all = 0.0;
+    for (const int node : nodes) {
+      size.push_back((lengthening(network, volume.springs, node) * dilation).norm());
+      all += size.back();
+    }
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      add(nodes[k], std::abs(volume.stiffness) * size[k] * all);
+  }
   double bound = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i)
-    bound = std::max(bound, 2.0 * sum[i] / network.node_mass[i]);
+    bound = std::max(bound, sum[i] / network.node_mass[i]);
   return bound;
 }
 
@@ -33,8 +85,7 @@ Vector scattered(Eigen::Index size) {
 
 }  // namespace
 
-double largest_frequency_squared(const Network& network, std::span<const double> stiffness,
-                                 std::span<const char> held) {
+double largest_frequency_squared(const Network& network, std::span<const char> held) {
   const Eigen::Index size = 3 * network.nodes();
   Vector scale(size);  // 1 / sqrt(m), 0 where held
   for (Eigen::Index d = 0; d < size; ++d)
@@ -42,17 +93,18 @@ double largest_frequency_squared(const Network& network, std::span<const double>
                    ? 0.0
                    : 1.0 / std::sqrt(network.node_mass[static_cast<std::size_t>(d / 3)]);
 
+  std::vector<double> elongation(network.ends.size());
   std::vector<double> tension(network.ends.size());
   Vector force;
   const auto multiply = [&](const Vector& x) -> Vector {
     const Vector u = scale.cwiseProduct(x);
-    elongations(network, Kinematics::linear, u, tension);
-    for (std::size_t s = 0; s < tension.size(); ++s) tension[s] *= stiffness[s];
+    elongations(network, Kinematics::linear, u, elongation);
+    tensions(network, elongation, tension);
     gather_forces(network, Kinematics::linear, u, tension, force);
     return scale.cwiseProduct(force);
   };
 
-  const double safe = safe_frequency_squared(network, stiffness);
+  const double safe = safe_frequency_squared(network);
   constexpr Eigen::Index most_steps = 300;
   const Eigen::Index steps = std::min(size, most_steps);
   Eigen::MatrixXd basis(size, steps);

@@ -76,11 +76,8 @@ Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh) {
   }
   for (std::size_t d = 0; d < held.size(); ++d)  // the tractions balance: nothing is held back here
     if (held[d] != 0) load[static_cast<Eigen::Index>(d)] = 0.0;
-  const std::vector<double> zero(network.stiffness.size(), 0.0);
-  const Vector rest = Vector::Zero(load.size());
   Cholesky factors;
-  if (!factors.factor(tangent(network, Kinematics::linear, rest, network.stiffness, zero, held)))
-    throw MeshError(not_rigid);
+  if (!factors.factor(stiffness_matrix(network, held))) throw MeshError(not_rigid);
   const Vector displacement = factors.solve(load);
   // mean strain = 1/V sum over the skin of (mean displacement) x (area vector)
   Vec3 stretch = Vec3::Zero();
@@ -110,16 +107,14 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
   for (const int node : result.top) prescribed[3 * node + 2] = -result.height;
 
   // K u = 0 on the free degrees of freedom: u = prescribed - K_ff^-1 (K prescribed)_f
-  const std::vector<double> zero(network.stiffness.size(), 0.0);
   Cholesky factors;
-  if (!factors.factor(
-          tangent(network, Kinematics::linear, prescribed, network.stiffness, zero, held)))
-    throw MeshError(not_rigid);
-  std::vector<double> tension(network.stiffness.size());
+  if (!factors.factor(stiffness_matrix(network, held))) throw MeshError(not_rigid);
+  std::vector<double> elongation(network.ends.size());
+  std::vector<double> tension(network.ends.size());
   Vector force;
   const auto forces_at = [&](const Vector& displacement) {
-    elongations(network, Kinematics::linear, displacement, tension);
-    for (std::size_t s = 0; s < tension.size(); ++s) tension[s] *= network.stiffness[s];
+    elongations(network, Kinematics::linear, displacement, elongation);
+    tensions(network, elongation, tension);
     gather_forces(network, Kinematics::linear, displacement, tension, force);
   };
   forces_at(prescribed);

@@ -1,11 +1,30 @@
-// Kelvin-Voigt and the standard linear solid in one recurrence.
+// Kelvin-Voigt, the standard linear solid and Prony series in one recurrence.
 #include "tissue/viscous.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpate::tissue {
 
-// exp here is evaluated once a run, outside the step.
+double ViscousLaw::instantaneous_ratio() const {
+  double sum = 1.0;
+  for (const Branch& branch : branches) sum += branch.ratio;
+  return sum;
+}
+
+double ViscousLaw::shortest_time() const {
+  double shortest = branches.empty() ? time : branches.front().time;
+  for (const Branch& branch : branches) shortest = std::min(shortest, branch.time);
+  return shortest;
+}
+
+double ViscousLaw::longest_time() const {
+  double longest = time;
+  for (const Branch& branch : branches) longest = std::max(longest, branch.time);
+  return longest;
+}
+
+// exp here is evaluated when the step changes, outside the step.
 MemoryStep MemoryStep::exact(double time_step, double time) {
   const double x = time_step / time;
   const double keep = std::exp(-x);
@@ -23,30 +42,76 @@ MemoryStep MemoryStep::first_order(double time_step, double time) {
   return {1.0 / (1.0 + x), 0.0, x / (1.0 + x)};
 }
 
-StepTension step_tension(const ViscousLaw& law, const Memory& memory, const MemoryStep& step,
-                         double elongation) {
-  // A dashpot that is stretched at once gives an impulse and is then as slack as before.
-  if (law.kind == Viscosity::kelvin_voigt && step.end == 0.0) return {elongation, 1.0};
-  if (law.kind == Viscosity::kelvin_voigt) {
-    // e_1 = keep e_0 + begin s_0/k + end s_1/k, solved for s_1/k          docs/theory.md (36)
-    const double past = step.keep * memory.elongation + step.begin * memory.internal;
-    return {(elongation - past) / step.end, 1.0 / step.end};
-  }
-  if (law.kind == Viscosity::standard_linear_solid) {
-    // s/k = e + k_1/k (e - q_1)                                          docs/theory.md (37)
-    const double past = step.keep * memory.internal + step.begin * memory.elongation;
-    const double branch = elongation * (1.0 - step.end) - past;
-    return {elongation + law.branch * branch, 1.0 + law.branch * (1.0 - step.end)};
-  }
-  return {elongation, 1.0};
+std::size_t memory_size(const ViscousLaw& law) {
+  return law.kind == Viscosity::kelvin_voigt ? 2 : 1 + law.branches.size();
 }
 
-Memory remembered(const ViscousLaw& law, const Memory& memory, const MemoryStep& step,
-                  double elongation) {
-  if (law.kind == Viscosity::kelvin_voigt)
-    return {elongation, step_tension(law, memory, step, elongation).value};
-  return {elongation,
-          step.keep * memory.internal + step.begin * memory.elongation + step.end * elongation};
+namespace {
+
+// Kelvin-Voigt: e_1 = keep e_0 + begin s_0/k + end s_1/k, solved for s_1/k   docs/theory.md (36)
+double kelvin_voigt(const MemoryStep& step, const double* memory, double elongation) {
+  // A dashpot that is stretched at once gives an impulse and is then as slack as before.
+  if (step.end == 0.0) return elongation;
+  const double past = step.keep * memory[0] + step.begin * memory[1];
+  return (elongation - past) / step.end;
+}
+
+}  // namespace
+
+void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> steps,
+                           std::span<const double> memory, std::span<const double> elongation,
+                           std::span<double> effective) {
+  const std::size_t size = memory_size(law);
+  for (std::size_t s = 0; s < elongation.size(); ++s) {
+    const double e = elongation[s];
+    const double* const own = &memory[size * s];
+    if (law.kind == Viscosity::kelvin_voigt) {
+      effective[s] = kelvin_voigt(steps[0], own, e);
+      continue;
+    }
+    // s/k = e + sum of k_i/k (e - q_1)                                     docs/theory.md (37)
+    double sum = e;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const double past = steps[i].keep * own[1 + i] + steps[i].begin * own[0];
+      sum += law.branches[i].ratio * (e * (1.0 - steps[i].end) - past);
+    }
+    effective[s] = sum;
+  }
+}
+
+double effective_slope(const ViscousLaw& law, std::span<const MemoryStep> steps) {
+  if (law.kind == Viscosity::kelvin_voigt) return steps[0].end == 0.0 ? 1.0 : 1.0 / steps[0].end;
+  double slope = 1.0;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    slope += law.branches[i].ratio * (1.0 - steps[i].end);
+  return slope;
+}
+
+void elastic_elongations(const ViscousLaw& law, std::span<const double> memory,
+                         std::span<const double> elongation, std::span<double> effective) {
+  const std::size_t size = memory_size(law);
+  for (std::size_t s = 0; s < elongation.size(); ++s) {
+    double sum = elongation[s];
+    for (std::size_t i = 0; i < law.branches.size(); ++i)
+      sum += law.branches[i].ratio * (elongation[s] - memory[size * s + 1 + i]);
+    effective[s] = sum;
+  }
+}
+
+void remember(const ViscousLaw& law, std::span<const MemoryStep> steps,
+              std::span<const double> elongation, std::span<double> memory) {
+  const std::size_t size = memory_size(law);
+  for (std::size_t s = 0; s < elongation.size(); ++s) {
+    double* const own = &memory[size * s];
+    if (law.kind == Viscosity::kelvin_voigt) {
+      own[1] = kelvin_voigt(steps[0], own, elongation[s]);
+    } else {
+      for (std::size_t i = 0; i < steps.size(); ++i)
+        own[1 + i] =
+            steps[i].keep * own[1 + i] + steps[i].begin * own[0] + steps[i].end * elongation[s];
+    }
+    own[0] = elongation[s];
+  }
 }
 
 }  // namespace palpate::tissue

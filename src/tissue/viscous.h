@@ -1,20 +1,30 @@
-// The viscous law of a spring, and the memory that steps it through time.
+// The viscous law of springs, and the memory that steps it through time.
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace palpate::tissue {
 
 // none: k e. nodal_drag: k e, and d v on each node against the ground (eq. 10).
 // kelvin_voigt: k (e + tau e'), the damper of Fig. 4 along each edge.
-// standard_linear_solid: k e + k_1 (e - q), q' = (e - q) / tau.
-enum class Viscosity { none, nodal_drag, kelvin_voigt, standard_linear_solid };
+// standard_linear_solid: k e + k_1 (e - q), q' = (e - q) / tau.  prony: several such branches.
+enum class Viscosity { none, nodal_drag, kelvin_voigt, standard_linear_solid, prony };
+
+struct Branch {
+  double time = 0.0;   // s, tau of its relaxation
+  double ratio = 0.0;  // k_1 / k
+};
 
 struct ViscousLaw {
   Viscosity kind = Viscosity::none;
-  double time = 0.0;    // s: retardation time of Kelvin-Voigt, relaxation time of the solid
-  double branch = 0.0;  // k_1 / k of the standard linear solid: E_0 / E_inf - 1
-  double drag = 0.0;    // 1/s: d_i / m_i of nodal drag
+  double time = 0.0;                  // s, the retardation time of Kelvin-Voigt
+  std::vector<Branch> branches = {};  // of the standard linear solid (one) and of prony
+  double drag = 0.0;                  // 1/s: d_i / m_i of nodal drag
+
+  [[nodiscard]] double instantaneous_ratio() const;  // E_0 / E_inf = 1 + sum of ratios
+  [[nodiscard]] double shortest_time() const;        // s, 0 without any
+  [[nodiscard]] double longest_time() const;         // s, 0 without any
 };
 
 // One step of  tau q' = e - q  or, read backwards, of  tau e' = s/k - e:
@@ -33,24 +43,27 @@ struct MemoryStep {
   [[nodiscard]] static MemoryStep at_once() { return {}; }
 };
 
-// What a spring remembers: its elongation at the last step, and the internal elongation q of the
-// standard linear solid or the tension s of Kelvin-Voigt over k.
-struct Memory {
-  double elongation = 0.0;  // m
-  double internal = 0.0;    // m
-};
+// What springs remember lies in one array, memory_size() numbers a spring: the elongation at the
+// last step (m), and the internal elongation q of every branch, or of Kelvin-Voigt the effective
+// elongation (m). `steps` has one entry a branch; of Kelvin-Voigt one.
+[[nodiscard]] std::size_t memory_size(const ViscousLaw& law);
 
-// Tension over stiffness, in m, at the end of a step that stretches the spring to `elongation`;
-// `slope` is its derivative by the elongation.
-struct StepTension {
-  double value = 0.0;
-  double slope = 1.0;
-};
-[[nodiscard]] StepTension step_tension(const ViscousLaw& law, const Memory& memory,
-                                       const MemoryStep& step, double elongation);
+// Springs pull as elastic ones of the effective elongation would: tensions() of it, whether they
+// are coupled or not, because all have the same times.                docs/theory.md (36), (37)
+// At the end of a step to `elongation`:
+void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> steps,
+                           std::span<const double> memory, std::span<const double> elongation,
+                           std::span<double> effective);
+
+// d(effective) / d(elongation) of that.
+[[nodiscard]] double effective_slope(const ViscousLaw& law, std::span<const MemoryStep> steps);
+
+// At this very moment, without dashpots: e + sum of ratio (e - q).
+void elastic_elongations(const ViscousLaw& law, std::span<const double> memory,
+                         std::span<const double> elongation, std::span<double> effective);
 
 // The memory after the step.
-[[nodiscard]] Memory remembered(const ViscousLaw& law, const Memory& memory, const MemoryStep& step,
-                                double elongation);
+void remember(const ViscousLaw& law, std::span<const MemoryStep> steps,
+              std::span<const double> elongation, std::span<double> memory);
 
 }  // namespace palpate::tissue

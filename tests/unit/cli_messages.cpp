@@ -60,7 +60,7 @@ TEST_F(Messages, OneOfEachClass) {
       {"[tisue]\n", "press.toml:4:2: `tisue` is not a key here; did you mean `tissue`?"},
       {"[solver]\nmodel = \"hertz\"\n[tissue]\ndensity = \"1100 kg/m^3\"\n",
        "press.toml:7:1: `density` has no effect here: it is used only with `solver.model = "
-       "\"mass_spring\"`; remove it or change that"},
+       "\"mass_spring\"` or `\"coupled_springs\"`; remove it or change that"},
       {"rate = \"3 kPa\"\n",
        "press.toml:4:8: `rate` wants a speed, got `3 kPa`, a pressure; write it as `3 mm/s`"},
       {"rate = \"3\"\n",

@@ -274,7 +274,7 @@ TEST_F(RunMeshes, hertz_refuses_what_only_a_mesh_knows) {
       "[[step]]\nkind = \"indent\"\n[output]\nfigures = false\n[solver]\nmodel = \"hertz\"\n";
   const auto sentence = [](const std::string& reason) {
     return "press.toml:6:9: `hertz` does not know this scene: " + reason +
-           "; set `solver.model = \"mass_spring\"`";
+           "; set `solver.model = \"coupled_springs\"`";
   };
   expect_refused(hertz + "[tissue]\nshape = { kind = \"ligament\" }\n", 2,
                  sentence("no formula gives the curvature of its shape"));

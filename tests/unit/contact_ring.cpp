@@ -50,7 +50,7 @@ struct Block {
     for (std::size_t k = 0; k < load.vertices.size(); ++k)
       shares[static_cast<std::size_t>(load.vertices[k])] = load.shares[k];
     Reading reading;
-    ring.read(patch, shares, reading);
+    ring.read(patch, shares, 0.0, reading);
     return reading;
   }
 };

@@ -99,7 +99,7 @@ TEST(LocalContact, SlidesKeepAForceThatIsThere) {
 TEST(LocalContact, IsLeftUnreadWithANoteWhereNothingUsesIt) {
   const std::string mesh =
       "` is left unread: it is used only with `solver.model = "
-      "\"mass_spring\"`\n";
+      "\"mass_spring\"` or `\"coupled_springs\"`\n";
   EXPECT_EQ(notes(press + "[solver]\nmodel = \"hertz\"\nrings = 3\n[contact]\ncurvature = "
                           "\"taubin\"\ncurvature_on = \"deformed\"\ncurvature_rings = 3\n"
                           "[tissue]\nbase_height = \"1 mm\"\n[output]\ntissue = true\n"),

@@ -31,7 +31,7 @@ TEST(Refusals, ThePlainScenarioIsAccepted) { EXPECT_EQ(refusal(press), "accepted
 
 TEST(Refusals, UnknownKeys) {
   const std::string tissue_keys =
-      "base, base_height, density, drag, instantaneous_ratio, material, mesh, poisson_ratio, "
+      "base, base_height, branch, density, drag, instantaneous_ratio, material, mesh, poisson_ratio, "
       "relaxation_time, retardation_time, shape, viscosity, young_modulus";
   EXPECT_EQ(refusal("shema = 1\n" + press),
             "press.toml:1:1: `shema` is not a key here; did you mean `schema`?");
@@ -56,12 +56,11 @@ TEST(Refusals, UnknownKeys) {
 TEST(Refusals, UnknownWords) {
   expect_refused({
       {"[solver]\nmodel = \"hertzz\"\n",
-       "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, "
-       "hertz, mass_spring"},
+       "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, hertz, layer, mass_spring, coupled_springs"},
       {"[solver]\nmodel = \"granite\"\n",
-       "press.toml:5:9: `model` does not know `granite`; it is one of auto, hertz, mass_spring"},
+       "press.toml:5:9: `model` does not know `granite`; it is one of auto, hertz, layer, mass_spring, coupled_springs"},
       {"[solver]\nmodel = 5\n",
-       "press.toml:5:9: `model` wants one of auto, hertz, mass_spring, got an integer; write it as "
+       "press.toml:5:9: `model` wants one of auto, hertz, layer, mass_spring, coupled_springs, got an integer; write it as "
        "`model = \"auto\"`"},
       {"[tissue]\nmesh = { kind = \"kun\" }\n",
        "press.toml:5:17: `kind` does not know `kun`; did you mean `kuhn`? It is one of kuhn, "
@@ -80,7 +79,7 @@ TEST(Refusals, UnknownWords) {
 
 TEST(Refusals, KeysThatTheModelCannotHonour) {
   const std::string meshed =
-      "it is used only with `solver.model = \"mass_spring\"`; remove it or change that";
+      "it is used only with `solver.model = \"mass_spring\"` or `\"coupled_springs\"`; remove it or change that";
   expect_refused({
       {"[solver]\nmodel = \"hertz\"\n[tissue]\ndensity = \"1100 kg/m^3\"\n",
        "press.toml:7:1: `density` has no effect here: " + meshed},
@@ -116,7 +115,7 @@ TEST(Refusals, KeysThatTheModelCannotHonour) {
             "(indent, hold, retract, slide); remove it or change that");
   EXPECT_EQ(refusal(creep + "[solver]\nmodel = \"hertz\"\n"),
             "press.toml:4:9: `hertz` has no specimen to creep or relax; set `solver.model = "
-            "\"mass_spring\"`");
+            "\"mass_spring\"` or `\"coupled_springs\"`");
 }
 
 TEST(Refusals, MachineryOfAnotherModelIsLeftUnreadWithANote) {
@@ -127,7 +126,7 @@ TEST(Refusals, MachineryOfAnotherModelIsLeftUnreadWithANote) {
   std::string notes;
   for (const Problem& note : family.notes) notes += note.text() + "\n";
   const std::string unread =
-      " is left unread: it is used only with `solver.model = \"mass_spring\"`\n";
+      " is left unread: it is used only with `solver.model = \"mass_spring\"` or `\"coupled_springs\"`\n";
   EXPECT_EQ(notes, "press.toml:9:1: `mesh`" + unread + "press.toml:6:1: `start`" + unread +
                        "press.toml:7:1: `time_step`" + unread);
 }
@@ -268,7 +267,7 @@ TEST(Refusals, TwoMistakesAreToldInTheOrderOfTheFile) {
   EXPECT_EQ(refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
                     "radius = \"5\"\n" +
                     press),
-            "press.toml:2:1: `yung` is not a key here; known keys: base, base_height, density, "
+            "press.toml:2:1: `yung` is not a key here; known keys: base, base_height, branch, density, "
             "drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
             "retardation_time, "
             "shape, viscosity, young_modulus\n"
@@ -287,7 +286,7 @@ TEST(Refusals, OneMistakeIsOneMessage) {
       refusal(press + "[solver]\nmodel = \"hertzz\"\n[tissue]\nviscosity = \"nodal_drag\"\n"
                       "drag = \"1 1/s\"\n"),
       "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, "
-      "hertz, mass_spring");
+      "hertz, layer, mass_spring, coupled_springs");
   // The wrong depth must not make the next step look shallow, nor the rows too many.
   EXPECT_EQ(
       refusal("[[step]]\nkind = \"indent\"\nto = \"1e9 mm\"\n[[step]]\nkind = \"hold\"\n"),

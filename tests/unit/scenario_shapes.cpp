@@ -217,10 +217,6 @@ TEST(Regions, AreRefusedAtTheirPlace) {
       {"[[region]]\nmaterial = \"skn\"\n",
        "press.toml:5:12: `material` does not know `skn`; did you mean `skin`? Known here: finger, "
        "skin, muscle, bone, ligament, upper_leg; your own tables are written `file.toml#name`"},
-      // Springs have a ratio of their own, and the contact knows the tissue's alone.
-      {"[[region]]\npoisson_ratio = 0.5\n",
-       "press.toml:5:1: `poisson_ratio` is not a key here; known keys: density, kind, material, "
-       "tag, young_modulus"},
       {"[tissue]\n" + tetgen + "[[region]]\nkind = \"sphere\"\nradius = \"0 mm\"\n",
        "press.toml:8:10: `radius` must be above 0 mm, got `0 mm`; give a value in that range"},
       {"[tissue]\n" + tetgen + "[[region]]\nkind = \"sphere\"\nyoung_modulus = \"3 mm\"\n",

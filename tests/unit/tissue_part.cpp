@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geometry/cuboid.h"
+#include "jittered_block.h"
 #include "tissue/stiffness.h"
 
 namespace palpate {
@@ -113,6 +114,87 @@ TEST(Part, ManyRingsAreTheWhole) {
   EXPECT_EQ(part.edge, all.edge);
   EXPECT_EQ(std::count(part.edge.begin(), part.edge.end(), 0),
             static_cast<std::ptrdiff_t>(whole.rest.size()));
+}
+
+// Networks whose springs pull on each other, by tetrahedra, by volumes around nodes, or both.
+std::vector<Network> coupled_blocks() {
+  const auto mesh = test::two_regions(test::jittered_block({6, 5, 4}));
+  const std::vector<tissue::Isotropic> tissues{{3e4, 0.45}, {2e5, 0.1}};
+  std::vector<Network> all;
+  for (const auto volume : {tissue::Volume::tetrahedron, tissue::Volume::nodal}) {
+    all.push_back(test::coupled_network(mesh, tissues, volume, 0.05));
+    Network hybrid = tissue::make_network(mesh, std::array{1000.0, 1100.0},
+                                          tissue::van_gelder_stiffness(mesh, std::array{3e4, 2e5}));
+    tissue::add_volume(hybrid, mesh, tissues, volume);
+    all.push_back(std::move(hybrid));
+  }
+  return all;
+}
+
+// With all outside held at rest, the part pulls at its moving nodes as the whole does, and its edge
+// takes what the whole's held nodes take together.
+TEST(Part, OfCoupledSpringsPullsAsTheWhole) {
+  for (const Network& whole : coupled_blocks())
+    for (const int rings : {0, 1, 2}) {
+      const Part part = tissue::part_around(whole, std::array{100}, rings);
+      ASSERT_LT(part.nodes.size(), whole.rest.size());
+      test::Dice dice(3);
+      tissue::Vector of_part = tissue::Vector::Zero(3 * part.network.nodes());
+      tissue::Vector of_whole = tissue::Vector::Zero(3 * whole.nodes());
+      for (std::size_t i = 0; i < part.nodes.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+          if (part.edge[i] != 0) continue;
+          const double move = 1e-3 * (dice.roll() - 0.5);
+          of_part[3 * static_cast<Eigen::Index>(i) + axis] = move;
+          of_whole[3 * part.nodes[i] + axis] = move;
+        }
+      for (const auto kinematics : {tissue::Kinematics::linear, tissue::Kinematics::nonlinear,
+                                    tissue::Kinematics::squared}) {
+        const auto got = test::elastic_force(part.network, kinematics, of_part);
+        const auto want = test::elastic_force(whole, kinematics, of_whole);
+        const double size = want.cwiseAbs().maxCoeff();
+        Vec3 got_edge = Vec3::Zero();
+        Vec3 want_edge = Vec3::Zero();
+        for (int n = 0; n < whole.nodes(); ++n) want_edge += want.segment<3>(3 * n);
+        for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+          const Vec3 here = got.segment<3>(3 * static_cast<Eigen::Index>(i));
+          const Vec3 there = want.segment<3>(3 * part.nodes[i]);
+          if (part.edge[i] != 0) {
+            got_edge += here;
+          } else {
+            want_edge -= there;
+            EXPECT_LT((here - there).norm(), 1e-13 * size) << rings;  // rounding: the same terms
+          }
+        }
+        EXPECT_LT((got_edge - want_edge).norm(), 1e-12 * size);  // rounding of some hundred nodes
+      }
+    }
+}
+
+TEST(Part, KeepsOnlyWhatCanPullAtItsNodes) {
+  for (const Network& whole : coupled_blocks()) {
+    const Part part = tissue::part_around(whole, std::array{100}, 1);
+    EXPECT_LT(part.network.coupled.size(), whole.coupled.size() / 2 + 1);
+    EXPECT_LT(part.network.volumes.size(), whole.volumes.size() / 2 + 1);
+    EXPECT_EQ(part.network.volumes.empty(), whole.volumes.empty());
+    EXPECT_EQ(part.network.coupled.empty(), whole.coupled.empty());
+    for (const auto& volume : part.network.volumes) {
+      EXPECT_EQ(volume.springs.size(), volume.dilation.size());
+      EXPECT_TRUE(std::is_sorted(volume.springs.begin(), volume.springs.end()));
+    }
+    const Part all = tissue::part_around(whole, std::array{0}, 100);
+    ASSERT_EQ(all.network.coupled.size(), whole.coupled.size());
+    ASSERT_EQ(all.network.volumes.size(), whole.volumes.size());
+    for (std::size_t t = 0; t < whole.coupled.size(); ++t) {
+      EXPECT_EQ(all.network.coupled[t].springs, whole.coupled[t].springs);
+      EXPECT_EQ(all.network.coupled[t].stiffness, whole.coupled[t].stiffness);
+    }
+    for (std::size_t v = 0; v < whole.volumes.size(); ++v) {
+      EXPECT_EQ(all.network.volumes[v].springs, whole.volumes[v].springs);
+      EXPECT_EQ(all.network.volumes[v].dilation, whole.volumes[v].dilation);
+      EXPECT_EQ(all.network.volumes[v].stiffness, whole.volumes[v].stiffness);
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,227 @@
+// Nystrom's method for the contact with a layer.
+#include "contact/layer_integral.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace palpate::contact {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+constexpr double pi = std::numbers::pi;
+
+// M(u) < (4 u^2 + 4 u + 2) exp(-2u), less than 1e-14 from here on.
+constexpr double last_wave = 20.0;
+
+// M(u) = 1 - L(u); L is how far a wave of pressure of wave number u / H sinks into the layer, over
+// a half-space. With K = 3 - 4 nu,
+//   bonded        L = (2K sinh 2u - 4u) / (2K cosh 2u + 1 + K^2 + 4u^2)
+//   frictionless  L = (cosh 2u - 1) / (sinh 2u + 2u)
+// written with q = exp(-2u), so that nothing overflows and M loses no digits where L goes to 1.
+double missing_sinking(double u, const Layer& layer) {
+  const double q = std::exp(-2.0 * u);
+  if (layer.base == LayerBase::frictionless)
+    return q * (2.0 * u - std::expm1(-2.0 * u)) / (0.5 * (1.0 - q * q) + 2.0 * u * q);
+  const double k = 3.0 - 4.0 * layer.poisson_ratio;
+  const double c = 1.0 + k * k + 4.0 * u * u;
+  return q * (2.0 * k * q + c + 4.0 * u) / (k * (1.0 + q * q) + c * q);
+}
+
+// Gauss-Legendre over [0, end], by Newton's method on Legendre's polynomial from cosines close to
+// its roots.                                            Abramowitz & Stegun 1964, 25.4.30, 22.16.6
+void gauss_legendre(std::span<double> nodes, std::span<double> weights, double end) {
+  const auto n = static_cast<double>(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    double x = -std::cos(pi * (static_cast<double>(i) + 0.75) / (n + 0.5));
+    double slope = 1.0;
+    double change = 1.0;
+    for (int pass = 0; pass < 8 && std::abs(change) > 1e-15; ++pass) {
+      double p = 1.0, before = 0.0;  // P_k(x), P_(k-1)(x)
+      for (double k = 1.0; k <= n; ++k) {
+        const double next = ((2.0 * k - 1.0) * x * p - (k - 1.0) * before) / k;
+        before = p;
+        p = next;
+      }
+      slope = n * (x * p - before) / (x * x - 1.0);
+      change = p / slope;
+      x -= change;
+    }
+    nodes[i] = 0.5 * end * (1.0 + x);
+    weights[i] = end / ((1.0 - x * x) * slope * slope);
+  }
+}
+
+// int_0^1 w(z (1 - tau^2)) dtau at Chebyshev's nodes, of a polynomial w given at the same nodes.
+void mean_along_chord(std::span<double> values) {
+  std::array<double, PressureProfile::terms> series{}, tau{}, weights{};
+  chebyshev_fit(values, series);
+  gauss_legendre(tau, weights, 1.0);  // exact: 2 terms - 2 is the greatest power of tau
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double z = chebyshev_node(i, values.size());
+    values[i] = 0.0;
+    for (std::size_t j = 0; j < tau.size(); ++j)
+      values[i] += weights[j] * chebyshev_sum(series, z * (1.0 - tau[j] * tau[j])).value;
+  }
+}
+
+}  // namespace
+
+double PressureProfile::at(double radius_ratio) const {
+  const double z = 1.0 - radius_ratio * radius_ratio;
+  return z > 0.0 ? std::sqrt(z) * chebyshev_sum(coefficients, z).value : 0.0;
+}
+
+double LayerSolution::force_factor() const { return force / (depth * std::sqrt(depth)); }
+
+double LayerSolution::radius_factor() const { return 1.0 / std::sqrt(depth); }
+
+LayerResolution layer_resolution(double greatest_ratio) {
+  // Q's poles are some H / a from the interval, and its cosines make (20 / pi) a / H turns.
+  return {.points = 16 + static_cast<int>(std::ceil(4.0 * greatest_ratio)),
+          .waves = 50 + static_cast<int>(std::ceil(10.0 * greatest_ratio))};
+}
+
+LayerEquation::LayerEquation(const Layer& layer, const LayerResolution& resolution) {
+  assert(layer.poisson_ratio > -1.0 && layer.poisson_ratio <= 0.5);
+  assert(layer.share >= 0.0 && layer.share <= 1.0);
+  assert(resolution.points > 0 && resolution.waves > 0);
+  points_.nodes.resize(static_cast<std::size_t>(resolution.points));
+  points_.weights.resize(points_.nodes.size());
+  gauss_legendre(points_.nodes, points_.weights, 1.0);
+  for (const LayerWave& wave : layer_waves(layer, resolution.waves)) {
+    waves_.nodes.push_back(wave.number);
+    waves_.weights.push_back(2.0 / pi * wave.missing);
+  }
+}
+
+LayerSolution LayerEquation::solve(double ratio) const {
+  assert(ratio >= 0.0);
+  const auto n = static_cast<Eigen::Index>(points_.nodes.size());
+  const auto m = static_cast<Eigen::Index>(waves_.nodes.size());
+  const VectorXd s = VectorXd::Map(points_.nodes.data(), n);
+  const VectorXd root = VectorXd::Map(points_.weights.data(), n).cwiseSqrt();
+  // Q(s,t) = 2/pi a/H int_0^inf M(u) cos(u s a/H) cos(u t a/H) du
+  //        = sum_k q_k cos(x_k s) cos(x_k t),   x_k = u_k a/H
+  const VectorXd x = ratio * VectorXd::Map(waves_.nodes.data(), m);
+  const VectorXd q = ratio * VectorXd::Map(waves_.weights.data(), m);
+  const MatrixXd cosines = (x * s.transpose()).array().cos();
+
+  // With sqrt(w) g as the unknown the matrix is symmetric; it is positive definite since 1 - M =
+  // L > 0. The right sides 1 and s^2 give g = D g_1 - g_2.
+  const MatrixXd waved = q.cwiseSqrt().asDiagonal() * cosines * root.asDiagonal();
+  MatrixXd matrix = MatrixXd::Identity(n, n);
+  matrix.selfadjointView<Eigen::Lower>().rankUpdate(waved.transpose(), -1.0);
+  MatrixXd g(n, 2);
+  g.col(0) = root;
+  g.col(1) = root.cwiseProduct(s.cwiseAbs2());
+  matrix.selfadjointView<Eigen::Lower>().llt().solveInPlace(g);
+  g = root.asDiagonal() * g;  // w g from here on
+
+  // g(1) = D g_1(1) - g_2(1) = 0, where between the points
+  // g_i(s) = 1 or s^2, + sum_k q_k cos(x_k s) v_ki,   v_ki = int_0^1 cos(x_k t) g_i(t) dt
+  const MatrixXd moments = cosines * g;
+  const VectorXd at_edge = q.array() * x.array().cos();
+  const double punch_edge = 1.0 + at_edge.dot(moments.col(0));
+
+  LayerSolution solution;
+  solution.ratio = ratio;
+  solution.depth = (1.0 + at_edge.dot(moments.col(1))) / punch_edge;
+  solution.punch = g.col(0).sum();
+  // F = 2 E* a^3/R int_0^1 g ds
+  const double mean = solution.depth * g.col(0).sum() - g.col(1).sum();
+  solution.force = 1.5 * mean;
+  solution.chi = ratio * std::sqrt(solution.depth);
+
+  // -g'(s) / (2s) = 1 + 1/2 sum_k q_k x_k v_k sin(x_k s) / s
+  const VectorXd v = solution.depth * moments.col(0) - moments.col(1);
+  const ArrayXd tilt = 0.5 * q.array() * x.array() * v.array();
+  const auto slope = [&](double at) { return 1.0 + (tilt * (at * x.array()).sin()).sum() / at; };
+  // The contact widens by da as if a flat punch of its size sank by dh. With G(x) = a^2/R g(x/a)
+  // that is dG = dh g_1; and G stays 0 at the edge: dh/da = -G'(a) / g_1(1).
+  solution.chi_slope = slope(1.0) / (punch_edge * std::sqrt(solution.depth));
+
+  // p(r) = -E*/pi int_r^a G'(x) / sqrt(x^2 - r^2) dx is smooth but for one root: with
+  // x^2/a^2 = 1 - z (1 - tau^2), z = 1 - r^2/a^2, and w(1 - s^2) = -g'(s) / (2s)
+  // p(r) = 2 E* a/(pi R) sqrt(z) int_0^1 w(z (1 - tau^2)) dtau,  F/(pi a^2) = 2 E* a/(pi R) `mean`
+  std::array<double, PressureProfile::terms> values{};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = slope(std::sqrt(1.0 - chebyshev_node(i, values.size()))) / mean;
+  mean_along_chord(values);
+  chebyshev_fit(values, solution.pressure.coefficients);
+  return solution;
+}
+
+LayerSolution LayerEquation::solve_chi(double chi) const {
+  // chi grows with the ratio, as fast in thick layers and half as fast in thin ones, without a bend
+  // that Newton's method would mind: two to four steps.
+  LayerSolution solution = solve(chi);
+  for (int pass = 0; pass < 20; ++pass) {
+    const double change = (chi - solution.chi) / solution.chi_slope;
+    if (std::abs(change) <= 1e-14 * chi) break;
+    solution = solve(solution.ratio + change);
+    // The next error is about change^2.
+    if (std::abs(change) < 1e-8 * chi) break;
+  }
+  return solution;
+}
+
+LayerSolution solve_layer(double ratio, const Layer& layer) {
+  return LayerEquation(layer, layer_resolution(ratio)).solve(ratio);
+}
+
+double flat_punch_factor(double ratio, const Layer& layer) {
+  return solve_layer(ratio, layer).punch;
+}
+
+std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
+  std::vector<double> numbers(static_cast<std::size_t>(count));
+  std::vector<double> weights(numbers.size());
+  gauss_legendre(numbers, weights, last_wave);
+  std::vector<LayerWave> waves;
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    waves.push_back({numbers[k], layer.share * weights[k] * missing_sinking(numbers[k], layer)});
+  return waves;
+}
+
+double layer_first_coefficient(const Layer& layer) {
+  double sum = 0.0;
+  for (const LayerWave& wave : layer_waves(layer, 64)) sum += wave.missing;
+  return 2.0 / pi * sum;
+}
+
+ChebyshevSum chebyshev_sum(std::span<const double> coefficients, double z) {
+  // Clenshaw's recurrence b_k = 2y b_(k+1) - b_(k+2) + c_k in y = 2z - 1, and its derivative.
+  const double y = 2.0 * z - 1.0;
+  double b = 0.0, b_before = 0.0, db = 0.0, db_before = 0.0;
+  for (std::size_t k = coefficients.size() - 1; k > 0; --k) {
+    const double b_next = 2.0 * y * b - b_before + coefficients[k];
+    const double db_next = 2.0 * y * db - db_before + 2.0 * b;
+    b_before = b;
+    db_before = db;
+    b = b_next;
+    db = db_next;
+  }
+  return {.value = y * b - b_before + coefficients[0], .slope = 2.0 * (y * db - db_before + b)};
+}
+
+double chebyshev_node(std::size_t i, std::size_t n) {
+  return 0.5 + 0.5 * std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+}
+
+void chebyshev_fit(std::span<const double> values, std::span<double> coefficients) {
+  assert(values.size() == coefficients.size());
+  const auto n = static_cast<double>(values.size());
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      sum += values[i] * std::cos(pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / n);
+    coefficients[k] = (k == 0 ? 1.0 : 2.0) / n * sum;
+  }
+}
+
+}  // namespace palpate::contact

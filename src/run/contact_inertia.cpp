@@ -1,0 +1,278 @@
+// What the motion of a mesh adds to the statics of `consistent`: docs/theory.md (60).
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "contact/wide_patch.h"
+#include "run/contacts.h"
+
+namespace palpate::run {
+namespace {
+
+// Sum over a spread's nodes; those below 0 stand.
+template <class Of>
+double over_nodes(const MeshAnswer& mesh, const contact::Spread& spread, const Of& of) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < spread.vertices.size(); ++k) {
+    const int node = mesh.nodes[static_cast<std::size_t>(spread.vertices[k])];
+    if (node >= 0) sum += spread.shares[k] * of(node);
+  }
+  return sum;
+}
+
+// How far the skin has sunk under a contact's wide spread, m.
+double sunk(const MeshAnswer& mesh, const SphereContact& contact) {
+  const integrate::Vector& displacement = *mesh.moving->displacement;
+  return over_nodes(mesh, contact.wide, [&](int node) {
+    return -contact.patch.normal.dot(displacement.segment<3>(3 * node));
+  });
+}
+
+// How far a newton on one contact's wide spread sinks another's, m/N.
+double sunk_by(const MeshAnswer& mesh, Influence& influence, const SphereContact& own,
+               const SphereContact& pressed) {
+  return over_nodes(mesh, own.wide, [&](int at) {
+    return over_nodes(mesh, pressed.wide, [&](int node) {
+      return influence.between(-own.patch.normal, at, -pressed.patch.normal, node, mesh.freedoms);
+    });
+  });
+}
+
+// How far a load sinks the skin under a contact's wide spread, m. The influence is symmetric.
+double sunk_by(const MeshAnswer& mesh, Influence& influence, const SphereContact& own,
+               const integrate::Vector& load) {
+  return over_nodes(mesh, own.wide, [&](int node) {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (own.patch.normal[axis] != 0.0)
+        sum -= own.patch.normal[axis] * influence.column(3 * node + axis, mesh.freedoms).dot(load);
+    return sum;
+  });
+}
+
+void add(const MeshAnswer& mesh, const contact::Spread& spread, const Vec3& push,
+         integrate::Vector& load) {
+  for (std::size_t k = 0; k < spread.vertices.size(); ++k) {
+    const int node = mesh.nodes[static_cast<std::size_t>(spread.vertices[k])];
+    if (node >= 0) load.segment<3>(3 * node) += spread.shares[k] * push;
+  }
+}
+
+}  // namespace
+
+// The farthest that any of the skin is from its place, m.
+double Contacts::rise(const MeshAnswer& mesh) const {
+  if (mesh.moving == nullptr) return 0.0;
+  double most = 0.0;
+  for (const int node : mesh.nodes)
+    if (node >= 0)
+      most = std::max(most, mesh.moving->displacement->segment<3>(3 * node).squaredNorm());
+  return std::sqrt(most);
+}
+
+// As wide as the finger's place alone says: if it followed the force, loading and reading would not
+// be one another's transpose, and the contact could feed the motion.
+void Contacts::spread_wide(SphereContact& contact) {
+  const auto axes = contact.law.semi_axes(std::max(0.0, contact.approach));
+  spreader_.spread(contact::wide_patch(contact.patch, axes, rings_.spacing(contact.patch)),
+                   contact.wide);
+}
+
+// Forgets places that neither the skin at rest nor as it moves lets the finger touch.
+void Contacts::leave_apart(const MeshAnswer& mesh, std::vector<SphereContact>& found) {
+  std::erase_if(found, [&](SphereContact& contact) {
+    if (contact.approach > 0.0) return false;
+    contact.patch.axis = contact.patch.normal.unitOrthogonal();
+    spread_wide(contact);
+    return contact.approach - sunk(mesh, contact) <= 0.0;
+  });
+}
+
+// Fills motion_, moving_by_force_ and still_by_force_, and whom each contact goes on from.
+void Contacts::find_motion(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts) {
+  const MovingMesh& moving = *mesh.moving;
+  const auto count = static_cast<Eigen::Index>(contacts.size());
+  motion_.setZero(count);
+  moving_by_force_.setZero(count, count);
+  still_by_force_.setZero(count, count);
+  near_.assign(contacts.size(), {});
+  const bool loaded = moving.still->size() > 0 && moving.still->squaredNorm() > 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    double nearest = scene_->finger.sphere_radius;
+    for (const Past& one : past_) {
+      const double distance = (one.position - contacts[i].patch.position).norm();
+      if (one.sphere != contacts[i].sphere || distance >= nearest) continue;
+      nearest = distance;
+      near_[i].past = one;
+    }
+  }
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const SphereContact& own = contacts[static_cast<std::size_t>(i)];
+    motion_[i] = sunk(mesh, own);
+    if (loaded) motion_[i] -= sunk_by(mesh, *mesh.influence, own, *moving.still);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const SphereContact& pressed = contacts[static_cast<std::size_t>(j)];
+      still_by_force_(i, j) = sunk_by(mesh, *mesh.influence, own, pressed);
+      if (moving.response != nullptr)
+        moving_by_force_(i, j) = moving.share * sunk_by(mesh, *moving.response, own, pressed);
+      if (!moving.still_has_past) continue;
+      const Past& past = near_[static_cast<std::size_t>(j)].past;
+      motion_[i] += still_by_force_(i, j) * past.elastic +
+                    moving_by_force_(i, j) * (past.force - moving.slope * past.elastic);
+    }
+  }
+}
+
+// What part of the motion is taken: 1, but where the mesh would soften the contact by more than
+//   part sum_j c_ij <= 0.47 / F_i' + C_ij,  F_i' at the travel.
+// h - c F(h) grows until c F' = 1 and is h/3 there. With F of h^(3/2) and c F' = 0.47 at the travel
+// that is 1.5 times the travel: there is a balance, however little the mesh has moved.
+double Contacts::part_of_motion(const std::vector<SphereContact>& contacts) const {
+  constexpr double most_softening = 0.47;
+  double part = 1.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto own = static_cast<Eigen::Index>(i);
+    const double stiffness = contacts[i].law.point.stiffness(contacts[i].approach);
+    double spare = most_softening;
+    for (Eigen::Index j = 0; j < compliance_.cols(); ++j)
+      spare += stiffness * (j == own ? compliance_(own, j) : std::min(0.0, compliance_(own, j)));
+    const double softening = stiffness * still_by_force_.row(own).sum();
+    if (softening > spare) part = std::min(part, std::max(0.0, spare / softening));
+  }
+  return part;
+}
+
+// Waves that are too short for the wide patch leave a contact all the same: what Lysmer's analogue
+// of a half-space knows of them, less what the mesh knows.
+void Contacts::find_near_field(const MovingMesh& moving, const std::vector<SphereContact>& contacts,
+                               double part) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto own = static_cast<Eigen::Index>(i);
+    const contact::PointLaw& law = contacts[i].law.point;
+    NearField& near = near_[i];
+    near.damping = near.delay = 0.0;
+    const double depth = std::max(0.0, near.past.depth + contacts[i].approach - near.past.approach);
+    const double stiffness = law.stiffness(depth);
+    if (stiffness <= 0.0) continue;
+    // C = D (2 E* a)^2 of the half-space, and T = C / F'^2 / c: both have the same first order.
+    const double half_space = 1.5 * law.part * law.coefficient * std::sqrt(depth);
+    double damping = radiation_ * half_space * half_space;
+    // Between contacts there is no such law; as they press each other's tissue it must give way, or
+    // their differences would have a compliance below zero.
+    double others = 0.0;
+    for (Eigen::Index j = 0; j < compliance_.cols(); ++j)
+      if (j != own) others += std::abs(compliance_(own, j) - part * still_by_force_(own, j));
+    if (others > 0.0) {
+      const double spare = 1.0 / stiffness + compliance_(own, own) - part * still_by_force_(own, own);
+      const double most = std::max(0.0, 0.5 * spare / others - 1.0) * moving.time_step / spare;
+      damping = std::min(damping, most);
+    }
+    near.damping = damping;
+    near.delay = damping / (stiffness * stiffness * still_by_force_(own, own));
+  }
+}
+
+// Fills whole_compliance_ and the approaches: the balance is then that of statics.
+//   h + W P = A - part m,  P = F(h) + R (h - h_0),  W = C + part (slope G - c)  or, solved for F,
+//   h + (1 + W R)^-1 W F(h) = (1 + W R)^-1 (A - part m + W R h_0)
+void Contacts::add_motion(const MovingMesh& moving, const std::vector<SphereContact>& contacts,
+                          std::vector<double>& approaches) {
+  const auto count = static_cast<Eigen::Index>(contacts.size());
+  const double part = part_of_motion(contacts);
+  find_near_field(moving, contacts, part);
+  whole_compliance_ = compliance_ + part * (moving.slope * moving_by_force_ - still_by_force_);
+  Eigen::VectorXd right(count);
+  Eigen::VectorXd rate(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const NearField& near = near_[static_cast<std::size_t>(i)];
+    // Q_1 = (Q_0 + x P) / (1 + x),  x = dt / T: the force as it has reached the wide patch
+    const double kept = near.delay / (near.delay + moving.time_step);
+    whole_compliance_(i, i) += part * kept * still_by_force_(i, i);
+    right[i] = contacts[static_cast<std::size_t>(i)].approach -
+               part * (motion_[i] - kept * still_by_force_(i, i) * near.past.spread);
+    rate[i] = near.damping / (moving.slope * moving.time_step);
+  }
+  if (count > 0 && rate.maxCoeff() > 0.0) {
+    const Eigen::MatrixXd damped = whole_compliance_ * rate.asDiagonal();
+    for (Eigen::Index i = 0; i < count; ++i)
+      right += damped.col(i) * near_[static_cast<std::size_t>(i)].past.depth;
+    const Eigen::PartialPivLU<Eigen::MatrixXd> left(Eigen::MatrixXd::Identity(count, count) +
+                                                    damped);
+    right = left.solve(right).eval();
+    whole_compliance_ = left.solve(whole_compliance_).eval();
+  }
+  for (Eigen::Index i = 0; i < count; ++i) approaches[static_cast<std::size_t>(i)] = right[i];
+}
+
+// Where tissue falls behind a finger that leaves, it is not pulled: takes out the contact that
+// pulls most. True where there was one.
+bool Contacts::release(const MovingMesh& moving, std::vector<SphereContact>& contacts) {
+  std::size_t worst = contacts.size();
+  double least = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    SphereContact& contact = contacts[i];
+    contact.radiated =
+        near_[i].damping / moving.time_step * (contact.depth - near_[i].past.depth);
+    const double push = contact.elastic + contact.radiated / moving.slope;
+    if (push >= least) continue;
+    least = push;
+    worst = i;
+  }
+  if (worst == contacts.size()) return false;
+  // Free, it goes back at its own pace: F(h) + C (h - h_0) / dt = 0.
+  const NearField& near = near_[worst];
+  const SphereContact& contact = contacts[worst];
+  parted_.push_back({.sphere = contact.sphere,
+                     .position = contact.patch.position,
+                     .approach = contact.approach,
+                     .depth = contact::penetration(contact.law.point, near.past.depth,
+                                                   moving.time_step / near.damping)
+                                  .value_or(0.0),
+                     .spread = near.delay / (near.delay + moving.time_step) * near.past.spread});
+  contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(worst));
+  return true;
+}
+
+// The forces of a balance, and what the next step goes on from.
+void Contacts::remember(const MovingMesh& moving, std::vector<SphereContact>& contacts) {
+  past_.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    SphereContact& contact = contacts[i];
+    if (contact.depth <= 0.0) continue;
+    const auto own = static_cast<Eigen::Index>(i);
+    const double elastic = contact.elastic + contact.radiated / moving.slope;
+    contact.force = contact.elastic + contact.radiated;
+    const NearField& near = near_[i];
+    const double kept = near.delay / (near.delay + moving.time_step);
+    past_.push_back({.sphere = contact.sphere,
+                     .position = contact.patch.position,
+                     .approach = contact.approach,
+                     .depth = contact.depth,
+                     .spread = kept * near.past.spread + (1.0 - kept) * elastic,
+                     .elastic = elastic,
+                     .force = contact.force});
+    // From now on the travel at which statics has this depth.
+    contact.approach = contact.depth;
+    for (std::size_t j = 0; j < contacts.size(); ++j)
+      contact.approach += compliance_(own, static_cast<Eigen::Index>(j)) * contacts[j].elastic;
+  }
+  past_.insert(past_.end(), parted_.begin(), parted_.end());
+  parted_.clear();
+}
+
+void Contacts::keep_forces(const Touch& touch) {
+  for (std::size_t i = 0; i < past_.size(); ++i)
+    past_[i].force = i < touch.contacts.size() ? touch.contacts[i].force : 0.0;
+}
+
+integrate::Vector Contacts::finer_load(const Touch& touch, const MeshAnswer& mesh) {
+  integrate::Vector load = integrate::Vector::Zero(mesh.freedoms);
+  for (const SphereContact& contact : touch.contacts) {
+    const Vec3 push = contact.drag - contact.elastic * contact.patch.normal;
+    add(mesh, contact.load, push, load);
+    add(mesh, contact.wide, -push, load);
+  }
+  return load;
+}
+
+}  // namespace palpate::run

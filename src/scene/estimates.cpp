@@ -1,0 +1,157 @@
+// Closed forms, and fits to our own converged answers where there is none.
+#include "scene/estimates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "contact/deep.h"
+#include "contact/hertz.h"
+#include "scene/specimen_mesh.h"
+
+namespace palpate::scene {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Distances from the finger to the four sides of a cuboid, the least on its way, m.
+std::array<double, 4> sides(const scenario::Scenario& scenario, const scenario::Cuboid& box) {
+  double x = scenario.finger.x.value_or(0.5 * box.size[0]);
+  double y = scenario.finger.y.value_or(0.5 * box.size[1]);
+  std::array<double, 4> least{infinite, infinite, infinite, infinite};
+  const auto look = [&] {
+    const std::array<double, 4> now{x, box.size[0] - x, y, box.size[1] - y};
+    for (std::size_t i = 0; i < 4; ++i) least[i] = std::min(least[i], now[i]);
+  };
+  look();
+  for (const scenario::Step& step : scenario.steps) {
+    const auto* slide = std::get_if<scenario::Slide>(&step);
+    if (slide == nullptr) continue;
+    const double angle = slide->direction * std::numbers::pi / 180.0;
+    x += slide->by * std::cos(angle);
+    y += slide->by * std::sin(angle);
+    look();
+  }
+  return least;
+}
+
+// A free side at the distance b takes 0.4 a/b exp(-k b/H) of the force, k = 2.4 - 3.4 (nu - 0.33):
+// fitted to coupled springs on blocks of b/H from 0.25 to 3, nu 0.33 and 0.49.
+double side_effect(const scenario::Scenario& scenario, const scenario::Cuboid& box, double a) {
+  const double k = 2.4 - 3.4 * (*scenario.tissue.poisson_ratio - 0.33);
+  double sum = 0.0;
+  for (const double b : sides(scenario, box))
+    sum += b <= a ? 1.0 : 0.4 * a / b * std::exp(-k * b / box.size[2]);
+  return std::min(sum, 1.0);
+}
+
+double fastest_rate(const scenario::Scenario& scenario) {
+  double rate = 0.0;
+  for (const scenario::Step& step : scenario.steps) {
+    if (const auto* indent = std::get_if<scenario::Indent>(&step))
+      rate = std::max(rate, indent->rate);
+    if (const auto* retract = std::get_if<scenario::Retract>(&step))
+      rate = std::max(rate, retract->rate);
+  }
+  return rate;
+}
+
+// Over a ramp of the duration T, Kelvin-Voigt adds tau F'/F = 3/2 tau/T, a branch b about
+// b x (1 - exp(-1/x)), x = tau/T.
+double viscous_effect(const scenario::Tissue& tissue, double duration) {
+  if (duration <= 0.0) return 0.0;
+  const tissue::ViscousLaw law = viscous_law(tissue);
+  double sum = 1.5 * law.time / duration;
+  for (const tissue::Branch& branch : law.branches) {
+    const double x = branch.time / duration;
+    sum += branch.ratio * x * -std::expm1(-1.0 / x);
+  }
+  return sum;
+}
+
+// What a vibrating footing radiates: pi a^2 rho c v, c = 3.4 v_s / (pi (1 - nu)) (Lysmer's
+// analogue), over Hertz's force.
+double inertia_effect(const scenario::Tissue& tissue, const contact::SphereLaw& law, double travel,
+                      double rate) {
+  const double nu = *tissue.poisson_ratio;
+  const double shear_speed =
+      std::sqrt(*tissue.young_modulus / (2.0 * (1.0 + nu) * *tissue.density));
+  const double speed = 3.4 * shear_speed / (std::numbers::pi * (1.0 - nu));
+  const double force = contact::hertz::force(travel, law.radius, law.modulus);
+  if (force <= 0.0) return 0.0;
+  return std::numbers::pi * law.radius * travel * *tissue.density * speed * rate / force;
+}
+
+}  // namespace
+
+Estimates estimate(const scenario::Scenario& scenario) {
+  Estimates found;
+  const scenario::Tissue& tissue = scenario.tissue;
+  const contact::Elastic body{*tissue.young_modulus, *tissue.poisson_ratio};
+  const double lambda_1 =
+      scenario.finger.material == "rigid"
+          ? 0.0
+          : contact::Elastic{*scenario.finger.young_modulus, *scenario.finger.poisson_ratio}
+                .compliance();
+  found.tissue_share = body.compliance() / (lambda_1 + body.compliance());
+  const auto top = top_curvature(tissue.shape);
+  contact::SphereLaw law{scenario.finger.radius,
+                         contact::hertz::effective_modulus(lambda_1, body.compliance())};
+  if (top) {
+    const double k_1 = 1.0 / law.radius + top->kappa_1;
+    const double k_2 = 1.0 / law.radius + top->kappa_2;
+    if (k_2 > 0.0) {
+      found.curvature_ratio = k_1 / k_2;
+      law.radius = 1.0 / std::sqrt(k_1 * k_2);
+    }
+  }
+  found.travel = deepest_travel(scenario, law);
+  found.rate = fastest_rate(scenario);
+  found.contact_radius = contact::hertz::contact_radius(found.travel, law.radius);
+
+  const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
+  const auto shape = parametric(tissue.shape);
+  const contact::Layer layer{.poisson_ratio = *tissue.poisson_ratio,
+                             .base = layer_base(scenario),
+                             .share = found.tissue_share};
+  if (shape) {
+    found.chi = found.contact_radius / geometry::extent(*shape).z();
+    found.thickness =
+        found.chi < contact::LayerLaw::last_chi
+            ? contact::LayerEquation(layer, contact::layer_resolution(contact::LayerLaw::last_chi))
+                      .solve_chi(found.chi)
+                      .force_factor() -
+                  1.0
+            : infinite;
+  }
+  if (box != nullptr) {
+    found.sides = found.tissue_share * side_effect(scenario, *box, found.contact_radius);
+  } else if (shape) {
+    // A curved body of the width w gives way as a whole: to the order of a / (w/2).
+    const Vec3 size = geometry::extent(*shape);
+    found.curved_body = found.tissue_share * found.contact_radius / (0.5 * size.minCoeff());
+  }
+  const double x = found.travel / law.radius;
+  if (const auto deep = contact::deep_law(*tissue.poisson_ratio))
+    found.deep = std::abs(deep->force_factor(std::min(x, 0.5)).value_or(1.0) - 1.0);
+  found.viscous = found.tissue_share *
+                  viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
+  found.inertia = found.tissue_share * inertia_effect(tissue, law, found.travel, found.rate);
+  return found;
+}
+
+double expected_nodes(const scenario::Scenario& scenario) {
+  const auto of_cells = [](const std::array<int, 3>& cells) {
+    return (cells[0] + 1.0) * (cells[1] + 1.0) * (cells[2] + 1.0);
+  };
+  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh))
+    return of_cells(kuhn->cells);
+  if (const auto* mirrored = std::get_if<scenario::Mirrored>(&scenario.tissue.mesh))
+    return of_cells(mirrored->cells);
+  if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh))
+    return tetgen->nodes;
+  return 1000.0;  // a ready mesh is read later
+}
+
+}  // namespace palpate::scene

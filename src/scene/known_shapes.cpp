@@ -1,0 +1,84 @@
+// What the closed forms know of a scenario's shape and programme.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "contact/hertz.h"
+#include "scene/scene.h"
+#include "scene/specimen_mesh.h"
+
+namespace palpate::scene {
+namespace {
+
+// Whether the finger's way leads over a cuboid's rim.
+bool leaves(const scenario::Scenario& scenario, const scenario::Cuboid& box) {
+  double x = scenario.finger.x.value_or(0.5 * box.size[0]);
+  double y = scenario.finger.y.value_or(0.5 * box.size[1]);
+  const auto beside = [&] { return std::min({x, box.size[0] - x, y, box.size[1] - y}) < 0.0; };
+  bool found = beside();
+  for (const scenario::Step& step : scenario.steps) {
+    const auto* slide = std::get_if<scenario::Slide>(&step);
+    if (slide == nullptr) continue;
+    const double angle = slide->direction * std::numbers::pi / 180.0;
+    x += slide->by * std::cos(angle);
+    y += slide->by * std::sin(angle);
+    found = found || beside();
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<TopCurvature> top_curvature(const scenario::Shape& shape) {
+  if (std::holds_alternative<scenario::Cuboid>(shape)) return TopCurvature{};
+  if (const auto* half = std::get_if<scenario::HalfSpace>(&shape)) {
+    const double across = half->curvature_2.value_or(half->curvature);
+    if (half->curvature >= across) return TopCurvature{half->curvature, across};
+    return TopCurvature{across, half->curvature, Vec3::UnitY()};
+  }
+  if (const auto* cylinder = std::get_if<scenario::Cylinder>(&shape))
+    return TopCurvature{1.0 / cylinder->radius, 0.0};
+  if (const auto* ellipsoid = std::get_if<scenario::Ellipsoid>(&shape)) {
+    // z = c sqrt(1 - x^2/a^2 - y^2/b^2) curves with c/a^2 and c/b^2 at its top.
+    const Vec3 half = 0.5 * ellipsoid->size;
+    const double x = half.z() / (half.x() * half.x());
+    const double y = half.z() / (half.y() * half.y());
+    return x >= y ? TopCurvature{x, y} : TopCurvature{y, x, Vec3::UnitY()};
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> beyond_hertz(const scenario::Scenario& scenario) {
+  if (!scenario.regions.empty()) return "it has regions of other tissues";
+  const auto top = top_curvature(scenario.tissue.shape);
+  if (!top) return "no formula gives the curvature of its shape";
+  const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
+  if (box != nullptr && leaves(scenario, *box)) return "the finger leaves the specimen's top";
+  if (top->kappa_1 == 0.0 && top->kappa_2 == 0.0) return std::nullopt;
+  if (scenario.finger.spheres > 1) return "several spheres press a curved surface";
+  if (scenario.finger.x || scenario.finger.y) return "the finger may stand off the curved top";
+  for (const scenario::Step& step : scenario.steps)
+    if (std::holds_alternative<scenario::Slide>(step))
+      return "the finger slides over a curved surface";
+  return std::nullopt;
+}
+
+std::optional<std::string> beyond_layer(const scenario::Scenario& scenario) {
+  if (!std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape))
+    return "a layer is a `cuboid` pressed on its flat top";
+  if (scenario.finger.spheres > 1) return "several spheres press into one layer";
+  return beyond_hertz(scenario);
+}
+
+double deepest_travel(const scenario::Scenario& scenario, const contact::SphereLaw& law) {
+  double travel = 0.0;
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* indent = std::get_if<scenario::Indent>(&step))
+      travel = std::max(travel, indent->to.second ? contact::hertz::depth(indent->to.value,
+                                                                          law.radius, law.modulus)
+                                                  : indent->to.value);
+  return travel;
+}
+
+}  // namespace palpate::scene

@@ -1,0 +1,197 @@
+// Strain from elongations in closed form, and with it stiffness matrices and volumes.
+#include "tissue/coupled.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cassert>
+#include <tuple>
+#include <utility>
+
+namespace palpate::tissue {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+constexpr std::array<std::array<int, 2>, 6> edges_of_corners{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+// A tetrahedron as its springs see it. With g_i the gradient of the function that is 1 at corner i
+// and 0 at the others, the strain of the elongations is
+//   eps = -sum_s e_s l_s (g_i g_j^T + g_j g_i^T) / 2,  s from i to j
+// because x.eps x less its linear interpolation is -sum_s x_i x_j l_s e_s in barycentric x.
+struct Element {
+  double volume = 0.0;                 // m^3
+  std::array<int, 6> springs{};        // in the order of edges_of_corners
+  Eigen::Matrix<double, 6, 1> length;  // m, at rest
+  Eigen::Matrix4d products;            // g_i . g_j, 1/m^2
+
+  // tr eps = sum_s dilation_s e_s,  dilation_s = -l_s g_i . g_j                             1/m
+  [[nodiscard]] double dilation(int s) const {
+    const auto& [i, j] = edges_of_corners[index(s)];
+    return -length[s] * products(i, j);
+  }
+
+  // eps : eps = sum_st e_s e_t l_s l_t ((g_i.g_k)(g_j.g_m) + (g_i.g_m)(g_j.g_k)) / 2       1/m^2
+  [[nodiscard]] double square(int s, int t) const {
+    const auto& [i, j] = edges_of_corners[index(s)];
+    const auto& [k, m] = edges_of_corners[index(t)];
+    return 0.5 * length[s] * length[t] *
+           (products(i, k) * products(j, m) + products(i, m) * products(j, k));
+  }
+
+  // S with e.S e / 2 the energy V (mu (eps : eps - (tr eps)^2 / 3) + K (tr eps)^2 / 2),     N/m
+  [[nodiscard]] CoupledSprings stiffness(double shear, double bulk) const {
+    CoupledSprings six;
+    six.springs = springs;
+    for (int s = 0; s < 6; ++s)
+      for (int t = 0; t <= s; ++t) {
+        const double volumes = dilation(s) * dilation(t);
+        six.stiffness(s, t) =
+            volume * (2.0 * shear * (square(s, t) - volumes / 3.0) + bulk * volumes);
+        six.stiffness(t, s) = six.stiffness(s, t);
+      }
+    return six;
+  }
+};
+
+Element element(const Network& network, const geometry::TetMesh& mesh, std::size_t tetrahedron) {
+  const auto& corners = mesh.tetrahedra[tetrahedron];
+  Element result;
+  result.volume = geometry::signed_volume(mesh, static_cast<int>(tetrahedron));
+  // The columns of `edges` are the corners 1 to 3 seen from corner 0: the rows of its inverse are
+  // their gradients, and all four gradients sum to zero.
+  Eigen::Matrix3d edges;
+  for (int i = 0; i < 3; ++i)
+    edges.col(i) = mesh.nodes[index(corners[index(i) + 1])] - mesh.nodes[index(corners[0])];
+  Eigen::Matrix<double, 4, 3> gradients;
+  gradients.bottomRows<3>() = edges.inverse();
+  gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
+  result.products = gradients * gradients.transpose();
+  for (std::size_t s = 0; s < 6; ++s) {
+    const int a = corners[index(edges_of_corners[s][0])];
+    const int b = corners[index(edges_of_corners[s][1])];
+    const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
+    const auto found = std::lower_bound(network.ends.begin(), network.ends.end(), ends);
+    assert(found != network.ends.end() && *found == ends);
+    const auto spring = found - network.ends.begin();
+    result.springs[s] = static_cast<int>(spring);
+    result.length[static_cast<Eigen::Index>(s)] =
+        network.rest_length[static_cast<std::size_t>(spring)];
+  }
+  return result;
+}
+
+std::vector<Element> elements(const Network& network, const geometry::TetMesh& mesh) {
+  std::vector<Element> all;
+  all.reserve(mesh.tetrahedra.size());
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) all.push_back(element(network, mesh, t));
+  return all;
+}
+
+// The volume around a node in one region: theta = sum_t V_t theta_t / sum_t V_t over the tetrahedra
+// there, at a quarter of their volume.
+SharedVolume average(const std::vector<Element>& all, std::span<const int> around, double modulus) {
+  std::vector<std::pair<int, double>> terms;  // spring, V_t dilation
+  double sum = 0.0;
+  for (const int t : around) {
+    const Element& one = all[index(t)];
+    sum += one.volume;
+    for (int s = 0; s < 6; ++s)
+      terms.emplace_back(one.springs[index(s)], one.volume * one.dilation(s));
+  }
+  std::stable_sort(terms.begin(), terms.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  SharedVolume shared;
+  shared.stiffness = modulus * 0.25 * sum;
+  for (const auto& [spring, change] : terms) {
+    if (shared.springs.empty() || shared.springs.back() != spring) {
+      shared.springs.push_back(spring);
+      shared.dilation.push_back(0.0);
+    }
+    shared.dilation.back() += change / sum;
+  }
+  return shared;
+}
+
+// One volume for every node and region that meets there and has a `modulus`, Pa one a region.
+void add_averages(Network& network, const geometry::TetMesh& mesh, const std::vector<Element>& all,
+                  std::span<const double> modulus) {
+  struct Use {
+    int node, region, tetrahedron;
+    bool operator<(const Use& other) const {
+      return std::tie(node, region, tetrahedron) <
+             std::tie(other.node, other.region, other.tetrahedron);
+    }
+  };
+  std::vector<Use> uses;
+  uses.reserve(4 * all.size());
+  for (int t = 0; t < static_cast<int>(all.size()); ++t)
+    for (const int node : mesh.tetrahedra[index(t)]) uses.push_back({node, mesh.region(t), t});
+  std::sort(uses.begin(), uses.end());
+  std::vector<int> around;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    around.push_back(uses[i].tetrahedron);
+    const bool last = i + 1 == uses.size() || uses[i + 1].node != uses[i].node ||
+                      uses[i + 1].region != uses[i].region;
+    if (!last) continue;
+    const double own = modulus[index(uses[i].region)];
+    if (own != 0.0) network.volumes.push_back(average(all, around, own));
+    around.clear();
+  }
+}
+
+}  // namespace
+
+double shear_modulus(const Isotropic& tissue) {
+  return tissue.young_modulus / (2.0 * (1.0 + tissue.poisson_ratio));
+}
+
+double bulk_modulus(const Isotropic& tissue) {
+  return tissue.young_modulus / (3.0 * (1.0 - 2.0 * tissue.poisson_ratio));
+}
+
+double spring_modulus(const Isotropic& tissue) {
+  return 1.25 * tissue.young_modulus / (1.0 + tissue.poisson_ratio);
+}
+
+double volume_modulus(const Isotropic& tissue) {
+  const double nu = tissue.poisson_ratio;
+  return tissue.young_modulus * (4.0 * nu - 1.0) / (2.0 * (1.0 + nu) * (1.0 - 2.0 * nu));
+}
+
+void couple(Network& network, const geometry::TetMesh& mesh, std::span<const Isotropic> tissues,
+            Volume volume, double own_share) {
+  network.stiffness.assign(network.ends.size(), 0.0);
+  network.coupled.clear();
+  network.volumes.clear();
+  std::vector<double> own;     // of each region's bulk modulus what its tetrahedra resist with, Pa
+  std::vector<double> shared;  // and what is averaged
+  for (const Isotropic& tissue : tissues) {
+    const double bulk = volume == Volume::none ? 0.0 : bulk_modulus(tissue);
+    own.push_back(volume == Volume::nodal ? std::min(bulk, own_share * shear_modulus(tissue))
+                                          : bulk);
+    shared.push_back(bulk - own.back());
+  }
+  const std::vector<Element> all = elements(network, mesh);
+  network.coupled.reserve(all.size());
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    const auto region = index(mesh.region(static_cast<int>(t)));
+    network.coupled.push_back(all[t].stiffness(shear_modulus(tissues[region]), own[region]));
+  }
+  add_averages(network, mesh, all, shared);
+}
+
+void add_volume(Network& network, const geometry::TetMesh& mesh, std::span<const Isotropic> tissues,
+                Volume volume) {
+  if (volume == Volume::none) return;
+  std::vector<double> modulus;
+  for (const Isotropic& tissue : tissues) modulus.push_back(volume_modulus(tissue));
+  const std::vector<Element> all = elements(network, mesh);
+  if (volume == Volume::nodal) return add_averages(network, mesh, all, modulus);
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    const double own = modulus[index(mesh.region(static_cast<int>(t)))];
+    if (own != 0.0) network.coupled.push_back(all[t].stiffness(0.0, own));
+  }
+}
+
+}  // namespace palpate::tissue

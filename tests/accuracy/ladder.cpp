@@ -1,0 +1,223 @@
+// Writes docs/accuracy.md to stdout: every rung's error on blocks, in uniform tests and on the
+// scenes of `auto`. No test: it takes minutes. `./dev accuracy` runs it.
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "auto_scenes.h"
+#include "base/text.h"
+#include "blocks.h"
+#include "run/family.h"
+#include "scenario/words.h"
+
+namespace palpate {
+namespace {
+
+using Model = scenario::Solver::Model;
+
+const std::atomic<bool> never = false;
+
+record::CaseRecord run_text(const std::string& text, const std::vector<std::string>& settings) {
+  const auto family = scenario::parse(text, "scene.toml", settings);
+  const auto scene = scene::build(family.cases.front(), family);
+  return run::run_case(scene, never);
+}
+
+std::string percent(std::optional<double> part) {
+  if (!part) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", 100.0 * *part);
+  return text;
+}
+
+std::optional<double> block_error(const test::Block& block, const std::string& model,
+                                  const std::string& mesh, const std::string& volume = "auto") {
+  try {
+    return test::error_of(
+        block, {"solver.model=" + model, "tissue.mesh=" + mesh, "solver.volume=" + volume});
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+void blocks_table() {
+  struct Mesh {
+    const char* name;
+    const char* text;
+  };
+  const Mesh meshes[] = {{"lattice 140", "{kind=\"mirrored\",cells=[3,4,6]}"},
+                         {"TetGen 164", "{kind=\"tetgen\",nodes=164}"},
+                         {"lattice 405", "{kind=\"mirrored\",cells=[8,8,4]}"},
+                         {"TetGen 728", "{kind=\"tetgen\",nodes=728}"},
+                         {"TetGen 2000", "{kind=\"tetgen\",nodes=2000}"}};
+  std::printf(
+      "## Blocks under a rigid sphere\n\n"
+      "Greatest error over all depths of the block, in percent of the nearer edge of the band "
+      "between the two ways\nto read linear elasticity; 0 is inside it. `hertz` and `layer` have "
+      "no mesh. The band is an independent\nprogram's: "
+      "[tests/elasticity](../tests/elasticity/README.md) "
+      "has the blocks, the depths and the forces.\n\n"
+      "| block | hertz | layer | rung |");
+  for (const Mesh& mesh : meshes) std::printf(" %s |", mesh.name);
+  std::printf("\n|---|---|---|---|");
+  for (std::size_t i = 0; i < std::size(meshes); ++i) std::printf("---|");
+  std::printf("\n");
+  for (const test::Block& block : test::blocks()) {
+    const auto hertz = block_error(block, "hertz", meshes[0].text);
+    const auto layer = block_error(block, "layer", meshes[0].text);
+    const std::pair<const char*, const char*> rungs[] = {
+        {"mass_spring", "none"}, {"mass_spring", "nodal"}, {"coupled_springs", "nodal"}};
+    for (const auto& [model, volume] : rungs) {
+      const bool first = volume == std::string("none");
+      std::printf("| %s | %s | %s | %s%s |", first ? block.name.c_str() : "",
+                  first ? percent(hertz).c_str() : "", first ? percent(layer).c_str() : "", model,
+                  model == std::string("mass_spring") && !first ? ", nodal volume" : "");
+      for (const Mesh& mesh : meshes)
+        std::printf(" %s |", percent(block_error(block, model, mesh.text, volume)).c_str());
+      std::printf("\n");
+    }
+    std::fflush(stdout);
+  }
+}
+
+// Strain of creep under a stress, stress of relaxation under a strain, over the closed form.
+void uniform_table() {
+  std::printf(
+      "\n## Uniform tests\n\nGreatest error of creep, recovery (over the strain that it begins "
+      "with) and relaxation of a block between\nslippery platens against the closed form, in "
+      "percent; TetGen 300 nodes, quasi-static rows of 10 ms.\n\n"
+      "| nu | rung | Kelvin-Voigt creep and recovery | standard linear solid relaxation |\n"
+      "|---|---|---|---|\n");
+  for (const double nu : {0.0, 0.25, 0.33, 0.45, 0.49}) {
+    for (const char* model : {"mass_spring", "coupled_springs"}) {
+      const std::vector<std::string> common{std::string("solver.model=") + model,
+                                            "solver.integrator=quasi_static",
+                                            "tissue.poisson_ratio=" + number_text(nu),
+                                            "tissue.mesh={kind=\"tetgen\",nodes=300}",
+                                            "output.interval=10 ms",
+                                            "tissue.young_modulus=10 kPa"};
+      auto creeping = common;
+      creeping.emplace_back("tissue.retardation_time=0.1 s");
+      const auto creep = run_text(
+          "[tissue]\nviscosity = \"kelvin_voigt\"\n[[step]]\nkind = \"creep\"\nstress = \"0.1 "
+          "kPa\"\nload_time = \"0.5 s\"\nrecovery_time = \"0.5 s\"\n",
+          creeping);
+      double worst = 0.0;
+      for (const auto& row : creep.strain) {
+        const double end = 0.01 * -std::expm1(-5.0);
+        const double exact = row.time <= 0.5 ? 0.01 * -std::expm1(-row.time / 0.1)
+                                             : end * std::exp(-(row.time - 0.5) / 0.1);
+        worst = std::max(worst, std::abs(row.strain - exact) / end);
+      }
+      auto relaxing = common;
+      relaxing.emplace_back("tissue.relaxation_time=0.1 s");
+      relaxing.emplace_back("tissue.instantaneous_ratio=3");
+      const auto relax = run_text(
+          "[tissue]\nviscosity = \"standard_linear_solid\"\n[[step]]\nkind = \"relax\"\nstrain = "
+          "0.01\ntime = \"0.5 s\"\n",
+          relaxing);
+      double worst_stress = 0.0;
+      for (const auto& row : relax.strain) {
+        const double exact = 100.0 * (1.0 + 2.0 * std::exp(-row.time / 0.1));
+        worst_stress = std::max(worst_stress, std::abs(row.stress / exact - 1.0));
+      }
+      std::printf("| %s | %s | %.3f | %.3f |\n", number_text(nu).c_str(), model, 100.0 * worst,
+                  100.0 * worst_stress);
+    }
+  }
+}
+
+// The greatest force of a press, or the greatest strain of a uniform test.
+double measure(const record::CaseRecord& record) {
+  double most = 0.0;
+  for (const auto& row : record.contact) most = std::max(most, row.force);
+  for (const auto& row : record.strain) most = std::max(most, row.strain);
+  return record.outcome == record::Outcome::completed ? most : std::nan("");
+}
+
+struct Reference {
+  double value = 0.0;
+  double error = 0.0;  // relative
+  const char* kind = "";
+};
+
+// On a half-space the closed form itself; else coupled springs at 700, 1400 and 2800 nodes, their
+// trend carried on in the square of the edge.
+Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
+  const auto& scenario = chosen.scenario;
+  if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
+    return {measure(run::run_case(chosen, never)), 0.0, "closed form"};
+  std::vector<double> values;
+  const bool fast = scenario.solver.integrator == scenario::Solver::Integrator::central_difference;
+  for (const int nodes : {700, 1400, 2800}) {
+    const auto family = scenario::parse(
+        scene.text, "scene.toml",
+        {"solver.model=coupled_springs",
+         "tissue.mesh={kind=\"tetgen\",nodes=" + std::to_string(nodes) + "}",
+         std::string("solver.integrator=") + (fast ? "central_difference" : "quasi_static")});
+    values.push_back(measure(run::run_case(scene::build(family.cases.front(), family), never)));
+  }
+  // h^2 goes as N^(-2/3): 2800 over 1400 nodes by 0.63
+  const double ratio = std::pow(0.5, 2.0 / 3.0);
+  const double limit = values[2] + (values[2] - values[1]) * ratio / (1.0 - ratio);
+  const double spread = std::max(std::abs(limit - values[2]), std::abs(values[2] - values[1]));
+  return {limit, spread / limit, "coupled springs, refined"};
+}
+
+void auto_table() {
+  std::printf(
+      "\n## What `auto` takes\n\nTwenty-one scenes "
+      "([tests/auto_scenes.h](../tests/auto_scenes.h)), "
+      "tolerance 5 %%. Errors against the reference, in percent: of the greatest\nforce, or of the "
+      "greatest strain of a uniform test. In brackets what was predicted.\n\n"
+      "| scene | reference | its error | hertz | layer | mass_spring | coupled_springs | taken |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  for (const test::AutoScene& one : test::auto_scenes()) {
+    const auto family = scenario::parse(one.text, "scene.toml", {});
+    const auto chosen = scene::build(family.cases.front(), family);
+    const Reference truth = reference(one, chosen);
+    std::printf("| %s | %s | %s |", one.name, truth.kind, percent(truth.error).c_str());
+    for (const Model model :
+         {Model::hertz, Model::layer, Model::mass_spring, Model::coupled_springs}) {
+      const scene::Rung* rung = nullptr;
+      for (const scene::Rung& candidate : chosen.choice.rungs)
+        if (candidate.model == model && candidate.cannot.empty()) rung = &candidate;
+      std::optional<double> error;
+      if (rung != nullptr) {
+        try {
+          auto as_taken = family;
+          as_taken.cases.front().scenario = chosen.scenario;
+          as_taken.cases.front().scenario.solver.model = model;
+          as_taken.cases.front().scenario.solver.volume = scenario::Solver::Volume::automatic;
+          as_taken.cases.front().scenario.contact.depth = model == Model::hertz
+                                                              ? chosen.scenario.contact.depth
+                                                              : scenario::Contact::Depth::hertz;
+          const auto built = scene::build(as_taken.cases.front(), as_taken);
+          error = measure(run::run_case(built, never)) / truth.value - 1.0;
+        } catch (const std::exception&) {
+        }
+      }
+      std::printf(" %s%s |", percent(error).c_str(),
+                  rung != nullptr ? (" (" + percent(rung->error) + ")").c_str() : "");
+      if (model == Model::coupled_springs)
+        std::printf(" %s |\n",
+                    scenario::words::word(scenario::words::models, chosen.scenario.solver.model));
+    }
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace palpate
+
+int main() {
+  std::printf(
+      "# How accurate each rung is\n\nWritten by `./dev accuracy`, which runs every number on this "
+      "page anew.\n\n");
+  palpate::blocks_table();
+  palpate::uniform_table();
+  palpate::auto_table();
+}

@@ -1,0 +1,48 @@
+// Every rung on blocks against an independent finite-element program.
+#include "blocks.h"
+
+#include <gtest/gtest.h>
+
+namespace palpate {
+namespace {
+
+using test::Block;
+using test::blocks;
+
+void expect_within(double most, const Block& block, const std::vector<std::string>& settings) {
+  const auto error = test::error_of(block, settings);
+  ASSERT_TRUE(error.has_value()) << block.name;
+  EXPECT_NEAR(*error, 0.0, most) << block.name << " " << settings.back();
+}
+
+const char* const meshes[] = {"{kind=\"mirrored\",cells=[3,4,6]}", "{kind=\"tetgen\",nodes=164}",
+                              "{kind=\"mirrored\",cells=[8,8,4]}", "{kind=\"tetgen\",nodes=728}"};
+
+TEST(Blocks, TheTableIsThere) {
+  const auto all = blocks();
+  EXPECT_GE(all.size(), 6U);
+  for (const Block& block : all) EXPECT_GE(block.rows.size(), 2U) << block.name;
+}
+
+// The tolerances are the design's figures. The layer has no sides; these blocks have.
+TEST(Blocks, LayerWithinFourPercent) {
+  for (const Block& block : blocks()) expect_within(0.04, block, {"solver.model=layer"});
+}
+
+TEST(Blocks, CoupledSpringsWithinFivePercentOnEveryMesh) {
+  for (const Block& block : blocks())
+    for (const char* mesh : meshes)
+      expect_within(0.05, block,
+                    {"solver.model=coupled_springs", std::string("tissue.mesh=") + mesh});
+}
+
+// The paper's own springs, whose Poisson's ratio is not the tissue's.
+TEST(Blocks, MassSpringWithinFivePercentOrTwelveOnThinBlocks) {
+  for (const Block& block : blocks())
+    for (const char* mesh : meshes)
+      expect_within(block.height > 20.0 ? 0.05 : 0.12, block,
+                    {"solver.model=mass_spring", std::string("tissue.mesh=") + mesh});
+}
+
+}  // namespace
+}  // namespace palpate
