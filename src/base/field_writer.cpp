@@ -76,6 +76,10 @@ class Writer final : public FieldVisitor {
   }
   void tables(const Key& key, int size, const std::function<void(int)>&,
               const std::function<void(FieldVisitor&, int)>& fields) override {
+    if (depth_ > 0) {
+      if (size > 0) put(key, inline_tables(size, fields));
+      return;
+    }
     for (int i = 0; i < size; ++i) {
       ++depth_;
       fields(*this, i);
@@ -91,6 +95,21 @@ class Writer final : public FieldVisitor {
   }
 
  private:
+  // Tables within a table: a list on one line.
+  std::string inline_tables(int size, const std::function<void(FieldVisitor&, int)>& fields) {
+    std::vector<std::string> items;
+    for (int i = 0; i < size; ++i) {
+      std::vector<std::string> before;
+      before.swap(entries_);
+      ++depth_;
+      fields(*this, i);
+      --depth_;
+      before.swap(entries_);
+      items.push_back("{ " + joined(before, ", ") + " }");
+    }
+    return "[" + joined(items, ", ") + "]";
+  }
+
   void put(const Key& key, const std::string& value) {
     if (!key.use.used) return;
     const std::string entry = std::string(key.name) + " = " + value;

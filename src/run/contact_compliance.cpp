@@ -83,7 +83,7 @@ void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereC
       compliance_(i, j) = sinking(mesh, patch, reading, pressed);
       // A block cannot be stiffer than the endless layer it is cut from: what a coarse mesh says
       // against that is its own error.
-      if (cut_from_layer() && i == j) compliance_(i, j) = std::max(0.0, compliance_(i, j));
+      if (cut_from_layer(mesh) && i == j) compliance_(i, j) = std::max(0.0, compliance_(i, j));
       if (i != j && !presses_as_one()) compliance_(i, j) += unknown_to_hertz(patch, pressed);
     }
   }
@@ -150,9 +150,8 @@ double Contacts::unknown_to_hertz(const contact::Patch& patch, const SphereConta
 }
 
 // Whether the whole specimen moves, of one tissue, and what is read is read beside a layer.
-bool Contacts::cut_from_layer() const {
-  return scene_->layer && scene_->specimen && !scene_->specimen->one_tissue &&
-         !scene_->scenario.solver.rings &&
+bool Contacts::cut_from_layer(const MeshAnswer& mesh) const {
+  return scene_->layer && mesh.whole && !scene_->specimen->one_tissue &&
          scene_->scenario.contact.coupling == Coupling::consistent;
 }
 

@@ -77,6 +77,7 @@ struct MovingMesh {
 struct MeshAnswer {
   std::span<const int> nodes;  // of every vertex of the skin; -1: stands
   Eigen::Index freedoms = 0;
+  bool whole = false;  // all of the specimen moves
   const integrate::Vector* displacement = nullptr;  // m, without these contacts' own forces
   Influence* one_tissue = nullptr;  // the same of a mesh that is all of one tissue, where it is not
   Influence* influence = nullptr;   // of these contacts' forces on it
@@ -134,7 +135,7 @@ class Contacts {
                                      const SphereContact& pressed) const;
   [[nodiscard]] double unknown_to_hertz(const contact::Patch& patch,
                                         const SphereContact& other) const;
-  [[nodiscard]] bool cut_from_layer() const;
+  [[nodiscard]] bool cut_from_layer(const MeshAnswer& mesh) const;
   [[nodiscard]] double stiffer_layer(double aligned, const Vec3& at,
                                      const SphereContact& pressed) const;
   [[nodiscard]] double plane_modulus() const;  // Pa, E' of the tissue's network

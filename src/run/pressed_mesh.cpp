@@ -48,6 +48,7 @@ PressedMesh::PressedMesh(const scene::Scene& scene)
 // keeps its state.
 void PressedMesh::take(tissue::Part part, const std::vector<int>& start) {
   const tissue::Part before = std::exchange(part_, std::move(part));
+  whole_ = std::find(part_.edge.begin(), part_.edge.end(), 1) == part_.edge.end();
   const State old = std::exchange(state_, {});
   std::vector<int> number(specimen_->network.rest.size(), -1);
   for (std::size_t i = 0; i < part_.nodes.size(); ++i)
@@ -139,7 +140,7 @@ void PressedMesh::set_step(double time_step) {
 }
 
 MeshAnswer PressedMesh::answer() const {
-  MeshAnswer mesh{.nodes = skin_nodes_, .freedoms = state_.displacement.size()};
+  MeshAnswer mesh{.nodes = skin_nodes_, .freedoms = state_.displacement.size(), .whole = whole_};
   if (scene_->scenario.contact.curvature_on == scenario::Contact::CurvatureOn::deformed)
     mesh.shape = &state_.displacement;
   return mesh;

@@ -89,6 +89,7 @@ class PressedMesh {
   const scene::Specimen* specimen_;
   Contacts contacts_;
   tissue::Part part_;
+  bool whole_ = true;  // nothing of the part is its edge
   std::vector<int> skin_nodes_;  // of the part, one a vertex of the skin; -1 outside
   std::optional<scene::SpringBody> body_;
   std::optional<Stepper> stepper_;

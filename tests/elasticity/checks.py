@@ -44,6 +44,16 @@ def wide_layer():
                     yield f"{name}: contact radius mm", exact_radius, a
 
 
+def wider_slippery_layer():
+    """On a frictionless base the free sides are felt far away, falling with the width squared."""
+    exact, _ = layer.press(RADIUS, 1.0, 10.0, 0.45, "frictionless")
+    for half in (60.0, 120.0, 240.0):
+        surface = block(half, 10.0, 1.3 * np.sqrt(RADIUS), 12, 0.45, "frictionless")
+        force, _ = paraboloid(surface, RADIUS, 1.0)
+        yield (f"frictionless layer 10 mm, nu 0.45, depth 1.0 mm, level 12, {2 * half:g} mm wide: "
+               "F/F_Hertz", exact, force / hertz(0.45, RADIUS, 1.0))
+
+
 def stiff_substrate():
     """A 3 mm layer on one a million times as stiff against the exact clamped layer of 3 mm."""
     zone = 1.45 * np.sqrt(RADIUS * 0.25)
@@ -58,8 +68,8 @@ def stiff_substrate():
 
 def half_space():
     """A block 20 m wide and 10 m deep against Hertz's paraboloid and Sneddon's sphere."""
-    for nu in (0.10, 0.33, 0.49):
-        for level in (6, 8, 10):
+    for nu in (0.10, 0.49):
+        for level in (8, 10, 12):
             surface = block(1e4, 1e4, 1.3 * np.sqrt(RADIUS), level, nu, ratios=(1.7, 1.6))
             name = f"half-space, nu {nu}, level {level}"
             flat = hertz(nu, RADIUS, 1.0)
@@ -74,7 +84,7 @@ def half_space():
             exact = (0.5 * (a * a + RADIUS ** 2) * log - a * RADIUS) / (1.0 - nu ** 2)
             (force, reached), _ = block_contact.press(surface, RADIUS, 1.0)
             yield f"{name}: sphere, vertical, F/F_Hertz", exact / flat, force / flat
-            if level == 10:
+            if level == 12:
                 yield f"{name}: sphere, vertical, contact radius mm", a, reached
                 # Normal over paraboloid - 1 = (1-2nu)/(pi (1-nu)) sqrt(h/R) + O(h/R), a kept
                 for x in (1e-6, 1e-4, 1e-2):
@@ -114,7 +124,8 @@ if __name__ == "__main__":
     with open(os.path.join(HERE, "checks.csv"), "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["check", "exact", "here", "relative_difference"])
-        for check in (half_model, energy, stiff_substrate, wide_layer, half_space):
+        for check in (half_model, energy, stiff_substrate,
+                      wider_slippery_layer, half_space, wide_layer):
             for name, exact, here in check():
                 writer.writerow([name, f"{exact:.7g}", f"{here:.7g}", f"{here / exact - 1:.1e}"])
                 file.flush()

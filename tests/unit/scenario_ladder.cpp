@@ -43,12 +43,12 @@ TEST(LadderKeys, PronyBranchesAreReadAndEchoed) {
 
 TEST(LadderKeys, ARegionsPoissonRatioReachesModelsThatHonourIt) {
   const std::string region =
-      "[[region]]\nkind = \"sphere\"\nmaterial = \"muscle\"\npoisson_ratio = 0.45\n";
+      "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = \"sphere\"\nmaterial = \"muscle\"\npoisson_ratio = 0.45\n";
   const Scenario coupled = read_one(press + "[solver]\nmodel = \"coupled_springs\"\n" + region);
   EXPECT_EQ(substance(coupled.regions[0]).poisson_ratio, 0.45);
   EXPECT_EQ(
       substance(
-          read_one(press + "[[region]]\nkind = \"sphere\"\nmaterial = \"muscle\"\n").regions[0])
+          read_one(press + "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = \"sphere\"\nmaterial = \"muscle\"\n").regions[0])
           .poisson_ratio,
       0.4);  // the material's
 }
@@ -59,7 +59,8 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "press.toml:5:13: `prony` needs branches; add a `[[tissue.branch]]` with "
        "`relaxation_time` and `ratio`"},
       {"[[tissue.branch]]\nratio = 1\n",
-       "press.toml:4:1: `branch` is used only with `viscosity = \"prony\"`"},
+       "press.toml:4:10: `branch` has no effect here: it is used only with `viscosity = "
+       "\"prony\"`; remove it or change that"},
       {"[contact]\nviscosity = \"tissue\"\n[tissue]\nviscosity = \"none\"\n",
        "press.toml:5:13: a contact knows the viscosity of a material, and `tissue.viscosity` is "
        "`none`; set it to `kelvin_voigt`, `standard_linear_solid` or `prony`"},
@@ -77,7 +78,7 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "\"central_difference\"\n",
        "press.toml:8:14: `resolved` finds its forces and the motion together, which an explicit "
        "method cannot; set `integrator` to `quasi_static`, `backward_difference` or `modal`"},
-      {"[solver]\nmodel = \"mass_spring\"\n[[region]]\nkind = \"sphere\"\npoisson_ratio = 0.4\n",
+      {"[solver]\nmodel = \"mass_spring\"\n[[region]]\ntag = 1\npoisson_ratio = 0.4\n",
        "press.toml:8:17: independent springs have a Poisson's ratio of their own; set "
        "`solver.volume = \"nodal\"` or `solver.model = \"coupled_springs\"`, or leave it out"},
       {"[[step]]\nkind = \"slide\"\nby = \"1 mm\"\nkeep = \"force\"\n[tissue]\nviscosity = "
