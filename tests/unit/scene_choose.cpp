@@ -1,0 +1,131 @@
+// What `auto` chooses, and by which numbers. Whether it is right: docs/accuracy.md.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "auto_scenes.h"
+#include "scenario/family.h"
+#include "scenario/words.h"
+#include "scene/estimates.h"
+#include "scene/scene.h"
+
+namespace palpate::scene {
+namespace {
+
+using Model = scenario::Solver::Model;
+using Integrator = scenario::Solver::Integrator;
+
+scenario::Scenario read(const std::string& text) {
+  return scenario::parse(text, "scene.toml", {}).cases.front().scenario;
+}
+
+const std::string press = "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+
+TEST(Choose, TwentySceneEachItsRung) {
+  const std::map<std::string, Model> expected{
+      {"bone under a silicone finger", Model::hertz},
+      {"muscle without end", Model::hertz},
+      {"thick muscle", Model::hertz},
+      {"skin 30 mm thick", Model::layer},
+      {"skin 10 mm thick", Model::layer},
+      {"thin skin", Model::layer},
+      {"ligament that slides on its base", Model::layer},
+      {"a narrow block", Model::coupled_springs},
+      {"a thin cylinder", Model::coupled_springs},
+      {"an ellipsoid", Model::coupled_springs},
+      {"a curved ligament", Model::coupled_springs},
+      {"a lump under the skin", Model::coupled_springs},
+      {"a layered limb", Model::coupled_springs},
+      {"a fast tap", Model::mass_spring},
+      {"a slow press of a solid that relaxes", Model::hertz},
+      {"a quick press of a solid that relaxes", Model::layer},
+      {"a deep press", Model::hertz},
+      {"slow creep of a block on a bonded base", Model::coupled_springs},
+      {"slow creep between slippery platens", Model::mass_spring}};
+  for (const test::AutoScene& scene : test::auto_scenes()) {
+    const Choice choice = choose(read(scene.text));
+    EXPECT_FALSE(choice.given) << scene.name;
+    const auto found = expected.find(scene.name);
+    if (found != expected.end())
+      EXPECT_STREQ(scenario::words::word(scenario::words::models, choice.chosen.solver.model),
+                   scenario::words::word(scenario::words::models, found->second))
+          << scene.name;
+    // What is taken is predicted to serve, or nothing is.
+    double least = 1.0;
+    double taken = 1.0;
+    for (const Rung& rung : choice.rungs) {
+      if (!rung.cannot.empty()) continue;
+      least = std::min(least, rung.error);
+      if (rung.model == choice.chosen.solver.model) taken = rung.error;
+    }
+    EXPECT_TRUE(taken <= 0.05 || taken == least) << scene.name;
+  }
+}
+
+TEST(Choose, AnswersEveryAuto) {
+  for (const test::AutoScene& scene : test::auto_scenes()) {
+    const scenario::Scenario chosen = choose(read(scene.text)).chosen;
+    EXPECT_NE(chosen.solver.model, Model::automatic) << scene.name;
+    EXPECT_NE(chosen.solver.integrator, Integrator::automatic) << scene.name;
+    EXPECT_NE(chosen.contact.viscosity, scenario::Contact::Viscosity::automatic) << scene.name;
+    EXPECT_NE(chosen.contact.depth, scenario::Contact::Depth::automatic) << scene.name;
+  }
+}
+
+TEST(Choose, TheToleranceDecides) {
+  const auto model = [](double tolerance) {
+    scenario::Scenario scenario = read(press);
+    scenario.solver.tolerance = tolerance;
+    return choose(scenario).chosen.solver.model;
+  };
+  EXPECT_EQ(model(0.2), Model::hertz);   // the thickness and the sides make 9 %
+  EXPECT_EQ(model(0.05), Model::layer);  // the sides take 1.6 %
+  // Nothing is that good, and inertia counts: the least error is that of the strongest rung.
+  EXPECT_EQ(model(0.001), Model::coupled_springs);
+}
+
+TEST(Choose, AGivenModelIsKeptAndStillAsked) {
+  const Choice choice = choose(read(press + "[solver]\nmodel = \"mass_spring\"\n"));
+  EXPECT_TRUE(choice.given);
+  EXPECT_EQ(choice.chosen.solver.model, Model::mass_spring);
+  EXPECT_EQ(choice.chosen.solver.integrator, Integrator::central_difference);
+  EXPECT_GE(choice.questions.size(), 8U);
+  EXPECT_EQ(choice.rungs.size(), 4U);
+}
+
+TEST(Choose, WithoutInertiaAMeshIsQuasiStatic) {
+  const std::string narrow =
+      "[tissue]\nviscosity = \"none\"\nshape = { kind = \"cuboid\", size = [\"25 mm\", \"25 mm\", "
+      "\"30 mm\"] }\n";
+  EXPECT_EQ(choose(read(press + narrow)).chosen.solver.integrator, Integrator::quasi_static);
+  EXPECT_EQ(choose(read(press + "rate = \"300 mm/s\"\n" + narrow)).chosen.solver.integrator,
+            Integrator::central_difference);
+}
+
+// A slow press leaves viscosity out, a quick one keeps it.
+TEST(Choose, ViscosityBelowAFifthOfTheToleranceIsDropped) {
+  const std::string solid =
+      "[tissue]\nviscosity = \"standard_linear_solid\"\n[output]\ninterval = \"100 ms\"\n";
+  using Viscosity = scenario::Contact::Viscosity;
+  EXPECT_EQ(choose(read(press + "rate = \"0.002 mm/s\"\n" + solid)).chosen.contact.viscosity,
+            Viscosity::none);
+  EXPECT_EQ(choose(read(press + "rate = \"5 mm/s\"\n" + solid)).chosen.contact.viscosity,
+            Viscosity::tissue);
+}
+
+// 60 x 60 x 30 mm, R 11 mm, 1 mm, rigid finger, nu 0.33: the layer's own factor, and the sides by
+// the fit: 4 x 0.4 a/b exp(-2.4 b/H) with a = sqrt(R h) = 3.317 mm, b = H = 30 mm.
+TEST(Estimates, OfTheDefaultBlock) {
+  const Estimates found = estimate(read(press + "[finger]\nmaterial = \"rigid\"\n"));
+  EXPECT_NEAR(found.chi, 3.3166248e-3 / 0.030, 1e-9);
+  EXPECT_NEAR(found.sides, 1.6 * found.chi * std::exp(-2.4), 1e-12);
+  const contact::LayerLaw law({.poisson_ratio = 0.33});
+  EXPECT_NEAR(found.thickness, law.force_factor(found.chi) - 1.0, 1e-6);
+  EXPECT_EQ(found.tissue_share, 1.0);
+  EXPECT_EQ(found.curvature_ratio, 1.0);
+  // h/R = 1/11: 1 + 0.0628 sqrt(x) - 0.0841 x
+  EXPECT_NEAR(found.deep, 0.0628 * std::sqrt(1.0 / 11) - 0.0841 / 11, 1e-4);
+}
+
+}  // namespace
+}  // namespace palpate::scene
