@@ -27,7 +27,7 @@ struct Block {
   std::vector<Row> rows;
 };
 
-// Those of one tissue, pressed in the middle.
+// Those of one tissue.
 inline std::vector<Block> blocks() {
   const record::Table table =
       record::read_csv(std::string(PALPATE_SOURCE_DIR) + "/tests/elasticity/forces.csv");
@@ -39,7 +39,7 @@ inline std::vector<Block> blocks() {
     const auto word = [&](const char* column) {
       return std::get<std::string>(row[static_cast<std::size_t>(table.find(column))]);
     };
-    if (number("top_layer_mm") > 0.0 || number("offset_mm") > 0.0) continue;
+    if (number("top_layer_mm") > 0.0) continue;
     if (found.empty() || found.back().name != word("scene")) {
       const auto length = [&](const char* column) {
         return "\"" + number_text(number(column)) + " mm\"";

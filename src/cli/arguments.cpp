@@ -20,6 +20,7 @@ struct Parser {
   Compare compare;
   Bless bless;
   Mesh mesh;
+  Reference reference;
   Bench bench;
   CLI::App* bless_verb = nullptr;
 
@@ -79,6 +80,16 @@ struct Parser {
         ->allow_extra_args(false);
     verb->add_flag("--force", mesh.force, "Replace files");
 
+    verb = app.add_subcommand(
+        "reference", "Forces by the strongest model, refined and extrapolated, with their error");
+    verb->add_option("scenario", reference.scenario, "Scenario file")->required();
+    verb->add_option("--levels", reference.levels, "How many meshes, each finer than the last")
+        ->capture_default_str()
+        ->check(CLI::Range(3, 8));
+    verb->add_option("--set", reference.settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
+    verb->add_option("--out", reference.out, "Folder to write SCENARIO_reference.csv into");
+    verb->add_flag("--force", reference.force, "Replace that file");
+
     verb = app.add_subcommand("bench", "Time the frames of a press: the paper's Table 2");
     verb->add_option("scenario", bench.scenarios, "Scenario files; none: the paper's four models");
     verb->add_option("--frames", bench.frames, "How many, of 1 ms each")
@@ -102,6 +113,7 @@ struct Parser {
     if (app.got_subcommand("compare")) return compare;
     if (app.got_subcommand("golden")) return bless;
     if (app.got_subcommand("mesh")) return mesh;
+    if (app.got_subcommand("reference")) return reference;
     if (app.got_subcommand("bench")) return bench;
     return Manual{};
   }

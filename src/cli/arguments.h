@@ -50,13 +50,20 @@ struct Mesh {
   std::vector<std::string> settings;
   bool force = false;
 };
+struct Reference {
+  std::string scenario;
+  std::vector<std::string> settings;
+  int levels = 3;
+  std::string out;  // a folder; empty: nothing is written
+  bool force = false;
+};
 struct Bench {
   std::vector<std::string> scenarios;  // none: the paper's four models
   int frames = 1000;
 };
 struct Manual {};
 
-using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Bench, Manual>;
+using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Reference, Bench, Manual>;
 
 struct Arguments {
   Manner manner;

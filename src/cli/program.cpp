@@ -19,6 +19,7 @@ int dispatch(const Arguments& arguments) {
   if (const auto* one = std::get_if<Compare>(&arguments.verb)) return compare(*one);
   if (const auto* one = std::get_if<Bless>(&arguments.verb)) return bless(*one, talk);
   if (const auto* one = std::get_if<Mesh>(&arguments.verb)) return mesh(*one, talk);
+  if (const auto* one = std::get_if<Reference>(&arguments.verb)) return refer(*one, talk);
   if (const auto* one = std::get_if<Bench>(&arguments.verb)) return bench(*one, talk);
   print(scenario::manual());
   return exit_good;

@@ -12,6 +12,7 @@ namespace palpate::cli {
 [[nodiscard]] int compare(const Compare& command);
 [[nodiscard]] int bless(const Bless& command, const Talk& talk);
 [[nodiscard]] int mesh(const Mesh& command, const Talk& talk);
+[[nodiscard]] int refer(const Reference& command, const Talk& talk);
 [[nodiscard]] int bench(const Bench& command, const Talk& talk);
 
 }  // namespace palpate::cli

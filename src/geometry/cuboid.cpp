@@ -44,6 +44,8 @@ void refuse_too_many(const Triple& cells) {
                   " cells has more tetrahedra than can be numbered; ask for fewer cells");
 }
 
+constexpr double endless = std::numeric_limits<double>::infinity();
+
 // The q above 1 with q^count = target. By halves and products alone: pow() differs between
 // processors, and the places of nodes reach every number of a run.
 double root(int count, double target) {
@@ -75,30 +77,27 @@ std::vector<double> growing(double length, int count, double core) {
 }
 
 // The cells' ends along an axis of length `size` (m), from 0.
-std::vector<double> borders(double size, int cells, double ratio, double finest) {
+std::vector<double> borders(double size, int cells, double core, double finest) {
   std::vector<double> all{0.0};
-  if (ratio == 1.0 || cells == 1) {
+  if (core == endless) {
     // i / n first, so that the last node lies exactly at `size`.
     for (int i = 1; i <= cells; ++i) all.push_back(size * (static_cast<double>(i) / cells));
     return all;
   }
-  const double below = finest;
-  const double above = size - finest;
-  // sqrt(1 + d^2 / core^2) is the ratio at the farther end.
-  const double core = std::max(below, above) / std::sqrt((ratio - 1.0) * (ratio + 1.0));
-  // Both sides get cells as they hold of the integral of 1 / sqrt(1 + d^2 / core^2), and one at
-  // least; nothing but a whole number remains of the logarithms.
-  const double density = std::asinh(below / core);
-  const double share = density / (density + std::asinh(above / core));
-  const int count = std::clamp(static_cast<int>(std::lround(share * cells)), below > 0.0 ? 1 : 0,
-                               above > 0.0 ? cells - 1 : cells);
+  // Both sides get cells as they hold of the integral of 1 / sqrt(1 + d^2 / core^2); nothing but a
+  // whole number remains of the logarithms. A side too short for one begins the other.
+  const double density = std::asinh(finest / core);
+  const double share = density / (density + std::asinh((size - finest) / core));
+  const int count = static_cast<int>(std::lround(share * cells));
+  if (count == 0) finest = 0.0;
+  if (count == cells) finest = size;
   if (count > 0) {
-    const std::vector<double> down = growing(below, count, core);
+    const std::vector<double> down = growing(finest, count, core);
     for (int i = count - 2; i >= 0; --i) all.push_back(finest - down[static_cast<std::size_t>(i)]);
     all.push_back(finest);
   }
   if (count < cells) {
-    for (const double up : growing(above, cells - count, core)) all.push_back(finest + up);
+    for (const double up : growing(size - finest, cells - count, core)) all.push_back(finest + up);
     all.back() = size;
   }
   return all;
@@ -132,11 +131,16 @@ TetMesh cuboid(const Vec3& size, const Triple& cells, CellPattern pattern, const
   refuse_too_many(cells);
 
   assert(grading.ratio >= 1.0);
+  const Vec3 finest = grading.finest.cwiseMax(0.0).cwiseMin(size);
+  const double farthest = finest.cwiseMax(size - finest).maxCoeff();
+  // sqrt(1 + d^2 / core^2) is the ratio at the farthest end.
+  const double core = grading.ratio == 1.0
+                          ? endless
+                          : farthest / std::sqrt((grading.ratio - 1.0) * (grading.ratio + 1.0));
   std::array<std::vector<double>, 3> places;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<Eigen::Index>(axis);
-    places[axis] =
-        borders(size[a], cells[axis], grading.ratio, std::clamp(grading.finest[a], 0.0, size[a]));
+    places[axis] = borders(size[a], cells[axis], core, finest[a]);
   }
   TetMesh mesh;
   for (const double z : places[2])

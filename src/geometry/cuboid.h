@@ -13,10 +13,10 @@ enum class CellPattern {
   mirrored,  // reflected along an axis in that axis's every second cell ("Union Jack")
 };
 
-// Where the cells of a box are small: at `finest` (m, in the box), alike around it, and from there
-// along each axis ever longer, in geometric growth, to `ratio` (at least 1) times that at its
-// farther end. With 1 all cells are alike, wherever `finest` is. More cells divide the same course
-// of sizes: meshes of one grading are one family.
+// Where the cells of a box are small: at `finest` (m, in the box) and, alike, around it; from there
+// they are ever longer, at last in geometric growth, and `ratio` (at least 1) times as long at the
+// farthest end of an axis. With 1 all cells are alike, wherever `finest` is. More cells divide the
+// same course of sizes: meshes of one grading are one family.
 struct Grading {
   double ratio = 1.0;
   Vec3 finest = Vec3::Zero();

@@ -192,6 +192,7 @@ void Contacts::add_motion(const MovingMesh& moving, const std::vector<SphereCont
                part * (motion_[i] - kept * still_by_force_(i, i) * near.past.spread);
     rate[i] = near.damping / (moving.slope * moving.time_step);
   }
+  softness_ = whole_compliance_.diagonal();
   if (count > 0 && rate.maxCoeff() > 0.0) {
     const Eigen::MatrixXd damped = whole_compliance_ * rate.asDiagonal();
     for (Eigen::Index i = 0; i < count; ++i)
@@ -243,6 +244,9 @@ void Contacts::remember(const MovingMesh& moving, std::vector<SphereContact>& co
     const double elastic = contact.elastic + contact.radiated / moving.slope;
     contact.force = contact.elastic + contact.radiated;
     const NearField& near = near_[i];
+    const double own_stiffness =
+        contact.law.point.stiffness(contact.depth) + near.damping / moving.time_step;
+    contact.stiffness = own_stiffness / (1.0 + softness_[own] * own_stiffness);
     const double kept = near.delay / (near.delay + moving.time_step);
     past_.push_back({.sphere = contact.sphere,
                      .position = contact.patch.position,

@@ -210,6 +210,7 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
                                          contacts[i].law.semi_axes(contacts[i].depth)[0]));
       contacts[i].depth = depths[i];
       contacts[i].force = contacts[i].elastic = laws[i].force(depths[i]);
+      contacts[i].stiffness = laws[i].stiffness(depths[i]);
     }
     if (change <= settled || passes == 1) return std::nullopt;
   }

@@ -34,6 +34,7 @@ struct SphereContact {
   double force = 0.0;        // N, along the patch's normal
   double elastic = 0.0;      // N, of it, the law's, were the tissue relaxed
   double radiated = 0.0;     // N, of it, what makes waves too short for the mesh
+  double stiffness = 0.0;    // N/m, of it over the finger's place within a step
   Vec3 drag = Vec3::Zero();  // N, tangential, on the tissue
   Vec3 stretch = Vec3::Zero();  // m, of finger against tissue since the contact last slipped
   contact::Spread load;  // of the pressure
@@ -178,6 +179,7 @@ class Contacts {
   std::vector<double> shares_;  // the greatest at every vertex
   Eigen::MatrixXd compliance_;  // m/N
   Eigen::MatrixXd whole_compliance_;  // m/N, with what the mesh's motion adds
+  Eigen::VectorXd softness_;         // m/N, its diagonal
   Eigen::VectorXd motion_;           // m, of a moving mesh under the contacts, less statics
   Eigen::MatrixXd moving_by_force_;  // m/N, to the end of the step
   Eigen::MatrixXd still_by_force_;   // m/N, in statics

@@ -178,7 +178,9 @@ class Press {
       }
       double stiffness = 0.0;
       for (const SphereContact& contact : tried.contacts)
-        stiffness += contact.law.point.stiffness(contact.depth) * contact.patch.normal.z();
+        stiffness += (contact.stiffness > 0.0 ? contact.stiffness
+                                              : contact.law.point.stiffness(contact.depth)) *
+                     contact.patch.normal.z();
       const double missing = kept_force_ - tried.force();
       // Out of touch, down by a little.
       touch_.travel += stiffness > 0.0 ? missing / stiffness : 1e-3 * scene_.finger.sphere_radius;

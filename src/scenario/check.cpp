@@ -241,10 +241,12 @@ class Checker {
               "`coupled_springs` always resist a change of volume; set `solver.volume = "
               "\"nodal\"`, or `solver.model = \"mass_spring\"`");
     if (scenario_.contact.coupling == contact::Coupling::resolved &&
-        solver.integrator == Integrator::central_difference)
+        (solver.integrator == Integrator::central_difference ||
+         solver.integrator == Integrator::modal))
       problem("solver.integrator",
               "`resolved` finds its forces and the motion together, which an explicit method "
-              "cannot; set `integrator` to `quasi_static`, `backward_difference` or `modal`");
+              "cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
+              "`backward_difference`");
     if (solver.integrator == Integrator::modal &&
         solver.kinematics == tissue::Kinematics::nonlinear)
       problem("solver.kinematics",

@@ -9,6 +9,7 @@
 #include "contact/patch.h"
 #include "contact/ring.h"
 #include "contact/wide_patch.h"
+#include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
@@ -329,6 +330,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
   refuse_large_modal(scene, family);
   // A finger that passes beside its specimen is found before the first case runs.
   if (!scenario.uniform()) (void)first_touch(scene);
+  refuse_unresolved(scene);
   return scene;
 }
 

@@ -1,0 +1,46 @@
+// `palpate reference`: a scenario's forces from the strongest rung, refined and extrapolated.
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/program.h"
+#include "cli/table_text.h"
+#include "cli/verbs.h"
+#include "record/csv.h"
+#include "run/reference.h"
+
+namespace palpate::cli {
+
+int refer(const Reference& command, const Talk& talk) {
+  namespace fs = std::filesystem;
+  const scenario::Family family = scenario::read(command.scenario, command.settings);
+  for (const Problem& note : family.notes) talk.say("note: " + note.text());
+  const fs::path file = fs::path(command.out) / (family.name + "_reference.csv");
+  if (!command.out.empty() && !command.force && fs::exists(file))
+    throw InputError({file.string(), 0, 0}, "is there already; give another folder, or `--force`");
+  const std::atomic<bool> stop = false;
+  std::vector<std::pair<std::string, run::Reference>> found;
+  bool diverged = false;
+  for (const scenario::Case& one : family.cases) {
+    run::Reference reference =
+        run::refer(one, family, command.levels, stop,
+                   [&](const std::string& level) { talk.progress(one.name + ", " + level); });
+    talk.progress("");
+    for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");
+    if (reference.diverged) {
+      diverged = true;
+      Talk::error(one.name + ": " + *reference.diverged);
+      continue;
+    }
+    found.emplace_back(one.name, std::move(reference));
+  }
+  const record::Table table = run::reference_table(found);
+  print(talk.json() ? json_lines(table) : record::csv_text(table));
+  if (!command.out.empty()) {
+    fs::create_directories(file.parent_path());
+    write_atomically(file.string(), record::csv_text(table));
+  }
+  return diverged ? exit_diverged : exit_good;
+}
+
+}  // namespace palpate::cli
