@@ -77,7 +77,8 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
       {"[contact]\ncoupling = \"resolved\"\n[solver]\nmodel = \"coupled_springs\"\nintegrator = "
        "\"central_difference\"\n",
        "press.toml:8:14: `resolved` finds its forces and the motion together, which an explicit "
-       "method cannot; set `integrator` to `quasi_static`, `backward_difference` or `modal`"},
+       "method cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
+       "`backward_difference`"},
       {"[solver]\nmodel = \"mass_spring\"\n[[region]]\ntag = 1\npoisson_ratio = 0.4\n",
        "press.toml:8:17: independent springs have a Poisson's ratio of their own; set "
        "`solver.volume = \"nodal\"` or `solver.model = \"coupled_springs\"`, or leave it out"},
