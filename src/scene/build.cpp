@@ -22,14 +22,14 @@ constexpr int most_modal_nodes = 1000;  // an eigen-decomposition grows with the
 constexpr double most_poisson_ratio = 0.4995;
 constexpr double own_share = 0.05;  // of the shear modulus: the bulk stiffness of tetrahedra alone
 
-// The greatest k_c sum_j w_j^2 / m_j of the programme where the mesh is read back, as if one sphere
-// pressed with all of the finger's force: at the deepest contact; with inertia anywhere on the way
-// there, because the wide patch narrows as fast as the contact softens.
-double contact_frequency_squared(const Scene& scene) {
+// What the contact adds where the mesh is read back, as if one sphere pressed with all of the
+// finger's force: at the deepest contact of the programme; with inertia the most on the way there,
+// because the wide patch narrows as fast as the contact softens.
+ContactRate contact_rate(const Scene& scene) {
   const bool inertia = inertia_reaches_force(scene);
   if (scene.scenario.uniform() ||
       (scene.scenario.contact.coupling != contact::Coupling::series && !inertia))
-    return 0.0;
+    return {};
   const Specimen& specimen = *scene.specimen;
   const double deepest = deepest_travel(scene.scenario, scene.law());
   const double spacing =

@@ -10,15 +10,20 @@
 namespace palpate::scene {
 
 TimePlan plan_time(const scenario::Scenario& scenario, const Specimen& specimen,
-                   double contact_stiffness) {
+                   const ContactRate& contact) {
   using Integrator = scenario::Solver::Integrator;
   const scenario::Solver& solver = scenario.solver;
   TimePlan plan;
   plan.time_step = solver.time_step.value_or(scenario.output.interval);
-  plan.frequency_squared = specimen.law.instantaneous_ratio() *
-                               tissue::largest_frequency_squared(specimen.network, specimen.held) +
-                           contact_stiffness;
-  plan.limit = 2.0 / std::sqrt(plan.frequency_squared);
+  const double squared =
+      specimen.law.instantaneous_ratio() *
+          tissue::largest_frequency_squared(specimen.network, specimen.held) +
+      contact.squared;
+  // dt^2 omega^2 + dt C sum w^2 / m = 4: the dashpot's rate is that of the step before
+  const double damping = contact.damping;
+  plan.limit =
+      (std::sqrt(damping * damping + 16.0 * squared) - damping) / (2.0 * squared);
+  plan.frequency_squared = 4.0 / (plan.limit * plan.limit);
 
   constexpr double safety = 0.9;
   double wanted = plan.time_step;

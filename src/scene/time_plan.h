@@ -8,6 +8,13 @@ namespace palpate::scene {
 struct Scene;
 struct Specimen;
 
+// What a contact that reads the mesh back adds to its fastest motion: stiffness k and damping C,
+// times sum_j w_j^2 / m_j over the nodes that it presses.
+struct ContactRate {
+  double squared = 0.0;  // 1/s^2
+  double damping = 0.0;  // 1/s
+};
+
 struct TimePlan {
   double frequency_squared = 0.0;  // 1/s^2, omega_max^2 of the specimen with its contact
   double limit = 0.0;              // s, 2 / omega_max: central differences are stable below
@@ -20,9 +27,8 @@ struct TimePlan {
 
 // For explicit methods as many substeps as stability asks for, at 0.9 of the limit; for implicit
 // Euler as many as keep its error below a hundredth at the viscous time; one otherwise.
-// `contact_stiffness` is sum_j k_c w_j^2 / m_j over the contact's nodes, 1/s^2.
 [[nodiscard]] TimePlan plan_time(const scenario::Scenario& scenario, const Specimen& specimen,
-                                 double contact_stiffness);
+                                 const ContactRate& contact);
 
 // Whether inertia of the tissue (and its drag against the ground) reaches the contact force: with
 // `consistent`, in steps that have inertia, where the static answer of the mesh under the same

@@ -83,7 +83,9 @@ TEST(Graded, cells_end_where_the_hyperbolic_sine_says) {
         return least;
       };
       EXPECT_LT(nearest(finest - d), 1e-14 * 0.06 * 100) << axis << " " << i;  // rounding of q^i
-      if (finest < size[axis]) EXPECT_LT(nearest(finest + d), 1e-14 * 0.06 * 100) << axis;
+      if (finest < size[axis]) {
+        EXPECT_LT(nearest(finest + d), 1e-14 * 0.06 * 100) << axis << " " << i;
+      }
     }
   };
   expect_axis(0, 0.030, 0.030, 5);

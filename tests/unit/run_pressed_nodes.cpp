@@ -54,8 +54,9 @@ TEST(PressedNodes, facets_stand_off_a_sphere_by_a_sixth_of_the_square_of_a_cell_
     const auto skin = box_skin(cell, pattern);
     const SkinNodes nodes(skin);
     for (int v = 0; v < static_cast<int>(skin.surface().vertices.size()); ++v)
-      if (const auto node = nodes.facing(v, {Vec3(2e-3, 2e-3, 15e-3), radius}))
+      if (const auto node = nodes.facing(v, {Vec3(2e-3, 2e-3, 15e-3), radius})) {
         EXPECT_NEAR(node->facets, cell * cell / (6.0 * radius), 1e-18);  // rounding
+      }
   }
 }
 
