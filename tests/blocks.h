@@ -21,6 +21,7 @@ struct Block {
   std::string name;
   std::vector<std::string> settings;  // of the scenario
   double height = 0.0;                // mm
+  bool aside = false;                 // pressed off the middle
   struct Row {
     double depth, low, high;  // mm, N
   };
@@ -53,7 +54,11 @@ inline std::vector<Block> blocks() {
             "tissue.poisson_ratio=" + number_text(number("poisson")),
             std::string("tissue.base=") + (word("base") == "clamped" ? "bonded" : "frictionless")},
            number("height_mm"),
+           number("offset_mm") != 0.0,
            {}});
+      if (found.back().aside)
+        found.back().settings.push_back(
+            "finger.x=\"" + number_text(0.5 * number("length_mm") + number("offset_mm")) + " mm\"");
     }
     const double vertical = 1e-3 * number("vertical_mN");
     const double normal = 1e-3 * number("normal_mN");

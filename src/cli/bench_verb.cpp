@@ -172,7 +172,7 @@ bool measure_models(Table& table) {
       for (const std::optional<int> rings : {std::optional<int>(), std::optional<int>(3)}) {
         scene.scenario.solver.integrator = integrator;
         scene.scenario.solver.rings = rings;
-        scene.specimen->plan = scene::plan_time(scene.scenario, *scene.specimen, 0.0);
+        scene.specimen->plan = scene::plan_time(scene.scenario, *scene.specimen, {});
         all = table.measure(name, scene, &model.paper) && all;
       }
   }

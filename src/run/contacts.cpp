@@ -33,10 +33,7 @@ Contacts::Contacts(const scene::Scene& scene)
       shares_(surface_->surface().vertices.size(), 0.0) {
   if (scene.scenario.contact.coupling == contact::Coupling::resolved)
     resolved_ = std::make_unique<ResolvedContact>(scene);
-  // C = 3.4 a^2 sqrt(rho G) / (1 - nu) beside F' = 2 E' a = 4 G a / (1 - nu)   Lysmer 1966
-  const tissue::Uniaxial& measured = scene.specimen->measured;
-  const double shear = measured.young_modulus / (2.0 * (1.0 + measured.poisson_ratio));
-  radiation_ = 0.425 / plane_modulus() * std::sqrt(*scene.scenario.tissue.density / shear);
+  radiation_ = scene::radiation_compliance(scene);
 }
 
 Contacts::~Contacts() = default;

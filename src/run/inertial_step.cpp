@@ -77,7 +77,7 @@ std::optional<std::string> PressedMesh::step_implicitly(integrate::Implicit& met
   const Vector base = method.base();
   if (auto wrong = meet(finger, {.displacement = &base, .response = &*response_}, history, touch))
     return wrong;
-  const Vector end = base + method.response(load_ - friction);
+  const Vector end = base + response_->to(load_ - friction);
   method.finish(state_, end, load_);
   return std::nullopt;
 }
@@ -88,15 +88,14 @@ std::optional<std::string> PressedMesh::step_in_modes(integrate::Modal& method, 
                                                       ContactHistory& history, Touch& touch) {
   const Vector load_before = load_;
   method.begin(state_, time_step_, MemoryRule::held);
-  (void)method.linearise(state_.displacement, 0.5 * (load_before + drag_load(touch)));
+  const Vector friction = drag_load(touch);
+  (void)method.linearise(state_.displacement, 0.5 * (load_before + friction));
   const Vector base = method.base();
   if (auto wrong = meet(finger, {.displacement = &base, .response = &*response_, .share = 0.5},
                         history, touch))
     return wrong;
-  const Vector load = 0.5 * (load_before + load_);
-  (void)method.linearise(state_.displacement, load);
-  const Vector end = method.base();
-  method.finish(state_, end, load);
+  const Vector end = base + response_->to(0.5 * (load_ - friction));
+  method.finish(state_, end, 0.5 * (load_before + load_));
   return std::nullopt;
 }
 

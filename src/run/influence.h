@@ -52,6 +52,14 @@ class Influence {
     return known;
   }
 
+  // The displacement under a load that few degrees of freedom carry, m.
+  [[nodiscard]] integrate::Vector to(const integrate::Vector& load) {
+    integrate::Vector sum = integrate::Vector::Zero(load.size());
+    for (Eigen::Index d = 0; d < load.size(); ++d)
+      if (load[d] != 0.0) sum += load[d] * column(static_cast<int>(d), load.size());
+    return sum;
+  }
+
   // What is answered has changed.
   void forget() { known_.clear(); }
 

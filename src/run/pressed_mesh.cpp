@@ -197,7 +197,10 @@ std::optional<std::string> PressedMesh::balance(Linearised& method, const Vec3& 
   Touch rubbing = touch;
   for (SphereContact& contact : rubbing.contacts) contact.force = 0.0;
   const Vector friction = Contacts::load(rubbing, mesh);
-  method.begin(state_, time_step_, integrate::MemoryRule::exact);
+  // Nodes that are held to the finger take any load: one that grows evenly along every step would
+  // swing about the right one.
+  const bool swings = scene_->scenario.contact.coupling == Coupling::resolved;
+  method.begin(state_, time_step_, swings ? MemoryRule::first_order : MemoryRule::exact);
   for (int i = 0; i < most_linearisations; ++i) {
     if (!body_->linear()) influence_->forget();
     if (!method.linearise(displacement, friction)) return "the tangent stiffness is not positive";

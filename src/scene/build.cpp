@@ -22,18 +22,13 @@ constexpr int most_modal_nodes = 1000;  // an eigen-decomposition grows with the
 constexpr double most_poisson_ratio = 0.4995;
 constexpr double own_share = 0.05;  // of the shear modulus: the bulk stiffness of tetrahedra alone
 
-// What the contact adds where the mesh is read back, as if one sphere pressed with all of the
-// finger's force: at the deepest contact of the programme; with inertia the most on the way there,
-// because the wide patch narrows as fast as the contact softens.
-ContactRate contact_rate(const Scene& scene) {
-  const bool inertia = inertia_reaches_force(scene);
-  if (scene.scenario.uniform() ||
-      (scene.scenario.contact.coupling != contact::Coupling::series && !inertia))
-    return {};
+// k sum_j w_j^2 / m_j of the contact at a depth (m), as if one sphere pressed with all of the
+// finger's force; and sum_j w_j^2 / m_j alone, 1/kg.
+struct PressedNodes {
+  double frequency_squared, looseness;
+};
+PressedNodes contact_frequency_squared(const Scene& scene, double depth, double widest_spacing) {
   const Specimen& specimen = *scene.specimen;
-  const double deepest = deepest_travel(scene.scenario, scene.law());
-  const double spacing =
-      inertia ? contact::RingReader(*specimen.surface).spacing({.at = first_touch(scene).at}) : 0.0;
   contact::Spreader spreader(*specimen.surface);
   contact::Spread load;
   contact::Patch patch;
@@ -41,26 +36,44 @@ ContactRate contact_rate(const Scene& scene) {
   patch.position = specimen.surface->position(patch.at);
   patch.normal = specimen.surface->normal(patch.at);
   patch.axis = patch.normal.unitOrthogonal();
-  const auto squared = [&](double depth) {
-    const double a = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
-    patch.a = patch.b = a;
-    spreader.spread(inertia ? contact::wide_patch(patch, {a, a}, spacing) : patch, load);
-    double sum = 0.0;
-    for (std::size_t j = 0; j < load.vertices.size(); ++j)
-      sum += load.shares[j] * load.shares[j] /
-             specimen.network.node_mass[static_cast<std::size_t>(
-                 specimen.skin[static_cast<std::size_t>(load.vertices[j])])];
-    return sum * scene.finger.force_factor *
-           contact::hertz::stiffness(depth, scene.law().radius, scene.law().modulus);
-  };
-  if (!inertia) return squared(deepest);
+  patch.a = patch.b = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
+  if (widest_spacing > 0.0)
+    patch = contact::wide_patch(patch, {patch.a, patch.b}, widest_spacing);
+  spreader.spread(patch, load);
+  double sum = 0.0;
+  for (std::size_t j = 0; j < load.vertices.size(); ++j)
+    sum += load.shares[j] * load.shares[j] /
+           specimen.network.node_mass[static_cast<std::size_t>(
+               specimen.skin[static_cast<std::size_t>(load.vertices[j])])];
+  return {sum * scene.finger.force_factor *
+              contact::hertz::stiffness(depth, scene.law().radius, scene.law().modulus),
+          sum};
+}
+
+// Where the mesh is read back: at the deepest contact of the programme; with inertia the most on the
+// way there, because the wide patch narrows as fast as the contact softens.
+ContactRate contact_rate(const Scene& scene) {
+  if (scene.scenario.uniform()) return {};
+  const double deepest = deepest_travel(scene.scenario, scene.law());
+  if (!inertia_reaches_force(scene)) {
+    if (scene.scenario.contact.coupling != contact::Coupling::series) return {};
+    return {.squared = contact_frequency_squared(scene, deepest, 0.0).frequency_squared};
+  }
   // The mesh softens the contact by up to 0.47 of its compliance at the travel, and where the mesh
-  // lags by half the travel the contact itself has 1 / sqrt(1.5) of it: 1 / (0.82 - 0.47).
+  // lags by half the travel the contact itself has 1 / sqrt(1.5) of it: 1 / (0.82 - 0.47). Of the
+  // dashpot C = D k^2 the mesh knows a sixth: 0.4^2 by the wide patch's three radii.
   constexpr double stiffened = 3.0;
-  double most = 0.0;
-  for (double depth = deepest; depth > 1e-3 * deepest; depth *= 0.5)
-    most = std::max(most, squared(depth));
-  return stiffened * most;
+  constexpr double damped = 1.2;
+  const double spacing =
+      contact::RingReader(*scene.specimen->surface).spacing({.at = first_touch(scene).at});
+  ContactRate most;
+  for (double depth = deepest; depth > 1e-3 * deepest; depth *= 0.5) {
+    const auto [squared, looseness] = contact_frequency_squared(scene, depth, spacing);
+    most.squared = std::max(most.squared, stiffened * squared);
+    most.damping = std::max(most.damping, damped * radiation_compliance(scene) * squared * squared /
+                                              looseness);
+  }
+  return most;
 }
 
 void refuse_unstable(const Scene& scene, const scenario::Family& family) {
@@ -325,7 +338,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
         contact::Layer{.poisson_ratio = std::min(0.5, scene.specimen->measured.poisson_ratio),
                        .base = layer_base(scenario)});
   }
-  scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_frequency_squared(scene));
+  scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_rate(scene));
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);
   // A finger that passes beside its specimen is found before the first case runs.

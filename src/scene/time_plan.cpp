@@ -58,4 +58,12 @@ bool inertia_reaches_force(const Scene& scene) {
   return false;
 }
 
+double radiation_compliance(const Scene& scene) {
+  const tissue::Uniaxial& measured = scene.specimen->measured;
+  const double shear = measured.young_modulus / (2.0 * (1.0 + measured.poisson_ratio));
+  // 3.4 (1 - nu) / (4 G)^2 sqrt(rho G)
+  return 0.2125 * (1.0 - measured.poisson_ratio) / shear *
+         std::sqrt(*scene.scenario.tissue.density / shear);
+}
+
 }  // namespace palpate::scene

@@ -37,4 +37,9 @@ struct TimePlan {
 // dashpot, which would need the force within the step that it makes.    docs/theory.md (60)
 [[nodiscard]] bool inertia_reaches_force(const Scene& scene);
 
+// D = C / F'^2, m s/N: the dashpot C that a half-space of the network's E and nu and the tissue's
+// density is to a contact of the stiffness F', the same for every radius; by Lysmer's analogue
+//   C = 3.4 a^2 sqrt(rho G) / (1 - nu),  F' = 4 G a / (1 - nu).          Lysmer and Richart 1966
+[[nodiscard]] double radiation_compliance(const Scene& scene);
+
 }  // namespace palpate::scene

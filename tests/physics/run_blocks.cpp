@@ -24,9 +24,11 @@ TEST(Blocks, TheTableIsThere) {
   for (const Block& block : all) EXPECT_GE(block.rows.size(), 2U) << block.name;
 }
 
-// The tolerances are the design's figures. The layer has no sides; these blocks have.
+// The tolerances are the design's figures. The layer has no sides; these blocks have, and halfway
+// to one it is felt.
 TEST(Blocks, LayerWithinFourPercent) {
-  for (const Block& block : blocks()) expect_within(0.04, block, {"solver.model=layer"});
+  for (const Block& block : blocks())
+    expect_within(block.aside ? 0.08 : 0.04, block, {"solver.model=layer"});
 }
 
 TEST(Blocks, CoupledSpringsWithinFivePercentOnEveryMesh) {
@@ -36,12 +38,15 @@ TEST(Blocks, CoupledSpringsWithinFivePercentOnEveryMesh) {
                     {"solver.model=coupled_springs", std::string("tissue.mesh=") + mesh});
 }
 
-// The paper's own springs, whose Poisson's ratio is not the tissue's.
+// The paper's own springs, whose Poisson's ratio is not the tissue's. Cells of 20 mm do not see a
+// side at 15 mm: there they give the layer's force.
 TEST(Blocks, MassSpringWithinFivePercentOrTwelveOnThinBlocks) {
   for (const Block& block : blocks())
     for (const char* mesh : meshes)
-      expect_within(block.height > 20.0 ? 0.05 : 0.12, block,
-                    {"solver.model=mass_spring", std::string("tissue.mesh=") + mesh});
+      expect_within(block.aside           ? 0.08
+                    : block.height > 20.0 ? 0.05
+                                          : 0.12,
+                    block, {"solver.model=mass_spring", std::string("tissue.mesh=") + mesh});
 }
 
 }  // namespace

@@ -181,16 +181,22 @@ TEST(Press, RetractThatIsThereAlreadyDoesNothing) {
   EXPECT_NE(record.remarks.front().find("there already"), std::string::npos);
 }
 
-// Loading one set of nodes and reading another must not feed a motion: with no damping at all the
-// force is still that of statics, and the energy is accounted for.
+// Contact and mesh must not feed each other: with no damping at all, what waves the press has made
+// stay small about the force of statics for a second, and the energy is accounted for.
 TEST(Press, ConsistentIsStableWithoutDamping) {
   const std::string held = press + "[[step]]\nkind = \"hold\"\ntime = \"1 s\"\n";
+  const double still = run_text(press, {"tissue.viscosity=none", "solver.integrator=quasi_static"})
+                           .contact.back()
+                           .force;
   for (const char* integrator : {"central_difference", "modal"}) {
     const auto record = run_text(held, {"tissue.viscosity=none", "step.1.rate=100 mm/s",
                                         std::string("solver.integrator=") + integrator});
     ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator;
-    EXPECT_DOUBLE_EQ(record.contact.back().force, force_at(record, 1e-3)) << integrator;
-    EXPECT_LT(found(record, "energy_imbalance"), 0.01) << integrator;
+    for (const auto& row : record.contact)
+      if (row.time > 0.5) {
+        EXPECT_NEAR(row.force, still, 0.15 * still) << integrator << " at " << row.time;
+      }
+    EXPECT_LT(found(record, "energy_imbalance"), 0.02) << integrator;
   }
 }
 

@@ -46,10 +46,11 @@ TEST(Choose, TwentySceneEachItsRung) {
     const Choice choice = choose(read(scene.text));
     EXPECT_FALSE(choice.given) << scene.name;
     const auto found = expected.find(scene.name);
-    if (found != expected.end())
+    if (found != expected.end()) {
       EXPECT_STREQ(scenario::words::word(scenario::words::models, choice.chosen.solver.model),
                    scenario::words::word(scenario::words::models, found->second))
           << scene.name;
+    }
     // What is taken is predicted to serve, or nothing is.
     double least = 1.0;
     double taken = 1.0;
