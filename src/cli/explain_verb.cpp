@@ -182,6 +182,9 @@ class Explanation {
       text.resize(15, ' ');
       if (const auto* lump = std::get_if<scenario::Lump>(&regions[i]))
         text += "a sphere of radius " + quantity_text(lump->radius, unit::mm);
+      else if (const auto* slab = std::get_if<scenario::Slab>(&regions[i]))
+        text += "from " + quantity_text(slab->bottom, unit::mm) + " to " +
+                quantity_text(slab->top, unit::mm) + " in height";
       else
         text += "tag " + std::to_string(std::get<scenario::TaggedRegion>(regions[i]).tag);
       text += ", " + substance.material + ": E " +

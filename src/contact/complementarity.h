@@ -8,6 +8,7 @@ namespace palpate::contact {
 
 // The forces f >= 0 (N) with gaps g = gap + compliance f >= 0 (m), of which one is zero at every
 // point. `compliance` is n x n, m/N, symmetric and positive definite: there is one answer.
+// docs/theory.md (70)
 // `pressed` holds a first guess of who touches, and then who does; `force` receives the answer.
 // False where the compliance is not positive definite.
 //

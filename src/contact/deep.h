@@ -9,7 +9,7 @@ namespace palpate::contact {
 // The factor on Hertz's force of a rigid frictionless sphere in a deep neo-Hookean body,
 // W = mu/2 (I1bar - 3) + kappa/2 (J - 1)^2, at x = h/R:   F / F_Hertz = 1 + p sqrt(x) + q x
 // A fit to axisymmetric finite elements. Friction, other hyperelastic laws and thin layers are
-// outside.                                       docs/theory.md, a sphere deep in a half-space
+// outside.                                                                docs/theory.md (62)
 struct DeepLaw {
   static constexpr double least_poisson_ratio = 0.27, greatest_poisson_ratio = 0.5;
   static constexpr double deepest = 0.5;  // x

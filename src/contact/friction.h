@@ -7,11 +7,12 @@ namespace palpate::contact::friction {
 
 // F_m = mu (F_c + W), N: what the contact can carry before it slides, and carries while it does.
 // The integral of mu P over the contact is exactly mu F_c. `weight` is the finger's own weight
-// where it does not already rest in F_c, else 0.                Chen 2007 eq. (4); theory.md (7)
+// where it does not already rest in F_c, else 0.            Chen 2007 eq. (4); docs/theory.md (7)
 [[nodiscard]] double limit(double coefficient, double contact_force, double weight);
 
 // Cattaneo-Mindlin stick before slip under a tangential force Q below the limit.
-// `shear_compliance` is q = (2 - nu_1)/G_1 + (2 - nu_2)/G_2, 1/Pa.     K. L. Johnson 1985, sec. 7.2
+// `shear_compliance` is q = (2 - nu_1)/G_1 + (2 - nu_2)/G_2, 1/Pa.
+//                                       K. L. Johnson 1985, sec. 7.2; docs/theory.md (54)
 struct Stick {
   double radius = 0.0;        // m, of the sticking core
   double displacement = 0.0;  // m, tangential, of the finger against the tissue

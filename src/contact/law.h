@@ -17,7 +17,7 @@ struct SphereLaw {
 };
 
 // How the tissue's two curvatures enter: exactly, by their geometric mean, or by their mean (the
-// paper's).                                                   docs/theory.md (23)
+// paper's).                                                   docs/theory.md (23)-(26)
 enum class CurvatureLaw { elliptic, geometric, mean };
 
 // F = c h^(3/2) over an ellipse whose semi-axes grow with sqrt(h), or a layer's circle.

@@ -11,15 +11,6 @@
 namespace palpate::contact {
 namespace {
 
-// The factors, continued to negative chi, have their nearest singularities off the real axis about
-// one from 0 (where a / H = +-i). In t = chi / (1 + chi) these lie further from the interval, on
-// which 24 terms give what 32 would in chi. The last t is stretched to 1.
-constexpr double stretch = (1.0 + LayerLaw::last_chi) / LayerLaw::last_chi;
-double place(double chi) { return stretch * chi / (1.0 + chi); }
-double place_slope(double chi) { return stretch / ((1.0 + chi) * (1.0 + chi)); }
-double chi_at(double place) { return place / (stretch - place); }
-
-bool known(double chi) { return chi >= 0.0 && chi <= LayerLaw::last_chi; }
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -28,13 +19,28 @@ double layer_chi(double depth, double radius, double thickness) {
   return hertz::contact_radius(depth, radius) / thickness;
 }
 
-LayerLaw::LayerLaw(const Layer& layer) {
+// The factors, continued to negative chi, have their nearest singularities off the real axis about
+// a top layer's thickness from 0 (where a is +-i of it). In t = chi / (top + chi) these lie further
+// from the interval, on which 24 terms give what 32 would in chi. The last t is stretched to 1.
+double LayerLaw::place(double chi) const {
+  return (top_ + last_chi_) / last_chi_ * chi / (top_ + chi);
+}
+double LayerLaw::place_slope(double chi) const {
+  return (top_ + last_chi_) / last_chi_ * top_ / ((top_ + chi) * (top_ + chi));
+}
+
+LayerLaw::LayerLaw(const Layer& layer) : top_(layer.top()), last_chi_(std::min(3.0, 12.0 * top_)) {
+  const std::size_t nodes = layer.below.empty() ? 24 : 40;
   // D > 1/4 in the thinnest layers, so that a/H = chi / sqrt(D) stays below 2 last_chi.
-  const LayerEquation equation(layer, layer_resolution(2.0 * last_chi));
-  Series force{}, radius{};
-  std::array<Series, PressureProfile::terms> pressure{};
+  const LayerEquation equation(layer, layer_resolution(2.0 * last_chi_ / top_));
+  Series force(nodes), radius(nodes);
+  std::array<Series, PressureProfile::terms> pressure;
+  pressure.fill(Series(nodes));
+  force_ = radius_ = force;
+  pressure_ = pressure;
   for (std::size_t i = 0; i < nodes; ++i) {
-    const double chi = chi_at(chebyshev_node(i, nodes));
+    const double stretched = chebyshev_node(i, nodes);
+    const double chi = top_ * stretched / ((top_ + last_chi_) / last_chi_ - stretched);
     const LayerSolution solution = equation.solve_chi(chi);
     force[i] = (solution.force_factor() - 1.0) / chi;
     radius[i] = (solution.radius_factor() - 1.0) / chi;
@@ -80,23 +86,29 @@ PressureProfile LayerLaw::pressure(double chi) const {
 
 std::optional<double> LayerLaw::chi(double load) const {
   if (load <= 0.0) return 0.0;
-  if (!(load <= last_chi * last_chi * last_chi * force_factor(last_chi))) return std::nullopt;
-  // As f >= 1, chi is no more than load^(1/3), so less than the larger of load^(1/4) and
-  // load^(1/2). From above, Newton's method walks down the convex chi^3 f(chi) - load.
+  if (!(load <= last_chi_ * last_chi_ * last_chi_ * force_factor(last_chi_))) return std::nullopt;
+  // Where f >= 1, chi is no more than load^(1/3), so less than the larger of load^(1/4) and
+  // load^(1/2). From above, Newton's method walks down the convex chi^3 f(chi) - load; over softer
+  // layers, where chi may be more and the function bends, it halves what it has enclosed instead.
   const double root = std::sqrt(load);
-  double chi = std::min(last_chi, std::max(root, std::sqrt(root)));
+  const double above = std::max(root, std::sqrt(root));
+  double low = 0.0;
+  double high = last_chi_;
+  double chi = std::min(last_chi_, above);
   for (int pass = 0; pass < 60; ++pass) {
     const Factor f = factor(chi);
-    const double change =
-        (chi * chi * chi * f.value - load) / (chi * chi * (3.0 * f.value + chi * f.slope));
+    const double excess = chi * chi * chi * f.value - load;
+    (excess < 0.0 ? low : high) = chi;
+    const double change = excess / (chi * chi * (3.0 * f.value + chi * f.slope));
     chi -= change;
-    if (change <= 1e-15 * chi) break;
+    if (std::abs(change) <= 1e-15 * chi) break;
+    if (!(chi > low && chi < high)) chi = 0.5 * (low + high);
   }
   return chi;
 }
 
 double LayerContact::last_depth() const {
-  const double radius_there = LayerLaw::last_chi * thickness;
+  const double radius_there = law.last_chi() * thickness;
   return radius_there * radius_there / radius;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/layer_stack.h"
+
 namespace palpate::contact {
 namespace {
 
@@ -15,7 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 constexpr double pi = std::numbers::pi;
 
-// M(u) < (4 u^2 + 4 u + 2) exp(-2u), less than 1e-14 from here on.
+// M(u) < (4 u^2 + 4 u + 2) exp(-2u), less than 1e-14 from here on; u over the top layer's
+// thickness.
 constexpr double last_wave = 20.0;
 
 // M(u) = 1 - L(u); L is how far a wave of pressure of wave number u / H sinks into the layer, over
@@ -24,6 +27,7 @@ constexpr double last_wave = 20.0;
 //   frictionless  L = (cosh 2u - 1) / (sinh 2u + 2u)
 // written with q = exp(-2u), so that nothing overflows and M loses no digits where L goes to 1.
 double missing_sinking(double u, const Layer& layer) {
+  if (!layer.below.empty()) return 1.0 - stack_sinking(u, layer);
   const double q = std::exp(-2.0 * u);
   if (layer.base == LayerBase::frictionless)
     return q * (2.0 * u - std::expm1(-2.0 * u)) / (0.5 * (1.0 - q * q) + 2.0 * u * q);
@@ -76,6 +80,12 @@ double PressureProfile::at(double radius_ratio) const {
   return z > 0.0 ? std::sqrt(z) * chebyshev_sum(coefficients, z).value : 0.0;
 }
 
+double Layer::top() const {
+  double rest = 1.0;
+  for (const Sublayer& one : below) rest -= one.thickness;
+  return rest;
+}
+
 double LayerSolution::force_factor() const { return force / (depth * std::sqrt(depth)); }
 
 double LayerSolution::radius_factor() const { return 1.0 / std::sqrt(depth); }
@@ -113,9 +123,13 @@ LayerSolution LayerEquation::solve(double ratio) const {
 
   // With sqrt(w) g as the unknown the matrix is symmetric; it is positive definite since 1 - M =
   // L > 0. The right sides 1 and s^2 give g = D g_1 - g_2.
-  const MatrixXd waved = q.cwiseSqrt().asDiagonal() * cosines * root.asDiagonal();
   MatrixXd matrix = MatrixXd::Identity(n, n);
-  matrix.selfadjointView<Eigen::Lower>().rankUpdate(waved.transpose(), -1.0);
+  const auto add_waves = [&](const VectorXd& amounts, double sign) {
+    const MatrixXd waved = amounts.cwiseSqrt().asDiagonal() * cosines * root.asDiagonal();
+    matrix.selfadjointView<Eigen::Lower>().rankUpdate(waved.transpose(), sign);
+  };
+  add_waves(q.cwiseMax(0.0), -1.0);
+  if (q.minCoeff() < 0.0) add_waves((-q).cwiseMax(0.0), 1.0);  // over softer layers
   MatrixXd g(n, 2);
   g.col(0) = root;
   g.col(1) = root.cwiseProduct(s.cwiseAbs2());
@@ -171,7 +185,7 @@ LayerSolution LayerEquation::solve_chi(double chi) const {
 }
 
 LayerSolution solve_layer(double ratio, const Layer& layer) {
-  return LayerEquation(layer, layer_resolution(ratio)).solve(ratio);
+  return LayerEquation(layer, layer_resolution(ratio / layer.top())).solve(ratio);
 }
 
 double flat_punch_factor(double ratio, const Layer& layer) {
@@ -181,7 +195,7 @@ double flat_punch_factor(double ratio, const Layer& layer) {
 std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
   std::vector<double> numbers(static_cast<std::size_t>(count));
   std::vector<double> weights(numbers.size());
-  gauss_legendre(numbers, weights, last_wave);
+  gauss_legendre(numbers, weights, last_wave / layer.top());
   std::vector<LayerWave> waves;
   for (std::size_t k = 0; k < numbers.size(); ++k)
     waves.push_back({numbers[k], layer.share * weights[k] * missing_sinking(numbers[k], layer)});
@@ -190,7 +204,8 @@ std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
 
 double layer_first_coefficient(const Layer& layer) {
   double sum = 0.0;
-  for (const LayerWave& wave : layer_waves(layer, 64)) sum += wave.missing;
+  const int count = layer.below.empty() ? 64 : 256;
+  for (const LayerWave& wave : layer_waves(layer, count)) sum += wave.missing;
   return 2.0 / pi * sum;
 }
 

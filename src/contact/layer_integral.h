@@ -11,13 +11,23 @@ namespace palpate::contact {
 // What the layer's lower face does: it holds to the base, or slides on it without lifting off.
 enum class LayerBase { bonded, frictionless };
 
-// A layer without its size.
+// One of the layers under the top one, bonded to its neighbours.
+struct Sublayer {
+  double thickness = 0.0;      // of the whole thickness H
+  double stiffness = 1.0;      // G over that of the top layer
+  double poisson_ratio = 0.5;  // -1 < nu <= 1/2
+};
+
+// A layer, or several on each other, without the size H of all together.
 struct Layer {
   double poisson_ratio = 0.5;  // -1 < nu <= 1/2; of no effect on a frictionless base
   LayerBase base = LayerBase::bonded;
   // lambda_2 / (lambda_1 + lambda_2), the tissue's part of the compliance, 0 to 1; 1 under a rigid
   // finger. The finger is a half-space of compliance lambda_1.
   double share = 1.0;
+  std::vector<Sublayer> below = {};  // from the second to the lowest; thinner than 1 together
+
+  [[nodiscard]] double top() const;  // thickness of the top layer, of H
 };
 
 // How finely the equation is cut: numbers of Gauss-Legendre points.
@@ -26,13 +36,13 @@ struct LayerResolution {
   int waves = 0;   // over the wave number u = xi H
 };
 
-// Enough for 1e-8 of every number below at a/H up to `greatest_ratio` <= 40, and for 1e-10 up to 6;
-// tests/convergence/contact_layer.cpp.
+// Enough for 1e-8 of every number below at a over the top layer's thickness up to `greatest_ratio`
+// <= 40, and for 1e-10 up to 6; tests/convergence/contact_layer.cpp.
 [[nodiscard]] LayerResolution layer_resolution(double greatest_ratio);
 
 // p(r) of a sphere over its mean F / (pi a^2), so that its own mean over the disc is 1:
 //   p = sqrt(z) sum_k c_k T_k(2z - 1),   z = 1 - (r/a)^2,   T_k Chebyshev's polynomials
-// 3/2 sqrt(z) on a half-space, which is Hertz's.
+// 3/2 sqrt(z) on a half-space, which is Hertz's.                             docs/theory.md (59)
 struct PressureProfile {
   // What is cut off is below 1e-8 up to a/H = 6, the thinnest layers that a LayerLaw knows.
   static constexpr std::size_t terms = 20;
@@ -57,7 +67,7 @@ struct LayerSolution {
 
 // The equation of one layer, ready for any ratio a/H:
 //   g(s) - int_0^1 Q(s,t) g(t) dt = D - s^2,   g(1) = 0,   0 <= s <= 1
-// Hayes and others 1972, J. Biomech. 5, 541-551; docs/theory.md, a layer of finite thickness.
+// Hayes and others 1972, J. Biomech. 5, 541-551; docs/theory.md (56), (57)
 // By Nystrom's method, a quarter of a millisecond a solution at the resolution of a/H = 6.
 class LayerEquation {
  public:
@@ -71,7 +81,7 @@ class LayerEquation {
     std::vector<double> nodes, weights;
   };
   Rule points_;  // s and t over [0, 1]
-  Rule waves_;   // u over [0, 20]; its weights carry 2/pi M(u) `share`
+  Rule waves_;   // u over [0, 20 H / top]; its weights carry 2/pi M(u) `share`
 };
 
 // One solution at the resolution that its ratio a/H wants.
@@ -81,7 +91,7 @@ class LayerEquation {
 [[nodiscard]] double flat_punch_factor(double ratio, const Layer& layer);
 
 // c_1 of F / F_Hertz = 1 + c_1 chi + 7/6 c_1^2 chi^2 + ..., the finite thickness to first order:
-//   c_1 = 2/pi share int_0^inf M(u) du
+//   c_1 = 2/pi share int_0^inf M(u) du                                     docs/theory.md (58)
 [[nodiscard]] double layer_first_coefficient(const Layer& layer);
 
 // Points u_k of a quadrature of int_0^inf M(u) f(u) du = sum_k missing_k f(u_k), share included.

@@ -36,7 +36,7 @@ class Spreader {
   // Every quadrature point is shared by the linear shape functions of the triangle that it meets
   // along the normal. Where one of two opposite points misses the surface, or is beyond a crease or
   // turned away, both are drawn back to the rim. All on the triangle under the centre for a = b =
-  // 0.
+  // 0.                                                                    docs/theory.md (9)
   void spread(const Patch& patch, Spread& spread);
 
  private:

@@ -15,6 +15,7 @@ struct Branch {
 // relaxing branches, one of which makes a standard linear solid,
 //   E(t) = E_inf (1 + sum_k b_k exp(-t / tau_k)),
 // or Kelvin-Voigt, E(t) = E_inf (1 + tau delta(t)). Not both; times above 0, ratios not below.
+//                                                                          docs/theory.md (63)
 struct Relaxation {
   std::vector<Branch> branches;   // tau_k and b_k, in any order
   double retardation_time = 0.0;  // s: tau = eta / E_inf of Kelvin-Voigt; 0: it is none

@@ -24,7 +24,7 @@ class RingReader {
   // squares of c0 + c1 r^2 over the vertices that face as the patch does; the reading is c0.
   // `shares`: the greatest share of any patch's load that each vertex carries (one a vertex of the
   // surface); a vertex that carries a hundredth is not read. The ring stands a spacing beyond the
-  // patch, or `away` (m) where that is more.                             docs/theory.md (11)
+  // patch, or `away` (m) where that is more.                             docs/theory.md (13)
   void read(const Patch& patch, std::span<const double> shares, double away,
             Reading& reading) const;
 
@@ -32,7 +32,8 @@ class RingReader {
   // triangle of the mean area between creases.
   [[nodiscard]] double spacing(const Patch& patch) const;
 
-  // sum_j s_j / (pi E' |x - x_j|), the sinking of a half-space at vertex x per newton, m/N.
+  // sum_j s_j / (pi E' |x - x_j|), the sinking of a half-space at vertex x per newton, m/N;
+  // |x - x_j| at least a quarter of the spacing.                         docs/theory.md (11)
   [[nodiscard]] double half_space(int vertex, const Spread& load, double plane_modulus,
                                   double spacing) const;
 

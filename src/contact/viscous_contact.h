@@ -29,7 +29,7 @@ enum class ContactEdge {
 // level c is reached where an elastic contact has the depth c; sunk by w, h - c in contact, it
 // pushes back with q (per unit of its strength phi''(c)), and is free where q would pull:
 //   F = integral over 0 < c < b of q(c, t) phi''(c) dc,    q(b, t) = 0 at the contact's edge b.
-//                                              Ting 1966, 1968; Argatov and Popov 2016
+//                         Ting 1966, 1968; Argatov and Popov 2016; docs/theory.md (64)
 // Rings are laid down where the edge is at the end of each step; between them q runs straight, and
 // phi as h^(3/2).
 //

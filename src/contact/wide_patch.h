@@ -9,8 +9,8 @@
 namespace palpate::contact {
 
 // So many semi-axes of the contact, and at least so many spacings of the skin: there the mesh is
-// finer than what it carries, and its static answer is softened by less than the contact's own
-// compliance, which docs/theory.md (60) needs.
+// finer than what it carries, and in statics gives way by less than the contact does by itself,
+// which docs/theory.md (74) needs.
 inline constexpr double wide_semi_axes = 3.0;
 inline constexpr double wide_spacings = 1.5;
 

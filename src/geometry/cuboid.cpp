@@ -103,6 +103,23 @@ std::vector<double> borders(double size, int cells, double core, double finest) 
   return all;
 }
 
+// Moves the nearest border to every level; the first and the last stay.
+void end_at(std::span<const double> levels, std::vector<double>& borders) {
+  if (levels.size() + 2 > borders.size())
+    throw MeshError("a box of " + std::to_string(borders.size() - 1) +
+                    " cells in height cannot end some at " + std::to_string(levels.size()) +
+                    " heights; ask for more cells");
+  std::size_t next = 1;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const std::size_t last = borders.size() - 1 - (levels.size() - i);
+    std::size_t nearest = next;
+    for (std::size_t j = next; j <= last; ++j)
+      if (std::abs(borders[j] - levels[i]) < std::abs(borders[nearest] - levels[i])) nearest = j;
+    borders[nearest] = levels[i];
+    next = nearest + 1;
+  }
+}
+
 // The walk from the cell's start corner to the opposite one, one axis after the other.
 std::array<int, 4> path_tetrahedron(const Lattice& lattice, const Triple& cell,
                                     const std::array<bool, 3>& reflected, const AxisOrder& order) {
@@ -125,7 +142,8 @@ std::array<int, 4> path_tetrahedron(const Lattice& lattice, const Triple& cell,
 
 }  // namespace
 
-TetMesh cuboid(const Vec3& size, const Triple& cells, CellPattern pattern, const Grading& grading) {
+TetMesh cuboid(const Vec3& size, const Triple& cells, CellPattern pattern, const Grading& grading,
+               std::span<const double> levels) {
   assert(size.minCoeff() > 0.0 && size.allFinite());
   assert(cells[0] >= 1 && cells[1] >= 1 && cells[2] >= 1);
   refuse_too_many(cells);
@@ -142,6 +160,7 @@ TetMesh cuboid(const Vec3& size, const Triple& cells, CellPattern pattern, const
     const auto a = static_cast<Eigen::Index>(axis);
     places[axis] = borders(size[a], cells[axis], core, finest[a]);
   }
+  end_at(levels, places[2]);
   TetMesh mesh;
   for (const double z : places[2])
     for (const double y : places[1])

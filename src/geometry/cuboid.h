@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "geometry/tet_mesh.h"
 
@@ -27,8 +28,10 @@ struct Grading {
 // each order of the axes (Kuhn 1960; Freudenthal 1942), so that neighbours share whole faces.
 // Nodes are numbered x fastest, then y, then z. With `mirrored` and even counts the mesh is its
 // own mirror image in the box's three middle planes; a graded one in those that hold `finest`.
-// Throws MeshError where the tetrahedra cannot be counted in an int.
+// At every height of `levels` (m, rising, inside the box) cells end: the nearest border moves
+// there. Throws MeshError where the tetrahedra cannot be counted in an int, and where there are
+// fewer borders than levels.
 [[nodiscard]] TetMesh cuboid(const Vec3& size, const std::array<int, 3>& cells, CellPattern pattern,
-                             const Grading& grading = {});
+                             const Grading& grading = {}, std::span<const double> levels = {});
 
 }  // namespace palpate::geometry

@@ -156,7 +156,7 @@ bool Contacts::cut_from_layer(const MeshAnswer& mesh) const {
 }
 
 // How much less than a half-space the flat layer that the law knows sinks at a place, per newton on
-// a contact, m/N.
+// a contact, m/N.                                                         docs/theory.md (61)
 double Contacts::stiffer_layer(double aligned, const Vec3& at, const SphereContact& pressed) const {
   if (!scene_->layer) return 0.0;
   const double thickness = scene_->layer->thickness;

@@ -10,6 +10,7 @@ namespace palpate::run {
 
 // All contacts together are one press: their elastic forces' sum is phi, and each keeps its part of
 // the force that Lee and Radok, or Ting, make of it. Without relaxation nothing changes.
+//                                                                         docs/theory.md (64)
 class ContactHistory {
  public:
   explicit ContactHistory(const scene::Scene& scene);

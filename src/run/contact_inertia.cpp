@@ -1,4 +1,4 @@
-// What the motion of a mesh adds to the statics of `consistent`: docs/theory.md (60).
+// What the motion of a mesh adds to the statics of `consistent`: docs/theory.md (74), (75).
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -123,7 +123,8 @@ void Contacts::find_motion(const MeshAnswer& mesh, const std::vector<SphereConta
   }
 }
 
-// What part of the motion is taken: 1, but where the mesh would soften the contact by more than
+// Theta, the part of the motion that is taken: 1, but where the mesh would soften the contact by
+// more than
 //   part sum_j c_ij <= 0.47 / F_i' + C_ij,  F_i' at the travel.
 // h - c F(h) grows until c F' = 1 and is h/3 there. With F of h^(3/2) and c F' = 0.47 at the travel
 // that is 1.5 times the travel: there is a balance, however little the mesh has moved.

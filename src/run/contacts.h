@@ -62,7 +62,7 @@ struct Touch {
 };
 
 // A mesh in motion, as `consistent` reads it. The forces that are sought act on it by
-// share (past force + slope (elastic force - past elastic force)).           docs/theory.md (60)
+// share (past force + slope (elastic force - past elastic force)).           docs/theory.md (74)
 struct MovingMesh {
   const integrate::Vector* displacement = nullptr;  // m, at the end of the step without them
   const integrate::Vector* still = nullptr;  // N: the load whose static answer is no motion, as far
@@ -87,8 +87,8 @@ struct MeshAnswer {
 };
 
 // Stick and slip as the finger moves by `move` (m): the stretch between finger and tissue grows,
-// and the drag is what Cattaneo and Mindlin's partial slip makes of it, at most mu F. theory.md
-// (46)
+// and the drag is what Cattaneo and Mindlin's partial slip makes of it, at most mu F.
+//                                                                           docs/theory.md (8)
 void rub(const scene::Scene& scene, const Vec3& move, Touch& touch);
 
 class ResolvedContact;

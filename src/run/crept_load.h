@@ -10,6 +10,7 @@ namespace palpate::run {
 
 // All springs fade alike: K (1 + sum b_k) u - K sum b_k q_k = L has the answer u = K^-1 J[L], J the
 // creep of L, degree of freedom by degree of freedom. Without branches J[L] is L.
+// docs/theory.md, inertia in the contact; (37)
 class CreptLoad {
  public:
   // `rule` is that of the mesh's own memory.

@@ -15,7 +15,7 @@ struct Extrapolated {
 // value + C h^p through them, with the p that they show, 1/2 where it is less. The error is what
 // that adds to the finest value, and at least half the last change. Values that swing, or approach
 // each other faster than with p = 3, tell no order: then the finest one, and their spread as error.
-// Of two values as if p = 1, and twice the error; of one nothing is known.
+// Of two values as if p = 1, and twice the error; of one nothing is known.  docs/theory.md (78)
 [[nodiscard]] Extrapolated extrapolate(std::span<const double> spacings,
                                        std::span<const double> values);
 

@@ -1,4 +1,4 @@
-// Steps of `consistent` in which the tissue's inertia reaches the force: docs/theory.md (60).
+// Steps of `consistent` in which the tissue's inertia reaches the force: docs/theory.md (74).
 #include <algorithm>
 
 #include "run/pressed_mesh.h"

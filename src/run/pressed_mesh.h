@@ -32,12 +32,14 @@ class PressedMesh {
   // sinking that Hertz does not know is taken from statics, h = approach - (c - g) F, c the mesh's
   // compliance where it is read and g the half-space's there.
   // consistent with inertia: and by how much the mesh is from its statics under the same loads.
-  // series: the forces follow from the mesh as it is, in implicit steps as it will be.
+  // series: the forces follow from the mesh as it is, in implicit steps as it will be; resolved
+  // (implicit only) likewise, node by node.
   // `history` then makes of the elastic forces what the tissue's viscosity does.
   [[nodiscard]] std::optional<std::string> step(const Vec3& finger, double time,
                                                 ContactHistory& history, Touch& touch);
 
-  // The forces of statics at a place of the finger, without moving the mesh; not of series.
+  // The forces of statics at a place of the finger, without moving the mesh; not of series nor
+  // resolved.
   [[nodiscard]] bool forces_follow_finger() const;
   [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
 

@@ -15,7 +15,7 @@ struct Ball {
   double radius = 0.0;         // m
 };
 
-// A vertex of the skin under a sphere.
+// A vertex of the skin under a sphere.                                    docs/theory.md (70)-(72)
 struct PressedNode {
   int vertex = 0;
   int sphere = 0;

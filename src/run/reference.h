@@ -44,6 +44,7 @@ struct Reference {
 // Without inertia, unless the scenario names an integrator that has it or estimates say that it
 // matters; then by backward differences whose steps shrink with the cells. `told` hears of every
 // level. Throws InputError where there is nothing to refine, and what scene::build() throws.
+// docs/theory.md (77), (78)
 [[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
                               const std::atomic<bool>& stop,
                               const std::function<void(const std::string&)>& told);

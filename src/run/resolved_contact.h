@@ -14,7 +14,7 @@ namespace palpate::run {
 
 // Every node of the skin keeps a gap g_j >= 0 to the spheres and takes a force f_j >= 0, one of
 // them zero; the mesh's compliance and, for an elastic finger, a half-space's of the finger
-// connect them. Without friction inside; drag acts on the resultant.      docs/theory.md (61)
+// connect them. Without friction inside; drag acts on the resultant.      docs/theory.md (70)-(72)
 class ResolvedContact {
  public:
   explicit ResolvedContact(const scene::Scene& scene);

@@ -1,6 +1,7 @@
 // Checks that look at several keys at once.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "base/text.h"
@@ -167,6 +168,7 @@ class Checker {
       problem("tissue.mesh",
               "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
               "kind = \"tetgen\", nodes = 1500 }`");
+    slabs();
     const auto* tetgen = std::get_if<Tetgen>(&tissue.mesh);
     if (tetgen != nullptr && tetgen->tetrahedra &&
         (box || tetgen->edge || std::holds_alternative<SurfaceFile>(tissue.shape)))
@@ -191,6 +193,36 @@ class Checker {
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i)
       if (std::holds_alternative<Slide>(scenario_.steps[i]))
         wrong("step." + std::to_string(i + 1), "a `slide` over", "remove it");
+  }
+
+  // Layers lie in a box, below its top, beside each other.
+  void slabs() {
+    const auto* box = std::get_if<Cuboid>(&scenario_.tissue.shape);
+    const bool lattice = std::holds_alternative<Kuhn>(scenario_.tissue.mesh) ||
+                         std::holds_alternative<Mirrored>(scenario_.tissue.mesh);
+    std::map<double, double> taken;  // bottoms and tops
+    for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
+      const auto* slab = std::get_if<Slab>(&scenario_.regions[i]);
+      if (slab == nullptr) continue;
+      const std::string path = "region." + std::to_string(i + 1);
+      if (box == nullptr || !lattice) {
+        problem(path,
+                "a `slab` lies in a `cuboid` of `kuhn` or `mirrored` cells only; set "
+                "`tissue.mesh = { kind = \"mirrored\", cells = [8, 8, 8] }`, or mesh the "
+                "layers yourself and name them by `tag`");
+        continue;
+      }
+      if (slab->top <= slab->bottom)
+        problem(path + ".top", "is not above `bottom`; exchange the two");
+      else if (slab->top >= box->size[2])
+        problem(path + ".top",
+                "reaches the cuboid's top, which the finger presses; make that layer the `tissue` "
+                "and what lies below it a `slab`");
+      for (const auto& [bottom, top] : taken)
+        if (slab->bottom < top && bottom < slab->top)
+          problem(path + ".bottom", "another `slab` lies there too; give them different heights");
+      taken.emplace(slab->bottom, slab->top);
+    }
   }
 
   void tags() {
@@ -220,8 +252,8 @@ class Checker {
               "`neo_hookean` is the factor of a half-space; set `solver.model = \"hertz\"`, or "
               "`depth = \"auto\"`");
     if (!scenario_.meshed()) return;
-    const bool volume = solver.volume == Solver::Volume::nodal ||
-                        solver.volume == Solver::Volume::tetrahedron;
+    const bool volume =
+        solver.volume == Solver::Volume::nodal || solver.volume == Solver::Volume::tetrahedron;
     if (solver.model == Solver::Model::mass_spring && volume &&
         *scenario_.tissue.poisson_ratio < 0.2)
       problem("solver.volume",

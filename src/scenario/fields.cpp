@@ -139,11 +139,16 @@ static void fields(FieldVisitor& visitor, TaggedRegion& region) {
   fields(visitor, region.substance);
 }
 static void fields(FieldVisitor& visitor, Lump& region) {
-  visitor.quantities({"centre",
-                      "In the specimen's coordinates; their origin is the lowest corner "
-                      "of its bounding box."},
-                     region.centre, unit::mm, {});
+  visitor.quantities(
+      {"centre", "In the specimen's coordinates, from the lowest corner of its bounding box."},
+      region.centre, unit::mm, {});
   visitor.quantity({"radius", "Of the lump."}, region.radius, unit::mm, above(0));
+  fields(visitor, region.substance);
+}
+static void fields(FieldVisitor& visitor, Slab& region) {
+  visitor.quantity({"bottom", "Height where it begins."}, region.bottom, unit::mm, at_least(0));
+  visitor.quantity({"top", "Height where it ends, below the cuboid's top: that is `tissue`."},
+                   region.top, unit::mm, above(0));
   fields(visitor, region.substance);
 }
 

@@ -125,7 +125,13 @@ struct Lump {
   double radius = 0.005;                              // m
   Substance substance;
 };
-using Region = std::variant<TaggedRegion, Lump>;
+struct Slab {
+  static constexpr Word word{"slab", "A flat layer of a cuboid, from side to side."};
+  double bottom = 0.0;  // m, of its two heights
+  double top = 0.010;
+  Substance substance;
+};
+using Region = std::variant<TaggedRegion, Lump, Slab>;
 [[nodiscard]] inline const Substance& substance(const Region& region) {
   return std::visit([](const auto& one) -> const Substance& { return one.substance; }, region);
 }

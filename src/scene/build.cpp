@@ -37,8 +37,7 @@ PressedNodes contact_frequency_squared(const Scene& scene, double depth, double 
   patch.normal = specimen.surface->normal(patch.at);
   patch.axis = patch.normal.unitOrthogonal();
   patch.a = patch.b = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
-  if (widest_spacing > 0.0)
-    patch = contact::wide_patch(patch, {patch.a, patch.b}, widest_spacing);
+  if (widest_spacing > 0.0) patch = contact::wide_patch(patch, {patch.a, patch.b}, widest_spacing);
   spreader.spread(patch, load);
   double sum = 0.0;
   for (std::size_t j = 0; j < load.vertices.size(); ++j)
@@ -50,8 +49,9 @@ PressedNodes contact_frequency_squared(const Scene& scene, double depth, double 
           sum};
 }
 
-// Where the mesh is read back: at the deepest contact of the programme; with inertia the most on the
-// way there, because the wide patch narrows as fast as the contact softens.
+// Where the mesh is read back: at the deepest contact of the programme; with inertia the most on
+// the way there, because the wide patch narrows as fast as the contact softens.  docs/theory.md
+// (76)
 ContactRate contact_rate(const Scene& scene) {
   if (scene.scenario.uniform()) return {};
   const double deepest = deepest_travel(scene.scenario, scene.law());
@@ -64,14 +64,14 @@ ContactRate contact_rate(const Scene& scene) {
   // dashpot C = D k^2 the mesh knows a sixth: 0.4^2 by the wide patch's three radii.
   constexpr double stiffened = 3.0;
   constexpr double damped = 1.2;
-  const double spacing =
-      contact::RingReader(*scene.specimen->surface).spacing({.at = first_touch(scene).at});
+  const double spacing = contact::RingReader(*scene.specimen->surface)
+                             .spacing({.at = first_touch(scene).at, .position = {}, .beyond = {}});
   ContactRate most;
   for (double depth = deepest; depth > 1e-3 * deepest; depth *= 0.5) {
     const auto [squared, looseness] = contact_frequency_squared(scene, depth, spacing);
     most.squared = std::max(most.squared, stiffened * squared);
-    most.damping = std::max(most.damping, damped * radiation_compliance(scene) * squared * squared /
-                                              looseness);
+    most.damping = std::max(most.damping,
+                            damped * radiation_compliance(scene) * squared * squared / looseness);
   }
   return most;
 }
@@ -152,6 +152,7 @@ struct SpringMaker {
   const scenario::Solver* solver;
   const geometry::TetMesh* mesh;
   std::vector<double> densities;
+  bool slabs;  // all regions are layers from side to side
 
   [[nodiscard]] bool coupled() const {
     return solver->model == scenario::Solver::Model::coupled_springs;
@@ -195,9 +196,11 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
                   Specimen& specimen) {
   const std::vector<tissue::Isotropic> alike(tissues.size(), tissues.front());
   const bool several = tissues.size() > 1;
+  // Layers from side to side are in the contact's own law.
+  const bool beside_law = several && !maker.slabs;
   if (maker.coupled()) {
     specimen.network = maker.elements(tissues);
-    if (several) specimen.one_tissue = maker.elements(alike);
+    if (beside_law) specimen.one_tissue = maker.elements(alike);
     // The linear finite element passes the patch test: its E and nu are the tissue's.
     specimen.measured.young_modulus = tissues.front().young_modulus;
     specimen.measured.poisson_ratio = tissues.front().poisson_ratio;
@@ -230,7 +233,7 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
     }
   }
   maker.finish(specimen.network, tissues, factor);
-  if (several) specimen.one_tissue = std::move(alone);
+  if (beside_law) specimen.one_tissue = std::move(alone);
 }
 
 std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
@@ -258,7 +261,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
       scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
   make_springs(
       {&scenario.solver, &specimen->mesh,
-       by_region(scenario, &scenario::Tissue::density, &scenario::Substance::density)},
+       by_region(scenario, &scenario::Tissue::density, &scenario::Substance::density),
+       all_slabs(scenario)},
       tissues_of(scenario),
       [&](const tissue::Network& network) {
         return platens ? tissue::uniaxial_test(network, specimen->mesh, tissue::Base::frictionless,
@@ -290,9 +294,7 @@ namespace {
 
 void set_layer(Scene& scene) {
   scene.layer = make_layer(scene.scenario, scene.finger);
-  scene.layer_sinking.emplace(contact::Layer{.poisson_ratio = *scene.scenario.tissue.poisson_ratio,
-                                             .base = layer_base(scene.scenario),
-                                             .share = 1.0 - scene.finger.compliance_share});
+  scene.layer_sinking.emplace(layers_of(scene.scenario, 1.0 - scene.finger.compliance_share));
 }
 
 }  // namespace
@@ -334,9 +336,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
   if (!scenario.uniform() && scenario.contact.coupling == contact::Coupling::consistent &&
       std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) {
     set_layer(scene);
-    scene.specimen->sinking.emplace(
-        contact::Layer{.poisson_ratio = std::min(0.5, scene.specimen->measured.poisson_ratio),
-                       .base = layer_base(scenario)});
+    scene.specimen->sinking.emplace(layers_of(scenario, 1.0, &scene.specimen->measured));
   }
   scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_rate(scene));
   refuse_unstable(scene, family);

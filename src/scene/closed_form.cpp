@@ -1,6 +1,8 @@
 // What a scene without a mesh is made of, and what it shares with one that has a mesh.
 #include "scene/scene.h"
 
+#include <algorithm>
+
 #include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
@@ -46,10 +48,47 @@ contact::LayerBase layer_base(const scenario::Scenario& scenario) {
                                                    : contact::LayerBase::frictionless;
 }
 
+contact::Layer layers_of(const scenario::Scenario& scenario, double share,
+                         const tissue::Uniaxial* network) {
+  const auto& tissue = scenario.tissue;
+  contact::Layer layer{.base = layer_base(scenario), .share = share};
+  // Without a volume term springs have one Poisson's ratio, whatever the tissue's.
+  const bool springs_alone = network != nullptr &&
+                             scenario.solver.model == scenario::Solver::Model::mass_spring &&
+                             (scenario.solver.volume == scenario::Solver::Volume::none ||
+                              scenario.solver.volume == scenario::Solver::Volume::automatic);
+  layer.poisson_ratio =
+      network != nullptr ? std::min(0.5, network->poisson_ratio) : *tissue.poisson_ratio;
+  std::vector<const scenario::Slab*> slabs;
+  for (const scenario::Region& region : scenario.regions)
+    if (const auto* slab = std::get_if<scenario::Slab>(&region)) slabs.push_back(slab);
+  if (slabs.empty()) return layer;
+  std::sort(slabs.begin(), slabs.end(),
+            [](const auto* one, const auto* other) { return one->top > other->top; });
+  const double height = geometry::extent(*parametric(tissue.shape)).z();
+  const double own = *tissue.young_modulus / (1.0 + layer.poisson_ratio);
+  double reached = slabs.front()->top;
+  for (const scenario::Slab* slab : slabs) {
+    if (slab->top < reached)
+      layer.below.push_back({(reached - slab->top) / height, 1.0, layer.poisson_ratio});
+    const double nu = springs_alone ? layer.poisson_ratio
+                                    : slab->substance.poisson_ratio.value_or(*tissue.poisson_ratio);
+    layer.below.push_back({(slab->top - slab->bottom) / height,
+                           *slab->substance.young_modulus / (1.0 + nu) / own, nu});
+    reached = slab->bottom;
+  }
+  if (reached > 0.0) layer.below.push_back({reached / height, 1.0, layer.poisson_ratio});
+  return layer;
+}
+
+bool all_slabs(const scenario::Scenario& scenario) {
+  return std::all_of(scenario.regions.begin(), scenario.regions.end(), [](const auto& region) {
+    return std::holds_alternative<scenario::Slab>(region);
+  });
+}
+
 contact::LayerContact make_layer(const scenario::Scenario& scenario, const Finger& finger) {
-  const contact::Layer layer{.poisson_ratio = *scenario.tissue.poisson_ratio,
-                             .base = layer_base(scenario),
-                             .share = 1.0 - finger.compliance_share};
+  const contact::Layer layer = layers_of(scenario, 1.0 - finger.compliance_share);
   // Spheres that press as one keep that one's layer, each a part of its force.
   const bool as_one = scenario.finger.calibration == finger::Calibration::force;
   return {.radius = as_one ? finger.whole.radius : finger.sphere_radius,

@@ -7,7 +7,7 @@ namespace palpate::scene {
 
 // Cells of the skin along the contact radius a = sqrt(R h) of the deepest travel, where it is
 // coarsest on the finger's way. A cell is two triangles: its side is the root of twice their mean
-// area within a of the finger.
+// area within a of the finger.                                            docs/theory.md (73)
 [[nodiscard]] double cells_per_contact_radius(const Scene& scene);
 
 // Throws MeshError where `resolved` has fewer than three.

@@ -112,14 +112,13 @@ Estimates estimate(const scenario::Scenario& scenario) {
 
   const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
   const auto shape = parametric(tissue.shape);
-  const contact::Layer layer{.poisson_ratio = *tissue.poisson_ratio,
-                             .base = layer_base(scenario),
-                             .share = found.tissue_share};
   if (shape) {
+    const contact::Layer layer = layers_of(scenario, found.tissue_share);
+    constexpr double last_chi = 3.0;
     found.chi = found.contact_radius / geometry::extent(*shape).z();
     found.thickness =
-        found.chi < contact::LayerLaw::last_chi
-            ? contact::LayerEquation(layer, contact::layer_resolution(contact::LayerLaw::last_chi))
+        found.chi < last_chi
+            ? contact::LayerEquation(layer, contact::layer_resolution(last_chi / layer.top()))
                       .solve_chi(found.chi)
                       .force_factor() -
                   1.0

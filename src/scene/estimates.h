@@ -6,7 +6,7 @@
 namespace palpate::scene {
 
 // All of them relative to the force, at the programme's deepest travel and fastest rate. What they
-// rest on, and what they were measured against: docs/theory.md (60)-(66), docs/accuracy.md.
+// rest on, and what they were measured against: docs/theory.md (68), docs/accuracy.md.
 struct Estimates {
   double travel = 0.0;           // m, the deepest
   double rate = 0.0;             // m/s, the fastest

@@ -134,6 +134,14 @@ struct TopCurvature {
                                                      const Finger& finger);
 
 // The finger on a flat layer as thick as the specimen.
+// Whether every region is a layer from side to side, or there is none.
+[[nodiscard]] bool all_slabs(const scenario::Scenario& scenario);
+
+// The flat layers of a cuboid, the tissue on top; with a `network`, as that has them: with its nu
+// in place of the tissue's. `share` as in contact::Layer.
+[[nodiscard]] contact::Layer layers_of(const scenario::Scenario& scenario, double share,
+                                       const tissue::Uniaxial* network = nullptr);
+
 [[nodiscard]] contact::LayerContact make_layer(const scenario::Scenario& scenario,
                                                const Finger& finger);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -21,16 +22,42 @@ using scenario::Scenario;
 
 constexpr double meshing_time = 120.0;  // s, that TetGen may take
 
-// Lumps get numbers that no shape or file uses, in the order of the scenario.
-constexpr int first_lump = 1'000'000'000;
+// Lumps and slabs get numbers that no shape or file uses, in the order of the scenario.
+constexpr int first_own = 1'000'000'000;
 
 std::vector<geometry::Lump> lumps(const Scenario& scenario) {
   std::vector<geometry::Lump> found;
   for (std::size_t i = 0; i < scenario.regions.size(); ++i)
     if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i]))
       found.push_back({Vec3(lump->centre[0], lump->centre[1], lump->centre[2]), lump->radius,
-                       first_lump + static_cast<int>(i)});
+                       first_own + static_cast<int>(i)});
   return found;
+}
+
+// The heights between slabs and tissue, m, rising.
+std::vector<double> levels(const Scenario& scenario) {
+  std::set<double> heights;
+  for (const scenario::Region& region : scenario.regions)
+    if (const auto* slab = std::get_if<scenario::Slab>(&region))
+      heights.insert({slab->bottom, slab->top});
+  heights.erase(0.0);
+  return {heights.begin(), heights.end()};
+}
+
+// Cells end where slabs do: a centre tells on which side a tetrahedron lies.
+void number_slabs(geometry::TetMesh& mesh, const Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
+    const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i]);
+    if (slab == nullptr) continue;
+    mesh.regions.resize(mesh.tetrahedra.size(), 0);
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      double height = 0.0;
+      for (const int node : mesh.tetrahedra[t])
+        height += 0.25 * mesh.nodes[static_cast<std::size_t>(node)].z();
+      if (slab->bottom < height && height < slab->top)
+        mesh.regions[t] = first_own + static_cast<int>(i);
+    }
+  }
 }
 
 std::string path_in(const std::string& folder, const std::string& file) {
@@ -82,11 +109,13 @@ geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) 
   if (box != nullptr) volume = size.prod();
   if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh)) {
     mesh = geometry::cuboid(size, kuhn->cells, geometry::CellPattern::kuhn,
-                            grading(scenario, size, kuhn->grading));
+                            grading(scenario, size, kuhn->grading), levels(scenario));
+    number_slabs(mesh, scenario);
     name = "the kuhn mesh";
   } else if (const auto* mirrored = std::get_if<scenario::Mirrored>(&scenario.tissue.mesh)) {
     mesh = geometry::cuboid(size, mirrored->cells, geometry::CellPattern::mirrored,
-                            grading(scenario, size, mirrored->grading));
+                            grading(scenario, size, mirrored->grading), levels(scenario));
+    number_slabs(mesh, scenario);
     name = "the mirrored mesh";
   } else if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh)) {
     mesh = tetgen_mesh(scenario, *tetgen, folder);
@@ -106,7 +135,7 @@ void number_regions(geometry::TetMesh& mesh, const Scenario& scenario) {
   const auto substance = [&](int number) {
     for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
       const auto* tagged = std::get_if<scenario::TaggedRegion>(&scenario.regions[i]);
-      if (tagged != nullptr ? tagged->tag != number : first_lump + static_cast<int>(i) != number)
+      if (tagged != nullptr ? tagged->tag != number : first_own + static_cast<int>(i) != number)
         continue;
       used[i] = 1;
       return static_cast<int>(i) + 1;

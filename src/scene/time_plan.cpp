@@ -15,14 +15,13 @@ TimePlan plan_time(const scenario::Scenario& scenario, const Specimen& specimen,
   const scenario::Solver& solver = scenario.solver;
   TimePlan plan;
   plan.time_step = solver.time_step.value_or(scenario.output.interval);
-  const double squared =
-      specimen.law.instantaneous_ratio() *
-          tissue::largest_frequency_squared(specimen.network, specimen.held) +
-      contact.squared;
-  // dt^2 omega^2 + dt C sum w^2 / m = 4: the dashpot's rate is that of the step before
+  const double squared = specimen.law.instantaneous_ratio() *
+                             tissue::largest_frequency_squared(specimen.network, specimen.held) +
+                         contact.squared;
+  // dt^2 omega^2 + dt C sum w^2 / m = 4: the dashpot's rate is that of the step before;
+  // docs/theory.md (42), (76)
   const double damping = contact.damping;
-  plan.limit =
-      (std::sqrt(damping * damping + 16.0 * squared) - damping) / (2.0 * squared);
+  plan.limit = (std::sqrt(damping * damping + 16.0 * squared) - damping) / (2.0 * squared);
   plan.frequency_squared = 4.0 / (plan.limit * plan.limit);
 
   constexpr double safety = 0.9;

@@ -39,13 +39,13 @@ enum class Volume { none, tetrahedron, nodal };
 // for every region that meets there: a share of K instead would lock again as nu nears 1/2. With
 // Volume::none there is no bulk modulus at all. Needs tetrahedra of positive volume and a network
 // made of this mesh. After Delingette 2008 (the element by its edges) and Bonet and Burton 1998
-// (the average).
+// (the average).                                                      docs/theory.md (65), (66)
 void couple(Network& network, const geometry::TetMesh& mesh, std::span<const Isotropic> tissues,
             Volume volume, double own_share);
 
 // Adds the volume term of springs that are independent otherwise: volume_modulus() times the change
 // of each tetrahedron's volume, or of the volume averaged as above. Regions at nu = 1/4 need none.
-// The springs' stiffness stays what it was.
+// The springs' stiffness stays what it was.                               docs/theory.md (66)
 void add_volume(Network& network, const geometry::TetMesh& mesh, std::span<const Isotropic> tissues,
                 Volume volume);
 

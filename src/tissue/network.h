@@ -12,7 +12,7 @@
 namespace palpate::tissue {
 
 // The six springs of a tetrahedron where they pull on each other: their tensions are this matrix
-// times their elongations.
+// times their elongations.                                                docs/theory.md (65)
 struct CoupledSprings {
   std::array<int, 6> springs{};
   Eigen::Matrix<double, 6, 6> stiffness;  // N/m, symmetric
@@ -20,6 +20,7 @@ struct CoupledSprings {
 
 // A pressure against the change of a volume, which is averaged over the tetrahedra around a node:
 // the energy is 1/2 stiffness (sum of dilation * elongation over its springs)^2.
+//                                                                         docs/theory.md (66)
 struct SharedVolume {
   std::vector<int> springs;
   std::vector<double> dilation;  // 1/m, one a spring

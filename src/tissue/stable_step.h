@@ -14,7 +14,7 @@ namespace palpate::tissue {
 
 // omega_max^2 in 1/s^2 of M^-1 K with the held degrees of freedom taken out, by Lanczos with full
 // reorthogonalisation; the residual is added, so that the answer is an upper bound of the
-// eigenvalue found, and never above the safe one.
+// eigenvalue found, and never above the safe one.                         docs/theory.md (42)
 [[nodiscard]] double largest_frequency_squared(const Network& network, std::span<const char> held);
 
 }  // namespace palpate::tissue

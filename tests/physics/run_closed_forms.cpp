@@ -50,8 +50,9 @@ TEST(ClosedForms, LayersOfThreeTissues) {
         << id;
     // The map of the layer's own pressure integrates to the force.
     for (const auto& finding : record.findings)
-      if (finding.name == "pressure_map_imbalance")
+      if (finding.name == "pressure_map_imbalance") {
         EXPECT_LT(std::get<double>(finding.value), 2e-3);  // 128 pixels a side
+      }
   }
 }
 

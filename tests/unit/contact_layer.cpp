@@ -13,6 +13,8 @@
 namespace palpate::contact {
 namespace {
 
+constexpr double last_chi = 3.0;  // of one layer
+
 constexpr double pi = std::numbers::pi;
 
 Layer bonded(double poisson_ratio, double share = 1.0) {
@@ -230,7 +232,7 @@ TEST(LayerLaw, GrowsSmoothly) {
   for (const Layer& layer : layers()) {
     const LayerLaw law(layer);
     constexpr double step = 1e-3;
-    for (double chi = step; chi < LayerLaw::last_chi - step; chi += step) {
+    for (double chi = step; chi < last_chi - step; chi += step) {
       const double before = law.force_factor(chi - step), here = law.force_factor(chi),
                    after = law.force_factor(chi + step);
       ASSERT_LT(before, here) << name(layer) << " chi " << chi;
@@ -242,7 +244,7 @@ TEST(LayerLaw, GrowsSmoothly) {
       ASSERT_NEAR((after - before) / (2.0 * step), law.force_slope(chi), 1e-5 * here);
       ASSERT_GT(law.stiffness_factor(chi), here) << name(layer) << " chi " << chi;
     }
-    EXPECT_TRUE(std::isfinite(law.force_factor(LayerLaw::last_chi)));
+    EXPECT_TRUE(std::isfinite(law.force_factor(last_chi)));
   }
 }
 
@@ -265,8 +267,8 @@ TEST(LayerLaw, FindsTheDepthOfALoad) {
       // Rounding of the load alone.
       EXPECT_NEAR(law.chi(load).value(), chi, 1e-15 * chi) << name(layer);
     }
-    const double most = 27.0 * law.force_factor(LayerLaw::last_chi);
-    EXPECT_EQ(law.chi(most).value(), LayerLaw::last_chi);
+    const double most = 27.0 * law.force_factor(last_chi);
+    EXPECT_EQ(law.chi(most).value(), last_chi);
     EXPECT_FALSE(law.chi(most * (1.0 + 1e-12)).has_value());
     EXPECT_FALSE(law.chi(std::nan("")).has_value());
     EXPECT_EQ(law.chi(-1.0).value(), 0.0);
@@ -275,7 +277,7 @@ TEST(LayerLaw, FindsTheDepthOfALoad) {
 
 TEST(LayerLaw, KnowsNothingBeyondItsTable) {
   const LayerLaw law(bonded(0.5));
-  for (const double chi : {LayerLaw::last_chi * (1.0 + 1e-15), 10.0, -1e-9, std::nan("")}) {
+  for (const double chi : {last_chi * (1.0 + 1e-15), 10.0, -1e-9, std::nan("")}) {
     EXPECT_TRUE(std::isnan(law.force_factor(chi)));
     EXPECT_TRUE(std::isnan(law.force_slope(chi)));
     EXPECT_TRUE(std::isnan(law.stiffness_factor(chi)));
@@ -318,7 +320,7 @@ TEST(LayerContact, EndsOnBothSides) {
     EXPECT_EQ(contact.depth(none).value(), 0.0);
   }
   const double last = contact.last_depth();
-  EXPECT_DOUBLE_EQ(layer_chi(last, radius, thickness), LayerLaw::last_chi);
+  EXPECT_DOUBLE_EQ(layer_chi(last, radius, thickness), last_chi);
   EXPECT_TRUE(std::isfinite(contact.force(0.999999 * last)));
   EXPECT_TRUE(std::isnan(contact.force(1.000001 * last)));
   EXPECT_TRUE(std::isnan(contact.stiffness(1.000001 * last)));

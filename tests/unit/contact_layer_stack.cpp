@@ -1,0 +1,114 @@
+// Several layers on each other: as one where they are alike, and where one of them is rigid.
+#include "contact/layer_stack.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/layer.h"
+#include "contact/layer_sinking.h"
+
+namespace palpate::contact {
+namespace {
+
+constexpr LayerBase bases[] = {LayerBase::bonded, LayerBase::frictionless};
+
+Layer alike(double nu, LayerBase base) {
+  return {.poisson_ratio = nu, .base = base, .below = {{0.3, 1.0, nu}, {0.5, 1.0, nu}}};
+}
+
+// A skin of 3 of 20 mm on what is `stiffness` times as stiff.
+Layer skin_on(double stiffness, double nu_below = 0.45) {
+  return {.poisson_ratio = 0.45, .below = {{0.85, stiffness, nu_below}}};
+}
+
+TEST(LayerStack, OfOneTissueIsOneLayer) {
+  for (const LayerBase base : bases)
+    for (const double nu : {0.0, 0.33, 0.5}) {
+      const Layer one{.poisson_ratio = nu, .base = base};
+      for (const double ratio : {0.05, 0.3, 1.0}) {
+        const LayerSolution want = solve_layer(ratio, one);
+        const LayerSolution got = solve_layer(ratio, alike(nu, base));
+        // 9e-8: what the four waves leave near u = 0.
+        EXPECT_NEAR(got.depth, want.depth, 2e-7) << nu << " " << ratio;
+        EXPECT_NEAR(got.force, want.force, 2e-7) << nu << " " << ratio;
+        EXPECT_NEAR(got.punch, want.punch, 2e-7) << nu << " " << ratio;
+      }
+    }
+}
+
+// On what does not yield the top layer is alone.
+TEST(LayerStack, OnARigidLayerIsTheTopOne) {
+  for (const double nu : {0.1, 0.45, 0.5}) {
+    const Layer top{.poisson_ratio = nu};
+    for (const Layer& stack :
+         {Layer{.poisson_ratio = nu, .below = {{0.6, 1e9, 0.3}}},
+          Layer{.poisson_ratio = nu, .below = {{0.4, 1e9, 0.3}, {0.2, 1e9, 0.2}}},
+          Layer{.poisson_ratio = nu, .base = LayerBase::frictionless, .below = {{0.6, 1e9, 0.3}}}})
+      for (const double ratio : {0.1, 0.5, 1.5})  // a over the top layer, 0.4 H
+        EXPECT_NEAR(
+            solve_layer(0.4 * ratio, stack).force_factor() / solve_layer(ratio, top).force_factor(),
+            1.0, 1e-7)
+            << nu << " " << ratio;
+  }
+}
+
+// A small contact feels the top alone, and at once whether it lies on something softer or stiffer.
+TEST(LayerStack, SofterBelowIsSofter) {
+  double before = 0.0;
+  for (const double stiffness : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+    const double factor = LayerLaw(skin_on(stiffness)).force_factor(0.16);
+    EXPECT_GT(factor, before) << stiffness;
+    before = factor;
+    EXPECT_NEAR(LayerLaw(skin_on(stiffness)).force_factor(1e-6), 1.0, 1e-4) << stiffness;
+  }
+  EXPECT_LT(LayerLaw(skin_on(0.1)).force_factor(0.16), 0.7);
+  EXPECT_LT(layer_first_coefficient(skin_on(0.1)), 0.0);
+}
+
+// 1e-5, as the header says.
+TEST(LayerStack, TheLawFollowsTheEquation) {
+  for (const Layer& layer : {skin_on(0.1), skin_on(10.0, 0.3), alike(0.3, LayerBase::bonded)}) {
+    const LayerLaw law(layer);
+    for (double part = 0.01; part < 1.0; part += 0.13) {
+      const double chi = part * law.last_chi();
+      const LayerEquation equation(layer, layer_resolution(2.0 * law.last_chi() / layer.top()));
+      const LayerSolution exact = equation.solve_chi(chi);
+      EXPECT_NEAR(law.force_factor(chi) / exact.force_factor(), 1.0, 1e-5) << chi;
+      EXPECT_NEAR(law.radius_factor(chi) / exact.radius_factor(), 1.0, 1e-5) << chi;
+      const double step = 1e-4 * chi;
+      EXPECT_NEAR(law.force_slope(chi),
+                  (law.force_factor(chi + step) - law.force_factor(chi - step)) / (2.0 * step),
+                  1e-5 * std::abs(law.force_slope(chi)) + 1e-6)
+          << chi;
+    }
+  }
+}
+
+TEST(LayerStack, TheLawFindsTheDepthOfALoad) {
+  for (const double stiffness : {0.01, 0.1, 10.0}) {
+    const LayerLaw law(skin_on(stiffness));
+    for (double part = 1e-4; part < 1.0; part *= 3.0) {
+      const double chi = part * law.last_chi();
+      const auto found = law.chi(chi * chi * chi * law.force_factor(chi));
+      ASSERT_TRUE(found.has_value()) << stiffness << " " << chi;
+      EXPECT_NEAR(*found, chi, 1e-13 * chi) << stiffness;
+    }
+  }
+}
+
+// Far from the force the whole stack is felt, near it the top layer: the two tables meet.
+TEST(LayerStack, SinkingGoesOnFromTableToTable) {
+  const LayerSinking sinking(skin_on(0.3));
+  const double border = 12.0 * 0.15;
+  EXPECT_NEAR(sinking.gamma(border * (1.0 + 1e-12)), sinking.gamma(border * (1.0 - 1e-12)), 3e-5);
+  EXPECT_NEAR(sinking.gamma(12.0), 1.0 / 12.0, 1e-6);  // the rigid base holds it
+  // One tissue in layers is one layer.
+  const LayerSinking one(Layer{.poisson_ratio = 0.3});
+  const LayerSinking split(alike(0.3, LayerBase::bonded));
+  for (const double rho : {0.0, 0.1, 0.5, 1.0, 2.3, 5.0, 11.0})
+    EXPECT_NEAR(split.gamma(rho), one.gamma(rho), 1e-6) << rho;
+}
+
+}  // namespace
+}  // namespace palpate::contact
