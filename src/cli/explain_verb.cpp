@@ -194,7 +194,7 @@ class Explanation {
         text += "; " + region_size(scene_.specimen->mesh, static_cast<int>(i) + 1);
       line(text);
     }
-    if (!regions.empty() && !scene_.scenario.uniform())
+    if (!scene::all_slabs(scene_.scenario) && !scene_.scenario.uniform())
       line(
           "  note         Hertz takes the tissue's own E and nu, whatever region the finger meets");
   }

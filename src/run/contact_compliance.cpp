@@ -112,9 +112,10 @@ double Contacts::sinking(const MeshAnswer& mesh, const contact::Patch& patch,
     double moved = read.between(-patch.normal, mesh.nodes[static_cast<std::size_t>(vertex)],
                                 -pressed.patch.normal, nodes, pressed.load.shares, mesh.freedoms);
     if (consistent)
-      moved -= aligned * rings_.half_space(vertex, pressed.load, plane_modulus(), spacing) -
-               stiffer_layer(aligned, surface_->surface().vertices[static_cast<std::size_t>(vertex)],
-                             pressed);
+      moved -=
+          aligned * rings_.half_space(vertex, pressed.load, plane_modulus(), spacing) -
+          stiffer_layer(aligned, surface_->surface().vertices[static_cast<std::size_t>(vertex)],
+                        pressed);
     sum += reading.weights[a] * moved;
   }
   return sum;
@@ -163,8 +164,7 @@ double Contacts::stiffer_layer(double aligned, const Vec3& at, const SphereConta
   const auto& vertices = surface_->surface().vertices;
   double sum = 0.0;
   for (std::size_t j = 0; j < pressed.load.vertices.size(); ++j) {
-    const double r =
-        (at - vertices[static_cast<std::size_t>(pressed.load.vertices[j])]).norm();
+    const double r = (at - vertices[static_cast<std::size_t>(pressed.load.vertices[j])]).norm();
     sum += pressed.load.shares[j] * scene_->specimen->sinking->gamma(r / thickness);
   }
   return aligned * sum / (std::numbers::pi * plane_modulus() * thickness);

@@ -164,7 +164,8 @@ void Contacts::find_near_field(const MovingMesh& moving, const std::vector<Spher
     for (Eigen::Index j = 0; j < compliance_.cols(); ++j)
       if (j != own) others += std::abs(compliance_(own, j) - part * still_by_force_(own, j));
     if (others > 0.0) {
-      const double spare = 1.0 / stiffness + compliance_(own, own) - part * still_by_force_(own, own);
+      const double spare =
+          1.0 / stiffness + compliance_(own, own) - part * still_by_force_(own, own);
       const double most = std::max(0.0, 0.5 * spare / others - 1.0) * moving.time_step / spare;
       damping = std::min(damping, most);
     }
@@ -213,8 +214,7 @@ bool Contacts::release(const MovingMesh& moving, std::vector<SphereContact>& con
   double least = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     SphereContact& contact = contacts[i];
-    contact.radiated =
-        near_[i].damping / moving.time_step * (contact.depth - near_[i].past.depth);
+    contact.radiated = near_[i].damping / moving.time_step * (contact.depth - near_[i].past.depth);
     const double push = contact.elastic + contact.radiated / moving.slope;
     if (push >= least) continue;
     least = push;

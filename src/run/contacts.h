@@ -29,17 +29,17 @@ struct SphereContact {
   int sphere = 0;
   contact::Patch patch;
   contact::ContactLaw law;
-  double approach = 0.0;     // m, of the sphere into the skin as the mesh's own motion leaves it
-  double depth = 0.0;        // m, h of eq. (2)
-  double force = 0.0;        // N, along the patch's normal
-  double elastic = 0.0;      // N, of it, the law's, were the tissue relaxed
-  double radiated = 0.0;     // N, of it, what makes waves too short for the mesh
-  double stiffness = 0.0;    // N/m, of it over the finger's place within a step
-  Vec3 drag = Vec3::Zero();  // N, tangential, on the tissue
+  double approach = 0.0;        // m, of the sphere into the skin as the mesh's own motion leaves it
+  double depth = 0.0;           // m, h of eq. (2)
+  double force = 0.0;           // N, along the patch's normal
+  double elastic = 0.0;         // N, of it, the law's, were the tissue relaxed
+  double radiated = 0.0;        // N, of it, what makes waves too short for the mesh
+  double stiffness = 0.0;       // N/m, of it over the finger's place within a step
+  Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue
   Vec3 stretch = Vec3::Zero();  // m, of finger against tissue since the contact last slipped
-  contact::Spread load;  // of the pressure
-  contact::Spread wide;  // of what loads a mesh whose inertia reaches the force; else empty
-  NodalContact nodal;    // of `resolved`; else empty
+  contact::Spread load;         // of the pressure
+  contact::Spread wide;         // of what loads a mesh whose inertia reaches the force; else empty
+  NodalContact nodal;           // of `resolved`; else empty
   bool on_crease = false;
   bool one_sided = false;  // its curvature
 };
@@ -78,7 +78,7 @@ struct MovingMesh {
 struct MeshAnswer {
   std::span<const int> nodes;  // of every vertex of the skin; -1: stands
   Eigen::Index freedoms = 0;
-  bool whole = false;  // all of the specimen moves
+  bool whole = false;                               // all of the specimen moves
   const integrate::Vector* displacement = nullptr;  // m, without these contacts' own forces
   Influence* one_tissue = nullptr;  // the same of a mesh that is all of one tissue, where it is not
   Influence* influence = nullptr;   // of these contacts' forces on it
@@ -107,7 +107,8 @@ class Contacts {
   // The forces on the mesh, N.
   [[nodiscard]] static integrate::Vector load(const Touch& touch, const MeshAnswer& mesh);
 
-  // What the pressures' own spreads would load beyond the wide ones that do, relaxed, N; it sums to 0.
+  // What the pressures' own spreads would load beyond the wide ones that do, relaxed, N; it sums to
+  // 0.
   [[nodiscard]] static integrate::Vector finer_load(const Touch& touch, const MeshAnswer& mesh);
 
   // What viscosity has made of the forces that find() found for a mesh in motion.
@@ -176,13 +177,13 @@ class Contacts {
       known_curvature_;      // by triangle, at rest
   std::vector<Vec3> moved_;  // displacement of every vertex, m
   std::vector<geometry::SmoothSurface::Foot> feet_;
-  std::vector<double> shares_;  // the greatest at every vertex
-  Eigen::MatrixXd compliance_;  // m/N
+  std::vector<double> shares_;        // the greatest at every vertex
+  Eigen::MatrixXd compliance_;        // m/N
   Eigen::MatrixXd whole_compliance_;  // m/N, with what the mesh's motion adds
-  Eigen::VectorXd softness_;         // m/N, its diagonal
-  Eigen::VectorXd motion_;           // m, of a moving mesh under the contacts, less statics
-  Eigen::MatrixXd moving_by_force_;  // m/N, to the end of the step
-  Eigen::MatrixXd still_by_force_;   // m/N, in statics
+  Eigen::VectorXd softness_;          // m/N, its diagonal
+  Eigen::VectorXd motion_;            // m, of a moving mesh under the contacts, less statics
+  Eigen::MatrixXd moving_by_force_;   // m/N, to the end of the step
+  Eigen::MatrixXd still_by_force_;    // m/N, in statics
   std::vector<NearField> near_;
   double radiation_ = 0.0;  // m s/N: C / F'^2 of a half-space
   std::vector<Past> past_;

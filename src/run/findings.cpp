@@ -171,7 +171,7 @@ class Findings {
     const bool mesh = scene_.specimen != nullptr;
     const bool hertz = !mesh && !scene_.layer;
     const double depth = peak.indentation / scene_.law().radius;
-    if (depth > 0.1 && !scene_.deep)
+    if (depth > 0.1 && !scene_.deep && coupling != contact::Coupling::resolved)
       remark("the indentation reached " + rounded_text(depth, 2) +
              " of the sphere's radius: Hertz assumes far less, and at a quarter of the radius true "
              "forces differ by up to 6 % (docs/paper.md, 13)" +
@@ -201,6 +201,12 @@ class Findings {
     if (!mesh && e.inertia > tolerance)
       remark("a formula has no mass: waves would add about " + percent(e.inertia) +
              " to the force of a press this fast");
+    if (mesh && e.inertia > tolerance && !scene::inertia_reaches_force(scene_.scenario) &&
+        coupling != contact::Coupling::series && coupling != contact::Coupling::resolved)
+      remark("the tissue's mass does not reach the contact force: waves would add about " +
+             percent(e.inertia) +
+             " at this rate; take an integrator with inertia and `viscosity = \"none\"`, or "
+             "`coupling = \"resolved\"`");
     if (mesh && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
              percent(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +

@@ -68,8 +68,8 @@ std::optional<std::string> PressedMesh::meet(const Vec3& finger, MovingMesh movi
 }
 
 std::optional<std::string> PressedMesh::step_implicitly(integrate::Implicit& method,
-                                                        const Vec3& finger,
-                                                        ContactHistory& history, Touch& touch) {
+                                                        const Vec3& finger, ContactHistory& history,
+                                                        Touch& touch) {
   const Vector friction = drag_load(touch);
   method.begin(state_, time_step_, MemoryRule::first_order);
   if (!method.linearise(state_.displacement, friction))

@@ -213,10 +213,11 @@ class Checker {
         continue;
       }
       if (slab->top <= slab->bottom)
-        problem(path + ".top", "is not above `bottom`; exchange the two");
+        problem(path + ".top", "`top` is not above `bottom`; exchange the two");
       else if (slab->top >= box->size[2])
         problem(path + ".top",
-                "reaches the cuboid's top, which the finger presses; make that layer the `tissue` "
+                "`top` reaches the cuboid's top, which the finger presses; make that layer the "
+                "`tissue` "
                 "and what lies below it a `slab`");
       for (const auto& [bottom, top] : taken)
         if (slab->bottom < top && bottom < slab->top)

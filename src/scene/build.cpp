@@ -55,7 +55,7 @@ PressedNodes contact_frequency_squared(const Scene& scene, double depth, double 
 ContactRate contact_rate(const Scene& scene) {
   if (scene.scenario.uniform()) return {};
   const double deepest = deepest_travel(scene.scenario, scene.law());
-  if (!inertia_reaches_force(scene)) {
+  if (!inertia_reaches_force(scene.scenario)) {
     if (scene.scenario.contact.coupling != contact::Coupling::series) return {};
     return {.squared = contact_frequency_squared(scene, deepest, 0.0).frequency_squared};
   }

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
+#include "scene/time_plan.h"
 
 namespace palpate::scene {
 namespace {
@@ -94,7 +95,7 @@ class Chooser {
             (box ? ", the sides take " + percent(e.sides)
                  : ", the body's width changes up to " + percent(e.curved_body)));
     ask("layer?", "what the sides take of the force", box ? e.sides : 1.0, limit,
-        "yes: one thickness of one flat tissue, exactly known",
+        "yes: flat tissue of known thickness, exactly known",
         box ? "no: the sides matter" : "no: the tissue is not flat");
     ask("deep?", "|F / F_Hertz - 1| of neo-Hookean tissue", e.deep, limit, "no: h^(3/2) holds",
         "yes: times the factor of a deep press on `hertz`");
@@ -105,8 +106,8 @@ class Chooser {
         "no: slow against the tissue's own time", viscous_answer());
     ask("inertia?", "what waves add to the force", e.inertia, limit,
         "no: the press is slow against them", inertia_answer());
-    ask("shape or inclusion?", "reasons that only a mesh knows", beyond ? 1.0 : 0.0, 1.0,
-        "no: a formula knows this shape", beyond ? "yes: " + *beyond : "");
+    ask("shape or inclusion?", "reasons that only a mesh knows", beyond && beyond_flat ? 1.0 : 0.0,
+        1.0, "no: a formula knows this shape", beyond ? "yes: " + *beyond : "");
 
     drop_viscosity_ = e.viscous < 0.2 * limit;
     quasi_static_ = e.inertia < limit;
@@ -120,17 +121,21 @@ class Chooser {
          .cannot = beyond.value_or("")});
     add({.model = Model::layer,
          .error = 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt * e.sides + still,
-         .seconds = 0.02,
+         .seconds = asked_.regions.empty() ? 0.02 : 0.5,
          .cannot = beyond_flat.value_or("")});
     if (endless) {
       for (const Model model : {Model::mass_spring, Model::coupled_springs})
         add({.model = model, .cannot = "a `half_space` has no end to be meshed to"});
     } else {
+      scenario::Scenario moving = asked_;
+      moving.solver.model = Model::coupled_springs;
+      const double motionless = !quasi_static_ && !inertia_reaches_force(moving) ? e.inertia : 0.0;
       const auto error = [&](const MeshError& of) {
-        return of.flat + of.sides * e.sides + (box ? 0.0 : of.curved + of.size * e.curved_body);
+        return motionless + of.flat + of.sides * e.sides +
+               (box ? 0.0 : of.curved + of.size * e.curved_body);
       };
       // A network's own nu blurs what another tissue changes.
-      const double mixed = asked_.regions.empty() ? 0.0 : 0.05;
+      const double mixed = all_slabs(asked_) ? 0.0 : 0.05;
       add_mesh(Model::mass_spring, error(mass_spring_error) + mixed);
       add_mesh(Model::coupled_springs, error(coupled_error));
     }
@@ -145,7 +150,13 @@ class Chooser {
   }
 
   [[nodiscard]] std::string inertia_answer() const {
-    return "yes: the tissue's mass takes part, on a mesh that moves";
+    scenario::Scenario moving = asked_;
+    moving.solver.model = Model::coupled_springs;
+    if (inertia_reaches_force(moving))
+      return "yes: the tissue's mass takes part, on a mesh that moves";
+    return "yes, but not in the force of this scenario: `consistent` knows it with `viscosity` "
+           "none, "
+           "nodal_drag, or a solid that relaxes in the contact too; else take `resolved`";
   }
 
   void add(Rung rung) { choice_.rungs.push_back(std::move(rung)); }

@@ -125,7 +125,12 @@ Estimates estimate(const scenario::Scenario& scenario) {
             : infinite;
   }
   if (box != nullptr) {
-    found.sides = found.tissue_share * side_effect(scenario, *box, found.contact_radius);
+    // What sides take comes from depth: from the softest layer.
+    double softest = *tissue.young_modulus;
+    for (const scenario::Region& region : scenario.regions)
+      softest = std::min(softest, *scenario::substance(region).young_modulus);
+    found.sides = found.tissue_share * *tissue.young_modulus / softest *
+                  side_effect(scenario, *box, found.contact_radius);
   } else if (shape) {
     // A curved body of the width w gives way as a whole: to the order of a / (w/2).
     const Vec3 size = geometry::extent(*shape);

@@ -39,19 +39,18 @@ TimePlan plan_time(const scenario::Scenario& scenario, const Specimen& specimen,
   return plan;
 }
 
-bool inertia_reaches_force(const Scene& scene) {
+bool inertia_reaches_force(const scenario::Scenario& scenario) {
   using tissue::Viscosity;
-  const scenario::Scenario& scenario = scene.scenario;
-  if (scenario.uniform() || !scene.specimen ||
+  if (scenario.uniform() || !scenario.meshed() ||
       scenario.contact.coupling != contact::Coupling::consistent ||
       scenario.solver.integrator == scenario::Solver::Integrator::quasi_static ||
-      scene.specimen->kinematics != tissue::Kinematics::linear)
+      scenario.solver.kinematics != tissue::Kinematics::linear)
     return false;
-  switch (scene.specimen->law.kind) {
+  switch (scenario.tissue.viscosity) {
     case Viscosity::none:
     case Viscosity::nodal_drag: return true;
     case Viscosity::standard_linear_solid:
-    case Viscosity::prony: return !scene.relaxation.elastic();
+    case Viscosity::prony: return scenario.viscous_contact();
     case Viscosity::kelvin_voigt: break;
   }
   return false;

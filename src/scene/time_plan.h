@@ -35,7 +35,7 @@ struct TimePlan {
 // loads is known, so that what is left of its motion is inertia. It is not known of springs that
 // turn, nor of a mesh whose viscosity the contact leaves out; and Kelvin-Voigt's contact has a
 // dashpot, which would need the force within the step that it makes.    docs/theory.md (74)
-[[nodiscard]] bool inertia_reaches_force(const Scene& scene);
+[[nodiscard]] bool inertia_reaches_force(const scenario::Scenario& scenario);
 
 // D = C / F'^2, m s/N: the dashpot C that a half-space of the network's E and nu and the tissue's
 // density is to a contact of the stiffness F', the same for every radius; by Lysmer's analogue

@@ -264,19 +264,23 @@ void auto_table() {
 }  // namespace
 }  // namespace palpate
 
-// The argument names the gnuplot script of the figure.
+// The first argument names the gnuplot script of the figure; a second one the only table to write:
+// `blocks`, `uniform` or `auto`.
 int main(int count, char** arguments) {
-  std::printf(
-      "# How accurate each rung is\n\nWritten by `./dev accuracy`, which runs every number on this "
-      "page anew.\n\n");
-  palpate::blocks_table();
-  if (count > 1) {
-    palpate::figure(arguments[1]);
+  const std::string only = count > 2 ? arguments[2] : "";
+  const auto wanted = [&](const char* table) { return only.empty() || only == table; };
+  if (only.empty())
+    std::printf(
+        "# How accurate each rung is\n\nWritten by `./dev accuracy`, which runs every number on "
+        "this page anew.\n\n");
+  if (wanted("blocks")) {
+    palpate::blocks_table();
+    if (count > 1) palpate::figure(arguments[1]);
     std::printf(
         "\n![Force against nodes](accuracy.svg)\n\nThe same at 1 mm on TetGen's meshes; the grey "
         "band is the truth. The paper's own springs, which know nothing\nof the tissue's nu, stay "
         "near it.\n");
   }
-  palpate::uniform_table();
-  palpate::auto_table();
+  if (wanted("uniform")) palpate::uniform_table();
+  if (wanted("auto")) palpate::auto_table();
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/error.h"
 #include "geometry/cuboid.h"
 #include "geometry/mesh_check.h"
 
@@ -91,6 +92,29 @@ TEST(Graded, cells_end_where_the_hyperbolic_sine_says) {
   expect_axis(0, 0.030, 0.030, 5);
   expect_axis(1, 0.030, 0.030, 6);
   expect_axis(2, 0.010, 0.010, 6);
+}
+
+// Tissue that changes at a height changes between cells.
+TEST(Graded, cells_end_at_every_level) {
+  const std::vector<double> levels{0.002, 0.017, 0.018};
+  for (const double ratio : {1.0, 8.0}) {
+    const TetMesh mesh = cuboid({0.060, 0.060, 0.020}, {2, 2, 6}, CellPattern::mirrored,
+                                {ratio, Vec3(0.030, 0.030, 0.020)}, levels);
+    const std::vector<double> z = ends(mesh, 2);
+    EXPECT_EQ(z.size(), 7U);
+    EXPECT_EQ(z.front(), 0.0);
+    EXPECT_EQ(z.back(), 0.020);
+    for (const double level : levels) EXPECT_EQ(std::count(z.begin(), z.end(), level), 1) << level;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+      EXPECT_GT(signed_volume(mesh, static_cast<int>(t)), 0.0);
+  }
+  try {
+    (void)cuboid({0.060, 0.060, 0.020}, {2, 2, 3}, CellPattern::kuhn, {}, levels);
+    FAIL() << "no error";
+  } catch (const MeshError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a box of 3 cells in height cannot end some at 3 heights; ask for more cells");
+  }
 }
 
 TEST(Graded, sizes_grow_away_from_the_finest_place_and_two_sides_share_the_cells) {

@@ -207,8 +207,22 @@ TEST(Regions, AreRefusedAtTheirPlace) {
       {"[tissue]\nmesh = { kind = \"mirrored\" }\n[[region]]\nkind = \"sphere\"\n",
        "press.toml:5:8: a `sphere` region is meshed by TetGen only; set `tissue.mesh = { kind = "
        "\"tetgen\", nodes = 1500 }`"},
+      {"[[region]]\nkind = \"slab\"\n[tissue]\nmesh = { kind = \"tetgen\", nodes = 300 }\n",
+       "press.toml:4:1: a `slab` lies in a `cuboid` of `kuhn` or `mirrored` cells only; set "
+       "`tissue.mesh = { kind = \"mirrored\", cells = [8, 8, 8] }`, or mesh the layers yourself "
+       "and "
+       "name them by `tag`"},
+      {"[[region]]\nkind = \"slab\"\nbottom = \"10 mm\"\n",
+       "press.toml:4:1: `top` is not above `bottom`; exchange the two"},
+      {"[[region]]\nkind = \"slab\"\ntop = \"30 mm\"\n",
+       "press.toml:6:7: `top` reaches the cuboid's top, which the finger presses; make that layer "
+       "the "
+       "`tissue` and what lies below it a `slab`"},
+      {"[[region]]\nkind = \"slab\"\n[[region]]\nkind = \"slab\"\nbottom = \"9 mm\"\ntop = "
+       "\"12 mm\"\n",
+       "press.toml:8:10: another `slab` lies there too; give them different heights"},
       {"[[region]]\nkind = \"lump\"\n",
-       "press.toml:5:8: `kind` does not know `lump`; it is one of tagged, sphere"},
+       "press.toml:5:8: `kind` does not know `lump`; it is one of tagged, sphere, slab"},
       {"[[region]]\ntag = -1\n",
        "press.toml:5:7: `tag` must be at least 0 and at most 1e+09, got `-1`; give a value in that "
        "range"},
