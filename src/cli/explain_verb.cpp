@@ -304,6 +304,8 @@ class Explanation {
                              rounded_text(rung.seconds, 1) + " s to set up"
                        : "cannot: " + rung.cannot));
     }
+    if (const std::string text = scene_.choice.shortfall(); !text.empty())
+      line("  note         " + text);
   }
 
   void mesh(const scene::Specimen& specimen) {

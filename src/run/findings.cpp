@@ -147,9 +147,8 @@ class Findings {
     add("viscous_effect", expected_.viscous);
     add("inertia_effect", expected_.inertia);
     add("curvature_ratio", expected_.curvature_ratio);
-    for (const scene::Rung& rung : scene_.choice.rungs)
-      if (rung.model == scene_.scenario.solver.model && rung.cannot.empty())
-        add("predicted_error", rung.error);
+    if (const scene::Rung* rung = scene_.choice.taken()) add("predicted_error", rung->error);
+    if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
     const auto top = scene::top_curvature(scene_.scenario.tissue.shape);
     if (!top || peak.travel <= 0.0) return;
     geometry::Curvature curvature;

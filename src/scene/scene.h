@@ -43,6 +43,11 @@ struct Choice {
   bool given = false;         // the model was: there are no questions
   std::vector<Question> questions;
   std::vector<Rung> rungs;  // cheapest first
+
+  // Of the model that is taken; nothing where it is no rung.
+  [[nodiscard]] const Rung* taken() const;
+  // A sentence where `auto` found nothing within the tolerance; else empty.
+  [[nodiscard]] std::string shortfall() const;
 };
 [[nodiscard]] Choice choose(const scenario::Scenario& scenario);
 

@@ -10,6 +10,7 @@
 #include "auto_scenes.h"
 #include "base/text.h"
 #include "blocks.h"
+#include "run/extrapolation.h"
 #include "run/family.h"
 #include "scenario/words.h"
 
@@ -195,8 +196,8 @@ struct Reference {
   const char* kind = "";
 };
 
-// On a half-space the closed form itself; else coupled springs at 300, 600 and 1200 nodes, their
-// trend carried on in the square of the edge.
+// On a half-space the closed form itself; else coupled springs on three meshes, extrapolated as
+// `palpate reference` does.
 Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
   const auto& scenario = chosen.scenario;
   if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
@@ -211,11 +212,10 @@ Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
          std::string("solver.integrator=") + (fast ? "central_difference" : "quasi_static")});
     values.push_back(measure(run::run_case(scene::build(family.cases.front(), family), never)));
   }
-  // h^2 goes as N^(-2/3): 1200 over 600 nodes by 0.63
-  const double ratio = std::pow(0.5, 2.0 / 3.0);
-  const double limit = values[2] + (values[2] - values[1]) * ratio / (1.0 - ratio);
-  const double spread = std::max(std::abs(limit - values[2]), std::abs(values[2] - values[1]));
-  return {limit, spread / limit, "coupled springs, refined"};
+  const double spacings[] = {std::cbrt(1.0 / 300.0), std::cbrt(1.0 / 600.0),
+                             std::cbrt(1.0 / 1200.0)};
+  const run::Extrapolated limit = run::extrapolate(spacings, values);
+  return {limit.value, limit.error / limit.value, "coupled springs, refined"};
 }
 
 void auto_table() {
