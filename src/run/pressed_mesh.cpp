@@ -28,7 +28,7 @@ PressedMesh::PressedMesh(const scene::Scene& scene)
     : scene_(&scene),
       specimen_(&*scene.specimen),
       contacts_(scene),
-      inertia_(scene::inertia_reaches_force(scene)),
+      inertia_(scene::inertia_reaches_force(scene.scenario)),
       crept_(specimen_->law, memory_rule(scene)) {
   const auto& rings = scene.scenario.solver.rings;
   if (!rings) {
@@ -120,9 +120,8 @@ void PressedMesh::take(tissue::Part part, const std::vector<int>& start) {
   influence_.emplace(statics(factors_, body_->stiffness()));
   if (!specimen_->one_tissue) return;
   const auto& rings = scene_->scenario.solver.rings;
-  const tissue::Part alike =
-      rings ? tissue::part_around(*specimen_->one_tissue, start, *rings)
-            : tissue::whole_part(*specimen_->one_tissue);
+  const tissue::Part alike = rings ? tissue::part_around(*specimen_->one_tissue, start, *rings)
+                                   : tissue::whole_part(*specimen_->one_tissue);
   one_tissue_.emplace(statics(one_factors_, tissue::stiffness_matrix(alike.network, held)));
 }
 
