@@ -66,8 +66,8 @@ class Body {
   virtual void step_force(const Vector& displacement, std::span<const double> memory,
                           const TimeStep& step, Vector& force) const = 0;
   [[nodiscard]] virtual SplitMatrix step_stiffness(const Vector& displacement,
-                                                    std::span<const double> memory,
-                                                    const TimeStep& step) const = 0;
+                                                   std::span<const double> memory,
+                                                   const TimeStep& step) const = 0;
 };
 
 // What changes.

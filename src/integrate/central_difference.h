@@ -1,8 +1,8 @@
 // Central differences: eq. (12) of Chen 2007.
 #pragma once
 
-#include "base/cholesky.h"
 #include "integrate/body.h"
+#include "integrate/panel_factors.h"
 
 namespace palpate::integrate {
 
@@ -12,8 +12,9 @@ namespace palpate::integrate {
 enum class Start { consistent, paper };
 
 // Second order; stable for dt < 2 / omega_max whatever the damping, because mass, drag and
-// dashpots stand in the left matrix: a division when that is diagonal, a sparse Cholesky when
-// dashpots join nodes, factored once, or each step where they turn with the body.
+// dashpots stand in the left matrix: a product where that is diagonal, a sparse factorisation where
+// dashpots join nodes, made once. Where they turn with the body it is a preconditioner, made again
+// when they have turned so far that a step needs more than a dozen iterations.
 class CentralDifference {
  public:
   CentralDifference(const Body& body, double time_step, Start start);
@@ -27,18 +28,26 @@ class CentralDifference {
 
  private:
   void factor(const Vector& displacement);
+  void solve_dashpots(const State& state, bool consistent);
+  void solve_turned(const Vector& displacement);
 
   const Body* body_;
   double time_step_;
   Start start_;
   bool first_ = true;
   bool has_factors_ = false;
-  Vector before_;    // u(t) - u(t - dt)
-  Vector diagonal_;  // 2 M + D dt, where no dashpots are
-  Cholesky factors_;
-  SplitMatrix dashpots_;
+  Vector before_;         // u(t) - u(t - dt)
+  Vector diagonal_;       // 2 M + D dt, where no dashpots are
+  Vector inverse_;        // of the diagonal; 0 where held
+  Vector keep_;           // 2 M - D dt, and of a consistent first step:
+  Vector keep_first_;     // 2 M
+  PanelFactors factors_;  // of 2 M + D dt
   Vector force_;
   Vector right_;
+  Vector image_;     // of a vector under D or under 2 M + D dt
+  Vector residual_;  // of conjugate gradients, as the next two
+  Vector refined_;   // factors_ applied to it
+  Vector direction_;
 };
 
 }  // namespace palpate::integrate

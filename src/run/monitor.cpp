@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tissue/fast_vectors.h"
+
 namespace palpate::run {
 
 void EnergyMonitor::begin(const integrate::State& state) {
@@ -24,8 +26,9 @@ std::optional<std::string> EnergyMonitor::step(const integrate::State& before,
                                                const integrate::State& after,
                                                const integrate::Vector& load_before,
                                                const integrate::Vector& load_after) {
-  const integrate::Vector moved = after.displacement - before.displacement;
-  work_ += 0.5 * (load_before + load_after).dot(moved);
+  work_ += tissue::work_of_forces(static_cast<std::size_t>(after.displacement.size()),
+                                  load_before.data(), load_after.data(), before.displacement.data(),
+                                  after.displacement.data());
   lost_ += body_->dissipated(before, after);
   held_ = body_->stored(after) + body_->kinetic(after);
   if (!std::isfinite(held_) || !std::isfinite(work_))

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tissue/energy.h"
+#include "tissue/fast_vectors.h"
 
 namespace palpate::scene {
 
@@ -17,6 +18,7 @@ SpringBody::SpringBody(const tissue::Network& network, tissue::Kinematics kinema
       kinematics_(kinematics),
       law_(law),
       held_(std::move(held)),
+      fast_(network, kinematics, law),
       elongation_(network.ends.size()),
       tension_(network.ends.size()),
       effective_(network.ends.size()) {
@@ -56,10 +58,8 @@ void SpringBody::prepare(const integrate::TimeStep& step) const {
 
 void SpringBody::force(const Vector& displacement, std::span<const double> memory,
                        Vector& force) const {
-  tissue::elongations(*network_, kinematics_, displacement, elongation_);
-  tissue::elastic_elongations(law_, memory, elongation_, effective_);
-  tissue::tensions(*network_, effective_, tension_);
-  tissue::gather_forces(*network_, kinematics_, displacement, tension_, force);
+  if (!fast_.knows(displacement, memory)) fast_.look(displacement, memory);
+  fast_.force(force);
 }
 
 SplitMatrix SpringBody::stiffness() const { return tissue::stiffness_matrix(*network_, held_); }
@@ -74,10 +74,16 @@ SplitMatrix SpringBody::dashpots(const Vector& displacement) const {
 
 void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocity,
                                Vector& force) const {
-  tissue::elongation_rates(*network_, kinematics_, displacement, velocity, elongation_);
-  for (double& rate : elongation_) rate *= law_.time;
-  tissue::tensions(*network_, elongation_, tension_);
-  tissue::gather_forces(*network_, kinematics_, displacement, tension_, force);
+  // tau times the forces of the elongations that the velocity would give in a second
+  if (!dashpots_) dashpots_.emplace(*network_, tissue::Kinematics::linear, tissue::ViscousLaw{});
+  if (!linear() && (turned_at_.size() != displacement.size() || turned_at_ != displacement)) {
+    if (!fast_.stands_at(displacement)) fast_.look(displacement, memory_at(displacement));
+    dashpots_->turn_as(fast_);
+    turned_at_ = displacement;
+  }
+  dashpots_->look(velocity, {});
+  dashpots_->force(force);
+  force *= law_.time;
 }
 
 std::vector<double> SpringBody::memory_at(const Vector& displacement) const {
@@ -94,8 +100,7 @@ std::vector<double> SpringBody::memory_at(const Vector& displacement) const {
 void SpringBody::remember(const Vector& displacement, const integrate::TimeStep& step,
                           std::vector<double>& memory) const {
   prepare(step);
-  tissue::elongations(*network_, kinematics_, displacement, elongation_);
-  tissue::remember(law_, steps_, elongation_, memory);
+  fast_.remember(displacement, steps_, memory);
 }
 
 void SpringBody::step_force(const Vector& displacement, std::span<const double> memory,
@@ -125,19 +130,29 @@ void SpringBody::inherit(std::span<const double> other, std::size_t from, std::s
 }
 
 double SpringBody::stored(const integrate::State& state) const {
+  if (const auto* energies = fast_.energies();
+      energies != nullptr && fast_.knows(state.displacement, state.memory))
+    return energies->stored;
   return tissue::stored_energy(*network_, law_, state.memory);
 }
 
 double SpringBody::kinetic(const integrate::State& state) const {
-  double sum = 0.0;
-  for (Eigen::Index d = 0; d < mass_.size(); ++d)
-    sum += 0.5 * mass_[d] * state.velocity[d] * state.velocity[d];
-  return sum;
+  return tissue::sum_of_squares(static_cast<std::size_t>(mass_.size()), mass_.data(),
+                                state.velocity.data());
 }
 
 double SpringBody::dissipated(const integrate::State& before, const integrate::State& after) const {
   const double time_step = after.time - before.time;
-  if (time_step <= 0.0) return 0.0;
+  if (time_step <= 0.0 || law_.kind == Viscosity::none) return 0.0;
+  if (law_.kind == Viscosity::nodal_drag)  // d (du)^2 / dt
+    return tissue::sum_of_moved_squares(static_cast<std::size_t>(drag_.size()), drag_.data(),
+                                        before.displacement.data(), after.displacement.data()) /
+           time_step;
+  if (const auto* energies = fast_.energies(); energies != nullptr &&
+                                               fast_.knows(after.displacement, after.memory) &&
+                                               fast_.came_from(before.displacement))
+    return law_.kind == Viscosity::kelvin_voigt ? law_.time * energies->lost / time_step
+                                                : energies->lost;
   return tissue::dissipated_energy(*network_, law_, before.memory, after.memory,
                                    after.displacement - before.displacement, time_step);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrate/body.h"
+#include "tissue/fast_springs.h"
 #include "tissue/springs.h"
 #include "tissue/viscous.h"
 
@@ -47,7 +48,8 @@ class SpringBody final : public integrate::Body {
   void inherit(std::span<const double> other, std::size_t from, std::size_t to,
                std::vector<double>& memory) const;
 
-  // Energies of a state, J, and what was lost on the way from one state to the next.
+  // Energies of a state, J, and what was lost on the way from one state to the next: at hand, and
+  // cheap, where the body's last call was remember() from the one displacement to the other.
   [[nodiscard]] double stored(const integrate::State& state) const;
   [[nodiscard]] double kinetic(const integrate::State& state) const;
   [[nodiscard]] double dissipated(const integrate::State& before,
@@ -64,6 +66,9 @@ class SpringBody final : public integrate::Body {
   Vector mass_;
   Vector drag_;
   integrate::Proportional proportional_;
+  mutable tissue::FastSprings fast_;  // of the last displacement that was asked for
+  mutable std::optional<tissue::FastSprings> dashpots_;  // of Kelvin-Voigt, by velocities
+  mutable Vector turned_at_;                             // displacement of their directions, m
   mutable std::vector<double> elongation_;
   mutable std::vector<double> tension_;
   mutable std::vector<double> effective_;

@@ -34,6 +34,10 @@ void tensions(const Network& network, std::span<const double> elongation,
 void gather_forces(const Network& network, Kinematics kinematics, const Vector& displacement,
                    std::span<const double> tension, Vector& force);
 
+// Unit vectors along which springs pull (of squared lengths: the span over the rest length).
+void directions(const Network& network, Kinematics kinematics, const Vector& displacement,
+                std::span<Vec3> direction);
+
 // The rate of elongation by the velocity, m/s, along the directions of the moment.
 void elongation_rates(const Network& network, Kinematics kinematics, const Vector& displacement,
                       const Vector& velocity, std::span<double> rate);

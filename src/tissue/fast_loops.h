@@ -1,0 +1,351 @@
+// The loops of springs.cpp and viscous.cpp over four springs at a time. Included by one .cpp, once
+// for each kind of processor, which names the namespace (PALPATE_LOOPS), what the compiler may use
+// there (PALPATE_TARGET) and a square root of four numbers (PALPATE_ROOT): never fused
+// multiply-add, so that the bits are everywhere the same. No `#pragma once`: it comes twice.
+#if !defined(PALPATE_LOOPS) || !defined(PALPATE_TARGET) || !defined(PALPATE_ROOT)
+#error "fast_springs.cpp includes this"
+#endif
+#define PALPATE_INLINE PALPATE_TARGET __attribute__((always_inline)) inline
+
+namespace palpate::tissue::PALPATE_LOOPS {
+
+// The arithmetic of one lane is that of the plain loop: x + (y + z) is the order of Vec3::dot.
+
+PALPATE_INLINE Four load(const double* from) {
+  Four values;
+  __builtin_memcpy(&values, from, sizeof values);
+  return values;
+}
+
+PALPATE_INLINE void store(double* to, const Four& values) {
+  __builtin_memcpy(to, &values, sizeof values);
+}
+
+PALPATE_INLINE Four all(double value) { return Four{value, value, value, value}; }
+
+PALPATE_INLINE double sum_of(const Four& lanes) {
+  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
+// The sums of the first three lanes of each.
+PALPATE_INLINE Four sums(const Four& a, const Four& b, const Four& c, const Four& d) {
+  const Four xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Four y_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Four xz_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Four y_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  const Four x = __builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5);
+  const Four y = __builtin_shufflevector(y_ab, y_cd, 0, 1, 4, 5);
+  const Four z = __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7);
+  return x + (y + z);
+}
+
+PALPATE_INLINE Four root(const Four& x) { return PALPATE_ROOT(x); }
+
+PALPATE_INLINE Four displacement(const Node& node) { return load(node.displacement); }
+
+// Four springs as they are stretched.
+struct Stretch {
+  Four elongation;  // m
+  Four per_pull;    // tension times it times `along` is the pull; 1 of linear springs
+  Four along[4];    // of each spring, lanes x, y, z and one that nobody reads
+};
+
+template <Kinematics kinematics>
+PALPATE_INLINE Stretch stretch(const FastSpringData& data, const Node* nodes, std::size_t first) {
+  Stretch now;
+  Four product[4];
+#pragma GCC unroll 4
+  for (std::size_t j = 0; j < 4; ++j) {
+    const std::size_t s = first + j;
+    const Four change =
+        displacement(nodes[data.ends[2 * s + 1]]) - displacement(nodes[data.ends[2 * s]]);
+    const Four along = load(&data.along[3 * s]);
+    if constexpr (kinematics == Kinematics::linear) {
+      product[j] = along * change;
+      now.along[j] = along;
+    } else {
+      product[j] = change * ((along + along) + change);
+      now.along[j] = along + change;
+    }
+  }
+  const Four scalar = sums(product[0], product[1], product[2], product[3]);
+  if constexpr (kinematics == Kinematics::linear) {
+    now.elongation = scalar;
+  } else {
+    const Four rest = load(&data.rest_length[first]);
+    if constexpr (kinematics == Kinematics::nonlinear) {
+      const Four length = root(rest * rest + scalar);
+      const Four inverse = 1.0 / ((length + rest) * length);
+      now.elongation = scalar * (length * inverse);
+      now.per_pull = (length + rest) * inverse;
+    } else {
+      now.per_pull = 1.0 / rest;
+      now.elongation = (0.5 * scalar) * now.per_pull;
+    }
+  }
+  return now;
+}
+
+PALPATE_INLINE void pull(const FastSpringData& data, Node* nodes, std::size_t first,
+                         const Four& scale, const Four* along) {
+  // Both ends through memory, in the order of the springs: what a node sums is in the order of the
+  // plain loop. A node that stays in a register costs a branch that is mispredicted.
+#pragma GCC unroll 4
+  for (std::size_t j = 0; j < 4; ++j) {
+    const std::size_t s = first + j;
+    const Four force = all(scale[j]) * along[j];
+    double* const a = nodes[data.ends[2 * s]].force;
+    store(a, load(a) - force);
+    double* const b = nodes[data.ends[2 * s + 1]].force;
+    store(b, load(b) + force);
+  }
+}
+
+// What four springs remember: through the step, and the elongation whose tension they have now.
+struct Energy {
+  Four stored = {};
+  Four lost = {};
+};
+
+// One number of every spring's memory, `size` apart.
+PALPATE_INLINE Four column(const double* from, std::size_t size) {
+  return Four{from[0], from[size], from[2 * size], from[3 * size]};
+}
+
+PALPATE_INLINE void put_column(double* to, std::size_t size, const Four& values) {
+  for (int j = 0; j < 4; ++j) to[static_cast<std::size_t>(j) * size] = values[j];
+}
+
+template <Viscosity viscosity, Passage passage>
+PALPATE_INLINE Four remember(const FastSpringData& data, const Four& stiffness,
+                             const Four& elongation, double* memory, Energy& energy) {
+  const Four e = elongation;
+  if constexpr (passage == Passage::look && viscosity != Viscosity::prony) return e;
+  if constexpr (viscosity == Viscosity::none) {
+    store(memory, e);
+    const Four tension = stiffness * e;
+    energy.stored += tension * e;
+    return e;
+  }
+  if constexpr (viscosity == Viscosity::kelvin_voigt) {
+    const Four low = load(memory);
+    const Four high = load(memory + 4);
+    const Four before = __builtin_shufflevector(low, high, 0, 2, 4, 6);
+    const Four effective = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+    const MemoryStep& step = data.steps[0];
+    Four next = e;
+    if (step.end != 0.0) next = (e - (step.keep * before + step.begin * effective)) / step.end;
+    store(memory, __builtin_shufflevector(e, next, 0, 4, 1, 5));
+    store(memory + 4, __builtin_shufflevector(e, next, 2, 6, 3, 7));
+    energy.stored += (stiffness * e) * e;
+    energy.lost += (stiffness * (e - before)) * (e - before);
+    return e;
+  }
+  // Branches, one or more: `size` numbers a spring.
+  const std::size_t size = data.memory_size;
+  Four sum = e;
+  Four stored = (stiffness * e) * e;
+  const Four before = column(memory, size);
+  for (std::size_t i = 0; i + 1 < size; ++i) {
+    const double ratio = data.ratios[i];
+    const Four inner = column(memory + 1 + i, size);
+    Four next = inner;
+    if constexpr (passage == Passage::remember) {
+      const MemoryStep& step = data.steps[i];
+      next = (step.keep * inner + step.begin * before) + step.end * e;
+      put_column(memory + 1 + i, size, next);
+      const Four mean = 0.5 * ((before - inner) + (e - next));
+      energy.lost += ratio * ((stiffness * mean) * (next - inner));
+      stored += ratio * ((stiffness * (e - next)) * (e - next));
+    }
+    sum += ratio * (e - next);
+  }
+  if constexpr (passage == Passage::remember) {
+    put_column(memory, size, e);
+    energy.stored += stored;
+  }
+  return sum;
+}
+
+// Elongations, memory, tensions and pulls of springs `first` to `first + 3`.
+template <Kinematics kinematics, Viscosity viscosity, Passage passage>
+PALPATE_INLINE void four_springs(const FastSpringData& data, Node* nodes, std::size_t first,
+                                 double* memory, Energy& energy) {
+  const Stretch now = stretch<kinematics>(data, nodes, first);
+  const Four stiffness = load(&data.stiffness[first]);
+  const Four effective =
+      remember<viscosity, passage>(data, stiffness, now.elongation, memory, energy);
+  if (data.coupled) {
+    store(&data.elongation[first], now.elongation);
+    store(&data.effective[first], effective);
+    return;
+  }
+  Four scale = stiffness * effective;
+  if constexpr (kinematics != Kinematics::linear) scale *= now.per_pull;
+  pull(data, nodes, first, scale, now.along);
+}
+
+template <Kinematics kinematics, Viscosity viscosity, Passage passage>
+PALPATE_TARGET void springs(const FastSpringData& data, Node* nodes, double* memory,
+                            double* energies) {
+  Energy energy;
+  const std::size_t size = data.memory_size;
+  std::size_t s = 0;
+  for (; s + 4 <= data.springs; s += 4)
+    four_springs<kinematics, viscosity, passage>(data, nodes, s, memory + size * s, energy);
+  if (s < data.springs) {
+    // The last few, with springs beside them that have no stiffness.
+    double* const few = data.few;
+    const std::size_t numbers = size * (data.springs - s);
+    if (passage == Passage::remember || viscosity == Viscosity::prony)
+      for (std::size_t i = 0; i < numbers; ++i) few[i] = memory[size * s + i];
+    four_springs<kinematics, viscosity, passage>(data, nodes, s, few, energy);
+    if (passage == Passage::remember)
+      for (std::size_t i = 0; i < numbers; ++i) memory[size * s + i] = few[i];
+  }
+  energies[0] = 0.5 * sum_of(energy.stored);
+  energies[1] = sum_of(energy.lost);
+}
+
+// Directions as they stand, three numbers a spring, each overwriting what the one before wrote too
+// far.
+template <Kinematics kinematics>
+PALPATE_TARGET void turn(const FastSpringData& data, const Node* nodes, double* direction) {
+  for (std::size_t s = 0; s < data.springs; s += 4) {
+    const Stretch now = stretch<kinematics>(data, nodes, s);
+#pragma GCC unroll 4
+    for (int j = 0; j < 4; ++j)
+      store(direction + 3 * (s + static_cast<std::size_t>(j)), all(now.per_pull[j]) * now.along[j]);
+  }
+}
+
+// The pulls of tensions that tetrahedra and volumes have had their part in.
+template <Kinematics kinematics>
+PALPATE_TARGET void pulls(const FastSpringData& data, Node* nodes) {
+  for (std::size_t s = 0; s < data.springs; s += 4) {
+    const Four tension = load(&data.tension[s]);
+    if constexpr (kinematics == Kinematics::linear) {
+      const Four along[4] = {load(&data.along[3 * s]), load(&data.along[3 * s + 3]),
+                             load(&data.along[3 * s + 6]), load(&data.along[3 * s + 9])};
+      pull(data, nodes, s, tension, along);
+    } else {
+      const Stretch now = stretch<kinematics>(data, nodes, s);
+      pull(data, nodes, s, tension * now.per_pull, now.along);
+    }
+  }
+}
+
+// Tensions of the effective elongations: of springs by themselves, then of tetrahedra, then of
+// shared volumes, each in their order.
+PALPATE_TARGET inline void tensions(const FastSpringData& data) {
+  for (std::size_t s = 0; s < data.springs; s += 4)
+    store(&data.tension[s], load(&data.stiffness[s]) * load(&data.effective[s]));
+  for (std::size_t group = 0; group < data.tetrahedra; group += 4) {
+    const std::int32_t* const spring = &data.six_springs[6 * group];
+    const double* const stiffness = &data.six_stiffness[21 * group];
+    Four e[6];
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i)
+      e[i] = Four{data.effective[spring[4 * i]], data.effective[spring[4 * i + 1]],
+                  data.effective[spring[4 * i + 2]], data.effective[spring[4 * i + 3]]};
+    double sum[24];
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) {
+      Four row = all(0.0);
+#pragma GCC unroll 6
+      for (int j = 0; j < 6; ++j) {
+        const int entry = i > j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
+        row += load(&stiffness[4 * entry]) * e[j];
+      }
+      store(&sum[4 * i], row);
+    }
+#pragma GCC unroll 4
+    for (int lane = 0; lane < 4; ++lane)
+#pragma GCC unroll 6
+      for (int i = 0; i < 6; ++i) data.tension[spring[4 * i + lane]] += sum[4 * i + lane];
+  }
+  for (std::size_t v = 0; v < data.volumes; ++v) {
+    const std::int32_t begin = data.volume_start[v];
+    const std::int32_t end = data.volume_start[v + 1];
+    double dilation = 0.0;
+    for (std::int32_t k = begin; k < end; ++k)
+      dilation += data.dilation[k] * data.effective[data.volume_springs[k]];
+    const double pressure = data.volume_stiffness[v] * dilation;
+    for (std::int32_t k = begin; k < end; ++k)
+      data.tension[data.volume_springs[k]] += pressure * data.dilation[k];
+  }
+}
+
+// Energies of coupled springs without branches: sums over T e, and over (T - T0) (e - e0).
+PALPATE_TARGET inline void coupled_energies(const FastSpringData& data,
+                                            const double* tension_before,
+                                            const double* elongation_before, double* energies) {
+  Energy energy;
+  for (std::size_t s = 0; s < data.springs; s += 4) {
+    const Four tension = load(&data.tension[s]);
+    const Four e = load(&data.elongation[s]);
+    energy.stored += tension * e;
+    energy.lost += (tension - load(&tension_before[s])) * (e - load(&elongation_before[s]));
+  }
+  energies[0] = 0.5 * sum_of(energy.stored);
+  energies[1] = sum_of(energy.lost);
+}
+
+// Displacements (three numbers a node) to the nodes, whose forces begin anew. The fourth lane takes
+// the next node's x: what springs make of it ends in the fourth lane of forces, which nobody reads.
+PALPATE_TARGET inline void place(const double* from, Node* nodes, std::size_t count) {
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    store(nodes[i].displacement, load(from + 3 * i));
+    store(nodes[i].force, all(0.0));
+  }
+  Node& last = nodes[count - 1];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    last.displacement[axis] = from[3 * (count - 1) + axis];
+  store(last.force, all(0.0));
+}
+
+// And forces back, each overwriting what the one before wrote too far.
+PALPATE_TARGET inline void collect(const Node* nodes, double* to, std::size_t count) {
+  for (std::size_t i = 0; i + 1 < count; ++i) store(to + 3 * i, load(nodes[i].force));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    to[3 * (count - 1) + axis] = nodes[count - 1].force[axis];
+}
+
+template <Kinematics kinematics, Viscosity viscosity>
+Springs for_passage(Passage passage) {
+  return passage == Passage::look ? &springs<kinematics, viscosity, Passage::look>
+                                  : &springs<kinematics, viscosity, Passage::remember>;
+}
+
+template <Kinematics kinematics>
+Springs for_law(Viscosity viscosity, Passage passage) {
+  switch (viscosity) {
+    case Viscosity::none:
+    case Viscosity::nodal_drag: return for_passage<kinematics, Viscosity::none>(passage);
+    case Viscosity::kelvin_voigt: return for_passage<kinematics, Viscosity::kelvin_voigt>(passage);
+    case Viscosity::standard_linear_solid:
+    case Viscosity::prony: break;
+  }
+  return for_passage<kinematics, Viscosity::prony>(passage);
+}
+
+inline Pulls choose_pulls(Kinematics kinematics) {
+  if (kinematics == Kinematics::linear) return &pulls<Kinematics::linear>;
+  if (kinematics == Kinematics::nonlinear) return &pulls<Kinematics::nonlinear>;
+  return &pulls<Kinematics::squared>;
+}
+
+inline Turn choose_turn(Kinematics kinematics) {
+  return kinematics == Kinematics::nonlinear ? &turn<Kinematics::nonlinear>
+                                             : &turn<Kinematics::squared>;
+}
+
+inline Springs choose(Kinematics kinematics, Viscosity viscosity, Passage passage) {
+  if (kinematics == Kinematics::linear) return for_law<Kinematics::linear>(viscosity, passage);
+  if (kinematics == Kinematics::nonlinear)
+    return for_law<Kinematics::nonlinear>(viscosity, passage);
+  return for_law<Kinematics::squared>(viscosity, passage);
+}
+
+}  // namespace palpate::tissue::PALPATE_LOOPS
+#undef PALPATE_INLINE
