@@ -24,11 +24,14 @@ struct MeshError {
   double sides;   // part of the sides' effect that it misses
   double curved;  // of the force on a curved body, besides
   double size;    // part of such a body's effect that it misses
+  double waves;   // part of what inertia adds that it misses
 };
-constexpr MeshError mass_spring_error{.flat = 0.02, .sides = 0.3, .curved = 0.03, .size = 0.3};
-constexpr MeshError coupled_error{.flat = 0.02, .sides = 0.1, .curved = 0.03, .size = 0.1};
+constexpr MeshError mass_spring_error{
+    .flat = 0.02, .sides = 0.3, .curved = 0.03, .size = 0.3, .waves = 0.15};
+constexpr MeshError coupled_error{
+    .flat = 0.02, .sides = 0.1, .curved = 0.03, .size = 0.1, .waves = 0.06};
 
-constexpr double doubt = 0.2;  // of the sides' effect, which is a fit
+constexpr double doubt = 0.4;  // of the sides' effect, which is a fit
 
 // What cells of a curved body cost that see its thickness only coarsely: 0.4 (cell / thickness)^2,
 // measured on the ligament's strap from 300 to 2400 nodes.
@@ -149,9 +152,10 @@ class Chooser {
     } else {
       scenario::Scenario moving = asked_;
       moving.solver.model = Model::coupled_springs;
-      const double motionless = !quasi_static_ && !inertia_reaches_force(moving) ? e.inertia : 0.0;
+      const bool moves = inertia_reaches_force(moving);
       const auto error = [&](const MeshError& of) {
-        return motionless + coarseness(asked_) + of.flat + of.sides * e.sides +
+        const double waves = quasi_static_ ? 0.0 : (moves ? of.waves : 1.0) * e.inertia;
+        return waves + coarseness(asked_) + of.flat + of.sides * e.sides +
                (box ? 0.0 : of.curved + of.size * e.curved_body);
       };
       // A network's own nu blurs what another tissue changes.
