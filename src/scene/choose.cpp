@@ -31,6 +31,9 @@ constexpr MeshError mass_spring_error{
 constexpr MeshError coupled_error{
     .flat = 0.02, .sides = 0.1, .curved = 0.03, .size = 0.1, .waves = 0.06};
 
+// Of a / (w/2), what a narrow body takes of the force: measured on cylinders and an ellipsoid.
+constexpr double width_of_body = 0.5;
+
 constexpr double doubt = 0.4;  // of the sides' effect, which is a fit
 
 // What cells of a curved body cost that see its thickness only coarsely: 0.4 (cell / thickness)^2,
@@ -111,7 +114,9 @@ class Chooser {
     }
     ask("rigid tissue?", "lambda_2 / (lambda_1 + lambda_2)", e.tissue_share, std::min(limit, 0.02),
         "yes: only the finger deforms", "no: the tissue deforms");
-    const double size = std::abs((1.0 + e.thickness) * (1.0 - e.sides) - 1.0) + e.curved_body;
+    // A curved body that is narrow gives way as free sides do, against the thickness.
+    const double narrow = std::min(0.99, e.sides + width_of_body * e.curved_body);
+    const double size = std::abs((1.0 + e.thickness) * (1.0 - narrow) - 1.0);
     ask("half-space?", "what thickness and sides change of the force", size, limit,
         "yes: the specimen's size does not matter",
         "no: the thickness adds " + percent(e.thickness) +
@@ -138,8 +143,8 @@ class Chooser {
     const double still = quasi_static_ ? 0.0 : e.inertia;
     const double deep = deepen_ ? contact::DeepLaw::error : e.deep;
     add({.model = Model::hertz,
-         .error = std::abs(1.0 / ((1.0 + e.thickness) * (1.0 - std::min(e.sides, 0.99))) - 1.0) +
-                  doubt * e.sides + e.curved_body + still + deep,
+         .error = std::abs(1.0 / ((1.0 + e.thickness) * (1.0 - narrow)) - 1.0) + doubt * narrow +
+                  still + deep,
          .seconds = 1e-6,
          .cannot = beyond.value_or("")});
     add({.model = Model::layer,
