@@ -22,6 +22,8 @@ struct Parser {
   Mesh mesh;
   Reference reference;
   Bench bench;
+  Chart chart;
+  Stability stability;
   CLI::App* bless_verb = nullptr;
 
   Parser() {
@@ -96,6 +98,22 @@ struct Parser {
         ->capture_default_str()
         ->check(CLI::Range(1, 1000000));
 
+    verb = app.add_subcommand("chart",
+                              "Speed against accuracy: every model, step and mesh that serves");
+    verb->add_option("scenario", chart.scenario, "Scenario file")->required();
+    verb->add_option("--set", chart.settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
+    verb->add_option("--out", chart.out, "Folder of the results")->capture_default_str();
+    verb->add_option("--repeats", chart.repeats, "Timings of every variant")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    verb->add_flag("--force", chart.force, "Begin afresh, over a finished chart or a part of one");
+
+    verb = app.add_subcommand("stability", "Where methods fail: measured limits beside theory");
+    verb->add_option("scenario", stability.scenario, "Scenario file")->required();
+    verb->add_option("--set", stability.settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
+    verb->add_option("--out", stability.out, "Folder of the results")->capture_default_str();
+    verb->add_flag("--force", stability.force, "Replace a finished map");
+
     app.add_subcommand("manual", "The reference of all scenario keys, in markdown");
   }
 
@@ -115,6 +133,8 @@ struct Parser {
     if (app.got_subcommand("mesh")) return mesh;
     if (app.got_subcommand("reference")) return reference;
     if (app.got_subcommand("bench")) return bench;
+    if (app.got_subcommand("chart")) return chart;
+    if (app.got_subcommand("stability")) return stability;
     return Manual{};
   }
 };

@@ -61,9 +61,23 @@ struct Bench {
   std::vector<std::string> scenarios;  // none: the paper's four models
   int frames = 1000;
 };
+struct Chart {
+  std::string scenario;
+  std::vector<std::string> settings;
+  std::string out = "out";
+  int repeats = 5;  // of every timing
+  bool force = false;
+};
+struct Stability {
+  std::string scenario;
+  std::vector<std::string> settings;
+  std::string out = "out";
+  bool force = false;
+};
 struct Manual {};
 
-using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Reference, Bench, Manual>;
+using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Reference, Bench, Chart,
+                          Stability, Manual>;
 
 struct Arguments {
   Manner manner;

@@ -21,6 +21,9 @@ int dispatch(const Arguments& arguments) {
   if (const auto* one = std::get_if<Mesh>(&arguments.verb)) return mesh(*one, talk);
   if (const auto* one = std::get_if<Reference>(&arguments.verb)) return refer(*one, talk);
   if (const auto* one = std::get_if<Bench>(&arguments.verb)) return bench(*one, talk);
+  if (const auto* one = std::get_if<Chart>(&arguments.verb)) return chart(*one, arguments, talk);
+  if (const auto* one = std::get_if<Stability>(&arguments.verb))
+    return stability(*one, arguments, talk);
   print(scenario::manual());
   return exit_good;
 }

@@ -14,5 +14,8 @@ namespace palpate::cli {
 [[nodiscard]] int mesh(const Mesh& command, const Talk& talk);
 [[nodiscard]] int refer(const Reference& command, const Talk& talk);
 [[nodiscard]] int bench(const Bench& command, const Talk& talk);
+[[nodiscard]] int chart(const Chart& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int stability(const Stability& command, const Arguments& arguments,
+                            const Talk& talk);
 
 }  // namespace palpate::cli
