@@ -24,34 +24,31 @@ double PointLaw::last_depth() const { return layer != nullptr ? layer->last_dept
 
 namespace {
 
-// Where h + C F(h), C < 0, stops growing: its slope 1 + C dF/dh is zero there, dF/dh growing with
-// h.
-double greatest_balance(const PointLaw& law, double compliance, double high) {
-  double low = 0.0;
-  while (!std::isfinite(high)) {
-    low = 1e-9;
-    high = 2e-9;
-    while (1.0 + compliance * law.stiffness(high) > 0.0) {
-      low = high;
-      high *= 2.0;
-    }
+// h + C F(h) = approach with C < 0. The left side is below approach at h = approach and bends down
+// ever more as F' grows: Newton's tangents lie above it, so that each step ends short of the
+// balance, and there is none where the left side stops growing first.
+std::optional<double> softened(const PointLaw& law, double approach, double compliance) {
+  constexpr int most_steps = 200;  // a balance where it just stops growing is met by halves
+  double h = approach;
+  for (int i = 0; i < most_steps; ++i) {
+    if (h > law.last_depth()) return std::nullopt;
+    const double slope = 1.0 + compliance * law.stiffness(h);
+    if (!(slope > 0.0)) return std::nullopt;
+    const double step = (approach - h - compliance * law.force(h)) / slope;
+    if (step <= 1e-15 * h) return h;
+    h += step;
   }
-  if (1.0 + compliance * law.stiffness(high) > 0.0) return high;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (1.0 + compliance * law.stiffness(middle) > 0.0 ? low : high) = middle;
-  }
-  return low;
+  return h;
 }
 
 }  // namespace
 
 std::optional<double> penetration(const PointLaw& law, double approach, double compliance) {
   if (approach <= 0.0) return 0.0;
+  if (compliance < 0.0) return softened(law, approach, compliance);
   const auto excess = [&](double h) { return h + compliance * law.force(h) - approach; };
   double low = 0.0;
   double high = std::min(approach, law.last_depth());
-  if (compliance < 0.0) high = greatest_balance(law, compliance, law.last_depth());
   if (excess(high) < 0.0) return std::nullopt;
   // Newton within a bracket: the function rises all the way, so it cannot miss.
   double h = std::min(approach, high);

@@ -46,43 +46,75 @@ constexpr double least_facing = 0.2;  // cosine: a triangle turned further away 
 double Patch::radius() const { return std::sqrt(a * b); }
 
 Spreader::Spreader(const geometry::SmoothSurface& surface)
-    : surface_(&surface), share_(surface.surface().vertices.size(), 0.0) {}
+    : surface_(&surface),
+      share_(surface.surface().vertices.size(), 0.0),
+      views_(surface.surface().triangles.size()) {}
 
-// Walks from the patch's triangle to the one that holds `target`, seen along the normal.
-bool Spreader::meets(const Patch& patch, const Vec3& target, geometry::SurfacePoint& met) const {
-  constexpr int most_steps = 1000;
-  const geometry::Surface& surface = surface_->surface();
-  int triangle = patch.at.triangle;
-  for (int step = 0; step < most_steps; ++step) {
-    const auto& [i, j, k] = surface.triangles[static_cast<std::size_t>(triangle)];
-    const Vec3& corner = surface.vertices[static_cast<std::size_t>(i)];
-    const Vec3 side_b = surface.vertices[static_cast<std::size_t>(j)] - corner;
-    const Vec3 side_c = surface.vertices[static_cast<std::size_t>(k)] - corner;
-    const Vec3 upright = side_b.cross(side_c);
-    const double seen = upright.dot(patch.normal);
-    if (seen < least_facing * upright.norm()) return false;
-    const Vec3 away = target - corner;
-    Vec3 weights;
-    weights[1] = patch.normal.dot(away.cross(side_c)) / seen;
-    weights[2] = patch.normal.dot(side_b.cross(away)) / seen;
-    weights[0] = 1.0 - weights[1] - weights[2];
-    Eigen::Index least = 0;
-    const double lowest = weights.minCoeff(&least);
-    constexpr double rounding = 1e-12;
-    const int next =
-        surface_->neighbours().across(triangle)[static_cast<std::size_t>(least + 1) % 3];
-    if (lowest >= -rounding || (next < 0 && lowest >= -1e-9)) {
-      met = {triangle, weights};
-      return true;
-    }
-    // Crossing a crease would load the side beyond at once, as soon as it faces the patch.
-    if (surface_->crease(triangle, static_cast<std::size_t>(least + 1) % 3)) return false;
-    triangle = next;
-  }
-  return false;
+// Views are of a place and its directions, not of the patch's size.
+void Spreader::look_from(const Patch& patch) {
+  const bool same = turn_ > 0 && patch.position == from_.position && patch.normal == from_.normal &&
+                    patch.axis == from_.axis;
+  from_ = patch;
+  if (!same) ++turn_;
 }
 
-void Spreader::add(const geometry::SurfacePoint& point, double weight) {
+void Spreader::look_at(int triangle, View& view) const {
+  view.turn = turn_;
+  const geometry::Surface& surface = surface_->surface();
+  const auto& [i, j, k] = surface.triangles[static_cast<std::size_t>(triangle)];
+  const Vec3& corner = surface.vertices[static_cast<std::size_t>(i)];
+  const Vec3 side_b = surface.vertices[static_cast<std::size_t>(j)] - corner;
+  const Vec3 side_c = surface.vertices[static_cast<std::size_t>(k)] - corner;
+  const Vec3 upright = side_b.cross(side_c);
+  const double seen = upright.dot(from_.normal);
+  view.faces = seen >= least_facing * upright.norm();
+  if (!view.faces) return;
+  // w_2 = n . (p - corner) x c / (n . b x c), and w_3 likewise with b x (p - corner)
+  const Vec3 second = side_c.cross(from_.normal) / seen;
+  const Vec3 third = from_.normal.cross(side_b) / seen;
+  const Vec3 across = from_.normal.cross(from_.axis);
+  const Vec3 away = from_.position - corner;
+  view.second = second.dot(away);
+  view.second_x = second.dot(from_.axis);
+  view.second_y = second.dot(across);
+  view.third = third.dot(away);
+  view.third_x = third.dot(from_.axis);
+  view.third_y = third.dot(across);
+}
+
+// Walks from the patch's triangle to the one that holds the point, seen along the normal; -1 where
+// there is none.
+int Spreader::triangle_at(double x, double y) {
+  constexpr int most_steps = 1000;
+  int triangle = from_.at.triangle;
+  for (int step = 0; step < most_steps; ++step) {
+    const View& seen = view(triangle);
+    if (!seen.faces) return -1;
+    const double second = seen.second + x * seen.second_x + y * seen.second_y;
+    const double third = seen.third + x * seen.third_x + y * seen.third_y;
+    // The edge opposite to the lowest weight begins at the corner after it.
+    double lowest = 1.0 - second - third;
+    std::size_t edge = 1;
+    if (second < lowest) {
+      edge = 2;
+      lowest = second;
+    }
+    if (third < lowest) {
+      edge = 0;
+      lowest = third;
+    }
+    constexpr double rounding = 1e-12;
+    if (lowest >= -rounding) return triangle;
+    const int next = surface_->neighbours().across(triangle)[edge];
+    if (next < 0 && lowest >= -1e-9) return triangle;
+    // Crossing a crease would load the side beyond at once, as soon as it faces the patch.
+    if (surface_->crease(triangle, edge)) return -1;
+    triangle = next;
+  }
+  return -1;
+}
+
+void Spreader::share(const geometry::SurfacePoint& point, double weight) {
   const auto& corners = surface_->surface().triangles[static_cast<std::size_t>(point.triangle)];
   for (std::size_t i = 0; i < 3; ++i) {
     const auto vertex = static_cast<std::size_t>(corners[i]);
@@ -93,27 +125,50 @@ void Spreader::add(const geometry::SurfacePoint& point, double weight) {
 
 void Spreader::spread(const Patch& patch, Spread& spread) {
   static const Pairs pairs = make_pairs();
-  const Vec3 across = patch.normal.cross(patch.axis);
+  look_from(patch);
   touched_.clear();
+  met_.clear();
+  // Shares are linear over a triangle: sums of its points are enough.
+  const auto add = [this](int triangle, double x, double y, double weight) {
+    View& seen = view(triangle);
+    if (seen.weight == 0.0) met_.push_back(triangle);
+    seen.weight += weight;
+    seen.weight_x += weight * x;
+    seen.weight_y += weight * y;
+  };
   for (const Pair& pair : pairs) {
-    const Vec3 arm = patch.a * pair.x * patch.axis + patch.b * pair.y * across;
-    geometry::SurfacePoint one;
-    geometry::SurfacePoint other;
-    const auto both = [&](double part) {
-      return meets(patch, patch.position + part * arm, one) &&
-             meets(patch, patch.position - part * arm, other);
-    };
-    if (!both(1.0)) {
-      double on = 0.0;
+    const double x = patch.a * pair.x;
+    const double y = patch.b * pair.y;
+    int one = triangle_at(x, y);
+    int other = one < 0 ? -1 : triangle_at(-x, -y);
+    double part = 1.0;
+    if (other < 0) {
+      part = 0.0;
       double off = 1.0;
       for (int halving = 0; halving < 50; ++halving) {
-        const double middle = 0.5 * (on + off);
-        (both(middle) ? on : off) = middle;
+        const double middle = 0.5 * (part + off);
+        const bool on =
+            triangle_at(middle * x, middle * y) >= 0 && triangle_at(-middle * x, -middle * y) >= 0;
+        (on ? part : off) = middle;
       }
-      if (!both(on)) one = other = patch.at;
+      one = triangle_at(part * x, part * y);
+      other = one < 0 ? -1 : triangle_at(-part * x, -part * y);
     }
-    add(one, pair.weight);
-    add(other, pair.weight);
+    if (other < 0) {
+      share(patch.at, 2.0 * pair.weight);
+      continue;
+    }
+    add(one, part * x, part * y, pair.weight);
+    add(other, -part * x, -part * y, pair.weight);
+  }
+  for (const int triangle : met_) {
+    View& seen = view(triangle);
+    const double second =
+        seen.weight * seen.second + seen.weight_x * seen.second_x + seen.weight_y * seen.second_y;
+    const double third =
+        seen.weight * seen.third + seen.weight_x * seen.third_x + seen.weight_y * seen.third_y;
+    share({triangle, Vec3(seen.weight - second - third, second, third)}, 1.0);
+    seen.weight = seen.weight_x = seen.weight_y = 0.0;
   }
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());

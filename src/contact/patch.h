@@ -28,7 +28,8 @@ struct Spread {
   std::vector<double> shares;  // one a vertex, >= 0
 };
 
-// Holds buffers, so that spreading allocates nothing once they have grown.
+// Holds buffers, so that spreading allocates nothing once they have grown, and how triangles look
+// from the last patch's place, as long as the next one has the same.
 class Spreader {
  public:
   explicit Spreader(const geometry::SmoothSurface& surface);
@@ -40,13 +41,35 @@ class Spreader {
   void spread(const Patch& patch, Spread& spread);
 
  private:
-  [[nodiscard]] bool meets(const Patch& patch, const Vec3& target,
-                           geometry::SurfacePoint& met) const;
-  void add(const geometry::SurfacePoint& point, double weight);
+  // The weights of a triangle's second and third corner where the perpendicular through a point of
+  // the patch's plane, x along its axis and y across (m), meets the triangle's plane.
+  struct View {
+    unsigned turn = 0;  // which turn of look_from() it is of
+    double second = 0.0, second_x = 0.0, second_y = 0.0;
+    double third = 0.0, third_x = 0.0, third_y = 0.0;
+    bool faces = false;  // it is not turned away
+    // Of the quadrature points that meet it: their weights' sum, and those of weight x and weight
+    // y.
+    double weight = 0.0, weight_x = 0.0, weight_y = 0.0;
+  };
+
+  void look_from(const Patch& patch);
+  [[nodiscard]] View& view(int triangle) {
+    View& seen = views_[static_cast<std::size_t>(triangle)];
+    if (seen.turn != turn_) look_at(triangle, seen);
+    return seen;
+  }
+  void look_at(int triangle, View& view) const;
+  [[nodiscard]] int triangle_at(double x, double y);
+  void share(const geometry::SurfacePoint& point, double weight);
 
   const geometry::SmoothSurface* surface_;
   std::vector<double> share_;  // one a vertex
-  std::vector<int> touched_;
+  std::vector<int> touched_;   // vertices
+  std::vector<int> met_;       // triangles
+  Patch from_;                 // whose views are known
+  std::vector<View> views_;    // one a triangle
+  unsigned turn_ = 0;
 };
 
 }  // namespace palpate::contact

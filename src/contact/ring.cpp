@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace palpate::contact {
@@ -16,6 +17,8 @@ double ring_weight(double beyond_patch, double spacing) {
   const double quarter = 1.0 + 0.1892071150027210667 * x * x;  // (1/2)^(1/4) at x = 1
   return 1.0 / (quarter * quarter * quarter * quarter);
 }
+
+constexpr double dropped = 0.02;  // of the best weight: vertices of less are not read
 
 // A vertex that carries load itself sinks as the mesh likes: it is read less, the more it carries.
 double unloaded(double share) {
@@ -67,66 +70,77 @@ double RingReader::spacing(const Patch& patch) const {
   return patch.turned > 0.0 ? here + patch.turned * (of(patch.beyond.triangle) - here) : here;
 }
 
-void RingReader::read(const Patch& patch, std::span<const double> shares, double away,
-                      Reading& reading) const {
-  const double spacing = std::max(this->spacing(patch), away);
-  const double radius = patch.radius();
+void RingReader::look_around(const Patch& patch, double reach) {
+  if (patch.position == position_ && patch.normal == normal_ && reach <= reach_) return;
+  position_ = patch.position;
+  normal_ = patch.normal;
+  reach_ = reach;
+  around_.clear();
   const auto& vertices = surface_->surface().vertices;
-  struct Candidate {
-    int vertex;
-    double r2, weight;
-  };
-  std::vector<Candidate> ring;
-  double best = 0.0;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const double r2 = (vertices[v] - patch.position).squaredNorm();
+    if (r2 > reach * reach) continue;
     double facing = 0.0;
     for (const Vec3& normal : normals_[v]) facing = std::max(facing, normal.dot(patch.normal));
-    if (facing <= 0.0) continue;
-    const double r = (vertices[v] - patch.position).norm();
-    const double weight = facing * ring_weight(r - radius, spacing) * unloaded(shares[v]);
-    if (weight <= 0.0) continue;
-    ring.push_back({static_cast<int>(v), r * r, weight});
-    best = std::max(best, weight);
+    if (facing > 0.0) around_.push_back({static_cast<int>(v), std::sqrt(r2), facing, 0.0});
   }
-  // Far vertices are dropped below a fiftieth of the best weight, which is taken off all the
-  // others so that dropping makes no jump.
+}
+
+void RingReader::weigh(double radius, double spacing, std::span<const double> shares) {
+  best_ = 0.0;
+  for (Around& one : around_) {
+    one.weight = one.facing * ring_weight(one.r - radius, spacing) *
+                 unloaded(shares[static_cast<std::size_t>(one.vertex)]);
+    best_ = std::max(best_, one.weight);
+  }
+}
+
+void RingReader::read(const Patch& patch, std::span<const double> shares, double away,
+                      Reading& reading) {
+  const double spacing = std::max(this->spacing(patch), away);
+  const double radius = patch.radius();
+  // All that can count beside the best of the near ones; of a coarse mesh, all there are. Looked
+  // for with some room, so that a growing patch need not look again.
+  constexpr double near = 4.0;  // spacings beyond the patch
+  look_around(patch, 1.25 * radius + near * spacing);
+  weigh(radius, spacing, shares);
+  if (ring_weight(near * spacing, spacing) > dropped * best_) {
+    look_around(patch, std::numeric_limits<double>::infinity());
+    weigh(radius, spacing, shares);
+  }
   double s0 = 0.0;
   double s1 = 0.0;
   double s2 = 0.0;
-  std::vector<Candidate> kept;
-  for (Candidate candidate : ring) {
-    candidate.weight = candidate.weight / best - 0.02;
-    if (candidate.weight <= 0.0) continue;
-    s0 += candidate.weight;
-    s1 += candidate.weight * candidate.r2;
-    s2 += candidate.weight * candidate.r2 * candidate.r2;
-    kept.push_back(candidate);
-  }
   reading.vertices.clear();
   reading.weights.clear();
-  if (kept.empty()) return;
+  if (best_ <= 0.0) return;
+  // What is dropped is taken off all the others, so that dropping makes no jump.
+  for (Around& one : around_) {
+    one.weight = one.weight / best_ - dropped;
+    if (one.weight <= 0.0) continue;
+    const double r2 = one.r * one.r;
+    s0 += one.weight;
+    s1 += one.weight * r2;
+    s2 += one.weight * r2 * r2;
+  }
   // Where all vertices stand at one distance the slope cannot be told: a small ridge keeps it at 0.
   const double mean_r2 = s1 / s0;
   const double ridge = 1e-3 * s0 * mean_r2 * mean_r2;
   const double determinant = s0 * (s2 + ridge) - s1 * s1;
-  for (const Candidate& candidate : kept) {
-    reading.vertices.push_back(candidate.vertex);
-    reading.weights.push_back(candidate.weight * ((s2 + ridge) - s1 * candidate.r2) / determinant);
+  for (const Around& one : around_) {
+    if (one.weight <= 0.0) continue;
+    reading.vertices.push_back(one.vertex);
+    reading.weights.push_back(one.weight * ((s2 + ridge) - s1 * one.r * one.r) / determinant);
   }
 }
 
-double RingReader::half_space(int vertex, const Spread& load, double plane_modulus,
-                              double spacing) const {
+double RingReader::half_space(int vertex, int pressed, double plane_modulus, double spacing) const {
   const auto& vertices = surface_->surface().vertices;
-  double sum = 0.0;
-  for (std::size_t j = 0; j < load.vertices.size(); ++j) {
-    const double r = (vertices[static_cast<std::size_t>(vertex)] -
-                      vertices[static_cast<std::size_t>(load.vertices[j])])
-                         .norm();
-    // A vertex reads its own small share as if it were spread over a disk of half a spacing.
-    sum += load.shares[j] / std::max(r, 0.25 * spacing);
-  }
-  return sum / (std::numbers::pi * plane_modulus);
+  const double r =
+      (vertices[static_cast<std::size_t>(vertex)] - vertices[static_cast<std::size_t>(pressed)])
+          .norm();
+  // A vertex reads its own small share as if it were spread over a disk of half a spacing.
+  return 1.0 / (std::numbers::pi * plane_modulus * std::max(r, 0.25 * spacing));
 }
 
 }  // namespace palpate::contact

@@ -1,4 +1,5 @@
 // How far the skin at each contact gives way to a force on each of them.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,11 +11,8 @@ namespace {
 
 using contact::Coupling;
 
-std::vector<int> nodes_of(const MeshAnswer& mesh, const contact::Spread& spread) {
-  std::vector<int> nodes;
-  for (const int vertex : spread.vertices)
-    nodes.push_back(mesh.nodes[static_cast<std::size_t>(vertex)]);
-  return nodes;
+int node_of(const MeshAnswer& mesh, int vertex) {
+  return mesh.nodes[static_cast<std::size_t>(vertex)];
 }
 
 }  // namespace
@@ -63,7 +61,7 @@ void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereC
         double& share = shares_[static_cast<std::size_t>(contact.load.vertices[k])];
         share = std::max(share, contact.load.shares[k]);
       }
-  contact::Reading reading;
+  contact::Reading& reading = reading_;
   for (Eigen::Index i = 0; i < count; ++i) {
     const SphereContact& own = contacts[static_cast<std::size_t>(i)];
     const contact::Patch patch = read_patch(contacts, own);
@@ -98,27 +96,42 @@ void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereC
 }
 
 // What a reading says of the sinking under a patch per newton on a contact, m/N; with `consistent`
-// less what a half-space would sink there under the same loads.
+// less what the law knows of it.
 double Contacts::sinking(const MeshAnswer& mesh, const contact::Patch& patch,
                          const contact::Reading& reading, const SphereContact& pressed) const {
   const bool consistent = scene_->scenario.contact.coupling == Coupling::consistent;
-  const double aligned = patch.normal.dot(pressed.patch.normal);
+  Influence& read = mesh.one_tissue != nullptr ? *mesh.one_tissue : *mesh.influence;
+  const contact::Spread& load = pressed.load;
   const double spacing = rings_.spacing(patch);
-  const std::vector<int> nodes = nodes_of(mesh, pressed.load);
+  read.kept.look(patch.normal, pressed.patch.normal, spacing);
   double sum = 0.0;
   for (std::size_t a = 0; a < reading.vertices.size(); ++a) {
     const int vertex = reading.vertices[a];
-    Influence& read = mesh.one_tissue != nullptr ? *mesh.one_tissue : *mesh.influence;
-    double moved = read.between(-patch.normal, mesh.nodes[static_cast<std::size_t>(vertex)],
-                                -pressed.patch.normal, nodes, pressed.load.shares, mesh.freedoms);
-    if (consistent)
-      moved -=
-          aligned * rings_.half_space(vertex, pressed.load, plane_modulus(), spacing) -
-          stiffer_layer(aligned, surface_->surface().vertices[static_cast<std::size_t>(vertex)],
-                        pressed);
+    double moved = 0.0;
+    for (std::size_t k = 0; k < load.vertices.size(); ++k)
+      moved += load.shares[k] * read.kept.at(vertex, load.vertices[k], [&] {
+        return PairBlock{
+            .moved =
+                read.block(node_of(mesh, vertex), node_of(mesh, load.vertices[k]), mesh.freedoms),
+            .known = consistent ? known_to_law(vertex, load.vertices[k], spacing) : 0.0};
+      });
     sum += reading.weights[a] * moved;
   }
   return sum;
+}
+
+// How a vertex of the skin sinks by a newton on another, as the law has it, m/N: a half-space, less
+// what the flat layer that the law knows holds it up.                docs/theory.md (11), (61)
+double Contacts::known_to_law(int read, int pressed, double spacing) const {
+  const double sinking = rings_.half_space(read, pressed, plane_modulus(), spacing);
+  if (!scene_->layer) return sinking;
+  const auto& vertices = surface_->surface().vertices;
+  const double r =
+      (vertices[static_cast<std::size_t>(read)] - vertices[static_cast<std::size_t>(pressed)])
+          .norm();
+  const double thickness = scene_->layer->thickness;
+  return sinking - scene_->specimen->sinking->gamma(r / thickness) /
+                       (std::numbers::pi * plane_modulus() * thickness);
 }
 
 // What the other tissues of the specimen change of the sinking under a contact per newton on
@@ -127,15 +140,20 @@ double Contacts::sinking(const MeshAnswer& mesh, const contact::Patch& patch,
 double Contacts::other_tissues(const MeshAnswer& mesh, const SphereContact& own,
                                const SphereContact& pressed) const {
   if (mesh.one_tissue == nullptr) return 0.0;
-  const std::vector<int> nodes = nodes_of(mesh, pressed.load);
+  PairTable& kept = mesh.influence->kept;
+  kept.look(own.patch.normal, pressed.patch.normal, 0.0);
   double sum = 0.0;
   for (std::size_t k = 0; k < own.load.vertices.size(); ++k) {
-    const int node = mesh.nodes[static_cast<std::size_t>(own.load.vertices[k])];
-    const auto moved = [&](Influence& influence) {
-      return influence.between(-own.patch.normal, node, -pressed.patch.normal, nodes,
-                               pressed.load.shares, mesh.freedoms);
-    };
-    sum += own.load.shares[k] * (moved(*mesh.influence) - moved(*mesh.one_tissue));
+    double moved = 0.0;
+    for (std::size_t j = 0; j < pressed.load.vertices.size(); ++j)
+      moved +=
+          pressed.load.shares[j] * kept.at(own.load.vertices[k], pressed.load.vertices[j], [&] {
+            const int at = node_of(mesh, own.load.vertices[k]);
+            const int node = node_of(mesh, pressed.load.vertices[j]);
+            return PairBlock{.moved = mesh.influence->block(at, node, mesh.freedoms) -
+                                      mesh.one_tissue->block(at, node, mesh.freedoms)};
+          });
+    sum += own.load.shares[k] * moved;
   }
   return sum;
 }

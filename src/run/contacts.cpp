@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "run/resolved_contact.h"
+#include "run/stepper.h"
 
 namespace palpate::run {
 namespace {
@@ -107,10 +108,9 @@ std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereCont
     here = geometry::between({here, there, there},
                              {1.0 - contact.patch.turned, contact.patch.turned, 0.0});
   }
-  const auto law =
-      contact::contact_law(scene_->scenario.contact.law,
-                           {scene_->finger.sphere_radius, scene_->finger.sphere_modulus}, here,
-                           scene_->layer ? &*scene_->layer : nullptr);
+  const auto law = contact::contact_law(
+      scene_->scenario.contact.law, {scene_->finger.sphere_radius, scene_->finger.sphere_modulus},
+      here, scene_->layer ? &*scene_->layer : nullptr);
   if (!law)
     return "the tissue is hollow and conforms to the finger (curvature " +
            rounded_text(here.kappa_2) + " 1/m): Hertz does not hold there";
@@ -137,8 +137,15 @@ void Contacts::carry_on(const Touch& before, SphereContact& contact) const {
     if (old.sphere != contact.sphere || distance >= nearest) continue;
     nearest = distance;
     contact.depth = old.depth;
+    contact.compliance = old.compliance;
     contact.stretch = old.stretch;
   }
+}
+
+// A lone contact goes on as it did: the better the guess, the fewer patches have to be tried.
+void Contacts::guess_depth(SphereContact& contact) const {
+  const auto depth = contact::penetration(contact.law.point, contact.approach, contact.compliance);
+  if (depth && *depth > 0.0) contact.depth = *depth;
 }
 
 void Contacts::shape_patches(std::vector<SphereContact>& contacts) {
@@ -183,7 +190,7 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
   std::vector<contact::PointLaw> laws(count);
   std::vector<double> approaches(count);
   std::vector<double> depths(count);
-  const double settled = 1e-12 * scene_->finger.sphere_radius;
+  if (count == 1 && !moving_ && mesh.moving == nullptr) guess_depth(contacts.front());
   if (mesh.moving != nullptr) find_motion(mesh, contacts);
   // Explicit steps read the mesh once, over the patch of the step before.
   const int passes = moving_ && mesh.influence == nullptr ? 1 : most_patches;
@@ -208,8 +215,14 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
       contacts[i].depth = depths[i];
       contacts[i].force = contacts[i].elastic = laws[i].force(depths[i]);
       contacts[i].stiffness = laws[i].stiffness(depths[i]);
+      contacts[i].compliance =
+          compliance_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
     }
-    if (change <= settled || passes == 1) return std::nullopt;
+    if (change <= settled_length) return std::nullopt;
+  }
+  if (passes == 1) {
+    shape_patches(contacts);
+    return std::nullopt;
   }
   return "the contact radius did not settle in 100 iterations";
 }
@@ -235,7 +248,6 @@ std::optional<std::string> Contacts::find(const Vec3& finger, const MeshAnswer& 
     remember(*mesh.moving, touch.contacts);
   }
   std::erase_if(touch.contacts, [](const SphereContact& contact) { return contact.depth <= 0.0; });
-  shape_patches(touch.contacts);
   rub(*scene_, move, touch);
   return std::nullopt;
 }

@@ -34,6 +34,7 @@ struct SphereContact {
   double force = 0.0;           // N, along the patch's normal
   double elastic = 0.0;         // N, of it, the law's, were the tissue relaxed
   double radiated = 0.0;        // N, of it, what makes waves too short for the mesh
+  double compliance = 0.0;      // m/N, how the skin gives way to it beyond what the law knows
   double stiffness = 0.0;       // N/m, of it over the finger's place within a step
   Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue
   Vec3 stretch = Vec3::Zero();  // m, of finger against tissue since the contact last slipped
@@ -125,6 +126,7 @@ class Contacts {
   [[nodiscard]] std::optional<std::string> give_law(const MeshAnswer& mesh, SphereContact& contact);
   [[nodiscard]] std::optional<std::string> settle(const MeshAnswer& mesh, Touch& touch);
   void carry_on(const Touch& before, SphereContact& contact) const;
+  void guess_depth(SphereContact& contact) const;
   void shape_patches(std::vector<SphereContact>& contacts);
   void approach_moving_skin(const Vec3& finger, SphereContact& contact);
   void find_compliance(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts);
@@ -133,6 +135,7 @@ class Contacts {
                                           const SphereContact& own) const;
   [[nodiscard]] double sinking(const MeshAnswer& mesh, const contact::Patch& patch,
                                const contact::Reading& reading, const SphereContact& pressed) const;
+  [[nodiscard]] double known_to_law(int read, int pressed, double spacing) const;
   [[nodiscard]] double other_tissues(const MeshAnswer& mesh, const SphereContact& own,
                                      const SphereContact& pressed) const;
   [[nodiscard]] double unknown_to_hertz(const contact::Patch& patch,
@@ -177,7 +180,8 @@ class Contacts {
       known_curvature_;      // by triangle, at rest
   std::vector<Vec3> moved_;  // displacement of every vertex, m
   std::vector<geometry::SmoothSurface::Foot> feet_;
-  std::vector<double> shares_;        // the greatest at every vertex
+  std::vector<double> shares_;  // the greatest at every vertex
+  contact::Reading reading_;
   Eigen::MatrixXd compliance_;        // m/N
   Eigen::MatrixXd whole_compliance_;  // m/N, with what the mesh's motion adds
   Eigen::VectorXd softness_;          // m/N, its diagonal

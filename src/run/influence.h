@@ -8,6 +8,7 @@
 
 #include "contact/patch.h"
 #include "integrate/body.h"
+#include "run/pair_table.h"
 
 namespace palpate::run {
 
@@ -60,8 +61,22 @@ class Influence {
     return sum;
   }
 
+  // How node `at` moves by a newton on `node` along each axis, m/N: one column an axis of the load.
+  [[nodiscard]] Eigen::Matrix3d block(int at, int node, Eigen::Index freedoms) {
+    Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+    if (at >= 0 && node >= 0)
+      for (int axis = 0; axis < 3; ++axis)
+        block.col(axis) = column(3 * node + axis, freedoms).segment<3>(3 * at);
+    return block;
+  }
+
   // What is answered has changed.
-  void forget() { known_.clear(); }
+  void forget() {
+    known_.clear();
+    kept.forget();
+  }
+
+  PairTable kept;  // of a single contact's readings
 
  private:
   Respond respond_;

@@ -137,7 +137,10 @@ TEST(Ring, HalfSpaceIsTheSumOfPointLoads) {
   const double spacing = block.ring.spacing(patch);
   for (std::size_t v = 0; v < block.smooth.surface().vertices.size(); ++v) {
     const double r = (block.smooth.surface().vertices[v] - patch.position).norm();
-    const double got = block.ring.half_space(static_cast<int>(v), load, modulus, spacing);
+    double got = 0.0;
+    for (std::size_t j = 0; j < load.vertices.size(); ++j)
+      got += load.shares[j] *
+             block.ring.half_space(static_cast<int>(v), load.vertices[j], modulus, spacing);
     EXPECT_TRUE(std::isfinite(got));
     if (r < 0.03) continue;
     // Far off the patch is a point; its nodes of up to 6 mm away add their squares over 2 r^2.
