@@ -1,8 +1,12 @@
 // Eigen's simplicial factorisations: serial, no BLAS, the same bits everywhere.
 #include "base/cholesky.h"
 
+#include <iostream>  // Eigen/MetisSupport wants it
+
+#include <Eigen/MetisSupport>
 #include <Eigen/SparseCholesky>
 #include <cmath>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -10,6 +14,26 @@ namespace palpate {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
+
+// Minimum degree, and nested dissection where that pays. Measured on a lattice of 5832 nodes: 36 s
+// and 15 s for the factors; of 1728 nodes both alike.
+struct Ordering {
+  using PermutationType = Eigen::AMDOrdering<int>::PermutationType;
+
+  template <class Matrix>
+  void operator()(const Matrix& matrix, PermutationType& order) {
+    constexpr Eigen::Index large = 6000;  // unknowns
+    if (matrix.rows() < large) {
+      Eigen::AMDOrdering<int>()(matrix, order);
+      return;
+    }
+    // METIS seeds rand() and draws from it, and all threads draw from the same: one at a time, or
+    // the order depends on who else is at work.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    Eigen::MetisOrdering<int>()(matrix, order);
+  }
+};
 
 // With p = W S x as further unknowns, (L + S^T W S) x = b is
 //   [ L   S^T  ] [x]   [b]
@@ -88,8 +112,8 @@ bool stands_clear(const Eigen::VectorXd& pivots, const Eigen::VectorXd& size,
 }  // namespace
 
 struct Cholesky::Factors {
-  Eigen::SimplicialLLT<SparseMatrix> plain;
-  Eigen::SimplicialLDLT<SparseMatrix> bordered;
+  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Ordering> plain;
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Ordering> bordered;
   Pattern of_plain;
   Pattern of_bordered;
   Eigen::Index size = 0;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "integrate/mode_loops.h"
+
 namespace palpate::integrate {
 
 Modal::Modal(const Body& body) : body_(&body) {
@@ -15,17 +17,17 @@ Modal::Modal(const Body& body) : body_(&body) {
   const SplitMatrix stiffness = body.stiffness();
   const auto size = static_cast<Eigen::Index>(free_.size());
   Vector scale(size);
-  std::vector<Eigen::Index> position(held.size(), -1);
+  row_.assign(held.size(), -1);
   for (Eigen::Index i = 0; i < size; ++i) {
     scale[i] = 1.0 / std::sqrt(body.mass()[free_[static_cast<std::size_t>(i)]]);
-    position[static_cast<std::size_t>(free_[static_cast<std::size_t>(i)])] = i;
+    row_[static_cast<std::size_t>(free_[static_cast<std::size_t>(i)])] = i;
   }
   Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(size, size);
   const auto add = [&](const Eigen::SparseMatrix<double>& matrix) {
     for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
       for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-        const Eigen::Index i = position[static_cast<std::size_t>(entry.row())];
-        const Eigen::Index j = position[static_cast<std::size_t>(entry.col())];
+        const Eigen::Index i = row_[static_cast<std::size_t>(entry.row())];
+        const Eigen::Index j = row_[static_cast<std::size_t>(entry.col())];
         if (i >= 0 && j >= 0) scaled(i, j) += entry.value() * scale[i] * scale[j];
       }
   };
@@ -41,7 +43,12 @@ void Modal::prepare(double time_step) {
   if (time_step == prepared_step_) return;
   prepared_step_ = time_step;
   const Proportional& p = body_->proportional();
-  propagators_.resize(static_cast<std::size_t>(omega_.size()));
+  const std::size_t components = 2 + p.branches.size();
+  const Vector none = Vector::Zero(omega_.size());
+  propagators_.keep.assign(components, std::vector<Vector>(components, none));
+  propagators_.begin.assign(components, none);
+  propagators_.end.assign(components, none);
+  propagators_.damping = none;
   for (Eigen::Index i = 0; i < omega_.size(); ++i) {
     // x = (q, q'/omega, z_1, ...): q'' + (drag + retardation omega^2) q' + omega^2 q
     //   + sum of ratio omega^2 (q - z_i) = f,  z_i' = (q - z_i) / time_i     docs/theory.md (41)
@@ -65,29 +72,59 @@ void Modal::prepare(double time_step) {
     system(size, size + 1) = 1.0 / time_step;
     const Eigen::MatrixXd exponent = system * time_step;
     const Eigen::MatrixXd whole = exponent.exp();
-    Propagator& propagator = propagators_[static_cast<std::size_t>(i)];
-    propagator.keep = whole.topLeftCorner(size, size);
-    propagator.end = whole.block(0, size + 1, size, 1);
-    propagator.begin = whole.block(0, size, size, 1) - propagator.end;
+    for (Eigen::Index c = 0; c < size; ++c) {
+      const auto to = static_cast<std::size_t>(c);
+      for (Eigen::Index d = 0; d < size; ++d)
+        propagators_.keep[to][static_cast<std::size_t>(d)][i] = whole(c, d);
+      propagators_.end[to][i] = whole(c, size + 1);
+      propagators_.begin[to][i] = whole(c, size) - whole(c, size + 1);
+    }
+    propagators_.damping[i] = damping / time_step;
   }
 }
 
+// Phi^T f, of the few freedoms that are loaded.
 Vector Modal::modal_force(const Vector& load) const {
-  Vector free(static_cast<Eigen::Index>(free_.size()));
+  Vector sum = Vector::Zero(omega_.size());
   for (std::size_t i = 0; i < free_.size(); ++i)
-    free[static_cast<Eigen::Index>(i)] = load[free_[i]];
-  return shapes_.transpose() * free;
+    if (const double newton = load[free_[i]]; newton != 0.0)
+      mode_loops::add_scaled(static_cast<std::size_t>(sum.size()), newton,
+                             shapes_.row(static_cast<Eigen::Index>(i)).data(), sum.data());
+  return sum;
+}
+
+// all += Phi a
+void Modal::add_shapes(const Vector& amplitudes, Vector& all) const {
+  for (std::size_t i = 0; i < free_.size(); ++i)
+    all[free_[i]] +=
+        mode_loops::product(static_cast<std::size_t>(amplitudes.size()),
+                            shapes_.row(static_cast<Eigen::Index>(i)).data(), amplitudes.data());
+}
+
+// A component of the modes at the end of a step between two modal forces.
+Vector Modal::next(std::size_t component, const Vector& before, const Vector& after) const {
+  const auto size = static_cast<std::size_t>(omega_.size());
+  Vector sum = Vector::Zero(omega_.size());
+  for (std::size_t d = 0; d < modes_.size(); ++d)
+    mode_loops::add_products(size, propagators_.keep[component][d].data(), modes_[d].data(),
+                             sum.data());
+  mode_loops::add_products(size, propagators_.begin[component].data(), before.data(), sum.data());
+  mode_loops::add_products(size, propagators_.end[component].data(), after.data(), sum.data());
+  return sum;
+}
+
+// The modes move about the displacement of the start, which must be in balance.
+void Modal::start(const State& state) {
+  if (started_) return;
+  started_ = true;
+  const Vector none = Vector::Zero(omega_.size());
+  modes_.assign(2 + body_->proportional().branches.size(), none);
+  load_before_ = load_after_ = work_ = lost_ = none;
+  settled_ = state.displacement;
 }
 
 void Modal::begin(const State& state, double time_step, MemoryRule rule) {
-  if (!started_) {
-    // The modes move about the displacement of the start, which must be in balance.
-    started_ = true;
-    modes_.assign(static_cast<std::size_t>(omega_.size()),
-                  Mode::Zero(2 + static_cast<Eigen::Index>(body_->proportional().branches.size())));
-    load_before_ = Vector::Zero(omega_.size());
-    settled_ = state.displacement;
-  }
+  start(state);
   time_step_ = time_step;
   held_load_ = rule == MemoryRule::held;
   prepare(time_step);
@@ -95,47 +132,80 @@ void Modal::begin(const State& state, double time_step, MemoryRule rule) {
 
 bool Modal::linearise(const Vector&, const Vector& load) {
   const Vector force = modal_force(load);
-  Vector position(omega_.size());
-  for (Eigen::Index i = 0; i < omega_.size(); ++i) {
-    const Propagator& propagator = propagators_[static_cast<std::size_t>(i)];
-    const double before = held_load_ ? force[i] : load_before_[i];
-    position[i] = propagator.keep.row(0).dot(modes_[static_cast<std::size_t>(i)]) +
-                  propagator.begin[0] * before + propagator.end[0] * force[i];
-  }
   base_ = settled_;
-  const Vector free = shapes_ * position;
-  for (std::size_t i = 0; i < free_.size(); ++i)
-    base_[free_[i]] += free[static_cast<Eigen::Index>(i)];
+  add_shapes(next(0, held_load_ ? force : load_before_, force), base_);
   return true;
 }
 
 Vector Modal::response(const Vector& load) const {
-  Vector position = modal_force(load);
-  for (Eigen::Index i = 0; i < position.size(); ++i)
-    position[i] *= propagators_[static_cast<std::size_t>(i)].end[0];
-  const Vector free = shapes_ * position;
   Vector all = Vector::Zero(body_->mass().size());
-  for (std::size_t i = 0; i < free_.size(); ++i) all[free_[i]] = free[static_cast<Eigen::Index>(i)];
+  add_shapes(modal_force(load).cwiseProduct(propagators_.end[0]), all);
   return all;
 }
 
 void Modal::finish(State& state, const Vector& displacement, const Vector& load) {
   const Vector force = modal_force(load);
-  Vector velocity(omega_.size());
-  for (Eigen::Index i = 0; i < omega_.size(); ++i) {
-    const Propagator& propagator = propagators_[static_cast<std::size_t>(i)];
-    Mode& mode = modes_[static_cast<std::size_t>(i)];
-    const double before = held_load_ ? force[i] : load_before_[i];
-    mode = propagator.keep * mode + propagator.begin * before + propagator.end * force[i];
-    velocity[i] = mode[1] * omega_[i];
-  }
+  std::vector<Vector> modes;
+  for (std::size_t c = 0; c < modes_.size(); ++c)
+    modes.push_back(next(c, held_load_ ? force : load_before_, force));
+  modes_ = std::move(modes);
   load_before_ = force;
-  const Vector free = shapes_ * velocity;
-  for (std::size_t i = 0; i < free_.size(); ++i)
-    state.velocity[free_[i]] = free[static_cast<Eigen::Index>(i)];
+  state.velocity.setZero();
+  add_shapes(modes_[1].cwiseProduct(omega_), state.velocity);
   body_->remember(displacement, {time_step_, MemoryRule::exact}, state.memory);
   state.displacement = displacement;
   state.time += time_step_;
+}
+
+void Modal::press(Eigen::Index freedom, double load) {
+  const Eigen::Index row = row_[static_cast<std::size_t>(freedom)];
+  if (row < 0 || load == 0.0) return;
+  if (load_after_.size() == 0) load_after_ = Vector::Zero(omega_.size());
+  mode_loops::add_scaled(static_cast<std::size_t>(omega_.size()), load, shapes_.row(row).data(),
+                         load_after_.data());
+}
+
+void Modal::pass(const State& start, double time_step) {
+  if (!started_) {
+    const Vector pressed = std::move(load_after_);
+    this->start(start);
+    if (pressed.size() > 0) load_after_ = pressed;
+  }
+  prepare(time_step);
+  const Propagators& p = propagators_;
+  mode_loops::pass(static_cast<std::size_t>(omega_.size()),
+                   {.keep = {{p.keep[0][0].data(), p.keep[0][1].data()},
+                             {p.keep[1][0].data(), p.keep[1][1].data()}},
+                    .begin = {p.begin[0].data(), p.begin[1].data()},
+                    .end = {p.end[0].data(), p.end[1].data()},
+                    .force_before = load_before_.data(),
+                    .force_after = load_after_.data(),
+                    .damping = p.damping.data(),
+                    .x = {modes_[0].data(), modes_[1].data()},
+                    .work = work_.data(),
+                    .lost = lost_.data()});
+  load_before_.swap(load_after_);
+  load_after_.setZero();
+}
+
+void Modal::show(State& state) const {
+  state.displacement = settled_;
+  add_shapes(modes_[0], state.displacement);
+  state.velocity.setZero();
+  add_shapes(modes_[1].cwiseProduct(omega_), state.velocity);
+  state.memory = body_->memory_at(state.displacement);
+}
+
+// 1/2 omega^2 (q^2 + (q'/omega)^2) of every mode.
+Modal::Energies Modal::energies() const {
+  Energies sum;
+  for (Eigen::Index i = 0; i < omega_.size(); ++i) {
+    sum.work += work_[i];
+    sum.lost += lost_[i];
+    sum.held +=
+        0.5 * omega_[i] * omega_[i] * (modes_[0][i] * modes_[0][i] + modes_[1][i] * modes_[1][i]);
+  }
+  return sum;
 }
 
 }  // namespace palpate::integrate

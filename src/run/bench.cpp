@@ -52,7 +52,7 @@ class Stages {
     return wrong;
   }
 
-  [[nodiscard]] double displacement() const {
+  [[nodiscard]] double displacement() {
     return mesh_.displacement()
         .reshaped<Eigen::RowMajor>(Eigen::AutoSize, 3)
         .rowwise()

@@ -254,18 +254,7 @@ std::optional<std::string> Contacts::find(const Vec3& finger, const MeshAnswer& 
 
 Vector Contacts::load(const Touch& touch, const MeshAnswer& mesh) {
   Vector load = Vector::Zero(mesh.freedoms);
-  for (const SphereContact& contact : touch.contacts) {
-    const Vec3 push = contact.drag - contact.force * contact.patch.normal;
-    const contact::Spread& spread = contact.wide.vertices.empty() ? contact.load : contact.wide;
-    const std::vector<Vec3>& pushes = contact.nodal.push;
-    for (std::size_t k = 0; k < spread.vertices.size(); ++k) {
-      const int node = mesh.nodes[static_cast<std::size_t>(spread.vertices[k])];
-      if (node >= 0)
-        load.segment<3>(3 * node) +=
-            pushes.empty() ? Vec3(spread.shares[k] * push)
-                           : Vec3(spread.shares[k] * contact.drag + contact.force * pushes[k]);
-    }
-  }
+  push(touch, mesh, [&](int node, const Vec3& force) { load.segment<3>(3 * node) += force; });
   return load;
 }
 

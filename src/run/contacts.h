@@ -105,6 +105,10 @@ class Contacts {
   [[nodiscard]] std::optional<std::string> find(const Vec3& finger, const MeshAnswer& mesh,
                                                 Touch& touch);
 
+  // Calls push(node, N) for every node of the mesh that a contact loads, contact by contact.
+  template <class Push>
+  static void push(const Touch& touch, const MeshAnswer& mesh, const Push& push);
+
   // The forces on the mesh, N.
   [[nodiscard]] static integrate::Vector load(const Touch& touch, const MeshAnswer& mesh);
 
@@ -195,5 +199,21 @@ class Contacts {
   std::unique_ptr<ResolvedContact> resolved_;  // instead of all this, for `resolved`
   bool moving_ = false;
 };
+
+template <class Push>
+void Contacts::push(const Touch& touch, const MeshAnswer& mesh, const Push& push) {
+  for (const SphereContact& contact : touch.contacts) {
+    const Vec3 whole = contact.drag - contact.force * contact.patch.normal;
+    const contact::Spread& spread = contact.wide.vertices.empty() ? contact.load : contact.wide;
+    const std::vector<Vec3>& pushes = contact.nodal.push;
+    for (std::size_t k = 0; k < spread.vertices.size(); ++k) {
+      const int node = mesh.nodes[static_cast<std::size_t>(spread.vertices[k])];
+      if (node >= 0)
+        push(node, pushes.empty()
+                       ? Vec3(spread.shares[k] * whole)
+                       : Vec3(spread.shares[k] * contact.drag + contact.force * pushes[k]));
+    }
+  }
+}
 
 }  // namespace palpate::run

@@ -41,6 +41,13 @@ std::optional<std::string> EnergyMonitor::step(const integrate::State& before,
   return std::nullopt;
 }
 
+void EnergyMonitor::account(double work, double lost, double held) {
+  work_ = work;
+  lost_ = lost;
+  held_ = held;
+  greatest_ = std::max(greatest_, given_ + work_);
+}
+
 double EnergyMonitor::imbalance() const {
   if (greatest_ <= 0.0) return 0.0;
   return std::abs(given_ + work_ - held_ - lost_) / greatest_;

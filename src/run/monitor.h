@@ -26,6 +26,10 @@ class EnergyMonitor {
                                                 const integrate::Vector& load_before,
                                                 const integrate::Vector& load_after);
 
+  // Motion that keeps its own account: all work done on it, all that was lost, and what it holds,
+  // J.
+  void account(double work, double lost, double held);
+
   // |in - stored - lost| over the greatest energy so far; 0 where nothing moved.
   [[nodiscard]] double imbalance() const;
 

@@ -134,6 +134,10 @@ void PressedMesh::set_step(double time_step) {
   stepper_->set_step(time_step);
   crept_.set_step(time_step);
   slope_ = 1.0;
+  const auto* modal = std::get_if<integrate::Modal>(&stepper_->method());
+  in_modes_ = modal != nullptr && modal->passes_alone() && forces_follow_finger() &&
+              !scene_->scenario.solver.rings &&
+              scene_->scenario.contact.curvature_on == scenario::Contact::CurvatureOn::rest;
   for (const contact::Branch& branch : scene_->relaxation.branches)
     slope_ += branch.ratio * (1.0 - tissue::MemoryStep::exact(time_step, branch.time).end);
 }
@@ -165,6 +169,15 @@ std::optional<std::string> PressedMesh::step_freely(const Vec3& finger, ContactH
 }
 
 std::optional<std::string> PressedMesh::move(const Touch& touch) {
+  if (in_modes_) {
+    auto& modal = std::get<integrate::Modal>(stepper_->method());
+    Contacts::push(touch, answer(), [&](int node, const Vec3& force) {
+      for (int axis = 0; axis < 3; ++axis) modal.press(3 * node + axis, force[axis]);
+    });
+    modal.pass(state_, time_step_);
+    shown_ = false;
+    return std::nullopt;
+  }
   Vector load = Contacts::load(touch, answer());
   auto wrong = stepper_->step(state_, load_, load, integrate::MemoryRule::exact);
   load_ = std::move(load);
@@ -224,6 +237,10 @@ std::optional<std::string> PressedMesh::balance(Linearised& method, const Vec3& 
 
 std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
                                              ContactHistory& history, Touch& touch) {
+  if (in_modes_) {
+    state_.time = time;
+    return step_freely(finger, history, touch);
+  }
   const State before = state_;
   const Vector load_before = load_;
   auto wrong = inertia_                 ? step_with_inertia(finger, history, touch)
@@ -262,7 +279,23 @@ Vector PressedMesh::of_specimen(const Vector& of_part) const {
   return all;
 }
 
-Vector PressedMesh::displacement() const {
+// Makes state_ what the modes say.
+void PressedMesh::show() {
+  if (shown_) return;
+  const auto& modal = std::get<integrate::Modal>(stepper_->method());
+  modal.show(state_);
+  const auto energies = modal.energies();
+  monitor_->account(energies.work, energies.lost, energies.held);
+  shown_ = true;
+}
+
+const State& PressedMesh::state() {
+  show();
+  return state_;
+}
+
+Vector PressedMesh::displacement() {
+  show();
   if (finer_.size() == 0) return of_specimen(state_.displacement);
   Vector load = finer_;
   for (Eigen::Index d = 0; d < load.size(); ++d)
@@ -270,11 +303,12 @@ Vector PressedMesh::displacement() const {
   return of_specimen(state_.displacement + factors_.solve(load));
 }
 
-bool PressedMesh::inverted() const {
+bool PressedMesh::inverted() {
+  show();
   return tissue::inverted(specimen_->mesh, of_specimen(state_.displacement));
 }
 
-double PressedMesh::edge_reaction() const {
+double PressedMesh::edge_reaction() {
   Vector force;
   body_->force(state_.displacement, state_.memory, force);
   Vec3 sum = Vec3::Zero();
@@ -283,6 +317,9 @@ double PressedMesh::edge_reaction() const {
   return sum.norm();
 }
 
-double PressedMesh::imbalance() const { return monitor_->imbalance(); }
+double PressedMesh::imbalance() {
+  show();
+  return monitor_->imbalance();
+}
 
 }  // namespace palpate::run

@@ -48,19 +48,19 @@ class PressedMesh {
 
   // Of all nodes of the specimen, m. Where the mesh is loaded through a wide spread, with what the
   // pressure's own would add in statics.
-  [[nodiscard]] integrate::Vector displacement() const;
+  [[nodiscard]] integrate::Vector displacement();
 
   // Whether a tetrahedron has turned inside out.
-  [[nodiscard]] bool inverted() const;
+  [[nodiscard]] bool inverted();
 
   // The force on the edge of the part that moves, N; 0 for all of the specimen.
-  [[nodiscard]] double edge_reaction() const;
+  [[nodiscard]] double edge_reaction();
 
   // EnergyMonitor::imbalance().
-  [[nodiscard]] double imbalance() const;
+  [[nodiscard]] double imbalance();
 
   [[nodiscard]] const scene::SpringBody& body() const { return *body_; }
-  [[nodiscard]] const integrate::State& state() const { return state_; }
+  [[nodiscard]] const integrate::State& state();
   [[nodiscard]] MeshAnswer answer() const;
   [[nodiscard]] Contacts& contacts() { return contacts_; }
 
@@ -80,6 +80,7 @@ class PressedMesh {
   [[nodiscard]] std::optional<std::string> step_in_modes(integrate::Modal& method,
                                                          const Vec3& finger,
                                                          ContactHistory& history, Touch& touch);
+  void show();
   [[nodiscard]] integrate::Vector drag_load(const Touch& touch) const;
   [[nodiscard]] integrate::Vector respond(const integrate::Vector& unit);
   [[nodiscard]] integrate::Vector of_specimen(const integrate::Vector& of_part) const;
@@ -91,7 +92,7 @@ class PressedMesh {
   const scene::Specimen* specimen_;
   Contacts contacts_;
   tissue::Part part_;
-  bool whole_ = true;  // nothing of the part is its edge
+  bool whole_ = true;            // nothing of the part is its edge
   std::vector<int> skin_nodes_;  // of the part, one a vertex of the skin; -1 outside
   std::optional<scene::SpringBody> body_;
   std::optional<Stepper> stepper_;
@@ -99,15 +100,18 @@ class PressedMesh {
   std::optional<Influence> influence_;
   std::optional<Influence> one_tissue_;
   std::optional<Influence> response_;  // of an implicit step, for `consistent` with inertia
-  Cholesky factors_;      // of statics, for `consistent`
-  Cholesky one_factors_;  // were the specimen of one tissue
+  Cholesky factors_;                   // of statics, for `consistent`
+  Cholesky one_factors_;               // were the specimen of one tissue
   integrate::State state_;
   integrate::Vector load_;
   double time_step_ = 0.0;
+  // Whether frames pass in modes alone, and whether state_ is where these are. docs/theory.md (41)
+  bool in_modes_ = false;
+  bool shown_ = true;
   // Where inertia reaches the force:
   bool inertia_;
   CreptLoad crept_;
-  double slope_ = 1.0;  // of a force over its elastic one, within a step
+  double slope_ = 1.0;       // of a force over its elastic one, within a step
   integrate::Vector finer_;  // N: elastic, the pressure's own loads less the wide ones
 };
 

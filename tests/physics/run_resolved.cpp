@@ -62,7 +62,7 @@ struct Pressed {
   }
 
   // Of every node of the skin to the sphere along the vertical, m, as the skin has moved.
-  [[nodiscard]] std::map<int, double> gaps() const {
+  [[nodiscard]] std::map<int, double> gaps() {
     std::map<int, double> all;
     const Vector moved = mesh.displacement();
     const Vec3 centre = touch.finger;
@@ -81,7 +81,7 @@ struct Pressed {
 };
 
 TEST(Resolved, nodes_touch_or_are_free_and_none_pulls_or_overlaps) {
-  const Pressed pressed({}, 1.5e-3);
+  Pressed pressed({}, 1.5e-3);
   ASSERT_EQ(pressed.touch.contacts.size(), 1u);
   const run::SphereContact& contact = pressed.touch.contacts.front();
   const run::SkinNodes nodes(*pressed.scene.specimen->surface);
@@ -107,7 +107,7 @@ TEST(Resolved, nodes_touch_or_are_free_and_none_pulls_or_overlaps) {
 
 TEST(Resolved, the_base_carries_what_the_finger_presses_with) {
   for (const char* direction : {"skin", "sphere"}) {
-    const Pressed pressed({std::string("contact.direction=") + direction}, 1.5e-3);
+    Pressed pressed({std::string("contact.direction=") + direction}, 1.5e-3);
     const auto& body = pressed.mesh.body();
     Vector force;
     body.force(pressed.mesh.state().displacement, pressed.mesh.state().memory, force);
@@ -249,7 +249,7 @@ TEST(Resolved, a_slide_drags_with_mu_times_the_force) {
 }
 
 TEST(Resolved, several_spheres_press_each_its_own_nodes) {
-  const Pressed pressed({"finger.spheres=4", "finger.calibration=mass",
+  Pressed pressed({"finger.spheres=4", "finger.calibration=mass",
                          "tissue.mesh={kind=\"mirrored\",cells=[16,16,5],grading=2}"},
                         2e-3);
   ASSERT_GE(pressed.touch.contacts.size(), 2u);

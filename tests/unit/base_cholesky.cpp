@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <limits>
 #include <numbers>
+#include <thread>
 
 namespace palpate {
 namespace {
@@ -170,6 +171,44 @@ TEST(Cholesky, ForgetsTheMatrixBefore) {
     ASSERT_TRUE(factors.factor(matrix));
     EXPECT_LT((dense(matrix) * factors.solve(b) - b).norm(), 1e-12);  // rounding times 5 * 40 / 0.3
   }
+}
+
+// A square net of masses on soft ground, wide enough for nested dissection.
+SplitMatrix net(int side) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const int here = side * i + j;
+      entries.emplace_back(here, here, 4.01);
+      for (const int next : {j + 1 < side ? here + 1 : -1, i + 1 < side ? here + side : -1})
+        if (next >= 0) {
+          entries.emplace_back(here, next, -1.0);
+          entries.emplace_back(next, here, -1.0);
+        }
+    }
+  SplitMatrix matrix;
+  matrix.local.resize(side * side, side * side);
+  matrix.local.setFromTriplets(entries.begin(), entries.end());
+  matrix.shared.resize(0, side * side);
+  return matrix;
+}
+
+TEST(Cholesky, GivesTheSameBitsInSeveralThreads) {
+  const SplitMatrix matrix = net(90);
+  const Vector b = Vector::Ones(matrix.local.rows());
+  const auto solved = [&] {
+    Cholesky factors;
+    EXPECT_TRUE(factors.factor(matrix));
+    return factors.solve(b);
+  };
+  const Vector alone = solved();
+  EXPECT_LT((matrix * alone - b).norm(), 1e-9);  // rounding times 4 / 0.01
+  std::vector<Vector> together(6);
+  {
+    std::vector<std::jthread> threads;
+    for (Vector& x : together) threads.emplace_back([&x, &solved] { x = solved(); });
+  }
+  for (const Vector& x : together) EXPECT_EQ(x, alone);
 }
 
 TEST(SplitMatrix, MultipliesAndScalesAsTheDenseMatrix) {

@@ -1,0 +1,60 @@
+// Entry by entry, so that any width gives the same bits. CMakeLists.txt says how this is compiled.
+#include "integrate/mode_loops.h"
+
+#if defined(__x86_64__)
+#define PALPATE_WIDE __attribute__((target_clones("default", "avx2", "avx512f")))
+#else
+#define PALPATE_WIDE
+#endif
+
+namespace palpate::integrate::mode_loops {
+
+PALPATE_WIDE void add_scaled(std::size_t size, double factor, const double* __restrict row,
+                             double* __restrict sum) {
+  for (std::size_t i = 0; i < size; ++i) sum[i] += factor * row[i];
+}
+
+PALPATE_WIDE void add_products(std::size_t size, const double* __restrict a,
+                               const double* __restrict b, double* __restrict sum) {
+  for (std::size_t i = 0; i < size; ++i) sum[i] += a[i] * b[i];
+}
+
+PALPATE_WIDE double product(std::size_t size, const double* __restrict a,
+                            const double* __restrict b) {
+  constexpr std::size_t lanes = 8;
+  double sums[lanes] = {};
+  std::size_t i = 0;
+  for (; i + lanes <= size; i += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) sums[k] += a[i + k] * b[i + k];
+  for (std::size_t k = 0; i + k < size; ++k) sums[k] += a[i + k] * b[i + k];
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+PALPATE_WIDE void pass(std::size_t size, const Frame& frame) {
+  const double* __restrict k00 = frame.keep[0][0];
+  const double* __restrict k01 = frame.keep[0][1];
+  const double* __restrict k10 = frame.keep[1][0];
+  const double* __restrict k11 = frame.keep[1][1];
+  const double* __restrict b0 = frame.begin[0];
+  const double* __restrict b1 = frame.begin[1];
+  const double* __restrict e0 = frame.end[0];
+  const double* __restrict e1 = frame.end[1];
+  const double* __restrict f0 = frame.force_before;
+  const double* __restrict f1 = frame.force_after;
+  const double* __restrict damping = frame.damping;
+  double* __restrict q = frame.x[0];
+  double* __restrict v = frame.x[1];
+  double* __restrict work = frame.work;
+  double* __restrict lost = frame.lost;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double position = (k00[i] * q[i] + k01[i] * v[i]) + (b0[i] * f0[i] + e0[i] * f1[i]);
+    const double velocity = (k10[i] * q[i] + k11[i] * v[i]) + (b1[i] * f0[i] + e1[i] * f1[i]);
+    const double moved = position - q[i];
+    work[i] += 0.5 * (f0[i] + f1[i]) * moved;
+    lost[i] += damping[i] * moved * moved;
+    q[i] = position;
+    v[i] = velocity;
+  }
+}
+
+}  // namespace palpate::integrate::mode_loops
