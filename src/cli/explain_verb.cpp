@@ -10,6 +10,7 @@
 #include "cli/verbs.h"
 #include "run/family.h"
 #include "scenario/family.h"
+#include "scenario/integrators.h"
 #include "scenario/words.h"
 #include "scene/specimen_mesh.h"
 
@@ -67,12 +68,33 @@ std::string meaning(const std::string& asked) {
 const char* integrator_word(Solver::Integrator integrator) {
   switch (integrator) {
     case Solver::Integrator::central_difference: return "central differences";
+    case Solver::Integrator::semi_implicit_euler:
+      return "semi-implicit Euler, the new velocity first";
+    case Solver::Integrator::tr_bdf2: return "TR-BDF2, two implicit stages a step";
     case Solver::Integrator::backward_difference: return "backward differences (implicit Euler)";
     case Solver::Integrator::quasi_static: return "quasi-static steps, without inertia";
     case Solver::Integrator::modal: return "modal coordinates, exact in time";
     case Solver::Integrator::automatic: break;  // has been answered when the scene was built
   }
   return "";
+}
+
+// Implicit methods have no limit; the line is then what explicit ones would ask for.
+std::string limit_word(const Solver& solver) {
+  return solver.integrator == Solver::Integrator::semi_implicit_euler
+             ? "semi-implicit Euler is stable below "
+             : "central differences are stable below ";
+}
+
+std::string limit_formula(const Solver& solver) {
+  if (!scenario::explicit_steps(solver.integrator)) return " (2 / omega_max)";
+  switch (scenario::damping_velocity(solver)) {
+    case integrate::DampingVelocity::centred: return " (2 / omega_max)";
+    case integrate::DampingVelocity::lagged:
+      return " (2 (sqrt(1 + zeta^2) - zeta) / omega_max: damping lags)";
+    case integrate::DampingVelocity::ahead: break;
+  }
+  return " (2 (sqrt(1 + zeta^2) + zeta) / omega_max)";
 }
 
 class Explanation {
@@ -330,13 +352,11 @@ class Explanation {
     const scene::TimePlan& plan = specimen.plan;
     const Solver& solver = scene_.scenario.solver;
     line(std::string("  time         ") + integrator_word(solver.integrator));
-    line("  stability    central differences are stable below " + milliseconds(plan.limit) +
-         " (2 / omega_max)");
+    line("  stability    " + limit_word(solver) + milliseconds(plan.limit) + limit_formula(solver));
     line("  steps        time step " + milliseconds(plan.time_step) + " in " +
          std::to_string(plan.substeps) + (plan.substeps == 1 ? " step of " : " substeps of ") +
          milliseconds(plan.substep));
-    if (solver.allow_unstable && !plan.stable() &&
-        solver.integrator == Solver::Integrator::central_difference)
+    if (solver.allow_unstable && !plan.stable() && scenario::explicit_steps(solver.integrator))
       line(
           "  warning      the step is above the stability limit and will diverge; "
           "`allow_unstable` lets it");

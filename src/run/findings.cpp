@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "scenario/integrators.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
 
@@ -66,8 +67,7 @@ class Findings {
     add("time_step_ms", unit::ms.from_si(specimen.plan.substep));
     add("substeps", static_cast<double>(specimen.plan.substeps));
     add("damping_ratio", damping_ratio(specimen));
-    if (!specimen.plan.stable() &&
-        scene_.scenario.solver.integrator == scenario::Solver::Integrator::central_difference)
+    if (!specimen.plan.stable() && scenario::explicit_steps(scene_.scenario.solver.integrator))
       remark("the step is " + rounded_text(specimen.plan.substep / specimen.plan.limit, 3) +
              " times the stability limit: this motion grows from rounding, do not trust it");
     if (std::abs(modulus / table_modulus - 1.0) > 0.05)

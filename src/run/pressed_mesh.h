@@ -66,6 +66,7 @@ class PressedMesh {
 
  private:
   void take(tissue::Part part, const std::vector<int>& start);
+  void set_stage(double duration);
   void follow(const Touch& touch);
   [[nodiscard]] std::optional<std::string> step_freely(const Vec3& finger, ContactHistory& history,
                                                        Touch& touch);
@@ -74,8 +75,8 @@ class PressedMesh {
                                                              ContactHistory& history, Touch& touch);
   [[nodiscard]] std::optional<std::string> meet(const Vec3& finger, MovingMesh moving,
                                                 ContactHistory& history, Touch& touch);
-  [[nodiscard]] std::optional<std::string> step_implicitly(integrate::Implicit& method,
-                                                           const Vec3& finger,
+  template <class Linearised>
+  [[nodiscard]] std::optional<std::string> step_implicitly(Linearised& method, const Vec3& finger,
                                                            ContactHistory& history, Touch& touch);
   [[nodiscard]] std::optional<std::string> step_in_modes(integrate::Modal& method,
                                                          const Vec3& finger,
@@ -91,7 +92,7 @@ class PressedMesh {
   const scene::Specimen* specimen_;
   Contacts contacts_;
   tissue::Part part_;
-  bool whole_ = true;  // nothing of the part is its edge
+  bool whole_ = true;            // nothing of the part is its edge
   std::vector<int> skin_nodes_;  // of the part, one a vertex of the skin; -1 outside
   std::optional<scene::SpringBody> body_;
   std::optional<Stepper> stepper_;
@@ -99,15 +100,16 @@ class PressedMesh {
   std::optional<Influence> influence_;
   std::optional<Influence> one_tissue_;
   std::optional<Influence> response_;  // of an implicit step, for `consistent` with inertia
-  Cholesky factors_;      // of statics, for `consistent`
-  Cholesky one_factors_;  // were the specimen of one tissue
+  Cholesky factors_;                   // of statics, for `consistent`
+  Cholesky one_factors_;               // were the specimen of one tissue
   integrate::State state_;
   integrate::Vector load_;
   double time_step_ = 0.0;
+  double stage_step_ = 0.0;  // s, from one meeting of finger and mesh to the next
   // Where inertia reaches the force:
   bool inertia_;
   CreptLoad crept_;
-  double slope_ = 1.0;  // of a force over its elastic one, within a step
+  double slope_ = 1.0;       // of a force over its elastic one, within a step
   integrate::Vector finer_;  // N: elastic, the pressure's own loads less the wide ones
 };
 

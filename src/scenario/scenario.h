@@ -168,7 +168,15 @@ struct Contact {
 
 struct Solver {
   enum class Model { automatic, hertz, layer, mass_spring, coupled_springs };
-  enum class Integrator { automatic, central_difference, backward_difference, quasi_static, modal };
+  enum class Integrator {
+    automatic,
+    central_difference,
+    semi_implicit_euler,
+    backward_difference,
+    tr_bdf2,
+    quasi_static,
+    modal
+  };
   enum class Volume { automatic, none, tetrahedron, nodal };
   Model model = Model::automatic;
   double tolerance = 0.05;
@@ -177,6 +185,7 @@ struct Solver {
   tissue::Kinematics kinematics = tissue::Kinematics::linear;
   Integrator integrator = Integrator::automatic;
   integrate::Start start = integrate::Start::consistent;
+  integrate::DampingVelocity damping = integrate::DampingVelocity::centred;
   std::optional<double> time_step;  // s
   std::optional<int> substeps;      // a time step is cut into; empty: as many as are stable
   bool allow_unstable = false;

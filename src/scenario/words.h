@@ -68,11 +68,17 @@ inline constexpr std::array integrators{
     Word{"auto",
          "`quasi_static` where `model = \"auto\"` finds that "
          "inertia does not matter, else `central_difference`"},
-    Word{"central_difference", "explicit, eq. (12)"}, Word{"backward_difference", "implicit Euler"},
+    Word{"central_difference", "explicit, eq. (12)"},
+    Word{"semi_implicit_euler", "explicit, the new velocity first; first order"},
+    Word{"backward_difference", "implicit Euler, first order"},
+    Word{"tr_bdf2", "implicit, second order, L-stable; two solves a step"},
     Word{"quasi_static", "no inertia"},
     Word{"modal", "exact in time, linear only, up to 1000 nodes"}};
 inline constexpr std::array starts{Word{"consistent", "second order"},
                                    Word{"paper", "U(-dt) = U(0), first order"}};
+inline constexpr std::array damping_velocities{
+    Word{"centred", "the mean over this step and the one before, eq. (12)"},
+    Word{"lagged", "of the step before: first order, and stable for shorter steps only"}};
 inline constexpr std::array stiffnesses{Word{"van_gelder", "k = E sum(V) / l^2"},
                                         Word{"fitted", "least squares towards isotropy"}};
 inline constexpr std::array kinematics_words{Word{"linear", "eq. (11)-(12)"},

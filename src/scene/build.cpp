@@ -9,6 +9,7 @@
 #include "contact/patch.h"
 #include "contact/ring.h"
 #include "contact/wide_patch.h"
+#include "scenario/integrators.h"
 #include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
 #include "scene/scene.h"
@@ -79,8 +80,7 @@ ContactRate contact_rate(const Scene& scene) {
 void refuse_unstable(const Scene& scene, const scenario::Family& family) {
   const scenario::Solver& solver = scene.scenario.solver;
   const TimePlan& plan = scene.specimen->plan;
-  if (solver.integrator != scenario::Solver::Integrator::central_difference || plan.stable() ||
-      solver.allow_unstable)
+  if (!scenario::explicit_steps(solver.integrator) || plan.stable() || solver.allow_unstable)
     return;
   const double needed = std::ceil(plan.time_step / (0.9 * plan.limit));
   throw InputError(scenario::place_of(family.document, "solver.substeps"),
