@@ -7,6 +7,8 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "contact/deep.h"
+#include "run/known_failures.h"
 #include "scenario/integrators.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
@@ -170,7 +172,11 @@ class Findings {
     const bool mesh = scene_.specimen != nullptr;
     const bool hertz = !mesh && !scene_.layer;
     const double depth = peak.indentation / scene_.law().radius;
-    if (depth > 0.1 && !scene_.deep && coupling != contact::Coupling::resolved)
+    if (depth > contact::DeepLaw::deepest && coupling != contact::Coupling::resolved)
+      remark("the indentation reached " + rounded_text(depth, 2) +
+             " of the sphere's radius: beyond half of it no factor for deep presses is known, and "
+             "Hertz's law is a guess; press less deep, or use `coupling = \"resolved\"`");
+    else if (depth > 0.1 && !scene_.deep && coupling != contact::Coupling::resolved)
       remark("the indentation reached " + rounded_text(depth, 2) +
              " of the sphere's radius: Hertz assumes far less, and at a quarter of the radius true "
              "forces differ by up to 6 % (docs/paper.md, 13)" +
@@ -253,6 +259,7 @@ class Findings {
 
 void add_findings(const scene::Scene& scene, record::CaseRecord& record) {
   Findings(scene, record).all();
+  add_known_failures(scene, record);
 }
 
 }  // namespace palpate::run

@@ -280,6 +280,11 @@ class Checker {
               "`resolved` finds its forces and the motion together, which an explicit method "
               "cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
               "`backward_difference`");
+    if (scenario_.contact.spread == Contact::Spread::nearest_node && !scenario_.uniform() &&
+        scenario_.contact.coupling != contact::Coupling::one_way &&
+        scenario_.contact.coupling != contact::Coupling::series)
+      problem("contact.spread",
+              "`nearest_node` is for `one_way` and `series`; write `spread = \"pressure\"`");
     if (solver.integrator == Integrator::modal &&
         solver.kinematics == tissue::Kinematics::nonlinear)
       problem("solver.kinematics",

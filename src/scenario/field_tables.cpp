@@ -75,9 +75,25 @@ void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& u
                   {contact.coupling == contact::Coupling::resolved,
                    "with `coupling = \"resolved\"`", Use::Otherwise::note}},
                  contact.direction, directions);
+  visitor.choice({"spread", "How a contact's force is shared by the mesh's nodes.", use.mesh},
+                 contact.spread, loaded);
   visitor.number({"friction", "Coulomb's coefficient mu."}, contact.friction, at_least(0));
+  visitor.choice({"slip",
+                  "How friction sets in.",
+                  {contact.friction > 0.0, "with `friction` above 0", Use::Otherwise::note}},
+                 contact.slip, slips);
   visitor.quantity({"ambient_force", "F_a of eq. (1), added to the force."}, contact.ambient_force,
                    unit::N, {});
+}
+
+void device_fields(FieldVisitor& visitor, Device& device) {
+  visitor.quantity(
+      {"damping", "Its own; where given, the findings say what it can show passively."},
+      device.damping, unit::N_s_per_m, at_least(0));
+  visitor.quantity({"frame",
+                    "From one force to the next.",
+                    {device.damping.has_value(), "with `device.damping`", Use::Otherwise::note}},
+                   device.frame, unit::ms, above(0));
 }
 
 void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {

@@ -18,6 +18,7 @@ struct Conditions {
 
 void finger_fields(FieldVisitor& visitor, Finger& finger);
 void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& use);
+void device_fields(FieldVisitor& visitor, Device& device);
 void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use);
 void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use);
 

@@ -248,6 +248,8 @@ void fields(FieldVisitor& visitor, Scenario& scenario) {
                 [&](FieldVisitor& inner) { finger_fields(inner, scenario.finger); });
   visitor.table({"contact", "The contact law.", use.finger},
                 [&](FieldVisitor& inner) { contact_fields(inner, scenario.contact, use); });
+  visitor.table({"device", "A haptic device that would show the force.", use.finger},
+                [&](FieldVisitor& inner) { device_fields(inner, scenario.device); });
   visitor.table({"solver", "Model, integrator and time step."},
                 [&](FieldVisitor& inner) { solver_fields(inner, scenario.solver, use); });
   visitor.tables(

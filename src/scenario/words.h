@@ -33,7 +33,14 @@ inline constexpr std::array laws{Word{"elliptic", "both principal curvatures, ex
                                  Word{"mean", "a circle with the mean curvature, eq. (2)"}};
 inline constexpr std::array curvature_methods{
     Word{"quadric", "a local quadric, second order"},
-    Word{"taubin", "eq. (6)-(9), signed; does not converge"}};
+    Word{"taubin", "eq. (6)-(9), signed; does not converge"},
+    Word{"taubin_unsigned", "eq. (9) as printed: its arccos takes hollow for convex"}};
+inline constexpr std::array loaded{
+    Word{"pressure", "over the nodes that the contact's pressure reaches"},
+    Word{"nearest_node", "all on one node, which sinks the deeper the finer the mesh is"}};
+inline constexpr std::array slips{
+    Word{"mindlin", "stick, partial slip, then Coulomb's limit: without a jump"},
+    Word{"coulomb", "eq. (4) at once: mu F against the motion, and none at rest"}};
 inline constexpr std::array curvature_surfaces{
     Word{"rest", "the tissue's own shape"},
     Word{"deformed", "as it is pressed; where it conforms to the finger the run ends"}};

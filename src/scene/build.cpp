@@ -20,8 +20,6 @@ namespace palpate::scene {
 namespace {
 
 constexpr int most_modal_nodes = 1000;  // an eigen-decomposition grows with the cube
-constexpr double most_poisson_ratio = 0.4995;
-constexpr double own_share = 0.05;  // of the shear modulus: the bulk stiffness of tetrahedra alone
 
 // k sum_j w_j^2 / m_j of the contact at a depth (m), as if one sphere pressed with all of the
 // finger's force; and sum_j w_j^2 / m_j alone, 1/kg.
