@@ -36,6 +36,7 @@ inline constexpr Unit ms{"ms", "time", 1, 1e3, {0, 0, 1}};
 inline constexpr Unit per_second{"1/s", "rate", 1, 1, {0, 0, -1}};
 inline constexpr Unit per_metre{"1/m", "curvature", 1, 1, {-1, 0, 0}};
 inline constexpr Unit mm_per_s{"mm/s", "speed", 1, 1e3, {1, 0, -1}};
+inline constexpr Unit N_s_per_m{"N s/m", "damping", 1, 1, {0, 1, -1}};
 inline constexpr Unit N{"N", "force", 1, 1, {1, 1, -2}};
 }  // namespace unit
 

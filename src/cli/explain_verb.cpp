@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "cli/explain_time.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "run/family.h"
@@ -17,8 +18,6 @@ namespace palpate::cli {
 namespace {
 
 using scenario::Solver;
-
-std::string milliseconds(double seconds) { return rounded_text(1e3 * seconds) + " ms"; }
 
 // `step.1.to` as the manual names it, `step.to`.
 std::string without_numbers(const std::string& key) {
@@ -64,17 +63,6 @@ std::string meaning(const std::string& asked) {
               (near ? "; did you mean `" + *near + "`?" : "; `palpate manual` lists all keys"));
 }
 
-const char* integrator_word(Solver::Integrator integrator) {
-  switch (integrator) {
-    case Solver::Integrator::central_difference: return "central differences";
-    case Solver::Integrator::backward_difference: return "backward differences (implicit Euler)";
-    case Solver::Integrator::quasi_static: return "quasi-static steps, without inertia";
-    case Solver::Integrator::modal: return "modal coordinates, exact in time";
-    case Solver::Integrator::automatic: break;  // has been answered when the scene was built
-  }
-  return "";
-}
-
 class Explanation {
  public:
   explicit Explanation(const scene::Scene& scene) : scene_(scene) {}
@@ -91,7 +79,7 @@ class Explanation {
     choice();
     if (scene_.specimen) {
       mesh(*scene_.specimen);
-      time(*scene_.specimen);
+      for (const std::string& sentence : explain_time(scene_)) line(sentence);
     }
     return text_;
   }
@@ -275,7 +263,9 @@ class Explanation {
     }
     if (scene_.specimen)
       text += std::string("; read by ") +
-              (contact.curvature == geometry::CurvatureMethod::quadric ? "quadrics" : "Taubin") +
+              (contact.curvature == geometry::CurvatureMethod::quadric  ? "quadrics"
+               : contact.curvature == geometry::CurvatureMethod::taubin ? "Taubin"
+                                                                        : "Taubin without sign") +
               " over " + std::to_string(contact.curvature_rings) +
               (contact.curvature_rings == 1 ? " ring" : " rings") + " of vertices, " +
               (contact.curvature_on == scenario::Contact::CurvatureOn::rest ? "at rest"
@@ -324,35 +314,6 @@ class Explanation {
          " of the tissue's), nu " + rounded_text(specimen.measured.poisson_ratio) +
          (scene_.scenario.uniform() ? "; the tissue's own nu does not count"
                                     : "; the tissue's own nu reaches the contact only"));
-  }
-
-  void time(const scene::Specimen& specimen) {
-    const scene::TimePlan& plan = specimen.plan;
-    const Solver& solver = scene_.scenario.solver;
-    line(std::string("  time         ") + integrator_word(solver.integrator));
-    line("  stability    central differences are stable below " + milliseconds(plan.limit) +
-         " (2 / omega_max)");
-    line("  steps        time step " + milliseconds(plan.time_step) + " in " +
-         std::to_string(plan.substeps) + (plan.substeps == 1 ? " step of " : " substeps of ") +
-         milliseconds(plan.substep));
-    if (solver.allow_unstable && !plan.stable() &&
-        solver.integrator == Solver::Integrator::central_difference)
-      line(
-          "  warning      the step is above the stability limit and will diverge; "
-          "`allow_unstable` lets it");
-    literal_step(plan);
-  }
-
-  // The paper steps skin and ligament by 0.01 and muscle and leg by 0.05, without a unit.
-  void literal_step(const scene::TimePlan& plan) {
-    const std::string& material = scene_.scenario.tissue.material;
-    double literal = 0.0;
-    if (material == "skin" || material == "ligament") literal = 0.01;
-    if (material == "muscle" || material == "upper_leg") literal = 0.05;
-    if (literal <= plan.limit) return;
-    line("  the paper    its literal time step of " + milliseconds(literal) + " is " +
-         rounded_text(literal / plan.limit, 3) +
-         " times the limit: central differences would have diverged");
   }
 
   const scene::Scene& scene_;

@@ -45,6 +45,7 @@ struct CurvatureEstimate {
 enum class CurvatureMethod {
   quadric,  // a quadric through the vertex, fitted to its neighbours: second order
   taubin,   // normal voting, Chen 2007 eq. (6)-(9), signed: for comparison, does not converge
+  taubin_unsigned,  // as printed: the arccos of eq. (9) makes hollow surfaces convex
 };
 
 struct CurvatureOptions {

@@ -17,7 +17,8 @@ CurvatureEstimate CurvatureStars::taubin(const Surface& now, int side) const {
     // n_i: the neighbour's normal in the plane of N_p and T_i. Its angle from N_p, towards T_i, is
     // positive where the surface is convex; the paper's arccos is always positive.
     const Vec3 other_normal = this->normal(now, other);
-    const double angle = std::atan2(other_normal.dot(tangent), other_normal.dot(normal));
+    double angle = std::atan2(other_normal.dot(tangent), other_normal.dot(normal));
+    if (method_ == CurvatureMethod::taubin_unsigned) angle = std::abs(angle);
     // The arc over the chord, exact on a sphere.
     const double half = 0.5 * angle;
     const double arc = d.norm() * (half != 0.0 ? half / std::sin(half) : 1.0);

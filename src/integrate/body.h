@@ -11,8 +11,9 @@ namespace palpate::integrate {
 using Vector = Eigen::VectorXd;
 
 // How the viscous memory passes through a step: exactly for a linear course of elongation, exactly
-// for a load that is held, by implicit Euler, or not at all (a jump that takes no time).
-enum class MemoryRule { exact, held, first_order, at_once };
+// for a load that is held, by implicit Euler, by explicit Euler (branches only, whose elongation
+// stays), or not at all (a jump that takes no time).
+enum class MemoryRule { exact, held, first_order, forward, at_once };
 
 struct TimeStep {
   double size = 0.0;  // s

@@ -16,18 +16,31 @@ void clear_held(std::span<const char> held, Vector& vector) {
 
 }  // namespace
 
-CentralDifference::CentralDifference(const Body& body, double time_step, Start start)
-    : body_(&body), time_step_(time_step), start_(start) {
-  keep_first_ = 2.0 * body.mass();
-  keep_ = keep_first_ - time_step * body.drag();
-  diagonal_ = keep_first_ + time_step * body.drag();
+double explicit_limit(DampingVelocity velocity, const FastestMode& mode) {
+  double linear = mode.forces;
+  if (velocity == DampingVelocity::lagged) linear += 2.0 * mode.rate;
+  if (velocity == DampingVelocity::ahead) linear -= 2.0 * mode.rate;
+  return (std::sqrt(linear * linear + 16.0 * mode.squared) - linear) / (2.0 * mode.squared);
+}
+
+CentralDifference::CentralDifference(const Body& body, double time_step, Start start,
+                                     DampingVelocity velocity)
+    : body_(&body), time_step_(time_step), start_(start), velocity_(velocity) {
+  using enum DampingVelocity;
+  left_rate_ = velocity == ahead ? 2.0 * time_step : velocity == lagged ? 0.0 : time_step;
+  right_rate_ = 2.0 * time_step - left_rate_;
+  const Vector twice = 2.0 * body.mass();
+  keep_ = twice - right_rate_ * body.drag();
+  // U1 = U0 + dt V0 + dt^2 A0 / 2: what damps the start velocity is on the left where it can be.
+  keep_first_ = velocity == lagged ? Vector(twice - time_step * body.drag()) : twice;
+  diagonal_ = twice + left_rate_ * body.drag();
   inverse_ = diagonal_.cwiseInverse();
   clear_held(body.held(), inverse_);
 }
 
 void CentralDifference::factor(const Vector& displacement) {
   SplitMatrix left = body_->dashpots(displacement);
-  left *= time_step_;
+  left *= left_rate_;
   left.local.diagonal() += diagonal_;
   // A sum of positive masses and non-negative dashpots: always positive definite.
   [[maybe_unused]] const bool factored = factors_.factor(left);
@@ -35,13 +48,18 @@ void CentralDifference::factor(const Vector& displacement) {
   has_factors_ = true;
 }
 
-// (2 M + D dt) w = right_ where D joins nodes: from w of the step before to the next one.
-void CentralDifference::solve_dashpots(const State& state, bool consistent) {
-  if (!has_factors_) factor(state.displacement);
-  if (!consistent) {
+// (2 M + D dt) w = right_ - lag D w_before where D joins nodes: from w of the step before to the
+// next one.
+void CentralDifference::solve_dashpots(const State& state, double lag) {
+  if (lag > 0.0) {
     body_->dashpot_force(state.displacement, before_, image_);
-    right_ -= time_step_ * image_;
+    right_ -= lag * image_;
   }
+  if (left_rate_ == 0.0) {
+    before_ = inverse_.cwiseProduct(right_);
+    return;
+  }
+  if (!has_factors_) factor(state.displacement);
   clear_held(body_->held(), right_);
   if (body_->linear())
     factors_.solve(right_, before_);
@@ -63,7 +81,7 @@ void CentralDifference::solve_turned(const Vector& displacement) {
   };
   const auto multiply = [&](const Vector& x) {
     body_->dashpot_force(displacement, x, image_);
-    image_ = diagonal_.cwiseProduct(x) + time_step_ * image_;
+    image_ = diagonal_.cwiseProduct(x) + left_rate_ * image_;
     clear_held(body_->held(), image_);
   };
   clear_held(body_->held(), before_);
@@ -89,12 +107,23 @@ void CentralDifference::solve_turned(const Vector& displacement) {
   has_factors_ = i <= worth_factoring;
 }
 
+void CentralDifference::jump(const Vector& load_before) {
+  if (!first_) jumped_ = load_before;
+}
+
 void CentralDifference::step(State& state, const Vector& load) {
+  if (jumped_.size() > 0) {
+    mean_ = 0.5 * (jumped_ + load);
+    jumped_.resize(0);
+    return step(state, mean_);
+  }
   // (2 M + D dt) w = 2 dt^2 (F - f(u)) + (2 M - D dt) (u - u_before)   Chen 2007 eq. (12) in
   // increments; the consistent first one is dt^2 (F - f) + 2 M dt v   docs/theory.md (38), (39)
-  const bool consistent = first_ && start_ == Start::consistent;
+  // Ahead, the velocity of the state is the one before already: there is no other first step.
+  const bool begins = first_ && velocity_ != DampingVelocity::ahead;
+  const bool consistent = begins && start_ == Start::consistent;
   if (first_) before_ = time_step_ * state.velocity;
-  if (first_ && start_ == Start::paper) before_.setZero();
+  if (begins && start_ == Start::paper) before_.setZero();
   first_ = false;
   const double square = (consistent ? 1.0 : 2.0) * time_step_ * time_step_;
   const double rate = 1.0 / time_step_;
@@ -102,7 +131,9 @@ void CentralDifference::step(State& state, const Vector& load) {
   const Vector& keep = consistent ? keep_first_ : keep_;
   if (body_->has_dashpots()) {
     right_ = square * (load - force_) + keep.cwiseProduct(before_);
-    solve_dashpots(state, consistent);
+    // A consistent first step halves what the others subtract; centred, it stands on the left.
+    const bool lags = velocity_ == DampingVelocity::lagged;
+    solve_dashpots(state, consistent ? (lags ? time_step_ : 0.0) : right_rate_);
     state.displacement += before_;
     state.velocity = rate * before_;
   } else {

@@ -89,8 +89,8 @@ Bench bench(const scene::Scene& scene, int frames) {
       for (int k = 1; k <= plan.substeps && !wrong; ++k) {
         const double done = frame + static_cast<double>(k) / plan.substeps;
         touch.travel = deepest * done / all;
-        wrong = mesh.step(first - touch.travel * Vec3::UnitZ(), done * plan.time_step, history,
-                          touch);
+        wrong =
+            mesh.step(first - touch.travel * Vec3::UnitZ(), done * plan.time_step, history, touch);
       }
     });
     if (!wrong) wrong = stages.frame(touch.finger, before, touch, time);

@@ -154,7 +154,19 @@ void Contacts::shape_patches(std::vector<SphereContact>& contacts) {
     contact.patch.a = a;
     contact.patch.b = b;
     spreader_.spread(contact.patch, contact.load);
+    if (scene_->scenario.contact.spread == scenario::Contact::Spread::nearest_node)
+      load_nearest_node(contact);
   }
+}
+
+// The corner of the triangle under the contact that has the most of it.
+void Contacts::load_nearest_node(SphereContact& contact) const {
+  const auto& weights = contact.patch.at.weights;
+  const auto most = std::max_element(weights.begin(), weights.end()) - weights.begin();
+  const auto& corners =
+      surface_->surface().triangles[static_cast<std::size_t>(contact.patch.at.triangle)];
+  contact.load.vertices.assign(1, corners[static_cast<std::size_t>(most)]);
+  contact.load.shares.assign(1, 1.0);
 }
 
 // The sphere carried back by the mean displacement under its patch, against the skin at rest.

@@ -132,6 +132,7 @@ class Contacts {
   void carry_on(const Touch& before, SphereContact& contact) const;
   void guess_depth(SphereContact& contact) const;
   void shape_patches(std::vector<SphereContact>& contacts);
+  void load_nearest_node(SphereContact& contact) const;
   void approach_moving_skin(const Vec3& finger, SphereContact& contact);
   void find_compliance(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts);
   [[nodiscard]] bool presses_as_one() const;

@@ -7,6 +7,9 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "contact/deep.h"
+#include "run/known_failures.h"
+#include "scenario/integrators.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
 
@@ -66,8 +69,7 @@ class Findings {
     add("time_step_ms", unit::ms.from_si(specimen.plan.substep));
     add("substeps", static_cast<double>(specimen.plan.substeps));
     add("damping_ratio", damping_ratio(specimen));
-    if (!specimen.plan.stable() &&
-        scene_.scenario.solver.integrator == scenario::Solver::Integrator::central_difference)
+    if (!specimen.plan.stable() && scenario::explicit_steps(scene_.scenario.solver.integrator))
       remark("the step is " + rounded_text(specimen.plan.substep / specimen.plan.limit, 3) +
              " times the stability limit: this motion grows from rounding, do not trust it");
     if (std::abs(modulus / table_modulus - 1.0) > 0.05)
@@ -170,7 +172,11 @@ class Findings {
     const bool mesh = scene_.specimen != nullptr;
     const bool hertz = !mesh && !scene_.layer;
     const double depth = peak.indentation / scene_.law().radius;
-    if (depth > 0.1 && !scene_.deep && coupling != contact::Coupling::resolved)
+    if (depth > contact::DeepLaw::deepest && coupling != contact::Coupling::resolved)
+      remark("the indentation reached " + rounded_text(depth, 2) +
+             " of the sphere's radius: beyond half of it no factor for deep presses is known, and "
+             "Hertz's law is a guess; press less deep, or use `coupling = \"resolved\"`");
+    else if (depth > 0.1 && !scene_.deep && coupling != contact::Coupling::resolved)
       remark("the indentation reached " + rounded_text(depth, 2) +
              " of the sphere's radius: Hertz assumes far less, and at a quarter of the radius true "
              "forces differ by up to 6 % (docs/paper.md, 13)" +
@@ -253,6 +259,7 @@ class Findings {
 
 void add_findings(const scene::Scene& scene, record::CaseRecord& record) {
   Findings(scene, record).all();
+  add_known_failures(scene, record);
 }
 
 }  // namespace palpate::run

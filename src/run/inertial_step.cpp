@@ -12,6 +12,8 @@ using integrate::Vector;
 Vector PressedMesh::respond(const Vector& unit) {
   if (auto* implicit = std::get_if<integrate::Implicit>(&stepper_->method()))
     return implicit->response(unit);
+  if (auto* staged = std::get_if<integrate::TrBdf2>(&stepper_->method()))
+    return staged->response(unit);
   auto& modal = std::get<integrate::Modal>(stepper_->method());
   if (!inertia_) return modal.response(unit);
   // Modes are linear: there is always an answer.
@@ -32,6 +34,8 @@ std::optional<std::string> PressedMesh::step_with_inertia(const Vec3& finger,
                                                           ContactHistory& history, Touch& touch) {
   if (auto* implicit = std::get_if<integrate::Implicit>(&stepper_->method()))
     return step_implicitly(*implicit, finger, history, touch);
+  if (auto* staged = std::get_if<integrate::TrBdf2>(&stepper_->method()))
+    return step_implicitly(*staged, finger, history, touch);
   if (auto* modal = std::get_if<integrate::Modal>(&stepper_->method()))
     return step_in_modes(*modal, finger, history, touch);
   if (auto wrong = stepper_->step(state_, load_, load_, MemoryRule::exact)) return wrong;
@@ -50,12 +54,12 @@ std::optional<std::string> PressedMesh::meet(const Vec3& finger, MovingMesh movi
   moving.still = &still;
   moving.still_has_past = viscous;
   moving.slope = slope_;
-  moving.time_step = time_step_;
+  moving.time_step = stage_step_;
   mesh.moving = &moving;
   if (auto wrong = contacts_.find(finger, mesh, touch)) return wrong;
   if (viscous) {
     for (SphereContact& contact : touch.contacts) contact.force = contact.elastic;
-    history.pass(*scene_, time_step_, touch);
+    history.pass(*scene_, stage_step_, touch);
     for (SphereContact& contact : touch.contacts)
       contact.force = std::max(0.0, contact.force + contact.radiated);
     rub(*scene_, Vec3::Zero(), touch);
@@ -67,9 +71,9 @@ std::optional<std::string> PressedMesh::meet(const Vec3& finger, MovingMesh movi
   return std::nullopt;
 }
 
-std::optional<std::string> PressedMesh::step_implicitly(integrate::Implicit& method,
-                                                        const Vec3& finger, ContactHistory& history,
-                                                        Touch& touch) {
+template <class Linearised>
+std::optional<std::string> PressedMesh::step_implicitly(Linearised& method, const Vec3& finger,
+                                                        ContactHistory& history, Touch& touch) {
   const Vector friction = drag_load(touch);
   method.begin(state_, time_step_, MemoryRule::first_order);
   if (!method.linearise(state_.displacement, friction))

@@ -1,10 +1,12 @@
 // Travel and slide over time, and a row of results at every output interval.
 #include "run/press.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "base/units.h"
 #include "contact/friction.h"
 #include "contact/hertz.h"
 #include "run/half_space_contact.h"
@@ -96,6 +98,8 @@ class Press {
     if (mesh_) record_.findings.push_back({"energy_imbalance", mesh_->imbalance()});
     if (mesh_ && scene_.scenario.solver.rings)
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
+    if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
+      record_.findings.push_back({"sinking_mm", unit::mm.from_si(deepest_sinking_)});
     if (!mesh_ && (scene_.scenario.output.tissue || scene_.scenario.output.picture))
       record_.remarks.push_back(
           "there is no mesh to show: `auto` chose `hertz`; set `solver.model = \"mass_spring\"` "
@@ -225,7 +229,22 @@ class Press {
     }
     if (mesh_ && scene_.scenario.solver.rings && touch_.pressed() > 0.0)
       edge_share_ = std::max(edge_share_, mesh_->edge_reaction() / touch_.pressed());
+    if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
+      for (const SphereContact& one : touch_.contacts)
+        deepest_sinking_ = std::max(deepest_sinking_, sunk(one));
     if (!mesh_) record_.last_stable_time = time_;
+  }
+
+  // Of the nodes under a contact, by their shares of its force, m.
+  [[nodiscard]] double sunk(const SphereContact& contact) const {
+    const integrate::Vector displacement = mesh_->displacement();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
+      const auto vertex = static_cast<std::size_t>(contact.load.vertices[k]);
+      sum -= contact.load.shares[k] *
+             contact.patch.normal.dot(displacement.segment<3>(3 * scene_.specimen->skin[vertex]));
+    }
+    return sum;
   }
 
   void add_map() {
@@ -271,6 +290,7 @@ class Press {
   Touch touch_;
   double kept_force_ = 0.0;  // N, during a slide
   double edge_share_ = 0.0;
+  double deepest_sinking_ = 0.0;  // m, where all is on one node
   double time_ = 0.0;
   int step_ = 1;
   bool on_crease_ = false;

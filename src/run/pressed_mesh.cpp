@@ -132,14 +132,21 @@ void PressedMesh::set_step(double time_step) {
   }
   time_step_ = time_step;
   stepper_->set_step(time_step);
-  crept_.set_step(time_step);
-  slope_ = 1.0;
   const auto* modal = std::get_if<integrate::Modal>(&stepper_->method());
   in_modes_ = modal != nullptr && modal->passes_alone() && forces_follow_finger() &&
               !scene_->scenario.solver.rings &&
               scene_->scenario.contact.curvature_on == scenario::Contact::CurvatureOn::rest;
+  set_stage(time_step);
+}
+
+// The contacts meet the mesh again after so long, s. exp stands here inside the step of a method
+// with two stages: twice a branch.
+void PressedMesh::set_stage(double duration) {
+  stage_step_ = duration;
+  crept_.set_step(duration);
+  slope_ = 1.0;
   for (const contact::Branch& branch : scene_->relaxation.branches)
-    slope_ += branch.ratio * (1.0 - tissue::MemoryStep::exact(time_step, branch.time).end);
+    slope_ += branch.ratio * (1.0 - tissue::MemoryStep::exact(duration, branch.time).end);
 }
 
 MeshAnswer PressedMesh::answer() const {
@@ -187,6 +194,8 @@ std::optional<std::string> PressedMesh::move(const Touch& touch) {
 std::optional<std::string> PressedMesh::step_in_series(const Vec3& finger, Touch& touch) {
   if (auto* implicit = std::get_if<integrate::Implicit>(&stepper_->method()))
     return balance(*implicit, finger, touch);
+  if (auto* staged = std::get_if<integrate::TrBdf2>(&stepper_->method()))
+    return balance(*staged, finger, touch);
   if (auto* modal = std::get_if<integrate::Modal>(&stepper_->method()))
     return balance(*modal, finger, touch);
   if (auto wrong = stepper_->step(state_, load_, load_, integrate::MemoryRule::exact)) return wrong;
@@ -243,10 +252,21 @@ std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
   }
   const State before = state_;
   const Vector load_before = load_;
-  auto wrong = inertia_                 ? step_with_inertia(finger, history, touch)
-               : forces_follow_finger() ? step_freely(finger, history, touch)
-                                        : step_in_series(finger, touch);
-  if (wrong) return wrong;
+  const auto go = [&](const Vec3& to) {
+    return inertia_                 ? step_with_inertia(to, history, touch)
+           : forces_follow_finger() ? step_freely(to, history, touch)
+                                    : step_in_series(to, touch);
+  };
+  if (auto* staged = std::get_if<integrate::TrBdf2>(&stepper_->method());
+      staged != nullptr && !forces_follow_finger()) {
+    constexpr double part = integrate::TrBdf2::first_part;
+    const Vec3 from = touch.finger;
+    staged->start_under(load_);
+    set_stage(part * time_step_);
+    if (auto wrong = go(from + part * (finger - from))) return wrong;
+    set_stage((1.0 - part) * time_step_);
+  }
+  if (auto wrong = go(finger)) return wrong;
   state_.time = time;  // a sum of steps would carry their rounding
   // Modes with inertia take the mean load all along the step.
   const bool mean = inertia_ && std::holds_alternative<integrate::Modal>(stepper_->method());

@@ -66,6 +66,7 @@ class PressedMesh {
 
  private:
   void take(tissue::Part part, const std::vector<int>& start);
+  void set_stage(double duration);
   void follow(const Touch& touch);
   [[nodiscard]] std::optional<std::string> step_freely(const Vec3& finger, ContactHistory& history,
                                                        Touch& touch);
@@ -74,8 +75,8 @@ class PressedMesh {
                                                              ContactHistory& history, Touch& touch);
   [[nodiscard]] std::optional<std::string> meet(const Vec3& finger, MovingMesh moving,
                                                 ContactHistory& history, Touch& touch);
-  [[nodiscard]] std::optional<std::string> step_implicitly(integrate::Implicit& method,
-                                                           const Vec3& finger,
+  template <class Linearised>
+  [[nodiscard]] std::optional<std::string> step_implicitly(Linearised& method, const Vec3& finger,
                                                            ContactHistory& history, Touch& touch);
   [[nodiscard]] std::optional<std::string> step_in_modes(integrate::Modal& method,
                                                          const Vec3& finger,
@@ -108,6 +109,7 @@ class PressedMesh {
   // Whether frames pass in modes alone, and whether state_ is where these are. docs/theory.md (41)
   bool in_modes_ = false;
   bool shown_ = true;
+  double stage_step_ = 0.0;  // s, from one meeting of finger and mesh to the next
   // Where inertia reaches the force:
   bool inertia_;
   CreptLoad crept_;

@@ -1,6 +1,10 @@
 // Which method the scenario names, and how it is driven.
 #include "run/stepper.h"
 
+#include <type_traits>
+
+#include "scenario/integrators.h"
+
 namespace palpate::run {
 namespace {
 
@@ -11,9 +15,12 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
   switch (scene.scenario.solver.integrator) {
     case Integrator::automatic:  // has been answered when a scene is built
     case Integrator::central_difference:
-      return integrate::CentralDifference(body, time_step, scene.scenario.solver.start);
+      return integrate::CentralDifference(body, time_step, scene.scenario.solver.start,
+                                          scene.scenario.solver.damping);
+    case Integrator::semi_implicit_euler: return integrate::SemiImplicitEuler(body, time_step);
     case Integrator::backward_difference:
       return integrate::Implicit(body, Inertia::backward_difference);
+    case Integrator::tr_bdf2: return integrate::TrBdf2(body);
     case Integrator::quasi_static: return integrate::Implicit(body, Inertia::none);
     case Integrator::modal: break;
   }
@@ -23,29 +30,39 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
 }  // namespace
 
 void Stepper::set_step(double time_step) {
-  const bool fixed_step = method_ && std::holds_alternative<integrate::CentralDifference>(*method_);
+  const bool fixed_step = scenario::explicit_steps(scene_->scenario.solver.integrator);
   if (!method_ || (fixed_step && time_step != time_step_))
     method_.emplace(make_method(*scene_, *body_, time_step));
   time_step_ = time_step;
 }
 
-void Stepper::restart() {
+void Stepper::jump(const integrate::Vector& load_before) {
   if (!method_) return;
-  if (auto* central = std::get_if<integrate::CentralDifference>(&*method_)) central->restart();
+  if (auto* central = std::get_if<integrate::CentralDifference>(&*method_))
+    central->jump(load_before);
 }
 
 std::optional<std::string> Stepper::step(integrate::State& state,
                                          const integrate::Vector& load_before,
                                          const integrate::Vector& load_after,
                                          integrate::MemoryRule rule) {
-  if (auto* central = std::get_if<integrate::CentralDifference>(&*method_)) {
-    central->step(state, load_before);
-    return std::nullopt;
-  }
-  if (auto* implicit = std::get_if<integrate::Implicit>(&*method_))
-    return solve_step(*implicit, *body_, state, time_step_, rule, load_after);
-  return solve_step(std::get<integrate::Modal>(*method_), *body_, state, time_step_, rule,
-                    load_after);
+  return std::visit(
+      [&](auto& method) -> std::optional<std::string> {
+        using Chosen = std::decay_t<decltype(method)>;
+        if constexpr (requires { method.step(state, load_before); }) {
+          method.step(state, load_before);
+          return std::nullopt;
+        } else if constexpr (std::is_same_v<Chosen, integrate::TrBdf2>) {
+          constexpr double part = integrate::TrBdf2::first_part;
+          method.start_under(load_before);
+          const integrate::Vector load = load_before + part * (load_after - load_before);
+          if (auto wrong = solve_step(method, *body_, state, time_step_, rule, load)) return wrong;
+          return solve_step(method, *body_, state, time_step_, rule, load_after);
+        } else {
+          return solve_step(method, *body_, state, time_step_, rule, load_after);
+        }
+      },
+      *method_);
 }
 
 }  // namespace palpate::run

@@ -8,6 +8,8 @@
 #include "integrate/central_difference.h"
 #include "integrate/implicit.h"
 #include "integrate/modal.h"
+#include "integrate/semi_implicit_euler.h"
+#include "integrate/tr_bdf2.h"
 #include "scene/scene.h"
 
 namespace palpate::run {
@@ -18,7 +20,8 @@ inline constexpr int most_linearisations = 100;
 
 class Stepper {
  public:
-  using Method = std::variant<integrate::CentralDifference, integrate::Implicit, integrate::Modal>;
+  using Method = std::variant<integrate::CentralDifference, integrate::SemiImplicitEuler,
+                              integrate::Implicit, integrate::TrBdf2, integrate::Modal>;
 
   Stepper(const scene::Scene& scene, const scene::SpringBody& body)
       : scene_(&scene), body_(&body) {}
@@ -26,8 +29,8 @@ class Stepper {
   // The next steps have this size, s. A method that can change its step goes on.
   void set_step(double time_step);
 
-  // The load has jumped: central differences begin afresh.
-  void restart();
+  // The load (N) has jumped from this one; after set_step() only what then steps is told.
+  void jump(const integrate::Vector& load_before);
 
   // From the state under `load_before` to the next one under `load_after` (N). `rule` is how
   // viscous memory passes through a step without inertia. Returns what is wrong where the
@@ -48,7 +51,7 @@ class Stepper {
   double time_step_ = 0.0;
 };
 
-// One implicit step of `method` (Implicit or Modal) under a known load.
+// One implicit step of `method` (Implicit or Modal), or one stage of TrBdf2, under a known load.
 template <class Linearised>
 [[nodiscard]] std::optional<std::string> solve_step(Linearised& method,
                                                     const scene::SpringBody& body,

@@ -13,9 +13,9 @@ double peak_pressure(const SphereContact& contact) {
   const double mean = contact.force / (std::numbers::pi * contact.patch.a * contact.patch.b);
   const contact::LayerContact* layer = contact.law.point.layer;
   if (layer == nullptr) return 1.5 * mean;
-  return mean * layer->law.pressure(
-                        contact::layer_chi(contact.depth, layer->radius, layer->thickness))
-                    .at(0.0);
+  return mean *
+         layer->law.pressure(contact::layer_chi(contact.depth, layer->radius, layer->thickness))
+             .at(0.0);
 }
 
 const SphereContact* Touch::deepest() const {
@@ -47,8 +47,17 @@ double Touch::pressed() const {
 
 void rub(const scene::Scene& scene, const Vec3& move, Touch& touch) {
   const double friction = scene.scenario.contact.friction;
+  const bool at_once = scene.scenario.contact.slip == scenario::Contact::Slip::coulomb;
   for (SphereContact& contact : touch.contacts) {
     const Vec3& normal = contact.patch.normal;
+    if (at_once) {
+      // mu F against the motion, which has no direction at rest: eq. (4) says nothing there.
+      const Vec3 slip = move - move.dot(normal) * normal;
+      const double length = slip.norm();
+      const double limit = friction * contact.force;
+      contact.drag = length > 0.0 ? Vec3(limit / length * slip) : Vec3::Zero();
+      continue;
+    }
     contact.stretch += move;
     contact.stretch -= contact.stretch.dot(normal) * normal;
     contact.drag = contact::friction::drag(contact.stretch, friction * contact.force,

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "scenario/family.h"
+#include "scenario/integrators.h"
 
 namespace palpate::scenario {
 namespace {
@@ -274,12 +275,16 @@ class Checker {
               "`coupled_springs` always resist a change of volume; set `solver.volume = "
               "\"nodal\"`, or `solver.model = \"mass_spring\"`");
     if (scenario_.contact.coupling == contact::Coupling::resolved &&
-        (solver.integrator == Integrator::central_difference ||
-         solver.integrator == Integrator::modal))
+        (explicit_steps(solver.integrator) || solver.integrator == Integrator::modal))
       problem("solver.integrator",
               "`resolved` finds its forces and the motion together, which an explicit method "
               "cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
               "`backward_difference`");
+    if (scenario_.contact.spread == Contact::Spread::nearest_node && !scenario_.uniform() &&
+        scenario_.contact.coupling != contact::Coupling::one_way &&
+        scenario_.contact.coupling != contact::Coupling::series)
+      problem("contact.spread",
+              "`nearest_node` is for `one_way` and `series`; write `spread = \"pressure\"`");
     if (solver.integrator == Integrator::modal &&
         solver.kinematics == tissue::Kinematics::nonlinear)
       problem("solver.kinematics",

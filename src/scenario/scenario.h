@@ -154,6 +154,8 @@ struct Contact {
   enum class Viscosity { automatic, none, tissue };
   enum class Depth { automatic, hertz, neo_hookean };
   enum class Direction { automatic, skin, sphere };
+  enum class Spread { pressure, nearest_node };
+  enum class Slip { mindlin, coulomb };
   contact::CurvatureLaw law = contact::CurvatureLaw::elliptic;
   geometry::CurvatureMethod curvature = geometry::CurvatureMethod::quadric;
   CurvatureOn curvature_on = CurvatureOn::rest;
@@ -162,13 +164,23 @@ struct Contact {
   Viscosity viscosity = Viscosity::automatic;
   Depth depth = Depth::automatic;
   Direction direction = Direction::automatic;
+  Spread spread = Spread::pressure;
   double friction = 0.0;
+  Slip slip = Slip::mindlin;
   double ambient_force = 0.0;  // N, F_a of eq. (1)
 };
 
 struct Solver {
   enum class Model { automatic, hertz, layer, mass_spring, coupled_springs };
-  enum class Integrator { automatic, central_difference, backward_difference, quasi_static, modal };
+  enum class Integrator {
+    automatic,
+    central_difference,
+    semi_implicit_euler,
+    backward_difference,
+    tr_bdf2,
+    quasi_static,
+    modal
+  };
   enum class Volume { automatic, none, tetrahedron, nodal };
   Model model = Model::automatic;
   double tolerance = 0.05;
@@ -177,10 +189,17 @@ struct Solver {
   tissue::Kinematics kinematics = tissue::Kinematics::linear;
   Integrator integrator = Integrator::automatic;
   integrate::Start start = integrate::Start::consistent;
+  integrate::DampingVelocity damping = integrate::DampingVelocity::centred;
   std::optional<double> time_step;  // s
   std::optional<int> substeps;      // a time step is cut into; empty: as many as are stable
   bool allow_unstable = false;
   std::optional<int> rings;  // empty: all
+};
+
+// The haptic device that would show the force: for what is found about it.
+struct Device {
+  std::optional<double> damping;  // N s/m; empty: there is none
+  double frame = 1e-3;            // s
 };
 
 struct Indent {
@@ -238,6 +257,7 @@ struct Scenario {
   std::vector<Region> regions;
   Finger finger;
   Contact contact;
+  Device device;
   Solver solver;
   std::vector<Step> steps;
   Output output;

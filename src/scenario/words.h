@@ -33,7 +33,14 @@ inline constexpr std::array laws{Word{"elliptic", "both principal curvatures, ex
                                  Word{"mean", "a circle with the mean curvature, eq. (2)"}};
 inline constexpr std::array curvature_methods{
     Word{"quadric", "a local quadric, second order"},
-    Word{"taubin", "eq. (6)-(9), signed; does not converge"}};
+    Word{"taubin", "eq. (6)-(9), signed; does not converge"},
+    Word{"taubin_unsigned", "eq. (9) as printed: its arccos takes hollow for convex"}};
+inline constexpr std::array loaded{
+    Word{"pressure", "over the nodes that the contact's pressure reaches"},
+    Word{"nearest_node", "all on one node, which sinks the deeper the finer the mesh is"}};
+inline constexpr std::array slips{
+    Word{"mindlin", "stick, partial slip, then Coulomb's limit: without a jump"},
+    Word{"coulomb", "eq. (4) at once: mu F against the motion, and none at rest"}};
 inline constexpr std::array curvature_surfaces{
     Word{"rest", "the tissue's own shape"},
     Word{"deformed", "as it is pressed; where it conforms to the finger the run ends"}};
@@ -68,11 +75,17 @@ inline constexpr std::array integrators{
     Word{"auto",
          "`quasi_static` where `model = \"auto\"` finds that "
          "inertia does not matter, else `central_difference`"},
-    Word{"central_difference", "explicit, eq. (12)"}, Word{"backward_difference", "implicit Euler"},
+    Word{"central_difference", "explicit, eq. (12)"},
+    Word{"semi_implicit_euler", "explicit, the new velocity first; first order"},
+    Word{"backward_difference", "implicit Euler, first order"},
+    Word{"tr_bdf2", "implicit, second order, L-stable; two solves a step"},
     Word{"quasi_static", "no inertia"},
     Word{"modal", "exact in time, linear only, up to 1000 nodes"}};
 inline constexpr std::array starts{Word{"consistent", "second order"},
                                    Word{"paper", "U(-dt) = U(0), first order"}};
+inline constexpr std::array damping_velocities{
+    Word{"centred", "the mean over this step and the one before, eq. (12)"},
+    Word{"lagged", "of the step before: first order, and stable for shorter steps only"}};
 inline constexpr std::array stiffnesses{Word{"van_gelder", "k = E sum(V) / l^2"},
                                         Word{"fitted", "least squares towards isotropy"}};
 inline constexpr std::array kinematics_words{Word{"linear", "eq. (11)-(12)"},

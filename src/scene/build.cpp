@@ -9,6 +9,7 @@
 #include "contact/patch.h"
 #include "contact/ring.h"
 #include "contact/wide_patch.h"
+#include "scenario/integrators.h"
 #include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
 #include "scene/scene.h"
@@ -19,8 +20,6 @@ namespace palpate::scene {
 namespace {
 
 constexpr int most_modal_nodes = 1000;  // an eigen-decomposition grows with the cube
-constexpr double most_poisson_ratio = 0.4995;
-constexpr double own_share = 0.05;  // of the shear modulus: the bulk stiffness of tetrahedra alone
 
 // k sum_j w_j^2 / m_j of the contact at a depth (m), as if one sphere pressed with all of the
 // finger's force; and sum_j w_j^2 / m_j alone, 1/kg.
@@ -79,8 +78,7 @@ ContactRate contact_rate(const Scene& scene) {
 void refuse_unstable(const Scene& scene, const scenario::Family& family) {
   const scenario::Solver& solver = scene.scenario.solver;
   const TimePlan& plan = scene.specimen->plan;
-  if (solver.integrator != scenario::Solver::Integrator::central_difference || plan.stable() ||
-      solver.allow_unstable)
+  if (!scenario::explicit_steps(solver.integrator) || plan.stable() || solver.allow_unstable)
     return;
   const double needed = std::ceil(plan.time_step / (0.9 * plan.limit));
   throw InputError(scenario::place_of(family.document, "solver.substeps"),

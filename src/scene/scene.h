@@ -69,6 +69,9 @@ struct Finger {
 [[nodiscard]] double deepest_travel(const scenario::Scenario& scenario,
                                     const contact::SphereLaw& law);
 
+constexpr double most_poisson_ratio = 0.4995;  // of a mesh
+constexpr double own_share = 0.05;  // of the shear modulus: the bulk stiffness of tetrahedra alone
+
 // The specimen as springs. Holds everything that a step needs.
 struct Specimen {
   geometry::TetMesh mesh;  // its regions count the tissue and the scenario's regions from 0

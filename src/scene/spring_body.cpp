@@ -47,6 +47,7 @@ void SpringBody::prepare(const integrate::TimeStep& step) const {
       case integrate::MemoryRule::exact: return MemoryStep::exact(step.size, time);
       case integrate::MemoryRule::held: return MemoryStep::held(step.size, time);
       case integrate::MemoryRule::first_order: return MemoryStep::first_order(step.size, time);
+      case integrate::MemoryRule::forward: return MemoryStep::forward(step.size, time);
       case integrate::MemoryRule::at_once: break;
     }
     return MemoryStep::at_once();

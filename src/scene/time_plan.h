@@ -17,7 +17,7 @@ struct ContactRate {
 
 struct TimePlan {
   double frequency_squared = 0.0;  // 1/s^2, 4 / limit^2: without dashpots omega_max^2
-  double limit = 0.0;              // s, that central differences are stable below
+  double limit = 0.0;              // s, of explicit steps: of central differences, unless another is chosen
   double time_step = 0.0;          // s, of the scenario
   int substeps = 1;                // it is cut into
   double substep = 0.0;            // s, what is stepped
@@ -26,7 +26,8 @@ struct TimePlan {
 };
 
 // For explicit methods as many substeps as stability asks for, at 0.9 of the limit; for implicit
-// Euler as many as keep its error below a hundredth at the viscous time; one otherwise.
+// Euler and TR-BDF2 as many as keep their error below a hundredth at the viscous time; one
+// otherwise.
 [[nodiscard]] TimePlan plan_time(const scenario::Scenario& scenario, const Specimen& specimen,
                                  const ContactRate& contact);
 

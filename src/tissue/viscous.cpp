@@ -42,6 +42,11 @@ MemoryStep MemoryStep::first_order(double time_step, double time) {
   return {1.0 / (1.0 + x), 0.0, x / (1.0 + x)};
 }
 
+MemoryStep MemoryStep::forward(double time_step, double time) {
+  const double x = time_step / time;
+  return {1.0 - x, 0.0, x};
+}
+
 std::size_t memory_size(const ViscousLaw& law) {
   return law.kind == Viscosity::kelvin_voigt ? 2 : 1 + law.branches.size();
 }

@@ -30,7 +30,8 @@ struct ViscousLaw {
 // One step of  tau q' = e - q  or, read backwards, of  tau e' = s/k - e:
 //   q_1 = keep q_0 + begin e_0 + end e_1.
 // Exact for e that changes linearly in the step (`exact`), for e that has its end value all along
-// (`held`), or implicit Euler (`first_order`). `at_once` is no time at all: q stays,
+// (`held`), implicit Euler (`first_order`), or explicit Euler of q (`forward`, from an elongation
+// that stays: e_0 = e_1). `at_once` is no time at all: q stays,
 // and a Kelvin-Voigt spring is elastic.
 struct MemoryStep {
   double keep = 1.0;
@@ -40,6 +41,7 @@ struct MemoryStep {
   [[nodiscard]] static MemoryStep exact(double time_step, double time);
   [[nodiscard]] static MemoryStep held(double time_step, double time);
   [[nodiscard]] static MemoryStep first_order(double time_step, double time);
+  [[nodiscard]] static MemoryStep forward(double time_step, double time);
   [[nodiscard]] static MemoryStep at_once() { return {}; }
 };
 

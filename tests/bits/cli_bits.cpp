@@ -87,17 +87,18 @@ std::string name_of(const testing::TestParamInfo<Choices>& one) {
   return integrator + "_" + coupling + "_" + viscosity;
 }
 
-INSTANTIATE_TEST_SUITE_P(every, BitsOf,
-                         testing::Combine(testing::Values("central_difference",
-                                                          "backward_difference", "quasi_static",
-                                                          "modal"),
-                                          testing::Values("one_way", "series", "consistent"),
-                                          testing::Values("kelvin_voigt", "standard_linear_solid")),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    every, BitsOf,
+    testing::Combine(testing::Values("central_difference", "semi_implicit_euler",
+                                     "backward_difference", "tr_bdf2", "quasi_static", "modal"),
+                     testing::Values("one_way", "series", "consistent"),
+                     testing::Values("kelvin_voigt", "standard_linear_solid")),
+    name_of);
 // `quasi_static` has no drag against the ground.
 INSTANTIATE_TEST_SUITE_P(
     drag, BitsOf,
-    testing::Combine(testing::Values("central_difference", "backward_difference", "modal"),
+    testing::Combine(testing::Values("central_difference", "semi_implicit_euler",
+                                     "backward_difference", "tr_bdf2", "modal"),
                      testing::Values("consistent"), testing::Values("nodal_drag")),
     name_of);
 

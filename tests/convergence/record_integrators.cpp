@@ -9,6 +9,8 @@
 #include "integrate/central_difference.h"
 #include "integrate/implicit.h"
 #include "integrate/modal.h"
+#include "integrate/semi_implicit_euler.h"
+#include "integrate/tr_bdf2.h"
 #include "one_mass.h"
 
 namespace palpate {
@@ -18,7 +20,9 @@ using integrate::CentralDifference;
 using integrate::Implicit;
 using integrate::MemoryRule;
 using integrate::Modal;
+using integrate::SemiImplicitEuler;
 using integrate::Start;
+using integrate::TrBdf2;
 using test::expect_case;
 using test::load_of;
 using test::OneMass;
@@ -51,6 +55,22 @@ double implicit(Method method, MemoryRule rule, double u, double v, double force
   return state.displacement[0];
 }
 
+double two_stages(double u, double v, double force, double dt, double time, const OneMass& body) {
+  TrBdf2 method(body);
+  auto state = state_at(u, v);
+  const auto steps = std::lround(time / dt);
+  for (long i = 0; i < steps; ++i) {
+    method.start_under(load_of(force));
+    for (int stage = 0; stage < 2; ++stage) {
+      method.begin(state, dt, MemoryRule::exact);
+      EXPECT_TRUE(method.linearise(state.displacement, load_of(force)));
+      const integrate::Vector end = method.base();
+      method.finish(state, end, load_of(force));
+    }
+  }
+  return state.displacement[0];
+}
+
 // u'' + u = 1 from rest: 1 - cos t.
 double oscillator_error(Start start, double dt) {
   OneMass body;
@@ -77,6 +97,37 @@ double period_ratio(double omega_dt) {
 TEST(CentralDifference, PeriodShortens) {
   expect_case("period-02", period_ratio(0.5));
   expect_case("period-04", period_ratio(1.9));
+}
+
+// |A| of TR-BDF2 without damping: of one step's two columns.
+double amplification(double omega_dt, double drag) {
+  OneMass body;
+  body.d = drag;
+  body.update();
+  const auto step = [&](double u, double v) {
+    TrBdf2 method(body);
+    auto state = state_at(u, v);
+    method.start_under(load_of(0));
+    for (int stage = 0; stage < 2; ++stage) {
+      method.begin(state, omega_dt, MemoryRule::exact);
+      EXPECT_TRUE(method.linearise(state.displacement, load_of(0)));
+      const integrate::Vector end = method.base();
+      method.finish(state, end, load_of(0));
+    }
+    return std::pair(state.displacement[0], state.velocity[0]);
+  };
+  const auto [a, b] = step(1, 0);
+  const auto [c, d] = step(0, 1);
+  return std::sqrt(std::abs(a * d - b * c));
+}
+
+TEST(TrBdf2, Amplification) {
+  // |R(i w)|, R(z) = [2 (2 - g) + (1 + (1 - g)^2) z] / [2 (2 - g) - ...] of the method on u' = z u.
+  EXPECT_NEAR(amplification(0.1, 0.0), 0.9999996, 5e-8);  // half a unit of the last digit
+  EXPECT_NEAR(amplification(1.0, 0.0), 0.99687, 5e-6);
+  EXPECT_NEAR(amplification(10.0, 0.0), 0.445, 5e-4);
+  // L-stable: what is far too fast is gone after a step, as 1 / (omega dt).
+  EXPECT_LT(amplification(1e6, 0.0), 1e-5);
 }
 
 TEST(BackwardDifference, Amplification) {
@@ -128,6 +179,17 @@ TEST(Integrators, DeclaredOrders) {
        [](const OneMass& body, double u, double v, double f, double dt, double time) {
          return implicit(Implicit(body, Implicit::Inertia::backward_difference), MemoryRule::exact,
                          u, v, f, dt, time);
+       }},
+      {"semi_implicit_euler", 1.0,
+       [](const OneMass& body, double u, double v, double f, double dt, double time) {
+         SemiImplicitEuler method(body, dt);
+         auto state = state_at(u, v);
+         for (long i = 0; i < std::lround(time / dt); ++i) method.step(state, load_of(f));
+         return state.displacement[0];
+       }},
+      {"tr_bdf2", 2.0,
+       [](const OneMass& body, double u, double v, double f, double dt, double time) {
+         return two_stages(u, v, f, dt, time, body);
        }}};
   for (const double tau : {0.0, 0.3}) {
     for (const double drag : {0.0, 0.4}) {
@@ -181,11 +243,8 @@ TEST(Modal, ExactForARamp) {
   EXPECT_NEAR(state.velocity[0], 1.0 - std::cos(2.8), 1e-12);
 }
 
-bool grows(double dt, double drag) {
-  OneMass body;
-  body.d = drag;
-  body.update();
-  CentralDifference method(body, dt, Start::consistent);
+template <class Method>
+bool grows(Method method) {
   auto state = state_at(1, 0);
   double largest = 0.0;
   for (int i = 0; i < 4000; ++i) {
@@ -197,9 +256,55 @@ bool grows(double dt, double drag) {
 
 TEST(CentralDifference, StableBelowTwoOverOmegaWhateverTheDamping) {
   for (const double drag : {0.0, 0.5, 5.0}) {
-    EXPECT_FALSE(grows(0.95 * 2.0, drag)) << drag;
-    EXPECT_TRUE(grows(1.05 * 2.0, drag)) << drag;
+    OneMass body;
+    body.d = drag;
+    body.update();
+    EXPECT_FALSE(grows(CentralDifference(body, 0.95 * 2.0, Start::consistent))) << drag;
+    EXPECT_TRUE(grows(CentralDifference(body, 1.05 * 2.0, Start::consistent))) << drag;
   }
+}
+
+// omega = 100 1/s and zeta = 0.5 of drag (100 1/s) or of dashpots (10 ms): the formula of the cases
+// and what the method does.
+TEST(ExplicitLimit, OfDampingThatLagsOrGoesAhead) {
+  using integrate::DampingVelocity;
+  const integrate::FastestMode mode{.squared = 1e4, .rate = 100.0};
+  const double lagged = explicit_limit(DampingVelocity::lagged, mode);
+  const double ahead = explicit_limit(DampingVelocity::ahead, mode);
+  EXPECT_DOUBLE_EQ(explicit_limit(DampingVelocity::centred, mode), 0.02);
+  expect_case("dt-03", lagged);
+  expect_case("dt-04", ahead);
+  for (const bool dashpots : {false, true}) {
+    OneMass body;
+    body.k = 100.0;
+    body.m = 0.01;
+    (dashpots ? body.tau : body.d) = dashpots ? 0.01 : 1.0;
+    body.update();
+    const auto lags = [&](double part) {
+      return grows(
+          CentralDifference(body, part * lagged, Start::consistent, DampingVelocity::lagged));
+    };
+    EXPECT_FALSE(lags(0.98)) << dashpots;
+    EXPECT_TRUE(lags(1.02)) << dashpots;
+    EXPECT_FALSE(grows(SemiImplicitEuler(body, 0.98 * ahead))) << dashpots;
+    EXPECT_TRUE(grows(SemiImplicitEuler(body, 1.02 * ahead))) << dashpots;
+  }
+}
+
+// Heavy dashpots that lag: 2 / (beta omega^2) is left, 1.98 ms of 20 ms at k = 100 N/m, m = 10 g,
+// beta = 0.1 s.
+TEST(ExplicitLimit, CollapsesWhereHeavyDashpotsLag) {
+  const double beta = 0.1;
+  const double limit =
+      explicit_limit(integrate::DampingVelocity::lagged, {.squared = 1e4, .rate = beta * 1e4});
+  EXPECT_NEAR(limit, -beta + std::sqrt(beta * beta + 4e-4), 1e-13);  // rounding of the difference
+  EXPECT_NEAR(limit, 1.98e-3, 5e-6);
+}
+
+TEST(TrBdf2, StableForEveryStep) {
+  OneMass body;
+  for (const double dt : {1.0, 100.0, 1e6})
+    EXPECT_LE(std::abs(two_stages(1, 0, 0, dt, 50 * dt, body)), 1.0);
 }
 
 TEST(BackwardDifference, StableForEveryStep) {

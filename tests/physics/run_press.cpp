@@ -13,8 +13,9 @@ namespace {
 
 using test::expect_case;
 
-const char* const integrators[] = {"central_difference", "backward_difference", "quasi_static",
-                                   "modal"};
+const char* const integrators[] = {"central_difference",  "semi_implicit_euler",
+                                   "backward_difference", "tr_bdf2",
+                                   "quasi_static",        "modal"};
 const char* const couplings[] = {"one_way", "series", "consistent"};
 
 const std::string press =
@@ -89,7 +90,8 @@ TEST(Press, IntegratorsAgree) {
 }
 
 TEST(Press, NonlinearAgreesWithLinearForShallowPresses) {
-  for (const char* integrator : {"central_difference", "backward_difference", "quasi_static"}) {
+  for (const char* integrator : {"central_difference", "semi_implicit_euler", "backward_difference",
+                                 "tr_bdf2", "quasi_static"}) {
     const std::vector<std::string> common{std::string("solver.integrator=") + integrator,
                                           "step.1.to=0.05 mm", "contact.coupling=series"};
     auto turned = common;

@@ -12,8 +12,9 @@ namespace {
 
 using test::expect_case;
 
-const char* const integrators[] = {"central_difference", "backward_difference", "quasi_static",
-                                   "modal"};
+const char* const integrators[] = {"central_difference",  "semi_implicit_euler",
+                                   "backward_difference", "tr_bdf2",
+                                   "quasi_static",        "modal"};
 const char* const meshes[] = {"{ kind = \"kuhn\", cells = [3, 4, 6] }",
                               "{ kind = \"mirrored\", cells = [2, 2, 4] }",
                               "{ kind = \"tetgen\", nodes = 160 }"};
@@ -187,7 +188,8 @@ TEST(KelvinVoigtSpecimen, DoesNotRelaxAndSaysSo) {
 }
 
 TEST(UniformSpecimen, NonlinearAgreesWithLinearForSmallLoads) {
-  for (const char* integrator : {"central_difference", "backward_difference", "quasi_static"}) {
+  for (const char* integrator : {"central_difference", "semi_implicit_euler", "backward_difference",
+                                 "tr_bdf2", "quasi_static"}) {
     const std::vector<std::string> common{
         "tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
         std::string("solver.integrator=") + integrator, "step.1.stress=1 Pa"};
