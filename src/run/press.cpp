@@ -236,7 +236,7 @@ class Press {
   }
 
   // Of the nodes under a contact, by their shares of its force, m.
-  [[nodiscard]] double sunk(const SphereContact& contact) const {
+  [[nodiscard]] double sunk(const SphereContact& contact) {
     const integrate::Vector displacement = mesh_->displacement();
     double sum = 0.0;
     for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {

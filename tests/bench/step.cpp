@@ -1,28 +1,23 @@
 // What one explicit step of a whole body costs, form by form, beside the plain loops in the same
-// run. No test: it prints a table. `palpate-step [MESHES]` takes 1 to 3 meshes, small to large.
-#include <Eigen/SparseCholesky>
+// run. No test: it prints a table. `palpate-step [MESHES]` takes 1 to 3 meshes, small to large;
+// `palpate-step growth` lattices of up to 1e6 tetrahedra.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
-#include "geometry/cuboid.h"
-#include "geometry/tetgen.h"
+#include "bench/plain_step.h"
 #include "integrate/central_difference.h"
 #include "run/monitor.h"
 #include "scene/spring_body.h"
-#include "tissue/coupled.h"
 #include "tissue/energy.h"
 #include "tissue/stable_step.h"
-#include "tissue/stiffness.h"
 
 namespace palpate {
 namespace {
-
-using tissue::Kinematics;
-using tissue::Vector;
-using tissue::Viscosity;
 
 // The least time of a call, s: other programs on the machine only ever add.
 template <class Work>
@@ -44,106 +39,9 @@ double least(const Work& work) {
   return best;
 }
 
-struct Case {
-  std::string name;
-  const tissue::Network* network;
-  Kinematics kinematics;
-  tissue::ViscousLaw law;
-};
-
-// The step as the formulas are written: loop by loop, vectors of Eigen, a sparse solve.
-class PlainStep {
- public:
-  PlainStep(const Case& form, const std::vector<char>& held, double time_step)
-      : form_(form), held_(held), dt_(time_step), elongation_(form.network->ends.size()) {
-    effective_ = tension_ = elongation_;
-    if (form.law.kind == Viscosity::kelvin_voigt)
-      steps_.push_back(tissue::MemoryStep::exact(dt_, form.law.time));
-    for (const tissue::Branch& branch : form.law.branches)
-      steps_.push_back(tissue::MemoryStep::exact(dt_, branch.time));
-    mass_.resize(3 * form.network->nodes());
-    for (Eigen::Index d = 0; d < mass_.size(); ++d)
-      mass_[d] = form.network->node_mass[static_cast<std::size_t>(d / 3)];
-    moved_ = Vector::Zero(mass_.size());
-  }
-
-  void step(integrate::State& state, const Vector& load) {
-    const tissue::Network& network = *form_.network;
-    tissue::elongations(network, form_.kinematics, state.displacement, elongation_);
-    tissue::elastic_elongations(form_.law, state.memory, elongation_, effective_);
-    tissue::tensions(network, effective_, tension_);
-    tissue::gather_forces(network, form_.kinematics, state.displacement, tension_, force_);
-    Vector right = 2.0 * dt_ * dt_ * (load - force_);
-    right += 2.0 * mass_.cwiseProduct(moved_);
-    if (form_.law.kind == Viscosity::kelvin_voigt) {
-      if (!factored_ || form_.kinematics != Kinematics::linear) factor(state.displacement);
-      right -= dt_ * (dashpots_ * moved_);
-      clear(right);
-      moved_ = factors_.solve(right);
-    } else {
-      moved_ = right.cwiseQuotient(2.0 * mass_);
-    }
-    clear(moved_);
-    state.displacement += moved_;
-    state.velocity = moved_ / dt_;
-    state.time += dt_;
-    tissue::elongations(network, form_.kinematics, state.displacement, elongation_);
-    tissue::remember(form_.law, steps_, elongation_, state.memory);
-  }
-
- private:
-  void clear(Vector& vector) const {
-    for (std::size_t d = 0; d < held_.size(); ++d)
-      if (held_[d] != 0) vector[static_cast<Eigen::Index>(d)] = 0.0;
-  }
-  void factor(const Vector& displacement) {
-    std::fill(tension_.begin(), tension_.end(), 0.0);
-    dashpots_ = tissue::tangent(*form_.network, form_.kinematics, displacement, form_.law.time,
-                                tension_, held_)
-                    .local;
-    Eigen::SparseMatrix<double> left = dt_ * dashpots_;
-    left.diagonal() += 2.0 * mass_;
-    if (!factored_) factors_.analyzePattern(left);
-    factors_.factorize(left);
-    factored_ = true;
-  }
-
-  Case form_;
-  const std::vector<char>& held_;
-  double dt_;
-  std::vector<double> elongation_, effective_, tension_;
-  std::vector<tissue::MemoryStep> steps_;
-  Vector mass_, moved_, force_;
-  Eigen::SparseMatrix<double> dashpots_;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_;
-  bool factored_ = false;
-};
-
-integrate::State at_rest(const tissue::Network& network, const tissue::ViscousLaw& law) {
-  integrate::State state;
-  state.displacement = Vector::Zero(3 * network.nodes());
-  state.velocity = state.displacement;
-  state.memory.assign(tissue::memory_size(law) * network.ends.size(), 0.0);
-  return state;
-}
-
-// A press by an even load on the top, N.
-Vector press(const geometry::TetMesh& mesh) {
-  Vector load = Vector::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()));
-  double top = 0.0;
-  for (const Vec3& node : mesh.nodes) top = std::max(top, node.z());
-  std::vector<Eigen::Index> loaded;
-  for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-    if (mesh.nodes[i].z() > top - 1e-9) loaded.push_back(static_cast<Eigen::Index>(i));
-  for (const Eigen::Index node : loaded)
-    load[3 * node + 2] = -0.5 / static_cast<double>(loaded.size());
-  return load;
-}
-
 void report(const geometry::TetMesh& mesh, const Case& form, bool skip_plain) {
   const tissue::Network& network = *form.network;
-  std::vector<char> held(3 * mesh.nodes.size(), 0);
-  for (std::size_t d = 0; d < held.size(); ++d) held[d] = mesh.nodes[d / 3].z() < 1e-9 ? 1 : 0;
+  const std::vector<char> held = held_base(mesh);
   const double squared =
       form.law.instantaneous_ratio() * tissue::largest_frequency_squared(network, held);
   const double dt = 0.9 * 2.0 / std::sqrt(squared);
@@ -173,15 +71,10 @@ void report(const geometry::TetMesh& mesh, const Case& form, bool skip_plain) {
 }
 
 void report_mesh(int which) {
-  const Vec3 size(0.06, 0.06, 0.03);  // m
   const geometry::TetMesh mesh =
-      which == 0 ? geometry::cuboid(size, {3, 4, 6}, geometry::CellPattern::kuhn)
-                 : geometry::tetgen_cuboid(size, which == 1 ? 728 : 20000, 600.0);
-  const tissue::Network springs = tissue::make_network(
-      mesh, std::array{1060.0}, tissue::van_gelder_stiffness(mesh, std::array{15e3}));
-  const std::vector<tissue::Isotropic> tissues{{15e3, 0.45}};
-  tissue::Network coupled = springs;
-  tissue::couple(coupled, mesh, tissues, tissue::Volume::nodal, 1.0);
+      which == 0 ? geometry::cuboid(block_size(), {3, 4, 6}, geometry::CellPattern::kuhn)
+                 : geometry::tetgen_cuboid(block_size(), which == 1 ? 728 : 20000, 600.0);
+  const auto [springs, coupled] = make_networks(mesh);
   const tissue::ViscousLaw none;
   const tissue::ViscousLaw solid{.kind = Viscosity::standard_linear_solid,
                                  .branches = {{0.1, 0.5}}};
@@ -197,10 +90,60 @@ void report_mesh(int which) {
   report(mesh, {"coupled Kelvin-Voigt", &coupled, Kinematics::linear, voigt}, true);
 }
 
+// MB, the most that this process has had.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// Lattices of 1e3 to 1e6 tetrahedra: set-up, memory and step, over what the first of them says.
+void report_growth() {
+  std::printf(
+      "| tetrahedra | nodes | springs | network, s | stable step, s | memory, MB | linear, us | ns "
+      "a spring | coupled, us | ns a tetrahedron |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  const auto seconds = [](const auto& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  for (const int cells : {6, 12, 26, 55}) {
+    const geometry::TetMesh mesh =
+        geometry::cuboid(block_size(), {cells, cells, cells}, geometry::CellPattern::mirrored);
+    Networks networks;
+    const double building = seconds([&] { networks = make_networks(mesh); });
+    const std::vector<char> held = held_base(mesh);
+    double squared = 0.0;
+    const double looking =
+        seconds([&] { squared = tissue::largest_frequency_squared(networks.coupled, held); });
+    const double dt = 1.8 / std::sqrt(squared);
+    const Vector load = press(mesh);
+    const tissue::ViscousLaw none;
+    double steps[2] = {};
+    for (const bool coupled : {false, true}) {
+      const tissue::Network& network = coupled ? networks.coupled : networks.springs;
+      const scene::SpringBody body(network, Kinematics::linear, none, held);
+      integrate::CentralDifference method(body, dt, integrate::Start::consistent);
+      integrate::State state = at_rest(network, none);
+      steps[coupled ? 1 : 0] = least([&] { method.step(state, load); });
+    }
+    const auto tetrahedra = static_cast<double>(mesh.tetrahedra.size());
+    std::printf("| %zu | %zu | %d | %.2f | %.2f | %.0f | %.1f | %.2f | %.1f | %.2f |\n",
+                mesh.tetrahedra.size(), mesh.nodes.size(), networks.springs.springs(), building,
+                looking, peak_memory(), 1e6 * steps[0], 1e9 * steps[0] / networks.springs.springs(),
+                1e6 * steps[1], 1e9 * steps[1] / tetrahedra);
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 }  // namespace palpate
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "growth") {
+    palpate::report_growth();
+    return 0;
+  }
   const int meshes = argc > 1 ? std::atoi(argv[1]) : 3;
   std::printf(
       "| nodes | springs | form | step, us | ns a spring | energy watch, us | plain, us | "
