@@ -4,9 +4,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/cholesky.h"
 #include "contact/hertz.h"
 #include "program.h"
 #include "record/csv.h"
+#include "scenario/family.h"
+#include "scene/scene.h"
+#include "tissue/springs.h"
 
 namespace palpate::test {
 namespace {
@@ -186,6 +190,19 @@ TEST_F(Failure, LoadOnOneNode) {
   const std::string name = "10_load_on_one_node";
   expect_failure(name, 0, "all of the force is on one node");
   const double coarse = found(name, "sinking_mm");
+  // All of the force on the node in the middle of the top, in statics.
+  const auto family = scenario::read(project_file("scenarios/failures/" + name + ".toml"), {});
+  const auto scene = scene::build(family.cases.front(), family);
+  const tissue::Network& network = scene.specimen->network;
+  int middle = 0;
+  const Vec3 top(0.03, 0.03, 0.03);
+  for (int n = 0; n < network.nodes(); ++n)
+    if ((network.rest[static_cast<std::size_t>(n)] - top).norm() < 1e-9) middle = n;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * network.nodes());
+  load[3 * middle + 2] = -found(name, "peak_force_N");
+  Cholesky factors;
+  ASSERT_TRUE(factors.factor(tissue::stiffness_matrix(network, scene.specimen->held)));
+  EXPECT_NEAR(-1e3 * factors.solve(load)[3 * middle + 2] / coarse, 1.0, 1e-9);  // rounding
   ASSERT_EQ(run(name, {"tissue.mesh.cells=[12, 12, 6]"}).code, 0);
   // u ~ F / (E l), from the second mesh on; what the specimen itself sinks is a part of both.
   EXPECT_NEAR(found(name, "sinking_mm") / coarse, 2.0, 0.3);
