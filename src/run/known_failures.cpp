@@ -79,7 +79,7 @@ class KnownFailures {
     if (share <= tolerance() || stiffening <= tolerance()) return;
     remark("the edge of the part that moves stands " + millimetres(nearest) +
            " from the contact and carries " + percent(share) +
-           " of its force: it stiffens the tissue as a base that near would, by at least " +
+           " of its force: a base that near stiffens a half-space by at least " +
            percent(stiffening) + "; give more `solver.rings`, or \"all\"");
   }
 
@@ -177,7 +177,9 @@ class KnownFailures {
 
   // Ting's force of Kelvin-Voigt: the dashpots follow the rate, which turns in no time.
   void turning_back() {
-    if (!(scene_.relaxation.retardation_time > 0.0)) return;
+    if (scene_.relaxation.elastic() ||
+        scene_.scenario.tissue.viscosity != tissue::Viscosity::kelvin_voigt)
+      return;
     const auto& rows = record_.contact;
     const auto& steps = scene_.scenario.steps;
     double before = 0.0;

@@ -43,14 +43,15 @@ TEST(LadderKeys, PronyBranchesAreReadAndEchoed) {
 
 TEST(LadderKeys, ARegionsPoissonRatioReachesModelsThatHonourIt) {
   const std::string region =
-      "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = \"sphere\"\nmaterial = \"muscle\"\npoisson_ratio = 0.45\n";
+      "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = \"sphere\"\nmaterial = "
+      "\"muscle\"\npoisson_ratio = 0.45\n";
   const Scenario coupled = read_one(press + "[solver]\nmodel = \"coupled_springs\"\n" + region);
   EXPECT_EQ(substance(coupled.regions[0]).poisson_ratio, 0.45);
-  EXPECT_EQ(
-      substance(
-          read_one(press + "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = \"sphere\"\nmaterial = \"muscle\"\n").regions[0])
-          .poisson_ratio,
-      0.4);  // the material's
+  EXPECT_EQ(substance(read_one(press + "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = "
+                                       "\"sphere\"\nmaterial = \"muscle\"\n")
+                          .regions[0])
+                .poisson_ratio,
+            0.4);  // the material's
 }
 
 TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
@@ -79,6 +80,14 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "press.toml:8:14: `resolved` finds its forces and the motion together, which an explicit "
        "method cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
        "`backward_difference`"},
+      {"[contact]\ncoupling = \"resolved\"\n[solver]\nmodel = \"coupled_springs\"\nintegrator = "
+       "\"semi_implicit_euler\"\n",
+       "press.toml:8:14: `resolved` finds its forces and the motion together, which an explicit "
+       "method cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
+       "`backward_difference`"},
+      {"[contact]\nspread = \"nearest_node\"\n[solver]\nmodel = \"mass_spring\"\n",
+       "press.toml:5:10: `nearest_node` is for `one_way` and `series`; write `spread = "
+       "\"pressure\"`"},
       {"[solver]\nmodel = \"mass_spring\"\n[[region]]\ntag = 1\npoisson_ratio = 0.4\n",
        "press.toml:8:17: independent springs have a Poisson's ratio of their own; set "
        "`solver.volume = \"nodal\"` or `solver.model = \"coupled_springs\"`, or leave it out"},
