@@ -54,6 +54,22 @@ std::vector<std::string> words_of(const study::CaseChart& chart,
   return words;
 }
 
+void set_range(const study::CaseChart& chart, const study::Verdict& verdict,
+               report::Scatter& scatter) {
+  const std::size_t any = verdict.front.front();
+  scatter.least_cost = scatter.most_cost = verdict.cost[any];
+  scatter.least_error = scatter.most_error = verdict.error[any];
+  for (std::size_t i = 0; i < chart.rows.size(); ++i) {
+    if (verdict.cost[i] <= 0.0) continue;
+    for (const double cost : chart.rows[i].costs()) {
+      scatter.least_cost = std::min(scatter.least_cost, cost);
+      scatter.most_cost = std::max(scatter.most_cost, cost);
+    }
+    scatter.least_error = std::min(scatter.least_error, verdict.error[i]);
+    scatter.most_error = std::max(scatter.most_error, verdict.error[i]);
+  }
+}
+
 // chart.svg, or one a case.
 void draw_all(const std::vector<study::CaseChart>& charts, const scenario::Family& family,
               const std::string& folder, const Talk& talk) {
@@ -63,7 +79,7 @@ void draw_all(const std::vector<study::CaseChart>& charts, const scenario::Famil
     if (verdict.front.empty()) continue;
     const std::string title =
         family.title + (charts.size() > 1 ? ", " + chart.name : std::string());
-    const report::Scatter scatter{
+    report::Scatter scatter{
         .name = charts.size() > 1 ? "chart_" + std::to_string(i + 1) : "chart",
         .title = title,
         .csv_file = "chart.csv",
@@ -72,6 +88,9 @@ void draw_all(const std::vector<study::CaseChart>& charts, const scenario::Famil
         .integrators = words_of(chart, &study::Measurement::integrator),
         .floor = verdict.floor,
         .tolerance = chart.tolerance};
+    if (verdict.knee) scatter.marks.emplace_back("knee");
+    if (verdict.taken) scatter.marks.emplace_back("auto");
+    set_range(chart, verdict, scatter);
     const report::Drawing drawing = report::draw(report::scatter_sheet(scatter), folder);
     if (!drawing.warning.empty()) talk.warn(drawing.warning);
   }

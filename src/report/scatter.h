@@ -16,8 +16,11 @@ struct Scatter {
   std::string case_name = {};  // its rows
   std::vector<std::string> models = {};       // that rows were measured with
   std::vector<std::string> integrators = {};  // likewise; "" is none, for models without a mesh
-  double floor = 0.0;      // the reference's own error
-  double tolerance = 0.0;  // both as ratios
+  std::vector<std::string> marks = {};        // of `knee` and `auto` those that a row has
+  double floor = 0.0;                         // the reference's own error
+  double tolerance = 0.0;                     // both as ratios
+  double least_cost = 1.0, most_cost = 1.0;   // us a simulated ms, of the rows
+  double least_error = 1.0, most_error = 1.0;  // ratios, of the rows
 };
 
 // Its sheet for draw(), as gnuplot_script() of a Figure is for one: log-log, cost in us a simulated ms against

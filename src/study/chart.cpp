@@ -11,7 +11,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "run/family.h"
+#include "run/press.h"
+#include "run/uniform.h"
 #include "study/chart_journal.h"
 
 namespace palpate::study {
@@ -78,17 +79,31 @@ double end_time(const record::CaseRecord& record) {
   return record.strain.empty() ? 0.0 : record.strain.back().time;
 }
 
-// Runs a scene again and again until the clock can tell how long it takes; s a run.
+// A run without what is found out about it afterwards, s.
+double run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
+                record::CaseRecord& record) {
+  record = {};
+  const Clock::time_point start = Clock::now();
+  if (scene.scenario.uniform())
+    run::load_uniformly(scene, stop, record);
+  else
+    run::press(scene, stop, record);
+  return since(start);
+}
+
+// The least of a few runs, because a run is only ever slowed down; one, where it is long.
 double timed(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
-  constexpr double readable = 0.01;  // s
-  Clock::time_point start = Clock::now();
-  record = run::run_case(scene, stop);
-  const double once = since(start);
-  if (once >= readable || record.outcome != record::Outcome::completed) return once;
-  const int calls = static_cast<int>(std::ceil(readable / std::max(once, 1e-6)));
-  start = Clock::now();
-  for (int i = 0; i < calls; ++i) record = run::run_case(scene, stop);
-  return since(start) / calls;
+  constexpr double enough = 5e-3;  // s, of all of them
+  constexpr int most = 1000;
+  double least = run_once(scene, stop, record);
+  double all = least;
+  for (int i = 1; i < most && all < enough; ++i) {
+    if (record.outcome != record::Outcome::completed) break;
+    const double time = run_once(scene, stop, record);
+    least = std::min(least, time);
+    all += time;
+  }
+  return least;
 }
 
 std::string reason_of(const std::exception& error) {
@@ -191,7 +206,8 @@ class Measurer {
       timing.whole = timed(scene, watch.flag(), record);
       if (stop_.load()) return false;
       if (record.outcome == record::Outcome::interrupted && first)
-        return not_run(one, timing.whole * scene_time(chart) / std::max(end_time(record), 1e-9));
+        return not_run(one, timing.whole * scene_time(chart) /
+                                std::max(end_time(record), scene.scenario.output.interval));
       if (record.outcome == record::Outcome::interrupted) return true;  // the machine was slow
       one.timings.push_back(timing);
       if (first) compare(chart, scene, record, one);
@@ -217,7 +233,7 @@ class Measurer {
 
   static bool not_run(Measurement& one, double seconds) {
     one.status = Status::not_run;
-    one.note = "not run: predicted " + rounded_text(seconds, 2) + " s";
+    one.note = "not run: predicted " + number_text(*whole_number(rounded_text(seconds, 2))) + " s";
     return true;
   }
 
@@ -250,20 +266,8 @@ class Measurer {
     if (one.variant.group != "integrator x time step") return;
     const History& exact = in_time(one);
     if (exact.empty()) return;
-    one.time_error = deviation(scene.scenario, got, every_row_of(got, exact));
+    one.time_error = deviation(scene.scenario, got, exact);
     one.time_floor = own_error(scene.scenario, exact).greatest;
-  }
-
-  // The moments of `exact` that `got`, whose rows may be fewer, has too.
-  static History every_row_of(const History& got, const History& exact) {
-    History common;
-    std::size_t i = 0;
-    for (const Moment& moment : exact) {
-      while (i < got.size() && got[i].time < moment.time * (1.0 - 1e-9) - 1e-12) ++i;
-      if (i < got.size() && std::abs(got[i].time - moment.time) <= 1e-9 * moment.time + 1e-12)
-        common.push_back(moment);
-    }
-    return common;
   }
 
   // Of the rung that integrators are compared on; empty where `modal` does not serve it.
@@ -295,14 +299,11 @@ class Measurer {
   int done_ = 0, all_ = 0, made_ = 0;
 };
 
-// The difference of two programmes; of less than the clock tells, the whole one's upper bound.
+// The difference of two programmes, which the clock tells to a hundredth of the whole.
 double cost_of(const Measurement& one, const Timing& timing) {
   const double longer = one.simulated - one.first_simulated;
-  const double more = timing.whole - timing.first_row;
-  const double seconds_a_second = longer > 0.0 && more > 1e-3 * timing.whole
-                                      ? more / longer
-                                      : timing.whole / std::max(one.simulated, 1e-12);
-  return 1e3 * seconds_a_second;  // us a ms
+  if (longer <= 0.0) return 1e3 * timing.whole / std::max(one.simulated, 1e-12);
+  return 1e3 * std::max(timing.whole - timing.first_row, 0.01 * timing.whole) / longer;  // us a ms
 }
 
 template <class Of>

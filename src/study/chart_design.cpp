@@ -88,13 +88,23 @@ std::string graded(const Scenario& scenario, const scene::Estimates& found) {
   return text_of_cells("mirrored", cells, std::round(10.0 * grading) / 10.0);
 }
 
-// A step of so many ms in one piece; rows lie a whole number of them apart.
+// The least multiple of the output interval that is one of the step too, both in ms; where there is
+// none below ten, the nearest multiple of the step.
+double rows_of(double step_ms, double interval_ms) {
+  for (int times = 1; times < 10; ++times) {
+    const double pieces = times * interval_ms / step_ms;
+    if (pieces > 0.5 && std::abs(pieces - std::round(pieces)) < 1e-9 * pieces)
+      return times * interval_ms;
+  }
+  return std::max(1.0, std::round(interval_ms / step_ms)) * step_ms;
+}
+
+// A step of so many ms in one piece.
 Settings one_step(double step_ms, double interval) {
-  const double interval_ms = 1e3 * interval;
-  const double pieces = std::max(1.0, std::round(interval_ms / step_ms));
+  const double rows_ms = rows_of(step_ms, 1e3 * interval);
   Settings settings{"solver.time_step=" + number_text(step_ms) + " ms", "solver.substeps=1"};
-  if (std::abs(pieces * step_ms - interval_ms) > 1e-9 * interval_ms)
-    settings.push_back("output.interval=" + number_text(pieces * step_ms) + " ms");
+  if (std::abs(rows_ms - 1e3 * interval) > 1e-9 * rows_ms)
+    settings.push_back("output.interval=" + rounded_text(rows_ms, 12) + " ms");
   return settings;
 }
 
@@ -181,44 +191,43 @@ class Designer {
     for (const Word& word : words::integrators) {
       const std::string method = word.word;
       if (method == "auto") continue;
+      const std::string name = model + ", " + method;
       const Settings settings{"solver.model=" + model, "solver.integrator=" + method};
-      add("integrator x time step", model + ", " + method, settings);
-      if (const int substeps = half_the_limit(settings); substeps > 0)
-        add("integrator x time step", model + ", " + method + ", half the limit",
-            joined_to(settings, {"solver.substeps=" + std::to_string(substeps)}));
-      for (const double step : time_steps_ms)
-        add("integrator x time step", model + ", " + method + ", " + number_text(step) + " ms",
-            joined_to(settings, one_step(step, base_.output.interval)));
+      add("integrator x time step", name, settings);
+      const std::optional<scene::TimePlan> plan = plan_of(settings);
+      if (plan && cut_by_limit(settings, *plan))
+        add("integrator x time step", name + ", half the limit",
+            joined_to(settings, {"solver.substeps=" + number_text(std::ceil(
+                                                          plan->time_step / (0.5 * plan->limit)))}));
+      for (const double step : time_steps_ms) {
+        const bool own = plan && std::abs(1e3 * plan->substep - step) < 1e-9 * step;
+        if (!own)
+          add("integrator x time step", name + ", " + number_text(step) + " ms",
+              joined_to(settings, one_step(step, base_.output.interval)));
+      }
     }
   }
 
-  // Substeps of half the stability limit, where the method's own are cut by that limit; else 0.
-  [[nodiscard]] int half_the_limit(const Settings& settings) const {
+  // What the variant would step; nothing where it is refused or has no mesh.
+  [[nodiscard]] std::optional<scene::TimePlan> plan_of(const Settings& settings) const {
     try {
       const auto family = with_settings(asked_, case_, settings);
       const scene::Scene scene = scene::build(family.cases.front(), family);
-      if (!scene.specimen) return 0;
-      const scene::TimePlan& plan = scene.specimen->plan;
-      const double by_limit = std::ceil(plan.time_step / (0.9 * plan.limit));
-      if (plan.substeps != static_cast<int>(by_limit) || !refused_above(settings, plan)) return 0;
-      return static_cast<int>(std::ceil(plan.time_step / (0.5 * plan.limit)));
-    } catch (const std::exception&) {
-      return 0;
+      if (scene.specimen) return scene.specimen->plan;
+    } catch (const InputError&) {
+    } catch (const MeshError&) {
     }
+    return std::nullopt;
   }
 
-  // Whether a step well above the limit is refused: the method is an explicit one.
-  [[nodiscard]] bool refused_above(const Settings& settings, const scene::TimePlan& plan) const {
-    const Settings bold = joined_to(
-        settings, {"solver.time_step=" + number_text(4e3 * plan.limit) + " ms",
-                   "solver.substeps=1", "output.interval=" + number_text(4e3 * plan.limit) + " ms"});
-    try {
-      const auto family = with_settings(asked_, case_, bold);
-      (void)scene::build(family.cases.front(), family);
+  // Whether the method's own substeps follow from the stability limit: a step well above it is
+  // refused.
+  [[nodiscard]] bool cut_by_limit(const Settings& settings, const scene::TimePlan& plan) const {
+    if (plan.substeps != static_cast<int>(std::ceil(plan.time_step / (0.9 * plan.limit))))
       return false;
-    } catch (const InputError&) {
-      return true;
-    }
+    const std::string bold = number_text(4e3 * plan.limit) + " ms";
+    return !plan_of(joined_to(settings, {"solver.time_step=" + bold, "solver.substeps=1",
+                                         "output.interval=" + bold}));
   }
 
   const Asked& asked_;
@@ -258,6 +267,13 @@ std::string word_of(contact::Coupling coupling) { return words::word(words::coup
 
 std::vector<Variant> design(const Asked& asked, std::size_t of_case) {
   return Designer(asked, of_case).all();
+}
+
+double coarsest_interval(const Scenario& scenario) {
+  double interval = scenario.output.interval;
+  for (const double step : time_steps_ms)
+    interval = std::max(interval, 1e-3 * rows_of(step, 1e3 * scenario.output.interval));
+  return interval;
 }
 
 Integrator base_integrator(const Scenario& scenario) {

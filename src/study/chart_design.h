@@ -50,6 +50,10 @@ struct Variant {
 [[nodiscard]] scenario::Family with_settings(const Asked& asked, std::size_t of_case,
                                              const std::vector<std::string>& settings);
 
+// The rows of the variant that has the fewest, s apart; those of all others lie there too, where
+// the programme's steps are whole numbers of it long.
+[[nodiscard]] double coarsest_interval(const scenario::Scenario& scenario);
+
 // The steps' integrator of the mesh rungs where a variant does not say its own.
 [[nodiscard]] scenario::Solver::Integrator base_integrator(const scenario::Scenario& scenario);
 

@@ -89,6 +89,28 @@ History history(const Scenario& scenario, const record::CaseRecord& record) {
   return all;
 }
 
+double start_of(const Scenario& scenario, int step) {
+  double start = 0.0;
+  for (int i = 1; i < step; ++i) {
+    const auto& one = scenario.steps[static_cast<std::size_t>(i) - 1];
+    if (const auto* creep = std::get_if<scenario::Creep>(&one))
+      start += creep->load_time + creep->recovery_time;
+    else if (const auto* relax = std::get_if<scenario::Relax>(&one))
+      start += relax->time;
+  }
+  return start;
+}
+
+History without_starts(const Scenario& scenario, const History& all) {
+  if (!scenario.uniform()) return all;
+  History kept;
+  for (const Moment& moment : all) {
+    const double start = start_of(scenario, moment.step);
+    if (moment.time > start * (1.0 + same_time) + 1e-12) kept.push_back(moment);
+  }
+  return kept;
+}
+
 std::optional<Deviation> deviation(const Scenario& scenario, const History& got,
                                    const History& reference) {
   std::vector<History> parts{{}};

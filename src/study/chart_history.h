@@ -23,6 +23,13 @@ using History = std::vector<Moment>;
 [[nodiscard]] History history(const scenario::Scenario& scenario,
                               const record::CaseRecord& record);
 
+// Without the moments at which a uniform test's steps begin: a load that comes at once has two
+// answers there, before and after. Presses keep all of theirs.
+[[nodiscard]] History without_starts(const scenario::Scenario& scenario, const History& all);
+
+// When a step of a uniform test, counted from 1, begins, s.
+[[nodiscard]] double start_of(const scenario::Scenario& scenario, int step);
+
 // Differences over the greatest value of the reference in steps of the same kind.
 struct Deviation {
   double greatest = 0.0;  // over the moments of the reference

@@ -33,7 +33,10 @@ std::string word(const Cell& cell) {
 
 void put(std::vector<Cell>& row, const std::optional<Deviation>& deviation) {
   for (const auto part : {&Deviation::greatest, &Deviation::at_end, &Deviation::rms})
-    row.push_back(deviation ? Cell((*deviation).*part) : Cell());
+    if (deviation)
+      row.emplace_back((*deviation).*part);
+    else
+      row.emplace_back();
 }
 
 std::optional<Deviation> get(const std::vector<Cell>& row, std::size_t at) {

@@ -160,7 +160,7 @@ class Finder {
            scenario_.solver.kinematics == tissue::Kinematics::linear;
   }
 
-  // Coupled springs on a mesh of about so many nodes.
+  // Coupled springs on a mesh of about so many nodes, 8 or more.
   [[nodiscard]] Settings coupled(double nodes, const char* integrator) const {
     Settings settings{"solver.model=coupled_springs", std::string("solver.integrator=") + integrator,
                       "solver.volume=auto", "solver.substeps=auto", "solver.time_step=auto"};
@@ -170,17 +170,18 @@ class Finder {
       settings.push_back("tissue.mesh={kind='tetgen',nodes=" + rounded_text(nodes, 6) + "}");
       return settings;
     }
+    // (n + 1) nodes along every side of n cells.
     const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / nodes);
     std::string cells;
     for (const double length : box->size)
       cells += (cells.empty() ? "" : ",") +
-               std::to_string(std::max(2L, std::lround(length / cell)));
+               std::to_string(std::max(1L, std::lround(length / cell) - 1));
     settings.push_back("tissue.mesh={kind='mirrored',cells=[" + cells + "]}");
     return settings;
   }
 
   std::optional<Truth> uniform() const {
-    constexpr double few = 150.0;  // nodes: modes of so small a mesh cost nothing
+    constexpr double few = 60.0;  // nodes: modes of so small a mesh cost nothing
     const bool drag = scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag;
     double inertia = 1.0;
     if (!drag) {
@@ -188,32 +189,12 @@ class Finder {
       const auto moving = run(coupled(few, "modal"));
       const auto still = moving ? run(coupled(few, "quasi_static")) : std::nullopt;
       if (!still) return std::nullopt;
-      const auto off = deviation(scenario_, *moving, without_starts(*still));
+      const auto off = deviation(scenario_, *moving, without_starts(scenario_, *still));
       inertia = off ? off->greatest : 1.0;
     }
     const bool moves = inertia > 0.5 * scenario_.solver.tolerance;
     if (even() && !moves) return material(inertia);
     return extrapolated(moves ? "modal" : "quasi_static", moves ? 0.0 : inertia);
-  }
-
-  // A load that comes at once has two answers at its very moment: before and after.
-  [[nodiscard]] History without_starts(const History& all) const {
-    History kept;
-    for (const Moment& moment : all)
-      if (moment.time > start_of(moment.step)) kept.push_back(moment);
-    return kept;
-  }
-
-  [[nodiscard]] double start_of(int step) const {
-    double start = 0.0;
-    for (int i = 1; i < step; ++i) {
-      const auto& one = scenario_.steps[static_cast<std::size_t>(i) - 1];
-      if (const auto* creep = std::get_if<scenario::Creep>(&one))
-        start += creep->load_time + creep->recovery_time;
-      else
-        start += std::get<scenario::Relax>(one).time;
-    }
-    return start * (1.0 + 1e-12);  // times are sums too
   }
 
   // strain = s/E (J(t) - J(t - t_1)), J the creep over its end value; stress = e E(t).
@@ -247,7 +228,7 @@ class Finder {
         } else {
           value = relaxes->strain * modulus * relaxation.modulus_ratio(t);
         }
-        truth.moments.push_back({step, start_of(step) + t, value, 0.0});
+        truth.moments.push_back({step, start_of(scenario_, step) + t, value, 0.0});
       }
     }
     for (Moment& moment : truth.moments) moment.error = inertia * std::abs(moment.value);
@@ -259,11 +240,12 @@ class Finder {
     if (ready) return vouched_uniform(integrator, more);
     std::vector<History> levels;
     std::vector<double> spacings;
-    for (const double nodes : {150.0, 300.0, 600.0}) {
+    const double coarsest = integrator == std::string("modal") ? 80.0 : 150.0;
+    for (const double times : {1.0, 2.0, 4.0}) {
       told_("level " + std::to_string(levels.size() + 1) + " of 3");
-      auto level = run(coupled(nodes, integrator));
+      auto level = run(coupled(times * coarsest, integrator));
       if (!level) return std::nullopt;
-      levels.push_back(without_starts(*level));
+      levels.push_back(without_starts(scenario_, *level));
       spacings.push_back(1.0 / std::cbrt(static_cast<double>(nodes_)));
     }
     Truth truth{"refined", "", {}};
@@ -287,7 +269,7 @@ class Finder {
       if (rung.model == scenario::Solver::Model::coupled_springs) error = rung.error;
     auto truth = vouched("own mesh", "`coupled_springs` on the ready mesh",
                          coupled(0.0, integrator), error + more);
-    if (truth) truth->moments = without_starts(truth->moments);
+    if (truth) truth->moments = without_starts(scenario_, truth->moments);
     return truth;
   }
 
@@ -309,21 +291,22 @@ std::optional<Truth> find_truth(const Asked& asked, std::size_t of_case,
 
 std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
                                      const std::atomic<bool>& stop) {
+  const double interval = coarsest_interval(asked.family.cases[variant.of_case].scenario);
   std::vector<History> finer;
   try {
     for (const double step : {0.5e-3, 0.25e-3}) {
-      const Scenario& base = asked.family.cases[variant.of_case].scenario;
       Settings settings = variant.settings;
       settings.emplace_back("solver.integrator=modal");
-      settings.emplace_back("solver.substeps=" +
-                            rounded_text(std::max(1.0, std::round(base.output.interval / step)), 9));
+      settings.push_back("output.interval=" + number_text(1e3 * interval) + " ms");
+      settings.push_back("solver.substeps=" +
+                         number_text(std::max(1.0, std::round(interval / step))));
       const auto family = with_settings(asked, variant.of_case, settings);
       scene::Scene scene = scene::build(family.cases.front(), family);
       scene.scenario.output.pressure_maps = scene.scenario.output.tissue = false;
       scene.scenario.output.picture = false;
       const record::CaseRecord record = run::run_case(scene, stop);
       if (record.outcome != record::Outcome::completed) return std::nullopt;
-      finer.push_back(history(scene.scenario, record));
+      finer.push_back(without_starts(scene.scenario, history(scene.scenario, record)));
     }
   } catch (const InputError&) {
     return std::nullopt;

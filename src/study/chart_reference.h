@@ -35,7 +35,7 @@ struct Truth {
                                               const std::function<void(const std::string&)>& told);
 
 // Of time alone: the variant's scenario by `modal`, in quarters of a ms, its error the difference
-// to halves. Nothing where `modal` cannot serve it, or `stop` was set.
+// to halves, at the coarsest rows of the case's variants. Nothing where `modal` cannot serve it, or `stop` was set.
 [[nodiscard]] std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
                                                    const std::atomic<bool>& stop);
 

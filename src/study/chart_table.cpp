@@ -32,10 +32,13 @@ Cell count(int number) { return number > 0 ? Cell(static_cast<double>(number)) :
 
 Cell word(const std::string& text) { return text.empty() ? Cell() : Cell(text); }
 
-// Of three digits: a clock tells no more.
-Cell clocked(double value) {
-  return Cell(*whole_number(rounded_text(value, 4)));
+Cell rings(const Measurement& one) {
+  const auto number = whole_number(one.rings);
+  return number ? Cell(*number) : word(one.rings);
 }
+
+// Of four digits: a clock tells no more.
+Cell clocked(double value) { return Cell(*whole_number(rounded_text(value, 4))); }
 
 const std::vector<std::string> columns{"case",
                                        "group",
@@ -82,7 +85,7 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
                         word(one.model),
                         word(one.coupling),
                         word(one.integrator),
-                        word(one.rings),
+                        rings(one),
                         one.substep > 0.0 ? Cell(1e3 * one.substep) : Cell(),
                         count(one.substeps),
                         count(one.nodes),
@@ -117,6 +120,9 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
   return row;
 }
 
+// Two digits for people, without an exponent where there is room.
+std::string rounded(double value) { return number_text(*whole_number(rounded_text(value, 2))); }
+
 // The sentences of one case.
 class Speaker {
  public:
@@ -130,13 +136,13 @@ class Speaker {
   }
 
  private:
-  static std::string percent(double part) { return rounded_text(100.0 * part, 2) + " %"; }
+  static std::string percent(double part) { return rounded(100.0 * part) + " %"; }
 
   [[nodiscard]] std::string error(std::size_t i) const {
     return (verdict_.error[i] <= verdict_.floor ? "at most " : "") + percent(verdict_.error[i]);
   }
   [[nodiscard]] std::string cost(std::size_t i) const {
-    return rounded_text(verdict_.cost[i], 2) + " us a ms";
+    return rounded(verdict_.cost[i]) + " us a ms";
   }
   [[nodiscard]] std::string named(std::size_t i) const {
     return "`" + name(i) + "` (" + error(i) + ", " + cost(i) + ")";
@@ -151,7 +157,7 @@ class Speaker {
     return set_line(chart_.rows[i].variant.settings);
   }
   [[nodiscard]] std::string times(std::size_t dear, std::size_t cheap) const {
-    return rounded_text(verdict_.cost[dear] / verdict_.cost[cheap], 2) + " times";
+    return rounded(verdict_.cost[dear] / verdict_.cost[cheap]) + " times";
   }
 
   [[nodiscard]] std::string within() const {
@@ -230,8 +236,8 @@ class Speaker {
                        "|---|---|---|---|\n";
     for (const std::size_t i : verdict_.front)
       text += "| `" + name(i) + "`" + (verdict_.knee == i ? " (knee)" : "") + " | " + error(i) +
-              " | " + rounded_text(verdict_.cost[i], 2) + " | " +
-              rounded_text(median(chart_.rows[i].setups()), 2) + " s |\n";
+              " | " + rounded(verdict_.cost[i]) + " | " +
+              rounded(median(chart_.rows[i].setups())) + " s |\n";
     return text;
   }
 
