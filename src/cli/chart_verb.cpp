@@ -79,15 +79,14 @@ void draw_all(const std::vector<study::CaseChart>& charts, const scenario::Famil
     if (verdict.front.empty()) continue;
     const std::string title =
         family.title + (charts.size() > 1 ? ", " + chart.name : std::string());
-    report::Scatter scatter{
-        .name = charts.size() > 1 ? "chart_" + std::to_string(i + 1) : "chart",
-        .title = title,
-        .csv_file = "chart.csv",
-        .case_name = chart.name,
-        .models = words_of(chart, &study::Measurement::model),
-        .integrators = words_of(chart, &study::Measurement::integrator),
-        .floor = verdict.floor,
-        .tolerance = chart.tolerance};
+    report::Scatter scatter{.name = charts.size() > 1 ? "chart_" + std::to_string(i + 1) : "chart",
+                            .title = title,
+                            .csv_file = "chart.csv",
+                            .case_name = chart.name,
+                            .models = words_of(chart, &study::Measurement::model),
+                            .integrators = words_of(chart, &study::Measurement::integrator),
+                            .floor = verdict.floor,
+                            .tolerance = chart.tolerance};
     if (verdict.knee) scatter.marks.emplace_back("knee");
     if (verdict.taken) scatter.marks.emplace_back("auto");
     set_range(chart, verdict, scatter);
@@ -109,9 +108,9 @@ int chart(const Chart& command, const Arguments&, const Talk& talk) {
   study::Journal journal(folder.string() + ".partial", identity(family), command.force);
   if (journal.resumed()) talk.say("goes on with what " + journal.folder() + " holds");
   const std::atomic<bool>& stop = listen_for_interrupts(exit_resumable);
-  const auto charts = study::measure(
-      asked, {.repeats = command.repeats}, journal, stop,
-      [&](const study::ChartProgress& progress) { talk.progress(bar(progress)); });
+  const auto charts =
+      study::measure(asked, {.repeats = command.repeats}, journal, stop,
+                     [&](const study::ChartProgress& progress) { talk.progress(bar(progress)); });
   talk.progress("");
   if (!charts) {
     Talk::error("palpate: interrupted; " + journal.folder() +

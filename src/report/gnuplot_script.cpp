@@ -61,7 +61,8 @@ std::string x_expression(const Series& series) {
   const std::string x = "column(" + gnuplot_quoted(series.x_column) + ")";
   std::string condition;
   if (!series.case_name.empty())
-    condition = "strcol(" + gnuplot_quoted(series.column) + ") eq " + gnuplot_quoted(series.case_name);
+    condition =
+        "strcol(" + gnuplot_quoted(series.column) + ") eq " + gnuplot_quoted(series.case_name);
   if (series.step) {
     if (!condition.empty()) condition += " && ";
     condition += "column('step') == " + std::to_string(*series.step);
@@ -74,8 +75,8 @@ std::string data_line(const Series& series, std::size_t i) {
   return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
          scaled(series.scale, "column(" + gnuplot_quoted(series.y_column) + ")") +
          ") with linespoints linewidth 3.5 linecolor rgb '#" + pale + colour + "' pointtype " +
-         std::to_string(gnuplot_markers[i % gnuplot_markers.size()]) + " pointsize 0.55 pointnumber 14 title " +
-         gnuplot_quoted(label(series));
+         std::to_string(gnuplot_markers[i % gnuplot_markers.size()]) +
+         " pointsize 0.55 pointnumber 14 title " + gnuplot_quoted(label(series));
 }
 
 std::string fit_line(const Series& series, const FittedCurve& fit, const std::string& function,

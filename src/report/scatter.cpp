@@ -64,9 +64,9 @@ std::string frame(const Scatter& scatter) {
          "set format y '%g'\n" +
          axis("x", range(std::min(scatter.least_cost, frame_cost),
                          std::max(scatter.most_cost, frame_cost))) +
-         axis("y", range(100.0 * std::min({scatter.least_error, scatter.floor, scatter.tolerance}),
-                         100.0 * std::max({scatter.most_error, scatter.floor,
-                                           scatter.tolerance}))) +
+         axis("y",
+              range(100.0 * std::min({scatter.least_error, scatter.floor, scatter.tolerance}),
+                    100.0 * std::max({scatter.most_error, scatter.floor, scatter.tolerance}))) +
          "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
          "set tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
          "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n"
@@ -106,8 +106,7 @@ std::string using_rows(const Scatter& scatter, const std::string& condition) {
 std::string points(const Scatter& scatter, const std::string& model,
                    const std::string& integrator) {
   return using_rows(scatter, "strcol('model') eq " + gnuplot_quoted(model) +
-                                 " && strcol('integrator') eq " +
-                                 gnuplot_quoted(integrator)) +
+                                 " && strcol('integrator') eq " + gnuplot_quoted(integrator)) +
          ":(column('cost_min_us_per_ms')):(column('cost_max_us_per_ms')) with xerrorbars "
          "linewidth 1.2 linecolor rgb '#50" +
          colour_of(model) + "' pointtype " + marker(integrator) + " pointsize 0.8 notitle";

@@ -161,8 +161,7 @@ class Measurer {
     if (stop_.load()) return false;
     ChartProgress progress{(charts_.size() > 1 ? chart.name + ": " : "") + one.variant.name, done_,
                            all_};
-    if (made_ > 0 && since(start_) > 1.0)
-      progress.left = since(start_) / made_ * (all_ - done_);
+    if (made_ > 0 && since(start_) > 1.0) progress.left = since(start_) / made_ * (all_ - done_);
     ++done_;
     if (!wanted(one, round)) return true;
     told_(progress);
@@ -251,8 +250,8 @@ class Measurer {
     one.tetrahedra = static_cast<int>(scene.specimen->mesh.tetrahedra.size());
   }
 
-  void compare(const CaseChart& chart, const scene::Scene& scene,
-               const record::CaseRecord& record, Measurement& one) {
+  void compare(const CaseChart& chart, const scene::Scene& scene, const record::CaseRecord& record,
+               Measurement& one) {
     one.simulated = end_time(record);
     if (record.outcome == record::Outcome::diverged) {
       one.status = Status::diverged;

@@ -15,8 +15,8 @@
 namespace palpate::study {
 
 struct ChartOptions {
-  int repeats = 5;      // timings of every variant, at most
-  double budget = 2.0;  // s, that one variant's timings may take together; one is always made
+  int repeats = 5;       // timings of every variant, at most
+  double budget = 2.0;   // s, that one variant's timings may take together; one is always made
   double longest = 6.0;  // s, of one run or one set-up; what would take longer is not run
 };
 
@@ -39,11 +39,11 @@ struct Measurement {
   double substep = 0.0;  // s, of the solver; 0 without a mesh
   int substeps = 0;      // of a time step
   int nodes = 0, tetrahedra = 0;
-  double simulated = 0.0;                  // s, of the programme
-  double first_simulated = 0.0;            // s, of the programme of one row
-  std::optional<Deviation> error;          // from the reference
-  std::optional<Deviation> time_error;     // from exact_in_time(), on the same mesh
-  double time_floor = 0.0;                 // that one's own error
+  double simulated = 0.0;               // s, of the programme
+  double first_simulated = 0.0;         // s, of the programme of one row
+  std::optional<Deviation> error;       // from the reference
+  std::optional<Deviation> time_error;  // from exact_in_time(), on the same mesh
+  double time_floor = 0.0;              // that one's own error
   std::vector<Timing> timings;
 
   // us a simulated ms, of the run without its set-up, in every timing.
@@ -56,13 +56,13 @@ struct CaseChart {
   std::string name;
   double tolerance = 0.05;
   Truth truth;
-  double reference_error = 0.0;  // the truth's own, the greatest over its moments
+  double reference_error = 0.0;   // the truth's own, the greatest over its moments
   std::vector<Measurement> rows;  // in the order of design()
 };
 
 struct ChartProgress {
   std::string what;
-  int done = 0, all = 0;           // timings, of all cases; those that the budget forbids are done
+  int done = 0, all = 0;            // timings, of all cases; those that the budget forbids are done
   std::optional<double> left = {};  // s, by those that were made
 };
 

@@ -23,15 +23,15 @@ using scenario::Scenario;
 namespace words = scenario::words;
 
 constexpr std::size_t most_cases = 8;
-constexpr double mesh_factors[] = {0.25, 4.0};       // of the scenario's nodes
+constexpr double mesh_factors[] = {0.25, 4.0};        // of the scenario's nodes
 constexpr double time_steps_ms[] = {0.25, 1.0, 4.0};  // shares and multiples of a haptic frame
 constexpr int ring_counts[] = {2, 3, 5};
 constexpr double cells_a_contact_radius = 3.5;  // `resolved` asks for 3
 
 // What a chart sets itself.
-constexpr const char* own_keys[] = {"solver.model",     "solver.integrator", "solver.time_step",
-                                    "solver.substeps",  "solver.rings",      "contact.coupling",
-                                    "tissue.mesh",      "output.interval"};
+constexpr const char* own_keys[] = {"solver.model",    "solver.integrator", "solver.time_step",
+                                    "solver.substeps", "solver.rings",      "contact.coupling",
+                                    "tissue.mesh",     "output.interval"};
 
 std::string text_of_cells(const char* kind, const std::array<int, 3>& cells, double grading) {
   std::string text = std::string("tissue.mesh={kind='") + kind + "',cells=[";
@@ -122,8 +122,8 @@ class Designer {
   }
 
   std::vector<Variant> all() {
-    const Settings open = base_.solver.model == Model::automatic ? Settings{}
-                                                                 : Settings{"solver.model=auto"};
+    const Settings open =
+        base_.solver.model == Model::automatic ? Settings{} : Settings{"solver.model=auto"};
     add("base", "auto", open);
     if (!open.empty()) add("base", "as it stands", {});
     for (const Model model : {Model::hertz, Model::layer})
@@ -161,8 +161,7 @@ class Designer {
   }
 
   void add(const std::string& group, const std::string& name, const Settings& settings) {
-    if (seen_.insert(settled(settings)).second)
-      variants_.push_back({case_, group, name, settings});
+    if (seen_.insert(settled(settings)).second) variants_.push_back({case_, group, name, settings});
   }
 
   void meshes(Model model) {
@@ -197,8 +196,8 @@ class Designer {
       const std::optional<scene::TimePlan> plan = plan_of(settings);
       if (plan && cut_by_limit(settings, *plan))
         add("integrator x time step", name + ", half the limit",
-            joined_to(settings, {"solver.substeps=" + number_text(std::ceil(
-                                                          plan->time_step / (0.5 * plan->limit)))}));
+            joined_to(settings, {"solver.substeps=" +
+                                 number_text(std::ceil(plan->time_step / (0.5 * plan->limit)))}));
       for (const double step : time_steps_ms) {
         const bool own = plan && std::abs(1e3 * plan->substep - step) < 1e-9 * step;
         if (!own)
@@ -226,8 +225,8 @@ class Designer {
     if (plan.substeps != static_cast<int>(std::ceil(plan.time_step / (0.9 * plan.limit))))
       return false;
     const std::string bold = number_text(4e3 * plan.limit) + " ms";
-    return !plan_of(joined_to(settings, {"solver.time_step=" + bold, "solver.substeps=1",
-                                         "output.interval=" + bold}));
+    return !plan_of(joined_to(
+        settings, {"solver.time_step=" + bold, "solver.substeps=1", "output.interval=" + bold}));
   }
 
   const Asked& asked_;

@@ -30,7 +30,8 @@ struct Asked {
 };
 
 // Reads a scenario for a chart. Throws InputError where it cannot be read, has more than 8 cases,
-// sweeps what the chart varies itself, or presses to a force, which ends elsewhere in every variant.
+// sweeps what the chart varies itself, or presses to a force, which ends elsewhere in every
+// variant.
 [[nodiscard]] Asked read_for_chart(const std::string& path,
                                    const std::vector<std::string>& settings);
 

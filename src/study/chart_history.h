@@ -20,8 +20,7 @@ struct Moment {
 using History = std::vector<Moment>;
 
 // The rows of a run as such moments, by time.
-[[nodiscard]] History history(const scenario::Scenario& scenario,
-                              const record::CaseRecord& record);
+[[nodiscard]] History history(const scenario::Scenario& scenario, const record::CaseRecord& record);
 
 // Without the moments at which a uniform test's steps begin: a load that comes at once has two
 // answers there, before and after. Presses keep all of theirs.

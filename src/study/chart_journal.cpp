@@ -16,11 +16,10 @@ using record::Cell;
 
 // Of journal.csv; seconds and ratios.
 const std::vector<std::string> columns{
-    "case",         "variant",         "status",         "note",           "model",
-    "coupling",     "integrator",      "rings",          "substep_s",      "substeps",
-    "nodes",        "tetrahedra",      "simulated_s",    "first_s",        "greatest_error",
-    "end_error",    "rms_error",       "time_greatest",  "time_end",       "time_rms",
-    "time_floor",   "build_s",         "first_row_s",    "whole_s"};
+    "case",        "variant",  "status",         "note",      "model",       "coupling",
+    "integrator",  "rings",    "substep_s",      "substeps",  "nodes",       "tetrahedra",
+    "simulated_s", "first_s",  "greatest_error", "end_error", "rms_error",   "time_greatest",
+    "time_end",    "time_rms", "time_floor",     "build_s",   "first_row_s", "whole_s"};
 
 double number(const Cell& cell) {
   const auto* value = std::get_if<double>(&cell);
@@ -74,8 +73,7 @@ Measurement of_line(const std::vector<Cell>& row) {
   Measurement one;
   one.variant.of_case = static_cast<std::size_t>(number(row[0]));
   one.variant.name = word(row[1]);
-  for (const Status status :
-       {Status::measured, Status::diverged, Status::cannot, Status::not_run})
+  for (const Status status : {Status::measured, Status::diverged, Status::cannot, Status::not_run})
     if (word(row[2]) == status_word(status)) one.status = status;
   one.note = word(row[3]);
   one.model = word(row[4]);
@@ -180,16 +178,16 @@ void Journal::finish(const std::string& place) const {
 record::Table history_table(const Truth& truth) {
   record::Table table{{"step", "time_s", "value", "own_error", "kind", "sentence"}, {}};
   for (const Moment& moment : truth.moments)
-    table.rows.push_back({static_cast<double>(moment.step), moment.time, moment.value,
-                          moment.error, truth.kind, truth.sentence});
+    table.rows.push_back({static_cast<double>(moment.step), moment.time, moment.value, moment.error,
+                          truth.kind, truth.sentence});
   return table;
 }
 
 Truth truth_of(const record::Table& table) {
   Truth truth;
   for (const std::vector<Cell>& row : table.rows) {
-    truth.moments.push_back({static_cast<int>(number(row[0])), number(row[1]), number(row[2]),
-                             number(row[3])});
+    truth.moments.push_back(
+        {static_cast<int>(number(row[0])), number(row[1]), number(row[2]), number(row[3])});
     truth.kind = word(row[4]);
     truth.sentence = word(row[5]);
   }

@@ -20,7 +20,7 @@ using scenario::Scenario;
 
 // Refined meshes know no better than this, in a thousand times the time: docs/accuracy.md.
 constexpr double refined_error = 0.03;
-constexpr double most_moments = 20.0;         // of a press without memory
+constexpr double most_moments = 20.0;          // of a press without memory
 constexpr double most_moments_in_time = 50.0;  // of one that the past or waves matter to
 
 std::string percent(double part) { return rounded_text(100.0 * part, 2) + " %"; }
@@ -60,8 +60,7 @@ class Finder {
     if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
       return half_space(found);
     const double left_out = found.sides + found.inertia;
-    if (!scene::beyond_layer(scenario_) && left_out <= refined_error)
-      return layer(found);
+    if (!scene::beyond_layer(scenario_) && left_out <= refined_error) return layer(found);
     if (!std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh)) return refined(found);
     return on_the_mesh();
   }
@@ -92,9 +91,10 @@ class Finder {
 
   std::optional<Truth> half_space(const scene::Estimates& found) const {
     const bool deep = found.deep >= scenario_.solver.tolerance;
-    return vouched("closed form", deep ? "Hertz, times the factor of a deep press" : "Hertz",
-                   {"solver.model=hertz", deep ? "contact.depth=neo_hookean" : "contact.depth=hertz"},
-                   (deep ? contact::DeepLaw::error : found.deep) + found.inertia);
+    return vouched(
+        "closed form", deep ? "Hertz, times the factor of a deep press" : "Hertz",
+        {"solver.model=hertz", deep ? "contact.depth=neo_hookean" : "contact.depth=hertz"},
+        (deep ? contact::DeepLaw::error : found.deep) + found.inertia);
   }
 
   std::optional<Truth> layer(const scene::Estimates& found) const {
@@ -162,8 +162,9 @@ class Finder {
 
   // Coupled springs on a mesh of about so many nodes, 8 or more.
   [[nodiscard]] Settings coupled(double nodes, const char* integrator) const {
-    Settings settings{"solver.model=coupled_springs", std::string("solver.integrator=") + integrator,
-                      "solver.volume=auto", "solver.substeps=auto", "solver.time_step=auto"};
+    Settings settings{"solver.model=coupled_springs",
+                      std::string("solver.integrator=") + integrator, "solver.volume=auto",
+                      "solver.substeps=auto", "solver.time_step=auto"};
     if (std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh)) return settings;
     const auto* box = std::get_if<scenario::Cuboid>(&scenario_.tissue.shape);
     if (box == nullptr || !scene::all_slabs(scenario_)) {
@@ -174,8 +175,8 @@ class Finder {
     const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / nodes);
     std::string cells;
     for (const double length : box->size)
-      cells += (cells.empty() ? "" : ",") +
-               std::to_string(std::max(1L, std::lround(length / cell) - 1));
+      cells +=
+          (cells.empty() ? "" : ",") + std::to_string(std::max(1L, std::lround(length / cell) - 1));
     settings.push_back("tissue.mesh={kind='mirrored',cells=[" + cells + "]}");
     return settings;
   }

@@ -12,9 +12,9 @@
 namespace palpate::study {
 
 struct Truth {
-  std::string kind;       // "closed form", "refined", "modal": a word for the table
-  std::string sentence;   // what it is, for people
-  History moments;        // with their own errors
+  std::string kind;      // "closed form", "refined", "modal": a word for the table
+  std::string sentence;  // what it is, for people
+  History moments;       // with their own errors
 };
 
 // The best that is available for a case:
@@ -35,7 +35,8 @@ struct Truth {
                                               const std::function<void(const std::string&)>& told);
 
 // Of time alone: the variant's scenario by `modal`, in quarters of a ms, its error the difference
-// to halves, at the coarsest rows of the case's variants. Nothing where `modal` cannot serve it, or `stop` was set.
+// to halves, at the coarsest rows of the case's variants. Nothing where `modal` cannot serve it, or
+// `stop` was set.
 [[nodiscard]] std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
                                                    const std::atomic<bool>& stop);
 

@@ -130,8 +130,8 @@ class Speaker {
 
   std::string text() const {
     std::string text = "## " + chart_.name + "\n\nReference: " + chart_.truth.sentence + ".\n\n" +
-                       within() + "\n\n" + at_knee() + "\n\n" + real_time() + in_time() +
-                       front() + "\n" + rest();
+                       within() + "\n\n" + at_knee() + "\n\n" + real_time() + in_time() + front() +
+                       "\n" + rest();
     return text;
   }
 
@@ -149,9 +149,8 @@ class Speaker {
   }
   [[nodiscard]] std::string name(std::size_t i) const {
     const Measurement& one = chart_.rows[i];
-    return one.variant.group == "base" && !one.model.empty()
-               ? one.variant.name + " = " + one.model
-               : one.variant.name;
+    return one.variant.group == "base" && !one.model.empty() ? one.variant.name + " = " + one.model
+                                                             : one.variant.name;
   }
   [[nodiscard]] std::string how(std::size_t i) const {
     return set_line(chart_.rows[i].variant.settings);
@@ -232,12 +231,13 @@ class Speaker {
   }
 
   [[nodiscard]] std::string front() const {
-    std::string text = "The front, from cheap to right:\n\n| variant | error | us a ms | set-up |\n"
-                       "|---|---|---|---|\n";
+    std::string text =
+        "The front, from cheap to right:\n\n| variant | error | us a ms | set-up |\n"
+        "|---|---|---|---|\n";
     for (const std::size_t i : verdict_.front)
       text += "| `" + name(i) + "`" + (verdict_.knee == i ? " (knee)" : "") + " | " + error(i) +
-              " | " + rounded(verdict_.cost[i]) + " | " +
-              rounded(median(chart_.rows[i].setups())) + " s |\n";
+              " | " + rounded(verdict_.cost[i]) + " | " + rounded(median(chart_.rows[i].setups())) +
+              " s |\n";
     return text;
   }
 

@@ -57,11 +57,17 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
   const auto status = column(all, "status");
   const auto variant = column(all, "variant");
   const auto error = column(all, "greatest_error");
+  auto note = column(all, "note");
+  for (record::Cell& cell : note)
+    if (!std::holds_alternative<std::string>(cell)) cell = "";
   for (std::size_t i = 0; i < all.rows.size(); ++i) {
     const std::string name = std::get<std::string>(variant[i]);
-    const bool formula = name == "hertz" || name == "layer";
-    EXPECT_EQ(status[i] == record::Cell("cannot"), formula) << name;
-    if (formula) continue;
+    // Formulas have no specimen; 4 ms is above the limit of the explicit methods.
+    const bool refused =
+        name == "hertz" || name == "layer" ||
+        std::get<std::string>(note[i]).find("above the stability limit") != std::string::npos;
+    EXPECT_EQ(status[i] == record::Cell("cannot"), refused) << name;
+    if (refused) continue;
     ASSERT_TRUE(std::holds_alternative<double>(error[i])) << name;
     // Of the closed form: backward differences of 4 ms at a retardation time of 10 ms err most.
     EXPECT_LT(std::get<double>(error[i]), 0.2) << name;
@@ -90,8 +96,9 @@ TEST_F(ChartVerb, AFinishedChartIsNotOverwritten) {
   ASSERT_EQ(chart(half_space).code, 0);
   const Ended again = chart(half_space);
   EXPECT_EQ(again.code, 2);
-  EXPECT_EQ(again.err,
-            "out/small_chart: is there already; give another `--out`, or `--force` to replace it\n");
+  EXPECT_EQ(
+      again.err,
+      "out/small_chart: is there already; give another `--out`, or `--force` to replace it\n");
   EXPECT_EQ(chart(half_space, {"--force"}).code, 0);
 }
 
@@ -104,8 +111,8 @@ TEST_F(ChartVerb, InterruptedItGoesOn) {
     return std::count(text.begin(), text.end(), '\n');
   };
   // So many repeats that it does not end by itself.
-  Running running({.arguments = {"chart", "small.toml", "--repeats", "1000"},
-                   .folder = folder_.path()});
+  Running running(
+      {.arguments = {"chart", "small.toml", "--repeats", "1000"}, .folder = folder_.path()});
   ASSERT_TRUE(running.until([&] { return lines() >= 3; }));
   running.send(SIGINT);
   const Ended ended = running.wait();

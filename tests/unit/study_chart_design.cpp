@@ -113,8 +113,7 @@ TEST_F(Design, EveryVariantIsReadOrRefusedWithASentence) {
 }
 
 TEST_F(Design, RowsOfLongStepsLieOnThoseOfTheScenario) {
-  const auto variants =
-      design(asked(scenario::creep + "[output]\ninterval = \"10 ms\"\n"), 0);
+  const auto variants = design(asked(scenario::creep + "[output]\ninterval = \"10 ms\"\n"), 0);
   const Variant* slow = find(variants, "mass_spring, quasi_static, 4 ms");
   ASSERT_NE(slow, nullptr);
   EXPECT_EQ(slow->settings.back(), "output.interval=20 ms");
@@ -135,19 +134,17 @@ TEST_F(Design, AUniformTestHasNoContact) {
 }
 
 TEST_F(Design, AGivenModelIsAVariantBesideAuto) {
-  const auto variants =
-      design(asked(quick + "[solver]\nmodel = \"layer\"\n"), 0);
+  const auto variants = design(asked(quick + "[solver]\nmodel = \"layer\"\n"), 0);
   EXPECT_EQ(variants[0].settings, Settings{"solver.model=auto"});
   EXPECT_EQ(variants[1].name, "as it stands");
   EXPECT_EQ(find(variants, "layer"), nullptr) << "as it stands";
 }
 
 TEST_F(Design, TetgenMeshesScaleByNodes) {
-  const auto variants =
-      design(asked(quick +
-                   "[tissue]\nshape = { kind = \"ellipsoid\" }\nmesh = { kind = \"tetgen\", nodes "
-                   "= 200, tetrahedra = 600 }\n"),
-             0);
+  const auto variants = design(
+      asked(quick + "[tissue]\nshape = { kind = \"ellipsoid\" }\nmesh = { kind = \"tetgen\", nodes "
+                    "= 200, tetrahedra = 600 }\n"),
+      0);
   EXPECT_EQ(find(variants, "mass_spring, nodes x 0.25")->settings.back(),
             "tissue.mesh={kind='tetgen',nodes=50}");
   EXPECT_EQ(find(variants, "mass_spring, resolved on graded cells"), nullptr);

@@ -8,8 +8,8 @@
 namespace palpate::study {
 namespace {
 
-const scenario::Scenario press = scenario::read_one(
-    scenario::press + "[[step]]\nkind = \"hold\"\ntime = \"1 s\"\n");
+const scenario::Scenario press =
+    scenario::read_one(scenario::press + "[[step]]\nkind = \"hold\"\ntime = \"1 s\"\n");
 const scenario::Scenario uniform = scenario::read_one(
     scenario::creep + "[[step]]\nkind = \"relax\"\nstrain = 0.1\ntime = \"1 s\"\n");
 

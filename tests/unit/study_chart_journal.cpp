@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 
 class JournalOnDisk : public testing::Test {
  protected:
-  fs::path root_ =
-      fs::temp_directory_path() / ("palpate-journal-" + std::to_string(::getpid()));
+  fs::path root_ = fs::temp_directory_path() / ("palpate-journal-" + std::to_string(::getpid()));
   std::string folder_ = (root_ / "x.partial").string();
   JournalOnDisk() { fs::create_directories(root_); }
   ~JournalOnDisk() override { fs::remove_all(root_); }

@@ -38,8 +38,9 @@ TEST(Pareto, OfEqualOnesTheFirst) {
 }
 
 TEST(Pareto, WhatIsNoTradeoffTakesNoPart) {
-  EXPECT_EQ(pareto_front(Cloud{{0, 1}, {1, 0}, {-1, 1}, {infinite, 1e-9}, {NAN, 1}, {1, NAN}, {2, 2}}),
-            Indices{6});
+  EXPECT_EQ(
+      pareto_front(Cloud{{0, 1}, {1, 0}, {-1, 1}, {infinite, 1e-9}, {NAN, 1}, {1, NAN}, {2, 2}}),
+      Indices{6});
 }
 
 TEST(Pareto, NobodyOnTheFrontIsBeaten) {
