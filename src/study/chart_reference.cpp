@@ -241,7 +241,7 @@ class Finder {
     if (ready) return vouched_uniform(integrator, more);
     std::vector<History> levels;
     std::vector<double> spacings;
-    const double coarsest = integrator == std::string("modal") ? 80.0 : 150.0;
+    const double coarsest = integrator == std::string("modal") ? 40.0 : 150.0;
     for (const double times : {1.0, 2.0, 4.0}) {
       told_("level " + std::to_string(levels.size() + 1) + " of 3");
       auto level = run(coupled(times * coarsest, integrator));
