@@ -1,15 +1,12 @@
 // `palpate run`: scenarios one after the other, their cases side by side.
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <memory>
 #include <set>
 #include <thread>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/case_fits.h"
@@ -19,26 +16,6 @@
 
 namespace palpate::cli {
 namespace {
-
-// Signal handlers reach nothing but this.
-std::atomic<bool> stop_requested = false;
-
-void request_stop(int) {
-  // A second signal does not wait for the row to end.
-  if (stop_requested.exchange(true)) ::_exit(exit_interrupted);
-}
-
-// A signal that is ignored, as under nohup, stays so.
-void listen_for_signals() {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    struct sigaction before {};
-    ::sigaction(signal, nullptr, &before);
-    if (before.sa_handler == SIG_IGN) continue;
-    struct sigaction action {};
-    action.sa_handler = request_stop;
-    ::sigaction(signal, &action, nullptr);
-  }
-}
 
 void refuse_same_names(const std::vector<scenario::Family>& families) {
   std::set<std::string> names;
@@ -70,7 +47,8 @@ Prepared prepare(const scenario::Family& family, const Run& command, const Talk&
 }
 
 // Returns whether a case diverged.
-bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk) {
+bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk,
+                const std::atomic<bool>& stop_requested) {
   const scenario::Family& family = *prepared.family;
   const std::vector<scene::Scene>& scenes = prepared.scenes;
   report::ResultFolder& folder = *prepared.folder;
@@ -133,11 +111,11 @@ int run(const Run& command, const Arguments& arguments, const Talk& talk) {
   // end the program as it likes, for nothing has been written.
   std::vector<Prepared> all;
   for (const scenario::Family& family : families) all.push_back(prepare(family, command, talk));
-  listen_for_signals();
+  const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);
   bool diverged = false;
   for (const Prepared& prepared : all) {
     if (stop_requested) break;
-    diverged = run_family(prepared, arguments, talk) || diverged;
+    diverged = run_family(prepared, arguments, talk, stop_requested) || diverged;
   }
   if (stop_requested) {
     Talk::error("palpate: interrupted; finished cases are kept");

@@ -25,9 +25,18 @@ struct Drawing {
   std::string warning = {};             // a sentence where a picture could not be made
 };
 
+// A script by itself, and the files of its folder that it reads.
+struct Sheet {
+  std::string name = {};  // the files' name without its ending
+  std::string script = {};
+  std::vector<std::string> reads = {};
+};
+
 // Writes the script and its pictures into `folder`, beside and renamed. A missing or failing
 // gnuplot leaves the script and a warning. Throws SystemError where the folder takes no files.
 [[nodiscard]] Drawing draw(const Figure& figure, const std::string& folder,
+                           const DrawOptions& options = {});
+[[nodiscard]] Drawing draw(const Sheet& sheet, const std::string& folder,
                            const DrawOptions& options = {});
 
 }  // namespace palpate::report
