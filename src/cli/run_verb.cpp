@@ -1,15 +1,12 @@
 // `palpate run`: scenarios one after the other, their cases side by side.
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <memory>
 #include <set>
 #include <thread>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "cli/interrupts.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/case_fits.h"
@@ -19,26 +16,6 @@
 
 namespace palpate::cli {
 namespace {
-
-// Signal handlers reach nothing but this.
-std::atomic<bool> stop_requested = false;
-
-void request_stop(int) {
-  // A second signal does not wait for the row to end.
-  if (stop_requested.exchange(true)) ::_exit(exit_interrupted);
-}
-
-// A signal that is ignored, as under nohup, stays so.
-void listen_for_signals() {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    struct sigaction before {};
-    ::sigaction(signal, nullptr, &before);
-    if (before.sa_handler == SIG_IGN) continue;
-    struct sigaction action {};
-    action.sa_handler = request_stop;
-    ::sigaction(signal, &action, nullptr);
-  }
-}
 
 void refuse_same_names(const std::vector<scenario::Family>& families) {
   std::set<std::string> names;
@@ -87,9 +64,9 @@ bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk
                         {"reason", record.reason}});
   };
   const std::vector<record::CaseRecord> records =
-      run::run_all(scenes, prepared.workers, stop_requested, finished);
+      run::run_all(scenes, prepared.workers, interrupt_flag(), finished);
   talk.progress("");
-  if (stop_requested && records.empty()) return false;
+  if (interrupt_flag() && records.empty()) return false;
 
   std::vector<fit::NamedFit> fits;
   bool diverged = false;
@@ -133,13 +110,13 @@ int run(const Run& command, const Arguments& arguments, const Talk& talk) {
   // end the program as it likes, for nothing has been written.
   std::vector<Prepared> all;
   for (const scenario::Family& family : families) all.push_back(prepare(family, command, talk));
-  listen_for_signals();
+  listen_for_interrupts();
   bool diverged = false;
   for (const Prepared& prepared : all) {
-    if (stop_requested) break;
+    if (interrupt_flag()) break;
     diverged = run_family(prepared, arguments, talk) || diverged;
   }
-  if (stop_requested) {
+  if (interrupt_flag()) {
     Talk::error("palpate: interrupted; finished cases are kept");
     return exit_interrupted;
   }

@@ -38,9 +38,9 @@ std::string remedy(const ProcessResult& result, const std::string& script) {
 }
 
 // A file that the figure reads and that is not there: gnuplot would leave its curves out.
-std::optional<std::string> missing_file(const Figure& figure, const fs::path& folder) {
-  for (const Series& series : figure.series)
-    if (!fs::exists(folder / series.csv_file)) return series.csv_file;
+std::optional<std::string> missing_file(const Script& script, const fs::path& folder) {
+  for (const std::string& file : script.reads)
+    if (!fs::exists(folder / file)) return file;
   return std::nullopt;
 }
 
@@ -50,7 +50,7 @@ struct Picture {
 };
 
 // One picture, drawn beside and renamed.
-Picture draw_picture(const Figure& figure, const std::string& format, const std::string& folder,
+Picture draw_picture(const Script& figure, const std::string& format, const std::string& folder,
                      const DrawOptions& options) {
   const std::string script = figure.name + ".gp";
   const std::string picture = figure.name + "." + format;
@@ -81,9 +81,15 @@ Picture draw_picture(const Figure& figure, const std::string& format, const std:
 }  // namespace
 
 Drawing draw(const Figure& figure, const std::string& folder, const DrawOptions& options) {
+  Script script{.name = figure.name, .text = gnuplot_script(figure)};
+  for (const Series& series : figure.series) script.reads.push_back(series.csv_file);
+  return draw(script, folder, options);
+}
+
+Drawing draw(const Script& figure, const std::string& folder, const DrawOptions& options) {
   Drawing drawing;
   const std::string script = figure.name + ".gp";
-  write_atomically((fs::path(folder) / script).string(), gnuplot_script(figure));
+  write_atomically((fs::path(folder) / script).string(), figure.text);
   drawing.files.push_back(script);
   std::vector<std::string> formats{"svg"};
   if (options.format == PictureFormat::svg_and_pdf) formats.push_back("pdf");

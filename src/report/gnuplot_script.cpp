@@ -30,28 +30,6 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string head(const Figure& figure) {
-  const std::string script = figure.name + ".gp";
-  return "# Run in this folder: gnuplot " + script +
-         "\n"
-         "# For a PDF: gnuplot -e \"format='pdf'\" " +
-         script +
-         "\n"
-         "if (!exists(\"format\")) format = 'svg'\n"
-         "if (!exists(\"target\")) target = " +
-         quoted(figure.name + ".") +
-         ".format\n"
-         "if (format eq 'pdf') {\n"
-         "  set terminal pdfcairo noenhanced size 18cm,11cm font 'sans-serif,11' linewidth 1.1\n"
-         "} else {\n"
-         "  set terminal svg noenhanced size 820,500 font 'sans-serif,15' name " +
-         quoted(figure.name) +
-         " background '#ffffff'\n"
-         "}\n"
-         "set encoding utf8\n"
-         "set output target\n";
-}
-
 std::string frame(const Figure& figure) {
   std::string text =
       "set datafile separator comma\n"
@@ -130,6 +108,34 @@ std::string fit_line(const Series& series, const FittedCurve& fit, const std::st
 
 }  // namespace
 
+std::string script_head(const std::string& name, const Canvas& canvas) {
+  const std::string script = name + ".gp";
+  const std::string size = std::to_string(canvas.width) + "," + std::to_string(canvas.height);
+  const double centimetres = 18.0 / 820.0;
+  const std::string paper = rounded_text(centimetres * canvas.width, 3) + "cm," +
+                            rounded_text(centimetres * canvas.height, 3) + "cm";
+  return "# Run in this folder: gnuplot " + script +
+         "\n"
+         "# For a PDF: gnuplot -e \"format='pdf'\" " +
+         script +
+         "\n"
+         "if (!exists(\"format\")) format = 'svg'\n"
+         "if (!exists(\"target\")) target = " +
+         quoted(name + ".") +
+         ".format\n"
+         "if (format eq 'pdf') {\n"
+         "  set terminal pdfcairo noenhanced size " +
+         paper +
+         " font 'sans-serif,11' linewidth 1.1\n"
+         "} else {\n"
+         "  set terminal svg noenhanced size " +
+         size + " font 'sans-serif,15' name " + quoted(name) +
+         " background '#ffffff'\n"
+         "}\n"
+         "set encoding utf8\n"
+         "set output target\n";
+}
+
 std::string gnuplot_script(const Figure& figure) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < figure.series.size(); ++i)
@@ -141,7 +147,7 @@ std::string gnuplot_script(const Figure& figure) {
   if (lines.size() > data_lines)  // one line of the legend for all fits
     lines.push_back("NaN with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#404040' title " +
                     quoted(figure.fit_label));
-  return head(figure) + frame(figure) + functions(figure) + "plot \\\n  " +
+  return script_head(figure.name, {}) + frame(figure) + functions(figure) + "plot \\\n  " +
          joined(lines, ", \\\n  ") + "\n";
 }
 

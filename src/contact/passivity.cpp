@@ -1,0 +1,36 @@
+// Colgate and Brown's bound, both ways round.
+#include "contact/passivity.h"
+
+#include <cmath>
+#include <limits>
+
+namespace palpate::contact {
+
+double needed_damping(double stiffness, const SampledDevice& device) {
+  return stiffness * (0.5 * device.frame + device.delay) + std::abs(device.virtual_damping);
+}
+
+double passive_stiffness(const SampledDevice& device) {
+  const double spare = device.damping - std::abs(device.virtual_damping);
+  return spare > 0.0 ? spare / (0.5 * device.frame + device.delay) : 0.0;
+}
+
+double passive_depth(const PointLaw& law, const SampledDevice& device) {
+  const double most = passive_stiffness(device);
+  if (most <= 0.0) return 0.0;
+  double low = 0.0;
+  double high = 1e-9;
+  while (law.stiffness(high) < most) {
+    low = high;
+    high *= 2.0;
+    if (high > 1e3 || high > law.last_depth()) return std::numeric_limits<double>::infinity();
+  }
+  // To the last digit: a halving a step.
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (law.stiffness(middle) < most ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace palpate::contact
