@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "cli/interrupts.h"
+#include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/case_fits.h"
@@ -47,7 +47,8 @@ Prepared prepare(const scenario::Family& family, const Run& command, const Talk&
 }
 
 // Returns whether a case diverged.
-bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk) {
+bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk,
+                const std::atomic<bool>& stop_requested) {
   const scenario::Family& family = *prepared.family;
   const std::vector<scene::Scene>& scenes = prepared.scenes;
   report::ResultFolder& folder = *prepared.folder;
@@ -64,9 +65,9 @@ bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk
                         {"reason", record.reason}});
   };
   const std::vector<record::CaseRecord> records =
-      run::run_all(scenes, prepared.workers, interrupt_flag(), finished);
+      run::run_all(scenes, prepared.workers, stop_requested, finished);
   talk.progress("");
-  if (interrupt_flag() && records.empty()) return false;
+  if (stop_requested && records.empty()) return false;
 
   std::vector<fit::NamedFit> fits;
   bool diverged = false;
@@ -110,13 +111,13 @@ int run(const Run& command, const Arguments& arguments, const Talk& talk) {
   // end the program as it likes, for nothing has been written.
   std::vector<Prepared> all;
   for (const scenario::Family& family : families) all.push_back(prepare(family, command, talk));
-  listen_for_interrupts();
+  const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);
   bool diverged = false;
   for (const Prepared& prepared : all) {
-    if (interrupt_flag()) break;
-    diverged = run_family(prepared, arguments, talk) || diverged;
+    if (stop_requested) break;
+    diverged = run_family(prepared, arguments, talk, stop_requested) || diverged;
   }
-  if (interrupt_flag()) {
+  if (stop_requested) {
     Talk::error("palpate: interrupted; finished cases are kept");
     return exit_interrupted;
   }

@@ -1,6 +1,6 @@
 // `palpate stability`: limits of the time step and kinds of failure, measured beside theory.
 #include "base/error.h"
-#include "cli/interrupts.h"
+#include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
@@ -18,9 +18,9 @@ int stability(const Stability& command, const Arguments&, const Talk& talk) {
   if (family.cases.size() > 1)
     talk.say("note: of " + std::to_string(family.cases.size()) + " cases the first is mapped, " +
              one.name);
-  listen_for_interrupts();
-  const study::StabilityMap map = study::map_stability(
-      one, family, interrupt_flag(), [&](const std::string& what, double share) {
+  const std::atomic<bool>& stop = listen_for_interrupts(exit_interrupted);
+  const study::StabilityMap map =
+      study::map_stability(one, family, stop, [&](const std::string& what, double share) {
         talk.progress(family.name + ": " + std::to_string(static_cast<int>(100.0 * share)) +
                       " %, " + what);
       });

@@ -38,8 +38,8 @@ std::string remedy(const ProcessResult& result, const std::string& script) {
 }
 
 // A file that the figure reads and that is not there: gnuplot would leave its curves out.
-std::optional<std::string> missing_file(const Script& script, const fs::path& folder) {
-  for (const std::string& file : script.reads)
+std::optional<std::string> missing_file(const Sheet& sheet, const fs::path& folder) {
+  for (const std::string& file : sheet.reads)
     if (!fs::exists(folder / file)) return file;
   return std::nullopt;
 }
@@ -50,13 +50,13 @@ struct Picture {
 };
 
 // One picture, drawn beside and renamed.
-Picture draw_picture(const Script& figure, const std::string& format, const std::string& folder,
+Picture draw_picture(const Sheet& sheet, const std::string& format, const std::string& folder,
                      const DrawOptions& options) {
-  const std::string script = figure.name + ".gp";
-  const std::string picture = figure.name + "." + format;
+  const std::string script = sheet.name + ".gp";
+  const std::string picture = sheet.name + "." + format;
   const std::string beside = picture + ".part" + std::to_string(::getpid());
   const std::string not_drawn = picture + " was not drawn in " + folder + ": ";
-  if (const auto file = missing_file(figure, folder))
+  if (const auto file = missing_file(sheet, folder))
     return {false, not_drawn + "`" + *file + "` is not there; run the scenario again"};
   // -d: the user's own gnuplot settings stay out.
   const ProcessResult result =
@@ -81,21 +81,21 @@ Picture draw_picture(const Script& figure, const std::string& format, const std:
 }  // namespace
 
 Drawing draw(const Figure& figure, const std::string& folder, const DrawOptions& options) {
-  Script script{.name = figure.name, .text = gnuplot_script(figure)};
-  for (const Series& series : figure.series) script.reads.push_back(series.csv_file);
-  return draw(script, folder, options);
+  Sheet sheet{figure.name, gnuplot_script(figure), {}};
+  for (const Series& series : figure.series) sheet.reads.push_back(series.csv_file);
+  return draw(sheet, folder, options);
 }
 
-Drawing draw(const Script& figure, const std::string& folder, const DrawOptions& options) {
+Drawing draw(const Sheet& sheet, const std::string& folder, const DrawOptions& options) {
   Drawing drawing;
-  const std::string script = figure.name + ".gp";
-  write_atomically((fs::path(folder) / script).string(), figure.text);
+  const std::string script = sheet.name + ".gp";
+  write_atomically((fs::path(folder) / script).string(), sheet.script);
   drawing.files.push_back(script);
   std::vector<std::string> formats{"svg"};
   if (options.format == PictureFormat::svg_and_pdf) formats.push_back("pdf");
   for (const std::string& format : formats) {
-    const Picture picture = draw_picture(figure, format, folder, options);
-    if (picture.drawn) drawing.files.push_back(figure.name + "." + format);
+    const Picture picture = draw_picture(sheet, format, folder, options);
+    if (picture.drawn) drawing.files.push_back(sheet.name + "." + format);
     if (!drawing.warning.empty() && !picture.warning.empty()) drawing.warning += "\n";
     drawing.warning += picture.warning;
   }

@@ -25,10 +25,10 @@ struct Drawing {
   std::string warning = {};             // a sentence where a picture could not be made
 };
 
-// A figure whose script is not made from a Figure; `reads` are the CSV files that it wants to find.
-struct Script {
+// A script by itself, and the files of its folder that it reads.
+struct Sheet {
   std::string name = {};  // the files' name without its ending
-  std::string text = {};
+  std::string script = {};
   std::vector<std::string> reads = {};
 };
 
@@ -36,14 +36,7 @@ struct Script {
 // gnuplot leaves the script and a warning. Throws SystemError where the folder takes no files.
 [[nodiscard]] Drawing draw(const Figure& figure, const std::string& folder,
                            const DrawOptions& options = {});
-[[nodiscard]] Drawing draw(const Script& script, const std::string& folder,
+[[nodiscard]] Drawing draw(const Sheet& sheet, const std::string& folder,
                            const DrawOptions& options = {});
-
-// A script's first lines: the output NAME.svg of so many points, or NAME.pdf on demand.
-struct Canvas {
-  int width = 820;
-  int height = 500;
-};
-[[nodiscard]] std::string script_head(const std::string& name, const Canvas& canvas);
 
 }  // namespace palpate::report

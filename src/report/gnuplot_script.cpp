@@ -1,47 +1,28 @@
 // The text of a gnuplot script.
-#include <array>
 #include <cstddef>
 
 #include "base/text.h"
 #include "report/gnuplot.h"
+#include "report/gnuplot_text.h"
 
 namespace palpate::report {
 namespace {
 
-// Okabe and Ito's colours (2008), told apart by colour-blind readers, without the yellow that
-// white paper swallows. Markers change at another pace, so that 42 series differ.
-constexpr std::array<const char*, 7> colours{"0072B2", "D55E00", "009E73", "CC79A7",
-                                             "E69F00", "56B4E9", "000000"};
 // Data are wide and half transparent, so that a fit which runs along them can be seen.
 constexpr const char* pale = "70";
-constexpr std::array<int, 6> markers{7, 5, 9, 13, 11, 15};
-
-// A text between single quotes, in which gnuplot knows no escapes.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\n' || c == '\r')
-      result += ' ';
-    else if (c == '\'')
-      result += "''";
-    else
-      result += c;
-  }
-  return result + "'";
-}
 
 std::string frame(const Figure& figure) {
   std::string text =
       "set datafile separator comma\n"
       "set datafile columnheaders\n"
       "set title " +
-      quoted(figure.title) +
+      gnuplot_quoted(figure.title) +
       "\n"
       "set xlabel " +
-      quoted(figure.x_label) +
+      gnuplot_quoted(figure.x_label) +
       "\n"
       "set ylabel " +
-      quoted(figure.y_label) +
+      gnuplot_quoted(figure.y_label) +
       "\n"
       "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
       "set tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
@@ -77,10 +58,11 @@ std::string label(const Series& series) {
 
 // The rows of a series: others have an x that is no number, which gnuplot passes over.
 std::string x_expression(const Series& series) {
-  const std::string x = "column(" + quoted(series.x_column) + ")";
+  const std::string x = "column(" + gnuplot_quoted(series.x_column) + ")";
   std::string condition;
   if (!series.case_name.empty())
-    condition = "strcol(" + quoted(series.column) + ") eq " + quoted(series.case_name);
+    condition =
+        "strcol(" + gnuplot_quoted(series.column) + ") eq " + gnuplot_quoted(series.case_name);
   if (series.step) {
     if (!condition.empty()) condition += " && ";
     condition += "column('step') == " + std::to_string(*series.step);
@@ -89,12 +71,12 @@ std::string x_expression(const Series& series) {
 }
 
 std::string data_line(const Series& series, std::size_t i) {
-  const std::string colour = colours[i % colours.size()];
-  return quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
-         scaled(series.scale, "column(" + quoted(series.y_column) + ")") +
+  const std::string colour = gnuplot_colours[i % gnuplot_colours.size()];
+  return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
+         scaled(series.scale, "column(" + gnuplot_quoted(series.y_column) + ")") +
          ") with linespoints linewidth 3.5 linecolor rgb '#" + pale + colour + "' pointtype " +
-         std::to_string(markers[i % markers.size()]) + " pointsize 0.55 pointnumber 14 title " +
-         quoted(label(series));
+         std::to_string(gnuplot_markers[i % gnuplot_markers.size()]) +
+         " pointsize 0.55 pointnumber 14 title " + gnuplot_quoted(label(series));
 }
 
 std::string fit_line(const Series& series, const FittedCurve& fit, const std::string& function,
@@ -103,17 +85,26 @@ std::string fit_line(const Series& series, const FittedCurve& fit, const std::st
   return "[" + number_text(fit.from) + ":" + number_text(fit.to) + "] " +
          scaled(series.scale, function + "(" + x + ")") +
          " with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#" +
-         std::string(colours[i % colours.size()]) + "' notitle noautoscale";
+         std::string(gnuplot_colours[i % gnuplot_colours.size()]) + "' notitle noautoscale";
 }
 
 }  // namespace
 
-std::string script_head(const std::string& name, const Canvas& canvas) {
+std::string gnuplot_quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\n' || c == '\r')
+      result += ' ';
+    else if (c == '\'')
+      result += "''";
+    else
+      result += c;
+  }
+  return result + "'";
+}
+
+std::string gnuplot_head(const std::string& name, int height) {
   const std::string script = name + ".gp";
-  const std::string size = std::to_string(canvas.width) + "," + std::to_string(canvas.height);
-  const double centimetres = 18.0 / 820.0;
-  const std::string paper = rounded_text(centimetres * canvas.width, 3) + "cm," +
-                            rounded_text(centimetres * canvas.height, 3) + "cm";
   return "# Run in this folder: gnuplot " + script +
          "\n"
          "# For a PDF: gnuplot -e \"format='pdf'\" " +
@@ -121,15 +112,15 @@ std::string script_head(const std::string& name, const Canvas& canvas) {
          "\n"
          "if (!exists(\"format\")) format = 'svg'\n"
          "if (!exists(\"target\")) target = " +
-         quoted(name + ".") +
+         gnuplot_quoted(name + ".") +
          ".format\n"
          "if (format eq 'pdf') {\n"
-         "  set terminal pdfcairo noenhanced size " +
-         paper +
-         " font 'sans-serif,11' linewidth 1.1\n"
+         "  set terminal pdfcairo noenhanced size 18cm," +
+         rounded_text(0.022 * height, 3) +
+         "cm font 'sans-serif,11' linewidth 1.1\n"
          "} else {\n"
-         "  set terminal svg noenhanced size " +
-         size + " font 'sans-serif,15' name " + quoted(name) +
+         "  set terminal svg noenhanced size 820," +
+         std::to_string(height) + " font 'sans-serif,15' name " + gnuplot_quoted(name) +
          " background '#ffffff'\n"
          "}\n"
          "set encoding utf8\n"
@@ -146,8 +137,8 @@ std::string gnuplot_script(const Figure& figure) {
       lines.push_back(fit_line(figure.series[i], figure.series[i].fits[k], function_name(i, k), i));
   if (lines.size() > data_lines)  // one line of the legend for all fits
     lines.push_back("NaN with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#404040' title " +
-                    quoted(figure.fit_label));
-  return script_head(figure.name, {}) + frame(figure) + functions(figure) + "plot \\\n  " +
+                    gnuplot_quoted(figure.fit_label));
+  return gnuplot_head(figure.name, 500) + frame(figure) + functions(figure) + "plot \\\n  " +
          joined(lines, ", \\\n  ") + "\n";
 }
 

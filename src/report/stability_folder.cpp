@@ -59,7 +59,7 @@ std::string StabilityFolder::write(const study::StabilityMap& map) const {
   const Beside beside(path_ + ".partial-" + std::to_string(::getpid()));
   write_atomically(beside.path + "/" + table, record::csv_text(study::limit_table(map)));
   write_atomically(beside.path + "/failures.csv", record::csv_text(study::failure_table(map)));
-  const Drawing drawing = draw(stability_script(name_), beside.path);
+  const Drawing drawing = draw(stability_sheet(name_, map), beside.path);
   if (!fs::exists(path_)) {
     move(beside.path, path_);
     return drawing.warning;

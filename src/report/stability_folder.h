@@ -9,8 +9,9 @@
 namespace palpate::report {
 
 // stability.gp: a panel an axis, theory as lines and measurements as points over them, and a strip
-// of the kinds of failure. Reads stability.csv and failures.csv.
-[[nodiscard]] Script stability_script(const std::string& title);
+// of the kinds of failure. Reads stability.csv and failures.csv, and
+// draws the axes that the map has.
+[[nodiscard]] Sheet stability_sheet(const std::string& title, const study::StabilityMap& map);
 
 class StabilityFolder {
  public:

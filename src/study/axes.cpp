@@ -6,7 +6,6 @@
 #include "study/limit_theory.h"
 #include "study/sampled_wall.h"
 #include "study/survey.h"
-#include "tissue/coupled.h"
 
 namespace palpate::study {
 namespace {

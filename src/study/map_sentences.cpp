@@ -32,7 +32,8 @@ std::string limits_sentence(const Survey& survey) {
   if (free == nullptr || !free->measured || !free->theory) return text + "no limit was measured.";
   return text + "central differences are stable below " + micro(*free->measured) +
          " (2 / omega_max is " + micro(*free->theory) + "); by default " +
-         std::to_string(plan.substeps) + " steps of " + micro(plan.substep) + " are taken every " +
+         std::to_string(plan.substeps) + (plan.substeps == 1 ? " step of " : " steps of ") +
+         micro(plan.substep) + (plan.substeps == 1 ? " is" : " are") + " taken every " +
          rounded_text(1e3 * plan.time_step) + " ms.";
 }
 
@@ -66,6 +67,19 @@ std::string first_to_fail(const Survey& survey) {
   return "First to fail as the step grows: `" + shortest->integrator + "` with `" +
          shortest->damping + "` (volume `" + shortest->volume + "`), at " +
          micro(*shortest->measured) + ".";
+}
+
+// What the stiffest tissue costs by explicit steps.
+std::string stiffest_sentence(const Survey& survey) {
+  const LimitRow* stiffest = nullptr;
+  for (const LimitRow& row : survey.map.limits)
+    if (row.axis == "young_modulus_Pa" && row.measured) stiffest = &row;
+  if (stiffest == nullptr) return {};
+  const double steps = std::ceil(1e-3 / (0.9 * *stiffest->measured));
+  return "At " + rounded_text(*stiffest->value) + " Pa an explicit method takes " +
+         rounded_text(steps) +
+         " steps a millisecond; an implicit one takes as many as its error "
+         "asks for.";
 }
 
 // By how much an axis, from its first to its last row, changes the limit.
@@ -115,6 +129,7 @@ std::vector<std::string> map_sentences(const Survey& survey) {
       agreement_sentence(survey),
       first_to_fail(survey),
       axis_sentence(survey, "young_modulus_Pa", "Young's modulus (Pa)"),
+      stiffest_sentence(survey),
       axis_sentence(survey, "contact_stiffness_N_per_m", "An explicit contact's stiffness (N/m)"),
       device_sentence(survey),
       failures_sentence(survey)};

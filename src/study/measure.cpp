@@ -71,7 +71,7 @@ Measured measure_limit(Variant& variant, const std::string& method, const tissue
     if (!measured.limit) measured.note = "no limit found";
     return measured;
   }
-  motion.steps = 200;
+  motion.steps = 100;
   for (double times = method == "modal" ? farthest : 1.0; times <= farthest; times *= 10.0) {
     if (stable(times * explicit_limit)) continue;
     measured.failure = failure_of(beyond);

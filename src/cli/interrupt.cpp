@@ -1,27 +1,25 @@
-// Signal handlers, which reach nothing but one flag.
-#include "cli/interrupts.h"
+// Signal handlers reach nothing but two numbers.
+#include "cli/interrupt.h"
 
 #include <unistd.h>
 
 #include <csignal>
 
-#include "cli/program.h"
-
 namespace palpate::cli {
 namespace {
 
 std::atomic<bool> stop_requested = false;
+std::atomic<int> code_at_once = 0;
 
 void request_stop(int) {
   // A second signal does not wait for the row to end.
-  if (stop_requested.exchange(true)) ::_exit(exit_interrupted);
+  if (stop_requested.exchange(true)) ::_exit(code_at_once.load());
 }
 
 }  // namespace
 
-const std::atomic<bool>& interrupt_flag() { return stop_requested; }
-
-void listen_for_interrupts() {
+const std::atomic<bool>& listen_for_interrupts(int code) {
+  code_at_once = code;
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
@@ -30,6 +28,7 @@ void listen_for_interrupts() {
     action.sa_handler = request_stop;
     ::sigaction(signal, &action, nullptr);
   }
+  return stop_requested;
 }
 
 }  // namespace palpate::cli
