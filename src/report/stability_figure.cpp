@@ -67,7 +67,7 @@ std::string panel(const std::string& title, const std::string& x_label, const ch
 // Measured over theoretical limits of every rung and damping, on the diagonal where they agree.
 std::string agreement(const study::StabilityMap& map) {
   std::vector<std::string> lines{
-      "x with lines linewidth 1.2 linecolor rgb '#909090' title 'theory'"};
+      "x with lines linewidth 1.2 linecolor rgb '#909090' notitle"};
   for (const Curve& curve : methods) {
     if (!drawn(map, curve, "rung")) continue;
     lines.push_back("'stability.csv' using " + picked(curve, "rung", "theory_us") + ":" +
@@ -76,8 +76,9 @@ std::string agreement(const study::StabilityMap& map) {
                     "' title '" + curve.label + "'");
   }
   return panel("Every rung and damping", "limit by theory, us", "xy") +
-         "set key top left Left reverse samplen 1 spacing 1.1 font ',8'\nplot \\\n  " +
-         joined(lines, ", \\\n  ") + "\nunset key\n";
+         "set xtics 100\nset ytics 100\nset key bottom right Left reverse samplen 1 spacing 1.1 "
+         "font ',8'\nplot \\\n  " +
+         joined(lines, ", \\\n  ") + "\nunset key\nset xtics autofreq\nset ytics autofreq\n";
 }
 
 std::string strip() {

@@ -33,9 +33,10 @@ struct FreeMotion {
   const scene::Scene* scene = nullptr;
   const scene::SpringBody* body = nullptr;
   bool lagged = false;  // the method is LaggedDifference instead
+  bool centred = true;  // its damping takes the mean velocity of a step and the one before
   BodyMode mode;        // it is struck in this shape, and a scattered rest of a third of it
   const ContactSpring* contact = nullptr;
-  int steps = 800;
+  int steps = 400;
   // A motion grows where the greatest energy of its last quarter is above that of its second one by
   // more than this factor: beats of undamped modes swing, damped ones do not.
   double growth = 2.0;

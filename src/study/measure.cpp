@@ -29,7 +29,7 @@ Failure failure_of(Ending ending) {
   return Failure::none;
 }
 
-constexpr double resolution = 5e-4;  // relative, of a bisected limit
+constexpr double resolution = 1e-3;  // relative, of a bisected limit
 constexpr double farthest = 1000.0;  // times 2 / omega, that methods without a limit are tried at
 
 }  // namespace
@@ -53,6 +53,7 @@ Measured measure_limit(Variant& variant, const std::string& method, const tissue
   FreeMotion motion{.scene = &variant.scene,
                     .body = &body,
                     .lagged = method == lagged,
+                    .centred = method == "central_difference",
                     .mode = mode,
                     .contact = contact};
   Measured measured;

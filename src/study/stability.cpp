@@ -61,22 +61,22 @@ constexpr std::array volumes{Solver::Volume::none, Solver::Volume::tetrahedron,
 }  // namespace
 
 void survey_rungs(Survey& survey) {
-  // Modes of larger bodies are found on the scenario's own rung alone.
-  constexpr int most_modal = 200;
   for (const auto model : {Solver::Model::mass_spring, Solver::Model::coupled_springs}) {
     for (const Solver::Volume volume : volumes) {
       const RungOf rung{model, volume};
+      const bool own = rung == survey.rung;
+      // Coupled springs without a volume term are refused in scenarios.
+      if (model == Solver::Model::coupled_springs && volume == Solver::Volume::none) continue;
       if (*survey.stop) return;
       const auto variant = survey.variant(rung);
       for (const Viscosity form : forms) {
+        if (survey.large() && !own && form != Viscosity::none) continue;
         const Damping damping = damping_of(survey.one->scenario, *survey.family, form);
         for (const std::string& method : methods()) {
           if (!survey.go_on(std::string(scenario::words::word(scenario::words::models, model)) +
                             ", " + method))
             return;
-          if (method == "modal" && variant->nodes() > most_modal &&
-              !(rung == survey.rung && form == Viscosity::none))
-            continue;
+          if (method == "modal" && survey.large() && !(own && form == Viscosity::none)) continue;
           add_limit(survey, *variant, method, damping.law,
                     {.axis = "rung", .note = damping.assumed ? "viscosity assumed" : ""});
         }
@@ -117,7 +117,8 @@ StabilityMap map_stability(const scenario::Case& one, const scenario::Family& fa
   survey.own = survey.variant(survey.rung);
   refuse_large(*survey.own, family);
   constexpr int beyond_rungs = 110;  // measurements on axes, and probes
-  survey.planned = static_cast<int>(6 * forms.size() * methods().size()) + beyond_rungs;
+  const std::size_t on_rungs = survey.large() ? forms.size() + 4 : 5 * forms.size();
+  survey.planned = static_cast<int>(on_rungs * methods().size()) + beyond_rungs;
   survey_rungs(survey);
   survey_axes(survey);
   probe_time(survey);

@@ -17,6 +17,10 @@ struct Survey {
   int done = 0;
   int planned = 1;
 
+  // Where every step costs ten times as much, other rungs are measured without damping alone, and
+  // a few settings stand for an axis.
+  [[nodiscard]] bool large() const { return own->nodes() > 200; }
+
   // Before every measurement: says what comes; false where the map is to end.
   [[nodiscard]] bool go_on(const std::string& what);
 

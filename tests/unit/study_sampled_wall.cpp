@@ -12,14 +12,14 @@ namespace palpate::study {
 namespace {
 
 struct Tissue {
-  const char* id;
+  std::string id;
   double young_modulus, poisson_ratio;
 };
 // Chen 2007, Table 1, by the rows of tests/cases/physics.csv.
-constexpr Tissue tissues[] = {{"passivity-01", 72.4e3, 0.33},
-                              {"passivity-03", 1.7e10, 0.3},
-                              {"passivity-04", 33.1e3, 0.45},
-                              {"passivity-05", 0.8e3, 0.3}};
+const Tissue tissues[] = {{"passivity-01", 72.4e3, 0.33},
+                          {"passivity-03", 1.7e10, 0.3},
+                          {"passivity-04", 33.1e3, 0.45},
+                          {"passivity-05", 0.8e3, 0.3}};
 
 // dF/dh at 1 mm under the finger of 11 mm.
 double stiffness_of(const Tissue& tissue) {
@@ -42,8 +42,8 @@ TEST(SampledWall, NeedsTheDampingOfTheBound) {
     const double bound = contact::needed_damping(stiffness, device.sampled);
     test::expect_case(tissue.id, bound);
     const auto measured = bisect_limit(lacks, 0.5 * bound, 100.0 * bound, 1e-3);
-    ASSERT_TRUE(measured) << tissue.id;
-    EXPECT_NEAR(*measured, bound, 0.01 * bound) << tissue.id;  // what counts as growth: 0.5 %
+    ASSERT_TRUE(measured.has_value());
+    EXPECT_NEAR(*measured, bound, 0.01 * bound) << tissue.id;  // what counts as growth: 0.4 %
   }
 }
 
