@@ -10,7 +10,7 @@ namespace {
 const std::string small =
     "[tissue]\nmaterial = \"skin\"\n"
     "shape = { kind = \"cuboid\", size = [\"30 mm\", \"30 mm\", \"20 mm\"] }\n"
-    "mesh = { kind = \"kuhn\", cells = [1, 1, 2] }\n"
+    "mesh = { kind = \"kuhn\", cells = [1, 1, 1] }\n"
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
 
 class StabilityVerb : public testing::Test {
