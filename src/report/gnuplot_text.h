@@ -8,8 +8,8 @@ namespace palpate::report {
 
 // Okabe and Ito's colours (2008), told apart by colour-blind readers, without the yellow that
 // white paper swallows. Markers change at another pace, so that 42 series differ.
-inline constexpr std::array<const char*, 7> gnuplot_colours{
-    "0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "000000"};
+inline constexpr std::array<const char*, 7> gnuplot_colours{"0072B2", "D55E00", "009E73", "CC79A7",
+                                                            "E69F00", "56B4E9", "000000"};
 inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 
 // A text between single quotes, in which gnuplot knows no escapes.

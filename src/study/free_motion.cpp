@@ -16,9 +16,8 @@ void LaggedDifference::step(integrate::State& state, const Vector& load) {
   body_->force(state.displacement, state.memory, force_);
   damping_ = body_->drag().cwiseProduct(state.velocity);
   if (body_->has_dashpots()) {
-    Vector dashpots;
-    body_->dashpot_force(state.displacement, state.velocity, dashpots);
-    damping_ += dashpots;
+    body_->dashpot_force(state.displacement, state.velocity, dashpots_);
+    damping_ += dashpots_;
   }
   state.velocity += dt * (load - force_ - damping_).cwiseQuotient(body_->mass());
   const auto held = body_->held();

@@ -25,6 +25,7 @@ class LaggedDifference {
   double time_step_;
   integrate::Vector force_;
   integrate::Vector damping_;
+  integrate::Vector dashpots_;
 };
 
 struct FreeMotion {
