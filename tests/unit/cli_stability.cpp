@@ -1,0 +1,98 @@
+// `palpate stability`: its files, its sentences, its refusals, and that it leaves nothing half.
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "record/csv.h"
+
+namespace palpate::test {
+namespace {
+
+const std::string small =
+    "[tissue]\nmaterial = \"skin\"\n"
+    "shape = { kind = \"cuboid\", size = [\"30 mm\", \"30 mm\", \"20 mm\"] }\n"
+    "mesh = { kind = \"kuhn\", cells = [1, 1, 1] }\n"
+    "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+
+class StabilityVerb : public testing::Test {
+ protected:
+  StabilityVerb() { write_file(folder_ / "small.toml", small); }
+  [[nodiscard]] Ended map(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"stability", "small.toml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return palpate(folder_.path(), arguments);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
+  const Ended ended = map({});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("central differences are stable below"), std::string::npos);
+  EXPECT_NE(ended.out.find("measured limits lie within"), std::string::npos);
+  EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"small_stability"}) << "no leftovers";
+  const fs::path result = folder_ / "out/small_stability";
+  const auto names = names_in(result);
+  for (const char* name : {"stability.csv", "failures.csv", "stability.gp"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  if (names.contains("stability.svg")) {  // gnuplot is there
+    EXPECT_EQ(ended.err.find("warning"), std::string::npos) << ended.err;
+  }
+  const record::Table limits = record::read_csv(result / "stability.csv");
+  EXPECT_EQ(limits.columns,
+            (std::vector<std::string>{"rung", "volume", "integrator", "damping", "axis", "value",
+                                      "limit_us", "theory_us", "ratio", "failure", "note"}));
+  EXPECT_GT(limits.rows.size(), 140U);
+  const record::Table failures = record::read_csv(result / "failures.csv");
+  EXPECT_EQ(failures.columns,
+            (std::vector<std::string>{"failure", "rung", "integrator", "setting", "setting_unit",
+                                      "measure", "measured", "theory", "seen", "note"}));
+  // A finished map is not replaced unless that is asked for.
+  const Ended again = map({});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find("holds a finished map; give `--force`"), std::string::npos) << again.err;
+  write_file(result / "mark", "old");
+  const std::string rows = read_file(result / "stability.csv");
+  const std::string failed = read_file(result / "failures.csv");
+  EXPECT_EQ(map({"--force"}).code, 0);
+  EXPECT_EQ(read_file(result / "stability.csv"), rows) << "the same bits twice";
+  EXPECT_EQ(read_file(result / "failures.csv"), failed);
+  EXPECT_FALSE(fs::exists(result / "mark"));
+  EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"small_stability"}) << "no leftovers";
+}
+
+TEST_F(StabilityVerb, refuses_what_has_no_mesh_and_what_is_no_map) {
+  const Ended half = map({"--set", "tissue.shape={kind=\"half_space\"}"});
+  EXPECT_EQ(half.code, 2);
+  EXPECT_NE(half.err.find("a `half_space` has no mesh"), std::string::npos) << half.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  write_file(folder_ / "out/small_stability/notes.txt", "mine");
+  const Ended foreign = map({"--force"});
+  EXPECT_EQ(foreign.code, 2);
+  EXPECT_NE(foreign.err.find("is no stability map"), std::string::npos) << foreign.err;
+  EXPECT_EQ(read_file(folder_ / "out/small_stability/notes.txt"), "mine");
+}
+
+// Whether the process catches SIGINT, by what the system says of it.
+bool listens(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("SigCgt:"))
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1U) != 0;
+  return false;
+}
+
+TEST_F(StabilityVerb, an_interrupted_map_leaves_nothing) {
+  // The default mesh takes a minute.
+  Running running({.arguments = {"stability", "small.toml", "--set",
+                                 "tissue.mesh={kind=\"kuhn\",cells=[6,6,6]}"},
+                   .folder = folder_.path()});
+  ASSERT_TRUE(running.until([&] { return listens(running.id()); }));
+  running.send(SIGINT);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_NE(ended.err.find("palpate: interrupted; nothing was written"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
+}  // namespace palpate::test
