@@ -122,7 +122,12 @@ double amplification(double omega_dt, double drag) {
 }
 
 TEST(TrBdf2, Amplification) {
-  // |R(i w)|, R(z) = [2 (2 - g) + (1 + (1 - g)^2) z] / [2 (2 - g) - ...] of the method on u' = z u.
+  // On u' = z u a step multiplies by R(z) = (1 + sqrt(2) a z) / (1 - a z)^2, a = 1 - 1 / sqrt(2).
+  const double a = 1.0 - std::sqrt(0.5);
+  for (const double w : {0.1, 1.0, 10.0, 1e6})
+    EXPECT_NEAR(amplification(w, 0.0), std::sqrt(1.0 + 2.0 * a * a * w * w) / (1.0 + a * a * w * w),
+                1e-10);  // rounding of a determinant near 1e-6 and below
+  // The digits of the brief.
   EXPECT_NEAR(amplification(0.1, 0.0), 0.9999996, 5e-8);  // half a unit of the last digit
   EXPECT_NEAR(amplification(1.0, 0.0), 0.99687, 5e-6);
   EXPECT_NEAR(amplification(10.0, 0.0), 0.445, 5e-4);
