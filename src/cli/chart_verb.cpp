@@ -54,13 +54,16 @@ std::vector<std::string> words_of(const study::CaseChart& chart,
   return words;
 }
 
-void set_range(const study::CaseChart& chart, const study::Verdict& verdict,
-               report::Scatter& scatter) {
+void set_series(const study::CaseChart& chart, const study::Verdict& verdict,
+                report::Scatter& scatter) {
   const std::size_t any = verdict.front.front();
   scatter.least_cost = scatter.most_cost = verdict.cost[any];
   scatter.least_error = scatter.most_error = verdict.error[any];
   for (std::size_t i = 0; i < chart.rows.size(); ++i) {
     if (verdict.cost[i] <= 0.0) continue;
+    const std::pair pair(chart.rows[i].model, chart.rows[i].integrator);
+    if (std::find(scatter.series.begin(), scatter.series.end(), pair) == scatter.series.end())
+      scatter.series.push_back(pair);
     for (const double cost : chart.rows[i].costs()) {
       scatter.least_cost = std::min(scatter.least_cost, cost);
       scatter.most_cost = std::max(scatter.most_cost, cost);
@@ -89,7 +92,7 @@ void draw_all(const std::vector<study::CaseChart>& charts, const scenario::Famil
                             .tolerance = chart.tolerance};
     if (verdict.knee) scatter.marks.emplace_back("knee");
     if (verdict.taken) scatter.marks.emplace_back("auto");
-    set_range(chart, verdict, scatter);
+    set_series(chart, verdict, scatter);
     const report::Drawing drawing = report::draw(report::scatter_sheet(scatter), folder);
     if (!drawing.warning.empty()) talk.warn(drawing.warning);
   }

@@ -52,7 +52,9 @@ std::string axis(const char* name, const Range& range) {
 }
 
 std::string frame(const Scatter& scatter) {
+  // Missing, not undefined: rows that are passed over do not break the front's line.
   return "set datafile separator comma\n"
+         "set datafile missing NaN\n"
          "set datafile columnheaders\n"
          "set title " +
          gnuplot_quoted(scatter.title) +
@@ -129,9 +131,8 @@ std::string ringed(const Scatter& scatter, const std::string& flag, const std::s
 Sheet scatter_sheet(const Scatter& scatter) {
   std::vector<std::string> lines;
   lines.push_back(front(scatter));
-  for (const std::string& model : scatter.models)
-    for (const std::string& integrator : scatter.integrators)
-      lines.push_back(points(scatter, model, integrator));
+  for (const auto& [model, integrator] : scatter.series)
+    lines.push_back(points(scatter, model, integrator));
   for (const std::string& mark : scatter.marks)
     lines.push_back(mark == "knee"
                         ? ringed(scatter, mark,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/gnuplot.h"
@@ -16,10 +17,12 @@ struct Scatter {
   std::string case_name = {};                 // its rows
   std::vector<std::string> models = {};       // that rows were measured with
   std::vector<std::string> integrators = {};  // likewise; "" is none, for models without a mesh
-  std::vector<std::string> marks = {};        // of `knee` and `auto` those that a row has
-  double floor = 0.0;                         // the reference's own error
-  double tolerance = 0.0;                     // both as ratios
-  double least_cost = 1.0, most_cost = 1.0;   // us a simulated ms, of the rows
+  // Model and integrator of the rows; gnuplot complains of a series without any.
+  std::vector<std::pair<std::string, std::string>> series = {};
+  std::vector<std::string> marks = {};         // of `knee` and `auto` those that a row has
+  double floor = 0.0;                          // the reference's own error
+  double tolerance = 0.0;                      // both as ratios
+  double least_cost = 1.0, most_cost = 1.0;    // us a simulated ms, of the rows
   double least_error = 1.0, most_error = 1.0;  // ratios, of the rows
 };
 

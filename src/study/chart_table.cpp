@@ -163,8 +163,12 @@ class Speaker {
     const std::string tolerance = percent(chart_.tolerance);
     if (!verdict_.nearest) return "No variant could be compared with the reference.";
     if (!verdict_.cheapest_within)
-      return "No variant is within the tolerance of " + tolerance + "; nearest is " +
-             named(*verdict_.nearest) + ": " + how(*verdict_.nearest) + ".";
+      return (verdict_.floor > chart_.tolerance
+                  ? "The reference is known to " + percent(verdict_.floor) +
+                        " only, so that nothing can be said to be within the tolerance of "
+                  : "No variant is within the tolerance of ") +
+             tolerance + "; nearest is " + named(*verdict_.nearest) + ": " +
+             how(*verdict_.nearest) + ".";
     const std::size_t best = *verdict_.cheapest_within;
     std::string text = "Within the tolerance of " + tolerance + ", the cheapest is " + named(best) +
                        ": " + how(best);

@@ -38,6 +38,7 @@ class ScatterDrawn : public testing::Test {
             .case_name = "a",
             .models = {"hertz", "layer", "mass_spring"},
             .integrators = {"", "modal"},
+            .series = {{"hertz", ""}, {"layer", ""}, {"mass_spring", "modal"}},
             .marks = {"knee", "auto"},
             .floor = 0.005,
             .tolerance = 0.05,
@@ -61,6 +62,10 @@ TEST_F(ScatterDrawn, DrawsWithoutAWord) {
                             "tolerance", "own error", "mass_spring", "no mesh", "modal"})
     EXPECT_NE(svg.find(shown), std::string::npos) << shown;
   EXPECT_EQ(svg.find("coupled_springs"), std::string::npos) << "of the other case";
+}
+
+TEST_F(ScatterDrawn, TheFrontsLineIsNotBrokenByOtherRows) {
+  EXPECT_NE(scatter_sheet(scatter()).script.find("set datafile missing NaN"), std::string::npos);
 }
 
 TEST_F(ScatterDrawn, OnlyWhatARowHasIsMarked) {
