@@ -15,7 +15,7 @@ struct SampledDevice {
 
 // The damping that a device needs to hold a wall of `stiffness` (N/m) passively, in N s/m:
 //   b > K T / 2 + |B|, and about K T_d more with a delay.
-// J. E. Colgate and J. M. Brown, ICRA 1994; docs/theory.md, the haptic loop
+// J. E. Colgate and J. M. Brown, ICRA 1994; docs/theory.md (84)
 [[nodiscard]] double needed_damping(double stiffness, const SampledDevice& device);
 
 // The stiffness that bound allows, N/m; 0 where the device's damping is not above |B|.

@@ -27,7 +27,7 @@ struct FastestMode {
 //   lagged:  w < 2 (sqrt(1 + zeta^2) - zeta)
 //   ahead:   w < 2 (sqrt(1 + zeta^2) + zeta)
 // where a mode turns over, u_n = (-1)^n:
-//   dt^2 omega^2 + dt (forces +- 2 rate) = 4       docs/theory.md (76), explicit steps and damping
+//   dt^2 omega^2 + dt (forces +- 2 rate) = 4       docs/theory.md (81)
 [[nodiscard]] double explicit_limit(DampingVelocity velocity, const FastestMode& mode);
 
 // Second order; with a centred velocity stable for dt < 2 / omega_max whatever the damping, because

@@ -9,7 +9,7 @@ namespace palpate::integrate {
 // trapezoidal to t + gamma dt, and from both that and the start a backward difference to t + dt.
 // With gamma = 2 - sqrt(2) each is an implicit Euler step of gamma dt / 2 from another past, so
 // that they share one matrix.
-//          R. E. Bank and others, IEEE Trans. CAD 4(4), 1985; docs/theory.md, TR-BDF2
+//          R. E. Bank and others, IEEE Trans. CAD 4(4), 1985; docs/theory.md (83)
 //
 // Offers the calls of Implicit for each stage in turn: begin() ... finish() twice make a step, and
 // contacts are solved in both, because a load that is only interpolated in between would make

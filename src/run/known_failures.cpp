@@ -54,8 +54,7 @@ class KnownFailures {
   [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
 
   // A fixed edge at the distance rho is a bonded base there, which stiffens a half-space by
-  // 1 + c sqrt(R h) / rho, c = 0.86 at nu = 0.27 to 1.13 at 1/2.       docs/theory.md, known
-  // failures
+  // 1 + c sqrt(R h) / rho, c = 0.86 at nu = 0.27 to 1.13 at 1/2.       docs/theory.md (85)
   void edge() {
     if (!scene_.scenario.solver.rings) return;
     double share = 0.0;

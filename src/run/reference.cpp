@@ -108,6 +108,12 @@ class Refinement {
     const bool named = solver.integrator != Integrator::automatic;
     dynamic_ =
         named ? solver.integrator != Integrator::quasi_static : found_.inertia >= solver.tolerance;
+    // Where contact leaves viscosity out, what is asked for is the force of the relaxed tissue; these
+    // couplings would feel the mesh's own.
+    const bool mesh_feels = scenario.contact.coupling == Coupling::series ||
+                            scenario.contact.coupling == Coupling::resolved;
+    if (scenario.contact.viscosity == scenario::Contact::Viscosity::none && !mesh_feels)
+      scenario.tissue.viscosity = tissue::Viscosity::none;
     solver.model = scenario::Solver::Model::coupled_springs;
     solver.volume = scenario::Solver::Volume::nodal;
     solver.integrator = dynamic_ ? Integrator::backward_difference : Integrator::quasi_static;

@@ -278,8 +278,8 @@ class Checker {
         (explicit_steps(solver.integrator) || solver.integrator == Integrator::modal))
       problem("solver.integrator",
               "`resolved` finds its forces and the motion together, which an explicit method "
-              "cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
-              "`backward_difference`");
+              "cannot, and in `modal` steps they ring; set `integrator` to `quasi_static`, "
+              "`backward_difference` or `tr_bdf2`");
     if (scenario_.contact.spread == Contact::Spread::nearest_node && !scenario_.uniform() &&
         scenario_.contact.coupling != contact::Coupling::one_way &&
         scenario_.contact.coupling != contact::Coupling::series)

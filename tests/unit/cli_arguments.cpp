@@ -89,7 +89,7 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
        "how to write it"},
       {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
       {{"xyzzy"},
-       "unknown verb `xyzzy`; known: run, explain, fit, compare, golden, mesh, reference, bench, manual"},
+       "unknown verb `xyzzy`; known: run, explain, fit, compare, golden, mesh, reference, bench, chart, stability, manual"},
       {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
       {{"golden"},
        "`palpate golden` wants a verb: bless; `palpate golden --help` shows how to write "

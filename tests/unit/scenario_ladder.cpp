@@ -78,13 +78,13 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
       {"[contact]\ncoupling = \"resolved\"\n[solver]\nmodel = \"coupled_springs\"\nintegrator = "
        "\"central_difference\"\n",
        "press.toml:8:14: `resolved` finds its forces and the motion together, which an explicit "
-       "method cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
-       "`backward_difference`"},
+       "method cannot, and in `modal` steps they ring; set `integrator` to "
+       "`quasi_static`, `backward_difference` or `tr_bdf2`"},
       {"[contact]\ncoupling = \"resolved\"\n[solver]\nmodel = \"coupled_springs\"\nintegrator = "
        "\"semi_implicit_euler\"\n",
        "press.toml:8:14: `resolved` finds its forces and the motion together, which an explicit "
-       "method cannot, and in `modal` steps they ring; set `integrator` to `quasi_static` or "
-       "`backward_difference`"},
+       "method cannot, and in `modal` steps they ring; set `integrator` to "
+       "`quasi_static`, `backward_difference` or `tr_bdf2`"},
       {"[contact]\nspread = \"nearest_node\"\n[solver]\nmodel = \"mass_spring\"\n",
        "press.toml:5:10: `nearest_node` is for `one_way` and `series`; write `spread = "
        "\"pressure\"`"},
