@@ -11,6 +11,7 @@
 #include "run/press.h"
 #include "run/uniform.h"
 #include "scenario/words.h"
+#include "scene/specimen_shape.h"
 
 namespace palpate::run {
 namespace {
@@ -60,8 +61,9 @@ std::string chosen(const scenario::Scenario& scenario) {
 
 std::vector<scene::Scene> build_all(const scenario::Family& family, int workers) {
   std::vector<scene::Scene> scenes(family.cases.size());
+  scene::SpecimenShapes shapes;
   share_out(scenes.size(), workers,
-            [&](std::size_t i) { scenes[i] = scene::build(family.cases[i], family); });
+            [&](std::size_t i) { scenes[i] = scene::build(family.cases[i], family, shapes); });
   return scenes;
 }
 
