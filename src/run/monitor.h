@@ -26,6 +26,10 @@ class EnergyMonitor {
                                                 const integrate::Vector& load_before,
                                                 const integrate::Vector& load_after);
 
+  // The same of a step whose numbers are known, J: work of the loads, what was lost, and what is
+  // stored and kinetic after it.
+  [[nodiscard]] std::optional<std::string> account(double work, double lost, double held);
+
   // |in - stored - lost| over the greatest energy so far; 0 where nothing moved.
   [[nodiscard]] double imbalance() const;
 

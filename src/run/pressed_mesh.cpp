@@ -164,6 +164,25 @@ std::optional<std::string> PressedMesh::step_freely(const Vec3& finger, ContactH
   return move(touch);
 }
 
+std::optional<std::string> PressedMesh::add_step(const Vec3& finger, double time,
+                                                 ContactHistory& history, Touch& touch) {
+  if (auto wrong = try_out(finger, touch)) return wrong;
+  history.pass(*scene_, time_step_, touch);
+  if (march_.times.empty()) march_.loads.push_back(tissue::sparse(load_));
+  load_ = Contacts::load(touch, answer());
+  march_.loads.push_back(tissue::sparse(load_));
+  march_.times.push_back(time);
+  return std::nullopt;
+}
+
+March& PressedMesh::march() {
+  march_.body = &*body_;
+  march_.monitor = &*monitor_;
+  march_.stepper = &*stepper_;
+  march_.state = &state_;
+  return march_;
+}
+
 std::optional<std::string> PressedMesh::move(const Touch& touch) {
   Vector load = Contacts::load(touch, answer());
   auto wrong = stepper_->step(state_, load_, load, integrate::MemoryRule::exact);

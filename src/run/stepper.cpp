@@ -24,14 +24,17 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
 
 void Stepper::set_step(double time_step) {
   const bool fixed_step = method_ && std::holds_alternative<integrate::CentralDifference>(*method_);
-  if (!method_ || (fixed_step && time_step != time_step_))
+  if (!method_ || (fixed_step && time_step != time_step_)) {
     method_.emplace(make_method(*scene_, *body_, time_step));
+    ++beginnings_;
+  }
   time_step_ = time_step;
 }
 
 void Stepper::restart() {
   if (!method_) return;
   if (auto* central = std::get_if<integrate::CentralDifference>(&*method_)) central->restart();
+  ++beginnings_;
 }
 
 std::optional<std::string> Stepper::step(integrate::State& state,

@@ -41,11 +41,15 @@ class Stepper {
   [[nodiscard]] Method& method() { return *method_; }
   [[nodiscard]] double time_step() const { return time_step_; }
 
+  // How often central differences have begun afresh: by another step, or restarted.
+  [[nodiscard]] int beginnings() const { return beginnings_; }
+
  private:
   const scene::Scene* scene_;
   const scene::SpringBody* body_;
   std::optional<Method> method_;
   double time_step_ = 0.0;
+  int beginnings_ = 0;
 };
 
 // One implicit step of `method` (Implicit or Modal) under a known load.
