@@ -95,12 +95,12 @@ std::vector<Task> share_lanes(const std::vector<scene::Scene>& scenes, int worke
     const std::size_t cases = groups[g].size();
     const std::size_t least =
         lanes == Lanes::wherever_possible ? 1 : least_for_lanes(scenes[groups[g].front()]);
-    if (cases < least) continue;
+    if (cases < least || least > tissue::LaneSprings::width) continue;
     for (const std::size_t i : groups[g]) taken[i] = 1;
     queues[g].group = groups[g];
     const std::size_t teams =
         std::min(static_cast<std::size_t>(std::max(1, workers)), cases / least);
-    const std::size_t each = std::min<std::size_t>(8, (cases + teams - 1) / teams);
+    const std::size_t each = std::min(tissue::LaneSprings::width, (cases + teams - 1) / teams);
     for (std::size_t team = 0; team < teams; ++team) tasks.push_back({0, &queues[g], each});
   }
   for (std::size_t i = 0; i < scenes.size(); ++i)
