@@ -155,6 +155,22 @@ TEST(LaneGroups, hold_cases_of_one_mesh_and_form_alone) {
   EXPECT_EQ(both[1].size(), 10U);
 }
 
+// Forms differ by the law, by its branches, and by how springs turn.
+TEST(LaneGroups, keep_forms_apart) {
+  const auto family = scenario::parse(
+      sweeps()[0].text, "sweep.toml",
+      {"tissue.viscosity=prony", "tissue.branch=[{ relaxation_time = \"1 s\", ratio = 1 }]"});
+  auto scenes = run::build_all(family, 1);
+  EXPECT_EQ(run::lane_groups(scenes).size(), 1U);
+  scenes[1].specimen->law.branches.push_back({0.1, 0.5});
+  scenes[2].specimen->law.kind = tissue::Viscosity::standard_linear_solid;
+  scenes[3].specimen->kinematics = tissue::Kinematics::nonlinear;
+  scenes[4].specimen->network.rest.back().z() += 1e-9;
+  const auto groups = run::lane_groups(scenes);
+  ASSERT_EQ(groups.size(), 5U);
+  EXPECT_EQ(groups[0], (std::vector<std::size_t>{0, 5, 6, 7, 8, 9}));
+}
+
 // A set stop leaves out what has not ended.
 TEST(LaneGroups, stop) {
   const auto family = scenario::parse(sweeps()[0].text, "sweep.toml", {});

@@ -84,6 +84,8 @@ TEST(SpecimenShapes, are_apart_where_the_mesh_differs) {
   EXPECT_NE(key({"tissue.shape.size=[\"60 mm\", \"60 mm\", \"31 mm\"]"}), plain);
   EXPECT_NE(graded, plain);
   EXPECT_NE(key({"tissue.mesh.grading=2", "finger.x=20 mm"}), graded);
+  EXPECT_NE(key({"tissue.mesh.grading=2", "tissue.mesh.kind=kuhn", "finger.y=20 mm"}),
+            key({"tissue.mesh.grading=2", "tissue.mesh.kind=kuhn"}));
   const std::vector<std::string> meshed{"tissue.mesh={ kind = \"tetgen\", nodes = 200 }"};
   const std::string soft = key(meshed, lump);
   EXPECT_NE(soft, key(meshed));
