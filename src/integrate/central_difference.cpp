@@ -107,16 +107,7 @@ void CentralDifference::solve_turned(const Vector& displacement) {
   has_factors_ = i <= worth_factoring;
 }
 
-void CentralDifference::jump(const Vector& load_before) {
-  if (!first_) jumped_ = load_before;
-}
-
 void CentralDifference::step(State& state, const Vector& load) {
-  if (jumped_.size() > 0) {
-    mean_ = 0.5 * (jumped_ + load);
-    jumped_.resize(0);
-    return step(state, mean_);
-  }
   // (2 M + D dt) w = 2 dt^2 (F - f(u)) + (2 M - D dt) (u - u_before)   Chen 2007 eq. (12) in
   // increments; the consistent first one is dt^2 (F - f) + 2 M dt v   docs/theory.md (38), (39)
   // Ahead, the velocity of the state is the one before already: there is no other first step.

@@ -40,10 +40,6 @@ class CentralDifference {
   CentralDifference(const Body& body, double time_step, Start start,
                     DampingVelocity velocity = DampingVelocity::centred);
 
-  // The load (N) that was there before it jumped, just now: the next step takes the mean of both,
-  // which keeps its order.
-  void jump(const Vector& load_before);
-
   // From the state at t under the load at t to the state at t + dt. The velocity it leaves is the
   // mean over the step.
   void step(State& state, const Vector& load);
@@ -67,8 +63,6 @@ class CentralDifference {
   Vector keep_;           // 2 M - D dt, and of a consistent first step:
   Vector keep_first_;     // 2 M
   PanelFactors factors_;  // of 2 M + D dt
-  Vector jumped_;         // N, the load before a jump; empty without
-  Vector mean_;
   Vector force_;
   Vector right_;
   Vector image_;     // of a vector under D or under 2 M + D dt

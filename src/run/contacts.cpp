@@ -6,7 +6,6 @@
 
 #include "base/text.h"
 #include "run/resolved_contact.h"
-#include "run/stepper.h"
 
 namespace palpate::run {
 namespace {
@@ -202,6 +201,7 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
   std::vector<contact::PointLaw> laws(count);
   std::vector<double> approaches(count);
   std::vector<double> depths(count);
+  const double settled = 1e-12 * scene_->finger.sphere_radius;
   if (count == 1 && !moving_ && mesh.moving == nullptr) guess_depth(contacts.front());
   if (mesh.moving != nullptr) find_motion(mesh, contacts);
   // Explicit steps read the mesh once, over the patch of the step before.
@@ -230,7 +230,7 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
       contacts[i].compliance =
           compliance_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
     }
-    if (change <= settled_length) return std::nullopt;
+    if (change <= settled) return std::nullopt;
   }
   if (passes == 1) {
     shape_patches(contacts);

@@ -8,9 +8,12 @@
 #include <thread>
 
 #include "run/findings.h"
+#include "run/lanes.h"
+#include "run/march.h"
 #include "run/press.h"
 #include "run/uniform.h"
 #include "scenario/words.h"
+#include "scene/specimen_shape.h"
 
 namespace palpate::run {
 namespace {
@@ -60,20 +63,59 @@ std::string chosen(const scenario::Scenario& scenario) {
 
 std::vector<scene::Scene> build_all(const scenario::Family& family, int workers) {
   std::vector<scene::Scene> scenes(family.cases.size());
+  scene::SpecimenShapes shapes;
   share_out(scenes.size(), workers,
-            [&](std::size_t i) { scenes[i] = scene::build(family.cases[i], family); });
+            [&](std::size_t i) { scenes[i] = scene::build(family.cases[i], family, shapes); });
   return scenes;
 }
 
-record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop) {
-  const auto start = std::chrono::steady_clock::now();
+namespace {
+
+record::CaseRecord begin_case(const scene::Scene& scene) {
   record::CaseRecord record;
   record.name = scene.name;
   record.chosen = chosen(scene.scenario);
-  if (scene.scenario.uniform())
-    load_uniformly(scene, stop, record);
-  else
-    press(scene, stop, record);
+  return record;
+}
+
+// A task for one worker: a case by itself, or a team of lanes.
+struct Task {
+  std::size_t number = 0;
+  LaneQueue* queue = nullptr;
+  std::size_t lanes = 0;
+};
+
+// Teams of lanes first: they take longest.
+std::vector<Task> share_lanes(const std::vector<scene::Scene>& scenes, int workers, Lanes lanes,
+                              const std::vector<std::vector<std::size_t>>& groups,
+                              std::vector<LaneQueue>& queues) {
+  std::vector<Task> tasks;
+  std::vector<char> taken(scenes.size(), 0);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::size_t cases = groups[g].size();
+    const std::size_t least =
+        lanes == Lanes::wherever_possible ? 1 : least_for_lanes(scenes[groups[g].front()]);
+    if (cases < least || least > tissue::LaneSprings::width) continue;
+    for (const std::size_t i : groups[g]) taken[i] = 1;
+    queues[g].group = groups[g];
+    const std::size_t teams =
+        std::min(static_cast<std::size_t>(std::max(1, workers)), cases / least);
+    const std::size_t each = std::min(tissue::LaneSprings::width, (cases + teams - 1) / teams);
+    for (std::size_t team = 0; team < teams; ++team) tasks.push_back({0, &queues[g], each});
+  }
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    if (taken[i] == 0) tasks.push_back({.number = i});
+  return tasks;
+}
+
+}  // namespace
+
+record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  record::CaseRecord record = begin_case(scene);
+  Course course =
+      scene.scenario.uniform() ? load_uniformly(scene, stop, record) : press(scene, stop, record);
+  while (March* march = course.next()) carry_out(*march);
   add_findings(scene, record);
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;
@@ -81,15 +123,30 @@ record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& 
 
 std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
-    const std::function<void(std::size_t, const record::CaseRecord&)>& finished) {
+    const std::function<void(std::size_t, const record::CaseRecord&)>& finished, Lanes lanes) {
   std::vector<std::optional<record::CaseRecord>> slots(scenes.size());
   std::mutex one_at_a_time;
-  share_out(scenes.size(), workers, [&](std::size_t i) {
-    if (stop.load()) return;
-    record::CaseRecord record = run_case(scenes[i], stop);
+  const auto keep = [&](std::size_t i, record::CaseRecord&& record) {
     const std::lock_guard lock(one_at_a_time);
     finished(i, record);
     slots[i] = std::move(record);
+  };
+  const LaneCalls calls{[&](std::size_t i) { return begin_case(scenes[i]); },
+                        [&](std::size_t i, record::CaseRecord&& record) {
+                          add_findings(scenes[i], record);
+                          keep(i, std::move(record));
+                        }};
+  std::vector<std::vector<std::size_t>> groups;
+  if (lanes != Lanes::none) groups = lane_groups(scenes);
+  std::vector<LaneQueue> queues(groups.size());
+  const std::vector<Task> tasks = share_lanes(scenes, workers, lanes, groups, queues);
+  share_out(tasks.size(), workers, [&](std::size_t t) {
+    if (stop.load()) return;
+    const Task& task = tasks[t];
+    if (task.queue != nullptr)
+      run_in_lanes(scenes, *task.queue, task.lanes, stop, calls);
+    else
+      keep(task.number, run_case(scenes[task.number], stop));
   });
   std::vector<record::CaseRecord> records;
   for (auto& slot : slots)

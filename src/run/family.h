@@ -17,11 +17,16 @@ namespace palpate::run {
 // Runs one scene to its end.
 [[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop);
 
+// Which cases share a loop, lane beside lane: as many as it makes cheaper, all that can, or none.
+// Their records are the same to the bit.
+enum class Lanes { where_they_pay, wherever_possible, none };
+
 // Runs the scenes; the records stand in the order of the scenes whatever the workers do.
 // `finished` is called after each case, one call at a time, on the worker's thread. A set `stop`
 // ends running cases at their next row and leaves the rest out.
 [[nodiscard]] std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
-    const std::function<void(std::size_t, const record::CaseRecord&)>& finished);
+    const std::function<void(std::size_t, const record::CaseRecord&)>& finished,
+    Lanes lanes = Lanes::where_they_pay);
 
 }  // namespace palpate::run

@@ -26,11 +26,17 @@ std::optional<std::string> EnergyMonitor::step(const integrate::State& before,
                                                const integrate::State& after,
                                                const integrate::Vector& load_before,
                                                const integrate::Vector& load_after) {
-  work_ += tissue::work_of_forces(static_cast<std::size_t>(after.displacement.size()),
-                                  load_before.data(), load_after.data(), before.displacement.data(),
-                                  after.displacement.data());
-  lost_ += body_->dissipated(before, after);
-  held_ = body_->stored(after) + body_->kinetic(after);
+  const double work = tissue::work_of_forces(static_cast<std::size_t>(after.displacement.size()),
+                                             load_before.data(), load_after.data(),
+                                             before.displacement.data(), after.displacement.data());
+  const double lost = body_->dissipated(before, after);
+  return account(work, lost, body_->stored(after) + body_->kinetic(after));
+}
+
+std::optional<std::string> EnergyMonitor::account(double work, double lost, double held) {
+  work_ += work;
+  lost_ += lost;
+  held_ = held;
   if (!std::isfinite(held_) || !std::isfinite(work_))
     return "the motion has left the finite numbers";
   greatest_ = std::max(greatest_, given_ + work_);
@@ -41,7 +47,7 @@ std::optional<std::string> EnergyMonitor::step(const integrate::State& before,
   return std::nullopt;
 }
 
-void EnergyMonitor::account(double work, double lost, double held) {
+void EnergyMonitor::take_over(double work, double lost, double held) {
   work_ = work;
   lost_ = lost;
   held_ = held;

@@ -26,9 +26,13 @@ class EnergyMonitor {
                                                 const integrate::Vector& load_before,
                                                 const integrate::Vector& load_after);
 
+  // The same of a step whose numbers are known, J: work of the loads, what was lost, and what is
+  // stored and kinetic after it.
+  [[nodiscard]] std::optional<std::string> account(double work, double lost, double held);
+
   // Motion that keeps its own account: all work done on it, all that was lost, and what it holds,
   // J.
-  void account(double work, double lost, double held);
+  void take_over(double work, double lost, double held);
 
   // |in - stored - lost| over the greatest energy so far; 0 where nothing moved.
   [[nodiscard]] double imbalance() const;

@@ -73,13 +73,14 @@ class Press {
       return;
     }
     mesh_.emplace(scene);
+    in_rows_ = suits_lanes(scene);
     first_ = scene::first_touch(scene).finger;
     touch_.finger = first_;
     if (scene.scenario.output.tissue) record_.mesh = scene.specimen->mesh;
     if (scene.scenario.output.picture) record_.picture = make_picture(scene);
   }
 
-  void all() {
+  Course all() {
     Vec3 sideways = Vec3::Zero();
     for (std::size_t i = 0; i < scene_.scenario.steps.size(); ++i) {
       step_ = static_cast<int>(i) + 1;
@@ -90,7 +91,12 @@ class Press {
                                   " has nothing to do: the finger is there already");
         continue;
       }
-      if (!run(motion)) return;
+      going_ = true;
+      if (in_rows_)
+        for (Course rows = run_in_rows(motion); March* march = rows.next();) co_yield *march;
+      else
+        going_ = run(motion);
+      if (!going_) co_return;
       sideways = motion.end;
       if (scene_.scenario.output.pressure_maps) add_map();
       if (scene_.scenario.output.tissue && mesh_) add_frame();
@@ -120,16 +126,75 @@ class Press {
   }
 
  private:
-  // False where the case ended early.
-  bool run(const Motion& motion) {
-    const bool to_force = std::isfinite(motion.force);
-    const Pace pace =
-        to_force ? make_open_pace(scene_, motion.duration) : make_pace(scene_, motion.duration);
-    const double start = time_;
+  Pace begin(const Motion& motion) {
+    const Pace pace = std::isfinite(motion.force) ? make_open_pace(scene_, motion.duration)
+                                                  : make_pace(scene_, motion.duration);
     kept_force_ = touch_.force();
     if (mesh_) mesh_->set_step(pace.step());
     solver_step_ = pace.step();
     history_.slide(motion.start != motion.end);
+    return pace;
+  }
+
+  // Row by row: first the forces, which follow from the finger alone, then the mesh. What run()
+  // gives is in going_.
+  Course run_in_rows(const Motion& motion) {
+    const Pace pace = begin(motion);
+    const double start = time_;
+    going_ = false;
+    for (int row = 0; row < pace.rows; ++row) {
+      if (stop_.load()) {
+        (void)end_early(record_, record::Outcome::interrupted, "interrupted");
+        co_return;
+      }
+      mesh_->clear_march();
+      std::optional<std::string> wrong;
+      bool there = false;
+      double end = start + pace.time(row + 1, 0);
+      for (int k = 1; k <= pace.steps && !there && !wrong; ++k) {
+        const double time = pace.time(row, k);
+        const Vec3 sideways = move_finger(motion, time);
+        if (motion.keeps_force) wrong = keep_force(sideways);
+        if (!wrong) wrong = mesh_->add_step(place(sideways), start + time, history_, touch_);
+        there = !wrong && touch_.force() >= motion.force;
+        if (there) end = start + time;
+      }
+      March& march = mesh_->march();
+      if (!march.times.empty()) co_yield march;
+      if (march.done > 0) record_.last_stable_time = march.times[march.done - 1];
+      if (march.wrong) wrong = march.wrong;  // the forces went wrong after it, if they did
+      if (wrong) {
+        (void)diverged(*wrong);
+        co_return;
+      }
+      time_ = end;
+      write_row();
+      if (there) break;
+      if (mesh_->inverted()) {
+        (void)diverged("a tetrahedron has turned inside out");
+        co_return;
+      }
+      if (row + 1 == pace.rows && std::isfinite(motion.force)) {
+        (void)diverged("the force of the step was not reached");
+        co_return;
+      }
+    }
+    going_ = true;
+  }
+
+  // Where it is after `time` s of the motion, sideways; a travel that is kept is set.
+  Vec3 move_finger(const Motion& motion, double time) {
+    const Vec3 sideways = motion.sideways(time);
+    if (!motion.keeps_force) touch_.travel = motion.travel(time);
+    touch_.slide = sideways.norm();
+    return sideways;
+  }
+
+  // False where the case ended early.
+  bool run(const Motion& motion) {
+    const bool to_force = std::isfinite(motion.force);
+    const Pace pace = begin(motion);
+    const double start = time_;
     for (int row = 0; row < pace.rows; ++row) {
       if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
       for (int k = 1; k <= pace.steps; ++k) {
@@ -151,9 +216,7 @@ class Press {
 
   // To the finger's place after `time` s of the motion, at `now`, s.
   bool advance(const Motion& motion, double time, double now) {
-    const Vec3 sideways = motion.sideways(time);
-    if (!motion.keeps_force) touch_.travel = motion.travel(time);
-    touch_.slide = sideways.norm();
+    const Vec3 sideways = move_finger(motion, time);
     if (!mesh_) {
       if (auto wrong = press_half_space(scene_, first_ + sideways, touch_)) return diverged(*wrong);
       history_.pass(scene_, solver_step_, touch_);
@@ -293,6 +356,8 @@ class Press {
   double deepest_sinking_ = 0.0;  // m, where all is on one node
   double time_ = 0.0;
   int step_ = 1;
+  bool in_rows_ = false;
+  bool going_ = true;
   bool on_crease_ = false;
   bool one_sided_ = false;
   bool nearly_conforming_ = false;
@@ -300,8 +365,9 @@ class Press {
 
 }  // namespace
 
-void press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
-  Press(scene, stop, record).all();
+Course press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
+  Press one(scene, stop, record);
+  for (Course course = one.all(); March* march = course.next();) co_yield *march;
 }
 
 }  // namespace palpate::run

@@ -175,6 +175,25 @@ std::optional<std::string> PressedMesh::step_freely(const Vec3& finger, ContactH
   return move(touch);
 }
 
+std::optional<std::string> PressedMesh::add_step(const Vec3& finger, double time,
+                                                 ContactHistory& history, Touch& touch) {
+  if (auto wrong = try_out(finger, touch)) return wrong;
+  history.pass(*scene_, time_step_, touch);
+  if (march_.times.empty()) march_.loads.push_back(tissue::sparse(load_));
+  load_ = Contacts::load(touch, answer());
+  march_.loads.push_back(tissue::sparse(load_));
+  march_.times.push_back(time);
+  return std::nullopt;
+}
+
+March& PressedMesh::march() {
+  march_.body = &*body_;
+  march_.monitor = &*monitor_;
+  march_.stepper = &*stepper_;
+  march_.state = &state_;
+  return march_;
+}
+
 std::optional<std::string> PressedMesh::move(const Touch& touch) {
   if (in_modes_) {
     auto& modal = std::get<integrate::Modal>(stepper_->method());
@@ -305,7 +324,7 @@ void PressedMesh::show() {
   const auto& modal = std::get<integrate::Modal>(stepper_->method());
   modal.show(state_);
   const auto energies = modal.energies();
-  monitor_->account(energies.work, energies.lost, energies.held);
+  monitor_->take_over(energies.work, energies.lost, energies.held);
   shown_ = true;
 }
 

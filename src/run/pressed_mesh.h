@@ -10,6 +10,7 @@
 #include "run/contact_history.h"
 #include "run/contacts.h"
 #include "run/crept_load.h"
+#include "run/march.h"
 #include "run/monitor.h"
 #include "run/stepper.h"
 #include "tissue/part.h"
@@ -42,6 +43,13 @@ class PressedMesh {
   // resolved.
   [[nodiscard]] bool forces_follow_finger() const;
   [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
+
+  // Where suits_lanes(): the steps of one_way and consistent in two halves. add_step() finds the
+  // forces, as step() does, and march() is the steps since the last clear_march().
+  void clear_march() { march_.clear(); }
+  [[nodiscard]] std::optional<std::string> add_step(const Vec3& finger, double time,
+                                                    ContactHistory& history, Touch& touch);
+  [[nodiscard]] March& march();
 
   // One step of the mesh alone, under the forces of `touch`; public for timing.
   [[nodiscard]] std::optional<std::string> move(const Touch& touch);
@@ -105,6 +113,7 @@ class PressedMesh {
   Cholesky one_factors_;               // were the specimen of one tissue
   integrate::State state_;
   integrate::Vector load_;
+  March march_;
   double time_step_ = 0.0;
   // Whether frames pass in modes alone, and whether state_ is where these are. docs/theory.md (41)
   bool in_modes_ = false;

@@ -31,15 +31,11 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
 
 void Stepper::set_step(double time_step) {
   const bool fixed_step = scenario::explicit_steps(scene_->scenario.solver.integrator);
-  if (!method_ || (fixed_step && time_step != time_step_))
+  if (!method_ || (fixed_step && time_step != time_step_)) {
     method_.emplace(make_method(*scene_, *body_, time_step));
+    ++beginnings_;
+  }
   time_step_ = time_step;
-}
-
-void Stepper::jump(const integrate::Vector& load_before) {
-  if (!method_) return;
-  if (auto* central = std::get_if<integrate::CentralDifference>(&*method_))
-    central->jump(load_before);
 }
 
 std::optional<std::string> Stepper::step(integrate::State& state,

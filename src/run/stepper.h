@@ -29,9 +29,6 @@ class Stepper {
   // The next steps have this size, s. A method that can change its step goes on.
   void set_step(double time_step);
 
-  // The load (N) has jumped from this one; after set_step() only what then steps is told.
-  void jump(const integrate::Vector& load_before);
-
   // From the state under `load_before` to the next one under `load_after` (N). `rule` is how
   // viscous memory passes through a step without inertia. Returns what is wrong where the
   // equations do not settle.
@@ -44,11 +41,15 @@ class Stepper {
   [[nodiscard]] Method& method() { return *method_; }
   [[nodiscard]] double time_step() const { return time_step_; }
 
+  // How often a method has begun afresh: explicit ones do with another step.
+  [[nodiscard]] int beginnings() const { return beginnings_; }
+
  private:
   const scene::Scene* scene_;
   const scene::SpringBody* body_;
   std::optional<Method> method_;
   double time_step_ = 0.0;
+  int beginnings_ = 0;
 };
 
 // One implicit step of `method` (Implicit or Modal), or one stage of TrBdf2, under a known load.

@@ -3,10 +3,9 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
-#include "run/monitor.h"
 #include "run/pace.h"
-#include "run/stepper.h"
 
 namespace palpate::run {
 namespace {
@@ -22,18 +21,58 @@ class UniformTest {
   UniformTest(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record)
       : scene_(scene), specimen_(*scene.specimen), stop_(stop), record_(record) {}
 
-  void all() {
+  Course all() {
     for (std::size_t i = 0; i < scene_.scenario.steps.size(); ++i) {
       step_ = static_cast<int>(i) + 1;
       const scenario::Step& step = scene_.scenario.steps[i];
       const bool going = std::holds_alternative<Creep>(step) ? creep(std::get<Creep>(step))
                                                              : relax(std::get<Relax>(step));
-      if (!going) return;
+      if (!going) co_return;
+      for (const Stage& stage : stages_) {
+        if (!begin(stage)) co_return;
+        const Pace pace = make_pace(scene_, stage.duration);
+        const int beginnings = stepper_->beginnings();
+        stepper_->set_step(pace.step());
+        // Where an explicit method goes on through a jump, the mean of both loads in the step after
+        // it keeps its order.                                            docs/theory.md (81)
+        const bool met_by_mean = stage.jumps && stepper_->beginnings() == beginnings &&
+                                 explicit_steps(scene_.scenario.solver.integrator);
+        const double start = time_;
+        for (int row = 0; row < pace.rows; ++row) {
+          if (stop_.load()) {
+            (void)end_early(record_, record::Outcome::interrupted, "interrupted");
+            co_return;
+          }
+          march_.clear();
+          march_.loads.push_back(tissue::sparse(stage.load));
+          if (row == 0 && met_by_mean)
+            march_.first_load = tissue::sparse(0.5 * (stage.load_before + stage.load));
+          march_.force_wanted = !stage.stress;
+          for (int k = 1; k <= pace.steps; ++k) march_.times.push_back(start + pace.time(row, k));
+          co_yield march_;
+          if (march_.done > 0) record_.last_stable_time = march_.times[march_.done - 1];
+          if (march_.wrong && !diverged(*march_.wrong)) co_return;
+          time_ = start + pace.time(row + 1, 0);
+          write_row(stage.stress ? *stage.stress : stress_of(march_.force));
+          if (tissue::inverted(specimen_.mesh, state_.displacement) &&
+              !diverged("a tetrahedron has turned inside out"))
+            co_return;
+        }
+      }
+      imbalance_ = std::max(imbalance_, monitor_->imbalance());
     }
     record_.findings.push_back({"energy_imbalance", imbalance_});
   }
 
  private:
+  // A load that stays for a time. `stress` is that of the rows; nothing: it is measured.
+  struct Stage {
+    Vector load_before, load;  // N
+    double duration = 0.0;     // s
+    std::optional<double> stress;
+    bool jumps = false;  // to `load`
+  };
+
   void fresh(const std::vector<char>& held) {
     body_.emplace(specimen_.network, specimen_.kinematics, specimen_.law, held);
     const Eigen::Index size = body_->mass().size();
@@ -44,6 +83,18 @@ class UniformTest {
     state_.memory = body_->memory_at(state_.displacement);
     monitor_.emplace(*body_);
     stepper_.emplace(scene_, *body_);
+    march_.body = &*body_;
+    march_.monitor = &*monitor_;
+    march_.stepper = &*stepper_;
+    march_.state = &state_;
+    ++march_.standing;
+    // A standard linear solid without inertia gave way at once and creeps on from there; for the
+    // others the load has its value from the start of the step.
+    const bool creeps_on =
+        scene_.scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
+        specimen_.law.kind == tissue::Viscosity::standard_linear_solid;
+    march_.rule = creeps_on ? MemoryRule::exact : MemoryRule::held;
+    stages_.clear();
   }
 
   // The platen's force as shares on the nodes under it, pressing down.
@@ -64,15 +115,14 @@ class UniformTest {
     return sum / pressed.height;
   }
 
-  // The force with which the specimen pushes back over the top's area.
-  [[nodiscard]] double stress() const {
-    Vector force;
-    body_->force(state_.displacement, state_.memory, force);
+  // The force with which the specimen pushes back over the top's area; `force` (N) is the springs'.
+  [[nodiscard]] double stress_of(const Vector& force) const {
     double sum = 0.0;
     for (const int node : specimen_.pressed.top) sum -= force[3 * node + 2];
     if (body_->has_dashpots()) {
-      body_->dashpot_force(state_.displacement, state_.velocity, force);
-      for (const int node : specimen_.pressed.top) sum -= force[3 * node + 2];
+      Vector dashpots;
+      body_->dashpot_force(state_.displacement, state_.velocity, dashpots);
+      for (const int node : specimen_.pressed.top) sum -= dashpots[3 * node + 2];
     }
     return sum / specimen_.pressed.area;
   }
@@ -81,12 +131,9 @@ class UniformTest {
     fresh(specimen_.held);
     const Vector load = platen_load(creep.stress);
     const Vector none = Vector::Zero(load.size());
-    if (!jump(none, load)) return false;
-    row(creep.stress);
-    if (!march(load, creep.load_time, [&] { row(creep.stress); })) return false;
-    if (creep.recovery_time <= 0.0) return ended();
-    if (!jump(load, none)) return false;
-    return march(none, creep.recovery_time, [&] { row(0.0); }) && ended();
+    stages_.push_back({none, load, creep.load_time, creep.stress, true});
+    if (creep.recovery_time > 0.0) stages_.push_back({load, none, creep.recovery_time, 0.0, true});
+    return true;
   }
 
   bool relax(const Relax& relax) {
@@ -101,63 +148,29 @@ class UniformTest {
       return diverged(*wrong);
     state_.memory = body_->memory_at(state_.displacement);
     monitor_->begin(state_);
-    row(stress());
-    return march(none, relax.time, [&] { row(stress()); }) && ended();
-  }
-
-  bool ended() {
-    imbalance_ = std::max(imbalance_, monitor_->imbalance());
+    Vector force;
+    body_->force(state_.displacement, state_.memory, force);
+    write_row(stress_of(force));
+    stages_.push_back({none, none, relax.time, std::nullopt, false});
     return true;
   }
 
   // A load that changes at once: without inertia, a standard linear solid gives way at once too.
-  bool jump(const Vector& from, const Vector& to) {
+  bool begin(const Stage& stage) {
+    if (!stage.jumps) return true;
     const bool at_once =
         scene_.scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
         specimen_.law.kind != tissue::Viscosity::kelvin_voigt;
     if (at_once) {
       const State before = state_;
       integrate::Implicit statics(*body_, integrate::Implicit::Inertia::none);
-      if (const auto wrong = solve_step(statics, *body_, state_, 0.0, MemoryRule::at_once, to))
+      if (const auto wrong =
+              solve_step(statics, *body_, state_, 0.0, MemoryRule::at_once, stage.load))
         return diverged(*wrong);
-      if (const auto wrong = monitor_->step(before, state_, from, to)) return diverged(*wrong);
+      if (const auto wrong = monitor_->step(before, state_, stage.load_before, stage.load))
+        return diverged(*wrong);
     }
-    stepper_->jump(from);
-    return true;
-  }
-
-  template <class Row>
-  bool march(const Vector& load, double duration, const Row& write) {
-    const Pace pace = make_pace(scene_, duration);
-    stepper_->set_step(pace.step());
-    const double start = time_;
-    for (int row = 0; row < pace.rows; ++row) {
-      if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
-      for (int k = 1; k <= pace.steps; ++k)
-        if (!advance(load, start + pace.time(row, k))) return false;
-      time_ = start + pace.time(row + 1, 0);
-      write();
-      if (tissue::inverted(specimen_.mesh, state_.displacement))
-        return diverged("a tetrahedron has turned inside out");
-    }
-    return true;
-  }
-
-  // To `time`, s, under a load that stays.
-  bool advance(const Vector& load, double time) {
-    const State before = state_;
-    // A standard linear solid without inertia gave way at once and creeps on from there; for the
-    // others the load has its value from the start of the step.
-    const bool creeps_on =
-        scene_.scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
-        specimen_.law.kind == tissue::Viscosity::standard_linear_solid;
-    if (const auto wrong =
-            stepper_->step(state_, load, load, creeps_on ? MemoryRule::exact : MemoryRule::held))
-      return diverged(*wrong);
-    state_.time = time;  // a sum of steps would carry their rounding
-    if (const auto unstable = monitor_->step(before, state_, load, load))
-      return diverged(*unstable);
-    record_.last_stable_time = time;
+    if (&stage == &stages_.front()) write_row(*stage.stress);
     return true;
   }
 
@@ -165,7 +178,7 @@ class UniformTest {
     return end_early(record_, record::Outcome::diverged, reason);
   }
 
-  void row(double stress) { record_.strain.push_back({step_, time_, stress, strain()}); }
+  void write_row(double stress) { record_.strain.push_back({step_, time_, stress, strain()}); }
 
   const scene::Scene& scene_;
   const scene::Specimen& specimen_;
@@ -174,6 +187,8 @@ class UniformTest {
   std::optional<scene::SpringBody> body_;
   std::optional<EnergyMonitor> monitor_;
   std::optional<Stepper> stepper_;
+  std::vector<Stage> stages_;
+  March march_;
   State state_;
   double imbalance_ = 0.0;
   double time_ = 0.0;
@@ -182,9 +197,10 @@ class UniformTest {
 
 }  // namespace
 
-void load_uniformly(const scene::Scene& scene, const std::atomic<bool>& stop,
-                    record::CaseRecord& record) {
-  UniformTest(scene, stop, record).all();
+Course load_uniformly(const scene::Scene& scene, const std::atomic<bool>& stop,
+                      record::CaseRecord& record) {
+  UniformTest test(scene, stop, record);
+  for (Course course = test.all(); March* march = course.next();) co_yield *march;
 }
 
 }  // namespace palpate::run

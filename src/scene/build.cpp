@@ -14,6 +14,7 @@
 #include "scene/first_touch.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
+#include "scene/specimen_shape.h"
 #include "tissue/coupled.h"
 
 namespace palpate::scene {
@@ -124,19 +125,6 @@ std::vector<tissue::Isotropic> tissues_of(const scenario::Scenario& scenario) {
   return tissues;
 }
 
-// The area of the skin's triangles that lie in the plane at height `z`, m^2.
-double flat_area(const geometry::Skin& skin, double z, double tolerance) {
-  double sum = 0.0;
-  for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
-    bool inside = true;
-    for (const int v : skin.surface.triangles[t])
-      inside = inside &&
-               std::abs(skin.surface.vertices[static_cast<std::size_t>(v)].z() - z) <= tolerance;
-    if (inside) sum += 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t)).norm();
-  }
-  return sum;
-}
-
 void measure_size(Specimen& specimen) {
   specimen.low = specimen.high = specimen.mesh.nodes.front();
   for (const Vec3& node : specimen.mesh.nodes) {
@@ -149,6 +137,7 @@ void measure_size(Specimen& specimen) {
 struct SpringMaker {
   const scenario::Solver* solver;
   const geometry::TetMesh* mesh;
+  const tissue::SpringFit* fit;  // where the solver wants it
   std::vector<double> densities;
   bool slabs;  // all regions are layers from side to side
 
@@ -173,7 +162,8 @@ struct SpringMaker {
       moduli.push_back(volume() == tissue::Volume::none ? one.young_modulus
                                                         : tissue::spring_modulus(one));
     return tissue::make_network(*mesh, densities,
-                                tissue::spring_stiffness(solver->stiffness, *mesh, moduli));
+                                fit != nullptr ? tissue::fitted_stiffness(*mesh, *fit, moduli)
+                                               : tissue::van_gelder_stiffness(*mesh, moduli));
   }
   void finish(tissue::Network& network, const std::vector<tissue::Isotropic>& tissues,
               double factor) const {
@@ -235,9 +225,10 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
 }
 
 std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
-                                        const std::string& folder) {
+                                        const std::string& folder, SpecimenShapes& shapes) {
   auto specimen = std::make_unique<Specimen>();
-  specimen->mesh = specimen_mesh(scenario, folder);
+  const SpecimenShape& shape = shapes.shape(scenario, folder);
+  specimen->mesh = shape.mesh;
   specimen->law = viscous_law(scenario.tissue);
   specimen->kinematics = scenario.solver.kinematics;
   if (scenario.solver.model == scenario::Solver::Model::coupled_springs &&
@@ -245,20 +236,20 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
     specimen->kinematics = tissue::Kinematics::squared;
   specimen->base = base_of(scenario);
   measure_size(*specimen);
-  geometry::Skin skin = geometry::skin(specimen->mesh);
   const double top = specimen->high.z();
-  const double flat = 1e-9 * geometry::diagonal(specimen->mesh);
-  const double top_area = flat_area(skin, top, flat);
+  const double top_area = shape.top_area;
   specimen->base_height = scenario.tissue.base_height.value_or(
-      flat_area(skin, specimen->low.z(), flat) > 0.0 ? 0.0 : 0.1 * specimen->height());
+      shape.bottom_area > 0.0 ? 0.0 : 0.1 * specimen->height());
   if (scenario.uniform() && top_area <= 0.0)
     throw MeshError(
         "the specimen has no flat upper end for a platen; `creep` and `relax` need a shape with "
         "flat ends, such as `cuboid` or `ligament`");
   const bool platens =
       scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
+  const bool fitted = scenario.solver.model == scenario::Solver::Model::mass_spring &&
+                      scenario.solver.stiffness == tissue::StiffnessRule::fitted;
   make_springs(
-      {&scenario.solver, &specimen->mesh,
+      {&scenario.solver, &specimen->mesh, fitted ? &shapes.fit(scenario, folder) : nullptr,
        by_region(scenario, &scenario::Tissue::density, &scenario::Substance::density),
        all_slabs(scenario)},
       tissues_of(scenario),
@@ -275,8 +266,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
         tissue::held_between_platens(specimen->mesh, specimen->base, top);
   }
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height);
-  specimen->skin = skin.nodes;
-  specimen->surface.emplace(std::move(skin.surface));
+  specimen->skin = shape.skin;
+  specimen->surface.emplace(shape.surface);
   return specimen;
 }
 
@@ -298,6 +289,11 @@ void set_layer(Scene& scene) {
 }  // namespace
 
 Scene build(const scenario::Case& one, const scenario::Family& family) {
+  SpecimenShapes shapes;
+  return build(one, family, shapes);
+}
+
+Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes) {
   using Model = scenario::Solver::Model;
   Scene scene;
   scene.name = one.name;
@@ -330,7 +326,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
     set_layer(scene);
     return scene;
   }
-  scene.specimen = make_specimen(scenario, family.folder);
+  scene.specimen = make_specimen(scenario, family.folder, shapes);
   if (!scenario.uniform() && scenario.contact.coupling == contact::Coupling::consistent &&
       std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) {
     set_layer(scene);

@@ -117,6 +117,11 @@ struct Scene {
 // Throws MeshError for a mesh that cannot serve, InputError for a time step above its limit.
 [[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family);
 
+// The same scene, to the bit, with what `shapes` has of its specimen not built again.
+class SpecimenShapes;
+[[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family,
+                          SpecimenShapes& shapes);
+
 // The principal curvatures (1/m, convex positive) where `hertz` presses: of the flat or half-space,
 // or of the parametric shape's top. Nothing for shapes that only a mesh knows.
 struct TopCurvature {

@@ -20,6 +20,10 @@ class SpringBody final : public integrate::Body {
   SpringBody(const tissue::Network& network, tissue::Kinematics kinematics,
              const tissue::ViscousLaw& law, std::vector<char> held);
 
+  [[nodiscard]] const tissue::Network& network() const { return *network_; }
+  [[nodiscard]] const tissue::ViscousLaw& law() const { return law_; }
+  [[nodiscard]] tissue::Kinematics kinematics() const { return kinematics_; }
+
   [[nodiscard]] const Vector& mass() const override { return mass_; }
   [[nodiscard]] const Vector& drag() const override { return drag_; }
   [[nodiscard]] std::span<const char> held() const override { return held_; }

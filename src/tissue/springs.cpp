@@ -233,12 +233,15 @@ SplitMatrix stiffness_matrix(const Network& network, std::span<const char> held)
 }
 
 bool inverted(const geometry::TetMesh& mesh, const Vector& displacement) {
+  // A node is a corner of about two dozen tetrahedra.
+  std::vector<Vec3> places(mesh.nodes);
+  for (std::size_t n = 0; n < places.size(); ++n)
+    places[n] += displacement.segment<3>(3 * static_cast<Eigen::Index>(n));
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    const auto place = [&](int node) -> Vec3 {
-      return mesh.nodes[index(node)] + at(displacement, node);
-    };
-    const Vec3 origin = place(a);
-    if ((place(b) - origin).cross(place(c) - origin).dot(place(d) - origin) <= 0.0) return true;
+    const Vec3& origin = places[index(a)];
+    const Vec3 first = places[index(b)] - origin;
+    const Vec3 second = places[index(c)] - origin;
+    if (first.cross(second).dot(places[index(d)] - origin) <= 0.0) return true;
   }
   return false;
 }

@@ -78,12 +78,13 @@ std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh,
   return stiffness;
 }
 
-std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
-                                     std::span<const double> young_modulus) {
+SpringFit fit_springs(const geometry::TetMesh& mesh) {
   const auto edges = geometry::edges(mesh);
-  const std::vector<double> alike(young_modulus.size(), 1.0);
+  const auto regions = mesh.regions.empty()
+                           ? std::size_t{1}
+                           : static_cast<std::size_t>(*std::ranges::max_element(mesh.regions)) + 1;
+  const std::vector<double> alike(regions, 1.0);
   const std::vector<double> start = edge_volumes(mesh, edges, alike);
-  const std::vector<double> stiffer = edge_volumes(mesh, edges, relative(young_modulus));
   const std::vector<double> volumes = node_volumes(mesh, alike);
   std::vector<SymmetricTensor> powers;
   powers.reserve(edges.size());
@@ -122,11 +123,23 @@ std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
     }
     if (largest_change < 1e-9) break;
   }
+  return {std::move(y), start};
+}
+
+std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, const SpringFit& fit,
+                                     std::span<const double> young_modulus) {
+  const auto edges = geometry::edges(mesh);
+  const std::vector<double> stiffer = edge_volumes(mesh, edges, relative(young_modulus));
   std::vector<double> stiffness(edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e)
-    stiffness[e] =
-        y[e] * (stiffer[e] / start[e]) * young_modulus[0] / span_of(mesh, edges[e]).squaredNorm();
+    stiffness[e] = fit.fitted[e] * (stiffer[e] / fit.van_gelder[e]) * young_modulus[0] /
+                   span_of(mesh, edges[e]).squaredNorm();
   return stiffness;
+}
+
+std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
+                                     std::span<const double> young_modulus) {
+  return fitted_stiffness(mesh, fit_springs(mesh), young_modulus);
 }
 
 std::vector<double> spring_stiffness(StiffnessRule rule, const geometry::TetMesh& mesh,

@@ -25,6 +25,18 @@ enum class StiffnessRule { van_gelder, fitted };
 [[nodiscard]] std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
                                                    std::span<const double> young_modulus);
 
+// What of that fit the moduli do not change, one a sorted edge, m^3: k_e l_e^2 / E of one tissue,
+// and the same by Van Gelder. It takes long, and one serves every tissue on the mesh.
+struct SpringFit {
+  std::vector<double> fitted;
+  std::vector<double> van_gelder;
+};
+[[nodiscard]] SpringFit fit_springs(const geometry::TetMesh& mesh);
+// `fit` is that of the same mesh.
+[[nodiscard]] std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
+                                                   const SpringFit& fit,
+                                                   std::span<const double> young_modulus);
+
 [[nodiscard]] std::vector<double> spring_stiffness(StiffnessRule rule,
                                                    const geometry::TetMesh& mesh,
                                                    std::span<const double> young_modulus);

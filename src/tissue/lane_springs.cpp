@@ -1,0 +1,392 @@
+// Eight bodies laid out lane beside lane, and the choice of instructions.
+#include "tissue/lane_springs.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "tissue/lane_data.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic ignored "-Wpsabi"                // all calls with vectors are inlined
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // in the header of _mm512_sqrt_pd
+#endif
+
+#define PALPATE_LOOPS lanes_portable
+#define PALPATE_TARGET
+#define PALPATE_WIDTH 2
+#if defined(__x86_64__)
+#define PALPATE_ROOT(x) _mm_sqrt_pd(x)
+#else
+#define PALPATE_ROOT(x) (Piece{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])})
+#endif
+#include "tissue/lane_loops.h"
+#undef PALPATE_LOOPS
+#undef PALPATE_TARGET
+#undef PALPATE_WIDTH
+#undef PALPATE_ROOT
+
+#if defined(__x86_64__)
+#define PALPATE_LOOPS lanes_avx2
+#define PALPATE_TARGET __attribute__((target("avx2")))
+#define PALPATE_WIDTH 4
+#define PALPATE_ROOT(x) _mm256_sqrt_pd(x)
+#include "tissue/lane_loops.h"
+#undef PALPATE_LOOPS
+#undef PALPATE_TARGET
+#undef PALPATE_WIDTH
+#undef PALPATE_ROOT
+
+#define PALPATE_LOOPS lanes_avx512
+#define PALPATE_TARGET __attribute__((target("avx512f")))
+#define PALPATE_WIDTH 8
+#define PALPATE_ROOT(x) _mm512_sqrt_pd(x)
+#include "tissue/lane_loops.h"
+#undef PALPATE_LOOPS
+#undef PALPATE_TARGET
+#undef PALPATE_WIDTH
+#undef PALPATE_ROOT
+#endif
+
+namespace palpate::tissue {
+namespace {
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+bool same_numbers(const std::vector<Vec3>& a, const std::vector<Vec3>& b) { return a == b; }
+
+}  // namespace
+
+SparseLoad sparse(const Vector& load) {
+  SparseLoad few;
+  for (Eigen::Index d = 0; d < load.size(); ++d) {
+    if (std::bit_cast<std::uint64_t>(load[d]) == 0) continue;
+    few.freedoms.push_back(static_cast<std::int32_t>(d));
+    few.forces.push_back(load[d]);
+  }
+  return few;
+}
+
+struct LaneSprings::Layout {
+  LaneData data;
+  LanePasses passes;
+  std::vector<std::int32_t> first, second, beginning, ending_start, ending, loaded;
+  std::vector<double> along, rest_length;
+  std::vector<Eight> stiffness, displacement, moved, force, scale, memory, elongation;
+  std::vector<Eight> keep, begin, end, ratio;
+  std::vector<Eight> mass, inverse, load_before, load_after;
+  Eight square, rate, drag, drag_step;
+  std::vector<std::int32_t> six_springs, volume_start, volume_springs;
+  std::vector<Eight> six_stiffness, volume_stiffness;
+  std::vector<double> dilation;
+  Eight kinetic, work, stored, lost, moved_squares;
+
+  struct Lane {
+    LaneStep step;
+    std::vector<char> held;
+    std::vector<double> branch_times;                 // s
+    std::array<std::vector<std::int32_t>, 2> loaded;  // freedoms, before and after
+    bool first = false;                               // the next step is
+    LaneEnergies energies;
+  };
+  std::array<Lane, width> lanes;
+
+  void lay(const Network& network);
+  void lay_couplings(const Network& network);
+  void connect();
+  void take_load_off(std::size_t lane);
+  void set_square(std::size_t lane);
+};
+
+void LaneSprings::Layout::lay(const Network& network) {
+  const std::size_t nodes = network.rest.size();
+  const std::size_t springs = network.ends.size();
+  beginning.assign(nodes + 1, 0);
+  ending_start.assign(nodes + 1, 0);
+  ending.resize(springs);
+  for (const auto& [a, b] : network.ends) {
+    first.push_back(a);
+    second.push_back(b);
+    ++beginning[index(a) + 1];
+    ++ending_start[index(b) + 1];
+  }
+  for (std::size_t n = 0; n < nodes; ++n) {
+    beginning[n + 1] += beginning[n];
+    ending_start[n + 1] += ending_start[n];
+  }
+  std::vector<std::int32_t> next(ending_start);
+  for (std::size_t s = 0; s < springs; ++s)
+    ending[index(next[index(second[s])]++)] = static_cast<std::int32_t>(s);
+  rest_length = network.rest_length;
+  for (auto* values : {&displacement, &moved, &force, &load_before, &load_after, &inverse})
+    values->resize(3 * nodes);
+  mass.resize(nodes);
+  loaded.assign(nodes, 0);
+  stiffness.resize(springs);
+  scale.resize(springs);
+}
+
+void LaneSprings::Layout::lay_couplings(const Network& network) {
+  data.coupled = !network.coupled.empty() || !network.volumes.empty();
+  if (!data.coupled) return;
+  elongation.resize(network.ends.size());
+  six_stiffness.resize(21 * network.coupled.size());
+  volume_stiffness.resize(network.volumes.size());
+  for (const CoupledSprings& six : network.coupled)
+    six_springs.insert(six_springs.end(), six.springs.begin(), six.springs.end());
+  volume_start.assign(1, 0);
+  for (const SharedVolume& volume : network.volumes) {
+    volume_springs.insert(volume_springs.end(), volume.springs.begin(), volume.springs.end());
+    dilation.insert(dilation.end(), volume.dilation.begin(), volume.dilation.end());
+    volume_start.push_back(static_cast<std::int32_t>(volume_springs.size()));
+  }
+}
+
+void LaneSprings::Layout::connect() {
+  const auto numbers = [](std::vector<Eight>& values) {
+    return values.empty() ? nullptr : values.front().lane;
+  };
+  const bool coupled = data.coupled;
+  data = {.nodes = mass.size(),
+          .springs = stiffness.size(),
+          .branches = ratio.size(),
+          .coupled = coupled,
+          .first = first.data(),
+          .second = second.data(),
+          .beginning = beginning.data(),
+          .ending_start = ending_start.data(),
+          .ending = ending.data(),
+          .along = along.data(),
+          .rest_length = rest_length.data(),
+          .stiffness = numbers(stiffness),
+          .displacement = numbers(displacement),
+          .moved = numbers(moved),
+          .force = numbers(force),
+          .scale = numbers(scale),
+          .memory = numbers(memory),
+          .elongation = numbers(elongation),
+          .keep = numbers(keep),
+          .begin = numbers(begin),
+          .end = numbers(end),
+          .ratio = numbers(ratio),
+          .mass = numbers(mass),
+          .inverse = numbers(inverse),
+          .square = square.lane,
+          .rate = rate.lane,
+          .drag = drag.lane,
+          .drag_step = drag_step.lane,
+          .load_before = numbers(load_before),
+          .load_after = numbers(load_after),
+          .loaded = loaded.data(),
+          .tetrahedra = six_springs.size() / 6,
+          .six_springs = six_springs.data(),
+          .six_stiffness = numbers(six_stiffness),
+          .volumes = volume_stiffness.size(),
+          .volume_start = volume_start.data(),
+          .volume_springs = volume_springs.data(),
+          .dilation = dilation.data(),
+          .volume_stiffness = numbers(volume_stiffness),
+          .kinetic = kinetic.lane,
+          .work = work.lane,
+          .stored = stored.lane,
+          .lost = lost.lane,
+          .moved_squares = moved_squares.lane};
+}
+
+bool LaneSprings::can(const Network& network, const ViscousLaw& law) {
+  if (law.kind == Viscosity::kelvin_voigt) return false;
+  // A node's forces are summed in the order of springs only where those are sorted.
+  if (!std::is_sorted(network.ends.begin(), network.ends.end())) return false;
+  return law.branches.empty() || (network.coupled.empty() && network.volumes.empty());
+}
+
+bool LaneSprings::alike(const Network& a, const Network& b) {
+  if (a.ends != b.ends || !same_numbers(a.rest, b.rest) || a.rest_length != b.rest_length ||
+      !same_numbers(a.direction, b.direction) || a.coupled.size() != b.coupled.size() ||
+      a.volumes.size() != b.volumes.size())
+    return false;
+  for (std::size_t t = 0; t < a.coupled.size(); ++t)
+    if (a.coupled[t].springs != b.coupled[t].springs) return false;
+  for (std::size_t v = 0; v < a.volumes.size(); ++v)
+    if (a.volumes[v].springs != b.volumes[v].springs ||
+        a.volumes[v].dilation != b.volumes[v].dilation)
+      return false;
+  return true;
+}
+
+LaneSprings::LaneSprings(const Network& network, Kinematics kinematics, const ViscousLaw& law,
+                         Lanes lanes)
+    : layout_(std::make_unique<Layout>()) {
+  Layout& layout = *layout_;
+  layout.lay(network);
+  for (std::size_t s = 0; s < network.ends.size(); ++s) {
+    const auto [a, b] = network.ends[s];
+    const Vec3 along = kinematics == Kinematics::linear
+                           ? network.direction[s]
+                           : Vec3(network.rest[index(b)] - network.rest[index(a)]);
+    layout.along.insert(layout.along.end(), along.begin(), along.end());
+  }
+  layout.lay_couplings(network);
+  for (auto* values : {&layout.keep, &layout.begin, &layout.end, &layout.ratio})
+    values->resize(law.branches.size());
+  if (!law.branches.empty()) layout.memory.resize((1 + law.branches.size()) * network.ends.size());
+  layout.connect();
+  layout.passes = lanes_portable::choose(layout.data, kinematics, law.kind);
+#if defined(__x86_64__)
+  if (lanes == Lanes::portable) return;
+  if (__builtin_cpu_supports("avx512f"))
+    layout.passes = lanes_avx512::choose(layout.data, kinematics, law.kind);
+  else if (__builtin_cpu_supports("avx2"))
+    layout.passes = lanes_avx2::choose(layout.data, kinematics, law.kind);
+#endif
+}
+
+LaneSprings::~LaneSprings() = default;
+LaneSprings::LaneSprings(LaneSprings&&) noexcept = default;
+LaneSprings& LaneSprings::operator=(LaneSprings&&) noexcept = default;
+
+void LaneSprings::enter(std::size_t lane, const Network& network, const ViscousLaw& law,
+                        std::span<const char> held) {
+  leave(lane);
+  Layout& layout = *layout_;
+  Layout::Lane& own = layout.lanes[lane];
+  own.held.assign(held.begin(), held.end());
+  for (std::size_t n = 0; n < network.node_mass.size(); ++n)
+    layout.mass[n].lane[lane] = network.node_mass[n];
+  for (std::size_t s = 0; s < network.stiffness.size(); ++s)
+    layout.stiffness[s].lane[lane] = network.stiffness[s];
+  for (std::size_t t = 0; t < network.coupled.size(); ++t)
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        layout.six_stiffness[21 * t + i * (i + 1) / 2 + j].lane[lane] =
+            network.coupled[t].stiffness(static_cast<int>(i), static_cast<int>(j));
+  for (std::size_t v = 0; v < network.volumes.size(); ++v)
+    layout.volume_stiffness[v].lane[lane] = network.volumes[v].stiffness;
+  layout.drag.lane[lane] = law.kind == Viscosity::nodal_drag ? law.drag : 0.0;
+  own.branch_times.clear();
+  for (std::size_t i = 0; i < law.branches.size(); ++i) {
+    own.branch_times.push_back(law.branches[i].time);
+    layout.ratio[i].lane[lane] = law.branches[i].ratio;
+  }
+}
+
+void LaneSprings::place(std::size_t lane, const Standing& standing) {
+  Layout& layout = *layout_;
+  for (std::size_t d = 0; d < layout.displacement.size(); ++d) {
+    const auto i = static_cast<Eigen::Index>(d);
+    layout.displacement[d].lane[lane] = (*standing.displacement)[i];
+    layout.moved[d].lane[lane] = (*standing.velocity)[i];
+    layout.force[d].lane[lane] = (*standing.force)[i];
+  }
+  layout.rate.lane[lane] = 1.0;  // `moved` is the velocity, until begin()
+  for (std::size_t i = 0; i < layout.memory.size(); ++i)
+    layout.memory[i].lane[lane] = standing.memory[i];
+}
+
+void LaneSprings::Layout::set_square(std::size_t lane) {
+  const Lane& own = lanes[lane];
+  const double time_step = own.step.time_step;
+  const bool consistent = own.first && own.step.consistent;
+  square.lane[lane] = (consistent ? 1.0 : 2.0) * time_step * time_step;
+  drag_step.lane[lane] = consistent ? 0.0 : time_step;
+}
+
+void LaneSprings::begin(std::size_t lane, const LaneStep& step) {
+  Layout& layout = *layout_;
+  Layout::Lane& own = layout.lanes[lane];
+  own.step = step;
+  own.first = true;
+  layout.set_square(lane);
+  const double time_step = step.time_step;
+  const double rate = layout.rate.lane[lane];
+  for (Eight& moved : layout.moved)
+    moved.lane[lane] = step.consistent ? time_step * (rate * moved.lane[lane]) : 0.0;
+  layout.rate.lane[lane] = 1.0 / time_step;
+  for (std::size_t d = 0; d < layout.inverse.size(); ++d) {
+    const double mass = layout.mass[d / 3].lane[lane];
+    const double diagonal = 2.0 * mass + time_step * (layout.drag.lane[lane] * mass);
+    layout.inverse[d].lane[lane] = own.held[d] != 0 ? 0.0 : 1.0 / diagonal;
+  }
+  for (std::size_t i = 0; i < own.branch_times.size(); ++i) {
+    const MemoryStep passage = MemoryStep::exact(time_step, own.branch_times[i]);
+    layout.keep[i].lane[lane] = passage.keep;
+    layout.begin[i].lane[lane] = passage.begin;
+    layout.end[i].lane[lane] = passage.end;
+  }
+}
+
+void LaneSprings::Layout::take_load_off(std::size_t lane) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const std::int32_t d : lanes[lane].loaded[i]) {
+      (i == 0 ? load_before : load_after)[index(d)].lane[lane] = 0.0;
+      --loaded[index(d) / 3];
+    }
+    lanes[lane].loaded[i].clear();
+  }
+}
+
+void LaneSprings::load(std::size_t lane, const SparseLoad& before, const SparseLoad& after) {
+  Layout& layout = *layout_;
+  layout.take_load_off(lane);
+  const auto put = [&](const SparseLoad& load, std::vector<Eight>& to,
+                       std::vector<std::int32_t>& own) {
+    own = load.freedoms;
+    for (std::size_t k = 0; k < load.freedoms.size(); ++k) {
+      to[index(load.freedoms[k])].lane[lane] = load.forces[k];
+      ++layout.loaded[index(load.freedoms[k]) / 3];
+    }
+  };
+  auto& own = layout.lanes[lane].loaded;
+  put(before, layout.load_before, own[0]);
+  put(after, layout.load_after, own[1]);
+}
+
+void LaneSprings::leave(std::size_t lane) {
+  Layout& layout = *layout_;
+  Layout::Lane& own = layout.lanes[lane];
+  layout.take_load_off(lane);
+  own = {};
+  for (auto* values :
+       {&layout.displacement, &layout.moved, &layout.force, &layout.inverse, &layout.stiffness,
+        &layout.memory, &layout.six_stiffness, &layout.volume_stiffness})
+    for (Eight& value : *values) value.lane[lane] = 0.0;
+}
+
+void LaneSprings::step() {
+  Layout& layout = *layout_;
+  layout.passes.advance(layout.data);
+  layout.passes.springs(layout.data);
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    Layout::Lane& own = layout.lanes[lane];
+    own.energies = {
+        layout.work.lane[lane], layout.kinetic.lane[lane], layout.stored.lane[lane],
+        layout.drag.lane[lane] != 0.0 ? layout.moved_squares.lane[lane] : layout.lost.lane[lane]};
+    if (!own.first) continue;
+    own.first = false;
+    layout.set_square(lane);
+  }
+}
+
+const LaneEnergies& LaneSprings::energies(std::size_t lane) const {
+  return layout_->lanes[lane].energies;
+}
+
+void LaneSprings::displacement(std::size_t lane, Vector& displacement) const {
+  const auto& from = layout_->displacement;
+  displacement.resize(static_cast<Eigen::Index>(from.size()));
+  for (std::size_t d = 0; d < from.size(); ++d)
+    displacement[static_cast<Eigen::Index>(d)] = from[d].lane[lane];
+}
+
+void LaneSprings::force(std::size_t lane, Vector& force) const {
+  const auto& from = layout_->force;
+  force.resize(static_cast<Eigen::Index>(from.size()));
+  for (std::size_t d = 0; d < from.size(); ++d)
+    force[static_cast<Eigen::Index>(d)] = from[d].lane[lane];
+}
+
+}  // namespace palpate::tissue

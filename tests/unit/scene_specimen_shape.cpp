@@ -1,0 +1,113 @@
+// What cases of a sweep share of their specimen is what each would have built by itself.
+#include "scene/specimen_shape.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "scenario/family.h"
+#include "scene/scene.h"
+
+namespace palpate {
+namespace {
+
+const std::string press =
+    "[contact]\ncoupling = \"one_way\"\n"
+    "[solver]\nmodel = \"mass_spring\"\n[tissue]\nviscosity = \"none\"\n"
+    "[tissue.mesh]\nkind = \"mirrored\"\ncells = [2, 3, 2]\n"
+    "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+
+scenario::Family family_of(const std::string& sweep, std::vector<std::string> settings = {}) {
+  return scenario::parse(press + "[sweep]\n" + sweep, "press.toml", settings);
+}
+
+void expect_same_bits(const scene::Specimen& a, const scene::Specimen& b) {
+  EXPECT_EQ(a.mesh.nodes, b.mesh.nodes);
+  EXPECT_EQ(a.mesh.tetrahedra, b.mesh.tetrahedra);
+  EXPECT_EQ(a.network.stiffness, b.network.stiffness);
+  EXPECT_EQ(a.network.node_mass, b.network.node_mass);
+  EXPECT_EQ(a.skin, b.skin);
+  EXPECT_EQ(a.surface->surface().vertices, b.surface->surface().vertices);
+  EXPECT_EQ(a.surface->corner_normal(0, 1), b.surface->corner_normal(0, 1));
+  EXPECT_EQ(a.held, b.held);
+  EXPECT_EQ(a.base_height, b.base_height);
+  EXPECT_EQ(a.measured.young_modulus, b.measured.young_modulus);
+  EXPECT_EQ(a.plan.substep, b.plan.substep);
+}
+
+// Sweeps over what a shape knows and over what it does not, the cases in either order.
+TEST(SpecimenShapes, build_the_same_scene_to_the_bit) {
+  for (const char* sweep : {
+           "\"tissue.young_modulus\" = [\"10 kPa\", \"14 kPa\"]\n"
+           "\"tissue.poisson_ratio\" = [0.3, 0.4]\n",
+           "\"tissue.density\" = [\"900 kg/m^3\", \"1100 kg/m^3\"]\n",
+           "\"finger.x\" = [\"20 mm\", \"30 mm\"]\n",
+           "\"tissue.mesh.cells\" = [[2, 3, 2], [3, 2, 2]]\n",
+           "\"solver.model\" = [\"mass_spring\", \"coupled_springs\"]\n",
+           "\"solver.stiffness\" = [\"van_gelder\", \"fitted\"]\n",
+       }) {
+    const scenario::Family family = family_of(sweep);
+    for (const bool backwards : {false, true}) {
+      scene::SpecimenShapes shapes;
+      for (std::size_t i = 0; i < family.cases.size(); ++i) {
+        const auto& one = family.cases[backwards ? family.cases.size() - 1 - i : i];
+        const scene::Scene shared = scene::build(one, family, shapes);
+        expect_same_bits(*shared.specimen, *scene::build(one, family).specimen);
+      }
+    }
+  }
+}
+
+TEST(SpecimenShapes, are_built_once_for_all_that_differ_in_substance) {
+  const auto family = family_of(
+      "\"tissue.young_modulus\" = [\"10 kPa\", \"14 kPa\"]\n\"finger.radius\" = [\"9 mm\", "
+      "\"11 mm\"]\n\"contact.coupling\" = [\"one_way\", \"consistent\"]\n");
+  scene::SpecimenShapes shapes;
+  const scene::SpecimenShape* first = &shapes.shape(family.cases.front().scenario, "");
+  const tissue::SpringFit* fit = &shapes.fit(family.cases.front().scenario, "");
+  for (const scenario::Case& one : family.cases) {
+    EXPECT_EQ(&shapes.shape(one.scenario, ""), first) << one.name;
+    EXPECT_EQ(&shapes.fit(one.scenario, ""), fit) << one.name;
+  }
+}
+
+// Whatever moves a node or changes what a tetrahedron is made of.
+TEST(SpecimenShapes, are_apart_where_the_mesh_differs) {
+  const auto key = [](const std::vector<std::string>& settings, const std::string& more = "") {
+    return scene::shape_key(
+        scenario::parse(press + more, "press.toml", settings).cases.front().scenario);
+  };
+  const std::string lump = "[[region]]\nkind = \"sphere\"\n";
+  const std::string plain = key({});
+  const std::string graded = key({"tissue.mesh.grading=2"});
+  EXPECT_NE(key({"tissue.mesh.cells=[2, 2, 2]"}), plain);
+  EXPECT_NE(key({"tissue.mesh.kind=kuhn"}), plain);
+  EXPECT_NE(key({"tissue.shape.size=[\"60 mm\", \"60 mm\", \"31 mm\"]"}), plain);
+  EXPECT_NE(graded, plain);
+  EXPECT_NE(key({"tissue.mesh.grading=2", "finger.x=20 mm"}), graded);
+  EXPECT_NE(key({"tissue.mesh.grading=2", "tissue.mesh.kind=kuhn", "finger.y=20 mm"}),
+            key({"tissue.mesh.grading=2", "tissue.mesh.kind=kuhn"}));
+  const std::vector<std::string> meshed{"tissue.mesh={ kind = \"tetgen\", nodes = 200 }"};
+  const std::string soft = key(meshed, lump);
+  EXPECT_NE(soft, key(meshed));
+  EXPECT_NE(soft, key(meshed, lump + "radius = \"4 mm\"\n"));
+  EXPECT_EQ(soft, key(meshed, lump + "young_modulus = \"50 kPa\"\n"));
+  const std::string creep =
+      "[tissue]\nshape = { kind = \"ligament\" }\n[[step]]\nkind = \"creep\"\n";
+  const std::string pressed =
+      "[tissue]\nshape = { kind = \"ligament\" }\n[[step]]\nkind = \"indent\"\n";
+  const auto only = [](const std::string& text) {
+    return scene::shape_key(scenario::parse(text, "a.toml", {}).cases.front().scenario);
+  };
+  EXPECT_NE(only(creep), only(pressed));  // a uniform test stands it on its end
+}
+
+TEST(SpecimenShapes, refuse_each_time_they_are_asked) {
+  scenario::Scenario lost = family_of("").cases.front().scenario;
+  lost.tissue.shape = scenario::AsMeshed{};
+  lost.tissue.mesh = scenario::MeshFile{"none.msh", "mm"};
+  scene::SpecimenShapes shapes;
+  for (int i = 0; i < 2; ++i) EXPECT_THROW((void)shapes.shape(lost, "/nowhere"), std::exception);
+}
+
+}  // namespace
+}  // namespace palpate
