@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "run/pace.h"
+#include "scenario/integrators.h"
 
 namespace palpate::run {
 namespace {
@@ -36,7 +37,7 @@ class UniformTest {
         // Where an explicit method goes on through a jump, the mean of both loads in the step after
         // it keeps its order.                                            docs/theory.md (81)
         const bool met_by_mean = stage.jumps && stepper_->beginnings() == beginnings &&
-                                 explicit_steps(scene_.scenario.solver.integrator);
+                                 scenario::explicit_steps(scene_.scenario.solver.integrator);
         const double start = time_;
         for (int row = 0; row < pace.rows; ++row) {
           if (stop_.load()) {
