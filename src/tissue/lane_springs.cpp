@@ -57,8 +57,6 @@ namespace {
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-bool same_numbers(const std::vector<Vec3>& a, const std::vector<Vec3>& b) { return a == b; }
-
 }  // namespace
 
 SparseLoad sparse(const Vector& load) {
@@ -205,8 +203,8 @@ bool LaneSprings::can(const Network& network, const ViscousLaw& law) {
 }
 
 bool LaneSprings::alike(const Network& a, const Network& b) {
-  if (a.ends != b.ends || !same_numbers(a.rest, b.rest) || a.rest_length != b.rest_length ||
-      !same_numbers(a.direction, b.direction) || a.coupled.size() != b.coupled.size() ||
+  if (a.ends != b.ends || a.rest != b.rest || a.rest_length != b.rest_length ||
+      a.direction != b.direction || a.coupled.size() != b.coupled.size() ||
       a.volumes.size() != b.volumes.size())
     return false;
   for (std::size_t t = 0; t < a.coupled.size(); ++t)
