@@ -12,8 +12,10 @@
 #endif
 
 #if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi"                // all calls with vectors are inlined
+#pragma GCC diagnostic ignored "-Wpsabi"  // all calls with vectors are inlined
+#if !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // in the header of _mm512_sqrt_pd
+#endif
 #endif
 
 #define PALPATE_LOOPS lanes_portable
