@@ -176,7 +176,7 @@ std::vector<std::vector<std::size_t>> lane_groups(const std::vector<scene::Scene
 }
 
 std::size_t least_for_lanes(const scene::Scene& scene) {
-  constexpr int most_nodes = 8000;  // beyond, lanes wait for memory as one body does
+  constexpr int most_nodes = 25000;  // has not been measured beyond
   const tissue::Network& network = scene.specimen->network;
   if (network.nodes() > most_nodes) return LaneSprings::width + 1;
   const bool simple = scene.specimen->kinematics == tissue::Kinematics::linear &&

@@ -12,8 +12,10 @@
 #endif
 
 #if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi"                // all calls with vectors are inlined
+#pragma GCC diagnostic ignored "-Wpsabi"  // all calls with vectors are inlined
+#if !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // in the header of _mm512_sqrt_pd
+#endif
 #endif
 
 #define PALPATE_LOOPS lanes_portable
@@ -56,8 +58,6 @@ namespace palpate::tissue {
 namespace {
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-bool same_numbers(const std::vector<Vec3>& a, const std::vector<Vec3>& b) { return a == b; }
 
 }  // namespace
 
@@ -205,8 +205,8 @@ bool LaneSprings::can(const Network& network, const ViscousLaw& law) {
 }
 
 bool LaneSprings::alike(const Network& a, const Network& b) {
-  if (a.ends != b.ends || !same_numbers(a.rest, b.rest) || a.rest_length != b.rest_length ||
-      !same_numbers(a.direction, b.direction) || a.coupled.size() != b.coupled.size() ||
+  if (a.ends != b.ends || a.rest != b.rest || a.rest_length != b.rest_length ||
+      a.direction != b.direction || a.coupled.size() != b.coupled.size() ||
       a.volumes.size() != b.volumes.size())
     return false;
   for (std::size_t t = 0; t < a.coupled.size(); ++t)

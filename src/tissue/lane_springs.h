@@ -41,7 +41,7 @@ class LaneSprings {
   static constexpr std::size_t width = 8;
 
   // The mesh is that of `network`, and so are the directions; branches are as many as `law` has.
-  // Copies: about 150 bytes a spring and lane, uncoupled.
+  // Copies: about 40 bytes a spring and lane, uncoupled.
   LaneSprings(const Network& network, Kinematics kinematics, const ViscousLaw& law,
               Lanes lanes = Lanes::widest);
   ~LaneSprings();
