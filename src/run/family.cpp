@@ -113,9 +113,8 @@ std::vector<Task> share_lanes(const std::vector<scene::Scene>& scenes, int worke
 record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop) {
   const auto start = std::chrono::steady_clock::now();
   record::CaseRecord record = begin_case(scene);
-  Course course =
-      scene.scenario.uniform() ? load_uniformly(scene, stop, record) : press(scene, stop, record);
-  while (March* march = course.next()) carry_out(*march);
+  carry_out(scene.scenario.uniform() ? load_uniformly(scene, stop, record)
+                                     : press(scene, stop, record));
   add_findings(scene, record);
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;

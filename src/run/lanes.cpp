@@ -121,7 +121,8 @@ class Team {
     place.standing = march.standing;
     place.beginnings = march.stepper->beginnings();
     place.step = 0;
-    lanes_.load(lane, march.load_before_first(), march.load(1));
+    lanes_.load(lane, march.first_load ? *march.first_load : march.load(0), march.load(1));
+    if (march.first_load) lanes_.jump(lane);
     place.record.seconds += seconds_since(start);
   }
 

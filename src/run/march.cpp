@@ -22,11 +22,17 @@ void carry_out(March& march) {
   State& state = *march.state;
   Vector load_before(state.displacement.size());
   Vector load_after(state.displacement.size());
-  put(march.load_before_first(), load_before);
+  put(march.load(0), load_before);
   for (std::size_t i = 0; i < march.times.size(); ++i) {
     put(march.load(i + 1), load_after);
     const State before = state;
-    march.wrong = march.stepper->step(state, load_before, load_after, march.rule);
+    if (i == 0 && march.first_load) {
+      Vector moving(load_before.size());
+      put(*march.first_load, moving);
+      march.wrong = march.stepper->step(state, moving, load_after, march.rule);
+    } else {
+      march.wrong = march.stepper->step(state, load_before, load_after, march.rule);
+    }
     if (march.wrong) return;
     state.time = march.times[i];  // a sum of steps would carry their rounding
     march.wrong = march.monitor->step(before, state, load_before, load_after);
@@ -56,6 +62,10 @@ March* Course::next() {
   handle_.resume();
   if (handle_.promise().failure) std::rethrow_exception(handle_.promise().failure);
   return handle_.done() ? nullptr : handle_.promise().march;
+}
+
+void carry_out(Course course) {
+  while (March* march = course.next()) carry_out(*march);
 }
 
 }  // namespace palpate::run

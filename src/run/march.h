@@ -27,7 +27,8 @@ struct March {
   std::vector<double> times;              // s, at the end of every step
   std::vector<tissue::SparseLoad> loads;  // N, before the first step and after each; or one, which
                                           // stays
-  std::optional<tissue::SparseLoad> first_load;  // N, instead of the one before the first step
+  std::optional<tissue::SparseLoad> first_load;  // N, that moves the first step instead, where the
+                                                 // load has jumped and then stays
   integrate::MemoryRule rule = integrate::MemoryRule::exact;
   bool force_wanted = false;
 
@@ -38,9 +39,6 @@ struct March {
 
   [[nodiscard]] const tissue::SparseLoad& load(std::size_t step) const {
     return loads.size() == 1 ? loads.front() : loads[step];
-  }
-  [[nodiscard]] const tissue::SparseLoad& load_before_first() const {
-    return first_load ? *first_load : load(0);
   }
   // Ready for other steps of the same body.
   void clear();
@@ -55,7 +53,7 @@ void carry_out(March& march);
 [[nodiscard]] bool suits_lanes(const scene::Scene& scene);
 
 // A case on its way, which stops whenever its mesh is to be moved.
-class Course {
+class [[nodiscard]] Course {
  public:
   struct promise_type {
     March* march = nullptr;
@@ -91,5 +89,8 @@ class Course {
   explicit Course(std::coroutine_handle<promise_type> handle) : handle_(handle) {}
   std::coroutine_handle<promise_type> handle_;
 };
+
+// The whole course of a case by itself.
+void carry_out(Course course);
 
 }  // namespace palpate::run

@@ -84,10 +84,8 @@ double run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
                 record::CaseRecord& record) {
   record = {};
   const Clock::time_point start = Clock::now();
-  if (scene.scenario.uniform())
-    run::load_uniformly(scene, stop, record);
-  else
-    run::press(scene, stop, record);
+  run::carry_out(scene.scenario.uniform() ? run::load_uniformly(scene, stop, record)
+                                          : run::press(scene, stop, record));
   return since(start);
 }
 

@@ -43,6 +43,7 @@ struct LaneData {
   const double* square = nullptr;       // s^2, 8
   const double* rate = nullptr;         // 1/s, 8
   const double* drag = nullptr;         // 1/s, 8
+  const double* jumped = nullptr;       // 8: not 0 where the work is of the load after alone
   const double* drag_step = nullptr;    // s, 8: the time step, 0 in a consistent first one
   const double* load_before = nullptr;  // N, 24 a node
   const double* load_after = nullptr;

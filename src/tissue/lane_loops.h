@@ -269,8 +269,11 @@ PALPATE_TARGET void advance(const LaneData& data) {
         add(kinetic, d, lane, 0.5 * mass * v * v);
         const Piece moved = after - before;
         if constexpr (drag) add(moved_squares, d, lane, drag_here * moved * moved);
-        if (data.loaded[n] != 0)
-          add(work, d, lane, 0.5 * (external + load(data.load_after + at)) * moved);
+        if (data.loaded[n] != 0) {
+          const Piece end = load(data.load_after + at);
+          const Piece start = load(data.jumped + lane) != Piece{} ? end : external;
+          add(work, d, lane, 0.5 * (start + end) * moved);
+        }
       }
     }
   add_four(kinetic, 1.0, data.kinetic);

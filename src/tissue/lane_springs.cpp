@@ -79,7 +79,7 @@ struct LaneSprings::Layout {
   std::vector<Eight> stiffness, displacement, moved, force, scale, memory, elongation;
   std::vector<Eight> keep, begin, end, ratio;
   std::vector<Eight> mass, inverse, load_before, load_after;
-  Eight square, rate, drag, drag_step;
+  Eight square, rate, drag, drag_step, jumped;
   std::vector<std::int32_t> six_springs, volume_start, volume_springs;
   std::vector<Eight> six_stiffness, volume_stiffness;
   std::vector<double> dilation;
@@ -178,6 +178,7 @@ void LaneSprings::Layout::connect() {
           .square = square.lane,
           .rate = rate.lane,
           .drag = drag.lane,
+          .jumped = jumped.lane,
           .drag_step = drag_step.lane,
           .load_before = numbers(load_before),
           .load_after = numbers(load_after),
@@ -343,7 +344,10 @@ void LaneSprings::load(std::size_t lane, const SparseLoad& before, const SparseL
   auto& own = layout.lanes[lane].loaded;
   put(before, layout.load_before, own[0]);
   put(after, layout.load_after, own[1]);
+  layout.jumped.lane[lane] = 0.0;
 }
+
+void LaneSprings::jump(std::size_t lane) { layout_->jumped.lane[lane] = 1.0; }
 
 void LaneSprings::leave(std::size_t lane) {
   Layout& layout = *layout_;

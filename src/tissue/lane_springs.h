@@ -69,6 +69,9 @@ class LaneSprings {
   void begin(std::size_t lane, const LaneStep& step);
   // The loads at the start and the end of the next steps, until others are given.
   void load(std::size_t lane, const SparseLoad& before, const SparseLoad& after);
+  // The load that acts at the start of the next steps is not the one that they begin with, having
+  // jumped: their work is that of the load at the end. Until others are given.
+  void jump(std::size_t lane);
   // The lane stands still from now on.
   void leave(std::size_t lane);
 
