@@ -76,7 +76,7 @@ std::string agreement(const study::StabilityMap& map) {
                     "' title '" + curve.label + "'");
   }
   return panel("Every rung and damping", "limit by theory, us", "xy") +
-         "set xtics 100\nset ytics 100\nset key bottom right Left reverse samplen 1 spacing 1.1 "
+         "set xtics 100\nset ytics 100\nset key top left Left reverse samplen 1 spacing 1.1 "
          "font ',8'\nplot \\\n  " +
          joined(lines, ", \\\n  ") + "\nunset key\nset xtics autofreq\nset ytics autofreq\n";
 }

@@ -28,7 +28,7 @@ struct Bench {
 
 // Presses to the deepest travel of the scene's programme in `frames` equal time steps, after a few
 // that are not counted, with the scene's coupling, integrator and rings, on one thread. The stages
-// are timed beside the whole, on a mesh of their own that gets the same forces; with `rings` this
+// are timed after the whole, on a mesh of their own that gets the same forces; with `rings` this
 // mesh keeps the part around the first touch. Times come from the steady clock; all else is the
 // same at every call. The scene has a specimen and a finger.
 [[nodiscard]] Bench bench(const scene::Scene& scene, int frames);
