@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "run/extrapolation.h"
 #include "run/family.h"
+#include "scenario/programme.h"
 #include "scene/estimates.h"
 #include "scene/specimen_mesh.h"
 
@@ -128,21 +129,7 @@ class Refinement {
 
   // Elastic answers do not depend on the way: fewer rows are the same rows.
   void thin_out() {
-    double total = 0.0;
-    double travel = 0.0;
-    for (const scenario::Step& step : case_.scenario.steps) {
-      if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
-        total += (indent->to.value - travel) / indent->rate;
-        travel = indent->to.value;
-      } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
-        total += (travel - retract->to) / retract->rate;
-        travel = retract->to;
-      } else if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-        total += slide->by / slide->rate;
-      } else {
-        total += std::get<scenario::Hold>(step).time;
-      }
-    }
+    const double total = scenario::programme_time(case_.scenario);
     double& interval = case_.scenario.output.interval;
     interval *= std::max(1.0, std::ceil(total / (most_rows * interval)));
   }

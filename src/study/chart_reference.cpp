@@ -9,6 +9,7 @@
 #include "run/extrapolation.h"
 #include "run/family.h"
 #include "run/reference.h"
+#include "scenario/programme.h"
 #include "scene/estimates.h"
 #include "scene/specimen_mesh.h"
 
@@ -24,25 +25,6 @@ constexpr double most_moments = 20.0;          // of a press without memory
 constexpr double most_moments_in_time = 50.0;  // of one that the past or waves matter to
 
 std::string percent(double part) { return rounded_text(100.0 * part, 2) + " %"; }
-
-double programme_time(const Scenario& scenario) {
-  double total = 0.0;
-  double travel = 0.0;
-  for (const scenario::Step& step : scenario.steps) {
-    if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
-      total += (indent->to.value - travel) / indent->rate;
-      travel = indent->to.value;
-    } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
-      total += (travel - retract->to) / retract->rate;
-      travel = retract->to;
-    } else if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-      total += slide->by / slide->rate;
-    } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {
-      total += hold->time;
-    }
-  }
-  return total;
-}
 
 class Finder {
  public:
@@ -127,7 +109,7 @@ class Finder {
     const bool in_time = flows || found.inertia >= scenario.solver.tolerance;
     double& interval = scenario.output.interval;
     const double wanted =
-        programme_time(scenario) / (in_time ? most_moments_in_time : most_moments);
+        scenario::programme_time(scenario) / (in_time ? most_moments_in_time : most_moments);
     interval *= std::max(1.0, std::ceil(wanted / interval));
     const run::Reference reference = run::refer(family.cases.front(), family, 3, stop_, told_);
     if (stop_.load()) return std::nullopt;
