@@ -6,11 +6,13 @@
 #include <array>
 #include <vector>
 
+#include "base/cholesky.h"
 #include "base/split_matrix.h"
 #include "geometry/cuboid.h"
 #include "test_surfaces.h"
 #include "tissue/coupled.h"
 #include "tissue/springs.h"
+#include "tissue/stiffness.h"
 
 namespace palpate::test {
 
@@ -107,6 +109,49 @@ inline Eigen::Matrix3d stress(const tissue::Isotropic& tissue, const Eigen::Matr
   const double nu = tissue.poisson_ratio;
   const double factor = tissue.young_modulus / ((1.0 + nu) * (1.0 - 2.0 * nu));
   return factor * ((1.0 - 2.0 * nu) * strain + nu * strain.trace() * Eigen::Matrix3d::Identity());
+}
+
+// Force = -d(energy)/dx at a displacement, by central differences.
+inline void expect_slope_of_energy(const tissue::Network& network, tissue::Kinematics kinematics,
+                                   const tissue::Vector& moved) {
+  const tissue::Vector force = elastic_force(network, kinematics, moved);
+  const double step = 1e-7;  // m: truncation (1e-7 / 1e-2)^2, rounding 1e-16 E / 1e-7 m
+  for (Eigen::Index d = 0; d < moved.size(); d += 5) {
+    tissue::Vector more = moved;
+    tissue::Vector less = moved;
+    more[d] += step;
+    less[d] -= step;
+    const double slope =
+        (elastic_energy(network, kinematics, more) - elastic_energy(network, kinematics, less)) /
+        (2.0 * step);
+    EXPECT_NEAR(slope, force[d], 1e-7 * force.cwiseAbs().maxCoeff());
+  }
+}
+
+// 12 x 3 x 3 Kuhn cells of 1 m, held at x = 0.
+inline geometry::TetMesh cantilever_mesh() {
+  return geometry::cuboid(Vec3(12, 3, 3), {12, 3, 3}, geometry::CellPattern::kuhn);
+}
+
+// The mean deflection of the cantilever's end under a newton there, shared by mass, over that of a
+// beam with E = 1 Pa: F L^3 / (3 E I) + F L / (5/6 G A).
+inline double cantilever_over_beam(const geometry::TetMesh& mesh, const tissue::Network& network,
+                                   double shear_modulus) {
+  std::vector<char> held(3 * mesh.nodes.size(), 0);
+  tissue::Vector load = tissue::Vector::Zero(3 * network.nodes());
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    if (mesh.nodes[i].x() < 0.5)
+      for (std::size_t axis = 0; axis < 3; ++axis) held[3 * i + axis] = 1;
+    if (mesh.nodes[i].x() > 11.5) load[3 * static_cast<Eigen::Index>(i) + 2] = network.node_mass[i];
+  }
+  load /= load.sum();
+  Cholesky factors;
+  EXPECT_TRUE(factors.factor(tissue::stiffness_matrix(network, held)));
+  const tissue::Vector moved = factors.solve(load);
+  double mean = 0.0;
+  for (Eigen::Index d = 2; d < load.size(); d += 3)
+    if (load[d] > 0.0) mean += moved[d] / 16.0;
+  return mean / (12.0 * 12.0 * 12.0 / (3.0 * 6.75) + 12.0 / (5.0 / 6.0 * 9.0 * shear_modulus));
 }
 
 }  // namespace palpate::test

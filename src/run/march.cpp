@@ -22,10 +22,11 @@ void carry_out(March& march) {
   State& state = *march.state;
   Vector load_before(state.displacement.size());
   Vector load_after(state.displacement.size());
+  State before;
   put(march.load(0), load_before);
   for (std::size_t i = 0; i < march.times.size(); ++i) {
     put(march.load(i + 1), load_after);
-    const State before = state;
+    before = state;
     if (i == 0 && march.first_load) {
       Vector moving(load_before.size());
       put(*march.first_load, moving);

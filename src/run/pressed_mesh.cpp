@@ -269,8 +269,8 @@ std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
     state_.time = time;
     return step_freely(finger, history, touch);
   }
-  const State before = state_;
-  const Vector load_before = load_;
+  before_ = state_;
+  load_before_ = load_;
   const auto go = [&](const Vec3& to) {
     return inertia_                 ? step_with_inertia(to, history, touch)
            : forces_follow_finger() ? step_freely(to, history, touch)
@@ -289,9 +289,9 @@ std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
   state_.time = time;  // a sum of steps would carry their rounding
   // Modes with inertia take the mean load all along the step.
   const bool mean = inertia_ && std::holds_alternative<integrate::Modal>(stepper_->method());
-  const Vector acted = mean ? Vector(0.5 * (load_before + load_)) : Vector();
-  auto unstable = mean ? monitor_->step(before, state_, acted, acted)
-                       : monitor_->step(before, state_, load_before, load_);
+  const Vector acted = mean ? Vector(0.5 * (load_before_ + load_)) : Vector();
+  auto unstable = mean ? monitor_->step(before_, state_, acted, acted)
+                       : monitor_->step(before_, state_, load_before_, load_);
   if (unstable) return unstable;
   if (scene_->scenario.solver.rings) follow(touch);
   return std::nullopt;

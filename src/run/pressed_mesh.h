@@ -113,6 +113,8 @@ class PressedMesh {
   Cholesky one_factors_;               // were the specimen of one tissue
   integrate::State state_;
   integrate::Vector load_;
+  integrate::State before_;  // the step
+  integrate::Vector load_before_;
   March march_;
   double time_step_ = 0.0;
   // Whether frames pass in modes alone, and whether state_ is where these are. docs/theory.md (41)

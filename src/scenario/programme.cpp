@@ -1,6 +1,8 @@
 // Travels over their rates, and times that are given.
 #include "scenario/programme.h"
 
+#include <cmath>
+#include <numbers>
 #include <variant>
 
 namespace palpate::scenario {
@@ -22,6 +24,21 @@ double programme_time(const Scenario& scenario) {
     }
   }
   return total;
+}
+
+std::vector<std::array<double, 2>> finger_places(const Scenario& scenario, const Cuboid& box) {
+  double x = scenario.finger.x.value_or(0.5 * box.size[0]);
+  double y = scenario.finger.y.value_or(0.5 * box.size[1]);
+  std::vector<std::array<double, 2>> places{{x, y}};
+  for (const Step& step : scenario.steps) {
+    const auto* slide = std::get_if<Slide>(&step);
+    if (slide == nullptr) continue;
+    const double angle = slide->direction * std::numbers::pi / 180.0;
+    x += slide->by * std::cos(angle);
+    y += slide->by * std::sin(angle);
+    places.push_back({x, y});
+  }
+  return places;
 }
 
 }  // namespace palpate::scenario

@@ -183,7 +183,10 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
                   const std::function<tissue::Uniaxial(const tissue::Network&)>& measure,
                   Specimen& specimen) {
   const std::vector<tissue::Isotropic> alike(tissues.size(), tissues.front());
-  const bool several = tissues.size() > 1;
+  const bool several = std::any_of(tissues.begin(), tissues.end(), [&](const auto& one) {
+    return one.young_modulus != tissues.front().young_modulus ||
+           one.poisson_ratio != tissues.front().poisson_ratio;
+  });
   // Layers from side to side are in the contact's own law.
   const bool beside_law = several && !maker.slabs;
   if (maker.coupled()) {

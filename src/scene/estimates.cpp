@@ -8,6 +8,7 @@
 
 #include "contact/deep.h"
 #include "contact/hertz.h"
+#include "scenario/programme.h"
 #include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
@@ -17,21 +18,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Distances from the finger to the four sides of a cuboid, the least on its way, m.
 std::array<double, 4> sides(const scenario::Scenario& scenario, const scenario::Cuboid& box) {
-  double x = scenario.finger.x.value_or(0.5 * box.size[0]);
-  double y = scenario.finger.y.value_or(0.5 * box.size[1]);
   std::array<double, 4> least{infinite, infinite, infinite, infinite};
-  const auto look = [&] {
+  for (const auto& [x, y] : scenario::finger_places(scenario, box)) {
     const std::array<double, 4> now{x, box.size[0] - x, y, box.size[1] - y};
     for (std::size_t i = 0; i < 4; ++i) least[i] = std::min(least[i], now[i]);
-  };
-  look();
-  for (const scenario::Step& step : scenario.steps) {
-    const auto* slide = std::get_if<scenario::Slide>(&step);
-    if (slide == nullptr) continue;
-    const double angle = slide->direction * std::numbers::pi / 180.0;
-    x += slide->by * std::cos(angle);
-    y += slide->by * std::sin(angle);
-    look();
   }
   return least;
 }

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "contact/hertz.h"
+#include "scenario/programme.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 
@@ -13,19 +13,9 @@ namespace {
 
 // Whether the finger's way leads over a cuboid's rim.
 bool leaves(const scenario::Scenario& scenario, const scenario::Cuboid& box) {
-  double x = scenario.finger.x.value_or(0.5 * box.size[0]);
-  double y = scenario.finger.y.value_or(0.5 * box.size[1]);
-  const auto beside = [&] { return std::min({x, box.size[0] - x, y, box.size[1] - y}) < 0.0; };
-  bool found = beside();
-  for (const scenario::Step& step : scenario.steps) {
-    const auto* slide = std::get_if<scenario::Slide>(&step);
-    if (slide == nullptr) continue;
-    const double angle = slide->direction * std::numbers::pi / 180.0;
-    x += slide->by * std::cos(angle);
-    y += slide->by * std::sin(angle);
-    found = found || beside();
-  }
-  return found;
+  for (const auto& [x, y] : scenario::finger_places(scenario, box))
+    if (std::min({x, box.size[0] - x, y, box.size[1] - y}) < 0.0) return true;
+  return false;
 }
 
 }  // namespace

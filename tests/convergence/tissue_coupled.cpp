@@ -104,26 +104,10 @@ TEST(CoupledSprings, AveragedVolumesDoNotLock) {
 // end's nodes as their masses do: mean deflection of the end over Timoshenko's beam,
 // F L^3 / (3 E I) + F L / (5/6 G A).
 double cantilever(double nu, Volume volume, double own_share) {
-  const TetMesh mesh = geometry::cuboid(Vec3(12, 3, 3), {12, 3, 3}, CellPattern::kuhn);
+  const TetMesh mesh = test::cantilever_mesh();
   const Isotropic tissue{1.0, nu};
-  const Network network = test::coupled_network(mesh, {tissue}, volume, own_share);
-  std::vector<char> held(3 * mesh.nodes.size(), 0);
-  Vector load = Vector::Zero(3 * network.nodes());
-  for (int i = 0; i < network.nodes(); ++i) {
-    if (mesh.nodes[index(i)].x() < 0.5)
-      for (int axis = 0; axis < 3; ++axis) held[index(3 * i + axis)] = 1;
-    if (mesh.nodes[index(i)].x() > 11.5) load[3 * i + 2] = network.node_mass[index(i)];
-  }
-  load /= load.sum();
-  Cholesky factors;
-  EXPECT_TRUE(factors.factor(tissue::stiffness_matrix(network, held)));
-  const Vector moved = factors.solve(load);
-  double mean = 0.0;
-  for (int i = 0; i < network.nodes(); ++i)
-    if (load[3 * i + 2] > 0.0) mean += moved[3 * i + 2] / 16.0;
-  const double beam =
-      12.0 * 12.0 * 12.0 / (3.0 * 6.75) + 12.0 / (5.0 / 6.0 * 9.0 * tissue::shear_modulus(tissue));
-  return mean / beam;
+  return test::cantilever_over_beam(mesh, test::coupled_network(mesh, {tissue}, volume, own_share),
+                                    tissue::shear_modulus(tissue));
 }
 
 TEST(CoupledSprings, CantileversOfTheCases) {

@@ -251,18 +251,7 @@ TEST(Coupled, ForceIsTheSlopeOfTheEnergy) {
     for (const Volume volume : all_volumes) {
       const Network network =
           test::coupled_network(mesh, {{3e4, 0.49}, {1e5, -0.2}}, volume, own_share);
-      const Vector force = test::elastic_force(network, kinematics, moved);
-      const double step = 1e-7;  // m: truncation (1e-7 / 1e-2)^2, rounding 1e-16 E / 1e-7 m
-      for (Eigen::Index d = 0; d < moved.size(); d += 5) {
-        Vector more = moved;
-        Vector less = moved;
-        more[d] += step;
-        less[d] -= step;
-        const double slope = (test::elastic_energy(network, kinematics, more) -
-                              test::elastic_energy(network, kinematics, less)) /
-                             (2.0 * step);
-        EXPECT_NEAR(slope, force[d], 1e-7 * force.cwiseAbs().maxCoeff());
-      }
+      test::expect_slope_of_energy(network, kinematics, moved);
     }
 }
 

@@ -163,18 +163,7 @@ TEST(Volume, ForceIsTheSlopeOfTheEnergy) {
     for (const Kinematics kinematics :
          {Kinematics::linear, Kinematics::nonlinear, Kinematics::squared}) {
       const Network network = hybrid(mesh, stiffness, {{1e4, 0.49}, {1e5, 0.1}}, volume);
-      const Vector force = test::elastic_force(network, kinematics, moved);
-      const double step = 1e-7;  // m: truncation (1e-7 / 1e-2)^2, rounding 1e-16 E / 1e-7 m
-      for (Eigen::Index d = 0; d < moved.size(); d += 5) {
-        Vector more = moved;
-        Vector less = moved;
-        more[d] += step;
-        less[d] -= step;
-        const double slope = (test::elastic_energy(network, kinematics, more) -
-                              test::elastic_energy(network, kinematics, less)) /
-                             (2.0 * step);
-        EXPECT_NEAR(slope, force[d], 1e-7 * force.cwiseAbs().maxCoeff());
-      }
+      test::expect_slope_of_energy(network, kinematics, moved);
     }
 }
 
@@ -222,28 +211,12 @@ TEST(Volume, OneStiffnessForARegularTetrahedron) {
 // Cantilever of 12 x 3 x 3 Kuhn cells under a dead load of its end nodes' masses: mean deflection
 // of the end over F L^3 / (3 E I) + F L / (5/6 G A).
 double cantilever(double nu, Volume volume) {
-  const TetMesh mesh = geometry::cuboid(Vec3(12, 3, 3), {12, 3, 3}, CellPattern::kuhn);
+  const TetMesh mesh = test::cantilever_mesh();
   const Isotropic tissue{1.0, nu};
   const Network network =
       hybrid(mesh, tissue::van_gelder_stiffness(mesh, std::array{tissue::spring_modulus(tissue)}),
              {tissue}, volume);
-  std::vector<char> held(3 * mesh.nodes.size(), 0);
-  Vector load = Vector::Zero(3 * network.nodes());
-  for (int i = 0; i < network.nodes(); ++i) {
-    if (mesh.nodes[index(i)].x() < 0.5)
-      for (int axis = 0; axis < 3; ++axis) held[index(3 * i + axis)] = 1;
-    if (mesh.nodes[index(i)].x() > 11.5) load[3 * i + 2] = network.node_mass[index(i)];
-  }
-  load /= load.sum();
-  Cholesky factors;
-  EXPECT_TRUE(factors.factor(tissue::stiffness_matrix(network, held)));
-  const Vector moved = factors.solve(load);
-  double mean = 0.0;
-  for (int i = 0; i < network.nodes(); ++i)
-    if (load[3 * i + 2] > 0.0) mean += moved[3 * i + 2] / 16.0;
-  const double beam =
-      12.0 * 12.0 * 12.0 / (3.0 * 6.75) + 12.0 / (5.0 / 6.0 * 9.0 * tissue::shear_modulus(tissue));
-  return mean / beam;
+  return test::cantilever_over_beam(mesh, network, tissue::shear_modulus(tissue));
 }
 
 // Computed independently of this project, to the three digits that are given.
