@@ -3,19 +3,11 @@
 #if !defined(PALPATE_LOOPS) || !defined(PALPATE_TARGET)
 #error "panel_factors.cpp includes this"
 #endif
-#define PALPATE_INLINE PALPATE_TARGET __attribute__((always_inline)) inline
 
 namespace palpate::integrate::PALPATE_LOOPS {
 
-PALPATE_INLINE Four load(const double* from) {
-  Four values;
-  __builtin_memcpy(&values, from, sizeof values);
-  return values;
-}
-
-PALPATE_INLINE void store(double* to, const Four& values) {
-  __builtin_memcpy(to, &values, sizeof values);
-}
+using Wide = Four;
+#include "base/wide_loads.h"
 
 // out = block x, `fours` times four rows, stored column after column.
 template <int fours>

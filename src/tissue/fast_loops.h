@@ -5,21 +5,13 @@
 #if !defined(PALPATE_LOOPS) || !defined(PALPATE_TARGET) || !defined(PALPATE_ROOT)
 #error "fast_springs.cpp includes this"
 #endif
-#define PALPATE_INLINE PALPATE_TARGET __attribute__((always_inline)) inline
 
 namespace palpate::tissue::PALPATE_LOOPS {
 
 // The arithmetic of one lane is that of the plain loop: x + (y + z) is the order of Vec3::dot.
 
-PALPATE_INLINE Four load(const double* from) {
-  Four values;
-  __builtin_memcpy(&values, from, sizeof values);
-  return values;
-}
-
-PALPATE_INLINE void store(double* to, const Four& values) {
-  __builtin_memcpy(to, &values, sizeof values);
-}
+using Wide = Four;
+#include "base/wide_loads.h"
 
 PALPATE_INLINE Four all(double value) { return Four{value, value, value, value}; }
 

@@ -4,7 +4,6 @@
     !defined(PALPATE_ROOT)
 #error "lane_springs.cpp includes this"
 #endif
-#define PALPATE_INLINE PALPATE_TARGET __attribute__((always_inline)) inline
 
 namespace palpate::tissue::PALPATE_LOOPS {
 
@@ -13,15 +12,8 @@ namespace palpate::tissue::PALPATE_LOOPS {
 using Piece = double __attribute__((vector_size(8 * PALPATE_WIDTH)));
 constexpr std::size_t piece_width = PALPATE_WIDTH;
 
-PALPATE_INLINE Piece load(const double* from) {
-  Piece values;
-  __builtin_memcpy(&values, from, sizeof values);
-  return values;
-}
-
-PALPATE_INLINE void store(double* to, const Piece& values) {
-  __builtin_memcpy(to, &values, sizeof values);
-}
+using Wide = Piece;
+#include "base/wide_loads.h"
 
 PALPATE_INLINE Piece root(const Piece& x) { return PALPATE_ROOT(x); }
 
