@@ -24,7 +24,9 @@ struct Parser {
   Bench bench;
   Chart chart;
   Stability stability;
-  CLI::App* bless_verb = nullptr;
+  Sweep sweep;
+  Identify identify;
+  Export export_to;
 
   Parser() {
     app.require_subcommand(1);
@@ -63,7 +65,8 @@ struct Parser {
     CLI::App* golden = app.add_subcommand("golden", "The golden results in golden/");
     golden->require_subcommand(1);
     golden->fallthrough();
-    bless_verb = golden->add_subcommand("bless", "Make today's results the expected ones");
+    CLI::App* bless_verb =
+        golden->add_subcommand("bless", "Make today's results the expected ones");
     bless_verb->add_option("name", bless.names, "Folders below golden/")->required();
     bless_verb->add_option("--reason", bless.reason, "Why they may change")->required();
 
@@ -114,7 +117,59 @@ struct Parser {
     verb->add_option("--out", stability.out, "Folder of the results")->capture_default_str();
     verb->add_flag("--force", stability.force, "Replace a finished map");
 
+    add_sweep();
+
+    verb = app.add_subcommand("identify", "The properties behind a measured curve");
+    verb->add_option("data", identify.data, "CSV file of the measurement")->required();
+    verb->add_option("scenario", identify.scenario, "Scenario of the test")->required();
+    verb->add_option("--unknown", identify.unknowns, "What is sought: KEY=LOW..HIGH")
+        ->required()
+        ->allow_extra_args(false);
+    verb->add_option("--set", identify.settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
+    verb->add_option("--out", identify.out, "Folder of the results")->capture_default_str();
+    verb->add_flag("--force", identify.force, "Replace a finished result");
+
+    verb = app.add_subcommand("export", "Write results as other tools read them");
+    verb->add_option("result", export_to.result, "Result folder, or one of its CSV files")
+        ->required();
+    verb->add_option("--to", export_to.format, "Format")->required();
+    verb->add_option("--case", export_to.case_name, "Only this case");
+    verb->add_option("--out", export_to.out, "Folder to write into")->capture_default_str();
+    verb->add_flag("--force", export_to.force, "Replace files");
+
     app.add_subcommand("manual", "The reference of all scenario keys, in markdown");
+  }
+
+  void add_sweep() {
+    CLI::App* all = app.add_subcommand("sweep", "Many cases, on many workers and machines");
+    all->require_subcommand(1);
+    all->fallthrough();
+    const auto add = [&](const char* name, Sweep::Act act, const char* what) {
+      CLI::App* verb = all->add_subcommand(name, what);
+      verb->callback([this, act] { sweep.act = act; });
+      verb->add_option(act == Sweep::Act::plan ? "scenario" : "folder", sweep.subject,
+                       act == Sweep::Act::plan ? "Scenario file with a [sweep]" : "The plan's")
+          ->required();
+      return verb;
+    };
+    CLI::App* verb = add("plan", Sweep::Act::plan, "Write down which cases there are");
+    verb->add_option("--set", sweep.settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
+    verb->add_option("--out", sweep.out, "The plan goes to OUT/SCENARIO_sweep")
+        ->capture_default_str();
+    verb->add_flag("--curves", sweep.curves, "Keep every case's curves, too");
+    verb->add_flag("--yes", sweep.yes, "However many cases there are");
+    verb = add("run", Sweep::Act::run, "Run the cases that are not finished");
+    verb->add_option("--shard", sweep.shard, "The I-th of N parts: I/N")->capture_default_str();
+    verb->add_option("--jobs", sweep.jobs, "Workers; 0: one a core")->check(CLI::Range(0, 1024));
+    add("status", Sweep::Act::status, "How many cases are finished, failed and missing");
+    add("retry", Sweep::Act::retry, "Run the cases that failed once more");
+    verb = add("merge", Sweep::Act::merge, "All results as one table, with figures");
+    verb->add_flag("--force", sweep.force, "Replace the merged results");
+    verb = add("slurm", Sweep::Act::slurm, "Write a job file of an array, and print its line");
+    verb->add_option("--chunk", sweep.chunk, "Cases a task")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100000000));
+    verb->add_option("--time", sweep.time, "Limit of a task, as 01:00:00");
   }
 
   static std::string model_names() {
@@ -135,6 +190,9 @@ struct Parser {
     if (app.got_subcommand("bench")) return bench;
     if (app.got_subcommand("chart")) return chart;
     if (app.got_subcommand("stability")) return stability;
+    if (app.got_subcommand("sweep")) return sweep;
+    if (app.got_subcommand("identify")) return identify;
+    if (app.got_subcommand("export")) return export_to;
     return Manual{};
   }
 };

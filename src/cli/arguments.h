@@ -74,10 +74,39 @@ struct Stability {
   std::string out = "out";
   bool force = false;
 };
+struct Sweep {
+  enum class Act { plan, run, status, retry, merge, slurm };
+  Act act = Act::plan;
+  std::string subject;  // of `plan` a scenario, of the others a plan's folder
+  std::vector<std::string> settings;
+  std::string out = "out";    // of `plan`: the plan is OUT/SCENARIO_sweep
+  bool yes = false;           // more cases than the ceiling are meant
+  bool curves = false;        // every case's curves are kept, too
+  std::string shard = "1/1";  // I/N
+  int jobs = 0;
+  int chunk = 50;    // cases a task of the array
+  std::string time;  // of a task, as Slurm writes it; empty: the cluster's own limit
+  bool force = false;
+};
+struct Identify {
+  std::string data;
+  std::string scenario;
+  std::vector<std::string> unknowns;  // KEY=LOW..HIGH
+  std::vector<std::string> settings;
+  std::string out = "out";
+  bool force = false;
+};
+struct Export {
+  std::string result;  // a result folder, or one of its CSV files
+  std::string format;
+  std::string out = ".";
+  std::string case_name;
+  bool force = false;
+};
 struct Manual {};
 
 using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Reference, Bench, Chart,
-                          Stability, Manual>;
+                          Stability, Sweep, Identify, Export, Manual>;
 
 struct Arguments {
   Manner manner;

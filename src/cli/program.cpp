@@ -24,6 +24,10 @@ int dispatch(const Arguments& arguments) {
   if (const auto* one = std::get_if<Chart>(&arguments.verb)) return chart(*one, arguments, talk);
   if (const auto* one = std::get_if<Stability>(&arguments.verb))
     return stability(*one, arguments, talk);
+  if (const auto* one = std::get_if<Sweep>(&arguments.verb)) return sweep(*one, arguments, talk);
+  if (const auto* one = std::get_if<Identify>(&arguments.verb))
+    return identify(*one, arguments, talk);
+  if (const auto* one = std::get_if<Export>(&arguments.verb)) return export_results(*one, talk);
   print(scenario::manual());
   return exit_good;
 }

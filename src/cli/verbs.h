@@ -17,5 +17,8 @@ namespace palpate::cli {
 [[nodiscard]] int chart(const Chart& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int stability(const Stability& command, const Arguments& arguments,
                             const Talk& talk);
+[[nodiscard]] int sweep(const Sweep& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int identify(const Identify& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int export_results(const Export& command, const Talk& talk);
 
 }  // namespace palpate::cli
