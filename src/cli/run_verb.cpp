@@ -26,6 +26,37 @@ void refuse_same_names(const std::vector<scenario::Family>& families) {
                            "`; rename one, or run them one by one with `--out`");
 }
 
+// The remarks of all cases, each kind once: those that differ in their numbers only are one kind.
+void say_remarks(const std::vector<record::CaseRecord>& records, const Talk& talk) {
+  struct Kind {
+    std::string without_numbers;
+    std::string first;  // a sentence
+    std::string case_name;
+    int cases = 0;
+  };
+  std::vector<Kind> kinds;
+  for (const record::CaseRecord& record : records)
+    for (const std::string& remark : record.remarks) {
+      std::string bare = remark;
+      std::erase_if(bare, [](char c) {
+        return std::string_view("0123456789.e+-").find(c) != std::string_view::npos;
+      });
+      const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) {
+        return kind.without_numbers == bare;
+      });
+      if (known == kinds.end())
+        kinds.push_back({bare, remark, record.name, 1});
+      else
+        ++known->cases;
+    }
+  for (const Kind& kind : kinds)
+    talk.say(kind.case_name +
+             (kind.cases == 1 ? ""
+                              : ", and so in " + std::to_string(kind.cases - 1) + " more" +
+                                    (kind.cases == 2 ? " case" : " cases")) +
+             ": " + kind.first + ".");
+}
+
 // A family whose cases are built, and the folder that waits for it.
 struct Prepared {
   const scenario::Family* family = nullptr;
@@ -71,13 +102,13 @@ bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk
 
   std::vector<fit::NamedFit> fits;
   bool diverged = false;
+  say_remarks(records, talk);
   for (const record::CaseRecord& record : records) {
     const auto scene = std::find_if(scenes.begin(), scenes.end(),
                                     [&](const auto& one) { return one.name == record.name; });
     if (family.base.output.fits)
       for (fit::NamedFit& named : fit::case_fits(scene->scenario, record))
         fits.push_back(std::move(named));
-    for (const std::string& remark : record.remarks) talk.say(record.name + ": " + remark + ".");
     if (record.outcome == record::Outcome::diverged) {
       diverged = true;
       Talk::error(family.name + ", case " + record.name + ": " + record.reason +

@@ -34,6 +34,19 @@ TEST_F(RunTalk, stdout_is_empty_and_stderr_plain) {
   EXPECT_EQ(ended.err.find('\r'), std::string::npos) << "no progress";
 }
 
+TEST_F(RunTalk, what_all_cases_share_is_said_once) {
+  write_file(folder_ / "press.toml",
+             "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\n"
+             "[output]\ninterval = \"100 ms\"\nfigures = false\n[sweep]\n"
+             "\"tissue.young_modulus\" = [\"10 kPa\", \"20 kPa\", \"30 kPa\"]\n");
+  const std::string said = run({}).err;
+  const std::string remark = "the force is that of a half-space";
+  const auto first = said.find(remark);
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find(remark, first + 1), std::string::npos) << said;
+  EXPECT_NE(said.find("10 kPa, and so in 2 more cases: " + remark), std::string::npos) << said;
+}
+
 TEST_F(RunTalk, quiet_is_silent) {
   const Ended ended = run({"--quiet"});
   EXPECT_EQ(ended.code, 0);
