@@ -20,8 +20,15 @@ std::string number_text(double value) {
 std::string rounded_text(double value, int digits) {
   if (std::isnan(value)) return "nan";
   std::array<char, 64> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                    std::chars_format::general, digits);
+  auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                              std::chars_format::general, digits);
+  const std::string_view text(buffer.data(), static_cast<std::size_t>(result.ptr - buffer.data()));
+  if (std::abs(value) < 1e6 && text.find("e+") != std::string_view::npos) {  // 3e+02 is 300
+    double rounded = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), rounded);
+    result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded,
+                           std::chars_format::fixed, 0);
+  }
   return {buffer.data(), result.ptr};
 }
 

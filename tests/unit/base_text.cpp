@@ -31,7 +31,9 @@ TEST(Text, NumbersAreShort) {
   EXPECT_EQ(number_text(-std::nan("")), "nan");  // the sign of a NaN says nothing
   EXPECT_EQ(number_text(-std::numeric_limits<double>::infinity()), "-inf");
   EXPECT_EQ(rounded_text(0.123456), "0.1235");
-  EXPECT_EQ(rounded_text(123456.0, 2), "1.2e+05");
+  EXPECT_EQ(rounded_text(123456.0, 2), "120000");
+  EXPECT_EQ(rounded_text(-296.4, 2), "-300");
+  EXPECT_EQ(rounded_text(1234567.0, 2), "1.2e+06");
   EXPECT_EQ(rounded_text(std::nan("")), "nan");
 }
 
