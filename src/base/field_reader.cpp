@@ -146,6 +146,22 @@ class Reader final : public FieldVisitor {
       read_count(key, node->items[i], values[i], range);
     in_list_ = false;
   }
+  void quantity_list(const Key& key, std::vector<double>& si, const Unit& unit,
+                     const Range& range) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (node->kind != Node::Kind::array)
+      return wrong_type(key, *node, "a list", "[\"1 " + std::string(unit.symbol) + "\"]");
+    si.clear();
+    in_list_ = true;
+    for (const Node& item : node->items) {
+      double& read = si.emplace_back();
+      if (read_quantity(key, item, read, unit, range) &&
+          std::find(si.begin(), si.end() - 1, read) != si.end() - 1)
+        problem(item.place, quoted(key.name) + " has " + quoted(item.shown()) + " twice; keep one");
+    }
+    in_list_ = false;
+  }
   void numbers_by_name(const Key& key, std::map<std::string, double>& values,
                        const Range& range) override {
     const Node* node = find(key);

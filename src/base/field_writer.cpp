@@ -51,6 +51,10 @@ class Writer final : public FieldVisitor {
     for (const int value : values) items.push_back(std::to_string(value));
     put(key, "[" + joined(items, ", ") + "]");
   }
+  void quantity_list(const Key& key, std::vector<double>& si, const Unit& unit,
+                     const Range& range) override {
+    if (!si.empty()) quantities(key, si, unit, range);
+  }
   void numbers_by_name(const Key& key, std::map<std::string, double>& values,
                        const Range&) override {
     std::vector<std::string> items;
