@@ -78,7 +78,7 @@ class Manual final : public FieldVisitor {
   }
   void quantity_list(const Key& key, std::vector<double>&, const Unit& unit,
                      const Range& range) override {
-    row(key, "list of any number of times " + (unit.quantity + bounds(range, &unit)), "");
+    row(key, "list, each a " + (unit.quantity + bounds(range, &unit)), "");
   }
   void numbers_by_name(const Key& key, std::map<std::string, double>&,
                        const Range& range) override {
