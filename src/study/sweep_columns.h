@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "record/table.h"
+#include "scenario/design.h"
 
 namespace palpate::study {
 
-// How the cases of a sweep come from its factors; docs/scenario.md.
-enum class DesignKind { grid, lhs, sobol, saltelli, list, csv };
-
-enum class Scale { linear, logarithmic };
+using DesignKind = scenario::Design::Kind;
+using Scale = scenario::Interval::Scale;
 
 // What is known of a factor before results are looked at.
 struct FactorPlan {
