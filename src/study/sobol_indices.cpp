@@ -19,12 +19,12 @@ double mean(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-// What a block adds to the sums of the estimators: three numbers a factor, then two of A and B.
+// What a block adds to the sums of the estimators: two numbers a factor, then two of A and B.
 struct BlockSums {
   std::size_t factors = 0;
   std::vector<double> terms = {};  // block after block, width() each
 
-  [[nodiscard]] std::size_t width() const { return 3 * factors + 2; }
+  [[nodiscard]] std::size_t width() const { return 2 * factors + 2; }
   [[nodiscard]] std::size_t blocks() const { return terms.size() / width(); }
 };
 
@@ -37,7 +37,6 @@ BlockSums block_sums(std::span<const double> values, std::size_t factors) {
     for (std::size_t f = 0; f < factors; ++f) {
       const double ab = values[at + 2 + f] - centre;
       sums.terms.push_back(b * (ab - a));
-      sums.terms.push_back(ab - a);
       sums.terms.push_back(0.5 * (a - ab) * (a - ab));
     }
     sums.terms.push_back(a + b);
@@ -46,9 +45,10 @@ BlockSums block_sums(std::span<const double> values, std::size_t factors) {
   return sums;
 }
 
-// S_i  = mean((f(B) - m) (f(A_B^i) - f(A))) / V           Saltelli 2010, table 2 (b)
+// S_i  = mean((f(B) - c) (f(A_B^i) - f(A))) / V           Saltelli 2010, table 2 (b)
 // S_Ti = mean((f(A) - f(A_B^i))^2) / (2 V)                Jansen 1999
-// with m and V the mean and the variance of A and B together.       docs/theory.md (87), (88)
+// with V the variance of A and B together, c the mean of all values: without it a great mean would
+// drown the first.                                                  docs/theory.md (87), (88)
 struct Estimates {
   std::vector<double> first, total;
 };
@@ -57,8 +57,8 @@ void estimate(std::span<const double> sum, std::size_t blocks, Estimates& out) {
   const double m = sum[sum.size() - 2] / (2.0 * n);
   const double variance = sum[sum.size() - 1] / (2.0 * n) - m * m;
   for (std::size_t f = 0; f < out.first.size(); ++f) {
-    out.first[f] = (sum[3 * f] - m * sum[3 * f + 1]) / n / variance;
-    out.total[f] = sum[3 * f + 2] / n / variance;
+    out.first[f] = sum[2 * f] / n / variance;
+    out.total[f] = sum[2 * f + 1] / n / variance;
   }
 }
 
