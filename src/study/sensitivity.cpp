@@ -40,7 +40,7 @@ void saltelli(const SweepColumns& columns, const OutputColumn& output,
   const std::vector<Indices> indices = saltelli_indices(kept, factors, options);
   for (std::size_t f = 0; f < factors; ++f)
     if (std::isfinite(indices[f].total.value))
-      found.indices.push_back({output.name, columns.factors[f].plan.name, indices[f], whole});
+      found.indices.push_back({output.name, columns.factors[f].choice.name, indices[f], whole});
 }
 
 void grid(const SweepColumns& columns, const OutputColumn& output, Sensitivity& found) {
@@ -56,11 +56,11 @@ void grid(const SweepColumns& columns, const OutputColumn& output, Sensitivity& 
     return;
   }
   std::vector<std::size_t> levels;
-  for (const FactorColumn& factor : columns.factors) levels.push_back(factor.plan.levels);
+  for (const FactorColumn& factor : columns.factors) levels.push_back(factor.choice.levels);
   const std::vector<Indices> indices = grid_indices(output.values, levels);
   for (std::size_t f = 0; f < levels.size(); ++f)
     found.indices.push_back(
-        {output.name, columns.factors[f].plan.name, indices[f], output.values.size()});
+        {output.name, columns.factors[f].choice.name, indices[f], output.values.size()});
 }
 
 // Ranks from 1 of the chosen rows; equal values share the mean of their ranks.
@@ -87,7 +87,7 @@ void correlations(const SweepColumns& columns, const OutputColumn& output, Sensi
       if (std::isfinite(output.values[i]) && std::isfinite(factor.values[i])) ++cases;
     const double correlation = rank_correlation(factor.values, output.values);
     if (std::isfinite(correlation))
-      found.correlations.push_back({output.name, factor.plan.name, correlation, cases});
+      found.correlations.push_back({output.name, factor.choice.name, correlation, cases});
   }
 }
 

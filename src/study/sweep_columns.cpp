@@ -70,16 +70,16 @@ std::size_t known(const std::vector<double>& values) {
 
 }  // namespace
 
-ColumnReader::ColumnReader(const SweepPlan& plan, std::span<const std::string> header)
-    : asked_(!plan.show.empty()) {
-  columns_.kind = plan.kind;
+ColumnReader::ColumnReader(const ColumnChoice& choice, std::span<const std::string> header)
+    : asked_(!choice.show.empty()) {
+  columns_.kind = choice.kind;
   outcome_at_ = place("outcome", header);
-  for (const FactorPlan& factor : plan.factors) {
+  for (const FactorChoice& factor : choice.factors) {
     factor_at_.push_back(place(factor.column, header));
-    columns_.factors.push_back({.plan = factor});
+    columns_.factors.push_back({.choice = factor});
   }
   if (asked_) {
-    for (const std::string& column : plan.show) output_at_.push_back(place(column, header));
+    for (const std::string& column : choice.show) output_at_.push_back(place(column, header));
   } else {
     for (std::size_t i = 0; i < header.size(); ++i)
       if (rank(header[i])) output_at_.push_back(i);
@@ -144,8 +144,8 @@ SweepColumns ColumnReader::finish() {
   return done;
 }
 
-SweepColumns sweep_columns(const SweepPlan& plan, const record::Table& table) {
-  ColumnReader reader(plan, table.columns);
+SweepColumns sweep_columns(const ColumnChoice& choice, const record::Table& table) {
+  ColumnReader reader(choice, table.columns);
   for (const auto& row : table.rows) reader.add(row);
   return reader.finish();
 }

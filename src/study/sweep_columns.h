@@ -16,21 +16,21 @@ using DesignKind = scenario::Design::Kind;
 using Scale = scenario::Interval::Scale;
 
 // What is known of a factor before results are looked at.
-struct FactorPlan {
+struct FactorChoice {
   std::string name = {};    // for people and for sensitivity.csv: its key
   std::string column = {};  // of results.csv: numbers, or words where it is no number
   Scale scale = Scale::linear;
   std::size_t levels = 0;  // of a grid
 };
 
-struct SweepPlan {
+struct ColumnChoice {
   DesignKind kind = DesignKind::grid;
-  std::vector<FactorPlan> factors = {};
+  std::vector<FactorChoice> factors = {};
   std::vector<std::string> show = {};  // columns; empty: those that a sweep is usually made for
 };
 
 struct FactorColumn {
-  FactorPlan plan = {};
+  FactorChoice choice = {};
   std::vector<double> values = {};      // one a case; of words their number in `words`
   std::vector<std::string> words = {};  // in the order of their coming; empty: it is a number
 
@@ -56,7 +56,7 @@ class ColumnReader {
  public:
   // `header`: the columns of the rows to come, `outcome` among them. Throws InputError where a
   // factor's column or one of `show` is not there, naming the nearest.
-  ColumnReader(const SweepPlan& plan, std::span<const std::string> header);
+  ColumnReader(const ColumnChoice& choice, std::span<const std::string> header);
 
   // A row, as long as the header. Throws InputError where a column of `show` holds words.
   void add(std::span<const record::Cell> row);
@@ -76,6 +76,6 @@ class ColumnReader {
 };
 
 // The same of a whole table.
-[[nodiscard]] SweepColumns sweep_columns(const SweepPlan& plan, const record::Table& table);
+[[nodiscard]] SweepColumns sweep_columns(const ColumnChoice& choice, const record::Table& table);
 
 }  // namespace palpate::study

@@ -164,7 +164,7 @@ SweepColumns columns_of(Kind kind, const std::vector<std::size_t>& levels,
   SweepColumns columns{.kind = kind, .cases = values.size()};
   for (const std::size_t count : levels) {
     FactorColumn factor{
-        .plan = {.name = "f" + std::to_string(columns.factors.size() + 1), .levels = count}};
+        .choice = {.name = "f" + std::to_string(columns.factors.size() + 1), .levels = count}};
     factor.values.assign(values.size(), 0.0);
     columns.factors.push_back(factor);
   }
