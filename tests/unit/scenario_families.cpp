@@ -106,8 +106,13 @@ TEST(Sweep, TooManyCasesAreRefusedBeforeTheyAreMade) {
   for (int i = 0; i < 64; ++i)  // 2^64 cases: their number alone would overflow to 0
     text += "\"a" + std::to_string(i) + "\" = [1, 2]\n";
   EXPECT_EQ(refusal(text),
-            "press.toml:4:1: `sweep` makes more than 1000 cases; give shorter lists or "
-            "several scenarios");
+            "press.toml:4:1: `sweep` makes 1.845e+19 cases, and 1e+09 is the most; give shorter "
+            "lists or several scenarios");
+  std::string list = "[1";
+  for (int i = 2; i <= 1001; ++i) list += ", " + std::to_string(i);
+  EXPECT_EQ(refusal(press + "[sweep]\n\"finger.spheres\" = " + list + "]\n"),
+            "press.toml:4:1: `sweep` makes 1001 cases, and more than 1000 are planned first: "
+            "`palpate sweep plan press.toml`");
 }
 
 TEST(Sweep, DisplayScalesNameCases) {
