@@ -78,4 +78,12 @@ class ColumnReader {
 // The same of a whole table.
 [[nodiscard]] SweepColumns sweep_columns(const ColumnChoice& choice, const record::Table& table);
 
+// Of PLAN/merged/results.csv: number, id, a column a key of the design, then results. A factor of
+// linked keys is its first one. Numbers of lists and CSV files that spread over more than a decade
+// and a half are shown by their logarithms, ranges as they were asked for. Reads a part of the file
+// at a time. Throws InputError as ColumnReader does, and where the file cannot be read.
+[[nodiscard]] SweepColumns read_sweep_columns(const std::string& path,
+                                              const scenario::Design& design,
+                                              const std::vector<std::string>& show);
+
 }  // namespace palpate::study
