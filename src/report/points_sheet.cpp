@@ -89,8 +89,7 @@ std::string panel(const Shown& x, const Shown& y, const Shown& colour, const std
                      ") with points pointtype 7 pointsize 0.45 linecolor palette notitle";
   // A case without a value stands at the lower end, where the value would be the height.
   const std::string height =
-      y.column == output ? "(" + rounded_text(y.logarithmic ? y.range.low : y.range.low, 6) + ")"
-                         : "(" + column(y.column) + ")";
+      y.column == output ? "(" + rounded_text(y.range.low, 6) + ")" : "(" + column(y.column) + ")";
   if (failed)
     text += ", \\\n  " + file + " using (" + known + " ? NaN : " + column(x.column) +
             "):" + height +
@@ -121,7 +120,7 @@ record::Table scatter_table(const study::SweepColumns& columns) {
 }
 
 std::optional<Sheet> points_sheet(const study::SweepColumns& columns,
-                                  const study::OutputColumn& output) {
+                                  const study::OutputColumn& output, const std::string& title) {
   const auto factors = numbers_by_weight(columns, output);
   if (factors.empty()) return std::nullopt;
   const bool failed = std::any_of(output.values.begin(), output.values.end(),
@@ -137,9 +136,9 @@ std::optional<Sheet> points_sheet(const study::SweepColumns& columns,
   const std::string name = "response_" + file_word(output.name);
   const std::size_t across = panels.size() == 1 ? 1 : 2;
   const std::size_t rows = (panels.size() + across - 1) / across;
-  std::string title = of_output.label;
-  if (every(columns) > 1) title += ", every " + std::to_string(every(columns)) + "th case";
-  if (failed) title += "; a cross has none";
+  std::string whole = title + ": " + of_output.label;
+  if (every(columns) > 1) whole += ", every " + std::to_string(every(columns)) + "th case";
+  if (failed) whole += "; a cross has none";
   const int height = 60 + 330 * static_cast<int>(rows);
   std::string text = gnuplot_head(name, height) +
                      "set datafile separator comma\nset datafile columnheaders\n"
@@ -148,12 +147,12 @@ std::optional<Sheet> points_sheet(const study::SweepColumns& columns,
                      "set grid linetype 1 linewidth 0.5 linecolor rgb '#dcdcdc'\nunset key\n"
                      "set format x '%g'\nset format y '%g'\nset format cb '%g'\n"
                      "set xlabel font ',11' offset 0,0.4\nset ylabel font ',11' offset 1,0\n"
-                     "set cblabel font ',11'\nset cbtics font ',10'\n" +
+                     "set cblabel font ',11' offset -0.8,0\nset cbtics font ',10'\n" +
                      palette_text() + "set multiplot layout " + std::to_string(rows) + "," +
-                     std::to_string(across) + " margins screen 0.09,0.9," +
+                     std::to_string(across) + " margins screen 0.085,0.905," +
                      rounded_text(60.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
-                     " spacing screen 0.2," + rounded_text(75.0 / height, 3) + " title " +
-                     gnuplot_quoted(title) + " font ',15'\n";
+                     " spacing screen 0.235," + rounded_text(75.0 / height, 3) + " title " +
+                     gnuplot_quoted(whole) + " font ',15'\n";
   for (const std::string& one : panels) text += one;
   return Sheet{name, text + "\nunset multiplot\n", {points_file}};
 }

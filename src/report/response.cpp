@@ -69,7 +69,7 @@ record::Cell number(double value) {
 }  // namespace
 
 std::optional<Response> response(const study::SweepColumns& columns,
-                                 const study::OutputColumn& output) {
+                                 const study::OutputColumn& output, const std::string& title) {
   const std::vector<GridFactor> factors = grid_factors(columns);
   const GridFactor* across = nullptr;
   const GridFactor* along = nullptr;
@@ -85,7 +85,7 @@ std::optional<Response> response(const study::SweepColumns& columns,
     if (along == nullptr && !factor.column->is_number()) along = &factor;
 
   Response made{.name = "response_" + file_word(output.name),
-                .title = output_label(output.name),
+                .title = title + ": " + output_label(output.name),
                 .output = output.name,
                 .across = across->column->choice};
   std::size_t base = 0;  // of the other factors' middle levels

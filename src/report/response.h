@@ -30,7 +30,8 @@ struct Response {
 // Of a full grid; nothing where no factor is a number. More than a hundred levels of a factor are
 // thinned, and the title says so.
 [[nodiscard]] std::optional<Response> response(const study::SweepColumns& columns,
-                                               const study::OutputColumn& output);
+                                               const study::OutputColumn& output,
+                                               const std::string& title);
 
 // NAME.csv: a row a point, those of a curve behind each other: across, along, what a map paints
 // around the point (low_ and high_), the output, empty where there is none.
@@ -46,7 +47,8 @@ struct Response {
 // A panel a factor, at most five, the output over it in the colour of another; before them, of two
 // numbers, their plane in the colour of the output. Reads sweep_points.csv, that table.
 [[nodiscard]] std::optional<Sheet> points_sheet(const study::SweepColumns& columns,
-                                                const study::OutputColumn& output);
+                                                const study::OutputColumn& output,
+                                                const std::string& title);
 
 // Bars of first order and total indices with their intervals, an output a panel; reads
 // sensitivity.csv. Nothing without indices.

@@ -181,7 +181,11 @@ std::string curves(const Response& response) {
   const std::size_t count = grid.values.size() / width;
   const bool named = !response.words.empty();
   std::string text;
-  if (response.logarithmic) text += "set logscale y\n";
+  if (response.logarithmic) {
+    const Least range = ends(grid.values);
+    text += "set logscale y\nset yrange [" + rounded_text(range.low / 1.15, 4) + ":" +
+            rounded_text(range.high * 1.15, 4) + "]\n";
+  }
   text += "set format y '%g'\nset ylabel " + gnuplot_quoted(output_label(response.output)) + "\n";
   if (response.along)
     text += "set key title " + gnuplot_quoted(factor_label(*response.along)) + " left\n";
@@ -199,7 +203,8 @@ std::string curves(const Response& response) {
                                               : rounded_text(grid.y[j], 4));
     plots.push_back(csv(response) + " every ::" + std::to_string(j * width) +
                     "::" + std::to_string((j + 1) * width - 1) + " using (" +
-                    column(response.across.column) + "):(" + column(response.output) +
+                    column(response.across.column) + "):(strcol(" +
+                    gnuplot_quoted(response.output) + ") eq '' ? 1/0 : " + column(response.output) +
                     ") with linespoints linewidth 1.8 pointtype 7 pointsize 0.35 linecolor rgb '#" +
                     colour + "' " + title);
   }
@@ -216,24 +221,27 @@ Sheet response_sheet(const Response& response) {
                      "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
                      "set tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
                      "set format x '%g'\nset format y '%g'\n"
-                     "set key outside right top Left reverse samplen 1.6 spacing 1.15\n" +
+                     "set xlabel offset 0,0.6\nset ylabel offset 0.6,0\n" +
                      palette_text();
   const std::string title = gnuplot_quoted(response.title);
   const std::string label = "set xlabel " + gnuplot_quoted(factor_label(response.across)) + "\n";
   if (both) {
     const Lines lines = lines_of(response);
     if (!lines.segments.empty()) text += data_of_lines(response, lines);
-    text += "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.79\nset title " +
+    text += "set multiplot\nset lmargin at screen 0.12\nset rmargin at screen 0.79\nset title " +
             title + "\nset tmargin at screen 0.945\nset bmargin at screen 0.545\n" + label +
             map(response) +
-            "unset title\nset tmargin at screen 0.455\nset bmargin at screen 0.07\n"
+            "unset title\nset tmargin at screen 0.455\nset bmargin at screen 0.085\n"
+            "set key at screen 0.81, screen 0.455 left top Left reverse samplen 1.6 spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curves(response) + "unset multiplot\n";
   } else {
     const Least range = ends(response.grid.x);
-    text += "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset title " + title + "\n" +
+    text += "set lmargin at screen 0.12\nset rmargin at screen 0.79\nset title " + title + "\n" +
             label + axis("x", response.across, range.low, range.high) +
-            "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" + curves(response);
+            "set key at screen 0.81, screen 0.85 left top Left reverse samplen 1.6 spacing 1.15\n"
+            "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
+            curves(response);
   }
   return {response.name, text, {response.name + ".csv"}};
 }

@@ -61,7 +61,7 @@ std::optional<Sheet> sensitivity_sheet(const study::Sensitivity& found, const st
   std::size_t longest = 0;
   for (const auto& row : outputs.front()) longest = std::max(longest, row.factor.size());
   const int panel = 55 + 38 * static_cast<int>(factors);
-  const int height = 90 + panel * static_cast<int>(outputs.size());
+  const int height = 105 + panel * static_cast<int>(outputs.size());
   const double margin = std::min(0.45, 0.04 + 0.0108 * static_cast<double>(longest));
   std::string text =
       gnuplot_head("sensitivity", height) +
@@ -75,7 +75,7 @@ std::optional<Sheet> sensitivity_sheet(const study::Sensitivity& found, const st
       ":0.5]\nset title offset 0,-0.7 font ',13'\n"
       "set multiplot layout " +
       std::to_string(outputs.size()) + ",1 margins screen " + rounded_text(margin, 3) + ",0.965," +
-      rounded_text(58.0 / height, 3) + "," + rounded_text(1.0 - 62.0 / height, 3) +
+      rounded_text(76.0 / height, 3) + "," + rounded_text(1.0 - 62.0 / height, 3) +
       " spacing screen 0.1," + rounded_text(50.0 / height, 3) + " title " +
       gnuplot_quoted(title + ": shares of the variance") +
       " font ',15'\n"
@@ -116,8 +116,8 @@ SweepDrawings draw_sweep(const study::SweepColumns& columns, const std::string& 
   if (!grid && !columns.outputs.empty()) write("sweep_points.csv", scatter_table(columns));
   for (const study::OutputColumn& output : columns.outputs) {
     if (!grid) {
-      if (const auto sheet = points_sheet(columns, output)) picture(*sheet);
-    } else if (const auto made = response(columns, output)) {
+      if (const auto sheet = points_sheet(columns, output, title)) picture(*sheet);
+    } else if (const auto made = response(columns, output, title)) {
       write(made->name + ".csv", response_table(*made));
       picture(response_sheet(*made));
     }

@@ -22,6 +22,15 @@ std::string hexadecimal(unsigned colour) {
   return text;
 }
 
+// `kg_per_m3` of a column's name as `kg/m3`.
+std::string unit_symbol(std::string unit) {
+  if (unit.starts_with("per_")) unit = "1_" + unit;
+  const std::size_t per = unit.find("_per_");
+  if (per != std::string::npos) unit.replace(per, 5, "/");
+  std::replace(unit.begin(), unit.end(), '_', ' ');
+  return unit;
+}
+
 std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " (" + unit + ")";
 }
@@ -66,7 +75,7 @@ std::string factor_label(const study::FactorChoice& factor) {
   // Of linked keys the column is that of the first.
   const std::string key = factor.name.substr(0, factor.name.find(" + "));
   const bool has_unit = column.size() > key.size() + 1 && column.starts_with(key + "_");
-  return with_unit(factor.name, has_unit ? column.substr(key.size() + 1) : "");
+  return with_unit(factor.name, has_unit ? unit_symbol(column.substr(key.size() + 1)) : "");
 }
 
 std::string file_word(const std::string& column) {
