@@ -28,12 +28,12 @@ struct SweepPlan {
 
 struct SweepOrder {
   std::string scenario;
-  std::vector<std::string> settings;
+  std::vector<std::string> settings = {};
   std::string out = "out";
   enum class Curves { left_out, kept } curves = Curves::left_out;
   enum class Ceiling { holds, lifted } ceiling = Ceiling::holds;
   int workers = 1;
-  std::string program;  // the version that plans: no other runs it
+  std::string program = {};  // the version that plans: no other runs it
 };
 
 struct Planned {

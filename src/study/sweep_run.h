@@ -12,7 +12,7 @@
 namespace palpate::study {
 
 struct SweepTask {
-  Shard shard;
+  Shard shard = {};
   int workers = 1;
   run::Lanes lanes = run::Lanes::where_they_pay;
   enum class Which { missing, failed } which = Which::missing;
