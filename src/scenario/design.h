@@ -2,27 +2,22 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/document.h"
+#include "scenario/case_table.h"
 
 namespace palpate::scenario {
-
-// One key of one case, as if it stood in the document.
-struct Setting {
-  std::string key;   // dotted path
-  Place place;       // of the key in [sweep]
-  Node value;        // with its own place
-  std::string word;  // in the case's name and in `swept`: the value as written, without folders
-};
 
 // Values between two ends, both included.
 struct Interval {
   enum class Scale { linear, logarithmic };
   Node from, to;      // as written
-  double low = 0.0;   // `from` as a number, in `unit`; above `high` where it descends
+  double low = 0.0;   // `from` as a number, in `unit`; above `high` where the range descends
   double high = 0.0;  // `to` likewise
   std::string unit;   // "kPa", as written; empty for pure numbers
   Scale scale = Scale::linear;
@@ -33,8 +28,10 @@ struct Interval {
 struct Varied {
   std::string key;
   Place place;
-  std::vector<Node> levels;          // a list; empty for an interval and for a CSV column
+  std::vector<Node> levels;          // a list; empty for a range and for a column of a CSV
   std::optional<Interval> interval;  // or a range
+  std::optional<std::string> unit;   // that all values are written in, empty for pure numbers;
+                                     // nothing where they are no numbers or of several units
   Node given;                        // as written, for the echo
 };
 
@@ -44,7 +41,14 @@ struct Factor {
   std::vector<Varied> keys;
   bool row = false;  // written as [[sweep.rows]]
 
-  [[nodiscard]] std::size_t levels() const;  // how many; 0 where a sample chooses from a range
+  // How many; 0 where a sample chooses from a range, and in a CSV.
+  [[nodiscard]] std::size_t levels() const;
+};
+
+// What a sampled design is drawn with.
+struct Sampling {
+  std::size_t samples = 0;
+  std::uint64_t seed = 1;  // of `lhs` alone
 };
 
 class Design {
@@ -60,7 +64,8 @@ class Design {
   enum class Kind { grid, lhs, sobol, saltelli, list, csv };
 
   Design() = default;  // no sweep: one case without settings
-  Design(Kind kind, std::vector<Factor> factors);
+  Design(Kind kind, std::vector<Factor> factors, Sampling sampling = {});  // not csv
+  explicit Design(CaseTable table);
 
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] std::size_t count() const { return count_; }  // of cases
@@ -68,13 +73,20 @@ class Design {
   [[nodiscard]] const std::vector<Factor>& factors() const { return factors_; }
   // Every swept key, linked ones too, in the order of the file.
   [[nodiscard]] const std::vector<std::string>& keys() const { return keys_; }
+  [[nodiscard]] const Sampling& sampling() const { return sampling_; }
+  [[nodiscard]] const CaseTable& table() const { return table_; }  // of a csv design
 
   // The settings of case i < count(), in the order of keys(). Safe from several threads.
   [[nodiscard]] std::vector<Setting> settings(std::size_t i) const;
 
+  // What a factor alone is tried with: every value of a list, the ends of a range; nothing of a
+  // CSV, whose rows belong together.
+  [[nodiscard]] std::vector<std::vector<Setting>> extremes(std::size_t factor) const;
+
   // Whether cases are named by their words, or else by their number, `0001`.
   [[nodiscard]] bool named_by_words() const { return named_by_words_; }
-  [[nodiscard]] std::string case_name(std::size_t i, const std::vector<Setting>& settings) const;
+  [[nodiscard]] std::string case_name(
+      std::size_t i, const std::vector<std::pair<std::string, std::string>>& swept) const;
 
   // The design that makes case i only.
   [[nodiscard]] Design only(std::size_t i) const;
@@ -83,21 +95,28 @@ class Design {
   [[nodiscard]] std::string toml() const;
 
  private:
-  [[nodiscard]] Setting setting(const Varied& varied, std::size_t level) const;
-  void count_cases();
+  [[nodiscard]] double coordinate(std::size_t i, std::size_t factor) const;
 
   Kind kind_ = Kind::grid;
   std::vector<Factor> factors_;
   std::vector<std::string> keys_;
   std::size_t count_ = 1;
   bool named_by_words_ = true;
+  Sampling sampling_;
+  std::vector<double> points_;  // of a sampled design, in [0, 1): a row a sample, a column a factor
+  CaseTable table_;
 };
 
-// More cases than any plan takes; designs say so before they count on.
-inline constexpr double most_planned = 1e9;
+// The words of `design`, in the order of Design::Kind.
+[[nodiscard]] const std::vector<std::string>& design_words();
 
-// Takes [sweep] out of the document. Throws InputError, at its place, for what is no design.
-[[nodiscard]] Design take_design(Node& document);
+// More cases than any plan takes; samples lie in memory, 8 bytes a factor.
+inline constexpr double most_planned = 1e9;
+inline constexpr double most_samples = 1e7;
+
+// Takes [sweep] out of the document; files are looked for from `folder`. Throws InputError, at its
+// place, for what is no design.
+[[nodiscard]] Design take_design(Node& document, const std::string& folder);
 
 // In the echo files lie beside it, whatever folder they came from: paths of `material` and `file`
 // become bare names, in `node` and below; `key` is the node's own.

@@ -5,6 +5,7 @@
 #include "base/field_writer.h"
 #include "base/text.h"
 #include "scenario/family.h"
+#include "scenario/trial.h"
 
 namespace palpate::scenario {
 namespace {
@@ -92,18 +93,12 @@ std::string spelled_out(const Case& one) {
 }
 
 std::string echo(const Family& family, const Chosen& chosen) {
-  const auto springs = [](const Case& one) {
-    return one.scenario.solver.model == Solver::Model::mass_spring &&
-           (one.scenario.solver.volume == Solver::Volume::automatic ||
-            one.scenario.solver.volume == Solver::Volume::none);
-  };
+  const auto springs = [](const Case& one) { return poisson_in_contact_only(one.scenario); };
   std::string text =
       "# The scenario as it was run: every default spelled out. It reads back to the "
       "same run.\n";
   if (std::any_of(family.cases.begin(), family.cases.end(), springs))
-    text +=
-        "# tissue.poisson_ratio reaches the contact only: independent springs have a ratio of "
-        "their own (findings.csv).\n";
+    text += std::string("# tissue.poisson_ratio ") + poisson_in_contact_only_text + ".\n";
   const std::vector<std::string>& keys = family.design.keys();
   if (std::find(keys.begin(), keys.end(), "tissue.material") != keys.end())
     for (const Case& one : family.cases) text += properties_comment(one);

@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "record/csv.h"
 #include "record/record.h"
+#include "study/sweep_slurm.h"
 #include "study/swept_columns.h"
 
 namespace palpate::study {
@@ -184,23 +185,6 @@ void move(const fs::path& from, const fs::path& to) {
                       error.message());
 }
 
-// Numbers from 1 as ranges, the first dozen of these.
-std::string ranges(const std::vector<std::size_t>& numbers) {
-  constexpr int most = 12;
-  std::string text;
-  int said = 0;
-  for (std::size_t i = 0; i < numbers.size();) {
-    std::size_t end = i;
-    while (end + 1 < numbers.size() && numbers[end + 1] == numbers[end] + 1) ++end;
-    if (said++ == most) return text + ", ...";
-    if (!text.empty()) text += ", ";
-    text += std::to_string(numbers[i]);
-    if (end > i) text += "-" + std::to_string(numbers[end]);
-    i = end + 1;
-  }
-  return text;
-}
-
 }  // namespace
 
 SweepTotals count_results(const SweepPlan& plan, const SweepResults& results) {
@@ -218,7 +202,7 @@ SweepTotals count_results(const SweepPlan& plan, const SweepResults& results) {
     if (outcome != SweepOutcome::completed) ++totals.reasons[results.row(i).reason];
   }
   totals.missing = missing.size();
-  totals.missing_numbers = ranges(missing);
+  totals.missing_numbers = number_ranges(missing, 12);
   return totals;
 }
 

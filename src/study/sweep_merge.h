@@ -16,8 +16,8 @@ struct SweepTotals {
   std::size_t diverged = 0;
   std::size_t failed = 0;  // could not be built
   std::size_t missing = 0;
-  std::map<std::string, std::size_t> reasons;  // of those that diverged or failed: how many
-  std::string missing_numbers;                 // as `3, 7-9`; the first ones, where they are many
+  std::map<std::string, std::size_t> reasons = {};  // of those that diverged or failed: how many
+  std::string missing_numbers = {};  // as `3, 7-9`; the first ones, where they are many
 
   [[nodiscard]] bool good() const { return completed == cases; }
 };

@@ -62,9 +62,8 @@ class Beside {
 std::string portable(const scenario::Family& family) {
   Node document = family.document;
   scenario::use_copies(document, "");
-  const std::string sweep = family.design.toml();
   return "# A sweep's scenario, its settings applied, its files beside it.\n" +
-         toml_document(document) + (sweep.empty() ? "" : "\n" + sweep);
+         toml_document(document) + family.design.toml();
 }
 
 // `tissue.young_modulus` = 20 kPa, ...
@@ -172,7 +171,7 @@ void refuse_many(const scenario::Family& family, const std::string& forecast) {
 
 // Time by the rungs' own estimates of the first, the middle and the last case.
 std::string forecast(const scenario::Family& family, SweepOrder::Curves curves) {
-  constexpr double bytes = 2000.0;  // of a row, about: measured in docs/sweeps.md
+  constexpr double bytes = 2400.0;  // of a row, about: measured in docs/sweeps.md
   const std::size_t count = family.design.count();
   double seconds = 0.0;
   try {
@@ -266,9 +265,9 @@ SweepPlan read_plan(const std::string& folder, const std::string& program) {
   for_each_line((fs::path(folder) / "plan.csv").string(), [&](const FileLine& line) {
     hash.add(line.text);
     if (line.whole) hash.add("\n");
-    const std::size_t comma = line.text.find(',');
-    if (!header && comma != std::string_view::npos)
-      plan.ids.push_back(id_of(line.text.substr(comma + 1, 16)).value_or(0));
+    std::size_t at = line.text.find(',') + 1;
+    if (line.text.substr(at, 1) == "\"") ++at;  // an id of decimal digits alone
+    if (!header) plan.ids.push_back(id_of(line.text.substr(at, 16)).value_or(0));
     header = false;
   });
   if (hash.digits() != file.csv_hash || plan.ids.size() != file.cases) throw changed("plan.csv");

@@ -28,20 +28,20 @@ struct SweepPlan {
 
 struct SweepOrder {
   std::string scenario;
-  std::vector<std::string> settings;
+  std::vector<std::string> settings = {};
   std::string out = "out";
   enum class Curves { left_out, kept } curves = Curves::left_out;
   enum class Ceiling { holds, lifted } ceiling = Ceiling::holds;
   int workers = 1;
-  std::string program;  // the version that plans: no other runs it
+  std::string program = {};  // the version that plans: no other runs it
 };
 
 struct Planned {
   std::string folder;
   std::size_t cases = 0;
   bool there_already = false;  // the very same plan was
-  std::vector<Problem> notes;
-  std::string forecast;  // a sentence on time and size, as far as it can be said
+  std::vector<Problem> notes = {};
+  std::string forecast = {};  // a sentence on time and size, as far as it can be said
 };
 
 // So many cases are planned without being asked twice.
@@ -57,7 +57,7 @@ inline constexpr std::size_t sweep_ceiling = 10000;
 [[nodiscard]] SweepPlan read_plan(const std::string& folder, const std::string& program);
 
 // What makes a case itself: the first digits of the SHA-256 of all its keys, every default and
-// property spelled out, and of the mesh or surface that it reads. `files` are by name and hash.
+// property spelled out, and of the files that it reads. `files` are by name and hash.
 using HashedNames = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] HashedNames hashed_inputs(const scenario::Family& family);
 [[nodiscard]] std::uint64_t case_id(const scenario::Case& one, const HashedNames& files);

@@ -27,11 +27,11 @@ struct SweepRow {
   std::uint64_t id = 0;
   std::uint32_t attempt = 1;
   SweepOutcome outcome = SweepOutcome::completed;
-  std::string reason;                   // a sentence, unless completed
-  std::string name;                     // of the case
-  std::vector<record::Finding> values;  // findings, then the parameters of fits
-  std::vector<std::string> remarks;
-  record::Table curve;  // without the column `case`; without columns where it is not kept
+  std::string reason = {};                   // a sentence, unless completed
+  std::string name = {};                     // of the case
+  std::vector<record::Finding> values = {};  // findings, then the parameters of fits
+  std::vector<std::string> remarks = {};
+  record::Table curve = {};  // without the column `case`; without columns where it is not kept
 };
 
 // 16 hexadecimal digits, as ids are written, and back; nothing where it is no such text.

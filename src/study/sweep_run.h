@@ -12,7 +12,7 @@
 namespace palpate::study {
 
 struct SweepTask {
-  Shard shard;
+  Shard shard = {};
   int workers = 1;
   run::Lanes lanes = run::Lanes::where_they_pay;
   enum class Which { missing, failed } which = Which::missing;
@@ -33,7 +33,7 @@ struct SweepEnd {
   std::size_t failed = 0;     // diverged, or not to be built
   std::size_t missing = 0;
   bool interrupted = false;
-  std::vector<std::string> warnings;  // about rows that were there
+  std::vector<std::string> warnings = {};  // about rows that were there
 };
 
 // Runs a shard's cases: the missing ones, or anew those whose row says that they failed. A case
