@@ -117,16 +117,20 @@ std::string Node::shown() const {
   }
 }
 
-Node parse_toml(std::string_view text, const std::string& file) {
-  if (trimmed(text).empty())
-    throw InputError({file, 1, 1}, "the file is empty; a scenario starts with `schema = 1`");
+void refuse_no_text(std::string_view text, const std::string& file, const std::string& remedy) {
   const std::size_t binary = first_binary_byte(text);
   if (binary < text.size())
-    throw InputError(place_at(text, binary, file), "this is not a text file; give a TOML file");
+    throw InputError(place_at(text, binary, file), "this is not a text file; " + remedy);
   const std::size_t broken = first_broken_character(text);
   if (broken < text.size())
     throw InputError(place_at(text, broken, file),
                      "this is not UTF-8 text; save the file as UTF-8");
+}
+
+Node parse_toml(std::string_view text, const std::string& file) {
+  if (trimmed(text).empty())
+    throw InputError({file, 1, 1}, "the file is empty; a scenario starts with `schema = 1`");
+  refuse_no_text(text, file, "give a TOML file");
   try {
     const toml::table table = toml::parse(text, file);
     Node root = convert(table, file);

@@ -40,6 +40,9 @@ struct Member {
 // duplicate key, an empty text, bytes that are no text.
 [[nodiscard]] Node parse_toml(std::string_view text, const std::string& file);
 
+// Throws InputError where the bytes are no UTF-8 text; `remedy` says what to give instead.
+void refuse_no_text(std::string_view text, const std::string& file, const std::string& remedy);
+
 // Reads and parses a file. Throws InputError also where the file cannot be read.
 [[nodiscard]] Node read_toml(const std::string& path);
 

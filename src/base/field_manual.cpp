@@ -76,6 +76,10 @@ class Manual final : public FieldVisitor {
     row(key, "list of " + std::to_string(values.size()) + " whole numbers" + bounds(range, nullptr),
         joined(items, ", "));
   }
+  void quantity_list(const Key& key, std::vector<double>&, const Unit& unit,
+                     const Range& range) override {
+    row(key, "list, each a " + (unit.quantity + bounds(range, &unit)), "");
+  }
   void numbers_by_name(const Key& key, std::map<std::string, double>&,
                        const Range& range) override {
     row(key, "table of name = number" + bounds(range, nullptr), "");

@@ -35,7 +35,7 @@ class Reader final : public FieldVisitor {
   // `trust_uses`: whether the choices that uses depend on could be read.
   Reader(const Node& root, Reading* reading, bool trust_uses)
       : reading_(reading), trust_uses_(trust_uses) {
-    open_.push_back({&root, {}});
+    open_.push_back({&root, {}, {}});
   }
 
   void finish() { refuse_unknown_keys(); }
@@ -146,6 +146,22 @@ class Reader final : public FieldVisitor {
       read_count(key, node->items[i], values[i], range);
     in_list_ = false;
   }
+  void quantity_list(const Key& key, std::vector<double>& si, const Unit& unit,
+                     const Range& range) override {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    if (node->kind != Node::Kind::array)
+      return wrong_type(key, *node, "a list", "[\"1 " + std::string(unit.symbol) + "\"]");
+    si.clear();
+    in_list_ = true;
+    for (const Node& item : node->items) {
+      double& read = si.emplace_back();
+      if (read_quantity(key, item, read, unit, range) &&
+          std::find(si.begin(), si.end() - 1, read) != si.end() - 1)
+        problem(item.place, quoted(key.name) + " has " + quoted(item.shown()) + " twice; keep one");
+    }
+    in_list_ = false;
+  }
   void numbers_by_name(const Key& key, std::map<std::string, double>& values,
                        const Range& range) override {
     const Node* node = find(key);
@@ -167,7 +183,7 @@ class Reader final : public FieldVisitor {
     const Node* node = find(key);
     if (node == nullptr) return;
     if (node->kind != Node::Kind::table) return wrong_type(key, *node, "a table", "{ ... }");
-    enter(*node, [&] { fields(*this); });
+    enter(key.name, *node, [&] { fields(*this); });
   }
   void tables(const Key& key, int, const std::function<void(int)>& resize,
               const std::function<void(FieldVisitor&, int)>& fields) override {
@@ -180,7 +196,8 @@ class Reader final : public FieldVisitor {
     for (std::size_t i = 0; i < node->items.size(); ++i) {
       const Node& item = node->items[i];
       if (item.kind == Node::Kind::table)
-        enter(item, [&] { fields(*this, static_cast<int>(i)); });
+        enter(key.name + ("." + std::to_string(i + 1)), item,
+              [&] { fields(*this, static_cast<int>(i)); });
       else
         problem(item.place, quoted(key.name) + " wants tables, got " + item.kind_name() +
                                 "; write `[[" + key.name + "]]`");
@@ -205,6 +222,7 @@ class Reader final : public FieldVisitor {
  private:
   struct Open {
     const Node* node;
+    std::string name;  // in the table around it
     std::set<std::string> known;
   };
 
@@ -227,8 +245,7 @@ class Reader final : public FieldVisitor {
     if (member == nullptr) return nullptr;
     if (!key.use.used && trust_uses_) {
       if (key.use.otherwise == Use::Otherwise::note)
-        reading_->notes.push_back(
-            {member->place, quoted(key.name) + " is left unread: it is used only " + key.use.when});
+        left_unread(key, *member);
       else
         problem(member->place, quoted(key.name) + " has no effect here: it is used only " +
                                    key.use.when + "; remove it or change that");
@@ -237,8 +254,17 @@ class Reader final : public FieldVisitor {
     return &member->value;
   }
 
-  void enter(const Node& node, const std::function<void()>& visit) {
-    open_.push_back({&node, {}});
+  void left_unread(const Key& key, const Member& member) {
+    reading_->notes.push_back(
+        {member.place, quoted(key.name) + " is left unread: it is used only " + key.use.when});
+    std::string path;
+    for (const Open& open : open_)
+      if (!open.name.empty()) path += open.name + ".";
+    reading_->unread.push_back({path + key.name, key.use.when});
+  }
+
+  void enter(const std::string& name, const Node& node, const std::function<void()>& visit) {
+    open_.push_back({&node, name, {}});
     visit();
     refuse_unknown_keys();
     open_.pop_back();

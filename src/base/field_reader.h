@@ -1,6 +1,7 @@
 // Reads a struct's fields from a TOML tree, with every problem found and placed.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/document.h"
@@ -8,9 +9,15 @@
 
 namespace palpate {
 
+struct Unread {
+  std::string path;  // dotted, as `solver.rings`; entries of lists count from 1
+  std::string when;  // where it would be used
+};
+
 struct Reading {
   std::vector<Problem> problems;  // each an error
   std::vector<Problem> notes;     // keys that are left unread by the chosen model
+  std::vector<Unread> unread;     // the same keys
 };
 
 // Reads all of `root` by `fields`. A key's use may depend on keys that stand later or in other

@@ -11,6 +11,8 @@ namespace {
 
 class Writer final : public FieldVisitor {
  public:
+  explicit Writer(Written written) : all_(written == Written::all) {}
+
   [[nodiscard]] std::string result() const { return top_ + tables_; }
 
   void number(const Key& key, double& value, const Range&) override {
@@ -51,6 +53,10 @@ class Writer final : public FieldVisitor {
     for (const int value : values) items.push_back(std::to_string(value));
     put(key, "[" + joined(items, ", ") + "]");
   }
+  void quantity_list(const Key& key, std::vector<double>& si, const Unit& unit,
+                     const Range& range) override {
+    if (!si.empty()) quantities(key, si, unit, range);
+  }
   void numbers_by_name(const Key& key, std::map<std::string, double>& values,
                        const Range&) override {
     std::vector<std::string> items;
@@ -62,7 +68,7 @@ class Writer final : public FieldVisitor {
     put(key, toml_text(words[static_cast<std::size_t>(index)].word));
   }
   void table(const Key& key, const Fields& fields) override {
-    if (!key.use.used) return;
+    if (!all_ && !key.use.used) return;
     std::vector<std::string> before;
     before.swap(entries_);
     ++depth_;
@@ -111,7 +117,7 @@ class Writer final : public FieldVisitor {
   }
 
   void put(const Key& key, const std::string& value) {
-    if (!key.use.used) return;
+    if (!all_ && !key.use.used) return;
     const std::string entry = std::string(key.name) + " = " + value;
     if (depth_ == 0)
       top_ += entry + "\n";
@@ -125,6 +131,7 @@ class Writer final : public FieldVisitor {
     return text;
   }
 
+  bool all_;
   int depth_ = 0;
   std::string top_;
   std::string tables_;
@@ -133,8 +140,8 @@ class Writer final : public FieldVisitor {
 
 }  // namespace
 
-std::string fields_as_toml(const Fields& fields) {
-  Writer writer;
+std::string fields_as_toml(const Fields& fields, Written written) {
+  Writer writer(written);
   fields(writer);
   return writer.result();
 }

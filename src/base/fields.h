@@ -82,6 +82,9 @@ class FieldVisitor {
   virtual void quantities(const Key& key, std::span<double> si, const Unit& unit,
                           const Range& range) = 0;
   virtual void counts(const Key& key, std::span<int> values, const Range& range) = 0;
+  // As many as are given, none of them twice; empty where the key is not there.
+  virtual void quantity_list(const Key& key, std::vector<double>& si, const Unit& unit,
+                             const Range& range) = 0;
   virtual void numbers_by_name(const Key& key, std::map<std::string, double>& values,
                                const Range& range) = 0;
   virtual void choice_of(const Key& key, int& index, std::span<const Word> words) = 0;

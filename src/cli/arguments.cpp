@@ -36,7 +36,7 @@ struct Parser {
     app.add_flag("--json", arguments.manner.json, "Events as JSON on stdout, one object a line");
     app.footer(
         "Exit codes: 0 good, 1 internal, 2 bad input, 3 comparison differs, 4 diverged, 5 mesh,\n"
-        "75 interrupted, resumable, 130 interrupted. Data goes to stdout, talk to stderr.");
+        "7 sweep incomplete, 75 interrupted, resumable, 130 interrupted. Data goes to stdout, talk to stderr.");
 
     CLI::App* verb = app.add_subcommand("run", "Run scenarios and write their results");
     verb->add_option("scenario", run.scenarios, "Scenario files")->required();

@@ -18,9 +18,11 @@ void request_stop(int) {
 
 }  // namespace
 
-const std::atomic<bool>& listen_for_interrupts(int code) {
+const std::atomic<bool>& listen_for_interrupts(int code, const std::vector<int>& more) {
   code_at_once = code;
-  for (const int signal : {SIGINT, SIGTERM}) {
+  std::vector<int> signals{SIGINT, SIGTERM};
+  signals.insert(signals.end(), more.begin(), more.end());
+  for (const int signal : signals) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
     if (before.sa_handler == SIG_IGN) continue;

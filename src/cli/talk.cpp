@@ -21,7 +21,7 @@ void Talk::warn(const std::string& sentence) const { say("warning: " + sentence)
 void Talk::error(const std::string& sentence) { std::fprintf(stderr, "%s\n", sentence.c_str()); }
 
 void Talk::progress(const std::string& line) const {
-  if (manner_.quiet || manner_.json || !terminal_) return;
+  if (!shows_progress()) return;
   std::fprintf(stderr, "\r\033[K%s", line.c_str());
   std::fflush(stderr);
 }

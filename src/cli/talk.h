@@ -24,6 +24,8 @@ class Talk {
   void event(const std::string& name,
              const std::vector<std::pair<std::string, std::string>>& details) const;
 
+  // Whether progress() shows anything.
+  [[nodiscard]] bool shows_progress() const { return terminal_ && !manner_.quiet && !manner_.json; }
   [[nodiscard]] bool json() const { return manner_.json; }
 
  private:

@@ -59,14 +59,14 @@ std::optional<Figure> curvature_figure(const scenario::Family& family,
   curvatures.erase(std::unique(curvatures.begin(), curvatures.end()), curvatures.end());
   if (curvatures.size() < 3) return std::nullopt;
   std::vector<Series> all;
-  const auto materials =
-      std::find_if(family.sweep.begin(), family.sweep.end(),
-                   [](const auto& entry) { return entry.first == "tissue.material"; });
-  if (materials == family.sweep.end()) {
-    all.push_back({.label = "all cases"});
-  } else {
-    for (const Node& material : materials->second)
-      all.push_back({.case_name = material.text, .column = "tissue.material"});
+  const std::vector<std::string>& keys = family.design.keys();
+  const auto swept = std::find(keys.begin(), keys.end(), "tissue.material");
+  if (swept == keys.end()) return figure_force_curvature({{.label = "all cases"}});
+  for (const scenario::Case& one : family.cases) {
+    const std::string& material = one.swept[static_cast<std::size_t>(swept - keys.begin())].second;
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const Series& series) { return series.case_name == material; }))
+      all.push_back({.case_name = material, .column = "tissue.material"});
   }
   return figure_force_curvature(all);
 }

@@ -69,7 +69,7 @@ record::Table findings_table(const scenario::Family& family,
                              const std::vector<record::CaseRecord>& records) {
   record::Table table;
   table.columns = {"case"};
-  for (const auto& [key, values] : family.sweep) table.columns.push_back(key);
+  for (const std::string& key : family.design.keys()) table.columns.push_back(key);
   const std::size_t fixed = table.columns.size();
   for (const record::CaseRecord& record : records)
     for (const record::Finding& finding : record.findings)

@@ -2,46 +2,19 @@
 #include "run/family.h"
 
 #include <chrono>
-#include <exception>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include "run/findings.h"
 #include "run/lanes.h"
 #include "run/march.h"
 #include "run/press.h"
+#include "run/share_out.h"
 #include "run/uniform.h"
 #include "scenario/words.h"
 #include "scene/specimen_shape.h"
 
 namespace palpate::run {
-namespace {
-
-// Calls work(i) for every i below count on that many threads; rethrows the failure of the least i.
-void share_out(std::size_t count, int workers, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::exception_ptr> failures(count);
-  const auto take = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int worker = 1; worker < workers; ++worker) others.emplace_back(take);
-    take();
-  }
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-}
-
-}  // namespace
-
 namespace {
 
 std::string chosen(const scenario::Scenario& scenario) {
@@ -120,6 +93,27 @@ record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& 
   return record;
 }
 
+void run_each(const std::vector<scene::Scene>& scenes, int workers, const Stop& stop,
+              const std::function<void(std::size_t, record::CaseRecord&&)>& ended, Lanes lanes) {
+  const LaneCalls calls{[&](std::size_t i) { return begin_case(scenes[i]); },
+                        [&](std::size_t i, record::CaseRecord&& record) {
+                          add_findings(scenes[i], record);
+                          ended(i, std::move(record));
+                        }};
+  std::vector<std::vector<std::size_t>> groups;
+  if (lanes != Lanes::none) groups = lane_groups(scenes);
+  std::vector<LaneQueue> queues(groups.size());
+  const std::vector<Task> tasks = share_lanes(scenes, workers, lanes, groups, queues);
+  share_out(tasks.size(), workers, [&](std::size_t t) {
+    if (stop.no_more()) return;
+    const Task& task = tasks[t];
+    if (task.queue != nullptr)
+      run_in_lanes(scenes, *task.queue, task.lanes, stop, calls);
+    else
+      ended(task.number, run_case(scenes[task.number], stop.end_now));
+  });
+}
+
 std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished, Lanes lanes) {
@@ -130,23 +124,7 @@ std::vector<record::CaseRecord> run_all(
     finished(i, record);
     slots[i] = std::move(record);
   };
-  const LaneCalls calls{[&](std::size_t i) { return begin_case(scenes[i]); },
-                        [&](std::size_t i, record::CaseRecord&& record) {
-                          add_findings(scenes[i], record);
-                          keep(i, std::move(record));
-                        }};
-  std::vector<std::vector<std::size_t>> groups;
-  if (lanes != Lanes::none) groups = lane_groups(scenes);
-  std::vector<LaneQueue> queues(groups.size());
-  const std::vector<Task> tasks = share_lanes(scenes, workers, lanes, groups, queues);
-  share_out(tasks.size(), workers, [&](std::size_t t) {
-    if (stop.load()) return;
-    const Task& task = tasks[t];
-    if (task.queue != nullptr)
-      run_in_lanes(scenes, *task.queue, task.lanes, stop, calls);
-    else
-      keep(task.number, run_case(scenes[task.number], stop));
-  });
+  run_each(scenes, workers, {stop, stop}, keep, lanes);
   std::vector<record::CaseRecord> records;
   for (auto& slot : slots)
     if (slot && slot->outcome != record::Outcome::interrupted) records.push_back(std::move(*slot));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "record/record.h"
+#include "run/stop.h"
 #include "scenario/family.h"
 #include "scene/scene.h"
 
@@ -28,5 +29,11 @@ enum class Lanes { where_they_pay, wherever_possible, none };
     const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished,
     Lanes lanes = Lanes::where_they_pay);
+
+// The same where records need not be kept together: `ended` is given each as soon as its case has
+// ended, on its worker's thread, several calls at a time.
+void run_each(const std::vector<scene::Scene>& scenes, int workers, const Stop& stop,
+              const std::function<void(std::size_t, record::CaseRecord&&)>& ended,
+              Lanes lanes = Lanes::where_they_pay);
 
 }  // namespace palpate::run

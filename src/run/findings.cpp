@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "contact/deep.h"
 #include "run/known_failures.h"
+#include "run/readings.h"
 #include "scenario/integrators.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
@@ -51,7 +52,7 @@ class Findings {
   }
 
  private:
-  void add(const char* name, record::Cell value) {
+  void add(const std::string& name, record::Cell value) {
     record_.findings.push_back({name, std::move(value)});
   }
   void remark(const std::string& sentence) { record_.remarks.push_back(sentence); }
@@ -101,6 +102,7 @@ class Findings {
     add("peak_friction_N", peak.friction);
     add("peak_indentation_mm", unit::mm.from_si(peak.indentation));
     add("peak_travel_mm", unit::mm.from_si(peak.travel));
+    for (const double depth : scene_.scenario.output.force_at) force_at(depth);
     add("local_curvature_per_m", 1.0 / peak.tissue_radius);
     add("depth_ratio", peak.indentation / radius);
     add("contact_radius_ratio", peak.contact_radius / radius);
@@ -116,6 +118,17 @@ class Findings {
              rounded_text(pull_off, 2) +
              " N: a measurement would show adhesion, which is not "
              "modelled");
+  }
+
+  void force_at(double depth) {
+    const std::string text = quantity_text(depth, unit::mm);
+    std::string name = "force_at_" + text + "_N";
+    std::replace(name.begin(), name.end(), ' ', '_');
+    const std::optional<double> force = force_at_indentation(scene_.scenario, record_, depth);
+    if (force) return add(name, *force);
+    add(name, std::monostate{});
+    remark("the first `indent` did not reach the indentation of " + text +
+           " that `output.force_at` asks for: that force is not known; press deeper");
   }
 
   void identities() {
@@ -236,7 +249,10 @@ class Findings {
     add("peak_strain", largest);
     for (const scenario::Step& step : scene_.scenario.steps)
       if (const auto* creep = std::get_if<scenario::Creep>(&step)) {
-        add("elastic_strain", creep->stress / scene_.specimen->pressed.young_modulus);
+        const double elastic = creep->stress / scene_.specimen->pressed.young_modulus;
+        const std::optional<double> half = creep_half_time(record_, elastic);
+        add("elastic_strain", elastic);
+        add("creep_half_time_s", half ? record::Cell(*half) : record::Cell());
         break;
       }
     if (scene_.specimen->law.kind == tissue::Viscosity::kelvin_voigt)

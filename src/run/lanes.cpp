@@ -42,7 +42,7 @@ struct Place {
 
 class Team {
  public:
-  Team(const std::vector<scene::Scene>& scenes, LaneQueue& queue, const std::atomic<bool>& stop,
+  Team(const std::vector<scene::Scene>& scenes, LaneQueue& queue, const Stop& stop,
        const LaneCalls& calls)
       : scenes_(scenes),
         queue_(queue),
@@ -76,7 +76,7 @@ class Team {
 
   // Begins cases until one wants its mesh moved.
   void fill(std::size_t lane) {
-    while (places_[lane].march == nullptr && !stop_.load()) {
+    while (places_[lane].march == nullptr && !stop_.no_more()) {
       const std::size_t taken = queue_.next++;
       if (taken >= queue_.group.size()) return;
       const Clock::time_point start = Clock::now();
@@ -86,8 +86,9 @@ class Team {
       place.record = calls_.begin(place.number);
       const scene::Scene& scene = scenes_[place.number];
       // The place stays where it is as long as the course runs.
-      place.course.emplace(scene.scenario.uniform() ? load_uniformly(scene, stop_, place.record)
-                                                    : press(scene, stop_, place.record));
+      place.course.emplace(scene.scenario.uniform()
+                               ? load_uniformly(scene, stop_.end_now, place.record)
+                               : press(scene, stop_.end_now, place.record));
       go_on(lane, start);
     }
   }
@@ -152,7 +153,7 @@ class Team {
 
   const std::vector<scene::Scene>& scenes_;
   LaneQueue& queue_;
-  const std::atomic<bool>& stop_;
+  const Stop stop_;
   const LaneCalls& calls_;
   LaneSprings lanes_;
   std::array<Place, LaneSprings::width> places_;
@@ -192,7 +193,7 @@ std::size_t least_for_lanes(const scene::Scene& scene) {
 }
 
 void run_in_lanes(const std::vector<scene::Scene>& scenes, LaneQueue& queue, std::size_t lanes,
-                  const std::atomic<bool>& stop, const LaneCalls& calls) {
+                  const Stop& stop, const LaneCalls& calls) {
   Team(scenes, queue, stop, calls).run(lanes);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "record/record.h"
+#include "run/stop.h"
 #include "scene/scene.h"
 
 namespace palpate::run {
@@ -34,6 +35,6 @@ struct LaneCalls {
   std::function<void(std::size_t, record::CaseRecord&&)> end;
 };
 void run_in_lanes(const std::vector<scene::Scene>& scenes, LaneQueue& queue, std::size_t lanes,
-                  const std::atomic<bool>& stop, const LaneCalls& calls);
+                  const Stop& stop, const LaneCalls& calls);
 
 }  // namespace palpate::run

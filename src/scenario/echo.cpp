@@ -5,20 +5,12 @@
 #include "base/field_writer.h"
 #include "base/text.h"
 #include "scenario/family.h"
+#include "scenario/trial.h"
 
 namespace palpate::scenario {
 namespace {
 
 using Kind = Node::Kind;
-
-// Files lie beside the echo, whatever folder they came from.
-void use_copies(Node& node, const std::string& key) {
-  for (Member& member : node.members) use_copies(member.value, member.key);
-  for (Node& item : node.items) use_copies(item, key);
-  if (node.kind != Kind::text || (key != "material" && key != "file")) return;
-  const std::size_t slash = node.text.rfind('/', node.text.find('#'));
-  if (slash != std::string::npos) node.text.erase(0, slash + 1);
-}
 
 bool are(Kind kind, const Node& a, const Node& b) { return a.kind == kind && b.kind == kind; }
 
@@ -67,11 +59,7 @@ void add_missing(Node& table, const Node& given) {
   }
 }
 
-Node resolved(const Case& one) {
-  Scenario scenario = one.scenario;
-  return parse_toml(fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, scenario); }),
-                    "echo");
-}
+Node resolved(const Case& one) { return parse_toml(spelled_out(one), "echo"); }
 
 // What all cases have in common, and what was given besides. The rest follows from the swept keys:
 // written out, one case's own material or model would be forced upon the others.
@@ -86,10 +74,8 @@ Node common(const Family& family) {
 }
 
 std::string properties_comment(const Case& one) {
-  Scenario only = one.scenario;
-  const std::string all = fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, only); });
   std::string text = "# " + one.name + ":";
-  for (const std::string& line : split(all, '\n')) {
+  for (const std::string& line : split(spelled_out(one), '\n')) {
     if (line.starts_with('[') && line != "[tissue]") break;  // regions and the finger have some too
     for (const char* key : {"young_modulus", "poisson_ratio", "density", "retardation_time",
                             "relaxation_time", "instantaneous_ratio", "drag"})
@@ -101,21 +87,20 @@ std::string properties_comment(const Case& one) {
 
 }  // namespace
 
+std::string spelled_out(const Case& one) {
+  Scenario scenario = one.scenario;
+  return fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, scenario); });
+}
+
 std::string echo(const Family& family, const Chosen& chosen) {
-  const auto springs = [](const Case& one) {
-    return one.scenario.solver.model == Solver::Model::mass_spring &&
-           (one.scenario.solver.volume == Solver::Volume::automatic ||
-            one.scenario.solver.volume == Solver::Volume::none);
-  };
+  const auto springs = [](const Case& one) { return poisson_in_contact_only(one.scenario); };
   std::string text =
       "# The scenario as it was run: every default spelled out. It reads back to the "
       "same run.\n";
   if (std::any_of(family.cases.begin(), family.cases.end(), springs))
-    text +=
-        "# tissue.poisson_ratio reaches the contact only: independent springs have a ratio of "
-        "their own (findings.csv).\n";
-  if (std::any_of(family.sweep.begin(), family.sweep.end(),
-                  [](const auto& entry) { return entry.first == "tissue.material"; }))
+    text += std::string("# tissue.poisson_ratio ") + poisson_in_contact_only_text + ".\n";
+  const std::vector<std::string>& keys = family.design.keys();
+  if (std::find(keys.begin(), keys.end(), "tissue.material") != keys.end())
     for (const Case& one : family.cases) text += properties_comment(one);
   const bool alike = std::all_of(chosen.begin(), chosen.end(), [&](const auto& one) {
     return one.second == chosen.front().second;
@@ -125,17 +110,7 @@ std::string echo(const Family& family, const Chosen& chosen) {
         "# " + std::string(alike ? "`auto`" : name + ", `auto`") + " stands for: " + words + "\n";
     if (alike) break;
   }
-  text += toml_document(common(family));
-  if (!family.sweep.empty()) {
-    text += "\n[sweep]\ndesign = \"grid\"\n";
-    for (const auto& [key, values] : family.sweep) {
-      Node list;
-      list.kind = Kind::array;
-      list.items = values;
-      use_copies(list, key.substr(key.rfind('.') + 1));
-      text += toml_text(key) + " = " + toml_value(list) + "\n";
-    }
-  }
+  text += toml_document(common(family)) + family.design.toml();
   return text;
 }
 

@@ -141,6 +141,11 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
 void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use) {
   visitor.quantity({"interval", "Time between rows of the CSV files."}, output.interval, unit::ms,
                    above(0));
+  visitor.quantity_list({"force_at",
+                         "Indentations at which the force of the first `indent` is a finding, such "
+                         "as `force_at_1_mm_N`.",
+                         use.finger},
+                        output.force_at, unit::mm, above(0));
   visitor.flag({"pressure_maps",
                 "An EXR map at the end of every step.",
                 {use.finger.used, use.finger.when, Use::Otherwise::note}},

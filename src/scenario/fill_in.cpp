@@ -1,6 +1,7 @@
 // Properties from materials, where the scenario does not override them.
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "base/files.h"
 #include "base/units.h"
@@ -10,30 +11,22 @@
 namespace palpate::scenario {
 namespace {
 
-// The first input is the scenario itself, of which the results hold the echo, `scenario.toml`.
-void remember_input(std::vector<InputFile>& inputs, const InputFile& added, const Place& place) {
-  if (added.name == "scenario.toml")
-    throw InputError(place, "`" + added.name +
-                                "` is the name of the echo among the results; rename "
-                                "the file");
-  for (std::size_t i = 1; i < inputs.size(); ++i) {
-    if (inputs[i].name != added.name) continue;
-    if (inputs[i].content == added.content) return;
-    throw InputError(place, "two different files are called `" + added.name +
-                                "`, and a result folder holds a copy of each; rename one");
-  }
-  inputs.push_back(added);
+void use(const std::string& name, Sources& sources) {
+  if (std::find(sources.used.begin(), sources.used.end(), name) == sources.used.end())
+    sources.used.push_back(name);
 }
 
-material::Tissue find_material(const std::string& name, const Place& place,
-                               const std::string& folder, std::vector<InputFile>& inputs) {
-  material::Found found = material::find(name, folder, place);
-  if (!found.file_text.empty())
-    remember_input(inputs,
-                   {std::filesystem::path(name.substr(0, name.find('#'))).filename().string(),
-                    found.file_text},
-                   place);
-  return found.tissue;
+const material::Tissue& find_material(const std::string& name, const Place& place,
+                                      Sources& sources) {
+  const std::size_t hash = name.find('#');
+  const std::string file = std::filesystem::path(name.substr(0, hash)).filename().string();
+  if (hash != std::string::npos) use(file, sources);
+  for (const Library* library : {&sources.known, &std::as_const(sources.found)})
+    if (const auto known = library->tissues.find(name); known != library->tissues.end())
+      return known->second;
+  material::Found found = material::find(name, sources.folder, place);
+  if (!found.file_text.empty()) sources.read.push_back({{file, found.file_text}, place});
+  return sources.found.tissues.emplace(name, found.tissue).first->second;
 }
 
 // A viscous property from the material; an error where neither has it.
@@ -55,8 +48,7 @@ struct NamedFile {
   const std::string& unit;
 };
 
-void read_named_file(const NamedFile& named, const Node& document, const std::string& folder,
-                     std::vector<InputFile>& inputs) {
+void read_named_file(const NamedFile& named, const Node& document, Sources& sources) {
   const std::string path = std::string("tissue.") + named.key;
   const Place place = place_of(document, path);
   const std::string quoted = std::string("`") + named.key + "`";
@@ -72,7 +64,7 @@ void read_named_file(const NamedFile& named, const Node& document, const std::st
         place_of(document, path + ".unit"),
         "`unit` wants a unit of length, got `" + named.unit + "`; write `unit = \"mm\"`");
   }
-  const auto file = std::filesystem::path(folder) / named.file;
+  const auto file = std::filesystem::path(sources.folder) / named.file;
   std::vector<std::filesystem::path> files{file};
   if (file.extension() == ".node" || file.extension() == ".ele") {
     files = {file, file};
@@ -80,6 +72,8 @@ void read_named_file(const NamedFile& named, const Node& document, const std::st
     files[1].replace_extension(".ele");
   }
   for (const auto& one : files) {
+    use(one.filename().string(), sources);
+    if (sources.known.geometry.contains(one.string())) continue;
     std::string content;
     try {
       content = read_text(one.string());
@@ -87,7 +81,8 @@ void read_named_file(const NamedFile& named, const Node& document, const std::st
       throw InputError(place_of(document, path + ".file"),
                        "`file` names `" + one.string() + "`, which " + error.problems()[0].message);
     }
-    remember_input(inputs, {one.filename().string(), content}, place);
+    sources.read.push_back({{one.filename().string(), content}, place});
+    sources.found.geometry.insert(one.string());
   }
 }
 
@@ -167,8 +162,8 @@ void fill_in_finger(Finger& finger, const material::Tissue& rubber) {
 
 }  // namespace
 
-void fill_in(Scenario& scenario, const Node& document, const std::string& folder,
-             std::vector<InputFile>& inputs, std::vector<Problem>& problems) {
+void fill_in(Scenario& scenario, const Node& document, Sources& sources,
+             std::vector<Problem>& problems) {
   const bool readable = problems.empty();
   complete_contact(scenario, document);
   const auto attempt = [&](const auto& part) {
@@ -179,8 +174,8 @@ void fill_in(Scenario& scenario, const Node& document, const std::string& folder
     }
   };
   attempt([&] {
-    const material::Tissue material = find_material(
-        scenario.tissue.material, place_of(document, "tissue.material"), folder, inputs);
+    const material::Tissue& material =
+        find_material(scenario.tissue.material, place_of(document, "tissue.material"), sources);
     if (readable) fill_in_tissue(scenario, material, document);
   });
   complete_shape(scenario, document);
@@ -189,7 +184,7 @@ void fill_in(Scenario& scenario, const Node& document, const std::string& folder
         std::visit([](auto& one) -> Substance& { return one.substance; }, scenario.regions[i]);
     const Place place = place_of(document, "region." + std::to_string(i + 1) + ".material");
     attempt([&] {
-      const material::Tissue material = find_material(substance.material, place, folder, inputs);
+      const material::Tissue& material = find_material(substance.material, place, sources);
       if (readable) fill_in_substance(substance, material, scenario.solver);
     });
   }
@@ -197,12 +192,12 @@ void fill_in(Scenario& scenario, const Node& document, const std::string& folder
   const auto* mesh = std::get_if<MeshFile>(&scenario.tissue.mesh);
   if (mesh != nullptr && readable && meshed)
     attempt([&] {
-      read_named_file({"mesh", "box.node", mesh->file, mesh->unit}, document, folder, inputs);
+      read_named_file({"mesh", "box.node", mesh->file, mesh->unit}, document, sources);
     });
   const auto* surface = std::get_if<SurfaceFile>(&scenario.tissue.shape);
   if (surface != nullptr && readable && meshed)
     attempt([&] {
-      read_named_file({"shape", "leg.stl", surface->file, surface->unit}, document, folder, inputs);
+      read_named_file({"shape", "leg.stl", surface->file, surface->unit}, document, sources);
     });
 
   Finger& finger = scenario.finger;
@@ -211,8 +206,8 @@ void fill_in(Scenario& scenario, const Node& document, const std::string& folder
       (rigid && finger.spheres == 1 && finger.weight == Finger::Weight::in_contact))
     return;
   attempt([&] {
-    const material::Tissue rubber = find_material(
-        rigid ? "finger" : finger.material, place_of(document, "finger.material"), folder, inputs);
+    const material::Tissue& rubber = find_material(rigid ? "finger" : finger.material,
+                                                   place_of(document, "finger.material"), sources);
     if (readable) fill_in_finger(finger, rubber);
   });
 }

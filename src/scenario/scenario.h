@@ -240,7 +240,8 @@ struct Relax {
 using Step = std::variant<Indent, Hold, Retract, Slide, Creep, Relax>;
 
 struct Output {
-  double interval = 1e-3;  // s
+  double interval = 1e-3;        // s
+  std::vector<double> force_at;  // m, indentations whose force is a finding
   bool pressure_maps = true;
   bool fits = true;
   bool figures = true;

@@ -85,6 +85,11 @@ SpecimenShapes::Entry& SpecimenShapes::entry(const Scenario& scenario) {
   return entries_[key];
 }
 
+std::size_t SpecimenShapes::size() {
+  const std::lock_guard lock(looking_up_);
+  return entries_.size();
+}
+
 const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const std::string& folder) {
   Entry& known = entry(scenario);
   const std::lock_guard lock(known.building);

@@ -39,6 +39,9 @@ class SpecimenShapes {
   [[nodiscard]] const tissue::SpringFit& fit(const scenario::Scenario& scenario,
                                              const std::string& folder);
 
+  // How many it holds.
+  [[nodiscard]] std::size_t size();
+
  private:
   struct Entry {
     std::mutex building;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "base/document_writer.h"
 #include "base/field_writer.h"
 #include "base/files.h"
 #include "base/text.h"
@@ -239,11 +238,11 @@ class Designer {
 };
 
 void refuse_own_keys(const scenario::Family& family) {
-  for (const auto& [key, values] : family.sweep)
+  for (const scenario::Setting& swept : family.design.settings(0))
     for (const char* own : own_keys)
-      if (key == own || key.starts_with(std::string(own) + "."))
-        throw InputError(values.front().place,
-                         "`" + key + "` is swept, and `palpate chart` varies `" + own +
+      if (swept.key == own || swept.key.starts_with(std::string(own) + "."))
+        throw InputError(swept.value.place,
+                         "`" + swept.key + "` is swept, and `palpate chart` varies `" + own +
                              "` itself; set it to one value, with `[sweep]` without it");
 }
 
@@ -301,17 +300,7 @@ Asked read_for_chart(const std::string& path, const Settings& settings) {
 scenario::Family with_settings(const Asked& asked, std::size_t of_case, const Settings& settings) {
   Settings all = asked.settings;
   all.insert(all.end(), settings.begin(), settings.end());
-  std::size_t rest = of_case;
-  std::size_t block = asked.family.cases.size();
-  for (const auto& [key, values] : asked.family.sweep) {  // the last key varies fastest
-    block /= values.size();
-    Node only;
-    only.kind = Node::Kind::array;
-    only.items.push_back(values[rest / block]);
-    rest %= block;
-    all.push_back("sweep." + key + "=" + toml_value(only));
-  }
-  scenario::Family family = scenario::parse(asked.text, asked.path, all);
+  scenario::Family family = scenario::parse_case(asked.text, asked.path, all, of_case);
   family.cases.front().name = asked.family.cases[of_case].name;
   return family;
 }

@@ -50,6 +50,9 @@ class Dump final : public FieldVisitor {
   void counts(const Key& key, std::span<int> values, const Range&) override {
     for (const int value : values) put(key, std::to_string(value));
   }
+  void quantity_list(const Key& key, std::vector<double>& si, const Unit&, const Range&) override {
+    for (const double value : si) put(key, bits(value));
+  }
   void numbers_by_name(const Key& key, std::map<std::string, double>& values,
                        const Range&) override {
     for (const auto& [name, value] : values) put(key, name + " " + bits(value));
@@ -182,6 +185,10 @@ TEST(Echo, OfEveryStepReadsBack) {
                     "[[step]]\nkind = \"hold\"\ntime = \"0.1 s\"\n[[step]]\nkind = "
                     "\"retract\"\nto = \"-0.7 mm\"\n[[step]]\nto = \"1.1 N\"\n");
   expect_reads_back(creep + "[[step]]\nkind = \"relax\"\nstrain = 0.1\n");
+}
+
+TEST(Echo, OfAListOfDepthsReadsBack) {
+  expect_reads_back(press + "[output]\nforce_at = [\"1 mm\", \"0.7 mm\", \"0.33333333333333331 mm\"]\n");
 }
 
 TEST(Echo, OfAwkwardTextsReadsBack) {

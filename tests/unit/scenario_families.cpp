@@ -68,10 +68,10 @@ TEST(Sweep, MistakesAreToldOnceAndAtTheirValue) {
        "press.toml:5:1: `young_modulos` is not a key here; did you mean `young_modulus`?"},
       {"\"tissue.material\" = []\n",
        "press.toml:5:21: `tissue.material` wants a list of values to run, got an empty one; write "
-       "`\"tissue.material\" = [\"...\", \"...\"]`"},
+       "`\"tissue.material\" = [\"...\", \"...\"]`, or a range, `{ from = ..., to = ... }`"},
       {"\"tissue.material\" = \"skin\"\n",
        "press.toml:5:21: `tissue.material` wants a list of values to run, got a text; write "
-       "`\"tissue.material\" = [\"...\", \"...\"]`"},
+       "`\"tissue.material\" = [\"...\", \"...\"]`, or a range, `{ from = ..., to = ... }`"},
       {"\"tissue.material\" = [\"skin\", \"musle\", \"bone\"]\n",
        "press.toml:5:30: `material` does not know `musle`; did you mean `muscle`? Known here: "
        "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
@@ -80,11 +80,11 @@ TEST(Sweep, MistakesAreToldOnceAndAtTheirValue) {
        "press.toml:5:36: `young_modulus` wants a pressure, got `2 mm`, a length; write it as `2 "
        "kPa`"},
       {"\"tissue.material\" = [\"skin\", \"skin\"]\n",
-       "press.toml:4:1: two cases of `sweep` have the same name; give each value once"},
+       "press.toml:5:30: `skin` and `skin` of `tissue.material` make the same case; keep one of "
+       "them"},
       {"design = \"latin\"\n\"tissue.material\" = [\"skin\"]\n",
-       "press.toml:5:10: `design` does not know `latin`; write `design = \"grid\"`, every value "
-       "with "
-       "every other"},
+       "press.toml:5:10: `design` does not know `latin`; it is one of grid, lhs, sobol, saltelli, "
+       "list, csv"},
       {"tissue.material = [\"skin\"]\n\"tissue.material\" = [\"bone\"]\n",
        "press.toml:6:1: `tissue.material` is swept twice; keep one of the two"},
       {"\"step.2.to\" = [\"1 mm\"]\n",
@@ -106,8 +106,13 @@ TEST(Sweep, TooManyCasesAreRefusedBeforeTheyAreMade) {
   for (int i = 0; i < 64; ++i)  // 2^64 cases: their number alone would overflow to 0
     text += "\"a" + std::to_string(i) + "\" = [1, 2]\n";
   EXPECT_EQ(refusal(text),
-            "press.toml:4:1: `sweep` makes more than 1000 cases; give shorter lists or "
-            "several scenarios");
+            "press.toml:4:1: `sweep` makes 1.845e+19 cases, and 1e+09 is the most; give shorter "
+            "lists or several scenarios");
+  std::string list = "[1";
+  for (int i = 2; i <= 1001; ++i) list += ", " + std::to_string(i);
+  EXPECT_EQ(refusal(press + "[sweep]\n\"finger.spheres\" = " + list + "]\n"),
+            "press.toml:4:1: `sweep` makes 1001 cases, and more than 1000 are planned first: "
+            "`palpate sweep plan press.toml`");
 }
 
 TEST(Sweep, DisplayScalesNameCases) {

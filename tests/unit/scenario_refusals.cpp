@@ -181,6 +181,16 @@ TEST(Refusals, Ranges) {
       {"[tissue]\nmesh = { cells = [3, 4] }\n",
        "press.toml:5:18: `cells` wants a list of 3, got a list of 2; write it as `[..., ..., "
        "...]`"},
+      {"[output]\nforce_at = \"1 mm\"\n",
+       "press.toml:5:12: `force_at` wants a list, got a text `1 mm`; write it as `force_at = "
+       "[\"1 mm\"]`"},
+      {"[output]\nforce_at = [\"1 mm\", 2]\n",
+       "press.toml:5:21: `force_at` wants a length with its unit, as text, got an integer `2`; "
+       "write it as `\"2 mm\"`"},
+      {"[output]\nforce_at = [\"0 mm\"]\n",
+       "press.toml:5:13: `force_at` must be above 0 mm, got `0 mm" + range},
+      {"[output]\nforce_at = [\"1 mm\", \"2 mm\", \"0.1 cm\"]\n",
+       "press.toml:5:29: `force_at` has `0.1 cm` twice; keep one"},
       {"[solver]\ntolerance = 0\n",
        "press.toml:5:13: `tolerance` must be above 0 and below 1, got `0" + range},
       {"[solver]\nsubsteps = 0\n",

@@ -1,0 +1,95 @@
+// `palpate sweep run` and `retry`: the cases that want it, with how far it is.
+#include <cmath>
+#include <csignal>
+
+#include "base/text.h"
+#include "cli/interrupt.h"
+#include "cli/program.h"
+#include "cli/sweep_verbs.h"
+#include "study/sweep_run.h"
+
+namespace palpate::cli {
+namespace {
+
+// 90 s, 12 min, 3.5 h
+std::string duration_text(double seconds) {
+  if (seconds < 100.0) return rounded_text(std::ceil(seconds), 2) + " s";
+  if (seconds < 6000.0) return rounded_text(seconds / 60.0, 2) + " min";
+  return rounded_text(seconds / 3600.0, 3) + " h";
+}
+
+std::string rate_text(const study::SweepProgress& now) {
+  std::string text;
+  if (now.done > 0 && now.seconds > 0.0) {
+    const double rate = static_cast<double>(now.done) / now.seconds;
+    text = ", " + rounded_text(rate, 3) + " cases/s, " +
+           duration_text(static_cast<double>(now.all - now.done) / rate) + " left";
+  }
+  if (now.failed > 0) text += ", " + std::to_string(now.failed) + " failed";
+  return text;
+}
+
+std::string bar(const study::SweepProgress& now) {
+  constexpr std::size_t width = 20;
+  const std::size_t filled = now.all == 0 ? 0 : width * now.done / now.all;
+  return "[" + std::string(filled, '#') + std::string(width - filled, '.') + "] " +
+         std::to_string(now.done) + "/" + std::to_string(now.all) + rate_text(now);
+}
+
+// A bar five times a second on a terminal, a line a minute elsewhere, an event a second with
+// --json.
+class Ticker {
+ public:
+  explicit Ticker(const Talk& talk) : talk_(talk) {}
+
+  void operator()(const study::SweepProgress& now) {
+    talk_.progress(bar(now));
+    if (!talk_.shows_progress() && now.seconds >= next_line_) {
+      talk_.say(std::to_string(now.done) + " of " + cases_text(now.all) + rate_text(now));
+      next_line_ = now.seconds + 60.0;
+    }
+    if (now.seconds < next_event_ && now.done < now.all) return;
+    next_event_ = now.seconds + 1.0;
+    talk_.event("progress", {{"done", std::to_string(now.done)},
+                             {"all", std::to_string(now.all)},
+                             {"failed", std::to_string(now.failed)},
+                             {"seconds", rounded_text(now.seconds)}});
+  }
+
+ private:
+  const Talk& talk_;
+  double next_line_ = 60.0;  // s
+  double next_event_ = 0.0;
+};
+
+}  // namespace
+
+int sweep_run(const Sweep& command, const Talk& talk) {
+  study::SweepTask task{.shard = study::parse_shard(command.shard),
+                        .workers = worker_count(command.jobs)};
+  if (command.act == Sweep::Act::retry) task.which = study::SweepTask::Which::failed;
+  const study::SweepPlan plan = study::read_plan(command.subject, program_identity());
+  // From here a second signal ends the program at once; no row is lost by that.
+  const std::atomic<bool>& stop = listen_for_interrupts(exit_resumable, {SIGUSR1});
+  Ticker ticker(talk);
+  const study::SweepEnd end =
+      study::run_sweep(plan, task, stop, [&](const study::SweepProgress& now) { ticker(now); });
+  talk.progress("");
+  for (const std::string& warning : end.warnings) talk.warn(warning);
+  std::string text = command.subject + ": " + std::to_string(end.completed) + " of " +
+                     cases_text(end.all) + " completed";
+  if (end.failed > 0) text += ", " + std::to_string(end.failed) + " failed";
+  if (end.missing > 0) text += ", " + std::to_string(end.missing) + " missing";
+  talk.event("end", {{"all", std::to_string(end.all)},
+                     {"completed", std::to_string(end.completed)},
+                     {"failed", std::to_string(end.failed)},
+                     {"missing", std::to_string(end.missing)}});
+  if (end.interrupted && end.completed + end.failed < end.all) {
+    Talk::error("palpate: interrupted; " + text + "; the same command goes on from there");
+    return exit_resumable;
+  }
+  talk.say(text);
+  return end.completed == end.all ? exit_good : exit_partial;
+}
+
+}  // namespace palpate::cli

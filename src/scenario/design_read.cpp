@@ -1,0 +1,292 @@
+// Reading [sweep]: what is no design is refused at its place.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "scenario/design.h"
+#include "scenario/family.h"
+#include "scenario/interval.h"
+#include "scenario/sample_points.h"
+
+namespace palpate::scenario {
+namespace {
+
+using Kind = Design::Kind;
+
+bool from_command_line(const Place& place) { return place.line == 0; }
+
+std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+class DesignReader {
+ public:
+  DesignReader(const Node& table, const Node& document, const std::string& folder)
+      : table_(table), document_(document), folder_(folder) {}
+
+  Design read() {
+    kind_ = design();
+    const Sampling sampling{sampling_count("samples", 1, most_samples),
+                            sampling_count("seed", 0, 9007199254740991.0)};
+    if (kind_ == Kind::csv) return csv();
+    refuse_unless("file", false, "with `design = \"csv\"`");
+    for (const Member& entry : table_.members) {
+      if (entry.key == "rows")
+        add_rows(entry);
+      else if (entry.key != "design" && entry.key != "samples" && entry.key != "seed")
+        add_varied(entry.key, entry, factors_);
+    }
+    check_order();
+    for (Factor& factor : factors_) check_factor(factor);
+    if (kind_ == Kind::list)
+      for (const Factor& factor : factors_) same_length(factors_.front(), factor);
+    check_count(sampling);
+    return {kind_, factors_, sampling};
+  }
+
+ private:
+  [[nodiscard]] bool sampled() const {
+    return kind_ == Kind::lhs || kind_ == Kind::sobol || kind_ == Kind::saltelli;
+  }
+  [[nodiscard]] std::string written() const {
+    return "`design = \"" + design_words()[static_cast<std::size_t>(kind_)] + "\"`";
+  }
+  [[nodiscard]] const Place& design_place() const {
+    const Member* design = table_.find("design");
+    return design != nullptr ? design->value.place : table_.place;
+  }
+
+  Kind design() {
+    const Member* design = table_.find("design");
+    if (design == nullptr) return Kind::grid;
+    const Node& value = design->value;
+    const std::vector<std::string>& words = design_words();
+    const std::string known = joined(words, ", ");
+    if (value.kind != Node::Kind::text)
+      throw InputError(value.place, "`design` wants one of " + known + ", got " +
+                                        value.kind_name() + "; write it as `design = \"grid\"`");
+    const auto word = std::find(words.begin(), words.end(), value.text);
+    if (word == words.end()) {
+      const auto near = nearest(value.text, words);
+      throw InputError(value.place,
+                       "`design` does not know " + ticked(value.text) +
+                           (near ? "; did you mean " + ticked(*near) + "? It" : "; it") +
+                           " is one of " + known);
+    }
+    return static_cast<Kind>(word - words.begin());
+  }
+
+  // A key that only some designs have.
+  const Node* refuse_unless(const char* key, bool used, const std::string& when) {
+    const Member* member = table_.find(key);
+    if (member != nullptr && !used)
+      throw InputError(member->place, ticked(key) + " has no effect here: it is used only " + when +
+                                          "; remove it or change that");
+    return member != nullptr ? &member->value : nullptr;
+  }
+
+  std::uint64_t sampling_count(const std::string& key, double low, double high) {
+    const bool seed = key == "seed";
+    const Node* value =
+        seed ? refuse_unless("seed", kind_ == Kind::lhs, "with `design = \"lhs\"`")
+             : refuse_unless("samples", sampled(),
+                             "with `design = \"lhs\"`, `\"sobol\"` or `\"saltelli\"`");
+    if (value == nullptr && !seed && sampled())
+      throw InputError(design_place(), written() + " lacks `samples`; write `samples = 100`");
+    if (value == nullptr) return seed ? 1 : 0;
+    if (value->kind != Node::Kind::integer || value->number < low || value->number > high) {
+      const auto whole = [](double number) {
+        return std::to_string(static_cast<std::uint64_t>(number));
+      };
+      throw InputError(value->place, ticked(key) + " wants a whole number from " + whole(low) +
+                                         " to " + whole(high) + ", got " + ticked(value->shown()) +
+                                         "; write `" + key + " = " + (seed ? "1" : "100") + "`");
+    }
+    return static_cast<std::uint64_t>(value->number);
+  }
+
+  Design csv() {
+    const Member* file = table_.find("file");
+    if (file == nullptr)
+      throw InputError(design_place(), written() + " lacks `file`; write `file = \"cases.csv\"`");
+    const Node& name = file->value;
+    if (name.kind != Node::Kind::text)
+      throw InputError(name.place, "`file` wants a text, got " + name.kind_name() +
+                                       "; write it as `file = \"cases.csv\"`");
+    for (const Member& entry : table_.members)
+      if (entry.key != "design" && entry.key != "file")
+        throw InputError(entry.place, "with " + written() + " keys are columns of the file; make " +
+                                          ticked(entry.key) + " one of them");
+    const std::string path = (std::filesystem::path(folder_) / name.text).string();
+    std::string text;
+    try {
+      text = read_text(path);
+    } catch (const InputError& error) {
+      throw InputError(name.place,
+                       "`file` names " + ticked(path) + ", which " + error.problems()[0].message);
+    }
+    return Design(CaseTable(std::move(text), path));
+  }
+
+  // [[sweep.rows]]: a factor each.
+  void add_rows(const Member& rows) {
+    const Node& list = rows.value;
+    if (list.kind != Node::Kind::array)
+      throw InputError(list.place, "`rows` wants a list of tables, got " + list.kind_name() +
+                                       "; write `[[sweep.rows]]`");
+    for (const Node& item : list.items) {
+      if (item.kind != Node::Kind::table || item.members.empty())
+        throw InputError(item.place,
+                         "`rows` wants tables of keys that change together, got " +
+                             (item.kind == Node::Kind::table ? "an empty one" : item.kind_name()) +
+                             "; write `[[sweep.rows]]` and lists of one length");
+      std::vector<Factor> alone;
+      for (const Member& entry : item.members) add_varied(entry.key, entry, alone);
+      Factor factor;
+      factor.row = true;
+      for (const Factor& one : alone) {
+        refuse_twice(one.keys.front());
+        factor.keys.push_back(one.keys.front());
+        factor.name += (factor.name.empty() ? "" : " + ") + one.name;
+      }
+      factors_.push_back(factor);
+    }
+  }
+
+  void refuse_twice(const Varied& varied) const {
+    for (const Factor& factor : factors_)
+      for (const Varied& other : factor.keys)
+        if (other.key == varied.key)
+          throw InputError(varied.place,
+                           ticked(varied.key) + " is swept twice; keep one of the two");
+  }
+
+  void add_varied(const std::string& key, const Member& entry, std::vector<Factor>& factors) {
+    const Node& value = entry.value;
+    const bool range = is_interval(key, value);
+    if (value.kind == Node::Kind::table && !range) {  // `tissue.material = [...]` without quotes
+      for (const Member& inner : value.members) add_varied(key + "." + inner.key, inner, factors);
+      if (!value.members.empty()) return;
+    }
+    if (!range && (value.kind != Node::Kind::array || value.items.empty())) {
+      const std::string got = value.kind == Node::Kind::array ? "an empty one" : value.kind_name();
+      throw InputError(value.place, ticked(key) + " wants a list of values to run, got " + got +
+                                        "; write `\"" + key +
+                                        "\" = [\"...\", \"...\"]`, or a range, `{ from = ..., to = "
+                                        "... }`");
+    }
+    Varied varied{key, entry.place, {}, std::nullopt, std::nullopt, value};
+    if (range) {
+      varied.interval = read_interval(key, value);
+      varied.unit = varied.interval->unit;
+    } else {
+      varied.levels = value.items;
+      CommonUnit unit;
+      for (const Node& level : varied.levels) unit.add(level);
+      varied.unit = unit.unit();
+    }
+    const auto same = [&](const Factor& other) { return !other.row && other.name == key; };
+    const auto known = std::find_if(factors.begin(), factors.end(), same);
+    if (known != factors.end() && from_command_line(entry.place)) {
+      known->keys = {varied};
+      return;
+    }
+    if (known == factors.end()) refuse_twice(varied);
+    if (known != factors.end())
+      throw InputError(entry.place, ticked(key) + " is swept twice; keep one of the two");
+    factors.push_back({key, {varied}, false});
+  }
+
+  // A table that is set after one of its keys would take that key's value away.
+  void check_order() const {
+    std::vector<const Varied*> before;
+    for (const Factor& factor : factors_)
+      for (const Varied& varied : factor.keys) {
+        for (const Varied* other : before)
+          if (other->key.starts_with(varied.key + "."))
+            throw InputError(varied.place, ticked(varied.key) + " stands after " +
+                                               ticked(other->key) +
+                                               " and replaces it; put it first");
+        before.push_back(&varied);
+      }
+  }
+
+  void check_factor(Factor& factor) const {
+    for (Varied& varied : factor.keys) {
+      const Place given = place_of(document_, varied.key);
+      const std::string setting = trimmed(split(given.file, '=').front());
+      if (from_command_line(given) && setting == "--set " + varied.key)
+        throw InputError(given, ticked(varied.key) +
+                                    " is swept, so that one value has no effect; set the list, "
+                                    "`sweep." +
+                                    varied.key + "=[...]`");
+      if (!varied.interval) continue;
+      const bool points = varied.interval->points > 0;
+      if (!sampled() && !points)
+        throw InputError(varied.given.place, ticked(varied.key) + " lacks `points`, which " +
+                                                 written() +
+                                                 " needs; write `points = 20` beside `to`");
+      if (sampled() && points)
+        throw InputError(varied.given.place, "`points` of " + ticked(varied.key) +
+                                                 " have no effect with " + written() +
+                                                 ", where `samples` counts; remove them");
+    }
+    const Varied& first = factor.keys.front();
+    for (const Varied& other : factor.keys) {
+      if (sampled() && first.interval.has_value() != other.interval.has_value())
+        throw InputError(other.place, ticked(first.key) + " and " + ticked(other.key) +
+                                          " change together in " + written() +
+                                          ", where one has a range and the other a list; give "
+                                          "both the same");
+      same_length({first.key, {first}, true}, {other.key, {other}, true});
+    }
+  }
+
+  void same_length(const Factor& one, const Factor& other) const {
+    if (one.levels() == other.levels()) return;
+    throw InputError(other.keys.front().place,
+                     ticked(one.name) + " has " + std::to_string(one.levels()) + " values and " +
+                         ticked(other.name) + " " + std::to_string(other.levels()) +
+                         ", and they change together; give as many of each");
+  }
+
+  void check_count(const Sampling& sampling) const {
+    if (sampled() && factors_.empty())
+      throw InputError(design_place(),
+                       written() +
+                           " has nothing to vary; add a key, as `\"tissue.young_modulus\" = { from "
+                           "= \"1 kPa\", to = \"100 kPa\" }`");
+    const std::size_t dimensions = factors_.size() * (kind_ == Kind::saltelli ? 2 : 1);
+    if (sampled() && dimensions > most_sobol_dimensions)
+      throw InputError(table_.place, "`sweep` varies more than a design can; vary fewer keys");
+    double count = sampled() ? static_cast<double>(sampling.samples) : 1.0;
+    if (kind_ == Kind::grid)
+      for (const Factor& factor : factors_) count *= static_cast<double>(factor.levels());
+    if (kind_ == Kind::saltelli) count *= static_cast<double>(factors_.size() + 2);
+    if (count > most_planned)
+      throw InputError(table_.place, "`sweep` makes " + rounded_text(count) + " cases, and " +
+                                         rounded_text(most_planned) +
+                                         " is the most; give shorter lists or several scenarios");
+  }
+
+  const Node& table_;
+  const Node& document_;
+  const std::string& folder_;
+  Kind kind_ = Kind::grid;
+  std::vector<Factor> factors_;
+};
+
+}  // namespace
+
+Design take_design(Node& document, const std::string& folder) {
+  const Member* member = document.find("sweep");
+  if (member == nullptr) return {};
+  const Node table = member->value;
+  std::erase_if(document.members, [](const Member& m) { return m.key == "sweep"; });
+  if (table.kind != Node::Kind::table)
+    throw InputError(table.place, "`sweep` wants a table of keys and lists, got " +
+                                      table.kind_name() + "; write `[sweep]`");
+  return DesignReader(table, document, folder).read();
+}
+
+}  // namespace palpate::scenario

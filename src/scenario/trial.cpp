@@ -1,0 +1,216 @@
+// A case from its settings, and what only several cases show.
+#include "scenario/trial.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/field_writer.h"
+#include "base/text.h"
+
+namespace palpate::scenario {
+namespace {
+
+constexpr std::size_t tried_cases = 256;
+
+std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+// Keeps the first of problems that every case repeats.
+void add_new(std::vector<Problem>& all, const std::vector<Problem>& more) {
+  for (const Problem& problem : more) {
+    const bool known = std::any_of(all.begin(), all.end(), [&](const Problem& other) {
+      return other.text() == problem.text();
+    });
+    if (!known) all.push_back(problem);
+  }
+}
+
+// Every value that was read, whether or not it counts.
+std::string all_values(const Scenario& scenario) {
+  Scenario copy = scenario;
+  return fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, copy); }, Written::all);
+}
+
+std::string words_of(const std::vector<Setting>& settings) {
+  std::vector<std::string> words;
+  for (const Setting& setting : settings) words.push_back(setting.word);
+  return ticked(joined(words, ", "));
+}
+
+// The files that a row of a table names.
+std::string files_of(const std::vector<Setting>& row) {
+  std::string files;
+  for (const Setting& setting : row) {
+    const std::string last = setting.key.substr(setting.key.rfind('.') + 1);
+    if (last == "material" || last == "file") files += setting.value.text + "\n";
+  }
+  return files;
+}
+
+}  // namespace
+
+const char* const poisson_in_contact_only_text =
+    "reaches the contact only: independent springs have a ratio of their own (findings.csv)";
+
+bool poisson_in_contact_only(const Scenario& scenario) {
+  return scenario.solver.model == Solver::Model::mass_spring &&
+         (scenario.solver.volume == Solver::Volume::automatic ||
+          scenario.solver.volume == Solver::Volume::none);
+}
+
+Made make(const Family& family, const std::vector<Setting>& settings, Sources& sources) {
+  Made made;
+  Node document = family.document;
+  for (const Setting& setting : settings) {
+    set_value(document, setting.key, setting.value, setting.place);
+    made.one.swept.emplace_back(setting.key, setting.word);
+  }
+  Scenario& scenario = made.one.scenario;
+  made.reading = read_fields(document, [&](FieldVisitor& visitor) { fields(visitor, scenario); });
+  made.as_read = scenario;
+  std::vector<Problem>& problems = made.reading.problems;
+  fill_in(scenario, document, sources, problems);
+  if (problems.empty()) check(scenario, document, problems);
+  made.one.files = sources.used;
+  return made;
+}
+
+std::string case_name(const Family& family, std::size_t i,
+                      const std::vector<std::pair<std::string, std::string>>& swept) {
+  return swept.empty() ? family.name : family.design.case_name(i, swept);
+}
+
+void Trial::add_problems(const std::vector<Problem>& problems) {
+  for (Problem problem : problems) {
+    // A range of a whole number has no remedy of its own.
+    for (const Factor& factor : family_.design.factors())
+      for (const Varied& varied : factor.keys)
+        if (varied.interval && problem.place == varied.interval->from.place &&
+            problem.message.find("wants a whole number") != std::string::npos)
+          problem.message = ticked(varied.key) +
+                            " wants whole numbers, which a range does not keep to; give a list, "
+                            "as `[1, 2, 3]`";
+    add_new(problems_, {problem});
+  }
+}
+
+// The first input is the scenario itself, of which the results hold the echo, `scenario.toml`.
+void Trial::remember(const std::vector<Sources::ReadFile>& read) {
+  for (const auto& [added, place] : read) {
+    std::vector<InputFile>& inputs = family_.inputs;
+    const auto known = std::find_if(inputs.begin() + 1, inputs.end(), [&](const InputFile& other) {
+      return other.name == added.name;
+    });
+    if (added.name == "scenario.toml")
+      add_problems({{place, ticked(added.name) +
+                                " is the name of the echo among the results; rename the file"}});
+    else if (known == inputs.end())
+      inputs.push_back(added);
+    else if (known->content != added.content)
+      add_problems({{place, "two different files are called " + ticked(added.name) +
+                                ", and a result folder holds a copy of each; rename one"}});
+  }
+}
+
+Made Trial::take(const std::vector<Setting>& settings) {
+  Sources sources{family_.folder, family_.library};
+  Made made = scenario::make(family_, settings, sources);
+  add_new(family_.notes, made.reading.notes);
+  add_problems(made.reading.problems);
+  family_.library.tissues.merge(sources.found.tissues);
+  family_.library.geometry.merge(sources.found.geometry);
+  remember(sources.read);
+  for (const Setting& setting : settings) {
+    const auto unread = std::find_if(
+        made.reading.unread.begin(), made.reading.unread.end(), [&](const Unread& one) {
+          return setting.key == one.path || setting.key.starts_with(one.path + ".");
+        });
+    if (unread == made.reading.unread.end())
+      read_[setting.key] = true;
+    else
+      unread_[setting.key] = unread->when;
+  }
+  contact_only_ = contact_only_ || poisson_in_contact_only(made.one.scenario);
+  return made;
+}
+
+Case Trial::make(std::size_t i) {
+  Made made = take(family_.design.settings(i));
+  if (!begun_) family_.base = made.as_read;
+  begun_ = true;
+  made.one.name = case_name(family_, i, made.one.swept);
+  return made.one;
+}
+
+void Trial::try_cases() {
+  const Design& design = family_.design;
+  const std::size_t count = design.count();
+  const std::size_t tried = count <= most_cases ? count : tried_cases;
+  for (std::size_t k = 0; k < tried; ++k)
+    (void)make(tried == count ? k : k * (count - 1) / (tried - 1));
+  if (design.kind() != Design::Kind::csv || tried == count) return;
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < count; ++i)
+    if (seen.insert(files_of(design.settings(i))).second) (void)make(i);
+}
+
+void Trial::check_names(const Place& sweep) {
+  if (!problems_.empty()) return;
+  std::vector<std::string> names;
+  for (const Case& one : family_.cases) names.push_back(one.name);
+  for (const auto& [name, factor] : family_.base.output.display_scale) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const auto near = nearest(name, names);
+    add_problems(
+        {{place_of(family_.document, "output.display_scale." + name),
+          "`display_scale` names no case `" + name + "`" +
+              (near ? "; did you mean `" + *near + "`?" : "; cases: " + joined(names, ", "))}});
+  }
+  const std::set<std::string> different(names.begin(), names.end());
+  if (different.size() != names.size())
+    add_problems({{sweep, "two cases of `sweep` have the same name; give each value once"}});
+}
+
+void Trial::check_values(std::size_t factor) {
+  std::vector<Setting> settings = family_.design.settings(0);
+  std::map<std::string, std::string> seen;  // words by everything that was read
+  for (const std::vector<Setting>& values : family_.design.extremes(factor)) {
+    for (const Setting& value : values)
+      *std::find_if(settings.begin(), settings.end(),
+                    [&](const Setting& other) { return other.key == value.key; }) = value;
+    const Made made = take(settings);
+    if (!made.reading.problems.empty()) continue;
+    const auto [known, added] = seen.emplace(all_values(made.as_read), words_of(values));
+    if (!added)
+      add_problems(
+          {{values.front().value.place, known->second + " and " + words_of(values) + " of " +
+                                            ticked(family_.design.factors()[factor].name) +
+                                            " make the same case; keep one of them"}});
+  }
+}
+
+void Trial::check_factors() {
+  if (!problems_.empty() || family_.design.empty()) return;
+  for (std::size_t f = 0; f < family_.design.factors().size(); ++f) check_values(f);
+  if (problems_.empty()) check_swept_keys();
+}
+
+void Trial::check_swept_keys() {
+  for (const Setting& setting : family_.design.settings(0)) {
+    const auto unread = unread_.find(setting.key);
+    if (unread != unread_.end() && !read_.contains(setting.key))
+      add_problems(
+          {{setting.place, ticked(setting.key) + " is swept and changes nothing: it is used only " +
+                               unread->second + "; take it out of `[sweep]` or change that"}});
+    if (setting.key == "tissue.poisson_ratio" && contact_only_)
+      add_new(family_.notes,
+              {{setting.place, ticked(setting.key) + " " + poisson_in_contact_only_text}});
+  }
+}
+
+void Trial::finish() {
+  family_.title = family_.base.title.empty() ? family_.name : family_.base.title;
+  sort_by_place(problems_);
+  if (!problems_.empty()) throw InputError(problems_);
+}
+
+}  // namespace palpate::scenario
