@@ -122,6 +122,11 @@ struct Parser {
     verb = app.add_subcommand("identify", "The properties behind a measured curve");
     verb->add_option("data", identify.data, "CSV file of the measurement")->required();
     verb->add_option("scenario", identify.scenario, "Scenario of the test")->required();
+    verb->add_option("--x", identify.x, "Column of x")->required();
+    verb->add_option("--y", identify.y, "Column of y")->required();
+    verb->add_option("--noise", identify.noise, "Of the measurement: constant or relative")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"constant", "relative"}));
     verb->add_option("--unknown", identify.unknowns, "What is sought: KEY=LOW..HIGH")
         ->required()
         ->allow_extra_args(false);

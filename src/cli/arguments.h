@@ -91,7 +91,10 @@ struct Sweep {
 struct Identify {
   std::string data;
   std::string scenario;
+  std::string x;
+  std::string y;
   std::vector<std::string> unknowns;  // KEY=LOW..HIGH
+  std::string noise = "constant";     // or relative
   std::vector<std::string> settings;
   std::string out = "out";
   bool force = false;
