@@ -17,8 +17,14 @@ class Side {
   // The least squares with the unknown at u, from there on `start`.
   double squares(double u, std::vector<double>& start) {
     start[i_] = u;
-    const BoxMinimum at = minimise_in_box(problem_, start, held_, Want::squares);
+    BoxMinimum at = minimise_in_box(problem_, start, held_, Want::squares);
     profile_.evaluations += at.evaluations;
+    if (!at.found) {  // no curve there: from the best fit's own values
+      start = best_.u;
+      start[i_] = u;
+      at = minimise_in_box(problem_, start, held_, Want::squares);
+      profile_.evaluations += at.evaluations;
+    }
     if (!at.found) return std::nan("");
     start = at.u;
     profile_.points.push_back({u, at.squares});

@@ -124,17 +124,17 @@ std::unique_ptr<ceres::CostFunction> make_cost(const BoxProblem& problem, const 
       unknowns, points);
 }
 
-ceres::Solver::Options solver_options() {
+ceres::Solver::Options solver_options(bool formula) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.num_threads = 1;
   options.max_num_iterations = 60;
   options.logging_type = ceres::SILENT;
   options.minimizer_progress_to_stdout = false;
-  // The squares are known to a share of 1e-12 where scenes are; of n points of noise that leaves an
-  // error of sqrt(1e-12 n) standard errors.
-  options.function_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-10;
+  // Squares known to a share of e leave an error of sqrt(e n) standard errors, of n points of
+  // noise: a thousandth of one, of a scene, whose runs cost more than its digits are worth.
+  options.function_tolerance = formula ? 1e-14 : 1e-9;
+  options.parameter_tolerance = formula ? 1e-12 : 1e-8;
   options.gradient_tolerance = 0.0;
   return options;
 }
@@ -187,7 +187,8 @@ BoxMinimum minimise_in_box(const BoxProblem& problem, std::span<const double> st
       search.SetParameterUpperBound(moved.data(), static_cast<int>(k), shift + 1.0);
     }
     ceres::Solver::Summary summary;
-    ceres::Solve(solver_options(), &search, &summary);
+    const bool formula = problem.closed != nullptr && problem.slopes == Slopes::automatic;
+    ceres::Solve(solver_options(formula), &search, &summary);
     if (!summary.IsSolutionUsable()) {
       BoxMinimum none;
       none.evaluations = evaluations;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "contact/deep.h"
 #include "scene/scene.h"
 
 namespace palpate::fit {
@@ -69,6 +70,7 @@ FixedRung fix_rung(const scenario::Scenario& scenario, const Node& document,
   std::vector<scene::Choice> choices;
   std::vector<Problem> wrong;
   bool slow = scenario.uniform();
+  bool deep_known = true;  // the factor of deep presses, for every Poisson's ratio of the box
   for (const std::vector<double>& u : places(unknowns.size())) {
     scenario::Scenario at = scenario;
     std::vector<double> values;
@@ -77,6 +79,7 @@ FixedRung fix_rung(const scenario::Scenario& scenario, const Node& document,
     std::vector<Problem> problems;
     scenario::check(at, document, problems);
     slow = slow && flows_slowly(at);
+    deep_known = deep_known && contact::deep_law(*at.tissue.poisson_ratio).has_value();
     if (problems.empty())
       choices.push_back(scene::choose(at));
     else if (wrong.empty())
@@ -113,9 +116,10 @@ FixedRung fix_rung(const scenario::Scenario& scenario, const Node& document,
   if (free && !reached(choices, "time dependent?"))
     with.contact.viscosity = scenario::Contact::Viscosity::none;
   if (with.contact.depth == scenario::Contact::Depth::automatic)
-    with.contact.depth = free && with.solver.model == Model::hertz && reached(choices, "deep?")
-                             ? scenario::Contact::Depth::neo_hookean
-                             : scenario::Contact::Depth::hertz;
+    with.contact.depth =
+        free && with.solver.model == Model::hertz && deep_known && reached(choices, "deep?")
+            ? scenario::Contact::Depth::neo_hookean
+            : scenario::Contact::Depth::hertz;
   if (with.solver.integrator == scenario::Solver::Integrator::automatic) {
     const bool drag = with.tissue.viscosity == tissue::Viscosity::nodal_drag;
     const bool still = with.contact.coupling == contact::Coupling::resolved ||

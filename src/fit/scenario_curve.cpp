@@ -98,14 +98,15 @@ ScenarioCurve::ScenarioCurve(CurveKind kind, scenario::Scenario fixed,
                              const std::atomic<bool>& stop)
     : kind_(kind), fixed_(std::move(fixed)), family_(&family), unknowns_(unknowns), stop_(&stop) {
   // Shapes that will not come again are not kept.
-  shape_varies_ = std::any_of(unknowns.begin(), unknowns.end(), [&](const Unknown& one) {
-    if (one.what != Unknown::What::key) return false;
-    scenario::Scenario low = fixed_;
-    scenario::Scenario high = fixed_;
-    set_unknowns(low, {&one, 1}, std::array{one.low});
-    set_unknowns(high, {&one, 1}, std::array{one.high});
-    return scene::shape_key(low) != scene::shape_key(high);
-  });
+  shape_varies_ =
+      fixed_.meshed() && std::any_of(unknowns.begin(), unknowns.end(), [&](const Unknown& one) {
+        if (one.what != Unknown::What::key) return false;
+        scenario::Scenario low = fixed_;
+        scenario::Scenario high = fixed_;
+        set_unknowns(low, {&one, 1}, std::array{one.low});
+        set_unknowns(high, {&one, 1}, std::array{one.high});
+        return scene::shape_key(low) != scene::shape_key(high);
+      });
 }
 
 std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> values) {
