@@ -7,32 +7,22 @@
 #include "cli/verbs.h"
 #include "fit/identified_tables.h"
 #include "fit/identify.h"
-#include "fit/model.h"
-#include "record/csv.h"
+#include "record/measured.h"
 #include "report/identified_folder.h"
 #include "report/machine.h"
 
 namespace palpate::cli {
 namespace {
 
-fit::Measurement read_measurement(const Identify& command) {
-  const record::Table table = record::read_csv(command.data);
-  fit::Measurement measured;
-  const auto read = [&](const std::string& name, std::vector<double>& values, Dimension& dim) {
-    const int column = table.find(name);
-    if (column < 0) throw InputError({command.data, 1, 0}, "has no column `" + name + "`");
-    const std::string symbol = fit::column_unit(name);
-    for (const Unit& unit : {unit::mm, unit::N, unit::kPa, unit::s})
-      if (symbol == unit.symbol) dim = unit.dimension;
-    const double factor = symbol == "mm" ? 1e-3 : symbol == "kPa" ? 1e3 : 1.0;
-    for (const auto& row : table.rows)
-      values.push_back(std::get<double>(row[static_cast<std::size_t>(column)]) * factor);
-  };
-  measured.x_name = command.x;
-  measured.y_name = command.y;
-  read(command.x, measured.x, measured.x_dimension);
-  read(command.y, measured.y, measured.y_dimension);
-  return measured;
+fit::Measurement read_measurement(const Identify& command, const Talk& talk) {
+  record::MeasuredCurve curve = record::read_measured(command.data, command.columns);
+  for (const std::string& note : curve.notes) talk.say("note: " + note);
+  return {.x = std::move(curve.x),
+          .y = std::move(curve.y),
+          .x_name = curve.x_axis.column,
+          .y_name = curve.y_axis.column,
+          .x_dimension = curve.x_axis.dimension,
+          .y_dimension = curve.y_axis.dimension};
 }
 
 }  // namespace
@@ -47,7 +37,7 @@ int identify(const Identify& command, const Arguments& arguments, const Talk& ta
   const std::vector<fit::Unknown> unknowns =
       fit::read_unknowns(command.unknowns, family.cases.front().scenario);
   report::IdentifiedFolder folder(command.out, family.name, command.force);
-  const fit::Measurement measured = read_measurement(command);
+  const fit::Measurement measured = read_measurement(command, talk);
   fit::IdentifyOptions options;
   if (command.noise == "relative") options.noise = fit::Noise::relative;
 

@@ -18,7 +18,7 @@ namespace palpate::fit {
 struct Measurement {
   std::vector<double> x, y;    // SI
   std::string x_name, y_name;  // of the columns, as they were asked for
-  Dimension x_dimension, y_dimension;
+  Dimension x_dimension = {}, y_dimension = {};
 };
 
 // Which of a scenario's curves was measured.
