@@ -8,15 +8,12 @@
 #include <vector>
 
 #include "base/text.h"
+#include "base/unit_factor.h"
 
 namespace palpate {
 namespace {
 
-struct Scale {
-  double times = 1.0;
-  double per = 1.0;
-  Dimension dimension;
-};
+using Scale = UnitFactor;
 
 struct Symbol {
   std::string_view name;
@@ -158,6 +155,10 @@ std::string si_symbol(const Dimension& dimension) {
 }
 
 }  // namespace
+
+std::optional<UnitFactor> unit_factor(std::string_view text) { return parse_unit(text); }
+
+std::string si_unit(const Dimension& dimension) { return si_symbol(dimension); }
 
 std::string dimension_name(const Dimension& dimension) {
   for (const Unit* unit : named_units())

@@ -49,13 +49,18 @@ struct Parser {
     verb->add_option("subject", explain.subject, "Scenario file or key")->required();
     verb->add_option("--set", explain.settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
 
-    verb = app.add_subcommand("fit", "Fit a curve to two columns of a CSV file");
-    verb->add_option("data", fit.data, "CSV file")->required();
-    verb->add_option("--x", fit.x, "Column of x")->required();
-    verb->add_option("--y", fit.y, "Column of y")->required();
+    verb = app.add_subcommand("fit", "Fit a curve to two columns of a table in text");
+    verb->add_option("data", fit.data, "CSV or other table in text")->required();
+    add_data(verb, fit.columns, Columns::required);
     verb->add_option("--model", fit.model, "Curve: " + model_names())->required();
-    verb->add_option("--case", fit.case_name, "Only rows whose column `case` says so");
     verb->add_option("--origin", fit.x_origin, "Subtracted from every x");
+    verb->add_option("--radius", fit.radius, "hertz, layer: of the sphere, as \"11 mm\"");
+    verb->add_option("--poisson", fit.poisson_ratio, "hertz, layer: Poisson's ratio")
+        ->check(CLI::Range(0.0, 0.5));
+    verb->add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
+    verb->add_option("--base", fit.base, "layer: bonded (if not said) or frictionless");
+    verb->add_option("--terms", fit.terms, "prony: how many relaxation times")
+        ->check(CLI::Range(1, 5));
 
     verb = app.add_subcommand("compare", "Compare results with expected ones");
     verb->add_option("got", compare.got, "CSV file or result folder")->required();
@@ -122,6 +127,10 @@ struct Parser {
     verb = app.add_subcommand("identify", "The properties behind a measured curve");
     verb->add_option("data", identify.data, "CSV file of the measurement")->required();
     verb->add_option("scenario", identify.scenario, "Scenario of the test")->required();
+    add_data(verb, identify.columns, Columns::optional);
+    verb->add_option("--noise", identify.noise, "Of the measurement: constant or relative")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"constant", "relative"}));
     verb->add_option("--unknown", identify.unknowns, "What is sought: KEY=LOW..HIGH")
         ->required()
         ->allow_extra_args(false);
@@ -138,6 +147,25 @@ struct Parser {
     verb->add_flag("--force", export_to.force, "Replace files");
 
     app.add_subcommand("manual", "The reference of all scenario keys, in markdown");
+  }
+
+  enum class Columns { required, optional };
+
+  // How a measured file is written, of every verb that reads one.
+  static void add_data(CLI::App* verb, DataOptions& data, Columns columns) {
+    const bool required = columns == Columns::required;
+    verb->add_option("--x", data.x, "Column of x: its name, or its number")->required(required);
+    verb->add_option("--y", data.y, "Column of y: its name, or its number")->required(required);
+    verb->add_option("--x-unit", data.x_unit, "Unit of x, where the file does not say it");
+    verb->add_option("--y-unit", data.y_unit, "Unit of y, where the file does not say it");
+    verb->add_option("--skip", data.skip, "Lines above the table")->check(CLI::Range(0, 1000000));
+    verb->add_option("--separator", data.separator, "Of columns: , ; tab blank");
+    verb->add_option("--decimal", data.decimal, "Decimal sign: . or ,");
+    verb->add_option("--compression", data.compression,
+                     "How the load cell reads it: positive, negative, auto");
+    verb->add_option("--segment", data.segment,
+                     "Only approach or retract, or what the column `segment` or `step` holds");
+    verb->add_option("--case", data.case_name, "Only rows whose column `case` says so");
   }
 
   void add_sweep() {

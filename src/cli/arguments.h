@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "record/measured.h"
+
 namespace palpate::cli {
 
 // How the program talks, whatever the verb.
@@ -24,13 +26,19 @@ struct Explain {
   std::string subject;  // a scenario's path, or a key
   std::vector<std::string> settings;
 };
+// Which columns of a measured file are meant, and how they are written: --x, --x-unit, --skip ...
+using DataOptions = record::DataLayout;
+
 struct Fit {
   std::string data;
-  std::string x;
-  std::string y;
+  DataOptions columns;
   std::string model;
-  std::string case_name;
   double x_origin = 0.0;
+  std::string radius;         // of the sphere, `11 mm`: hertz and layer
+  double poisson_ratio = -1;  // of the tissue; -1: not said
+  std::string thickness;      // of the layer
+  std::string base;           // of the layer: bonded or frictionless; empty: bonded
+  int terms = 0;              // of prony; 0: not said
 };
 struct Compare {
   std::string got;
@@ -90,8 +98,10 @@ struct Sweep {
 };
 struct Identify {
   std::string data;
+  DataOptions columns{.compression = "auto"};
   std::string scenario;
   std::vector<std::string> unknowns;  // KEY=LOW..HIGH
+  std::string noise = "constant";     // or relative
   std::vector<std::string> settings;
   std::string out = "out";
   bool force = false;

@@ -1,4 +1,4 @@
-// The only file that includes Ceres.
+// Curves by their formulas, given to Ceres.
 #include "fit/ceres_fit.h"
 
 #include <ceres/ceres.h>
@@ -10,10 +10,9 @@
 #include "fit/regression.h"
 
 namespace palpate::fit {
-namespace {
 
-// Ceres speaks through glog whatever its own options say: without InitGoogleLogging a failing fit
-// writes to stderr, and with it into files below /tmp, unless both flags are set before.
+// Without InitGoogleLogging a failing fit writes to stderr, and with it into files below /tmp,
+// unless both flags are set before.
 void silence_glog() {
   static const bool done = [] {
     if (google::IsGoogleLoggingInitialized()) return true;
@@ -24,6 +23,8 @@ void silence_glog() {
   }();
   static_cast<void>(done);
 }
+
+namespace {
 
 // All residuals at once, in the unknowns u_i = p_i / scale_i, which are of order one.
 class Residuals final : public ceres::CostFunction {

@@ -9,6 +9,9 @@
 
 namespace palpate::fit {
 
+// Ceres speaks through glog whatever its own options say; from the first call on it is silent.
+void silence_glog();
+
 struct Minimum {
   enum class Status { found, out_of_iterations, failed };
 

@@ -284,9 +284,11 @@ double Scene::thickness() const {
 
 namespace {
 
-void set_layer(Scene& scene) {
-  scene.layer = make_layer(scene.scenario, scene.finger);
-  scene.layer_sinking.emplace(layers_of(scene.scenario, 1.0 - scene.finger.compliance_share));
+void set_layer(Scene& scene, SpecimenShapes& shapes) {
+  const contact::Layer layer = layers_of(scene.scenario, 1.0 - scene.finger.compliance_share);
+  scene.layer = make_layer(scene.scenario, scene.finger, shapes.layer_law(layer));
+  // Pressure maps alone look around the contact.
+  if (scene.scenario.output.pressure_maps) scene.layer_sinking = shapes.layer_sinking(layer);
 }
 
 }  // namespace
@@ -326,14 +328,15 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   }
   if (scenario.solver.model == Model::layer) {
     refuse("layer", beyond_layer(scenario));
-    set_layer(scene);
+    set_layer(scene, shapes);
     return scene;
   }
   scene.specimen = make_specimen(scenario, family.folder, shapes);
   if (!scenario.uniform() && scenario.contact.coupling == contact::Coupling::consistent &&
       std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) {
-    set_layer(scene);
-    scene.specimen->sinking.emplace(layers_of(scenario, 1.0, &scene.specimen->measured));
+    set_layer(scene, shapes);
+    scene.specimen->sinking =
+        shapes.layer_sinking(layers_of(scenario, 1.0, &scene.specimen->measured));
   }
   scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_rate(scene));
   refuse_unstable(scene, family);

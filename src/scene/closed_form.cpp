@@ -2,6 +2,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "scene/specimen_mesh.h"
 
@@ -87,14 +88,14 @@ bool all_slabs(const scenario::Scenario& scenario) {
   });
 }
 
-contact::LayerContact make_layer(const scenario::Scenario& scenario, const Finger& finger) {
-  const contact::Layer layer = layers_of(scenario, 1.0 - finger.compliance_share);
+contact::LayerContact make_layer(const scenario::Scenario& scenario, const Finger& finger,
+                                 contact::LayerLaw law) {
   // Spheres that press as one keep that one's layer, each a part of its force.
   const bool as_one = scenario.finger.calibration == finger::Calibration::force;
   return {.radius = as_one ? finger.whole.radius : finger.sphere_radius,
           .modulus = as_one ? finger.whole.modulus : finger.sphere_modulus,
           .thickness = geometry::extent(*parametric(scenario.tissue.shape)).z(),
-          .law = contact::LayerLaw(layer)};
+          .law = std::move(law)};
 }
 
 }  // namespace palpate::scene

@@ -156,6 +156,6 @@ struct TopCurvature {
                                        const tissue::Uniaxial* network = nullptr);
 
 [[nodiscard]] contact::LayerContact make_layer(const scenario::Scenario& scenario,
-                                               const Finger& finger);
+                                               const Finger& finger, contact::LayerLaw law);
 
 }  // namespace palpate::scene

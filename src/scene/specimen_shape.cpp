@@ -86,8 +86,8 @@ SpecimenShapes::Entry& SpecimenShapes::entry(const Scenario& scenario) {
 }
 
 std::size_t SpecimenShapes::size() {
-  const std::lock_guard lock(looking_up_);
-  return entries_.size();
+  const std::scoped_lock lock(looking_up_, looking_up_layer_);
+  return entries_.size() + laws_.size() + sinkings_.size();
 }
 
 const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const std::string& folder) {
@@ -103,6 +103,44 @@ const tissue::SpringFit& SpecimenShapes::fit(const Scenario& scenario, const std
   const std::lock_guard lock(known.building);
   if (!known.fit) known.fit = std::make_unique<tissue::SpringFit>(tissue::fit_springs(mesh));
   return *known.fit;
+}
+
+namespace {
+
+std::vector<double> numbers_of(const contact::Layer& layer) {
+  std::vector<double> numbers{layer.poisson_ratio, layer.share,
+                              layer.base == contact::LayerBase::bonded ? 1.0 : 0.0};
+  for (const contact::Sublayer& below : layer.below)
+    numbers.insert(numbers.end(), {below.thickness, below.stiffness, below.poisson_ratio});
+  return numbers;
+}
+
+// A search that varies nu asks for a new layer every time: the oldest tables are not kept for it.
+constexpr std::size_t most_layers = 100;
+
+template <class Table>
+Table cached(std::map<std::vector<double>, Table>& tables, std::mutex& mutex,
+             const contact::Layer& layer) {
+  const std::vector<double> key = numbers_of(layer);
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto known = tables.find(key); known != tables.end()) return known->second;
+  }
+  Table table(layer);  // two threads may build the same one: it has the same bits
+  const std::lock_guard lock(mutex);
+  if (tables.size() >= most_layers) tables.clear();
+  tables.emplace(key, table);
+  return table;
+}
+
+}  // namespace
+
+contact::LayerLaw SpecimenShapes::layer_law(const contact::Layer& layer) {
+  return cached(laws_, looking_up_layer_, layer);
+}
+
+contact::LayerSinking SpecimenShapes::layer_sinking(const contact::Layer& layer) {
+  return cached(sinkings_, looking_up_layer_, layer);
 }
 
 }  // namespace palpate::scene

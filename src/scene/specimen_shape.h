@@ -5,7 +5,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
+#include "contact/layer.h"
+#include "contact/layer_sinking.h"
 #include "geometry/smooth_surface.h"
 #include "geometry/tet_mesh.h"
 #include "scenario/scenario.h"
@@ -39,8 +42,12 @@ class SpecimenShapes {
   [[nodiscard]] const tissue::SpringFit& fit(const scenario::Scenario& scenario,
                                              const std::string& folder);
 
-  // How many it holds.
+  // How many it holds, tables of layers too.
   [[nodiscard]] std::size_t size();
+
+  // Tables of a layer, which take as long to build as a thousand presses on it.
+  [[nodiscard]] contact::LayerLaw layer_law(const contact::Layer& layer);
+  [[nodiscard]] contact::LayerSinking layer_sinking(const contact::Layer& layer);
 
  private:
   struct Entry {
@@ -52,6 +59,10 @@ class SpecimenShapes {
 
   std::mutex looking_up_;
   std::map<std::string, Entry> entries_;
+
+  std::mutex looking_up_layer_;
+  std::map<std::vector<double>, contact::LayerLaw> laws_;  // by every number of the layer
+  std::map<std::vector<double>, contact::LayerSinking> sinkings_;
 };
 
 }  // namespace palpate::scene

@@ -50,7 +50,14 @@ TEST(Arguments, OfTheOtherVerbs) {
   const Fit fit = accepted<Fit>({"fit", "d.csv", "--x", "h", "--y", "F", "--model", "power",
                                  "--origin", "-0.5", "--case", "skin"});
   EXPECT_EQ(fit.x_origin, -0.5);  // a negative number is no option
-  EXPECT_EQ(fit.case_name, "skin");
+  EXPECT_EQ(fit.columns.x + fit.columns.y + fit.columns.case_name, "hFskin");
+  const Identify identify = accepted<Identify>(
+      {"identify", "d.csv", "s.toml", "--unknown", "a=1..2", "--x-unit", "mm", "--skip", "3",
+       "--separator", ";", "--decimal", ",", "--segment", "approach"});
+  EXPECT_EQ(identify.columns.x_unit + identify.columns.separator + identify.columns.decimal,
+            "mm;,");
+  EXPECT_EQ(identify.columns.segment + identify.columns.compression, "approachauto");
+  EXPECT_EQ(identify.columns.skip, 3);
   const Compare compare = accepted<Compare>({"compare", "a", "b", "--tolerances", "t.toml"});
   EXPECT_EQ(compare.got + compare.want + compare.tolerances, "abt.toml");
   const Bless bless = accepted<Bless>({"golden", "bless", "one", "two", "--reason", "why"});

@@ -122,7 +122,7 @@ TEST_F(FitVerb, messages) {
   ended = fit(csv, "power");
   EXPECT_EQ(ended.code, 2);
   EXPECT_EQ(ended.err,
-            "data.csv:4: `force_N` holds `x`, which is no number; name a column of numbers\n");
+            "data.csv:4:3: `force_N` holds `x`, which is no number; name a column of numbers\n");
   ended = palpate(folder_.path(),
                   {"fit", "data.csv", "--x", "dept_mm", "--y", "force_N", "--model", "power"});
   EXPECT_EQ(ended.code, 2);
