@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "device/clock.h"
-#include "device/mark10.h"
 #include "device/sample.h"
 
 namespace palpate::device {
@@ -20,6 +19,7 @@ class Link {
 
   [[nodiscard]] const Identity& identity() const;
   [[nodiscard]] const Limits& limits() const;
+  [[nodiscard]] Traffic traffic() const;
 
   // A new sample where one comes within `wait` s of real time; 0 only looks. Allocates nothing.
   // The arm answers what was sent: after each sample a force, if only zero, asks for the next.

@@ -180,9 +180,9 @@ void Mark10::drain() {
     if (read.outcome != SerialPort::Outcome::bytes) break;
     if (greeting_ && first_bytes_.size() < diagnosis_bytes)
       first_bytes_.append(bytes.data(), std::min(read.size, diagnosis_bytes - first_bytes_.size()));
-    discarded_ += read.size;
+    traffic_.discarded += read.size;
   }
-  discarded_ += lines_.rest().size();
+  traffic_.discarded += lines_.rest().size();
   lines_.clear();
   pairs_.clear();
 }
@@ -264,6 +264,12 @@ std::optional<mark10::Quantity> Mark10::ask_number(std::string_view command) {
   return number;
 }
 
+Traffic Mark10::traffic() const {
+  Traffic traffic = traffic_;
+  traffic.discarded += lines_.dropped();
+  return traffic;
+}
+
 Sample Mark10::finished(Arrival arrival, Fault fault) const {
   Sample sample;
   sample.arrival = arrival;
@@ -290,6 +296,7 @@ Sample Mark10::sample(double wait) {
     drain();
     if (!send("n")) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
     asked_ = true;
+    ++traffic_.sent;
     heard_ = false;
     asked_at_ = wire_time();
   }
@@ -299,6 +306,7 @@ Sample Mark10::sample(double wait) {
       const auto step = pairs_.take(*line);
       if (step.pair) {
         asked_ = false;
+        ++traffic_.received;
         return accept(*step.pair);
       }
       if (step.fault != Fault::none) fault = step.fault;

@@ -15,9 +15,6 @@
 
 namespace palpate::device {
 
-// What a link is opened for. To look at it, nothing moves and no unit is changed.
-enum class Purpose { look, command };
-
 class Mark10 {
  public:
   // Opens the port, quiets the gauge, and asks who is there; for commands it also stops the stand
@@ -45,8 +42,7 @@ class Mark10 {
   // Sends the stop at once, then asks whether it stands; true where that is confirmed.
   bool stop();
 
-  // Bytes that came since the last call; for a log of raw traffic. Empty where none were kept.
-  [[nodiscard]] std::size_t discarded() const { return discarded_ + lines_.dropped(); }
+  [[nodiscard]] Traffic traffic() const;
 
  private:
   void greet();
@@ -84,8 +80,8 @@ class Mark10 {
   bool heard_ = false;          // anything since it was asked
   double asked_at_ = 0.0;       // s, wire time
   std::optional<Sample> last_;  // that was fresh
-  std::size_t discarded_ = 0;   // bytes that nobody asked for
-  std::string first_bytes_;     // of the greeting, for a diagnosis
+  Traffic traffic_;
+  std::string first_bytes_;  // of the greeting, for a diagnosis
   bool greeting_ = true;
 };
 

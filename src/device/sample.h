@@ -11,6 +11,10 @@
 
 namespace palpate::device {
 
+// What a link is opened for. To look at it, nothing moves, no force but zero is sent, and no unit
+// is changed.
+enum class Purpose { look, command };
+
 enum class Kind { stand, arm, recording };
 
 // What a sample() call brought.
@@ -78,6 +82,14 @@ struct Limits {
   double period = 0.0;       // s, between samples as planned
   double stale_after = 0.0;  // s without a new sample
   double lost_after = 0.0;   // s without a new sample
+};
+
+// What went over the wire, of which a link keeps count.
+struct Traffic {
+  std::uint64_t sent = 0;        // requests or commands that ask for a reply
+  std::uint64_t received = 0;    // replies
+  std::uint64_t duplicates = 0;  // replies that came once too often
+  std::uint64_t discarded = 0;   // bytes that nobody asked for
 };
 
 // What the stand is told to do.
