@@ -44,25 +44,28 @@ bool moves(const Crosshead& crosshead) {
   return crosshead.direction != 0 || crosshead.velocity != 0.0;
 }
 
-// |v| rises and falls by a dt at most, and stays below sqrt(2 a d), d the way that is left: so it
-// comes to rest at the end. The position takes the mean of the two velocities, exact for a constant
-// a.
+// |v| changes by a dt at most, and what is left after the step must do for braking:
+//   v1^2 / (2 a) <= d - (v + v1) dt / 2   =>   v1 = -a dt/2 + sqrt((a dt/2)^2 + 2 a d - a dt v)
+// The position takes the mean of the two velocities, exact for a constant acceleration.
 void step(Crosshead& crosshead, double dt) {
   if (!moves(crosshead)) return;
   const double most = crosshead.settings.acceleration * dt;
   const int way = crosshead.direction;
   double wanted = 0.0;
   if (way != 0) {
-    const double left = std::max(0.0, (end_of_way(crosshead, way) - crosshead.position) * way);
-    wanted =
-        way * std::min(crosshead.speed, std::sqrt(2.0 * crosshead.settings.acceleration * left));
+    const double left = (end_of_way(crosshead, way) - crosshead.position) * way;
+    const double half = 0.5 * most;  // a dt / 2
+    const double square = half * half + 2.0 * crosshead.settings.acceleration * left -
+                          most * crosshead.velocity * way;
+    const double braking = square > 0.0 ? std::max(0.0, std::sqrt(square) - half) : 0.0;
+    wanted = way * std::min(crosshead.speed, braking);
   }
   const double before = crosshead.velocity;
   const double after = before + std::clamp(wanted - before, -most, most);
   crosshead.position += 0.5 * (before + after) * dt;
   crosshead.velocity = after;
   if (after != 0.0) crosshead.at_end = 0;
-  // Near the end the root falls faster than a dt allows: what is missing then is a few a dt^2.
+  // What rounding leaves of the way, or the last part of a step: less than a few a dt^2.
   const double near = 8.0 * most * dt;
   if (way != 0) {
     const double stop = end_of_way(crosshead, way);

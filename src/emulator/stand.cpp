@@ -29,9 +29,8 @@ std::string speed_text(const Stand& stand) {
 std::string status(const Stand& stand) {
   const Crosshead& head = stand.crosshead;
   const char* gap = stand.settings.status == StatusLayout::spaced ? " " : "";
-  std::string text =
-      !moves(head) ? "S" : (head.direction + (head.velocity > 0 ? 1 : -1) > 0 ? "U" : "D");
-  if (moves(head) && head.direction != 0) text = head.direction > 0 ? "U" : "D";
+  const bool up = head.direction != 0 ? head.direction > 0 : head.velocity > 0.0;
+  std::string text = !moves(head) ? "S" : up ? "U" : "D";
   text += gap;
   text += head.mode == Mode::cycle ? "C" : head.mode == Mode::limit ? "L" : "M";
   if (head.at_end != 0) text += std::string(gap) + (head.at_end > 0 ? "UL" : "DL");
