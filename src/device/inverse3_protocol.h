@@ -51,10 +51,6 @@ struct Reply {
   std::optional<Vec3> velocity = {};  // m/s
   std::optional<Vec3> force = {};     // N, that the service says it renders
   Mode mode = Mode::unknown;
-};                                  // m
-std::optional<Vec3> velocity = {};  // m/s
-std::optional<Vec3> force = {};     // N, that the service says it renders
-Mode mode = Mode::unknown;
 };
 // Reads a reply for the arm `id`. Never allocates, never throws, whatever the bytes. A reply that
 // is valid JSON but says nothing of this arm is missing_field, or wrong_device where it speaks of

@@ -13,7 +13,7 @@ namespace {
 constexpr int baud = 115200;              // ESM303 user's guide: 115200 8N1
 constexpr double answer_time = 0.25;      // s, for a question outside of sampling
 constexpr double mute_time = 0.03;        // s, in which a setter may object
-constexpr double sample_time = 0.1;       // s, after which a reading is asked for anew
+constexpr double sample_time = 0.05;      // s, after which a reading is asked for anew
 constexpr double into_channel = 15e-3;    // s, after `/`; as an open driver waits
 constexpr double out_of_channel = 10e-3;  // s, after `\`
 constexpr double planned_period = 0.02;   // s: 50 Hz, as that driver polls
@@ -27,13 +27,6 @@ void pause(double time) {
   wire.sleep_until(wire_time() + time);
 }
 
-// The bytes for a sentence: what cannot be printed as a point.
-std::string printable(std::string_view bytes) {
-  std::string text;
-  for (const char c : bytes.substr(0, 40)) text += c >= ' ' && c <= '~' ? c : '.';
-  return text;
-}
-
 }  // namespace
 
 Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
@@ -45,7 +38,7 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
   limits_.speed = fastest;
   limits_.period = planned_period;
   limits_.stale_after = 3.0 * planned_period;
-  limits_.lost_after = 0.5;
+  limits_.lost_after = 0.25;
   first_bytes_.reserve(diagnosis_bytes);
   if (purpose_ == Purpose::command) {
     guard_ = std::make_unique<StopGuard>(port_.descriptor(), "s");
@@ -56,109 +49,6 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
 }
 
 Mark10::~Mark10() = default;  // the guard sends the stop, then the port closes
-
-void Mark10::greet() {
-  drain();
-  quiet_gauge();
-  ask_gauge_who_it_is();
-  if (purpose_ == Purpose::command) send("i");
-  std::optional<mark10::Pair> pair;
-  int error = 0;
-  // Twice: the first answer may be spoilt by what was on its way.
-  for (int tries = 0; tries < 2 && !pair; ++tries) {
-    pairs_.clear();
-    ask("n", answer_time, [&](std::string_view line) {
-      const auto step = pairs_.take(line);
-      if (step.error != 0) error = step.error;
-      pair = step.pair;
-      return pair.has_value();
-    });
-  }
-  if (!pair && error != 0)
-    throw LinkError("palpate: the stand on `" + path_ + "` answers `*" + std::to_string(error) +
-                    "`, " + std::string(mark10::error_text(error)) +
-                    "; put it to PC control and its gauge to its main screen");
-  if (!pair) refuse_silence();
-  unit_ = pair->force_unit;
-  identity_.dialect = "gauge in " + std::string(unit_.data());
-  ask_stand_limits();
-}
-
-void Mark10::quiet_gauge() {
-  gauge("AOUT0", mute_time);
-  if (purpose_ != Purpose::command) return;
-  gauge("FULL", mute_time);
-  gauge("N", mute_time);
-}
-
-void Mark10::ask_gauge_who_it_is() {
-  const auto settings = ask_settings();
-  if (!settings) {
-    identity_.notes.push_back(
-        "the gauge does not list its settings; a pressing force is assumed to be positive, as "
-        "the series is made");
-    return;
-  }
-  using Sign = mark10::Settings::Sign;
-  identity_.firmware = settings->version;
-  if (settings->sign == Sign::tension_positive) sign_ = -1.0;
-  if (!settings->sign_listed && settings->sign == Sign::compression_positive)
-    identity_.notes.push_back(
-        "the gauge does not list its polarity (IPOL); a pressing force is assumed to be positive");
-  if (settings->auto_output > 0)
-    identity_.notes.push_back("the gauge goes on sending readings by itself, against AOUT0");
-  if (!settings->mode.empty() && settings->mode != "CUR")
-    identity_.notes.push_back("the gauge shows a peak (" + settings->mode +
-                              "), not the force of now; put it to CUR");
-  if (settings->sign == Sign::omitted) {
-    const std::string why = "the gauge omits the sign of its forces; set OPOL0 in its menu";
-    if (purpose_ == Purpose::command) throw LinkError("palpate: on `" + path_ + "` " + why);
-    identity_.notes.push_back(why);
-  }
-  if (settings->numbers_only)
-    throw LinkError("palpate: on `" + path_ +
-                    "` the gauge sends numbers without a unit (NUM); set it to FULL in its menu");
-  if (purpose_ == Purpose::command && settings->unit != "N")
-    identity_.notes.push_back("the gauge stays in " + settings->unit +
-                              "; its forces are converted");
-  // Model and serial number, as the gauge gives them.
-  for (const auto& [command, into] :
-       {std::pair{"RM", &identity_.model}, std::pair{"RS", &identity_.id}}) {
-    const auto reply = gauge(command, answer_time);
-    if (reply && !mark10::parse_error(*reply) && mark10::garbage_share(*reply) == 0.0)
-      *into = *reply;
-  }
-}
-
-void Mark10::ask_stand_limits() {
-  const auto read = [&](std::string_view command, double& into, auto convert) {
-    const auto number = ask_number(command);
-    const auto si = number ? convert(*number) : std::nullopt;
-    if (si) into = *si;
-    return si.has_value();
-  };
-  const auto length = [](const mark10::Quantity& one) {
-    return one.unit.empty() ? std::optional(one.value * 1e-3) : mark10::metres(one);
-  };
-  const bool travels = read("v", limits_.high, length) & read("w", limits_.low, length);
-  if (!travels) identity_.notes.push_back("the stand does not tell its travel limits");
-}
-
-void Mark10::refuse_silence() const {
-  const std::string on = "palpate: on `" + path_ + "` ";
-  if (port_.lost()) throw LinkError(on + "the device hung up; check its cable");
-  if (first_bytes_.empty())
-    throw LinkError(on +
-                    "nothing answers; switch the stand on, set CONTROL to CONSOLE and PC Control "
-                    "to on, and check the cable");
-  // Bytes at another rate are not text; a fifth of them shows it.
-  if (mark10::garbage_share(first_bytes_) > 0.2)
-    throw LinkError(on + "garbage answers, as at a wrong baud rate; set the stand and its gauge " +
-                    "to " + std::to_string(baud) + " baud, 8 bits, no parity");
-  throw LinkError(on + "something answers in words that are no reading (`" +
-                  printable(first_bytes_) +
-                  "`); is this the stand's port, and is the gauge plugged into the stand?");
-}
 
 bool Mark10::send(std::string_view bytes) { return port_.write(bytes); }
 
@@ -197,16 +87,10 @@ std::optional<std::string> Mark10::gauge(std::string_view command, double wait) 
   send(line);
   std::optional<std::string> reply;
   const double until = wire_time() + wait;
-  while (!reply && !port_.lost()) {
-    if (const auto got = lines_.next()) {
-      // Readings that the gauge sends by itself are no answers.
-      const auto quantity = mark10::parse_quantity(*got);
-      if (!(quantity && mark10::newtons(*quantity))) reply = std::string(*got);
-    } else if (wire_time() >= until) {
-      break;
-    } else {
-      receive(until);
-    }
+  while (const auto got = reply ? std::nullopt : line_until(until)) {
+    // Readings that the gauge sends by itself are no answers.
+    const auto quantity = mark10::parse_quantity(*got);
+    if (!(quantity && mark10::newtons(*quantity))) reply = std::string(*got);
   }
   send("\\");
   pause(out_of_channel);
@@ -220,48 +104,49 @@ std::optional<mark10::Settings> Mark10::ask_settings() {
   return reply ? mark10::parse_settings(*reply) : std::nullopt;
 }
 
-template <class Take>
-bool Mark10::ask(std::string_view command, double wait, const Take& take) {
+bool Mark10::ask(std::string_view command) {
   // A reading that is still on its way would be taken for the answer.
   if (asked_) {
     const double until = asked_at_ + sample_time;
-    bool done = false;
-    while (!done && wire_time() < until && !port_.lost()) {
-      if (const auto line = lines_.next()) {
-        done = pairs_.take(*line).pair.has_value();
-      } else {
-        receive(until);
-      }
-    }
+    while (const auto line = line_until(until))
+      if (pairs_.take(*line).pair) break;
     asked_ = false;
   }
   drain();
-  if (!send(command)) return false;
-  const double until = wire_time() + wait;
-  while (!port_.lost()) {
-    if (const auto line = lines_.next()) {
-      if (take(*line)) return true;
-    } else if (wire_time() >= until) {
-      return false;
-    } else {
-      receive(until);
-    }
+  return send(command);
+}
+
+std::optional<std::string_view> Mark10::line_until(double until) {
+  while (true) {
+    if (const auto line = lines_.next()) return line;
+    if (port_.lost() || wire_time() >= until) return std::nullopt;
+    receive(until);
   }
-  return false;
 }
 
 std::optional<mark10::Quantity> Mark10::ask_number(std::string_view command) {
-  std::optional<mark10::Quantity> number;
-  ask(command, answer_time, [&](std::string_view line) {
-    number = mark10::parse_quantity(line);
+  if (!ask(command)) return std::nullopt;
+  const double until = wire_time() + answer_time;
+  while (const auto line = line_until(until)) {
+    if (mark10::parse_error(*line)) break;
+    auto number = mark10::parse_quantity(*line);
+    if (!number) continue;
     // The unit is a view into the buffer: keep only what outlives it.
-    if (number) {
-      for (const char* unit : {"mm", "in", "mm/min", "in/min"})
-        if (number->unit == unit) number->unit = unit;
-    }
-    return number.has_value() || mark10::parse_error(line).has_value();
-  });
-  return number;
+    std::string_view known = "?";
+    for (const std::string_view unit : {"", "mm", "in", "mm/min", "in/min"})
+      if (number->unit == unit) known = unit;
+    number->unit = known;
+    return number;
+  }
+  return std::nullopt;
+}
+
+std::optional<mark10::Status> Mark10::ask_status() {
+  if (!ask("p")) return std::nullopt;
+  const double until = wire_time() + answer_time;
+  while (const auto line = line_until(until))
+    if (const auto status = mark10::parse_status(*line)) return status;
+  return std::nullopt;
 }
 
 Traffic Mark10::traffic() const {
@@ -309,7 +194,7 @@ Sample Mark10::sample(double wait) {
         ++traffic_.received;
         return accept(*step.pair);
       }
-      if (step.fault != Fault::none) fault = step.fault;
+      if (fault == Fault::none) fault = step.fault;
       const bool over = step.fault == Fault::error_reply || step.fault == Fault::truncated ||
                         step.fault == Fault::overload;
       if (over) {
@@ -323,7 +208,9 @@ Sample Mark10::sample(double wait) {
     if (now >= asked_at_ + sample_time) {
       asked_ = false;
       if (!heard_) return finished(Arrival::none, Fault::silent);
-      return finished(Arrival::dropped, fault == Fault::none ? Fault::truncated : fault);
+      if (fault == Fault::none)
+        fault = mark10::garbage_share(lines_.rest()) > 0.0 ? Fault::garbage : Fault::truncated;
+      return finished(Arrival::dropped, fault);
     }
     if (now >= until) return finished(Arrival::none, fault);
     receive(std::min(until, asked_at_ + sample_time));
@@ -358,11 +245,7 @@ Fault Mark10::set_travel_limits(double low, double high) {
     fault = same ? Fault::none : Fault::not_verified;
   }
   if (fault != Fault::none) return fault;
-  std::optional<mark10::Status> status;
-  ask("p", answer_time, [&](std::string_view line) {
-    status = mark10::parse_status(line);
-    return status.has_value();
-  });
+  const auto status = ask_status();
   // Limits are obeyed in limit mode only; a status without a mode says nothing against it.
   if (status && status->mode != '?' && status->mode != 'L') return Fault::not_verified;
   limits_.low = low;
@@ -392,11 +275,7 @@ bool Mark10::stop() {
   if (purpose_ != Purpose::command) return true;  // it never set anything in motion
   for (int tries = 0; tries < 3 && !port_.lost(); ++tries) {
     send("s");
-    std::optional<mark10::Status> status;
-    ask("p", answer_time, [&](std::string_view line) {
-      status = mark10::parse_status(line);
-      return status.has_value();
-    });
+    const auto status = ask_status();
     if (status && status->moving == mark10::Status::Moving::stopped) return true;
     // Without a clear word, two readings tell: at its slowest the stand goes 0.02 mm in 2.4 s, so
     // this is only a second opinion on a stand that was told to stop three times.

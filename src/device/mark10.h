@@ -55,9 +55,11 @@ class Mark10 {
   void receive(double until);
   void drain();
   std::optional<std::string> gauge(std::string_view command, double wait);
-  // Sends `command` and gives lines to `take` till it returns true; false at the end of `wait`.
-  template <class Take>
-  bool ask(std::string_view command, double wait, const Take& take);
+  // Sends a question once no other answer can be mistaken for its own.
+  bool ask(std::string_view command);
+  // The next line that comes till `until` (s, wire_time).
+  std::optional<std::string_view> line_until(double until);
+  std::optional<mark10::Status> ask_status();
   std::optional<mark10::Quantity> ask_number(std::string_view command);
   std::optional<mark10::Settings> ask_settings();
   bool stands_still();

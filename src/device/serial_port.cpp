@@ -105,7 +105,8 @@ SerialPort::SerialPort(const std::string& path, int baud) {
     release();
     refuse(path, std::string("cannot be set up as a serial line: ") + std::strerror(error));
   }
-  ::tcflush(file_, TCIOFLUSH);
+  // Not the output: the stop of whoever held the port before may still be in it.
+  ::tcflush(file_, TCIFLUSH);
 }
 
 SerialPort::SerialPort(SerialPort&& other) noexcept
