@@ -168,13 +168,13 @@ void Mark10::take(char byte, Rate rate_of_other_side) {
   command_ += heard;
   const std::string reply = reply_to(heard);
   if (between_commands(stand_)) log_row("in", std::exchange(command_, {}));
-  if (request) ++requests_;
   if (rate_of_other_side == Rate::other) {
     for (const char sent : reply) send(std::string(1, noise(sent)));
   } else {
     send(reply);
   }
   if (lockstep) go_to(now_ + byte_time() * static_cast<Nanoseconds>(reply.size()));
+  if (request) ++requests_;  // what comes after it begins with the next byte
 }
 
 std::string Mark10::give() {
