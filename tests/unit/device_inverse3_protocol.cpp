@@ -16,7 +16,8 @@ namespace {
 
 // As the service's pages show a state: config, state and status of each device.
 const std::string reply_text =
-    R"({"session_id":7,"inverse3":[{"device_id":"049D","config":{"device_info":{"model":"inverse3"}},)"
+    R"({"session_id":7,"inverse3":[{"device_id":"049D","config":{"type":"inverse3",)"
+    R"("device_info":{"major_version":7,"minor_version":4}},)"
     R"("state":{"angular_position":{"a0":1.0,"a1":2,"a2":3},"body_orientation":{"w":1,"x":0,"y":0,)"
     R"("z":0},"control_mode":"cursor_force","current_cursor_force":{"x":0,"y":0,"z":1.5},)"
     R"("cursor_position":{"x":0.05,"y":-0.12,"z":1.5e-1},)"
@@ -35,6 +36,18 @@ TEST(Inverse3Reply, HoldsPositionVelocityForceAndMode) {
   EXPECT_EQ(reply.velocity, Vec3(0.1, 0.0, -0.2));
   EXPECT_EQ(reply.force, Vec3(0.0, 0.0, 1.5));
   EXPECT_EQ(reply.mode, Mode::other);
+}
+
+TEST(Inverse3Reply, OfAnOlderServiceCallsItMode) {
+  const auto mode = [](const char* word) {
+    return parse_reply(
+               std::string(R"({"inverse3":[{"device_id":"A","state":{"mode":)") + word + "}}]}",
+               "A")
+        .mode;
+  };
+  EXPECT_EQ(mode("\"idle\""), Mode::idle);
+  EXPECT_EQ(mode("\"force\""), Mode::other);
+  EXPECT_EQ(mode("3"), Mode::unknown);
 }
 
 TEST(Inverse3Reply, IsReadInAnyOrder) {
@@ -177,6 +190,7 @@ TEST(Inverse3Snapshot, ListsTheArmsThatCanBeSpokenTo) {
   ASSERT_EQ(snapshot->arms.size(), 1u);
   EXPECT_EQ(snapshot->arms[0].id, "049D");
   EXPECT_EQ(snapshot->arms[0].model, "inverse3");
+  EXPECT_EQ(snapshot->arms[0].firmware, "7.4");
   EXPECT_FALSE(parse_snapshot("[]"));
   EXPECT_FALSE(parse_snapshot("{"));
   EXPECT_TRUE(parse_snapshot("{}")->arms.empty());
