@@ -44,6 +44,12 @@ class MeshError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// A device that cannot be reached, understood or trusted (exit code 6).
+class LinkError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // A file or program of the system that failed: a full disk, a folder without permission (exit 1).
 class SystemError : public std::runtime_error {
  public:

@@ -1,10 +1,10 @@
-// CLI11 parses; wrong words are found first, so that a suggestion can be made.
+// The one table of verbs and options: parsing and help come from it.
 #include "cli/arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "base/text.h"
+#include "cli/wrong_words.h"
 #include "fit/model.h"
 #include "report/machine.h"
 
@@ -27,6 +27,7 @@ struct Parser {
   Sweep sweep;
   Identify identify;
   Export export_to;
+  Device device;
 
   Parser() {
     app.require_subcommand(1);
@@ -36,7 +37,8 @@ struct Parser {
     app.add_flag("--json", arguments.manner.json, "Events as JSON on stdout, one object a line");
     app.footer(
         "Exit codes: 0 good, 1 internal, 2 bad input, 3 comparison differs, 4 diverged, 5 mesh,\n"
-        "7 sweep incomplete, 75 interrupted, resumable, 130 interrupted. Data goes to stdout, talk to stderr.");
+        "6 device link, 7 sweep incomplete, 75 interrupted, resumable, 130 interrupted.\n"
+        "Data goes to stdout, talk to stderr.");
 
     CLI::App* verb = app.add_subcommand("run", "Run scenarios and write their results");
     verb->add_option("scenario", run.scenarios, "Scenario files")->required();
@@ -146,6 +148,8 @@ struct Parser {
     verb->add_option("--out", export_to.out, "Folder to write into")->capture_default_str();
     verb->add_flag("--force", export_to.force, "Replace files");
 
+    add_device();
+
     app.add_subcommand("manual", "The reference of all scenario keys, in markdown");
   }
 
@@ -166,6 +170,24 @@ struct Parser {
     verb->add_option("--segment", data.segment,
                      "Only approach or retract, or what the column `segment` or `step` holds");
     verb->add_option("--case", data.case_name, "Only rows whose column `case` says so");
+  }
+
+  void add_device() {
+    CLI::App* all = app.add_subcommand("device", "Live devices: who is there, and how they do");
+    all->require_subcommand(1);
+    all->fallthrough();
+    const auto add = [&](const char* name, Device::Act act, const char* what) {
+      CLI::App* verb = all->add_subcommand(name, what);
+      verb->callback([this, act] { device.act = act; });
+      verb->add_option("link", device.link, "mark10:PORT, inverse3:HOST:PORT or replay:FILE.csv")
+          ->required();
+      return verb;
+    };
+    add("probe", Device::Act::probe, "Who is there; nothing moves, no force is sent");
+    CLI::App* verb = add("monitor", Device::Act::monitor, "Read samples, and how well they come");
+    verb->add_option("--seconds", device.seconds, "How long")
+        ->capture_default_str()
+        ->check(CLI::Range(0.1, 86400.0));
   }
 
   void add_sweep() {
@@ -221,94 +243,10 @@ struct Parser {
     if (app.got_subcommand("sweep")) return sweep;
     if (app.got_subcommand("identify")) return identify;
     if (app.got_subcommand("export")) return export_to;
+    if (app.got_subcommand("device")) return device;
     return Manual{};
   }
 };
-
-std::vector<std::string> verb_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(verb->get_name());
-  return names;
-}
-
-using Options = std::vector<const CLI::Option*>;
-
-void add_options(const CLI::App& app, Options& options) {
-  for (const CLI::Option* option : app.get_options())
-    if (!option->get_positional()) options.push_back(option);
-}
-
-const CLI::Option* find_option(const Options& options, const std::string& name) {
-  for (const CLI::Option* option : options)
-    if (option->check_name(name)) return option;
-  return nullptr;
-}
-
-std::vector<std::string> long_names(const Options& options) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : options)
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return names;
-}
-
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
-  const auto near = nearest(word, known);
-  return near ? "; did you mean `" + *near + "`?" : "; known: " + joined(known, ", ");
-}
-
-std::string unknown_option(const CLI::App& verb, const std::string& name, const Options& known) {
-  for (const std::string& inner : verb_names(verb))
-    if (verb.get_subcommand(inner)->get_option_no_throw(name) != nullptr)
-      return "option `" + name + "` stands before its verb; write it as `palpate " + inner +
-             " ... " + name + "`";
-  return "unknown option `" + name + "`" + did_you_mean(name, long_names(known));
-}
-
-// The first word that no verb or option of ours is.
-std::optional<std::string> wrong_word(const CLI::App& app,
-                                      const std::vector<std::string>& arguments) {
-  const CLI::App* verb = &app;
-  Options options;
-  add_options(app, options);
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& word = arguments[i];
-    if (word == "--") break;
-    const bool is_long = word.starts_with("--");
-    const std::string name = is_long ? word.substr(0, word.find('=')) : word;
-    if (const CLI::Option* option = find_option(options, name); word.starts_with("-") && option) {
-      // The next word is its value, whatever it looks like.
-      if (option->get_items_expected_min() > 0 && name == word) ++i;
-    } else if (is_long) {
-      return unknown_option(*verb, name, options);
-    } else if (!word.starts_with("-") && !verb_names(*verb).empty()) {
-      const std::vector<std::string> names = verb_names(*verb);
-      if (std::find(names.begin(), names.end(), word) == names.end())
-        return "unknown verb `" + word + "`" + did_you_mean(word, names);
-      verb = verb->get_subcommand(word);
-      add_options(*verb, options);
-    }
-  }
-  return std::nullopt;
-}
-
-// CLI11's complaint as a sentence; `what` names an option or positional without quotes.
-std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
-  const CLI::App* asked = &app;
-  std::string command = "palpate";
-  while (!asked->get_subcommands().empty()) {
-    asked = asked->get_subcommands().front();
-    command += " " + asked->get_name();
-  }
-  const std::string help = "; `" + command + " --help` shows how to write it";
-  const std::string what = error.what();
-  const std::string required = " is required";
-  if (what == "A subcommand is required")
-    return "`" + command + "` wants a verb: " + joined(verb_names(*asked), ", ") + help;
-  if (what.ends_with(required))
-    return "`" + command + "` lacks `" + what.substr(0, what.size() - required.size()) + "`" + help;
-  return "`" + command + "` cannot be read: " + what + help;
-}
 
 }  // namespace
 

@@ -86,8 +86,8 @@ SpecimenShapes::Entry& SpecimenShapes::entry(const Scenario& scenario) {
 }
 
 std::size_t SpecimenShapes::size() {
-  const std::scoped_lock lock(looking_up_, looking_up_layer_);
-  return entries_.size() + laws_.size() + sinkings_.size();
+  const std::lock_guard lock(looking_up_);
+  return entries_.size();
 }
 
 const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const std::string& folder) {

@@ -42,7 +42,7 @@ class SpecimenShapes {
   [[nodiscard]] const tissue::SpringFit& fit(const scenario::Scenario& scenario,
                                              const std::string& folder);
 
-  // How many it holds, tables of layers too.
+  // How many shapes it holds.
   [[nodiscard]] std::size_t size();
 
   // Tables of a layer, which take as long to build as a thousand presses on it.

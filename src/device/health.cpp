@@ -1,0 +1,149 @@
+// Counting in the loop without allocating; JSON once it is over.
+#include "device/health.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace palpate::device {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity: what has no limit is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json histogram_json(const LatencyHistogram& histogram) {
+  Json json;
+  json["count"] = histogram.count();
+  json["longest_s"] = histogram.longest();
+  json["p50_below_s"] = histogram.quantile(0.5);
+  json["p99_below_s"] = histogram.quantile(0.99);
+  Json bins = Json::array();
+  for (std::size_t bin = 0; bin < LatencyHistogram::bins; ++bin) {
+    if (histogram.counts()[bin] == 0) continue;
+    const bool last = bin + 1 == LatencyHistogram::bins;
+    bins.push_back(
+        {{"below_us", last ? Json(nullptr) : Json(1e6 * LatencyHistogram::upper_end(bin))},
+         {"count", histogram.counts()[bin]}});
+  }
+  json["bins"] = bins;
+  return json;
+}
+
+Json rules_json(const RuleCounts& rules) {
+  return {{"not_finite", rules.not_finite}, {"force_clamped", rules.clamped},
+          {"slew_clamped", rules.slewed},   {"stale_frames", rules.stale},
+          {"jumps", rules.jumps},           {"too_fast", rules.too_fast},
+          {"outside", rules.outside},       {"damped", rules.damped}};
+}
+
+}  // namespace
+
+void LatencyHistogram::add(double time) {
+  std::size_t bin = 0;
+  for (double end = 1e-6; bin + 1 < bins && time >= end; end *= 2.0) ++bin;
+  ++counts_[bin];
+  ++count_;
+  if (time > longest_) longest_ = time;
+}
+
+double LatencyHistogram::upper_end(std::size_t bin) {
+  return 1e-6 * static_cast<double>(std::uint64_t{1} << bin);
+}
+
+double LatencyHistogram::quantile(double share) const {
+  if (count_ == 0) return 0.0;
+  const double wanted = share * static_cast<double>(count_);
+  std::uint64_t below = 0;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    below += counts_[bin];
+    if (static_cast<double>(below) >= wanted) return upper_end(bin);
+  }
+  return upper_end(bins - 1);
+}
+
+const char* link_state_text(LinkState state) {
+  switch (state) {
+    case LinkState::open: return "open";
+    case LinkState::armed: return "armed";
+    case LinkState::stale: return "stale";
+    case LinkState::tripped: return "tripped";
+    case LinkState::lost: return "lost";
+    case LinkState::closed: return "closed";
+  }
+  return "unknown";
+}
+
+void Health::count(double now, const Sample& sample) {
+  ++frames;
+  switch (sample.arrival) {
+    case Arrival::fresh:
+      ++fresh;
+      if (last_fresh_ >= 0.0) longest_gap = std::max(longest_gap, now - last_fresh_);
+      last_fresh_ = now;
+      break;
+    case Arrival::duplicate: ++duplicates; break;
+    case Arrival::dropped: ++dropped; break;
+    case Arrival::none:
+    case Arrival::lost: ++missing; break;
+  }
+  const auto fault = static_cast<std::size_t>(sample.fault);
+  if (fault > 0 && fault < faults.size()) ++faults[fault];
+}
+
+void Health::pass(const Transition& transition) {
+  const std::size_t kept = std::min(transition_count, transitions.size());
+  const bool same =
+      kept > 0 && transition_count == kept && transitions[kept - 1].to == transition.to;
+  if (same) return;
+  if (kept < transitions.size()) transitions[kept] = transition;
+  ++transition_count;
+}
+
+std::string health_json(const Identity& identity, const Limits& limits, const Traffic& traffic,
+                        const Health& health) {
+  Json json;
+  json["id"] = identity.id;
+  json["model"] = identity.model;
+  json["firmware"] = identity.firmware;
+  json["dialect"] = identity.dialect;
+  json["notes"] = identity.notes;
+  json["limits"] = {{"force_N", number(limits.force)},  {"speed_m_per_s", number(limits.speed)},
+                    {"low_m", number(limits.low)},      {"high_m", number(limits.high)},
+                    {"period_s", limits.period},        {"stale_after_s", limits.stale_after},
+                    {"lost_after_s", limits.lost_after}};
+  json["traffic"] = {{"sent", traffic.sent},
+                     {"received", traffic.received},
+                     {"duplicates", traffic.duplicates},
+                     {"discarded_bytes", traffic.discarded}};
+  json["frames"] = health.frames;
+  json["deadline_misses"] = health.deadline_misses;
+  json["samples"] = {{"fresh", health.fresh},
+                     {"duplicate", health.duplicates},
+                     {"dropped", health.dropped},
+                     {"missing", health.missing}};
+  json["longest_gap_s"] = health.longest_gap;
+  json["least_energy_J"] = health.least_energy;
+  json["rules"] = rules_json(health.rules);
+  Json faults = Json::object();
+  for (std::size_t i = 1; i < health.faults.size(); ++i)
+    if (health.faults[i] > 0)
+      faults[std::string(fault_text(static_cast<Fault>(i)))] = health.faults[i];
+  json["faults"] = faults;
+  json["reply"] = histogram_json(health.reply);
+  json["lateness"] = histogram_json(health.lateness);
+  json["compute"] = histogram_json(health.compute);
+  Json passed = Json::array();
+  for (std::size_t i = 0; i < std::min(health.transition_count, health.transitions.size()); ++i) {
+    const Transition& one = health.transitions[i];
+    passed.push_back({{"time_s", one.time}, {"state", link_state_text(one.to)}});
+    if (one.why != Trip::none) passed.back()["why"] = trip_text(one.why);
+    if (one.fault != Fault::none) passed.back()["fault"] = fault_text(one.fault);
+  }
+  json["states"] = passed;
+  json["state_changes"] = health.transition_count;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace palpate::device

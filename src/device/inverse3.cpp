@@ -1,0 +1,193 @@
+// The arm's conversation: our message is the clock, the newest reply counts.
+#include "device/inverse3.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace palpate::device {
+namespace {
+
+constexpr double connect_time = 2.0;   // s
+constexpr double version_time = 1.0;   // s
+constexpr double greeting_time = 0.1;  // s a reply
+constexpr int trials = 6;              // replies a spelling has, to leave the idle mode
+constexpr double period = 1e-3;        // s: the paper's frame
+constexpr double stop_time = 0.02;     // s
+constexpr double reply_time = 0.02;    // s, after which a reply is taken for lost
+// After a silence of ours the arm is idle once or twice; longer, and it does not do as it is told.
+constexpr int most_idle = 3;  // replies
+
+}  // namespace
+
+Inverse3::Inverse3(const std::string& host, int port, Purpose purpose, Clock& clock)
+    : clock_(clock), purpose_(purpose), socket_(host, port, connect_time) {
+  identity_.kind = Kind::arm;
+  limits_.takes_force = true;
+  limits_.period = period;
+  limits_.stale_after = 3.0 * period;
+  limits_.lost_after = 0.1;
+  const auto version = http_get(host, port, "/version", version_time);
+  identity_.firmware = version ? inverse3::parse_version(*version) : std::string();
+  if (identity_.firmware.empty())
+    identity_.notes.push_back("the service does not tell its version");
+  greet();
+}
+
+Inverse3::~Inverse3() {
+  if (!socket_.closed()) send(Vec3::Zero());
+}
+
+void Inverse3::greet() {
+  const auto first = socket_.receive(wire_time() + connect_time);
+  if (first.outcome != WebSocket::Outcome::message)
+    throw LinkError(first.outcome == WebSocket::Outcome::closed
+                        ? "palpate: " + socket_.why_closed() + " before it said who is there"
+                        : "palpate: the service takes the connection but sends no snapshot; is "
+                          "this its simulation port (10001)?");
+  const auto snapshot = inverse3::parse_snapshot(first.text);
+  if (!snapshot)
+    throw LinkError(
+        "palpate: the service's first message is no JSON; is this its simulation "
+        "port (10001)?");
+  if (snapshot->arms.empty())
+    throw LinkError(
+        "palpate: the service runs, but no Inverse3 is there; connect and calibrate "
+        "it, and see that no other program owns it");
+  identity_.id = snapshot->arms.front().id;
+  identity_.model = snapshot->arms.front().model;
+  if (snapshot->arms.size() > 1)
+    identity_.notes.push_back("of " + std::to_string(snapshot->arms.size()) +
+                              " arms the first is used, " + identity_.id);
+  if (!snapshot->arms.front().firmware.empty())
+    identity_.notes.push_back("the arm's own firmware is " + snapshot->arms.front().firmware);
+
+  // A spelling the service does not know leaves the arm idle.
+  using inverse3::Spelling;
+  const Spelling expected = inverse3::spelling_of(identity_.firmware);
+  const Spelling other = expected == Spelling::vector ? Spelling::values : Spelling::vector;
+  if (!try_spelling(expected)) {
+    if (!socket_.closed() && try_spelling(other)) {
+      identity_.notes.push_back("a force is spelled `" +
+                                std::string(inverse3::spelling_text(other)) +
+                                "`, against what the service's version says");
+    } else {
+      spelling_ = expected;
+      identity_.notes.push_back(
+          "the arm stays idle on a zero force in either spelling; whether it takes forces is not "
+          "known");
+    }
+  }
+  if (socket_.closed()) throw LinkError("palpate: " + socket_.why_closed());
+  identity_.dialect = inverse3::spelling_text(spelling_);
+}
+
+bool Inverse3::try_spelling(inverse3::Spelling spelling) {
+  spelling_ = spelling;
+  mode_ = inverse3::Mode::unknown;
+  int answers = 0;
+  for (int i = 0; i < trials; ++i) {
+    const Sample got = sample(greeting_time);
+    if (got.arrival == Arrival::lost) return false;
+    if (got.arrival == Arrival::none) continue;
+    ++answers;
+    // The first reply may still speak of the time before.
+    if (answers > 1 && mode_ == inverse3::Mode::other) return confirmed_ = true;
+  }
+  // A service that does not tell the mode gives no reason to doubt.
+  if (answers > 0 && mode_ == inverse3::Mode::unknown) return true;
+  if (answers == 0)
+    throw LinkError("palpate: the service does not answer a zero force for " + identity_.id +
+                    "; restart it");
+  return false;
+}
+
+bool Inverse3::send(const Vec3& force) {
+  const auto message = inverse3::force_message(identity_.id, spelling_, force);
+  if (!socket_.send(message.text())) return false;
+  if (!awaiting_) asked_at_ = wire_time();
+  awaiting_ = true;
+  ++traffic_.sent;
+  return true;
+}
+
+// What comes unasked is a reply once more.
+void Inverse3::pass_over_duplicates() {
+  while (!awaiting_ && socket_.receive(0.0).outcome == WebSocket::Outcome::message)
+    ++traffic_.duplicates;
+}
+
+Sample Inverse3::finished(Arrival arrival, Fault fault) const {
+  Sample sample;
+  sample.arrival = arrival;
+  sample.fault = fault;
+  sample.received = clock_.now();
+  return sample;
+}
+
+Sample Inverse3::read(const WebSocket::Received& message) {
+  if (message.binary) return finished(Arrival::dropped, Fault::garbage);
+  const inverse3::Reply reply = inverse3::parse_reply(message.text, identity_.id);
+  if (reply.mode != inverse3::Mode::unknown) mode_ = reply.mode;
+  idle_replies_ = reply.mode == inverse3::Mode::idle ? idle_replies_ + 1 : 0;
+  if (!reply.position) return finished(Arrival::dropped, reply.fault);
+  const bool braked = confirmed_ && idle_replies_ >= most_idle;
+  Sample sample = finished(Arrival::fresh, braked ? Fault::brake : reply.fault);
+  sample.position = *reply.position;
+  if (reply.velocity) {
+    sample.velocity = *reply.velocity;
+  } else if (last_ && sample.received > last_->received) {
+    sample.velocity = (sample.position - last_->position) / (sample.received - last_->received);
+  }
+  // A moving arm is never twice at the same place to the last bit: that is an old state.
+  const bool frozen = last_ && reply.velocity && !sample.velocity.isZero(0.0) &&
+                      sample.position == last_->position && sample.velocity == last_->velocity;
+  if (frozen) {
+    sample.arrival = Arrival::duplicate;
+    return sample;
+  }
+  last_ = sample;
+  return sample;
+}
+
+Sample Inverse3::sample(double wait) {
+  const double until = wire_time() + std::max(0.0, wait);
+  if (!awaiting_) {
+    pass_over_duplicates();
+    if (!send(Vec3::Zero()) && !socket_.closed()) return finished(Arrival::none, Fault::silent);
+  }
+  Sample newest = finished(Arrival::none, Fault::none);
+  bool any = false;
+  while (true) {
+    const auto message = socket_.receive(any ? 0.0 : until);
+    if (message.outcome == WebSocket::Outcome::closed && !any)
+      return finished(Arrival::lost, Fault::hung_up);
+    if (message.outcome != WebSocket::Outcome::message) break;
+    const Sample one = read(message);
+    if (any) ++traffic_.duplicates;
+    ++traffic_.received;
+    awaiting_ = false;
+    // The newest that is good; of bad ones the last.
+    if (one.arrival == Arrival::fresh || newest.arrival != Arrival::fresh) newest = one;
+    any = true;
+  }
+  if (!any && wire_time() - asked_at_ >= reply_time) {
+    awaiting_ = false;  // the next call asks anew
+    newest.fault = Fault::silent;
+  }
+  return newest;
+}
+
+Fault Inverse3::command_force(const Vec3& force) {
+  if (purpose_ != Purpose::command && !force.isZero(0.0)) return Fault::refused;
+  if (!awaiting_) pass_over_duplicates();
+  if (send(force)) return Fault::none;
+  return socket_.closed() ? Fault::hung_up : Fault::silent;
+}
+
+bool Inverse3::stop() {
+  if (!send(Vec3::Zero())) return false;
+  return sample(stop_time).arrival != Arrival::lost;
+}
+
+}  // namespace palpate::device

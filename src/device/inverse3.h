@@ -1,0 +1,56 @@
+// A haptic arm behind its maker's local service: position in, force out, one reply a message.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "device/clock.h"
+#include "device/inverse3_protocol.h"
+#include "device/sample.h"
+#include "device/websocket.h"
+
+namespace palpate::device {
+
+class Inverse3 {
+ public:
+  // Connects, reads the snapshot, chooses the spelling, and exchanges a few zero forces. Takes a
+  // few ms with a live service, 2 s at most. Throws LinkError with a plain diagnosis. `clock`
+  // outlives the link.
+  Inverse3(const std::string& host, int port, Purpose purpose, Clock& clock);
+  ~Inverse3();
+  Inverse3(const Inverse3&) = delete;
+  Inverse3& operator=(const Inverse3&) = delete;
+
+  [[nodiscard]] const Identity& identity() const { return identity_; }
+  [[nodiscard]] const Limits& limits() const { return limits_; }
+  [[nodiscard]] Traffic traffic() const { return traffic_; }
+
+  // The newest reply; sends a zero force first where nothing is under way.
+  [[nodiscard]] Sample sample(double wait);
+  [[nodiscard]] Fault command_force(const Vec3& force);  // N
+  bool stop();                                           // true where the zero was taken
+
+ private:
+  void greet();
+  bool try_spelling(inverse3::Spelling spelling);
+  bool send(const Vec3& force);
+  void pass_over_duplicates();
+  Sample read(const WebSocket::Received& message);
+  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const;
+
+  Clock& clock_;
+  Purpose purpose_;
+  WebSocket socket_;
+  Identity identity_;
+  Limits limits_;
+  inverse3::Spelling spelling_ = inverse3::Spelling::vector;
+  bool awaiting_ = false;  // a message was sent since the last reply
+  double asked_at_ = 0.0;  // s, wire time, of the first message since the last reply
+  inverse3::Mode mode_ = inverse3::Mode::unknown;
+  bool confirmed_ = false;      // the arm has left its idle mode for our force
+  int idle_replies_ = 0;        // in a row, since then
+  std::optional<Sample> last_;  // that was fresh
+  Traffic traffic_;
+};
+
+}  // namespace palpate::device

@@ -1,0 +1,61 @@
+// LINK texts: a word, a colon, and what the word wants.
+#include "device/link_text.h"
+
+#include <array>
+#include <charconv>
+#include <optional>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace palpate::device {
+namespace {
+
+[[noreturn]] void refuse(std::string_view text, const std::string& why) {
+  throw InputError({}, "palpate: the link `" + std::string(text) + "` " + why +
+                           "; write it as `mark10:/dev/ttyUSB0`, `inverse3:localhost:10001` or "
+                           "`replay:FILE.csv`");
+}
+
+std::optional<int> port_number(std::string_view text) {
+  int port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (port < 1 || port > 65535) return std::nullopt;
+  return port;
+}
+
+ArmAddress arm_address(std::string_view text, std::string_view rest) {
+  const auto colon = rest.rfind(':');
+  if (colon == std::string_view::npos) refuse(text, "lacks a port");
+  std::string_view host = rest.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  if (host.empty()) refuse(text, "lacks a host");
+  const auto port = port_number(rest.substr(colon + 1));
+  if (!port) refuse(text, "wants a port from 1 to 65535");
+  return {std::string(host), *port};
+}
+
+}  // namespace
+
+Address parse_link(std::string_view text) {
+  static const std::array<std::string, 3> words{"mark10", "inverse3", "replay"};
+  const auto colon = text.find(':');
+  const std::string word(text.substr(0, colon));
+  const std::string_view rest =
+      colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
+  if (text.find('\0') != std::string_view::npos) refuse(word, "holds a zero byte");
+  if (word == "mark10") {
+    if (rest.empty()) refuse(text, "names no serial port");
+    return StandAddress{std::string(rest)};
+  }
+  if (word == "inverse3") return arm_address(text, rest);
+  if (word == "replay") {
+    if (rest.empty()) refuse(text, "names no file");
+    return RecordingAddress{std::string(rest)};
+  }
+  const auto near = nearest(word, words);
+  refuse(text, "is of no kind we know" + (near ? ", did you mean `" + *near + ":`" : ""));
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,289 @@
+// The stand's conversation: greeting, questions with deadlines, settings that are read back.
+#include "device/mark10.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::device {
+namespace {
+
+constexpr double answer_time = 0.25;      // s, for a question outside of sampling
+constexpr double sample_time = 0.05;      // s, after which a reading is asked for anew
+constexpr double into_channel = 15e-3;    // s, after `/`; as an open driver waits
+constexpr double out_of_channel = 10e-3;  // s, after `\`
+constexpr double planned_period = 0.02;   // s: 50 Hz, as that driver polls
+constexpr std::size_t diagnosis_bytes = 400;
+// ESM303 data sheet: 0.5 to 1100 mm/min. The line has no question for it: `j` and `k` set them.
+constexpr double slowest = 0.5e-3 / 60.0;     // m/s
+constexpr double fastest = 1100.0e-3 / 60.0;  // m/s
+
+void pause(double time) {
+  Clock wire(Clock::Kind::monotonic);
+  wire.sleep_until(wire_time() + time);
+}
+
+}  // namespace
+
+Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
+    : clock_(clock), path_(port), purpose_(purpose), port_(port, mark10::baud) {
+  identity_.kind = Kind::stand;
+  limits_.measures_force = true;
+  limits_.takes_motion = true;
+  limits_.slowest = slowest;
+  limits_.speed = fastest;
+  limits_.period = planned_period;
+  limits_.stale_after = 3.0 * planned_period;
+  limits_.lost_after = 0.25;
+  first_bytes_.reserve(diagnosis_bytes);
+  if (purpose_ == Purpose::command) {
+    guard_ = std::make_unique<StopGuard>(port_.descriptor(), "s");
+    send("s");
+  }
+  greet();
+  greeting_ = false;
+}
+
+Mark10::~Mark10() = default;  // the guard sends the stop, then the port closes
+
+bool Mark10::send(std::string_view bytes) { return port_.write(bytes); }
+
+void Mark10::receive(double until) {
+  std::array<char, 256> bytes;
+  const auto read = port_.read(bytes, until);
+  if (read.outcome != SerialPort::Outcome::bytes) return;
+  heard_ = true;
+  const std::string_view got(bytes.data(), read.size);
+  if (greeting_ && first_bytes_.size() < diagnosis_bytes)
+    first_bytes_ += got.substr(0, diagnosis_bytes - first_bytes_.size());
+  lines_.feed(got);
+}
+
+void Mark10::drain() {
+  std::array<char, 256> bytes;
+  while (true) {
+    const auto read = port_.read(bytes, 0.0);
+    if (read.outcome != SerialPort::Outcome::bytes) break;
+    if (greeting_ && first_bytes_.size() < diagnosis_bytes)
+      first_bytes_.append(bytes.data(), std::min(read.size, diagnosis_bytes - first_bytes_.size()));
+    traffic_.discarded += read.size;
+  }
+  traffic_.discarded += lines_.rest().size();
+  lines_.clear();
+  pairs_.clear();
+}
+
+std::optional<std::string> Mark10::gauge(std::string_view command, double wait) {
+  StopGuard::open_channel("\\");
+  send("/");
+  pause(into_channel);
+  drain();
+  std::string line(command);
+  line += '\r';
+  send(line);
+  std::optional<std::string> reply;
+  const double until = wire_time() + wait;
+  while (const auto got = reply ? std::nullopt : line_until(until)) {
+    // Readings that the gauge sends by itself are no answers.
+    const auto quantity = mark10::parse_quantity(*got);
+    if (!(quantity && mark10::newtons(*quantity))) reply = std::string(*got);
+  }
+  send("\\");
+  pause(out_of_channel);
+  drain();
+  StopGuard::close_channel();
+  return reply;
+}
+
+std::optional<mark10::Settings> Mark10::ask_settings() {
+  const auto reply = gauge("LIST", answer_time);
+  return reply ? mark10::parse_settings(*reply) : std::nullopt;
+}
+
+bool Mark10::ask(std::string_view command) {
+  // A reading that is still on its way would be taken for the answer.
+  if (asked_) {
+    const double until = asked_at_ + sample_time;
+    while (const auto line = line_until(until))
+      if (pairs_.take(*line).pair) break;
+    asked_ = false;
+  }
+  drain();
+  return send(command);
+}
+
+std::optional<std::string_view> Mark10::line_until(double until) {
+  while (true) {
+    if (const auto line = lines_.next()) return line;
+    if (port_.lost() || wire_time() >= until) return std::nullopt;
+    receive(until);
+  }
+}
+
+std::optional<mark10::Quantity> Mark10::ask_number(std::string_view command) {
+  if (!ask(command)) return std::nullopt;
+  const double until = wire_time() + answer_time;
+  while (const auto line = line_until(until)) {
+    if (mark10::parse_error(*line)) break;
+    auto number = mark10::parse_quantity(*line);
+    if (!number) continue;
+    // The unit is a view into the buffer: keep only what outlives it.
+    std::string_view known = "?";
+    for (const std::string_view unit : {"", "mm", "in", "mm/min", "in/min"})
+      if (number->unit == unit) known = unit;
+    number->unit = known;
+    return number;
+  }
+  return std::nullopt;
+}
+
+std::optional<mark10::Status> Mark10::ask_status() {
+  if (!ask("p")) return std::nullopt;
+  const double until = wire_time() + answer_time;
+  while (const auto line = line_until(until))
+    if (const auto status = mark10::parse_status(*line)) return status;
+  return std::nullopt;
+}
+
+Traffic Mark10::traffic() const {
+  Traffic traffic = traffic_;
+  traffic.discarded += lines_.dropped();
+  return traffic;
+}
+
+Sample Mark10::finished(Arrival arrival, Fault fault) const {
+  Sample sample;
+  sample.arrival = arrival;
+  sample.fault = fault;
+  sample.received = clock_.now();
+  return sample;
+}
+
+Sample Mark10::accept(const mark10::Pair& pair) {
+  Sample sample = finished(Arrival::fresh, Fault::none);
+  sample.position = Vec3(0.0, 0.0, pair.travel);
+  sample.force = sign_ * pair.force;
+  if (last_ && sample.received > last_->received)
+    sample.velocity = (sample.position - last_->position) / (sample.received - last_->received);
+  if (pair.force_unit != unit_) sample.fault = Fault::unit_changed;
+  last_ = sample;
+  return sample;
+}
+
+Sample Mark10::sample(double wait) {
+  if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
+  const double until = wire_time() + std::max(0.0, wait);
+  if (!asked_) {
+    drain();
+    if (!send("n")) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
+    asked_ = true;
+    ++traffic_.sent;
+    heard_ = false;
+    asked_at_ = wire_time();
+  }
+  Fault fault = Fault::none;
+  while (true) {
+    if (const auto line = lines_.next()) {
+      const auto step = pairs_.take(*line);
+      if (step.pair) {
+        asked_ = false;
+        ++traffic_.received;
+        return accept(*step.pair);
+      }
+      if (fault == Fault::none) fault = step.fault;
+      const bool over = step.fault == Fault::error_reply || step.fault == Fault::truncated ||
+                        step.fault == Fault::overload;
+      if (over) {
+        asked_ = false;
+        return finished(Arrival::dropped, fault);
+      }
+      continue;
+    }
+    if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
+    const double now = wire_time();
+    if (now >= asked_at_ + sample_time) {
+      asked_ = false;
+      if (!heard_) return finished(Arrival::none, Fault::silent);
+      if (fault == Fault::none)
+        fault = mark10::garbage_share(lines_.rest()) > 0.0 ? Fault::garbage : Fault::truncated;
+      return finished(Arrival::dropped, fault);
+    }
+    if (now >= until) return finished(Arrival::none, fault);
+    receive(std::min(until, asked_at_ + sample_time));
+  }
+}
+
+Fault Mark10::set_travel_limits(double low, double high) {
+  limits_verified_ = false;
+  const auto lower = mark10::lower_limit_command(low);
+  const auto upper = mark10::upper_limit_command(high);
+  if (purpose_ != Purpose::command || !lower || !upper || !(low < high)) return Fault::refused;
+  drain();
+  send("l");
+  send(lower->text());
+  send(upper->text());
+  // The stand is mute on setters: ask until it has had time to obey, at most three times.
+  constexpr double close = 0.51 * mark10::travel_step;  // half of what the stand resolves
+  Fault fault = Fault::not_verified;
+  for (int tries = 0; tries < 3 && fault != Fault::none; ++tries) {
+    const auto got_low = ask_number("w");
+    const auto got_high = ask_number("v");
+    if (port_.lost()) return Fault::hung_up;
+    if (!got_low || !got_high) {
+      fault = Fault::silent;
+      continue;
+    }
+    const auto in_metres = [](const mark10::Quantity& one) {
+      return one.unit.empty() ? one.value * 1e-3 : mark10::metres(one).value_or(Sample::nan);
+    };
+    const bool same = std::abs(in_metres(*got_low) - low) <= close &&
+                      std::abs(in_metres(*got_high) - high) <= close;
+    fault = same ? Fault::none : Fault::not_verified;
+  }
+  if (fault != Fault::none) return fault;
+  const auto status = ask_status();
+  // Limits are obeyed in limit mode only; a status without a mode says nothing against it.
+  if (status && status->mode != '?' && status->mode != 'L') return Fault::not_verified;
+  limits_.low = low;
+  limits_.high = high;
+  limits_verified_ = true;
+  return Fault::none;
+}
+
+Fault Mark10::move(const Motion& motion) {
+  if (motion.act == Motion::Act::stop) return stop() ? Fault::none : Fault::not_verified;
+  if (purpose_ != Purpose::command || !limits_verified_) return Fault::refused;
+  if (port_.lost()) return Fault::hung_up;
+  if (!(motion.speed >= limits_.slowest) || !(motion.speed <= limits_.speed)) return Fault::refused;
+  const auto speed = mark10::speed_command(motion.speed);
+  if (!speed) return Fault::refused;
+  send(speed->text());
+  const auto got = ask_number("a");
+  if (port_.lost()) return Fault::hung_up;
+  if (!got) return Fault::silent;
+  const auto read_back = mark10::metres_per_second(*got);
+  if (!read_back || std::abs(*read_back - motion.speed) > 0.51 * mark10::speed_step)
+    return Fault::not_verified;
+  return send(motion.act == Motion::Act::down ? "d" : "u") ? Fault::none : Fault::hung_up;
+}
+
+bool Mark10::stop() {
+  if (purpose_ != Purpose::command) return true;  // it never set anything in motion
+  for (int tries = 0; tries < 3 && !port_.lost(); ++tries) {
+    send("s");
+    const auto status = ask_status();
+    if (status && status->moving == mark10::Status::Moving::stopped) return true;
+    // Without a clear word, two readings tell: at its slowest the stand goes 0.02 mm in 2.4 s, so
+    // this is only a second opinion on a stand that was told to stop three times.
+    if (tries == 2 && stands_still()) return true;
+  }
+  return false;
+}
+
+bool Mark10::stands_still() {
+  const auto first = ask_number("x");
+  pause(2.0 * planned_period);
+  const auto second = ask_number("x");
+  return first && second && first->value == second->value && first->unit == second->unit;
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,28 @@
+// Faults as words.
+#include "device/sample.h"
+
+namespace palpate::device {
+
+std::string_view fault_text(Fault fault) {
+  switch (fault) {
+    case Fault::none: return "nothing is wrong";
+    case Fault::garbage: return "bytes came that are no reply";
+    case Fault::truncated: return "a reply did not end in time";
+    case Fault::error_reply: return "the device refused a request";
+    case Fault::unit_changed: return "the device changed its unit";
+    case Fault::overload: return "the force is beyond what the gauge can measure";
+    case Fault::not_finite: return "a reply held a number that cannot be";
+    case Fault::missing_field: return "a reply held no position";
+    case Fault::wrong_device: return "another device answered";
+    case Fault::jump: return "the position jumped farther than the device can move";
+    case Fault::brake: return "the device's own safety has acted";
+    case Fault::not_verified: return "a setting did not read back as it was set";
+    case Fault::refused: return "the command is not allowed now";
+    case Fault::hung_up: return "the device hung up";
+    case Fault::silent: return "the device fell silent";
+    case Fault::recording_ended: return "the recording has ended";
+  }
+  return "unknown";
+}
+
+}  // namespace palpate::device

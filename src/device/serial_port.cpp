@@ -1,0 +1,168 @@
+// termios and poll. The lock is a flock on a file in /run/lock as well as TIOCEXCL, which root
+// may pass over; a lock file that is left behind locks nothing.
+#include "device/serial_port.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "base/error.h"
+#include "device/clock.h"
+
+namespace palpate::device {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw LinkError("palpate: the port `" + path + "` " + why);
+}
+
+[[noreturn]] void refuse_open(const std::string& path, int error) {
+  switch (error) {
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+      refuse(path,
+             "is not there; plug the device in and look for it with `ls /dev/ttyUSB* "
+             "/dev/ttyACM*`");
+    case EACCES:
+    case EPERM:
+      refuse(path,
+             "may not be opened by this user; join the group that owns it, as with `sudo usermod "
+             "-aG dialout $USER`, and log in again");
+    case EBUSY: refuse(path, "is held by another program; close that one first");
+    default: refuse(path, std::string("cannot be opened: ") + std::strerror(error));
+  }
+}
+
+speed_t speed_of(int baud) {
+  switch (baud) {
+    case 9600: return B9600;
+    case 19200: return B19200;
+    case 38400: return B38400;
+    case 57600: return B57600;
+    default: return B115200;
+  }
+}
+
+// The lock file of a device: by the name of what the path leads to, so that a symbolic link and
+// its target are one.
+int lock_for(const std::string& path) {
+  char real[PATH_MAX];
+  std::string name = ::realpath(path.c_str(), real) != nullptr ? real : path;
+  for (char& c : name)
+    if (c == '/') c = '_';
+  for (const char* folder : {"/run/lock", "/tmp"}) {
+    const std::string file = std::string(folder) + "/palpate" + name + ".lock";
+    const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (lock < 0) continue;
+    if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+    const int error = errno;
+    ::close(lock);
+    if (error == EWOULDBLOCK) refuse(path, "is held by another palpate; end that one first");
+  }
+  return -1;  // nowhere to put it; TIOCEXCL must do
+}
+
+}  // namespace
+
+SerialPort::SerialPort(const std::string& path, int baud) {
+  file_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (file_ < 0) refuse_open(path, errno);
+  try {
+    if (::isatty(file_) != 1)
+      refuse(path, "is no serial line; give the device's own, such as `/dev/ttyUSB0`");
+    lock_ = lock_for(path);
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+  ::ioctl(file_, TIOCEXCL);
+  termios line{};
+  bool set = ::tcgetattr(file_, &line) == 0;
+  if (set) {
+    ::cfmakeraw(&line);
+    line.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | PARENB | CRTSCTS | HUPCL);
+    line.c_cflag |= CLOCAL | CREAD | CS8;
+    line.c_cc[VMIN] = 0;
+    line.c_cc[VTIME] = 0;
+    ::cfsetispeed(&line, speed_of(baud));
+    ::cfsetospeed(&line, speed_of(baud));
+    set = ::tcsetattr(file_, TCSANOW, &line) == 0;
+  }
+  if (!set) {
+    const int error = errno;
+    release();
+    refuse(path, std::string("cannot be set up as a serial line: ") + std::strerror(error));
+  }
+  // Not the output: the stop of whoever held the port before may still be in it.
+  ::tcflush(file_, TCIFLUSH);
+}
+
+SerialPort::SerialPort(SerialPort&& other) noexcept
+    : file_(std::exchange(other.file_, -1)),
+      lock_(std::exchange(other.lock_, -1)),
+      lost_(other.lost_) {}
+
+SerialPort::~SerialPort() { release(); }
+
+void SerialPort::release() {
+  if (file_ >= 0) {
+    ::ioctl(file_, TIOCNXCL);
+    ::close(file_);
+  }
+  if (lock_ >= 0) ::close(lock_);
+  file_ = lock_ = -1;
+}
+
+bool SerialPort::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t taken = ::write(file_, bytes.data(), bytes.size());
+    if (taken > 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(taken));
+    } else if (taken < 0 && errno == EINTR) {
+      continue;
+    } else {
+      // A full queue passes; anything else, EIO and ENXIO among them, is an unplugged device.
+      if (taken < 0 && errno != EAGAIN) lost_ = true;
+      return false;
+    }
+  }
+  return true;
+}
+
+SerialPort::Read SerialPort::read(std::span<char> into, double until) {
+  if (lost_) return {Outcome::lost, 0};
+  while (true) {
+    const double left = std::max(0.0, until - wire_time());
+    timespec wait{};
+    wait.tv_sec = static_cast<time_t>(left);
+    wait.tv_nsec = static_cast<long>(1e9 * (left - std::floor(left)));
+    pollfd one{file_, POLLIN, 0};
+    const int ready = ::ppoll(&one, 1, &wait, nullptr);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) return {Outcome::nothing, 0};
+    const ssize_t size = ready < 0 ? -1 : ::read(file_, into.data(), into.size());
+    if (size > 0) return {Outcome::bytes, static_cast<std::size_t>(size)};
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0 && errno == EAGAIN && (one.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0)
+      return {Outcome::nothing, 0};
+    // End of file, EIO, ENXIO, or a hang-up without bytes: the same unplugged device.
+    lost_ = true;
+    return {Outcome::lost, 0};
+  }
+}
+
+void SerialPort::discard_input() { ::tcflush(file_, TCIFLUSH); }
+
+}  // namespace palpate::device

@@ -1,0 +1,47 @@
+// Ceilings of force and travel, and what silence means.
+#include "device/stand_safety.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::device {
+
+StandSafety::Verdict StandSafety::step(double now, const Sample& sample) {
+  const bool good = sample.arrival == Arrival::fresh && std::isfinite(sample.force) &&
+                    sample.position.allFinite();
+  staleness_.step(now, good                              ? Arrival::fresh
+                       : sample.arrival == Arrival::lost ? Arrival::lost
+                                                         : Arrival::none);
+  if (good) {
+    last_ = sample;
+    any_ = true;
+    // Of either sign: a gauge whose sign was turned round still stops it.
+    if (std::abs(sample.force) > rules_.force) arming_.trip(Trip::force_ceiling);
+    const double z = sample.position.z();
+    if (z < rules_.low - rules_.slack || z > rules_.high + rules_.slack) arming_.trip(Trip::travel);
+  }
+  if (sample.fault == Fault::overload) arming_.trip(Trip::overload);
+  if (staleness_.state() == Staleness::State::lost) arming_.trip(Trip::link_lost);
+  if (arming_.tripped() != Trip::none) return Verdict::stop;
+  return staleness_.state() == Staleness::State::stale ? Verdict::halt : Verdict::go_on;
+}
+
+bool StandSafety::arm(Fault limits_in_device) {
+  if (limits_in_device != Fault::none || !any_) return false;
+  if (staleness_.state() != Staleness::State::fresh) return false;
+  const double z = last_.position.z();
+  if (z < rules_.low || z > rules_.high) return false;
+  return arming_.arm();
+}
+
+Motion StandSafety::allow(const Motion& wanted) const {
+  const Motion none{Motion::Act::stop, 0.0};
+  if (!arming_.armed() || staleness_.state() != Staleness::State::fresh) return none;
+  if (wanted.act == Motion::Act::stop || !(wanted.speed > 0.0)) return none;
+  const double z = last_.position.z();
+  if (wanted.act == Motion::Act::down && z <= rules_.low) return none;
+  if (wanted.act == Motion::Act::up && z >= rules_.high) return none;
+  return {wanted.act, std::min(wanted.speed, rules_.fastest)};
+}
+
+}  // namespace palpate::device

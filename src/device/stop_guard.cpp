@@ -1,0 +1,100 @@
+// Signal handlers reach nothing but lock-free numbers, write() and sigaction().
+#include "device/stop_guard.h"
+
+#include <termios.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cassert>
+#include <cerrno>
+#include <cstdlib>
+
+namespace palpate::device {
+namespace {
+
+static_assert(std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<unsigned>::is_always_lock_free);
+
+// Up to four bytes in one number, the first in the lowest byte.
+constexpr unsigned packed(std::string_view bytes) {
+  unsigned value = 0;
+  for (std::size_t i = 0; i < bytes.size() && i < 4; ++i)
+    value |= static_cast<unsigned>(static_cast<unsigned char>(bytes[i])) << (8 * i);
+  return value;
+}
+
+std::atomic<int> stop_file = -1;
+std::atomic<unsigned> stop_bytes = 0;
+std::atomic<unsigned> closing_bytes = 0;
+std::array<struct sigaction, 64> before{};  // by number; written before a handler can read them
+
+void write_packed(int file, unsigned value) {
+  char bytes[4];
+  std::size_t size = 0;
+  for (; size < 4 && (value >> (8 * size) & 0xffu) != 0; ++size)
+    bytes[size] = static_cast<char>(value >> (8 * size) & 0xffu);
+  // A few tries: a full queue is emptied first, for nothing in it matters more than the stop.
+  for (int tries = 0; tries < 3 && size > 0; ++tries) {
+    if (::write(file, bytes, size) == static_cast<ssize_t>(size)) return;
+    if (errno == EAGAIN) ::tcflush(file, TCOFLUSH);
+  }
+}
+
+void send_stop() {
+  const int file = stop_file.load();
+  if (file < 0) return;
+  write_packed(file, closing_bytes.load());
+  write_packed(file, stop_bytes.load());
+}
+
+void stop_and_pass_on(int signal, siginfo_t* info, void* context) {
+  const int error = errno;
+  send_stop();
+  const struct sigaction& old = before[static_cast<std::size_t>(signal)];
+  if ((old.sa_flags & SA_SIGINFO) != 0) {
+    old.sa_sigaction(signal, info, context);
+  } else if (old.sa_handler == SIG_DFL) {
+    // Delivered as soon as this handler returns.
+    ::sigaction(signal, &old, nullptr);
+    ::raise(signal);
+  } else if (old.sa_handler != SIG_IGN) {
+    old.sa_handler(signal);
+  }
+  errno = error;
+}
+
+}  // namespace
+
+StopGuard::StopGuard(int file, std::string_view bytes) {
+  assert(stop_file.load() < 0 && "one stop guard at a time");
+  static const int registered = std::atexit(send_stop);
+  (void)registered;
+  stop_bytes = packed(bytes);
+  closing_bytes = 0;
+  stop_file = file;
+  for (const int signal : signals_) {
+    auto& old = before[static_cast<std::size_t>(signal)];
+    ::sigaction(signal, nullptr, &old);
+    if ((old.sa_flags & SA_SIGINFO) == 0 && old.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_sigaction = stop_and_pass_on;
+    action.sa_flags = SA_SIGINFO | SA_RESTART;
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+StopGuard::~StopGuard() {
+  send_stop();
+  stop_file = -1;
+  for (const int signal : signals_) {
+    struct sigaction now {};
+    ::sigaction(signal, nullptr, &now);
+    const bool ours = (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == stop_and_pass_on;
+    if (ours) ::sigaction(signal, &before[static_cast<std::size_t>(signal)], nullptr);
+  }
+}
+
+void StopGuard::open_channel(std::string_view closing) { closing_bytes = packed(closing); }
+void StopGuard::close_channel() { closing_bytes = 0; }
+
+}  // namespace palpate::device

@@ -1,0 +1,163 @@
+// Options to settings; the one file of the emulator that knows CLI11.
+#include "emulator/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "emulator/arm_server.h"
+#include "emulator/mark10_link.h"
+#include "emulator/settings.h"
+
+namespace emulator {
+namespace {
+
+struct Common {
+  std::string tissue = {};
+  std::string faults = {};
+  std::string clock = "real";
+  std::string log = {};
+  std::string lifetime = {};
+};
+
+void add_common(CLI::App& verb, Common& common) {
+  verb.add_option("--tissue", common.tissue, "TOML file of the tissue, or `none`");
+  verb.add_option("--fault", common.faults, "TOML file of [[fault]] tables");
+  verb.add_option("--clock", common.clock, "`real`, or `virtual`: time passes with traffic only");
+  verb.add_option("--log", common.log, "CSV file of traffic, faults and the true state");
+  verb.add_option("--for", common.lifetime, "ends after this real time, such as \"60 s\"");
+}
+
+Clock clock_of(const Common& common) {
+  if (common.clock == "real") return Clock::real;
+  if (common.clock == "virtual") return Clock::lockstep;
+  throw Refused("--clock: there is no clock `" + common.clock + "`; write `real` or `virtual`");
+}
+
+std::optional<double> lifetime_of(const Common& common) {
+  if (common.lifetime.empty()) return {};
+  return parse_quantity(common.lifetime, Quantity::time, "--for: ");
+}
+
+void list_faults(const char* link, std::span<const FaultKind> kinds) {
+  for (const FaultKind& kind : kinds)
+    std::printf("%s\t%.*s\t%.*s\n", link, static_cast<int>(kind.name.size()), kind.name.data(),
+                static_cast<int>(kind.what.size()), kind.what.data());
+}
+
+struct Mark10Arguments {
+  Common common = {};
+  Mark10Run run = {};
+  std::string stand = {};
+  std::string tick = "20 ms";
+};
+
+CLI::App* add_mark10(CLI::App& app, Mark10Arguments& given) {
+  CLI::App* verb = app.add_subcommand("mark10", "a motorised stand with a gauge, on a pty");
+  add_common(*verb, given.common);
+  verb->add_option("--link", given.run.link, "symbolic link to the port");
+  verb->add_option("--stand", given.stand, "TOML file of the tables [stand] and [gauge]");
+  verb->add_option("--seed", given.run.settings.stand.seed, "of the gauge's noise");
+  verb->add_option("--baud", given.run.settings.baud, "rate of the line");
+  verb->add_option("--tick", given.tick, "virtual clock: requests are answered at its multiples");
+  return verb;
+}
+
+int start(Mark10Arguments& given) {
+  Mark10Settings& settings = given.run.settings;
+  if (!given.stand.empty()) read_stand(given.stand, settings.stand);
+  if (given.common.tissue == "none")
+    settings.stand.tissue.surface = -1.0;  // m, out of reach
+  else if (!given.common.tissue.empty())
+    settings.stand.tissue = read_tissue(given.common.tissue);
+  if (!given.common.faults.empty())
+    settings.faults = read_faults(given.common.faults, stand_faults());
+  settings.clock = clock_of(given.common);
+  settings.tick = nanoseconds(parse_quantity(given.tick, Quantity::time, "--tick: "));
+  if (settings.tick <= 0) throw Refused("--tick: wants to be positive; write `20 ms`");
+  given.run.log = given.common.log;
+  given.run.lifetime = lifetime_of(given.common);
+  return run_mark10(given.run);
+}
+
+struct ArmArguments {
+  Common common = {};
+  ArmRun run = {};
+  std::string hand = {};
+  std::string service = "3.5";
+  std::string period = "1 ms";
+};
+
+CLI::App* add_inverse3(CLI::App& app, ArmArguments& given) {
+  CLI::App* verb =
+      app.add_subcommand("inverse3", "a haptic arm and the hand that holds it, on TCP");
+  add_common(*verb, given.common);
+  verb->add_option("--port", given.run.port, "of 127.0.0.1; 0: any that is free");
+  verb->add_option("--events-port", given.run.events_port, "of the events; 0: any that is free");
+  verb->add_option("--hand", given.hand, "TOML file of [hand], [[waypoint]] and [device]");
+  verb->add_option("--service", given.service, "`3.1` or `3.5`: how a force is spelt");
+  verb->add_option("--period", given.period, "virtual clock: what one client message takes");
+  return verb;
+}
+
+int start(ArmArguments& given) {
+  ArmSettings& settings = given.run.settings;
+  if (!given.hand.empty()) read_hand(given.hand, settings);
+  if (!given.common.tissue.empty() && given.common.tissue != "none")
+    settings.tissue = read_tissue(given.common.tissue);
+  if (!given.common.faults.empty())
+    settings.faults = read_faults(given.common.faults, arm_faults());
+  settings.clock = clock_of(given.common);
+  settings.period = nanoseconds(parse_quantity(given.period, Quantity::time, "--period: "));
+  if (settings.period <= 0) throw Refused("--period: wants to be positive; write `1 ms`");
+  if (given.service != "3.1" && given.service != "3.5")
+    throw Refused("--service: there is no `" + given.service + "` here; write `3.1` or `3.5`");
+  if (given.service == "3.1") settings.service = Service::v3_1;
+  for (const int port : {given.run.port, given.run.events_port})
+    if (port < 0 || port > 65535) throw Refused("--port: wants to lie between 0 and 65535");
+  given.run.log = given.common.log;
+  given.run.lifetime = lifetime_of(given.common);
+  return run_inverse3(given.run);
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  CLI::App app{"Plays a test stand or a haptic arm, with its own tissue and hand",
+               "palpate-emulator"};
+  Mark10Arguments mark10;
+  const CLI::App* stand_verb = add_mark10(app, mark10);
+  ArmArguments arm;
+  const CLI::App* arm_verb = add_inverse3(app, arm);
+  const CLI::App* faults_verb = app.add_subcommand("faults", "lists what can go wrong");
+  app.require_subcommand(1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    throw Refused(std::string(error.what()) + "; see palpate-emulator --help");
+  }
+  if (faults_verb->parsed()) {
+    list_faults("mark10", stand_faults());
+    list_faults("inverse3", arm_faults());
+    return 0;
+  }
+  if (arm_verb->parsed()) return start(arm);
+  return stand_verb->parsed() ? start(mark10) : 1;
+}
+
+}  // namespace
+
+int program(int argc, const char* const* argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const Refused& refused) {
+    std::fprintf(stderr, "palpate-emulator: %s\n", refused.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "palpate-emulator: %s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace emulator

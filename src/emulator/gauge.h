@@ -1,0 +1,92 @@
+// The force gauge: samples with noise, averages, zeroes, keeps peaks, shows a value with its unit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "emulator/random.h"
+
+namespace emulator {
+
+// A unit the gauge can show: the GCL2 command that chooses it, its word in LIST, how it is written.
+struct ForceUnit {
+  std::string_view command;  // "LB"
+  std::string_view listed;   // "LBF"
+  std::string_view symbol;   // "lbF"
+  double newtons;            // of one
+};
+
+// Series 5 guide, GCL2 units; factors are the defined ones.
+inline constexpr std::array force_units{
+    ForceUnit{"N", "N", "N", 1.0},
+    ForceUnit{"MN", "MN", "mN", 1e-3},
+    ForceUnit{"KN", "KN", "kN", 1e3},
+    ForceUnit{"LB", "LBF", "lbF", 4.4482216152605},
+    ForceUnit{"OZ", "OZF", "ozF", 0.27801385095378125},
+    ForceUnit{"KG", "KGF", "kgF", 9.80665},
+    ForceUnit{"G", "GF", "gF", 9.80665e-3},
+};
+
+struct GaugeSettings {
+  double capacity = 10.0;    // N
+  double resolution = 2e-3;  // N, of the display in newtons
+  double noise = 1e-3;       // N, one standard deviation of a sample
+  std::size_t unit = 0;      // of force_units
+  int filter = 3;            // averages 2^filter samples for display: FLTC
+  int peak_filter = 1;       // FLTP
+};
+
+enum class Polarity { compression_positive, compression_negative };
+enum class Reading { current, peak_tension, peak_compression };
+
+inline constexpr std::size_t longest_average = 1024;  // samples, FLTC10
+
+struct Gauge {
+  GaugeSettings settings = {};
+  Random random{};
+  std::size_t unit = 0;
+  int filter = 3;
+  int peak_filter = 1;
+  Reading mode = Reading::current;
+  Polarity polarity = Polarity::compression_positive;
+  bool hide_sign = false;     // OPOL1
+  bool numbers_only = false;  // NUM: without the unit
+  // Samples in counts of resolution/64, so that their sums are exact.
+  std::array<std::int64_t, longest_average> samples{};
+  std::size_t taken = 0;
+  std::int64_t zero = 0;  // counts
+  std::int64_t most = 0;  // counts, peak compression
+  std::int64_t least = 0;
+  // What a fault does to it.
+  double added = 0;  // N
+  bool flipped = false;
+  bool forced_overload = false;
+  std::optional<std::string> forced_number;  // shown instead of the number
+};
+
+[[nodiscard]] Gauge make_gauge(const GaugeSettings& settings, std::uint64_t seed);
+
+// Takes one sample of the force on its shaft, N, compression positive.
+void sample(Gauge& gauge, double force);
+
+// The mean of the last 2^filter samples less the zero, N.
+[[nodiscard]] double value_of(const Gauge& gauge, Reading reading);
+[[nodiscard]] bool overloaded(const Gauge& gauge);  // above 110 % of the capacity
+void set_zero(Gauge& gauge);                        // and clears the peaks
+void clear_peaks(Gauge& gauge);
+
+// The display's step in a unit: 1, 2 or 5 times a power of ten, nearest to the gauge's resolution.
+[[nodiscard]] double display_step(const Gauge& gauge, std::size_t unit);
+[[nodiscard]] bool offers(const Gauge& gauge, std::size_t unit);
+
+// "4.285 N", "-18.78 lbF": without the line's end.
+[[nodiscard]] std::string shown(const Gauge& gauge, Reading reading);
+
+// A number in steps, with as many places as the step has, never "-0.00".
+[[nodiscard]] std::string in_steps(double value, double step);
+
+}  // namespace emulator

@@ -1,0 +1,74 @@
+// The stand behind its line: clocks, faults, and the bytes that leave it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/faults.h"
+#include "emulator/log.h"
+#include "emulator/stand.h"
+
+namespace emulator {
+
+// real: the machine's monotonic clock. lockstep: time passes by bytes and requests only.
+enum class Clock { real, lockstep };
+
+struct Mark10Settings {
+  StandSettings stand = {};
+  std::vector<Fault> faults = {};
+  Clock clock = Clock::real;
+  Nanoseconds tick = 20'000'000;  // lockstep: requests are answered at its multiples
+  int baud = 115200;
+};
+
+class Mark10 {
+ public:
+  Mark10(const Mark10Settings& settings, Log& log);
+
+  // One byte takes ten bits: start, eight, stop.
+  [[nodiscard]] Nanoseconds byte_time() const;
+
+  // Real clock: what happens up to now without a byte.
+  void pass(Nanoseconds now);
+  // A byte that arrived; `heard` is false where the other side runs at another rate.
+  enum class Rate { same, other };
+  void take(char byte, Rate rate_of_other_side);
+  // What leaves now, in order; empty while the line is stalled.
+  [[nodiscard]] std::string give();
+
+  [[nodiscard]] bool unplugged() const { return unplugged_; }
+  // When it is plugged in again, if ever.
+  [[nodiscard]] std::optional<Nanoseconds> plugged_again_at() const { return again_; }
+  void plug_in();
+
+  [[nodiscard]] Nanoseconds now() const { return now_; }
+  [[nodiscard]] const Stand& stand() const { return stand_; }
+  [[nodiscard]] std::int64_t requests() const { return requests_; }
+  void log_state();
+
+ private:
+  void go_to(Nanoseconds time);
+  void go_to(Nanoseconds time, std::int64_t requests);
+  void begin_faults(std::int64_t requests);
+  void apply(const Fault& fault);
+  [[nodiscard]] std::string spoilt(std::string reply);
+  [[nodiscard]] std::string reply_to(char byte);
+  void send(const std::string& bytes);
+  void log_row(const char* kind, const std::string& text);
+
+  Mark10Settings settings_;
+  Stand stand_;
+  Faults faults_;
+  Log* log_;
+  Nanoseconds now_ = 0;
+  std::int64_t requests_ = 0;
+  std::string out_ = {};
+  std::string command_ = {};  // bytes of the command that arrives, for the log
+  std::string frozen_ = {};   // the reply that a freeze repeats
+  bool unplugged_ = false;
+  std::optional<Nanoseconds> again_ = {};
+};
+
+}  // namespace emulator

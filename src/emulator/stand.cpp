@@ -1,0 +1,246 @@
+// The stand's single-letter commands (ESM303 and ESM301 guides, section 6.2) and its time.
+#include "emulator/stand.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+namespace emulator {
+namespace {
+
+constexpr double inch = 25.4e-3;  // m
+
+// Every command that has a reply. `?`, `X` and `S` reach the gauge without slashes.
+constexpr std::string_view requests = "napqrvwx?XS";
+
+std::string travel_text(const Stand& stand, double value) {
+  const double step = stand.settings.travel_resolution;
+  const double seen = std::floor(value / step + 0.5) * step;  // what the encoder resolves
+  return stand.inches ? in_steps(seen / inch, 0.001) + " in" : in_steps(seen * 1e3, 0.01) + " mm";
+}
+
+std::string speed_text(const Stand& stand) {
+  const double per_minute = stand.crosshead.speed * 60.0;
+  return stand.inches ? in_steps(per_minute / inch, 0.01) + " in/min"
+                      : in_steps(per_minute * 1e3, 0.1) + " mm/min";
+}
+
+std::string status(const Stand& stand) {
+  const Crosshead& head = stand.crosshead;
+  const char* gap = stand.settings.status == StatusLayout::spaced ? " " : "";
+  const bool up = head.direction != 0 ? head.direction > 0 : head.velocity > 0.0;
+  std::string text = !moves(head) ? "S" : up ? "U" : "D";
+  text += gap;
+  text += head.mode == Mode::cycle ? "C" : head.mode == Mode::limit ? "L" : "M";
+  if (head.at_end != 0) text += std::string(gap) + (head.at_end > 0 ? "UL" : "DL");
+  return text;
+}
+
+// How many characters a setter's number has: digits, point, digits. ESM303 guide: eXXXX.X, eXX.XX,
+// fXXXX, g-XXX.XX, g-XX.XXX, h the same.
+struct Form {
+  int whole;
+  int places;
+};
+
+Form form_of(const Stand& stand) {
+  switch (stand.setter) {
+    case 'e': return stand.inches ? Form{2, 2} : Form{4, 1};
+    case 'f': return {4, 0};
+    default: return stand.inches ? Form{2, 3} : Form{3, 2};
+  }
+}
+
+bool may_follow(const Stand& stand, char byte) {
+  const bool limit = stand.setter == 'g' || stand.setter == 'h';
+  if (limit && stand.digits.empty() && byte == '-') return true;
+  const std::size_t sign = stand.digits.starts_with('-') ? 1 : 0;
+  const bool point = stand.digits.size() - sign == static_cast<std::size_t>(form_of(stand).whole);
+  return point ? byte == '.' : byte >= '0' && byte <= '9';
+}
+
+bool complete(const Stand& stand) {
+  const Form form = form_of(stand);
+  const std::size_t sign = stand.digits.starts_with('-') ? 1 : 0;
+  const int point = form.places > 0 ? 1 : 0;
+  return stand.digits.size() == sign + static_cast<std::size_t>(form.whole + point + form.places);
+}
+
+void set_number(Stand& stand) {
+  double value = 0.0;
+  std::from_chars(stand.digits.data(), stand.digits.data() + stand.digits.size(), value);
+  const double length = stand.inches ? inch : 1e-3;
+  Crosshead& head = stand.crosshead;
+  if (stand.setter == 'e') {
+    const CrossheadSettings& s = head.settings;
+    head.speed = stand.programmed_speed = std::clamp(value * length / 60.0, s.slowest, s.fastest);
+  } else if (stand.setter == 'f') {
+    head.cycles_set = static_cast<std::int64_t>(value);
+  } else if (stand.setter == 'g') {
+    head.lower_limit = value * length + stand.zero;
+  } else {
+    head.upper_limit = value * length + stand.zero;
+  }
+}
+
+void zero_travel(Stand& stand) {
+  // The limits keep their numbers, so they move along with the zero.
+  const double moved = stand.crosshead.position - stand.zero;
+  stand.crosshead.lower_limit += moved;
+  stand.crosshead.upper_limit += moved;
+  stand.zero = stand.crosshead.position;
+}
+
+std::string answer(Stand& stand, char byte) {
+  const Crosshead& head = stand.crosshead;
+  switch (byte) {
+    case 'n':
+      return reading_line(stand.language, stand.gauge, stand.gauge.mode) +
+             travel_text(stand, travel(stand)) + "\r\n";
+    case 'x': return travel_text(stand, travel(stand)) + "\r\n";
+    case 'a': return speed_text(stand) + "\r\n";
+    case 'p': return status(stand) + "\r\n";
+    case 'q': return std::to_string(head.half_cycles / 2) + "\r\n";
+    case 'r': return std::to_string(head.cycles_set) + "\r\n";
+    case 'v': return travel_text(stand, head.upper_limit - stand.zero) + "\r\n";
+    case 'w': return travel_text(stand, head.lower_limit - stand.zero) + "\r\n";
+    case 'S':
+      return std::string(stand.gauge.mode == Reading::current        ? "CUR"
+                         : stand.gauge.mode == Reading::peak_tension ? "PT"
+                                                                     : "PC") +
+             "\r\n";
+    default:  // `?` and `X`
+      return reading_line(stand.language, stand.gauge, stand.gauge.mode);
+  }
+}
+
+// Motion and the mode need the option; units, zero and readings do not.
+void command_motion(Stand& stand, char byte) {
+  if (stand.settings.control == Control::off) return;
+  Crosshead& head = stand.crosshead;
+  if (byte == 'u') send_off(head, 1);
+  if (byte == 'd') send_off(head, -1);
+  if (byte == 's') halt(head);
+  if (byte == 'l') head.mode = Mode::limit;
+  if (byte == 'm') head.mode = Mode::manual;
+  if (byte == 'c') head.mode = Mode::cycle;
+  if (byte == 'j') head.speed = head.settings.fastest;
+  if (byte == 'k') head.speed = head.settings.slowest;
+  if (byte == 'o') head.speed = stand.programmed_speed;
+  if (byte == 't') head.half_cycles = 0;
+}
+
+void command(Stand& stand, char byte) {
+  if (byte == '/') stand.to_gauge = true;
+  if (byte == 'i') stand.inches = false;
+  if (byte == 'b') stand.inches = true;
+  if (byte == 'z') zero_travel(stand);
+  if (byte == 'R') set_zero(stand.gauge);
+  const bool sets = byte == 'e' || byte == 'f' || byte == 'g' || byte == 'h';
+  if (sets && stand.settings.control == Control::on) stand.setter = byte;
+  stand.digits.clear();
+  command_motion(stand, byte);
+}
+
+void put_out(Stand& stand, Nanoseconds now) {
+  if (stand.language.auto_output == 0) {
+    stand.next_output = now;
+    return;
+  }
+  if (now < stand.next_output) return;
+  stand.unsolicited += reading_line(stand.language, stand.gauge, stand.gauge.mode);
+  stand.next_output += 1'000'000'000 / stand.language.auto_output;
+}
+
+}  // namespace
+
+Stand make_stand(const StandSettings& settings) {
+  Stand stand{.settings = settings,
+              .crosshead = {},
+              .gauge = make_gauge(settings.gauge, settings.seed),
+              .language = {},
+              .tissue = make_tissue(settings.tissue, 1.0 / static_cast<double>(rate))};
+  stand.crosshead.settings = settings.crosshead;
+  switch_on_again(stand);
+  sample(stand.gauge, force_of(stand.tissue));
+  return stand;
+}
+
+void switch_on_again(Stand& stand) {
+  const Random random = stand.gauge.random;
+  const double position = stand.crosshead.position;
+  stand.gauge = make_gauge(stand.settings.gauge, random.state);
+  stand.crosshead = {};
+  stand.crosshead.settings = stand.settings.crosshead;
+  stand.crosshead.position = position;
+  stand.crosshead.speed = stand.programmed_speed = stand.settings.speed;
+  stand.crosshead.lower_limit = stand.settings.crosshead.lower_end;
+  stand.crosshead.upper_limit = stand.settings.crosshead.upper_end;
+  stand.language = {.list = stand.settings.list, .overload = stand.settings.overload};
+  stand.zero = 0.0;
+  stand.inches = stand.to_gauge = false;
+  stand.setter = 0;
+  stand.line.clear();
+}
+
+void advance(Stand& stand, Nanoseconds time) {
+  const double dt = 1.0 / static_cast<double>(rate);
+  const std::int64_t wanted =
+      time / 1'000'000 * rate / 1000 + time % 1'000'000 * rate / 1'000'000'000;
+  for (; stand.steps < wanted; ++stand.steps) {
+    step(stand.crosshead, dt);
+    const double force = press(stand.tissue, depth(stand));
+    sample(stand.gauge, force);
+    stand.deepest = std::max(stand.deepest, depth(stand));
+    stand.greatest_force = std::max(stand.greatest_force, force);
+    if (overloaded(stand.gauge) && moves(stand.crosshead)) halt(stand.crosshead);
+    put_out(stand, (stand.steps + 1) * 1'000'000'000 / rate);
+  }
+}
+
+bool ends_request(const Stand& stand, char byte) {
+  if (stand.to_gauge) return byte == '\r' && !stand.line.empty();
+  if (stand.setter != 0 && may_follow(stand, byte)) return false;
+  return requests.find(byte) != std::string_view::npos;
+}
+
+bool between_commands(const Stand& stand) { return stand.setter == 0 && stand.line.empty(); }
+
+std::string receive(Stand& stand, char byte) {
+  if (stand.to_gauge) {
+    if (byte == '\\') {
+      stand.to_gauge = false;
+      stand.line.clear();
+    } else if (byte == '\r') {
+      const std::string line = std::move(stand.line);
+      stand.line.clear();
+      return obey(stand.language, stand.gauge, line);
+    } else if (byte != '\n' && stand.line.size() < 64) {
+      stand.line += byte;
+    }
+    return {};
+  }
+  if (stand.setter != 0) {
+    if (may_follow(stand, byte)) {
+      stand.digits += byte;
+      if (complete(stand)) {
+        set_number(stand);
+        stand.setter = 0;
+      }
+      return {};
+    }
+    stand.setter = 0;  // a broken number is dropped, and its byte is a command: `s` must stop
+  }
+  if (requests.find(byte) != std::string_view::npos) return answer(stand, byte);
+  command(stand, byte);
+  return {};
+}
+
+double travel(const Stand& stand) { return stand.crosshead.position - stand.zero; }
+
+double depth(const Stand& stand) {
+  return stand.settings.tissue.surface - stand.crosshead.position;
+}
+
+}  // namespace emulator

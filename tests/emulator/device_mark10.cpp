@@ -1,0 +1,198 @@
+// The stand's link against the emulator, which shares no code with it: greeting, samples, limits,
+// motion, and what the link does when something goes wrong.
+#include "device/mark10.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "device/link.h"
+#include "live_emulator.h"
+
+namespace palpate::device {
+namespace {
+
+using test::LiveEmulator;
+using test::ScratchFile;
+
+std::string refusal(const std::string& link) {
+  Clock clock(Clock::Kind::monotonic);
+  try {
+    const Link opened(link, Purpose::look, clock);
+  } catch (const LinkError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+Sample next_of(Mark10& stand) {
+  Sample sample;
+  for (int i = 0; i < 20 && sample.arrival != Arrival::fresh; ++i) {
+    sample = stand.sample(0.2);
+    if (sample.arrival == Arrival::lost) break;
+  }
+  return sample;
+}
+
+TEST(Mark10Link, SaysWhoIsThereAndReadsForceAndTravel) {
+  const LiveEmulator emulator({"mark10", "--clock", "virtual", "--tissue", "none"});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::look, clock);
+  EXPECT_EQ(stand.identity().model, "M5-2");
+  EXPECT_EQ(stand.identity().id, "EMULATOR");
+  EXPECT_EQ(stand.identity().firmware, "V1.00");
+  EXPECT_TRUE(stand.limits().takes_motion && stand.limits().measures_force);
+  const Sample sample = next_of(stand);
+  ASSERT_EQ(sample.arrival, Arrival::fresh);
+  EXPECT_EQ(sample.position.x(), 0.0);
+  EXPECT_NEAR(sample.position.z(), 0.0, 2e-5);  // the stand's resolution
+  EXPECT_NEAR(sample.force, 0.0, 0.05);         // the gauge's noise and zero
+  EXPECT_GT(sample.received, 0.0);
+}
+
+TEST(Mark10Link, DoesNotMoveOrSetWhatIsOnlyLookedAt) {
+  const LiveEmulator emulator({"mark10", "--clock", "virtual", "--tissue", "none"});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::look, clock);
+  EXPECT_EQ(stand.set_travel_limits(-0.01, 0.01), Fault::refused);
+  EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::refused);
+  EXPECT_TRUE(stand.stop());
+}
+
+TEST(Mark10Link, MovesOnlyBetweenLimitsThatItReadBack) {
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue", "none"});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::refused);
+  EXPECT_EQ(stand.set_travel_limits(0.01, -0.01), Fault::refused);
+  ASSERT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::none);
+  EXPECT_EQ(stand.move({Motion::Act::down, 1.0}), Fault::refused);  // faster than it goes
+  EXPECT_EQ(stand.move({Motion::Act::down, 0.0}), Fault::refused);
+  EXPECT_EQ(stand.move({Motion::Act::down, std::nan("")}), Fault::refused);
+  ASSERT_EQ(stand.move({Motion::Act::down, 5e-3}), Fault::none);
+  double low = 0.0;
+  for (int i = 0; i < 100; ++i) low = std::min(low, next_of(stand).position.z());
+  // 2 s of the emulator's time at 5 mm/s: it would be 10 mm down without its limit.
+  EXPECT_NEAR(low, -5e-3, 4e-5);  // resolution of travel and of the limit
+  EXPECT_TRUE(stand.stop());
+}
+
+TEST(Mark10Link, StopsAndSaysSo) {
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue", "none"});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  ASSERT_EQ(stand.set_travel_limits(-50e-3, 5e-3), Fault::none);
+  ASSERT_EQ(stand.move({Motion::Act::down, 5e-3}), Fault::none);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(next_of(stand).arrival, Arrival::fresh);
+  EXPECT_TRUE(stand.stop());
+  const double where = next_of(stand).position.z();
+  EXPECT_LT(where, -0.5e-3);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(next_of(stand).position.z(), where);
+}
+
+TEST(Mark10Link, StopsOnItsWayOut) {
+  LiveEmulator emulator({"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue", "none"});
+  try {
+    Clock clock(Clock::Kind::monotonic);
+    Mark10 stand(emulator.port(), Purpose::command, clock);
+    ASSERT_EQ(stand.set_travel_limits(-50e-3, 5e-3), Fault::none);
+    ASSERT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::none);
+    for (int i = 0; i < 3; ++i) static_cast<void>(next_of(stand));
+    throw std::runtime_error("something else went wrong");
+  } catch (const std::runtime_error&) {
+  }
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 again(emulator.port(), Purpose::look, clock);
+  const double where = next_of(again).position.z();
+  EXPECT_LT(where, 0.0);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(next_of(again).position.z(), where);
+}
+
+TEST(Mark10Link, ConvertsPoundsAndFlipsTensionPositive) {
+  const ScratchFile settings("[gauge]\nunit = \"lbF\"\nnoise = \"0 N\"\n");
+  const ScratchFile tissue("surface = \"1 mm\"\n");
+  const LiveEmulator emulator({"mark10", "--clock", "virtual", "--stand", settings.path()});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 looked(emulator.port(), Purpose::look, clock);
+  EXPECT_EQ(looked.identity().dialect, "gauge in lbF");
+  EXPECT_EQ(next_of(looked).fault, Fault::none);
+}
+
+TEST(Mark10Link, IsHeldByOneProgram) {
+  const LiveEmulator emulator({"mark10", "--clock", "virtual"});
+  Clock clock(Clock::Kind::monotonic);
+  const Mark10 first(emulator.port(), Purpose::look, clock);
+  EXPECT_TRUE(has(refusal("mark10:" + emulator.port()), "is held by another palpate"));
+}
+
+TEST(Mark10Link, TellsWhyItCannotBeOpened) {
+  EXPECT_TRUE(has(refusal("mark10:/dev/no-such-port"), "is not there"));
+  EXPECT_TRUE(has(refusal("mark10:/dev/null"), "is no serial line"));
+}
+
+struct StandFault {
+  const char* kind;
+  Fault fault;  // that must be seen at least once
+  bool lost;    // whether the link ends
+};
+void PrintTo(const StandFault& fault, std::ostream* out) { *out << fault.kind; }
+class Mark10Faults : public testing::TestWithParam<StandFault> {};
+
+// Of 60 samples the fault falls in the middle; what is fresh is right, and all that follows comes.
+TEST_P(Mark10Faults, AreSeenAndPassedOver) {
+  const StandFault& expected = GetParam();
+  const ScratchFile script("[[fault]]\nat = \"0.8 s\"\nkind = \"" + std::string(expected.kind) +
+                           "\"\n");
+  const LiveEmulator emulator({"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue",
+                               "none", "--fault", script.path()});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::look, clock);
+  bool seen = false;
+  bool lost = false;
+  int fresh_in_the_end = 0;
+  for (int i = 0; i < 60 && !lost; ++i) {
+    const Sample sample = stand.sample(0.15);
+    seen = seen || sample.fault == expected.fault;
+    lost = sample.arrival == Arrival::lost;
+    if (sample.arrival == Arrival::fresh) {
+      EXPECT_NEAR(sample.force, 0.0, 0.1) << i;          // noise; a wrong reading is not near
+      EXPECT_NEAR(sample.position.z(), 0.0, 4e-5) << i;  // it stands
+      if (i >= 50) ++fresh_in_the_end;
+    }
+  }
+  EXPECT_TRUE(seen);
+  EXPECT_EQ(lost, expected.lost);
+  if (!expected.lost) {
+    EXPECT_EQ(fresh_in_the_end, 10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Mark10Faults,
+                         testing::Values(StandFault{"unplug", Fault::hung_up, true},
+                                         StandFault{"garbage", Fault::garbage, false},
+                                         StandFault{"truncate", Fault::truncated, false},
+                                         StandFault{"glue", Fault::truncated, false},
+                                         StandFault{"drop", Fault::silent, false},
+                                         StandFault{"duplicate", Fault::none, false},
+                                         StandFault{"error_reply", Fault::error_reply, false},
+                                         StandFault{"unsolicited", Fault::none, false},
+                                         StandFault{"nul", Fault::garbage, false},
+                                         StandFault{"nan", Fault::garbage, false},
+                                         StandFault{"huge", Fault::garbage, false},
+                                         StandFault{"no_travel", Fault::truncated, false},
+                                         StandFault{"swap", Fault::truncated, false},
+                                         StandFault{"unit_change", Fault::unit_changed, false},
+                                         StandFault{"travel_unit_change", Fault::none, false}),
+                         [](const auto& one) { return std::string(one.param.kind); });
+
+}  // namespace
+}  // namespace palpate::device
