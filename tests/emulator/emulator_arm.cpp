@@ -160,6 +160,7 @@ TEST(EmulatorArm, IsIdleAfterSilenceAndWhenLeft) {
   settings.clock = Clock::real;
   settings.idle_after = 50'000'000;
   Client client(settings);
+  client.greet();
   EXPECT_EQ(client.arm.pass(10'000'000), Act::none);
   client.force(2.0);
   (void)client.arm.pass(59'000'000);
