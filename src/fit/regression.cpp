@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "fit/ceres_fit.h"
+#include "fit/fit_errors.h"
 #include "fit/initial.h"
-#include "fit/student.h"
 
 namespace palpate::fit {
 namespace {
@@ -54,41 +54,6 @@ void refuse_too_few(const Fit& fit) {
   throw InputError({}, message + "; record more points, or fit a model with fewer parameters");
 }
 
-// 1 - SSE / SST, both of the scaled y.
-double r_squared(std::span<const double> y, double squares) {
-  double mean = 0.0;
-  for (const double each : y) mean += each;
-  mean /= static_cast<double>(y.size());
-  double total = 0.0;
-  for (const double each : y) total += (each - mean) * (each - mean);
-  return total > 0.0 ? 1.0 - squares / total : Estimate::unknown;
-}
-
-// From (J^T J)^-1 to standard errors and intervals; `scale` is each parameter's share of y_scale.
-void set_errors(Fit& fit, const Minimum& minimum, std::span<const double> scale) {
-  const std::size_t count = fit.parameters.size();
-  const double degrees = fit.n - static_cast<double>(count);
-  const double variance = minimum.squares / degrees;
-  const double t = student_t_quantile(0.975, degrees);
-  fit.covariance.resize(count * count);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = 0; j < count; ++j)
-      fit.covariance[i * count + j] =
-          minimum.inverse_normal[i * count + j] * variance * scale[i] * scale[j];
-  for (std::size_t i = 0; i < count; ++i) {
-    Estimate& parameter = fit.parameters[i];
-    parameter.std_error = std::sqrt(fit.covariance[i * count + i]);
-    parameter.ci95_low = parameter.estimate - t * parameter.std_error;
-    parameter.ci95_high = parameter.estimate + t * parameter.std_error;
-  }
-}
-
-Termination termination_of(const Minimum& minimum) {
-  if (minimum.status == Minimum::Status::failed) return Termination::failed;
-  if (minimum.status == Minimum::Status::out_of_iterations) return Termination::not_converged;
-  return minimum.inverse_normal.empty() ? Termination::undetermined : Termination::converged;
-}
-
 }  // namespace
 
 std::string_view word(Termination termination) {
@@ -121,14 +86,7 @@ Fit regress(std::span<const double> x, std::span<const double> y, Model model,
     fit.parameters[i].initial = (*start)[i] * scale[i];
 
   const Minimum minimum = minimise(points.x, points.y, model, *start, options.max_iterations);
-  fit.termination = termination_of(minimum);
-  fit.iterations = minimum.iterations;
-  if (fit.termination == Termination::failed) return fit;
-  for (std::size_t i = 0; i < start->size(); ++i)
-    fit.parameters[i].estimate = minimum.parameters[i] * scale[i];
-  fit.rmse = std::sqrt(minimum.squares / fit.n) * points.y_scale;
-  fit.r2 = r_squared(points.y, minimum.squares);
-  if (fit.termination == Termination::converged) set_errors(fit, minimum, scale);
+  settle(fit, minimum, {points.y, points.y_scale, scale});
   return fit;
 }
 
