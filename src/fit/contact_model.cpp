@@ -11,7 +11,7 @@
 #include "contact/hertz.h"
 #include "contact/layer.h"
 #include "fit/ceres_fit.h"
-#include "fit/fit_errors.h"
+#include "fit/settle.h"
 
 namespace palpate::fit {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "fit/ceres_fit.h"
-#include "fit/fit_errors.h"
+#include "fit/settle.h"
 
 namespace palpate::fit {
 namespace {
