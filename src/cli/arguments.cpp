@@ -226,6 +226,7 @@ struct Parser {
     std::string names;
     for (const fit::ModelInfo& model : fit::models())
       names += (names.empty() ? "" : "|") + std::string(model.name);
+    for (const char* name : further_models) names += "|" + std::string(name);
     return names;
   }
 

@@ -1,6 +1,7 @@
 // The command line as values: one struct a verb, one table for parsing, help and suggestions.
 #pragma once
 
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -28,6 +29,9 @@ struct Explain {
 };
 // Which columns of a measured file are meant, and how they are written: --x, --x-unit, --skip ...
 using DataOptions = record::DataLayout;
+
+// Models of `fit` beyond the table of fit/model.h: they have options of their own.
+inline constexpr std::array further_models{"hertz", "layer", "prony", "prony_creep"};
 
 struct Fit {
   std::string data;

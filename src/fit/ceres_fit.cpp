@@ -29,10 +29,9 @@ namespace {
 // All residuals at once, in the unknowns u_i = p_i / scale_i, which are of order one.
 class Residuals final : public ceres::CostFunction {
  public:
-  Residuals(std::span<const double> x, std::span<const double> y, Model model,
-            std::vector<double> scale)
-      : x_(x), y_(y), model_(model), scale_(std::move(scale)) {
-    set_num_residuals(static_cast<int>(x.size()));
+  Residuals(std::span<const double> y, const CurveAt& curve, std::vector<double> scale)
+      : y_(y), curve_(curve), scale_(std::move(scale)) {
+    set_num_residuals(static_cast<int>(y.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(scale_.size()));
   }
 
@@ -41,33 +40,50 @@ class Residuals final : public ceres::CostFunction {
                 double** jacobians) const override {
     double* jacobian = jacobians == nullptr ? nullptr : jacobians[0];
     const std::size_t count = scale_.size();
-    const auto linear = static_cast<std::size_t>(term_count(model_));
-    const double shape = unknowns[0][count - 1] * scale_[count - 1];
+    std::vector<double> parameters(count);
+    for (std::size_t k = 0; k < count; ++k) parameters[k] = unknowns[0][k] * scale_[k];
+    const std::span<double> values(residuals, y_.size());
+    const std::span<double> slopes(jacobian, jacobian == nullptr ? 0 : y_.size() * count);
+    if (!curve_(parameters, values, slopes)) return false;
     bool finite = true;
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-      const Terms at = terms(model_, x_[i], shape);
-      double sum = 0.0;
-      double slope = 0.0;
-      for (std::size_t k = 0; k < linear; ++k) {
-        const double factor = unknowns[0][k] * scale_[k];
-        sum += factor * at.phi[k];
-        slope += factor * at.slope[k];
-        if (jacobian != nullptr) jacobian[i * count + k] = at.phi[k] * scale_[k];
-      }
-      if (jacobian != nullptr && linear < count)
-        jacobian[i * count + linear] = slope * scale_[linear];
-      residuals[i] = sum - y_[i];
-      finite = finite && std::isfinite(residuals[i]) && std::isfinite(slope);
+    for (std::size_t i = 0; i < y_.size(); ++i) {
+      values[i] -= y_[i];
+      finite = finite && std::isfinite(values[i]);
+    }
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      slopes[i] *= scale_[i % count];
+      finite = finite && std::isfinite(slopes[i]);
     }
     return finite;
   }
 
  private:
-  std::span<const double> x_;
   std::span<const double> y_;
-  Model model_;
+  const CurveAt& curve_;
   std::vector<double> scale_;
 };
+
+// A model's curve over x, by its terms.
+bool model_curve(std::span<const double> x, Model model, std::span<const double> parameters,
+                 std::span<double> values, std::span<double> slopes) {
+  const std::size_t count = parameters.size();
+  const auto linear = static_cast<std::size_t>(term_count(model));
+  bool finite = true;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Terms at = terms(model, x[i], parameters[count - 1]);
+    double sum = 0.0;
+    double slope = 0.0;
+    for (std::size_t k = 0; k < linear; ++k) {
+      sum += parameters[k] * at.phi[k];
+      slope += parameters[k] * at.slope[k];
+      if (!slopes.empty()) slopes[i * count + k] = at.phi[k];
+    }
+    if (!slopes.empty() && linear < count) slopes[i * count + linear] = slope;
+    values[i] = sum;
+    finite = finite && std::isfinite(slope);
+  }
+  return finite;
+}
 
 std::vector<double> inverse_normal(ceres::Problem& problem, const double* unknowns,
                                    std::span<const double> scale) {
@@ -102,8 +118,8 @@ ceres::Solver::Options solver_options(std::size_t points, int max_iterations) {
 
 }  // namespace
 
-Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,
-                 std::span<const double> start, int max_iterations) {
+Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<const double> start,
+                 int max_iterations) {
   silence_glog();
   std::vector<double> scale;
   std::vector<double> unknowns;
@@ -112,9 +128,9 @@ Minimum minimise(std::span<const double> x, std::span<const double> y, Model mod
     unknowns.push_back(guess / scale.back());
   }
   ceres::Problem problem;
-  problem.AddResidualBlock(new Residuals(x, y, model, scale), nullptr, unknowns.data());
+  problem.AddResidualBlock(new Residuals(y, curve, scale), nullptr, unknowns.data());
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(x.size(), max_iterations), &problem, &summary);
+  ceres::Solve(solver_options(y.size(), max_iterations), &problem, &summary);
 
   Minimum minimum;
   minimum.iterations = static_cast<int>(summary.iterations.size());
@@ -128,6 +144,15 @@ Minimum minimise(std::span<const double> x, std::span<const double> y, Model mod
   if (minimum.status == Minimum::Status::found)
     minimum.inverse_normal = inverse_normal(problem, unknowns.data(), scale);
   return minimum;
+}
+
+Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,
+                 std::span<const double> start, int max_iterations) {
+  const CurveAt curve = [&](std::span<const double> parameters, std::span<double> values,
+                            std::span<double> slopes) {
+    return model_curve(x, model, parameters, values, slopes);
+  };
+  return minimise(y, curve, start, max_iterations);
 }
 
 std::string ceres_version() { return CERES_VERSION_STRING; }

@@ -1,6 +1,7 @@
 // One least-squares problem, given to Ceres; no type of Ceres crosses this header.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,9 +24,17 @@ struct Minimum {
   std::vector<double> inverse_normal;
 };
 
-// Minimises sum (value(model, p, x_i) - y_i)^2 from `start` by Levenberg-Marquardt, J by the
-// derivatives of terms(). y is of order one: the stopping tolerances are absolute. Writes nothing
-// to the terminal and no log file.
+// A curve at all of its points for some parameters: one value a point and, where `slopes` is not
+// empty, the derivatives by the parameters, a row a point. False where it cannot be evaluated.
+using CurveAt = std::function<bool(std::span<const double> parameters, std::span<double> values,
+                                   std::span<double> slopes)>;
+
+// Minimises sum (value_i - y_i)^2 from `start` by Levenberg-Marquardt. y is of order one: the
+// stopping tolerances are absolute. Writes nothing to the terminal and no log file.
+[[nodiscard]] Minimum minimise(std::span<const double> y, const CurveAt& curve,
+                               std::span<const double> start, int max_iterations);
+
+// The same of a model's curve over x, by the derivatives of terms().
 [[nodiscard]] Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,
                                std::span<const double> start, int max_iterations);
 

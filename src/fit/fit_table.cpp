@@ -26,7 +26,8 @@ record::Table fit_table(std::span<const NamedFit> fits) {
   for (const NamedFit& named : fits) {
     const Fit& fit = named.fit;
     for (const Estimate& parameter : fit.parameters)
-      table.rows.push_back({text(named.case_name), text(named.curve), text(info(fit.model).name),
+      table.rows.push_back({text(named.case_name), text(named.curve),
+                            text(fit.name.empty() ? info(fit.model).name : fit.name),
                             text(parameter.name), text(parameter.unit), number(parameter.estimate),
                             number(parameter.std_error), number(parameter.ci95_low),
                             number(parameter.ci95_high), number(fit.r2), number(fit.rmse),

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "fit/ceres_fit.h"
 #include "fit/initial.h"
+#include "fit/settle.h"
 #include "fit/student.h"
 
 namespace palpate::fit {
@@ -91,6 +92,17 @@ Termination termination_of(const Minimum& minimum) {
 
 }  // namespace
 
+void settle(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
+  fit.termination = termination_of(minimum);
+  fit.iterations = minimum.iterations;
+  if (fit.termination == Termination::failed) return;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    fit.parameters[i].estimate = minimum.parameters[i] * scaling.parameters[i];
+  fit.rmse = std::sqrt(minimum.squares / fit.n) * scaling.y_scale;
+  fit.r2 = r_squared(scaling.y, minimum.squares);
+  if (fit.termination == Termination::converged) set_errors(fit, minimum, scaling.parameters);
+}
+
 std::string_view word(Termination termination) {
   switch (termination) {
     case Termination::converged: return "converged";
@@ -121,14 +133,7 @@ Fit regress(std::span<const double> x, std::span<const double> y, Model model,
     fit.parameters[i].initial = (*start)[i] * scale[i];
 
   const Minimum minimum = minimise(points.x, points.y, model, *start, options.max_iterations);
-  fit.termination = termination_of(minimum);
-  fit.iterations = minimum.iterations;
-  if (fit.termination == Termination::failed) return fit;
-  for (std::size_t i = 0; i < start->size(); ++i)
-    fit.parameters[i].estimate = minimum.parameters[i] * scale[i];
-  fit.rmse = std::sqrt(minimum.squares / fit.n) * points.y_scale;
-  fit.r2 = r_squared(points.y, minimum.squares);
-  if (fit.termination == Termination::converged) set_errors(fit, minimum, scale);
+  settle(fit, minimum, {points.y, points.y_scale, scale});
   return fit;
 }
 

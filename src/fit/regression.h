@@ -35,6 +35,8 @@ struct Estimate {
 
 struct Fit {
   Model model = Model::logarithmic;
+  std::string name =
+      {};  // of a curve beyond the table of models (`hertz`, `prony`); empty: its own
   std::vector<Estimate> parameters = {};  // in the order of info(model)
   std::vector<double> covariance = {};    // of the estimates, row by row; empty where not known
   double r2 = Estimate::unknown;          // 1 - SSE / SST about the mean; NaN where y is constant

@@ -182,7 +182,7 @@ void keep_only(const RawTable& table, Rows& rows, std::size_t column, const std:
                    "no row of `" + table.names[column] + "` says `" + wanted + "`" + remedy);
 }
 
-// Up to the largest load, and what follows it.
+// Up to the largest change of the load, and what follows it.
 void split_at_peak(const RawTable& table, const DataLayout& layout, const Column& y, Rows& rows) {
   const bool approach = layout.segment == "approach";
   if (!approach && layout.segment != "retract")
@@ -191,10 +191,13 @@ void split_at_peak(const RawTable& table, const DataLayout& layout, const Column
                          "` says nothing; give `approach` or `retract`");
   std::size_t peak = 0;
   double largest = -1.0;
+  std::optional<double> start;  // a cell with an offset begins away from 0
   for (std::size_t k = 0; k < rows.kept.size(); ++k) {
     const auto load = measured_number(table.rows[rows.kept[k]].fields[y.index].text, table.decimal);
-    if (!load || !std::isfinite(*load) || std::abs(*load) <= largest) continue;
-    largest = std::abs(*load);
+    if (!load || !std::isfinite(*load)) continue;
+    if (!start) start = load;
+    if (std::abs(*load - *start) <= largest) continue;
+    largest = std::abs(*load - *start);
     peak = k + 1;
   }
   if (peak > 0)

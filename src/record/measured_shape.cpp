@@ -1,6 +1,7 @@
 // Every separator with every decimal sign is tried; the one that makes the most numbers wins.
 #include "record/measured_shape.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
@@ -74,9 +75,9 @@ void refuse_thousands(std::span<const Line> lines, const Shape& shape, const std
   }
   if (example.empty()) return;
   std::string point = example;
-  point.replace(point.find(','), 1, ".");
+  std::replace(point.begin(), point.end(), ',', '.');
   std::string whole = example;
-  whole.erase(whole.find(','), 1);
+  std::erase(whole, ',');
   throw InputError(place, "`" + example + "` could be " + point + " or " + whole +
                               ", and no number of the file tells; give `--decimal ,`, or save "
                               "the numbers with points and without marks between thousands");

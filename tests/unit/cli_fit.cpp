@@ -140,6 +140,81 @@ TEST_F(FitVerb, too_few_points) {
   EXPECT_EQ(ended.out, "");
 }
 
+// 4/3 E / (1 - nu^2) sqrt(R) (h - h_0)^(3/2) of E = 50 kPa, nu = 0.5, R = 9 mm, h_0 = 0.5 mm, in
+// other units, with a load cell that reads compression negative.
+TEST_F(FitVerb, hertz_of_a_machine_s_file) {
+  std::string text = "Rate;1 mm/s\n\nWeg (mm);Kraft (mN)\n";
+  for (int i = 0; i <= 30; ++i) {
+    const double depth = std::max(0.0, 0.1 * i - 0.5);
+    const double force =
+        4.0 / 3.0 * 50e3 / 0.75 * std::sqrt(9e-3) * std::pow(1e-3 * depth, 1.5) * 1e3;
+    text += std::to_string(0.1 * i) + ";" + std::to_string(-force) + "\n";
+  }
+  for (char& c : text)
+    if (c == '.') c = ',';
+  write_file(folder_ / "liver.txt", text);
+  const Ended ended =
+      palpate(folder_.path(), {"fit", "liver.txt", "--x", "weg", "--y", "kraft", "--model", "hertz",
+                               "--radius", "9 mm", "--poisson", "0.5", "--compression", "auto"});
+  const record::Table fitted = table(ended);
+  EXPECT_NEAR(number(fitted, "E", "estimate"), 50.0, 1e-4);  // six decimals of mN and mm
+  EXPECT_NEAR(number(fitted, "h_0", "estimate"), 0.5, 1e-5);
+  EXPECT_EQ(cell(fitted, "E", "unit"), record::Cell("kPa"));
+  EXPECT_EQ(cell(fitted, "h_0", "unit"), record::Cell("mm"));
+  EXPECT_EQ(cell(fitted, "E", "model"), record::Cell("hertz"));
+  EXPECT_EQ(cell(fitted, "E", "curve"), record::Cell("Kraft (mN) over Weg (mm)"));
+  EXPECT_EQ(ended.err, "note: `Kraft (mN)` reads compression negative; turned round\n");
+}
+
+TEST_F(FitVerb, prony_of_two_terms) {
+  std::string csv = "t_s,stress_kPa\n";
+  for (int i = 0; i <= 200; ++i) {
+    const double t = 0.05 * i;
+    csv += std::to_string(t) + "," +
+           std::to_string(1e3 * (1 + 2 * std::exp(-t / 0.2) + std::exp(-t / 3.0))) + "\n";
+  }
+  write_file(folder_ / "data.csv", csv);
+  const record::Table fitted =
+      table(palpate(folder_.path(), {"fit", "data.csv", "--x", "t_s", "--y", "stress_kPa",
+                                     "--model", "prony", "--terms", "2"}));
+  EXPECT_NEAR(number(fitted, "tau_1", "estimate"), 0.2, 1e-6);  // nine printed digits
+  EXPECT_NEAR(number(fitted, "tau_2", "estimate"), 3.0, 1e-5);
+  EXPECT_NEAR(number(fitted, "y_inf", "estimate"), 1000.0, 1e-3);
+  EXPECT_EQ(cell(fitted, "tau_1", "unit"), record::Cell("s"));
+  EXPECT_EQ(cell(fitted, "tau_1", "model"), record::Cell("prony"));
+}
+
+TEST_F(FitVerb, options_of_the_models) {
+  const std::string csv = "depth_mm,force_N\n1,3\n2,12\n3,27\n4,48\n";
+  const auto refusal = [&](const std::string& model, const std::vector<std::string>& more) {
+    const Ended ended = fit(csv, model, more);
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_EQ(ended.out, "");
+    return ended.err;
+  };
+  EXPECT_EQ(refusal("hertz", {}),
+            "palpate: the model `hertz` wants `--radius`; write it as `--radius \"11 mm\"`\n");
+  EXPECT_EQ(refusal("layer", {"--radius", "11 mm", "--poisson", "0.4"}),
+            "palpate: the model `layer` wants `--thickness`; write it as `--thickness \"5 mm\"`\n");
+  EXPECT_EQ(refusal("prony", {}),
+            "palpate: the model `prony` wants `--terms`; write it as `--terms 2`\n");
+  EXPECT_EQ(refusal("power", {"--radius", "11 mm"}),
+            "palpate: `--radius` says nothing to the model `power`; leave it out\n");
+  EXPECT_EQ(refusal("hertz", {"--radius", "11 kPa", "--poisson", "0.4"}),
+            "palpate: `--radius` wants a length, got `11 kPa`, a pressure; write it as `11 mm`\n");
+  EXPECT_EQ(refusal("hertz", {"--radius", "0 mm", "--poisson", "0.4"}),
+            "palpate: `--radius` is `0 mm`; give a length above 0\n");
+  EXPECT_EQ(refusal("layer", {"--radius", "11 mm", "--poisson", "0.4", "--thickness", "9 mm",
+                              "--base", "glued"}),
+            "palpate: `--base` does not know `glued`; it is bonded or frictionless\n");
+  EXPECT_EQ(refusal("hertz", {"--radius", "11 mm", "--poisson", "0.4", "--y-unit", "kPa"}),
+            "data.csv: `force_N` is a pressure, and this model wants a force; name another column "
+            "with `--y`, or give `--y-unit N`\n");
+  EXPECT_EQ(refusal("hertz", {"--radius", "11 mm", "--poisson", "0.4", "--origin", "1"}),
+            "palpate: `--origin` says nothing to the model `hertz`, which finds where contact "
+            "begins; leave it out\n");
+}
+
 // Curves that no model's parameters can follow: Ceres fails or stops, glog would say so.
 TEST_F(FitVerb, no_library_talks_even_where_a_fit_fails) {
   for (const char* model : {"logarithmic", "power", "exponential", "kelvin_voigt",

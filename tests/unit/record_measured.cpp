@@ -2,10 +2,12 @@
 #include "record/measured.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "record/csv.h"
 
 namespace palpate::record {
@@ -254,6 +256,44 @@ TEST(Measured, OurOwnTables) {
   expect_curve(read(text, layout));
   layout.case_name = "c";
   EXPECT_EQ(refusal(text, layout), "data.csv:1: no row of `case` says `c`; it says a, b");
+}
+
+// The same numbers in every dress that a spreadsheet or a machine may put on them.
+TEST(Measured, EveryDressHoldsTheSameNumbers) {
+  EXPECT_TRUE(rc::check("read(dressed(numbers)) == numbers", [] {
+    const std::string separator =
+        *rc::gen::elementOf(std::vector<std::string>{",", ";", "\t", " "});
+    const bool comma = separator != "," && *rc::gen::arbitrary<bool>();
+    const bool quoted = *rc::gen::arbitrary<bool>();
+    const std::string end = *rc::gen::elementOf(std::vector<std::string>{"\n", "\r\n", "\r"});
+    const int columns = *rc::gen::inRange(2, 5);
+    const int rows = *rc::gen::inRange(1, 8);
+    const std::string block = *rc::gen::elementOf(std::vector<std::string>{
+        "", "Specimen: liver\n", "# a comment\n\n", "Date\t2020-01-01\nRate\t0.5\n", "\n\n"});
+    std::string text = block;
+    for (std::size_t at = text.find('\n'); at != std::string::npos;
+         at = text.find('\n', at + end.size()))
+      text.replace(at, 1, end);
+    for (int k = 0; k < columns; ++k) text += (k > 0 ? separator : "") + "c" + std::to_string(k);
+    text += end;
+    std::vector<Numbers> values(static_cast<std::size_t>(columns));
+    for (int i = 0; i < rows; ++i)
+      for (int k = 0; k < columns; ++k) {
+        const double value = *rc::gen::inRange(-100000, 100000) / 128.0;
+        values[static_cast<std::size_t>(k)].push_back(value);
+        std::string digits = number_text(value);
+        if (comma && digits.find('.') != std::string::npos) digits[digits.find('.')] = ',';
+        // What could be thousands is another test's.
+        if (comma && digits.find(',') == std::string::npos) digits += ",0";
+        if (quoted) digits = '"' + digits + '"';
+        text += digits + (k + 1 < columns ? separator : end);
+      }
+    DataLayout layout{.x = "c0", .y = std::to_string(columns)};
+    if (comma) layout.decimal = ",";
+    const MeasuredCurve curve = parse_measured(text, "d", layout);
+    RC_ASSERT(curve.x == values.front());
+    RC_ASSERT(curve.y == values.back());
+  }));
 }
 
 }  // namespace

@@ -71,6 +71,11 @@ TEST(MeasuredFormats, Chiaro) {
   EXPECT_EQ(curve.lines, std::vector<int>{13});
 }
 
+TEST(MeasuredFormats, ApproachOfACellWithAnOffset) {
+  const std::string text = "x_mm,F_N\n0,10\n1,9\n2,6\n1,8.5\n";
+  EXPECT_EQ(parse_measured(text, "c.csv", {.segment = "approach"}).y, (Numbers{10, 9, 6}));
+}
+
 TEST(MeasuredFormats, CellScale) {
   const std::string text =
       "SetName,Cycle,Time_S,Size_mm,Displacement_mm,Force_mN\n"
