@@ -75,7 +75,7 @@ void turn_length(MeasuredCurve& curve) {
 
 void orient(MeasuredCurve& curve, const DataLayout& layout) {
   const std::string& said = layout.compression;
-  if (said != "" && said != "positive" && said != "negative" && said != "auto")
+  if (!said.empty() && said != "positive" && said != "negative" && said != "auto")
     throw InputError(
         {}, "`--compression " + said + "` is unknown; give `positive`, `negative` or `auto`");
   if (said.empty() || said == "positive" || curve.y.empty()) return;
