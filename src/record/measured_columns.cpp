@@ -69,7 +69,7 @@ Column column_at(const RawTable& table, std::size_t index, const std::string& un
   if (unit.empty()) return column;
   column.unit = written_unit(unit);
   if (!column.unit)
-    throw InputError({}, "`" + option(role) + "-unit " + unit +
+    throw InputError({}, "palpate: `" + option(role) + "-unit " + unit +
                              "` is no unit; write it as `mm`, `uN`, `kPa` or `1`");
   return column;
 }
@@ -121,9 +121,10 @@ std::size_t named_index(const RawTable& table, const std::string& word, const st
                          word + "` is not among them; columns count from 1");
   }
   if (table.names.empty())
-    throw InputError({table.file, 0, 0}, "names no columns, so that `" + word +
-                                             "` is none; give a column's number, as `" + asked +
-                                             " 1`");
+    throw InputError({table.file, table.rows.front().line, 0},
+                     "the numbers begin here and nothing above names their columns, so that `" +
+                         word + "` is none; give a column's number, as `" + asked +
+                         " 1`, or `--skip` what stands above the names");
   const auto near = nearest(word, table.names);
   throw InputError({table.file, table.header_line, 0},
                    "has no column `" + word + "`" +

@@ -18,13 +18,14 @@ char separator_of(const std::string& word) {
   if (word == "blank" || word == "space" || word == " ") return ' ';
   if (word == "," || word == "comma") return ',';
   if (word == ";" || word == "semicolon") return ';';
-  throw InputError({}, "`--separator " + word + "` is unknown; give `,`, `;`, `tab` or `blank`");
+  throw InputError(
+      {}, "palpate: `--separator " + word + "` is unknown; give `,`, `;`, `tab` or `blank`");
 }
 
 char decimal_of(const std::string& word) {
   if (word == "." || word == "point") return '.';
   if (word == "," || word == "comma") return ',';
-  throw InputError({}, "`--decimal " + word + "` is unknown; give `.` or `,`");
+  throw InputError({}, "palpate: `--decimal " + word + "` is unknown; give `.` or `,`");
 }
 
 // Lines that hold nothing but numbers, lines with at least two, and lines with one of several

@@ -75,9 +75,9 @@ void turn_length(MeasuredCurve& curve) {
 
 void orient(MeasuredCurve& curve, const DataLayout& layout) {
   const std::string& said = layout.compression;
-  if (said != "" && said != "positive" && said != "negative" && said != "auto")
-    throw InputError(
-        {}, "`--compression " + said + "` is unknown; give `positive`, `negative` or `auto`");
+  if (!said.empty() && said != "positive" && said != "negative" && said != "auto")
+    throw InputError({}, "palpate: `--compression " + said +
+                             "` is unknown; give `positive`, `negative` or `auto`");
   if (said.empty() || said == "positive" || curve.y.empty()) return;
   if (!is_load(curve.y_axis.dimension)) {
     if (said == "auto") return;

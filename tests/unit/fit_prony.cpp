@@ -87,14 +87,39 @@ TEST(Prony, ThreeTermsInNoise) {
   }
   // Of 60 draws of 0.95 some 57 hold; three of their deviations of 1.7 below that are 52.
   std::vector<int> held(truth.size(), 0);
+  std::vector<double> sum(truth.size(), 0), squares(truth.size(), 0), said(truth.size(), 0);
   for (int repeat = 0; repeat < 60; ++repeat) {
     std::vector<double> y = clean;
     for (double& each : y) each += noise(random);
     const Fit fit = fit_prony(x, y, {PronySeries::Kind::relaxation, 3});
-    for (std::size_t i = 0; i < truth.size(); ++i)
-      held[i] += fit.parameters[i].ci95_low < truth[i] && truth[i] < fit.parameters[i].ci95_high;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const Estimate& one = fit.parameters[i];
+      held[i] += one.ci95_low < truth[i] && truth[i] < one.ci95_high ? 1 : 0;
+      sum[i] += one.estimate / 60;
+      squares[i] += one.estimate * one.estimate / 60;
+      said[i] += one.std_error / 60;
+    }
   }
   for (const int count : held) EXPECT_GE(count, 52);
+  // The spread of 60 estimates is known to 1 / sqrt(120) = 9 %: three of these, and some for bias.
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double spread = std::sqrt(squares[i] - sum[i] * sum[i]);
+    EXPECT_GT(said[i] / spread, 0.7) << i;
+    EXPECT_LT(said[i] / spread, 1.4) << i;
+  }
+}
+
+// More terms than the data hold pass each other on the way to the minimum.
+TEST(Prony, TermsStandByRisingTime) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    Curve curve = curve_of(PronySeries::Kind::creep, 60);
+    for (double& y : curve.y) y += noise(random);
+    const Fit fit = fit_prony(curve.x, curve.y, {PronySeries::Kind::creep, 4});
+    for (std::size_t i = 4; i < fit.parameters.size(); i += 2)
+      EXPECT_LE(fit.parameters[i - 2].estimate, fit.parameters[i].estimate) << repeat;
+  }
 }
 
 TEST(Prony, TooFewPoints) {

@@ -137,8 +137,9 @@ TEST(Measured, NoHeaderAtAll) {
   EXPECT_EQ(curve.x_axis.column, "2");
   EXPECT_EQ(curve.lines, (std::vector<int>{1, 2}));
   EXPECT_EQ(refusal("3,1.5,0\n4,2,1\n", {.x = "load", .y = "1"}),
-            "data.csv: names no columns, so that `load` is none; give a column's number, as "
-            "`--x 1`");
+            "data.csv:1: the numbers begin here and nothing above names their columns, so that "
+            "`load` is none; give a column's number, as `--x 1`, or `--skip` what stands above the "
+            "names");
   EXPECT_EQ(refusal("3,1.5,0\n4,2,1\n", {.x = "4", .y = "1"}),
             "data.csv: has 3 columns, and `--x 4` is not among them; columns count from 1");
 }
@@ -210,11 +211,11 @@ TEST(Measured, RefusalsHavePlaces) {
             "data.csv:1: has 3 columns, and which is x cannot be told; give `--x` one of a_mm, "
             "b_mm, c_N");
   EXPECT_EQ(refusal("a,b\n1,2\n", {.x_unit = "furlong"}),
-            "`--x-unit furlong` is no unit; write it as `mm`, `uN`, `kPa` or `1`");
+            "palpate: `--x-unit furlong` is no unit; write it as `mm`, `uN`, `kPa` or `1`");
   EXPECT_EQ(refusal("a,b\n1,2\n", {.skip = 2}),
             "data.csv: has 2 lines, and `--skip 2` leaves none");
   EXPECT_EQ(refusal("a,b\n1,2\n", {.separator = "|"}),
-            "`--separator |` is unknown; give `,`, `;`, `tab` or `blank`");
+            "palpate: `--separator |` is unknown; give `,`, `;`, `tab` or `blank`");
   EXPECT_EQ(refusal("a,b\n,2\n1,\n"),
             "data.csv: no row is left with a number in `a` and in `b`; name columns that are "
             "filled");
@@ -243,7 +244,7 @@ TEST(Measured, CompressionThatReadsNegative) {
             "data.csv: `F_N` goes both ways from where it starts, so that its sign in compression "
             "cannot be told; give `--compression positive` or `--compression negative`");
   EXPECT_EQ(refusal("x_mm,F_N\n0,0\n1,2\n", {.compression = "down"}),
-            "`--compression down` is unknown; give `positive`, `negative` or `auto`");
+            "palpate: `--compression down` is unknown; give `positive`, `negative` or `auto`");
 }
 
 TEST(Measured, OurOwnTables) {
