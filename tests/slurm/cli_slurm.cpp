@@ -1,5 +1,7 @@
 // A sweep as an array of a real Slurm: controller, node and authentication of this test's own, on
 // this machine, on ports of its own, all ended on every way out.
+#include <sys/prctl.h>
+
 #include <memory>
 
 #include "sweep_program.h"
@@ -91,10 +93,12 @@ class Slurm : public SweepProgram {
 
   [[nodiscard]] std::unique_ptr<Running> start(const std::string& program,
                                                const Words& arguments) const {
-    return std::make_unique<Running>(Invocation{.arguments = arguments,
-                                                .folder = root_,
-                                                .set = {{"SLURM_CONF", at("slurm.conf")}},
-                                                .program = program});
+    return std::make_unique<Running>(
+        Invocation{.arguments = arguments,
+                   .folder = root_,
+                   .set = {{"SLURM_CONF", at("slurm.conf")}},
+                   .before = [] { ::prctl(PR_SET_PDEATHSIG, SIGKILL); },
+                   .program = program});
   }
   [[nodiscard]] Ended shell(const std::string& line) const {
     return start("bash", {"-c", line})->wait();
@@ -120,9 +124,13 @@ class Slurm : public SweepProgram {
     const Ended queue = shell("squeue --noheader");
     return queue.code == 0 && queue.out.empty();
   }
-  void wait_for_queue() {
+  // Slurm lets a requeued task wait for two minutes; it is told not to.
+  void wait_for_queue(const std::string& requeued = "") {
     for (int i = 0; i < 4 && !empty_queue(); ++i)
-      (void)controller_->until([&] { return empty_queue(); });
+      (void)controller_->until([&] {
+        if (!requeued.empty()) (void)shell("scontrol update jobid=" + requeued + " starttime=now");
+        return empty_queue();
+      });
     ASSERT_TRUE(empty_queue()) << shell("squeue --long").out << log("slurmctld.log");
   }
 
@@ -143,7 +151,7 @@ TEST_F(Slurm, AnArrayWithAKilledAndARequeuedTaskEndsLikeALocalRun) {
   ASSERT_TRUE(controller_->until([&] { return process_of(6) > 0; }));
   const Ended requeued = shell("scontrol requeue " + job + "_6");
   EXPECT_EQ(requeued.code, 0) << requeued.err;
-  wait_for_queue();
+  wait_for_queue(job + "_6");
 
   const Ended status = sweep({"status", plan_});
   EXPECT_EQ(status.code, 7) << "the task that was killed has left something to do";

@@ -127,7 +127,7 @@ TEST_F(Plans, the_first_case_that_cannot_be_is_named) {
              return i == 30 ? "\"1 mm\"" : "\"" + number_text(2 + i / 100.0) + " mm\"";
            }) +
       "\"step.2.to\" = " + list(40, [](int i) {
-        return i == 22 ? "\"1.5 mm\"" : "\"" + number_text(i / 100.0) + " mm\"";
+        return i == 23 ? "\"1.5 mm\"" : "\"" + number_text(i / 100.0) + " mm\"";
       });
   const std::string said = planning(text);
   EXPECT_TRUE(said.starts_with("s.toml:")) << said;
@@ -135,7 +135,7 @@ TEST_F(Plans, the_first_case_that_cannot_be_is_named) {
             std::string::npos)
       << said;
   EXPECT_TRUE(said.ends_with(
-      "\ns.toml: case 1223 of 1600 (`step.1.to` = 1 mm, `step.2.to` = 1.5 mm) cannot be made; mend "
+      "\ns.toml: case 1224 of 1600 (`step.1.to` = 1 mm, `step.2.to` = 1.5 mm) cannot be made; mend "
       "it, or leave it out of `sweep`"))
       << said;
   EXPECT_FALSE(fs::exists(root_ / "out/s_sweep"));
