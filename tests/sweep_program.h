@@ -28,7 +28,7 @@ inline std::string slow_sweep(int count) {
   return "[tissue]\nmesh = { kind = \"kuhn\", cells = [2, 2, 2] }\n"
          "[solver]\nmodel = \"mass_spring\"\n"
          "[[step]]\nkind = \"indent\"\nto = \"0.005 mm\"\nrate = \"0.02 mm/s\"\n"
-         "[output]\ninterval = \"10 ms\"\nfits = false\n"
+         "[output]\ninterval = \"10 ms\"\nfits = false\npressure_maps = false\n"
          "[sweep]\n\"step.1.to\" = [" +
          values + "]\n";
 }
