@@ -36,7 +36,8 @@ struct Parser {
     app.add_flag("--json", arguments.manner.json, "Events as JSON on stdout, one object a line");
     app.footer(
         "Exit codes: 0 good, 1 internal, 2 bad input, 3 comparison differs, 4 diverged, 5 mesh,\n"
-        "7 sweep incomplete, 75 interrupted, resumable, 130 interrupted. Data goes to stdout, talk to stderr.");
+        "7 sweep incomplete, 75 interrupted, resumable, 130 interrupted. Data goes to stdout, talk "
+        "to stderr.");
 
     CLI::App* verb = app.add_subcommand("run", "Run scenarios and write their results");
     verb->add_option("scenario", run.scenarios, "Scenario files")->required();
@@ -165,6 +166,8 @@ struct Parser {
     add("retry", Sweep::Act::retry, "Run the cases that failed once more");
     verb = add("merge", Sweep::Act::merge, "All results as one table, with figures");
     verb->add_flag("--force", sweep.force, "Replace the merged results");
+    verb->add_option("--show", sweep.show, "A column of results.csv to draw; may be repeated")
+        ->allow_extra_args(false);
     verb = add("slurm", Sweep::Act::slurm, "Write a job file of an array, and print its line");
     verb->add_option("--chunk", sweep.chunk, "Cases a task")
         ->capture_default_str()
