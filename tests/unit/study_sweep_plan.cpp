@@ -124,13 +124,20 @@ TEST_F(Plans, the_first_case_that_cannot_be_is_named) {
       press + "to = \"9 mm\"\n[[step]]\nkind = \"retract\"\n[sweep]\n\"step.1.to\" = " +
       list(40,
            [](int i) {
-             return i == 17 ? "\"1 mm\"" : "\"" + number_text(2 + i / 100.0) + " mm\"";
+             return i == 30 ? "\"1 mm\"" : "\"" + number_text(2 + i / 100.0) + " mm\"";
            }) +
       "\"step.2.to\" = " + list(40, [](int i) {
-        return i == 22 ? "\"1.5 mm\"" : "\"" + number_text(i / 100.0) + " mm\"";
+        return i == 23 ? "\"1.5 mm\"" : "\"" + number_text(i / 100.0) + " mm\"";
       });
   const std::string said = planning(text);
-  EXPECT_EQ(said, "PINNED");
+  EXPECT_TRUE(said.starts_with("s.toml:")) << said;
+  EXPECT_NE(said.find("`retract` goes to 1.5 mm, which is not above the travel of 1 mm"),
+            std::string::npos)
+      << said;
+  EXPECT_TRUE(said.ends_with(
+      "\ns.toml: case 1224 of 1600 (`step.1.to` = 1 mm, `step.2.to` = 1.5 mm) cannot be made; mend "
+      "it, or leave it out of `sweep`"))
+      << said;
   EXPECT_FALSE(fs::exists(root_ / "out/s_sweep"));
 }
 
