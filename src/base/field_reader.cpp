@@ -196,7 +196,7 @@ class Reader final : public FieldVisitor {
     for (std::size_t i = 0; i < node->items.size(); ++i) {
       const Node& item = node->items[i];
       if (item.kind == Node::Kind::table)
-        enter(key.name + ("." + std::to_string(i + 1)), item,
+        enter(std::string(key.name) + "." + std::to_string(i + 1), item,
               [&] { fields(*this, static_cast<int>(i)); });
       else
         problem(item.place, quoted(key.name) + " wants tables, got " + item.kind_name() +
@@ -244,8 +244,10 @@ class Reader final : public FieldVisitor {
     const Member* member = here.node->find(key.name);
     if (member == nullptr) return nullptr;
     if (!key.use.used && trust_uses_) {
+      reading_->unread.push_back({path_of(key), key.use.when});
       if (key.use.otherwise == Use::Otherwise::note)
-        left_unread(key, *member);
+        reading_->notes.push_back(
+            {member->place, quoted(key.name) + " is left unread: it is used only " + key.use.when});
       else
         problem(member->place, quoted(key.name) + " has no effect here: it is used only " +
                                    key.use.when + "; remove it or change that");
@@ -254,13 +256,11 @@ class Reader final : public FieldVisitor {
     return &member->value;
   }
 
-  void left_unread(const Key& key, const Member& member) {
-    reading_->notes.push_back(
-        {member.place, quoted(key.name) + " is left unread: it is used only " + key.use.when});
+  [[nodiscard]] std::string path_of(const Key& key) const {
     std::string path;
     for (const Open& open : open_)
       if (!open.name.empty()) path += open.name + ".";
-    reading_->unread.push_back({path + key.name, key.use.when});
+    return path + key.name;
   }
 
   void enter(const std::string& name, const Node& node, const std::function<void()>& visit) {

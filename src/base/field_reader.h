@@ -9,6 +9,7 @@
 
 namespace palpate {
 
+// A key that has no effect: a note's, or an error's.
 struct Unread {
   std::string path;  // dotted, as `solver.rings`; entries of lists count from 1
   std::string when;  // where it would be used
@@ -17,7 +18,7 @@ struct Unread {
 struct Reading {
   std::vector<Problem> problems;  // each an error
   std::vector<Problem> notes;     // keys that are left unread by the chosen model
-  std::vector<Unread> unread;     // the same keys
+  std::vector<Unread> unread;     // all keys that have no effect
 };
 
 // Reads all of `root` by `fields`. A key's use may depend on keys that stand later or in other

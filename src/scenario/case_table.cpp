@@ -119,7 +119,8 @@ void CommonUnit::add(const Node& value) {
   if (value.is_number()) {
     unit = "";
   } else if (value.kind == Node::Kind::text) {
-    const auto number = leading_number(trimmed(value.text));
+    const std::string text = trimmed(value.text);
+    const auto number = leading_number(text);
     if (number && !trimmed(number->rest).empty()) unit = trimmed(number->rest);
   }
   if (!begun_)

@@ -110,9 +110,11 @@ class Design {
 // The words of `design`, in the order of Design::Kind.
 [[nodiscard]] const std::vector<std::string>& design_words();
 
-// More cases than any plan takes; samples lie in memory, 8 bytes a factor.
+// More cases than any plan takes; and more numbers than lie in memory, 8 bytes each: one a sample
+// and factor, of `saltelli` two.
 inline constexpr double most_planned = 1e9;
 inline constexpr double most_samples = 1e7;
+inline constexpr double most_drawn = 1e8;
 
 // Takes [sweep] out of the document; files are looked for from `folder`. Throws InputError, at its
 // place, for what is no design.

@@ -21,8 +21,7 @@ std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"
 
 class DesignReader {
  public:
-  DesignReader(const Node& table, const Node& document, const std::string& folder)
-      : table_(table), document_(document), folder_(folder) {}
+  DesignReader(const Node& table, const std::string& folder) : table_(table), folder_(folder) {}
 
   Design read() {
     kind_ = design();
@@ -37,7 +36,7 @@ class DesignReader {
         add_varied(entry.key, entry, factors_);
     }
     check_order();
-    for (Factor& factor : factors_) check_factor(factor);
+    for (const Factor& factor : factors_) check_factor(factor);
     if (kind_ == Kind::list)
       for (const Factor& factor : factors_) same_length(factors_.front(), factor);
     check_count(sampling);
@@ -211,15 +210,8 @@ class DesignReader {
       }
   }
 
-  void check_factor(Factor& factor) const {
-    for (Varied& varied : factor.keys) {
-      const Place given = place_of(document_, varied.key);
-      const std::string setting = trimmed(split(given.file, '=').front());
-      if (from_command_line(given) && setting == "--set " + varied.key)
-        throw InputError(given, ticked(varied.key) +
-                                    " is swept, so that one value has no effect; set the list, "
-                                    "`sweep." +
-                                    varied.key + "=[...]`");
+  void check_factor(const Factor& factor) const {
+    for (const Varied& varied : factor.keys) {
       if (!varied.interval) continue;
       const bool points = varied.interval->points > 0;
       if (!sampled() && !points)
@@ -257,8 +249,11 @@ class DesignReader {
                            " has nothing to vary; add a key, as `\"tissue.young_modulus\" = { from "
                            "= \"1 kPa\", to = \"100 kPa\" }`");
     const std::size_t dimensions = factors_.size() * (kind_ == Kind::saltelli ? 2 : 1);
-    if (sampled() && dimensions > most_sobol_dimensions)
-      throw InputError(table_.place, "`sweep` varies more than a design can; vary fewer keys");
+    const double drawn = static_cast<double>(dimensions) * static_cast<double>(sampling.samples);
+    if (sampled() && (dimensions > most_sobol_dimensions || drawn > most_drawn))
+      throw InputError(table_.place, "`sweep` would draw " + rounded_text(drawn) +
+                                         " numbers, which is more than a design holds; vary fewer "
+                                         "keys or take fewer samples");
     double count = sampled() ? static_cast<double>(sampling.samples) : 1.0;
     if (kind_ == Kind::grid)
       for (const Factor& factor : factors_) count *= static_cast<double>(factor.levels());
@@ -270,11 +265,26 @@ class DesignReader {
   }
 
   const Node& table_;
-  const Node& document_;
   const std::string& folder_;
   Kind kind_ = Kind::grid;
   std::vector<Factor> factors_;
 };
+
+// One value of a key that is swept.
+void refuse_settings(const Design& design, const Node& document) {
+  for (const Factor& factor : design.factors()) {
+    for (const Varied& varied : factor.keys) {
+      const Place given = place_of(document, varied.key);
+      const std::string setting = trimmed(split(given.file, '=').front());
+      const bool list = design.kind() != Kind::csv && !factor.row;
+      if (from_command_line(given) && setting == "--set " + varied.key)
+        throw InputError(given, ticked(varied.key) +
+                                    " is swept, so that one value has no effect; " +
+                                    (list ? "set the list, `sweep." + varied.key + "=[...]`"
+                                          : "change its values in `[sweep]`"));
+    }
+  }
+}
 
 }  // namespace
 
@@ -286,7 +296,9 @@ Design take_design(Node& document, const std::string& folder) {
   if (table.kind != Node::Kind::table)
     throw InputError(table.place, "`sweep` wants a table of keys and lists, got " +
                                       table.kind_name() + "; write `[sweep]`");
-  return DesignReader(table, document, folder).read();
+  const Design design = DesignReader(table, folder).read();
+  refuse_settings(design, document);
+  return design;
 }
 
 }  // namespace palpate::scenario

@@ -5,6 +5,7 @@
 #include "base/field_writer.h"
 #include "base/text.h"
 #include "scenario/family.h"
+#include "scenario/sweep_manual.h"
 #include "scenario/trial.h"
 
 namespace palpate::scenario {
@@ -125,9 +126,8 @@ std::string manual() {
          "wrong dimensions and keys that the chosen model cannot honour are errors with file, line "
          "and column. `--set key=value` sets any key from the command line "
          "(`--set tissue.young_modulus=\"60 kPa\"`, `--set step.1.to=\"2 mm\"`).\n\n"
-         "`[sweep]` makes a family of cases: `\"tissue.material\" = [\"skin\", \"muscle\"]` runs "
-         "one case a value, named by it; several lists run every combination.\n" +
-         keys;
+         "`[sweep]` makes a family of cases; what it can say stands [at the end](#sweep).\n" +
+         keys + sweep_manual();
 }
 
 }  // namespace palpate::scenario

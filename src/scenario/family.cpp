@@ -112,7 +112,8 @@ Family outline(const std::string& path, const std::vector<std::string>& settings
 Case make_case(const Family& family, std::size_t i) {
   Sources sources{family.folder, family.library};
   Made made = make(family, family.design.settings(i), sources);
-  if (!made.reading.problems.empty()) throw InputError(made.reading.problems);
+  for (const auto* problems : {&made.reading.problems, &made.together})
+    if (!problems->empty()) throw InputError(*problems);
   made.one.name = case_name(family, i, made.one.swept);
   return std::move(made.one);
 }

@@ -71,6 +71,10 @@ inline constexpr std::size_t most_cases = 1000;  // that are made at once
 // Throws InputError with every problem of this case.
 [[nodiscard]] Case make_case(const Family& family, std::size_t i);
 
+// The swept keys of case i that have no effect once `model = "auto"` has become `chosen`.
+[[nodiscard]] std::vector<std::string> unread_keys(const Family& family, std::size_t i,
+                                                   Solver::Model chosen);
+
 // The family with its case i alone; the others are not looked at.
 [[nodiscard]] Family parse_case(const std::string& text, const std::string& path,
                                 const std::vector<std::string>& settings, std::size_t i);

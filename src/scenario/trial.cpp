@@ -6,6 +6,7 @@
 
 #include "base/field_writer.h"
 #include "base/text.h"
+#include "scenario/words.h"
 
 namespace palpate::scenario {
 namespace {
@@ -46,6 +47,13 @@ std::string files_of(const std::vector<Setting>& row) {
   return files;
 }
 
+// The key's, or that of a table around it.
+const Unread* find_unread(const std::string& key, const Reading& reading) {
+  for (const Unread& one : reading.unread)
+    if (key == one.path || key.starts_with(one.path + ".")) return &one;
+  return nullptr;
+}
+
 }  // namespace
 
 const char* const poisson_in_contact_only_text =
@@ -69,7 +77,7 @@ Made make(const Family& family, const std::vector<Setting>& settings, Sources& s
   made.as_read = scenario;
   std::vector<Problem>& problems = made.reading.problems;
   fill_in(scenario, document, sources, problems);
-  if (problems.empty()) check(scenario, document, problems);
+  if (problems.empty()) check(scenario, document, made.together);
   made.one.files = sources.used;
   return made;
 }
@@ -77,6 +85,21 @@ Made make(const Family& family, const std::vector<Setting>& settings, Sources& s
 std::string case_name(const Family& family, std::size_t i,
                       const std::vector<std::pair<std::string, std::string>>& swept) {
   return swept.empty() ? family.name : family.design.case_name(i, swept);
+}
+
+std::vector<std::string> unread_keys(const Family& family, std::size_t i, Solver::Model chosen) {
+  std::vector<Setting> settings = family.design.settings(i);
+  Node model;
+  model.kind = Node::Kind::text;
+  model.text = words::word(words::models, chosen);
+  settings.push_back({"solver.model", {}, model, {}});
+  Sources sources{family.folder, family.library};
+  const Made made = make(family, settings, sources);
+  settings.pop_back();
+  std::vector<std::string> keys;
+  for (const Setting& setting : settings)
+    if (find_unread(setting.key, made.reading) != nullptr) keys.push_back(setting.key);
+  return keys;
 }
 
 void Trial::add_problems(const std::vector<Problem>& problems) {
@@ -115,16 +138,12 @@ Made Trial::take(const std::vector<Setting>& settings) {
   Sources sources{family_.folder, family_.library};
   Made made = scenario::make(family_, settings, sources);
   add_new(family_.notes, made.reading.notes);
-  add_problems(made.reading.problems);
   family_.library.tissues.merge(sources.found.tissues);
   family_.library.geometry.merge(sources.found.geometry);
   remember(sources.read);
   for (const Setting& setting : settings) {
-    const auto unread = std::find_if(
-        made.reading.unread.begin(), made.reading.unread.end(), [&](const Unread& one) {
-          return setting.key == one.path || setting.key.starts_with(one.path + ".");
-        });
-    if (unread == made.reading.unread.end())
+    const Unread* const unread = find_unread(setting.key, made.reading);
+    if (unread == nullptr)
       read_[setting.key] = true;
     else
       unread_[setting.key] = unread->when;
@@ -133,10 +152,25 @@ Made Trial::take(const std::vector<Setting>& settings) {
   return made;
 }
 
+// What no case has had yet; `of` says what the values belong to.
+void Trial::refuse_equal(std::map<std::string, std::string>& seen, const Made& made,
+                         const std::vector<Setting>& values, const std::string& of) {
+  const auto [known, added] = seen.emplace(all_values(made.as_read), words_of(values));
+  if (!added)
+    add_problems({{values.front().value.place, known->second + " and " + words_of(values) + of +
+                                                   " make the same case; keep one of them"}});
+}
+
 Case Trial::make(std::size_t i) {
-  Made made = take(family_.design.settings(i));
+  const std::vector<Setting> settings = family_.design.settings(i);
+  Made made = take(settings);
   if (!begun_) family_.base = made.as_read;
   begun_ = true;
+  add_problems(made.reading.problems);
+  add_problems(made.together);
+  const Design::Kind kind = family_.design.kind();
+  if ((kind == Design::Kind::list || kind == Design::Kind::csv) && problems_.empty())
+    refuse_equal(rows_, made, settings, "");
   made.one.name = case_name(family_, i, made.one.swept);
   return made.one;
 }
@@ -145,10 +179,13 @@ void Trial::try_cases() {
   const Design& design = family_.design;
   const std::size_t count = design.count();
   const std::size_t tried = count <= most_cases ? count : tried_cases;
-  for (std::size_t k = 0; k < tried; ++k)
-    (void)make(tried == count ? k : k * (count - 1) / (tried - 1));
-  if (design.kind() != Design::Kind::csv || tried == count) return;
   std::set<std::string> seen;
+  for (std::size_t k = 0; k < tried; ++k) {
+    const std::size_t i = tried == count ? k : k * (count - 1) / (tried - 1);
+    (void)make(i);
+    seen.insert(files_of(design.settings(i)));
+  }
+  if (design.kind() != Design::Kind::csv || tried == count) return;
   for (std::size_t i = 0; i < count; ++i)
     if (seen.insert(files_of(design.settings(i))).second) (void)make(i);
 }
@@ -178,19 +215,19 @@ void Trial::check_values(std::size_t factor) {
       *std::find_if(settings.begin(), settings.end(),
                     [&](const Setting& other) { return other.key == value.key; }) = value;
     const Made made = take(settings);
-    if (!made.reading.problems.empty()) continue;
-    const auto [known, added] = seen.emplace(all_values(made.as_read), words_of(values));
-    if (!added)
-      add_problems(
-          {{values.front().value.place, known->second + " and " + words_of(values) + " of " +
-                                            ticked(family_.design.factors()[factor].name) +
-                                            " make the same case; keep one of them"}});
+    add_problems(made.reading.problems);
+    // In a grid this is one of the cases; in a sample what fails together need not meet.
+    if (family_.design.kind() == Design::Kind::grid) add_problems(made.together);
+    if (made.reading.problems.empty())
+      refuse_equal(seen, made, values, " of " + ticked(family_.design.factors()[factor].name));
   }
 }
 
 void Trial::check_factors() {
   if (!problems_.empty() || family_.design.empty()) return;
-  for (std::size_t f = 0; f < family_.design.factors().size(); ++f) check_values(f);
+  const Design::Kind kind = family_.design.kind();
+  if (kind != Design::Kind::list && kind != Design::Kind::csv)
+    for (std::size_t f = 0; f < family_.design.factors().size(); ++f) check_values(f);
   if (problems_.empty()) check_swept_keys();
 }
 

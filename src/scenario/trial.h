@@ -15,6 +15,7 @@ struct Made {
   Case one;          // without a name
   Scenario as_read;  // before materials filled it in
   Reading reading;
+  std::vector<Problem> together;  // of keys that do not go together, where each reads well
 };
 
 // The document with these settings, read, filled in and checked.
@@ -47,7 +48,7 @@ class Trial {
   void check_names(const Place& sweep);
 
   // Every value of a list and both ends of a range, the other factors as in the first case: within
-  // the key's limits, different from each other, and read by one case at least.
+  // the key's limits, and different from each other; and each key is read by one case at least.
   void check_factors();
 
   // Throws InputError with all problems.
@@ -55,12 +56,15 @@ class Trial {
 
  private:
   Made take(const std::vector<Setting>& settings);
+  void refuse_equal(std::map<std::string, std::string>& seen, const Made& made,
+                    const std::vector<Setting>& values, const std::string& of);
   void add_problems(const std::vector<Problem>& problems);
   void check_values(std::size_t factor);
   void check_swept_keys();
 
   Family& family_;
   bool begun_ = false;
+  std::map<std::string, std::string> rows_;  // of lists and tables: words by what was read
   std::vector<Problem> problems_;
   std::map<std::string, std::string> unread_;  // swept keys that no case has read, and where they
                                                // would be

@@ -217,6 +217,31 @@ TEST(Echo, OfASweptMaterialLeavesItsPropertiesToTheCases) {
   expect_reads_back(press + "[sweep]\n\"finger.material\" = [\"finger\", \"rigid\"]\n");
 }
 
+TEST(Echo, OfEveryDesignReadsBack) {
+  const std::string ranges =
+      "\"tissue.young_modulus\" = { from = \"10 kPa\", to = \"90 kPa\", scale = \"log\" }\n"
+      "\"contact.friction\" = { from = 0, to = 1 }\n\"tissue.material\" = [\"skin\", \"bone\"]\n";
+  for (const char* design :
+       {"lhs\"\nsamples = 5\nseed = 77", "sobol\"\nsamples = 5", "saltelli\"\nsamples = 2"})
+    expect_reads_back(press + "[sweep]\ndesign = \"" + design + "\n" + ranges);
+  expect_reads_back(
+      press +
+      "[sweep]\n\"tissue.young_modulus\" = { points = 4, scale = \"log\", from = \"10 "
+      "kPa\", to = \"90 kPa\" }\nfinger.radius = [\"8 mm\", \"9 mm\"]\n");
+  expect_reads_back(press +
+                    "[sweep]\ndesign = \"list\"\n\"contact.friction\" = [0, 0.5]\n"
+                    "\"finger.radius\" = [\"8 mm\", \"9 mm\"]\n");
+  // Rows keep their place among the other factors, also at the front.
+  expect_reads_back(
+      press +
+      "[sweep]\nrows = [{ \"tissue.material\" = [\"skin\", \"bone\"], title = [\"a\", "
+      "\"b\"] }, { \"contact.friction\" = [0, 0.1] }]\n\"finger.radius\" = [\"8 mm\", "
+      "\"9 mm\"]\n");
+  expect_reads_back(press +
+                    "[sweep]\n\"finger.radius\" = [\"8 mm\", \"9 mm\"]\n[[sweep.rows]]\n"
+                    "\"tissue.material\" = [\"skin\", \"bone\"]\ntitle = [\"a\", \"b\"]\n");
+}
+
 TEST(Echo, RefersToCopiesByTheirBareName) {
   const fs::path folder =
       fs::path(testing::TempDir()) / ("palpate_echo_" + std::to_string(::getpid()));
@@ -248,6 +273,25 @@ TEST(Echo, RefersToCopiesByTheirBareName) {
   EXPECT_EQ(again.cases[0].name, "my.toml#gel");
   EXPECT_EQ(again.cases[0].scenario.tissue.young_modulus, 12300.0);
   EXPECT_EQ(again.cases[1].scenario.tissue.young_modulus, 72400.0);
+  fs::remove_all(folder);
+}
+
+TEST(Echo, OfATableOfCasesReadsBack) {
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("palpate_echo_csv_" + std::to_string(::getpid()));
+  fs::create_directories(folder / "data");
+  const std::string table = "tissue.young_modulus [kPa],contact.friction\n10,0\n20,0.5\n";
+  write_atomically((folder / "data/cases.csv").string(), table);
+  const Family family = parse(press + "[sweep]\ndesign = \"csv\"\nfile = \"data/cases.csv\"\n",
+                              (folder / "press.toml").string(), {});
+  const std::string written = echo(family);
+  EXPECT_NE(written.find("file = \"cases.csv\"\n"), std::string::npos) << written;
+  ASSERT_EQ(family.inputs.size(), 2U);
+  fs::create_directories(folder / "result");
+  write_atomically((folder / "result" / family.inputs[1].name).string(), family.inputs[1].content);
+  const Family again = parse(written, (folder / "result/press.toml").string(), {});
+  EXPECT_EQ(echo(again), written);
+  EXPECT_EQ(values_of(again), values_of(family));
   fs::remove_all(folder);
 }
 

@@ -9,7 +9,7 @@ namespace palpate::scenario {
 namespace {
 
 TEST(Manual, IsCurrentInDocs) {
-  EXPECT_TRUE(read_text(std::string(PALPATE_SOURCE_DIR) + "/docs/scenario.md") == manual())
+  EXPECT_TRUE(read_text(PALPATE_SOURCE_DIR "/docs/scenario.md") == manual())
       << "renew it: palpate manual > docs/scenario.md";
 }
 
@@ -48,6 +48,21 @@ TEST(Manual, ShowsDefaultsRangesAndConditions) {
         "Used only with `viscosity = \"nodal_drag\"`.",
         "## `tissue.mesh`, `kind = \"mirrored\"` (default)", "## `[[step]]`"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+// The examples of [sweep] are scenarios but for their steps.
+TEST(Manual, HasExamplesThatRun) {
+  const std::string text = manual();
+  const std::string open = "```toml\n";
+  std::vector<std::size_t> cases;
+  for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at + 1)) {
+    const std::size_t from = at + open.size();
+    const std::string example = text.substr(from, text.find("```", from) - from);
+    SCOPED_TRACE(example);
+    const Family family = parse("[[step]]\nto = \"1 mm\"\n" + example, "p.toml", {});
+    cases.push_back(family.cases.size());
+  }
+  EXPECT_EQ(cases, (std::vector<std::size_t>{40, 200, 4}));
 }
 
 }  // namespace
