@@ -215,6 +215,8 @@ struct Parser {
     add("retry", Sweep::Act::retry, "Run the cases that failed once more");
     verb = add("merge", Sweep::Act::merge, "All results as one table, with figures");
     verb->add_flag("--force", sweep.force, "Replace the merged results");
+    verb->add_option("--show", sweep.show, "A column of results.csv to draw; may be repeated")
+        ->allow_extra_args(false);
     verb = add("slurm", Sweep::Act::slurm, "Write a job file of an array, and print its line");
     verb->add_option("--chunk", sweep.chunk, "Cases a task")
         ->capture_default_str()

@@ -1,9 +1,12 @@
 // `palpate sweep status` and `merge`: what there is, and all of it as one table.
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
+#include "report/response.h"
+#include "study/sweep_columns.h"
 #include "study/sweep_merge.h"
 
 namespace palpate::cli {
@@ -55,6 +58,20 @@ std::string status_text(const study::SweepTotals& totals, const study::SweepResu
   return text;
 }
 
+// Sensitivity, maps and curves beside the table. What they cannot say is no failure of the merge.
+void look_at(const study::SweepPlan& plan, const std::string& folder, const Sweep& command,
+             const Talk& talk) {
+  const scenario::Family& family = plan.family;
+  if (family.design.empty()) return;
+  const study::SweepColumns columns =
+      study::read_sweep_columns(folder + "/results.csv", family.design, command.show);
+  std::optional<report::DrawOptions> options;
+  if (family.base.output.figures) options.emplace();
+  if (options && family.base.output.pdf) options->format = report::PictureFormat::svg_and_pdf;
+  const report::SweepDrawings drawn = report::draw_sweep(columns, family.title, folder, options);
+  for (const std::string& warning : drawn.warnings) talk.warn(warning);
+}
+
 }  // namespace
 
 int sweep_status(const Sweep& command, const Talk& talk) {
@@ -80,6 +97,7 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   if (totals.missing > 0)
     text += ", " + std::to_string(totals.missing) + " missing (numbers " + totals.missing_numbers +
             "); `palpate sweep run` runs them";
+  look_at(plan, folder, command, talk);
   talk.say(text);
   talk.event("merged", {{"folder", folder},
                         {"cases", std::to_string(totals.cases)},

@@ -137,7 +137,7 @@ std::optional<Sheet> points_sheet(const study::SweepColumns& columns,
   const std::size_t across = panels.size() == 1 ? 1 : 2;
   const std::size_t rows = (panels.size() + across - 1) / across;
   std::string whole = title + ": " + of_output.label;
-  if (every(columns) > 1) whole += ", every " + std::to_string(every(columns)) + "th case";
+  if (every(columns) > 1) whole += ", one case in " + std::to_string(every(columns));
   if (failed) whole += "; a cross has none";
   const int height = 60 + 330 * static_cast<int>(rows);
   std::string text = gnuplot_head(name, height) +
@@ -149,9 +149,9 @@ std::optional<Sheet> points_sheet(const study::SweepColumns& columns,
                      "set xlabel font ',11' offset 0,0.4\nset ylabel font ',11' offset 1,0\n"
                      "set cblabel font ',11' offset -0.8,0\nset cbtics font ',10'\n" +
                      palette_text() + "set multiplot layout " + std::to_string(rows) + "," +
-                     std::to_string(across) + " margins screen 0.085,0.905," +
+                     std::to_string(across) + " margins screen 0.1,0.905," +
                      rounded_text(60.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
-                     " spacing screen 0.235," + rounded_text(75.0 / height, 3) + " title " +
+                     " spacing screen 0.225," + rounded_text(75.0 / height, 3) + " title " +
                      gnuplot_quoted(whole) + " font ',15'\n";
   for (const std::string& one : panels) text += one;
   return Sheet{name, text + "\nunset multiplot\n", {points_file}};

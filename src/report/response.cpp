@@ -53,7 +53,7 @@ struct Edges {
 Edges edges(const std::vector<double>& values, std::size_t i, study::Scale scale) {
   const bool log = scale == study::Scale::logarithmic;
   const auto between = [&](double a, double b) { return log ? std::sqrt(a * b) : 0.5 * (a + b); };
-  const auto beyond = [&](double a, double edge) { return log ? a * a / edge : 2.0 * a - edge; };
+  const auto beyond = [&](double a, double edge) { return log ? a * a / edge : a - (edge - a); };
   const double here = values[i];
   if (values.size() == 1) return {here, here};
   if (i == 0) return {beyond(here, between(here, values[1])), between(here, values[1])};
@@ -93,7 +93,7 @@ std::optional<Response> response(const study::SweepColumns& columns,
     const auto& name = factor.column->choice.name;
     if (&factor == across || &factor == along) {
       if (factor.every > 1)
-        made.title += ", every " + std::to_string(factor.every) + "th level of " + name;
+        made.title += ", one level in " + std::to_string(factor.every) + " of " + name;
       continue;
     }
     const std::size_t middle = factor.order[factor.order.size() / 2];

@@ -55,12 +55,15 @@ struct Response {
 [[nodiscard]] std::optional<Sheet> sensitivity_sheet(const study::Sensitivity& found,
                                                      const std::string& title);
 
-// All of a sweep's tables and pictures, written into `folder`. Returns warnings and notes.
+// All of a sweep's tables and pictures, written into `folder`; without options no pictures. Throws
+// SystemError where the folder takes no files. Warnings are sentences: what could not be drawn or
+// said, and why.
 struct SweepDrawings {
   std::vector<std::string> files = {};
   std::vector<std::string> warnings = {};
 };
 [[nodiscard]] SweepDrawings draw_sweep(const study::SweepColumns& columns, const std::string& title,
-                                       const std::string& folder, const DrawOptions& options = {});
+                                       const std::string& folder,
+                                       const std::optional<DrawOptions>& options = DrawOptions{});
 
 }  // namespace palpate::report

@@ -69,23 +69,27 @@ std::string names_of_lines(const Response& response, const Lines& lines) {
   const auto share = [](double value, const std::vector<double>& all) {
     return (value - all.front()) / (all.back() - all.front());
   };
+  const auto slant = [](double u) { return 0.1 + 0.8 * u; };
   std::vector<std::pair<double, double>> taken;
   std::string text;
   for (const double level : lines.levels) {
     const double wanted = onto(level, response.logarithmic);
-    double best = 0.06;
+    double best = INFINITY;
     std::optional<std::pair<double, double>> place;
     for (const Segment& one : lines.segments) {
       if (one.level != wanted) continue;
-      const double u = share(0.5 * (one.x0 + one.x1), xs);
-      const double v = share(0.5 * (one.y0 + one.y1), ys);
+      const double u0 = share(one.x0, xs), u1 = share(one.x1, xs);
+      const double v0 = share(one.y0, ys), v1 = share(one.y1, ys);
+      const double off0 = v0 - slant(u0), off1 = v1 - slant(u1);
+      const double t = off0 == off1 ? 0.5 : std::clamp(off0 / (off0 - off1), 0.0, 1.0);
+      const double u = u0 + t * (u1 - u0);
+      const double v = v0 + t * (v1 - v0);
       if (u < 0.05 || u > 0.95 || v < 0.05 || v > 0.95) continue;
       const bool close = std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
         return std::abs(other.first - u) < 0.09 && std::abs(other.second - v) < 0.08;
       });
-      const double off = std::abs(v - (0.3 + 0.4 * u));
-      if (close || off >= best) continue;
-      best = off;
+      if (close || std::abs(v - slant(u)) >= best) continue;
+      best = std::abs(v - slant(u));
       place = {u, v};
     }
     if (!place) continue;
@@ -175,6 +179,15 @@ std::vector<std::size_t> chosen(std::size_t count) {
   return all;
 }
 
+// The legend has less room than an axis: a long key loses its tables.
+std::string narrow_label(const study::FactorChoice& factor) {
+  const std::string label = factor_label(factor);
+  if (label.size() <= 18) return label;
+  const std::size_t unit = std::min(label.find(" ("), label.size());
+  const std::size_t dot = label.rfind('.', unit);
+  return dot == std::string::npos ? label : label.substr(dot + 1);
+}
+
 std::string curves(const Response& response) {
   const ValueGrid& grid = response.grid;
   const std::size_t width = grid.x.size();
@@ -188,7 +201,7 @@ std::string curves(const Response& response) {
   }
   text += "set format y '%g'\nset ylabel " + gnuplot_quoted(output_label(response.output)) + "\n";
   if (response.along)
-    text += "set key title " + gnuplot_quoted(factor_label(*response.along)) + " left\n";
+    text += "set key title " + gnuplot_quoted(narrow_label(*response.along)) + " left\n";
   std::vector<std::string> plots;
   for (const std::size_t j : chosen(count)) {
     const double share = count > 1 ? static_cast<double>(j) / static_cast<double>(count - 1) : 0.0;
@@ -232,14 +245,16 @@ Sheet response_sheet(const Response& response) {
             title + "\nset tmargin at screen 0.945\nset bmargin at screen 0.545\n" + label +
             map(response) +
             "unset title\nset tmargin at screen 0.455\nset bmargin at screen 0.085\n"
-            "set key at screen 0.81, screen 0.455 left top Left reverse samplen 1.6 spacing 1.15\n"
+            "set key at screen 0.805, screen 0.455 left top Left reverse font ',13' samplen 1.6 "
+            "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curves(response) + "unset multiplot\n";
   } else {
     const Least range = ends(response.grid.x);
     text += "set lmargin at screen 0.12\nset rmargin at screen 0.79\nset title " + title + "\n" +
             label + axis("x", response.across, range.low, range.high) +
-            "set key at screen 0.81, screen 0.85 left top Left reverse samplen 1.6 spacing 1.15\n"
+            "set key at screen 0.805, screen 0.85 left top Left reverse font ',13' samplen 1.6 "
+            "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curves(response);
   }

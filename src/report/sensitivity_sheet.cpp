@@ -60,7 +60,7 @@ std::optional<Sheet> sensitivity_sheet(const study::Sensitivity& found, const st
   const std::size_t factors = outputs.front().size();
   std::size_t longest = 0;
   for (const auto& row : outputs.front()) longest = std::max(longest, row.factor.size());
-  const int panel = 55 + 38 * static_cast<int>(factors);
+  const int panel = 34 + 38 * static_cast<int>(factors);
   const int height = 105 + panel * static_cast<int>(outputs.size());
   const double margin = std::min(0.45, 0.04 + 0.0108 * static_cast<double>(longest));
   std::string text =
@@ -69,23 +69,26 @@ std::optional<Sheet> sensitivity_sheet(const study::Sensitivity& found, const st
       "set border 3 linewidth 1.1 linecolor rgb '#404040'\n"
       "set tics nomirror out scale 0.5 textcolor rgb '#202020'\n"
       "set grid xtics linetype 1 linewidth 0.5 linecolor rgb '#dcdcdc'\nunset key\n"
-      "set format x '%g'\nset xrange [" +
+      "set xrange [" +
       rounded_text(least < 0.0 ? least - 0.02 : 0.0, 4) + ":" + rounded_text(most + 0.02, 4) +
       "]\nset yrange [" + number_text(0.5 - static_cast<double>(factors)) +
       ":0.5]\nset title offset 0,-0.7 font ',13'\n"
       "set multiplot layout " +
       std::to_string(outputs.size()) + ",1 margins screen " + rounded_text(margin, 3) + ",0.965," +
       rounded_text(76.0 / height, 3) + "," + rounded_text(1.0 - 62.0 / height, 3) +
-      " spacing screen 0.1," + rounded_text(50.0 / height, 3) + " title " +
-      gnuplot_quoted(title + ": shares of the variance") +
-      " font ',15'\n"
-      "set label 1 'blue: by itself (first order)   orange: with its interactions (total)' at "
-      "screen 0.5, screen " +
-      rounded_text(16.0 / height, 3) + " center font ',12' textcolor rgb '#404040'\n";
+      " spacing screen 0.1," + rounded_text(32.0 / height, 3) + " title " +
+      gnuplot_quoted(title + ": shares of the variance") + " font ',15'\n";
   for (const auto& rows : outputs) {
     std::vector<std::string> tics;
     for (std::size_t i = 0; i < rows.size(); ++i)
       tics.push_back(gnuplot_quoted(rows[i].factor) + " " + number_text(-static_cast<double>(i)));
+    const bool last = &rows == &outputs.back();
+    text += std::string("set format x '") + (last ? "%g" : "") + "'\n";
+    if (last)
+      text +=
+          "set label 1 'blue: by itself (first order)   orange: with its interactions (total)' at "
+          "screen 0.5, screen " +
+          rounded_text(16.0 / height, 3) + " center font ',12' textcolor rgb '#404040'\n";
     text += "set title " + gnuplot_quoted(output_label(rows.front().output)) + "\nset ytics (" +
             joined(tics, ", ") + ")\nplot \\\n  " +
             bars(rows, "first_order", "0072B2", 0.03, 0.33) + ", \\\n  " +
@@ -95,7 +98,7 @@ std::optional<Sheet> sensitivity_sheet(const study::Sensitivity& found, const st
 }
 
 SweepDrawings draw_sweep(const study::SweepColumns& columns, const std::string& title,
-                         const std::string& folder, const DrawOptions& options) {
+                         const std::string& folder, const std::optional<DrawOptions>& options) {
   SweepDrawings all;
   all.warnings = columns.notes;
   const auto write = [&](const std::string& name, const record::Table& table) {
@@ -103,7 +106,8 @@ SweepDrawings draw_sweep(const study::SweepColumns& columns, const std::string& 
     all.files.push_back(name);
   };
   const auto picture = [&](const Sheet& sheet) {
-    const Drawing drawing = draw(sheet, folder, options);
+    if (!options) return;
+    const Drawing drawing = draw(sheet, folder, *options);
     all.files.insert(all.files.end(), drawing.files.begin(), drawing.files.end());
     if (!drawing.warning.empty()) all.warnings.push_back(drawing.warning);
   };

@@ -52,9 +52,9 @@ std::string fit_label(const std::string& column) {
       for (const fit::Parameter& parameter : model.parameters) {
         const std::string name(model.name);
         if (column == std::string(curve.curve) + "_" + name + "_" + std::string(parameter.name))
-          return with_unit(
-              std::string(parameter.name) + " of the " + name + " fit to " + curve.curve,
-              fit::unit_text(parameter.unit, curve.x, curve.y));
+          return with_unit(std::string(parameter.name) + ", " + name + " fit" +
+                               (&curve == curves.data() ? "" : std::string(", ") + curve.curve),
+                           fit::unit_text(parameter.unit, curve.x, curve.y));
       }
   return {};
 }
@@ -81,7 +81,7 @@ std::string factor_label(const study::FactorChoice& factor) {
 std::string file_word(const std::string& column) {
   std::string word = column;
   for (char& c : word)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   return word;
 }
 

@@ -8,14 +8,13 @@
 
 namespace palpate::report {
 
-// `force_at_1_mm_N` as "Force at 1 mm (N)", `force_indentation_power_n` as "n of the power fit to
-// force_indentation".
+// `force_at_1_mm_N` as "Force at 1 mm (N)", `force_indentation_power_n` as "n, power fit".
 [[nodiscard]] std::string output_label(const std::string& column);
 
 // `tissue.young_modulus_kPa` of the factor `tissue.young_modulus` as "tissue.young_modulus (kPa)".
 [[nodiscard]] std::string factor_label(const study::FactorChoice& factor);
 
-// A name that files can have: letters, digits, `.`, `-` and `_`.
+// A name that files and SVG figures can have: letters, digits and `_`.
 [[nodiscard]] std::string file_word(const std::string& column);
 
 // Whether values are better seen by their logarithms: all above 0, over more than a decade and a

@@ -19,16 +19,15 @@ constexpr std::size_t most_outputs = 6;
 // How telling a column is, from 0; nothing: it is not shown unless it is asked for.
 std::optional<std::size_t> rank(const std::string& column) {
   if (column.starts_with("force_at_")) return 0;
-  constexpr std::array<const char*, 10> usual{"peak_force_N",
-                                              "force_indentation_logarithmic_a",
-                                              "force_indentation_logarithmic_b",
-                                              "creep_half_time_s",
-                                              "creep_kelvin_voigt_tau",
-                                              "creep_standard_linear_solid_tau",
-                                              "relaxation_standard_linear_solid_tau",
-                                              "recovery_kelvin_voigt_recovery_tau",
-                                              "peak_strain",
-                                              "peak_indentation_mm"};
+  constexpr std::array<const char*, 9> usual{"peak_force_N",
+                                             "force_indentation_logarithmic_a",
+                                             "force_indentation_logarithmic_b",
+                                             "creep_half_time_s",
+                                             "creep_kelvin_voigt_tau",
+                                             "creep_standard_linear_solid_tau",
+                                             "relaxation_standard_linear_solid_tau",
+                                             "recovery_kelvin_voigt_recovery_tau",
+                                             "peak_strain"};
   for (std::size_t i = 0; i < usual.size(); ++i)
     if (column == usual[i]) return i + 1;
   return std::nullopt;
@@ -60,7 +59,8 @@ bool varies(const std::vector<double>& values) {
     least = std::min(least, value);
     most = std::max(most, value);
   }
-  return least < most;
+  // Rounding alone is no difference.
+  return most - least > 1e-9 * std::max(std::abs(least), std::abs(most));
 }
 
 std::size_t known(const std::vector<double>& values) {
