@@ -123,7 +123,7 @@ class Search {
   }
 
   void find_best() {
-    const SearchResult result = search_from_several(problem_);
+    const SearchResult result = search_from_several(problem_, options_.searches);
     found_.evaluations += result.evaluations;
     if (stop_.load()) refuse("interrupted");
     if (!result.best.found)
@@ -148,8 +148,9 @@ class Search {
       one.unknown = unknowns_[i];
       one.u = best_.u[i];
       one.estimate = unknowns_[i].value(best_.u[i]);
-      one.tied = errors_.tied[i] != 0;
-      one.at_bound = !one.tied && (best_.u[i] < edge || best_.u[i] > 1.0 - edge);
+      const bool on_edge = best_.u[i] < edge || best_.u[i] > 1.0 - edge;
+      one.tied = errors_.tied[i] != 0 && !(n == 1 && on_edge);
+      one.at_bound = !one.tied && on_edge;
       moving[i] = one.at_bound ? 0 : 1;
       found_.unknowns.push_back(one);
     }

@@ -20,14 +20,14 @@ void expect_covered(const char* name, int repeats) {
 }
 
 TEST(Coverage, HertzWithItsContactPoint) { expect_covered("hertz", 1000); }
-TEST(Coverage, CreepOfASpecimen) { expect_covered("creep", 1000); }
+TEST(Coverage, CreepOfASpecimen) { expect_covered("creep", 400); }
 TEST(Coverage, RelaxationOfASpecimen) { expect_covered("relaxation", 400); }
-TEST(Coverage, Layer) { expect_covered("layer", 100); }
+TEST(Coverage, Layer) { expect_covered("layer", 60); }
 TEST(Coverage, ViscousBranch) { expect_covered("viscous branch", 20); }
 TEST(Coverage, FrictionOfASlide) { expect_covered("slide", 60); }
-TEST(Coverage, Springs) { expect_covered("mass_spring", 10); }
-TEST(Coverage, CoupledSprings) { expect_covered("coupled_springs", 10); }
-TEST(Coverage, CreepOfSprings) { expect_covered("creep of springs", 10); }
+TEST(Coverage, Springs) { expect_covered("mass_spring", 3); }
+TEST(Coverage, CoupledSprings) { expect_covered("coupled_springs", 3); }
+TEST(Coverage, CreepOfSprings) { expect_covered("creep of springs", 6); }
 
 }  // namespace
 }  // namespace palpate
