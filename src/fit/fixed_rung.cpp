@@ -50,26 +50,17 @@ double error_of(const scene::Choice& choice, Model model) {
   return std::numeric_limits<double>::infinity();
 }
 
-// Whether the specimen's lowest wave is so much faster than the tissue flows that inertia changes
-// its flow by less than a hundredth: 1 / (w_1 tau)^2, w_1 = pi c / (2 L).          PHYSICS 1.3 (5)
-bool flows_slowly(const scenario::Scenario& scenario) {
-  const scenario::Tissue& tissue = scenario.tissue;
-  const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
-  const auto& time = tissue.viscosity == tissue::Viscosity::kelvin_voigt ? tissue.retardation_time
-                                                                         : tissue.relaxation_time;
-  if (box == nullptr || !time || tissue.viscosity == tissue::Viscosity::nodal_drag) return false;
-  const double speed = std::sqrt(*tissue.young_modulus / *tissue.density);
-  const double turns = std::numbers::pi * speed / (2.0 * box->size[2]) * *time;
-  return turns * turns > 100.0;
-}
-
 }  // namespace
 
 FixedRung fix_rung(const scenario::Scenario& scenario, const Node& document,
                    std::span<const Unknown> unknowns) {
   std::vector<scene::Choice> choices;
   std::vector<Problem> wrong;
-  bool slow = scenario.uniform();
+  // The flow of a specimen is what a creep test is made for: its waves are left out, and
+  // inertia_of_flow() says afterwards whether that was right.
+  const bool still_flow = scenario.uniform() &&
+                          scenario.tissue.viscosity != tissue::Viscosity::nodal_drag &&
+                          scenario.tissue.viscosity != tissue::Viscosity::none;
   bool deep_known = true;  // the factor of deep presses, for every Poisson's ratio of the box
   for (const std::vector<double>& u : places(unknowns.size())) {
     scenario::Scenario at = scenario;
@@ -78,7 +69,6 @@ FixedRung fix_rung(const scenario::Scenario& scenario, const Node& document,
     set_unknowns(at, unknowns, values);
     std::vector<Problem> problems;
     scenario::check(at, document, problems);
-    slow = slow && flows_slowly(at);
     deep_known = deep_known && contact::deep_law(*at.tissue.poisson_ratio).has_value();
     if (problems.empty())
       choices.push_back(scene::choose(at));
@@ -123,12 +113,25 @@ FixedRung fix_rung(const scenario::Scenario& scenario, const Node& document,
   if (with.solver.integrator == scenario::Solver::Integrator::automatic) {
     const bool drag = with.tissue.viscosity == tissue::Viscosity::nodal_drag;
     const bool still = with.contact.coupling == contact::Coupling::resolved ||
-                       (!fixed.given && slow) || (free && !reached(choices, "inertia?") && !drag);
+                       (!fixed.given && still_flow) ||
+                       (free && !reached(choices, "inertia?") && !drag);
     with.solver.integrator = still && !closed_form
                                  ? scenario::Solver::Integrator::quasi_static
                                  : scenario::Solver::Integrator::central_difference;
   }
   return fixed;
+}
+
+// 1 / (w_1 tau)^2, w_1 = pi c / (2 L)                                          PHYSICS.md 1.3 (5)
+std::optional<double> inertia_of_flow(const scenario::Scenario& scenario) {
+  const scenario::Tissue& tissue = scenario.tissue;
+  const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
+  const auto& time = tissue.viscosity == tissue::Viscosity::kelvin_voigt ? tissue.retardation_time
+                                                                         : tissue.relaxation_time;
+  if (box == nullptr || !time || !scenario.uniform()) return std::nullopt;
+  const double speed = std::sqrt(*tissue.young_modulus / *tissue.density);
+  const double turns = std::numbers::pi * speed / (2.0 * box->size[2]) * *time;
+  return 1.0 / (turns * turns);
 }
 
 std::optional<double> predicted_error(const scenario::Scenario& fixed) {

@@ -1,6 +1,7 @@
 // One rung of the ladder for a whole search: another one halfway would make the curve jump.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -22,6 +23,10 @@ struct FixedRung {
 // box makes a valid scenario, with what is wrong in its middle.
 [[nodiscard]] FixedRung fix_rung(const scenario::Scenario& scenario, const Node& document,
                                  std::span<const Unknown> unknowns);
+
+// What the specimen's lowest wave changes of its flow, a ratio; nothing of scenarios that do not
+// flow between platens, or whose shape is no box.
+[[nodiscard]] std::optional<double> inertia_of_flow(const scenario::Scenario& scenario);
 
 // The error that the ladder predicts for the fixed rung of this scenario, a ratio; nothing where it
 // does not know one.

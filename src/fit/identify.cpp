@@ -123,7 +123,7 @@ class Search {
   }
 
   void find_best() {
-    const SearchResult result = search_from_several(problem_);
+    const SearchResult result = search_from_several(problem_, options_.searches);
     found_.evaluations += result.evaluations;
     if (stop_.load()) refuse("interrupted");
     if (!result.best.found)
@@ -148,8 +148,9 @@ class Search {
       one.unknown = unknowns_[i];
       one.u = best_.u[i];
       one.estimate = unknowns_[i].value(best_.u[i]);
-      one.tied = errors_.tied[i] != 0;
-      one.at_bound = !one.tied && (best_.u[i] < edge || best_.u[i] > 1.0 - edge);
+      const bool on_edge = best_.u[i] < edge || best_.u[i] > 1.0 - edge;
+      one.tied = errors_.tied[i] != 0 && !(n == 1 && on_edge);
+      one.at_bound = !one.tied && on_edge;
       moving[i] = one.at_bound ? 0 : 1;
       found_.unknowns.push_back(one);
     }
@@ -342,8 +343,6 @@ class Search {
   }
 
   void warn(const std::vector<double>& weighted) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const double weight : weights_) least = std::min(least, weight);
     // Below a thousandth of the curve systematic residuals are interpolation, not physics.
     if (systematic(weighted) && sigma_ > 1e-3)
       found_.warnings.push_back(
@@ -356,16 +355,17 @@ class Search {
                                   "` is on the edge of its "
                                   "range; widen the range, or hold it there with `--set`");
     const scenario::Scenario& with = curve_->fixed();
-    if (found_.predicted_error && !found_.closed_form &&
-        *found_.predicted_error > with.solver.tolerance)
+    if (found_.predicted_error && *found_.predicted_error > with.solver.tolerance)
       found_.warnings.push_back("`" + model_word() + "` is predicted to be off by " +
                                 rounded_text(100.0 * *found_.predicted_error, 2) +
-                                " % here, and the estimates with it");
-    else if (found_.predicted_error && *found_.predicted_error > with.solver.tolerance)
-      found_.warnings.push_back("`" + model_word() + "` is predicted to be off by " +
-                                rounded_text(100.0 * *found_.predicted_error, 2) +
-                                " % here, and the estimates with it; leave `solver.model` to "
-                                "`auto`");
+                                " % here, and the estimates with it" +
+                                (found_.given ? "; leave `solver.model` to `auto`" : ""));
+    const auto waves = inertia_of_flow(found_.scenario);
+    if (waves && *waves > 0.01 &&
+        with.solver.integrator == scenario::Solver::Integrator::quasi_static)
+      found_.warnings.push_back(
+          "the specimen's own waves change its flow by about " + rounded_text(100.0 * *waves, 2) +
+          " %, and they are left out; set `solver.integrator = \"central_difference\"`");
   }
 
   const Measurement& measured_;

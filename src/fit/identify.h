@@ -19,6 +19,7 @@ enum class Noise {
 struct IdentifyOptions {
   Noise noise = Noise::constant;
   Slopes slopes = Slopes::automatic;
+  int searches = 3;      // from different starts
   bool profiles = true;  // intervals by the profile likelihood, and contact-point sensitivity
 };
 

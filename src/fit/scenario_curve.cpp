@@ -123,7 +123,8 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
   record::CaseRecord record;
   try {
     scene::SpecimenShapes fresh;
-    const scene::Scene scene = scene::build(one, *family_, shape_varies_ ? fresh : shapes_);
+    const scene::Scene scene = scene::build(one, *family_, shape_varies_ ? fresh : shapes_,
+                                            {.chosen = one.scenario, .given = true});
     record = run::run_case(scene, *stop_);
   } catch (const InputError& error) {
     failure_ = error.problems().front().message;

@@ -29,7 +29,7 @@ std::vector<std::vector<double>> search_starts(std::size_t unknowns) {
   return starts;
 }
 
-SearchResult search_from_several(const BoxProblem& problem) {
+SearchResult search_from_several(const BoxProblem& problem, int searches) {
   struct Start {
     std::vector<double> u;
     double squares;
@@ -44,8 +44,7 @@ SearchResult search_from_several(const BoxProblem& problem) {
   std::stable_sort(starts.begin(), starts.end(), [](const Start& one, const Start& other) {
     return one.squares < other.squares;
   });
-  constexpr std::size_t searches = 3;
-  for (std::size_t k = 0; k < std::min(searches, starts.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(static_cast<std::size_t>(searches), starts.size()); ++k) {
     BoxMinimum minimum = minimise_in_box(problem, starts[k].u, {});
     result.evaluations += minimum.evaluations;
     // A tie of two minima goes to the first: a valley found twice is no better than once.

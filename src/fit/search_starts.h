@@ -15,7 +15,8 @@ struct SearchResult {
   int evaluations = 0;
 };
 
-// Searches from the three starts with the least squares; the best minimum, the first of equals.
-[[nodiscard]] SearchResult search_from_several(const BoxProblem& problem);
+// Searches from so many starts, those with the least squares; the best minimum, the first of
+// equals.
+[[nodiscard]] SearchResult search_from_several(const BoxProblem& problem, int searches);
 
 }  // namespace palpate::fit

@@ -299,10 +299,15 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
 }
 
 Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes) {
+  return build(one, family, shapes, choose(one.scenario));
+}
+
+Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes,
+            Choice choice) {
   using Model = scenario::Solver::Model;
   Scene scene;
   scene.name = one.name;
-  scene.choice = choose(one.scenario);
+  scene.choice = std::move(choice);
   scene.scenario = scene.choice.chosen;
   const scenario::Scenario& scenario = scene.scenario;
   if (!scenario.uniform()) scene.finger = make_finger(scenario);

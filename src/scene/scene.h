@@ -121,6 +121,9 @@ struct Scene {
 class SpecimenShapes;
 [[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family,
                           SpecimenShapes& shapes);
+// By a choice that was made before, for many cases: no question is asked.
+[[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family,
+                          SpecimenShapes& shapes, Choice choice);
 
 // The principal curvatures (1/m, convex positive) where `hertz` presses: of the flat or half-space,
 // or of the parametric shape's top. Nothing for shapes that only a mesh knows.
