@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t most_reasons = 20;  // that people are told
+
 int exit_of(const study::SweepTotals& totals) { return totals.good() ? exit_good : exit_partial; }
 
 std::string status_json(const study::SweepTotals& totals, const study::SweepResults& results) {
@@ -46,8 +48,11 @@ std::string status_text(const study::SweepTotals& totals, const study::SweepResu
   line("completed", totals.completed);
   line("diverged", totals.diverged);
   line("failed", totals.failed);
+  std::size_t said = 0;
   for (const auto& [reason, count] : totals.reasons)
-    text += "  " + std::to_string(count) + " x " + reason + "\n";
+    if (said++ < most_reasons) text += "  " + std::to_string(count) + " x " + reason + "\n";
+  if (said > most_reasons)
+    text += "  and " + std::to_string(said - most_reasons) + " other reasons\n";
   line("missing", totals.missing,
        totals.missing > 0 ? "  (numbers " + totals.missing_numbers + ")" : "");
   line("corrupt", results.corrupt());

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "study/sweep_shard.h"
 
 namespace palpate::study {
 namespace {
@@ -29,6 +28,12 @@ std::string free_name(const std::string& folder, const std::string& part) {
   int start = 1;
   while (fs::exists(stem + std::to_string(start) + ".rows")) ++start;
   return stem + std::to_string(start) + ".rows";
+}
+
+// By its name: `3-of-16_...` where part 5 of 16 is asked for.
+bool is_of_another_part(const std::string& name, const Shard& shard) {
+  const std::string part = name.substr(0, name.find('_'));
+  return part.ends_with("-of-" + std::to_string(shard.of)) && part != shard.text();
 }
 
 }  // namespace
@@ -52,13 +57,16 @@ void SweepJournal::sync() {
   changed_ = false;
 }
 
-SweepResults::SweepResults(const SweepPlan& plan) : plan_(&plan), places_(plan.count()) {
+SweepResults::SweepResults(const SweepPlan& plan, const Shard& shard)
+    : plan_(&plan), places_(plan.count()) {
   const fs::path folder = fs::path(plan.folder) / "results";
   std::vector<std::string> paths;
   std::error_code error;
   if (fs::exists(folder))
     for (const auto& entry : fs::directory_iterator(folder, error))
-      if (entry.path().extension() == ".rows") paths.push_back(entry.path().string());
+      if (entry.path().extension() == ".rows" &&
+          !is_of_another_part(entry.path().filename().string(), shard))
+        paths.push_back(entry.path().string());
   if (error) throw SystemError(folder.string() + " cannot be read: " + error.message());
   std::sort(paths.begin(), paths.end());
   std::vector<std::uint32_t> by_id(plan.count());

@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "study/sweep_plan.h"
 #include "study/sweep_row.h"
+#include "study/sweep_shard.h"
 
 namespace palpate::study {
 
@@ -57,7 +58,9 @@ class SweepResults {
  public:
   // Reads results/. Of several rows of a case the one of the greatest attempt counts; equal rows
   // are one. Throws SystemError where two rows of one attempt differ, naming both files.
-  explicit SweepResults(const SweepPlan& plan);
+  // With a `shard` the files of other parts of as many are left out: they hold none of its cases,
+  // and a thousand tasks need not read each what all have written.
+  explicit SweepResults(const SweepPlan& plan, const Shard& shard = {});
 
   [[nodiscard]] const RowPlace& at(std::size_t index) const { return places_[index]; }
   [[nodiscard]] const std::vector<RowFile>& files() const { return files_; }

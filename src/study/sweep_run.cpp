@@ -256,7 +256,7 @@ SweepEnd run_sweep(const SweepPlan& plan, const SweepTask& task, const std::atom
                    const std::function<void(const SweepProgress&)>& tick) {
   const bool again = task.which == SweepTask::Which::failed;
   const FolderLock lock(plan.folder, again ? "retry" : task.shard.text());
-  const SweepResults results(plan);
+  const SweepResults results(plan, task.shard);
   std::vector<std::uint32_t> numbers;
   SweepEnd end{.warnings = results.warnings()};
   for (std::size_t i = 0; i < plan.count(); ++i) {

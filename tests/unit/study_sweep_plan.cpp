@@ -141,6 +141,16 @@ TEST_F(Plans, the_first_case_that_cannot_be_is_named) {
   EXPECT_FALSE(fs::exists(root_ / "out/s_sweep"));
 }
 
+// Formulas know no rings, so that the first two cases are one.
+TEST_F(Plans, two_cases_that_compute_the_same_are_refused) {
+  EXPECT_EQ(
+      planning("[tissue.mesh]\nkind = \"kuhn\"\ncells = [3, 4, 6]\n" +
+               std::string("[[step]]\nkind = \"indent\"\n[sweep]\n") +
+               "\"solver.model\" = [\"hertz\", \"mass_spring\"]\n\"solver.rings\" = [2, 3]\n"),
+      "s.toml: cases 1 (`solver.model` = hertz, `solver.rings` = 2) and 2 (`solver.model` = "
+      "hertz, `solver.rings` = 3) compute the very same; leave one out of `sweep`");
+}
+
 TEST_F(Plans, files_come_along) {
   write(root_ / "tables/mine.toml", read(fs::path(PALPATE_SOURCE_DIR) / "materials/chen2007.toml"));
   const SweepPlan planned = plan(
