@@ -3,7 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <set>
+#include <thread>
 
 #include "base/text.h"
 #include "scenario/family.h"
@@ -330,6 +330,35 @@ TEST(Outline, MakesTheCasesThatReadingMakes) {
       EXPECT_EQ(spelled_out(one), spelled_out(made.cases[i]));
     }
   }
+}
+
+TEST(Outline, MakesCasesOnSeveralThreads) {
+  const Family family = outline_text(
+      press +
+          "[sweep]\ndesign = \"lhs\"\nsamples = 200\n\"finger.radius\" = { from = \"8 mm\", to "
+          "= \"9 mm\" }\n\"tissue.material\" = [\"skin\", \"bone\", \"muscle\"]\n",
+      "press.toml", {});
+  std::vector<std::string> alone;
+  for (std::size_t i = 0; i < 200; ++i) alone.push_back(spelled_out(make_case(family, i)));
+  std::vector<std::vector<std::string>> made(4);
+  {
+    std::vector<std::jthread> threads;
+    for (std::vector<std::string>& all : made)
+      threads.emplace_back([&family, &all] {
+        for (std::size_t i = 0; i < 200; ++i) all.push_back(spelled_out(make_case(family, i)));
+      });
+  }
+  for (const std::vector<std::string>& all : made) EXPECT_EQ(all, alone);
+}
+
+// Values that fail only together come up when their case is made.
+TEST(Outline, LeavesWhatFailsTogetherToTheCase) {
+  Family family =
+      outline_text(press + "[sweep]\n\"finger.radius\" = [\"1 mm\", \"9 mm\"]\n", "press.toml", {});
+  const auto [key, value] = parse_assignment("step.1.to=5 mm");
+  set_value(family.document, key, value, value.place);
+  EXPECT_EQ(make_case(family, 1).scenario.finger.radius, 0.009);
+  EXPECT_THROW((void)make_case(family, 0), InputError);
 }
 
 TEST(Outline, OfOneCaseIsThatCase) {
