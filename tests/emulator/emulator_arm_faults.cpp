@@ -131,6 +131,7 @@ TEST(EmulatorArmFaults, RepliesAreLostDoubledAndReordered) {
   ASSERT_EQ(both.messages.size(), 2U);
   EXPECT_EQ(both.messages[0].text, third);
   EXPECT_EQ(both.messages[1].text, second);
+  EXPECT_EQ(reorder.say().messages.size(), 1U);
 }
 
 TEST(EmulatorArmFaults, LateTakesItsTime) {

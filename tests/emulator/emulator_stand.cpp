@@ -156,7 +156,7 @@ TEST(EmulatorStand, WithoutItsOptionItOnlyReads) {
 
 TEST(EmulatorStand, ReadsWhatItsTissueGives) {
   Mark10Settings settings = quiet();
-  settings.stand.tissue = {.E0 = 40e3, .Einf = 40e3, .tau = 1.0, .R = 10e-3, .surface = -1e-3};
+  settings.stand.tissue = {.E0 = 40e3, .E_inf = 40e3, .tau = 1.0, .R = 10e-3, .surface = -1e-3};
   settings.stand.gauge.filter = 0;
   Conversation stand(settings);
   stand.say("lg-003.00e0300.0d");
