@@ -224,6 +224,18 @@ TEST(Mark10Link, DoesNotMoveAStandThatTakesNoLimits) {
   EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::refused);
 }
 
+TEST(Mark10Link, DoesNotMoveAStandThatHasForgottenItsLimits) {
+  const ScratchFile script("[[fault]]\nat = \"1.5 s\"\nkind = \"reset\"\n");
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tissue", "none", "--fault", script.path()});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  ASSERT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::none);
+  EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::none);
+  for (int i = 0; i < 100; ++i) static_cast<void>(next_of(stand));
+  EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::not_verified);
+}
+
 class Mark10Deaths : public testing::TestWithParam<int> {};
 
 // Another process drives the stand down and dies by a signal: the stand stands.
