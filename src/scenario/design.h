@@ -59,6 +59,7 @@ class Design {
   // sobol     the Sobol sequence without its first point, `samples` cases
   // saltelli  blocks of d + 2 cases, a block a sample: case i belongs to sample j = i / (d + 2);
   //           k = i % (d + 2) is 0: the row of A; 1: of B; 2 + f: of A with factor f from B
+  //           (cases are equal where A and B share a coordinate, as all do in the first block)
   // list      the i-th level of every factor
   // csv       the i-th row of a file, a factor a column
   enum class Kind { grid, lhs, sobol, saltelli, list, csv };
