@@ -210,8 +210,8 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
     curve.y.push_back(curve.y[i]);
   }
   const auto found = test::identified(scene, curve, {.profiles = false});
-  EXPECT_EQ(found.notes.at(0),
-            std::to_string(points) + " points are left out: the way back from the deepest travel");
+  EXPECT_EQ(found.notes.at(0), std::to_string(points - 1) +
+                                   " points are left out: the way back from the deepest travel");
   // The programme ends at 2 mm, the lowest contact point is at -0.1 mm, and 2.2 mm were measured.
   EXPECT_NE(found.notes.at(1).find("beyond the programme, which ends at 2 mm"), std::string::npos);
   for (const double x : found.x) EXPECT_LE(x, 1.9e-3 * (1.0 + 1e-6));

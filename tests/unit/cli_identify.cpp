@@ -1,0 +1,95 @@
+// `palpate identify` as a program: its streams, its folder, its refusals.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "program.h"
+#include "record/csv.h"
+
+namespace palpate::test {
+namespace {
+
+const std::string scenario =
+    "[tissue]\nshape = { kind = \"half_space\" }\npoisson_ratio = 0.45\n[finger]\nmaterial = "
+    "\"rigid\"\n[[step]]\nkind = \"indent\"\nto = \"2 mm\"\nrate = \"5 mm/s\"\n[output]\ninterval "
+    "= \"10 ms\"\nfigures = false\nfits = false\npressure_maps = false\n";
+
+// 4/3 E / (1 - nu^2) sqrt(R) h^(3/2) of 60 kPa, 0.45 and 11 mm, in mm and mN, with a ripple.
+std::string measurement() {
+  std::string text = "Displacement (mm);Load (mN)\n";
+  for (int i = 0; i <= 40; ++i) {
+    const double h = 0.05e-3 * i;
+    const double force =
+        4.0 / 3.0 * 60e3 / (1.0 - 0.45 * 0.45) * std::sqrt(0.011) * h * std::sqrt(h);
+    text += std::to_string(1e3 * h) + ";" +
+            std::to_string(1e3 * force + (i % 2 == 0 ? 2.0 : -2.0)) + "\n";
+  }
+  return text;
+}
+
+class IdentifyVerb : public testing::Test {
+ protected:
+  IdentifyVerb() {
+    write_file(folder_ / "press.toml", scenario);
+    write_file(folder_ / "measured.csv", measurement());
+  }
+  [[nodiscard]] Ended identify(const std::vector<std::string>& more) const {
+    std::vector<std::string> words{"identify", "measured.csv", "press.toml"};
+    words.insert(words.end(), more.begin(), more.end());
+    return palpate(folder_.path(), words);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
+  const auto done = identify({"--unknown", "tissue.young_modulus=1..500 kPa"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("tissue.young_modulus"), std::string::npos);
+  EXPECT_NE(done.out.find("by `hertz`"), std::string::npos);
+  EXPECT_NE(done.out.find("a contact point 0.05 mm earlier or later"), std::string::npos);
+  const auto result = folder_ / "out/press_identified";
+  const record::Table table = record::read_csv((result / "identified.csv").string());
+  ASSERT_EQ(table.rows.size(), 1U);
+  const double estimate =
+      std::get<double>(table.rows[0][static_cast<std::size_t>(table.find("estimate"))]);
+  EXPECT_NEAR(estimate, 60.0, 0.5);  // a ripple of 2 of 400 mN
+  for (const char* name : {"residuals.csv", "profile.csv", "correlation.csv", "curve.gp",
+                           "profile.gp", "scenario.toml", "run.json"})
+    EXPECT_TRUE(std::filesystem::exists(result / name)) << name;
+
+  write_file(folder_ / "again.toml", read_file(result / "scenario.toml"));
+  const auto run = palpate(folder_.path(), {"run", "again.toml"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const record::Table rows =
+      record::read_csv((folder_ / "out/again/force_indentation.csv").string());
+  const record::Table fitted = record::read_csv((result / "residuals.csv").string());
+  const auto number = [](const record::Table& of, std::size_t row, const char* name) {
+    return std::get<double>(of.rows[row][static_cast<std::size_t>(of.find(name))]);
+  };
+  ASSERT_EQ(rows.rows.size(), fitted.rows.size());
+  for (std::size_t i = 0; i < rows.rows.size(); ++i)
+    EXPECT_NEAR(number(rows, i, "force_N"), number(fitted, i, "model_N"),
+                1e-6);  // six decimals of x
+}
+
+TEST_F(IdentifyVerb, DoesNotReplaceUnasked) {
+  const std::vector<std::string> words{"--unknown", "tissue.young_modulus=1..500 kPa"};
+  ASSERT_EQ(identify(words).code, 0);
+  const auto again = identify(words);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find("holds a finished identification"), std::string::npos);
+  EXPECT_EQ(identify({"--unknown", "tissue.young_modulus=1..500 kPa", "--force"}).code, 0);
+}
+
+TEST_F(IdentifyVerb, RefusesInSentences) {
+  const auto nothing = identify({"--unknown", "contact.friction=0.1..1"});
+  EXPECT_EQ(nothing.code, 2);
+  EXPECT_NE(nothing.err.find("changes nothing in what `hertz` computes"), std::string::npos);
+  const auto typo = identify({"--unknown", "tissue.young_modulos=1..2 kPa"});
+  EXPECT_EQ(typo.code, 2);
+  EXPECT_NE(typo.err.find("did you mean `tissue.young_modulus`?"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/press_identified"));
+}
+
+}  // namespace
+}  // namespace palpate::test
