@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <numeric>
 
 #include <unistd.h>
@@ -93,7 +94,7 @@ class Maker {
     PlannedCase planned;
     try {
       const scenario::Case one = scenario::make_case(copy_, index);
-      planned.id = case_id(one, files_);
+      planned.id = case_id(one, files_, meetings(copy_.design));
       for (const auto& [key, word] : one.swept) planned.words.push_back(word);
     } catch (const InputError& error) {
       try {
@@ -188,6 +189,33 @@ std::string forecast(const scenario::Family& family, SweepOrder::Curves curves) 
          (curves == SweepOrder::Curves::kept ? " besides the curves" : "");
 }
 
+// `auto` may take rungs of which none reads a swept key.
+void refuse_unread(const scenario::Family& family) {
+  constexpr std::size_t most = 64;  // cases that are tried, spread evenly
+  const std::size_t tries = std::min(family.design.count(), most);
+  std::map<std::string, std::size_t> unread;
+  for (std::size_t t = 0; t < tries; ++t) {
+    const std::size_t i = tries == 1 ? 0 : t * (family.design.count() - 1) / (tries - 1);
+    try {
+      const scene::Choice choice = scene::choose(scenario::make_case(family, i).scenario);
+      if (choice.given) return;  // the reader has looked already
+      for (const std::string& key : scenario::unread_keys(family, i, choice.chosen.solver.model))
+        ++unread[key];
+    } catch (const InputError&) {  // told of where all cases are made
+      return;
+    }
+  }
+  for (const scenario::Setting& setting : family.design.settings(0))
+    if (const auto found = unread.find(setting.key);
+        found != unread.end() && found->second == tries)
+      throw InputError(setting.place,
+                       "`" + setting.key +
+                           "` changes nothing: `model = \"auto\"` takes rungs that "
+                           "do not read it in all of " +
+                           std::to_string(tries) +
+                           " cases tried; take it out of `[sweep]` or give `solver.model`");
+}
+
 }  // namespace
 
 Planned plan_sweep(const SweepOrder& order) {
@@ -201,6 +229,7 @@ Planned plan_sweep(const SweepOrder& order) {
                   .forecast = forecast(original, order.curves)};
   if (planned.cases > sweep_ceiling && order.ceiling == SweepOrder::Ceiling::holds)
     refuse_many(original, planned.forecast);
+  refuse_unread(original);
   std::error_code ignored;
   const bool there = fs::exists(fs::path(planned.folder) / "plan.json");
   if (!there && fs::exists(planned.folder) && !fs::is_empty(planned.folder, ignored))

@@ -170,7 +170,7 @@ class Runner {
       made.number = numbers[i];
       attempt(made, [&] {
         scenario::Case one = scenario::make_case(plan_.family, made.number);
-        if (case_id(one, files_) != plan_.ids[made.number])
+        if (case_id(one, files_, meetings(plan_.family.design)) != plan_.ids[made.number])
           throw SystemError("case " + std::to_string(made.number + 1) +
                             " is not what was planned: this machine reads the scenario "
                             "differently; plan anew on this one");

@@ -151,6 +151,23 @@ TEST_F(Plans, two_cases_that_compute_the_same_are_refused) {
       "hertz, `solver.rings` = 3) compute the very same; leave one out of `sweep`");
 }
 
+TEST_F(Plans, a_key_that_auto_leaves_unread_is_refused) {
+  const std::string said = planning(
+      "[[step]]\nkind = \"indent\"\nto = \"0.1 mm\"\n[sweep]\n\"solver.rings\" = [2, 3]\n");
+  EXPECT_NE(said.find("s.toml:5:1: `solver.rings` changes nothing: `model = \"auto\"`"),
+            std::string::npos)
+      << said;
+}
+
+// A Saltelli design's matrices meet: its first point lies in the middle of every range.
+TEST_F(Plans, samples_may_meet) {
+  const Planned planned = plan_sweep(
+      order("[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\n[sweep]\ndesign = "
+            "\"saltelli\"\nsamples = 4\n\"tissue.young_modulus\" = { from = \"10 kPa\", to = \"20 "
+            "kPa\" }\n\"tissue.poisson_ratio\" = { from = 0.3, to = 0.4 }\n"));
+  EXPECT_EQ(planned.cases, 16U);
+}
+
 TEST_F(Plans, files_come_along) {
   write(root_ / "tables/mine.toml", read(fs::path(PALPATE_SOURCE_DIR) / "materials/chen2007.toml"));
   const SweepPlan planned = plan(
