@@ -21,4 +21,8 @@ std::uint64_t case_id(const scenario::Case& one, const HashedNames& files) {
   return id_of(sha256(text).substr(0, 16)).value_or(0);
 }
 
+std::uint64_t twin_id(std::uint64_t id, std::size_t number) {
+  return id_of(sha256(id_text(id) + " " + std::to_string(number)).substr(0, 16)).value_or(0);
+}
+
 }  // namespace palpate::study

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
+#include <unordered_set>
 
 #include <unistd.h>
 
@@ -135,6 +136,8 @@ std::string write_cases(const std::string& path, const scenario::Family& origina
   const Maker make(original, copy);
   std::vector<std::uint64_t> ids;
   ids.reserve(count);
+  const bool twins = copy.design.kind() == scenario::Design::Kind::saltelli;
+  std::unordered_set<std::uint64_t> seen;
   Sha256 hash;
   GrowingFile file(path);
   for (std::size_t first = 0; first < count; first += block) {
@@ -143,6 +146,8 @@ std::string write_cases(const std::string& path, const scenario::Family& origina
     record::Table table{{"number", "id"}, {}};
     for (const std::string& key : copy.design.keys()) table.columns.push_back(key);
     for (std::size_t i = 0; i < planned.size(); ++i) {
+      if (twins && !seen.insert(planned[i].id).second)
+        planned[i].id = twin_id(planned[i].id, first + i + 1);
       std::vector<record::Cell> row{static_cast<double>(first + i + 1), id_text(planned[i].id)};
       for (std::string& word : planned[i].words) {
         std::replace(word.begin(), word.end(), '\n', ' ');  // a case is a line

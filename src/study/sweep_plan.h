@@ -62,4 +62,8 @@ using HashedNames = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] HashedNames hashed_inputs(const scenario::Family& family);
 [[nodiscard]] std::uint64_t case_id(const scenario::Case& one, const HashedNames& files);
 
+// The id of a case that computes what an earlier one does, by its number from 1: in a Saltelli
+// design the row of A with a column of B is that of A itself where both have the same value there.
+[[nodiscard]] std::uint64_t twin_id(std::uint64_t id, std::size_t number);
+
 }  // namespace palpate::study
