@@ -7,28 +7,13 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/range_text.h"
 #include "base/text.h"
 
 namespace palpate {
 namespace {
 
 std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
-
-// "above 0 kPa and below 3 kPa", in the words of the key's unit.
-std::string range_text(const Range& range, const Unit* unit) {
-  const auto bound = [&](double value) {
-    return unit != nullptr ? quantity_text(value, *unit) : number_text(value);
-  };
-  std::string text;
-  if (range.low == range.high) return bound(range.low);
-  if (std::isfinite(range.low))
-    text += (range.low_allowed ? "at least " : "above ") + bound(range.low);
-  if (std::isfinite(range.high)) {
-    if (!text.empty()) text += " and ";
-    text += (range.high_allowed ? "at most " : "below ") + bound(range.high);
-  }
-  return text;
-}
 
 class Reader final : public FieldVisitor {
  public:

@@ -44,6 +44,7 @@ class Numbers final : public FieldVisitor {
   void text(const Key&, std::string&) override {}
   void flag(const Key&, bool&) override {}
   void counts(const Key&, std::span<int>, const Range&) override {}
+  void quantity_list(const Key&, std::vector<double>&, const Unit&, const Range&) override {}
   void numbers_by_name(const Key&, std::map<std::string, double>&, const Range&) override {}
   void choice_of(const Key&, int&, std::span<const Word>) override {}
   void table(const Key& key, const Fields& fields) override {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <unordered_set>
 
 #include <unistd.h>
 
@@ -94,7 +95,7 @@ class Maker {
     PlannedCase planned;
     try {
       const scenario::Case one = scenario::make_case(copy_, index);
-      planned.id = case_id(one, files_, meetings(copy_.design));
+      planned.id = case_id(one, files_);
       for (const auto& [key, word] : one.swept) planned.words.push_back(word);
     } catch (const InputError& error) {
       try {
@@ -136,6 +137,10 @@ std::string write_cases(const std::string& path, const scenario::Family& origina
   const Maker make(original, copy);
   std::vector<std::uint64_t> ids;
   ids.reserve(count);
+  using Kind = scenario::Design::Kind;
+  const Kind kind = copy.design.kind();
+  const bool sampled = kind == Kind::lhs || kind == Kind::sobol || kind == Kind::saltelli;
+  std::unordered_set<std::uint64_t> seen;
   Sha256 hash;
   GrowingFile file(path);
   for (std::size_t first = 0; first < count; first += block) {
@@ -144,6 +149,8 @@ std::string write_cases(const std::string& path, const scenario::Family& origina
     record::Table table{{"number", "id"}, {}};
     for (const std::string& key : copy.design.keys()) table.columns.push_back(key);
     for (std::size_t i = 0; i < planned.size(); ++i) {
+      if (sampled && !seen.insert(planned[i].id).second)
+        planned[i].id = twin_id(planned[i].id, first + i + 1);
       std::vector<record::Cell> row{static_cast<double>(first + i + 1), id_text(planned[i].id)};
       for (std::string& word : planned[i].words) {
         std::replace(word.begin(), word.end(), '\n', ' ');  // a case is a line

@@ -58,13 +58,13 @@ inline constexpr std::size_t sweep_ceiling = 10000;
 
 // What makes a case itself: the first digits of the SHA-256 of all its keys, every default and
 // property spelled out, and of the files that it reads. `files` are by name and hash.
-// Samples may meet in one point, and those of a Saltelli design do: with `Meetings::told_apart` a
-// case's name counts, too.
-enum class Meetings { refused, told_apart };
-[[nodiscard]] Meetings meetings(const scenario::Design& design);
 using HashedNames = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] HashedNames hashed_inputs(const scenario::Family& family);
-[[nodiscard]] std::uint64_t case_id(const scenario::Case& one, const HashedNames& files,
-                                    Meetings meetings = Meetings::refused);
+[[nodiscard]] std::uint64_t case_id(const scenario::Case& one, const HashedNames& files);
+
+// The id of a sampled case that computes what an earlier one does, by its number from 1: samples of
+// words repeat, and in a Saltelli design the row of A with a column of B is that of A itself where
+// both have the same value there.
+[[nodiscard]] std::uint64_t twin_id(std::uint64_t id, std::size_t number);
 
 }  // namespace palpate::study

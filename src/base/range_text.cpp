@@ -1,0 +1,25 @@
+// The ends of a range, one after the other.
+#include "base/range_text.h"
+
+#include <cmath>
+
+#include "base/text.h"
+
+namespace palpate {
+
+std::string range_text(const Range& range, const Unit* unit) {
+  const auto bound = [&](double value) {
+    return unit != nullptr ? quantity_text(value, *unit) : number_text(value);
+  };
+  std::string text;
+  if (range.low == range.high) return bound(range.low);
+  if (std::isfinite(range.low))
+    text += (range.low_allowed ? "at least " : "above ") + bound(range.low);
+  if (std::isfinite(range.high)) {
+    if (!text.empty()) text += " and ";
+    text += (range.high_allowed ? "at most " : "below ") + bound(range.high);
+  }
+  return text;
+}
+
+}  // namespace palpate
