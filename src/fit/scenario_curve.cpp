@@ -123,8 +123,11 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
   record::CaseRecord record;
   try {
     scene::SpecimenShapes fresh;
-    const scene::Scene scene = scene::build(one, *family_, shape_varies_ ? fresh : shapes_,
-                                            {.chosen = one.scenario, .given = true});
+    scene::Choice choice;  // no question is left
+    choice.chosen = one.scenario;
+    choice.given = true;
+    const scene::Scene scene =
+        scene::build(one, *family_, shape_varies_ ? fresh : shapes_, std::move(choice));
     record = run::run_case(scene, *stop_);
   } catch (const InputError& error) {
     failure_ = error.problems().front().message;

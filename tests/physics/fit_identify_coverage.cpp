@@ -26,9 +26,10 @@ void expect_covered(const char* name, int repeats) {
   for (std::size_t i = 0; i < inside.size(); ++i) {
     EXPECT_GT(at_most(inside[i], repeats), 1e-3)
         << name << ": " << scene.unknowns[i] << ": " << inside[i];
-    if (inside[i] < repeats || repeats > 200)
+    if (inside[i] < repeats || repeats > 200) {
       EXPECT_GT(1.0 - at_most(inside[i] - 1, repeats), 1e-3)
           << name << ": " << scene.unknowns[i] << ": " << inside[i];
+    }
   }
 }
 
