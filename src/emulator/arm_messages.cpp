@@ -166,7 +166,8 @@ std::string odd_message(const ArmState& state, Service service, const Oddity& od
   }
   if (!oddity.no_device) devices.push_back(device);
   std::string text = Json{{"inverse3", devices}}.dump();
-  if (oddity.nan) text.replace(text.find("\"NaN\""), 5, "NaN");
+  const auto quoted = text.find("\"NaN\"");  // gone where the field is missing too
+  if (quoted != std::string::npos) text.replace(quoted, 5, "NaN");
   return text;
 }
 

@@ -166,6 +166,22 @@ TEST(EmulatorStand, ReadsWhatItsTissueGives) {
   EXPECT_EQ(stand.say("n"), in_steps(force, 2e-3) + " N\r\n-3.00 mm\r\n");
 }
 
+TEST(EmulatorStand, StopsWhenItsGaugeIsOverloaded) {
+  Mark10Settings settings = quiet();
+  settings.stand.tissue = {.E0 = 1e6, .E_inf = 1e6, .tau = 1.0, .R = 10e-3, .surface = 0.0};
+  Conversation stand(settings);
+  stand.say("e0060.0d");
+  for (int i = 0; i < 200; ++i) stand.say("p");
+  EXPECT_EQ(stand.say("p"), "SM\r\n");
+  EXPECT_EQ(stand.say("n").substr(0, 10), "OVERLOAD\r\n");
+  // 110 % of 10 N, and what one step and the braking way of 2.5 um add.
+  EXPECT_NEAR(stand.stand().greatest_force, 11.0, 0.1);
+  EXPECT_EQ(stand.say("dp"), "SM\r\n") << "no further";
+  stand.say("u");
+  for (int i = 0; i < 20; ++i) stand.say("p");
+  EXPECT_LT(std::stod(stand.say("n")), 11.0) << "back is free";
+}
+
 TEST(EmulatorStand, AnswersAtTheTicksOfTheVirtualClock) {
   Mark10Settings settings = quiet();
   Conversation stand(settings);

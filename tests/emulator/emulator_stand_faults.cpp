@@ -193,7 +193,9 @@ TEST(EmulatorStandFaults, TheSwitchStopsAtOnce) {
   stand.say("i");
   EXPECT_EQ(stand.say("p"), "SMDL\r\n");
   EXPECT_EQ(stand->stand().crosshead.velocity, 0.0);
+  EXPECT_EQ(stand.say("dp"), "SMDL\r\n") << "it stays pressed";
   EXPECT_EQ(stand.say("up"), "UM\r\n") << "the way back is free";
+  EXPECT_EQ(stand.say("dp"), "DM\r\n") << "and then that way again";
 }
 
 TEST(EmulatorStandFaults, ResetForgetsSettings) {
