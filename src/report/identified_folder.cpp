@@ -62,7 +62,7 @@ std::string echo_of(const fit::Identification& found, const scenario::Family& fa
   scenario::Family one = family;
   one.cases.resize(1);
   one.cases.front().scenario = found.scenario;
-  one.sweep.clear();
+  one.design = {};
   std::string text = "# Fitted to a measurement: `palpate run` of this file repeats the curve.\n";
   for (const fit::Identified& each : found.unknowns) {
     const fit::Unknown& unknown = each.unknown;
