@@ -35,7 +35,8 @@ constexpr std::array stand_kinds{
     FaultKind{"spike", Life::lasting, "`value` (\"5 N\") is added to the force that is shown"},
     FaultKind{"freeze", Life::lasting, "force and travel are shown as they were"},
     FaultKind{"overload", Life::lasting, "the gauge says overload, the crosshead stops"},
-    FaultKind{"limit_switch", Life::moment, "the switch of its direction stops the crosshead"},
+    FaultKind{"limit_switch", Life::moment,
+              "the switch of its direction stops the crosshead until it goes back"},
     FaultKind{"runaway", Life::lasting, "`s` is ignored"},
     FaultKind{"reset", Life::moment, "the stand is switched off and on: settings are lost"},
 };
