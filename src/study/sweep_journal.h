@@ -53,7 +53,7 @@ struct RowPlace {
   [[nodiscard]] bool known() const { return file != nowhere; }
 };
 
-// Which cases of a plan have a row, and where. Holds 48 bytes a case, no rows.
+// Which cases of a plan have a row, and where. Holds 40 bytes a case, no rows.
 class SweepResults {
  public:
   // Reads results/. Of several rows of a case the one of the greatest attempt counts; equal rows
