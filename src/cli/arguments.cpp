@@ -211,6 +211,9 @@ struct Parser {
     verb = add("run", Sweep::Act::run, "Run the cases that are not finished");
     verb->add_option("--shard", sweep.shard, "The I-th of N parts: I/N")->capture_default_str();
     verb->add_option("--jobs", sweep.jobs, "Workers; 0: one a core")->check(CLI::Range(0, 1024));
+    verb->add_option("--lanes", sweep.lanes, "Cases that share a loop: auto, none, all; same bits")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "none", "all"}));
     add("status", Sweep::Act::status, "How many cases are finished, failed and missing");
     add("retry", Sweep::Act::retry, "Run the cases that failed once more");
     verb = add("merge", Sweep::Act::merge, "All results as one table, with figures");

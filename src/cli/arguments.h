@@ -96,6 +96,7 @@ struct Sweep {
   bool curves = false;        // every case's curves are kept, too
   std::string shard = "1/1";  // I/N
   int jobs = 0;
+  std::string lanes = "auto";     // or none, all: which cases share a loop
   int chunk = 50;                 // cases a task of the array
   std::string time;               // of a task, as Slurm writes it; empty: the cluster's own limit
   std::vector<std::string> show;  // columns that `merge` draws; none: the usual ones

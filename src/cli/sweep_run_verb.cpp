@@ -67,6 +67,8 @@ class Ticker {
 int sweep_run(const Sweep& command, const Talk& talk) {
   study::SweepTask task{.shard = study::parse_shard(command.shard),
                         .workers = worker_count(command.jobs)};
+  if (command.lanes != "auto")
+    task.lanes = command.lanes == "all" ? run::Lanes::wherever_possible : run::Lanes::none;
   if (command.act == Sweep::Act::retry) task.which = study::SweepTask::Which::failed;
   const study::SweepPlan plan = study::read_plan(command.subject, program_identity());
   // From here a second signal ends the program at once; no row is lost by that.

@@ -7,7 +7,7 @@
 namespace palpate::device {
 
 // What the hand has put in less what it got back, J:
-//   E_k = E_k-1 - F_k-1 . (x_k - x_k-1)        B. Hannaford and J.-H. Ryu, IEEE TRA 2002, eq. (5)
+//   E_k = E_k-1 - F_k-1 . (x_k - x_k-1)        B. Hannaford and J.-H. Ryu, IEEE TRA 18 (2002)
 // A passive wall never has it below zero.
 class PassivityObserver {
  public:
