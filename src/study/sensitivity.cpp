@@ -15,6 +15,16 @@ bool all_numbers(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
+// What holds of several outputs is said of all of them at once.
+void note(Sensitivity& found, const std::string& output, const std::string& sentence) {
+  for (std::string& known : found.notes) {
+    if (!known.ends_with(": " + sentence)) continue;
+    known.insert(known.size() - sentence.size() - 2, ", " + quoted(output));
+    return;
+  }
+  found.notes.push_back("sensitivity of " + quoted(output) + ": " + sentence);
+}
+
 void saltelli(const SweepColumns& columns, const OutputColumn& output,
               const BootstrapOptions& options, Sensitivity& found) {
   const std::size_t factors = columns.factors.size();
@@ -27,14 +37,13 @@ void saltelli(const SweepColumns& columns, const OutputColumn& output,
   const std::size_t blocks = output.values.size() / block;
   const std::size_t whole = kept.size() / block;
   if (whole < blocks)
-    found.notes.push_back(
-        "sensitivity of " + quoted(output.name) + ": " + std::to_string(blocks - whole) + " of " +
-        std::to_string(blocks) + " blocks of " + std::to_string(block) +
-        " cases are left out, for a case of theirs failed or is missing; where that hangs together "
-        "with the factors the indices are biased");
+    note(found, output.name,
+         std::to_string(blocks - whole) + " of " + std::to_string(blocks) + " blocks of " +
+             std::to_string(block) +
+             " cases are left out, for a case of theirs failed or is missing; where that hangs "
+             "together with the factors the indices are biased");
   if (whole < 2) {
-    found.notes.push_back("sensitivity of " + quoted(output.name) +
-                          ": two whole blocks are needed at least; run what is missing");
+    note(found, output.name, "two whole blocks are needed at least; run what is missing");
     return;
   }
   const std::vector<Indices> indices = saltelli_indices(kept, factors, options);
@@ -48,11 +57,10 @@ void grid(const SweepColumns& columns, const OutputColumn& output, Sensitivity& 
                                                output.values.begin(), output.values.end(),
                                                [](double v) { return std::isfinite(v); }));
   if (gaps > 0) {
-    found.notes.push_back("sensitivity of " + quoted(output.name) + ": " + std::to_string(gaps) +
-                          " of " + std::to_string(output.values.size()) +
-                          " cases have no value, and the shares of a grid want every one; run what "
-                          "is missing, narrow the ranges to where cases complete, or take `design "
-                          "= \"saltelli\"`");
+    note(found, output.name,
+         std::to_string(gaps) + " of " + std::to_string(output.values.size()) +
+             " cases have no value, and the shares of a grid want every one; run what is missing, "
+             "narrow the ranges to where cases complete, or take `design = \"saltelli\"`");
     return;
   }
   std::vector<std::size_t> levels;

@@ -359,7 +359,8 @@ TEST_P(OurScenario, builds_its_first_case) {
   const scenario::Family family =
       scenario::read(project_file("scenarios/" + GetParam() + ".toml"), {});
   const scene::Scene scene = scene::build(family.cases.at(0), family);
-  EXPECT_TRUE(family.notes.empty() || GetParam() == "eight_spheres") << family.notes[0].text();
+  const bool noted = GetParam() == "eight_spheres" || GetParam() == "sweep_modulus_ratio";
+  EXPECT_NE(family.notes.empty(), noted);
   if (!scene.specimen) return;
   EXPECT_GT(scene.specimen->plan.limit, 0.0);
   EXPECT_GT(scene.specimen->measured.young_modulus, 0.0);
