@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "emulator/arm_server.h"
 #include "emulator/mark10_link.h"
 #include "emulator/settings.h"
 
@@ -80,11 +81,53 @@ int start(Mark10Arguments& given) {
   return run_mark10(given.run);
 }
 
+struct ArmArguments {
+  Common common = {};
+  ArmRun run = {};
+  std::string hand = {};
+  std::string service = "3.5";
+  std::string period = "1 ms";
+};
+
+CLI::App* add_inverse3(CLI::App& app, ArmArguments& given) {
+  CLI::App* verb =
+      app.add_subcommand("inverse3", "a haptic arm and the hand that holds it, on TCP");
+  add_common(*verb, given.common);
+  verb->add_option("--port", given.run.port, "of 127.0.0.1; 0: any that is free");
+  verb->add_option("--events-port", given.run.events_port, "of the events; 0: any that is free");
+  verb->add_option("--hand", given.hand, "TOML file of [hand], [[waypoint]] and [device]");
+  verb->add_option("--service", given.service, "`3.1` or `3.5`: how a force is spelt");
+  verb->add_option("--period", given.period, "virtual clock: what one client message takes");
+  return verb;
+}
+
+int start(ArmArguments& given) {
+  ArmSettings& settings = given.run.settings;
+  if (!given.hand.empty()) read_hand(given.hand, settings);
+  if (!given.common.tissue.empty() && given.common.tissue != "none")
+    settings.tissue = read_tissue(given.common.tissue);
+  if (!given.common.faults.empty())
+    settings.faults = read_faults(given.common.faults, arm_faults());
+  settings.clock = clock_of(given.common);
+  settings.period = nanoseconds(parse_quantity(given.period, Quantity::time, "--period: "));
+  if (settings.period <= 0) throw Refused("--period: wants to be positive; write `1 ms`");
+  if (given.service != "3.1" && given.service != "3.5")
+    throw Refused("--service: there is no `" + given.service + "` here; write `3.1` or `3.5`");
+  if (given.service == "3.1") settings.service = Service::v3_1;
+  for (const int port : {given.run.port, given.run.events_port})
+    if (port < 0 || port > 65535) throw Refused("--port: wants to lie between 0 and 65535");
+  given.run.log = given.common.log;
+  given.run.lifetime = lifetime_of(given.common);
+  return run_inverse3(given.run);
+}
+
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app{"Plays a test stand or a haptic arm, with its own tissue and hand",
                "palpate-emulator"};
   Mark10Arguments mark10;
   const CLI::App* stand_verb = add_mark10(app, mark10);
+  ArmArguments arm;
+  const CLI::App* arm_verb = add_inverse3(app, arm);
   const CLI::App* faults_verb = app.add_subcommand("faults", "lists what can go wrong");
   app.require_subcommand(1);
   try {
@@ -99,6 +142,7 @@ int parse_and_run(int argc, const char* const* argv) {
     list_faults("inverse3", arm_faults());
     return 0;
   }
+  if (arm_verb->parsed()) return start(arm);
   return stand_verb->parsed() ? start(mark10) : 1;
 }
 

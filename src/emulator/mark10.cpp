@@ -54,24 +54,26 @@ void Mark10::log_row(const char* kind, const std::string& text) {
 
 void Mark10::log_state() { log_row("state", ""); }
 
+void Mark10::go_to(Nanoseconds time) { go_to(time, requests_); }
+
 // Faults with a time begin at that time, whoever asks when.
-void Mark10::go_to(Nanoseconds time) {
+void Mark10::go_to(Nanoseconds time, std::int64_t requests) {
   for (auto next = faults_.next_time(); next && *next <= time; next = faults_.next_time()) {
     now_ = std::max(now_, *next);
     advance(stand_, now_);
-    begin_faults();
+    begin_faults(requests);
   }
   now_ = std::max(now_, time);
   advance(stand_, now_);
-  begin_faults();
+  begin_faults(requests);
   stand_.gauge.flipped = faults_.lasts("sign_flip", now_);
   stand_.gauge.forced_overload = faults_.lasts("overload", now_);
   stand_.gauge.added = faults_.lasts("spike", now_) ? faults_.value("spike") : 0.0;
   if (!stand_.unsolicited.empty()) send(std::exchange(stand_.unsolicited, {}));
 }
 
-void Mark10::begin_faults() {
-  for (const Fault& fault : faults_.begin(now_, requests_)) {
+void Mark10::begin_faults(std::int64_t requests) {
+  for (const Fault& fault : faults_.begin(now_, requests)) {
     log_row("fault", fault.kind);
     apply(fault);
   }
@@ -148,12 +150,13 @@ void Mark10::send(const std::string& bytes) {
 }
 
 void Mark10::pass(Nanoseconds now) {
-  if (settings_.clock == Clock::real) go_to(now);
+  // Without a byte no fault begins that counts requests: the last reply is still on the line.
+  if (settings_.clock == Clock::real) go_to(now, -1);
 }
 
 void Mark10::take(char byte, Rate rate_of_other_side) {
   const bool lockstep = settings_.clock == Clock::lockstep;
-  if (lockstep) go_to(now_ + byte_time());
+  go_to(lockstep ? now_ + byte_time() : now_);
   if (unplugged_) return;
   const bool garbled = rate_of_other_side == Rate::other || faults_.lasts("wrong_baud", now_);
   const char heard = garbled ? noise(byte) : byte;
@@ -168,13 +171,13 @@ void Mark10::take(char byte, Rate rate_of_other_side) {
   command_ += heard;
   const std::string reply = reply_to(heard);
   if (between_commands(stand_)) log_row("in", std::exchange(command_, {}));
-  if (request) ++requests_;
   if (rate_of_other_side == Rate::other) {
     for (const char sent : reply) send(std::string(1, noise(sent)));
   } else {
     send(reply);
   }
   if (lockstep) go_to(now_ + byte_time() * static_cast<Nanoseconds>(reply.size()));
+  if (request) ++requests_;  // what comes after it begins with the next byte
 }
 
 std::string Mark10::give() {

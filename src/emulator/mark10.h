@@ -50,7 +50,8 @@ class Mark10 {
 
  private:
   void go_to(Nanoseconds time);
-  void begin_faults();
+  void go_to(Nanoseconds time, std::int64_t requests);
+  void begin_faults(std::int64_t requests);
   void apply(const Fault& fault);
   [[nodiscard]] std::string spoilt(std::string reply);
   [[nodiscard]] std::string reply_to(char byte);

@@ -1,0 +1,223 @@
+// Messages through clock, faults, device and hand.
+#include "emulator/arm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace emulator {
+namespace {
+
+double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+}  // namespace
+
+Arm::Arm(const ArmSettings& settings, Log& log)
+    : settings_(settings),
+      hand_(make_hand(settings.hand, 1.0 / static_cast<double>(hand_rate))),
+      faults_(settings.faults),
+      log_(&log) {
+  if (settings.tissue) tissue_ = make_tissue(*settings.tissue, hand_.step);
+}
+
+void Arm::log_row(const char* kind, const std::string& text) {
+  std::vector<double> values;
+  for (const Vec3& v : {hand_.position, hand_.velocity, force_})
+    values.insert(values.end(), v.begin(), v.end());
+  values.push_back(hand_.work);
+  log_->row(now_, kind, text, values);
+}
+
+void Arm::let_go() {
+  force_ = {};
+  mode_ = "idle";
+}
+
+// The hand's steps up to a time; the force stays what it is.
+void Arm::run_to(Nanoseconds time) {
+  now_ = std::max(now_, time);
+  const std::int64_t wanted =
+      now_ / 1'000'000 * (hand_rate / 1000) + now_ % 1'000'000 * hand_rate / 1'000'000'000;
+  const bool held = faults_.lasts("brake", now_);
+  for (; steps_ < wanted; ++steps_) {
+    Vec3 other{};
+    if (tissue_) other[2] = press(*tissue_, tissue_->settings.surface - hand_.position[2]);
+    if (held)
+      hold(hand_);
+    else
+      move(hand_, force_, other);
+  }
+}
+
+void Arm::go_to(Nanoseconds time) {
+  for (auto next = faults_.next_time(); next && *next <= time; next = faults_.next_time()) {
+    run_to(*next);
+    begin_faults();
+  }
+  // Commands are not kept: after silence the device is idle again (Control Commands, 3.5).
+  const Nanoseconds silence = last_message_ + settings_.idle_after;
+  if (settings_.clock == Clock::real && mode_ != "idle" && time >= silence) {
+    run_to(silence);
+    let_go();
+    log_row("idle", "");
+  }
+  run_to(time);
+  begin_faults();
+  const bool brake = faults_.lasts("brake", now_);
+  if (brake != braked_) {
+    events_.push_back(
+        event_message({"device-safety-triggered", brake ? "error" : "notice",
+                       brake ? "ebrake_triggered" : "ebrake_released",
+                       brake ? "Emergency brake engaged" : "Emergency brake released"},
+                      settings_.device_id));
+    braked_ = brake;
+  }
+  if (brake || faults_.lasts("not_ready", now_)) let_go();
+}
+
+void Arm::begin_faults() {
+  for (const Fault& fault : faults_.begin(now_, messages_)) {
+    log_row("fault", fault.kind);
+    if (fault.kind == "rst") wanted_ = Act::reset_connection;
+    if (fault.kind == "close_1000") wanted_ = Act::close_normal;
+    if (fault.kind == "close_1011") wanted_ = Act::close_error;
+    if (fault.kind == "reset") {
+      wanted_ = Act::restart;
+      ++session_;
+      let_go();
+    }
+    if (fault.kind == "freeze")
+      frozen_ = ArmState{.device_id = settings_.device_id,
+                         .position = hand_.position,
+                         .velocity = hand_.velocity,
+                         .force = force_,
+                         .mode = mode_,
+                         .in_use = in_use_};
+  }
+}
+
+// The vector's length is clamped, not each axis. What is no number is no force.
+void Arm::command(const Request& request) {
+  let_go();
+  if (!request.force || faults_.lasts("brake", now_) || faults_.lasts("not_ready", now_)) return;
+  const double size = length(*request.force);
+  mode_ = "force";
+  if (!std::isfinite(size)) {
+    ++clamped_;
+    return;
+  }
+  const double scale = size > settings_.force_limit ? settings_.force_limit / size : 1.0;
+  if (scale < 1.0) ++clamped_;
+  for (std::size_t i = 0; i < 3; ++i) force_[i] = scale * (*request.force)[i];
+  greatest_force_ = std::max(greatest_force_, length(force_));
+}
+
+ArmState Arm::told() {
+  if (!faults_.lasts("freeze", now_)) frozen_.reset();
+  ArmState state = frozen_.value_or(ArmState{.device_id = settings_.device_id,
+                                             .position = hand_.position,
+                                             .velocity = hand_.velocity,
+                                             .force = force_,
+                                             .mode = mode_,
+                                             .in_use = in_use_});
+  if (faults_.lasts("id_change", now_)) state.device_id = "0BAD";
+  if (faults_.lasts("jump", now_)) state.position[2] += faults_.value("jump");
+  if (faults_.lasts("not_ready", now_)) state.ready = false;
+  if (faults_.spoils("velocity_spike")) state.velocity[2] = -1000.0;
+  return state;
+}
+
+Outgoing Arm::greet() {
+  in_use_ = true;
+  return {state_message(told(), settings_.service, Extent::full, session_)};
+}
+
+Outgoing Arm::reply(const Request& request) {
+  const ArmState state = told();
+  const Oddity oddity{.missing_field = faults_.spoils("missing_field"),
+                      .wrong_type = faults_.spoils("wrong_type"),
+                      .no_device = faults_.spoils("no_device"),
+                      .second_device = faults_.lasts("second_device", now_),
+                      .nan = faults_.spoils("nan"),
+                      .huge = faults_.spoils("huge")};
+  const bool odd = oddity.missing_field || oddity.wrong_type || oddity.no_device ||
+                   oddity.second_device || oddity.nan || oddity.huge;
+  const Extent extent = request.full_state ? Extent::full : Extent::update;
+  return {spoilt(odd ? odd_message(state, settings_.service, oddity)
+                     : state_message(state, settings_.service, extent, session_)),
+          faults_.spoils("binary"),
+          faults_.spoils("late") ? nanoseconds(faults_.value("late")) : 0};
+}
+
+std::string Arm::spoilt(std::string text) {
+  if (faults_.spoils("empty")) text = "{}";
+  if (faults_.spoils("invalid_json")) text = "{\"inverse3\":[{\"device_id\":,}";
+  if (faults_.spoils("partial")) text.resize(text.size() / 2);
+  return text;
+}
+
+Answer Arm::answer(const std::string& text) {
+  const Request request = parse_request(text, settings_.service, settings_.device_id);
+  last_message_ = now_;
+  command(request);
+  log_row("in", text);
+  if (!request.remark.empty()) log_row("remark", request.remark);
+  if (settings_.clock == Clock::lockstep) go_to(now_ + settings_.period);
+  Answer answer;
+  Outgoing first = reply(request);
+  if (first.delay > 0 && settings_.clock == Clock::lockstep) go_to(now_ + first.delay);
+  if (first.delay > 0) log_row("late", "");
+  const bool twice = faults_.spoils("duplicate");
+  const bool lost = faults_.spoils("drop");
+  if (!held_ && faults_.spoils("reorder")) {
+    held_ = first;
+  } else if (!lost) {
+    answer.messages.push_back(first);
+    if (twice) answer.messages.push_back(first);
+    if (held_) answer.messages.push_back(*std::exchange(held_, {}));
+  }
+  ++messages_;
+  begin_faults();  // what comes after this message, before the next
+  answer.act = std::exchange(wanted_, Act::none);
+  return answer;
+}
+
+Act Arm::pass(Nanoseconds now) {
+  if (settings_.clock == Clock::real) go_to(now);
+  return std::exchange(wanted_, Act::none);
+}
+
+void Arm::leave() {
+  in_use_ = false;
+  held_.reset();
+  let_go();
+  log_row("left", "");
+}
+
+bool Arm::silent() const { return faults_.lasts("half_open", now_); }
+
+std::string Arm::devices() const {
+  return state_message({.device_id = settings_.device_id,
+                        .position = hand_.position,
+                        .velocity = hand_.velocity,
+                        .force = force_,
+                        .mode = mode_,
+                        .in_use = in_use_},
+                       settings_.service, Extent::full, session_);
+}
+
+std::vector<std::string> Arm::take_events() { return std::exchange(events_, {}); }
+
+std::string Arm::summary() const {
+  std::array<char, 512> text{};
+  std::snprintf(text.data(), text.size(),
+                "{\"summary\":{\"messages\":%lld,\"time_s\":%.9g,\"clamped\":%lld,"
+                "\"greatest_force_N\":%.9g,\"work_by_device_J\":%.9g,"
+                "\"most_work_by_device_J\":%.9g,\"most_hand_energy_J\":%.9g}}",
+                static_cast<long long>(messages_), seconds(now_), static_cast<long long>(clamped_),
+                greatest_force_, hand_.work, hand_.most_work, hand_.most_energy);
+  return text.data();
+}
+
+}  // namespace emulator

@@ -1,0 +1,196 @@
+// JSON of the Inverse service, its pages 3.1 and 3.5: websocket-protocol, control-commands, http,
+// events. The one file of the emulator that knows nlohmann's JSON.
+#include "emulator/arm_messages.h"
+
+#include <nlohmann/json.hpp>
+
+namespace emulator {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json vec(const Vec3& v) { return {{"x", v[0]}, {"y", v[1]}, {"z", v[2]}}; }
+json angles() { return {{"a0", 0.0}, {"a1", 0.0}, {"a2", 0.0}}; }
+json unit_quaternion() { return {{"w", 1.0}, {"x", 0.0}, {"y", 0.0}, {"z", 0.0}}; }
+
+const char* spelling(Service service) { return service == Service::v3_1 ? "values" : "vector"; }
+
+json state_of(const ArmState& state, Service service) {
+  if (service == Service::v3_1)  // the 3.1 page has no forces and calls the mode `mode`
+    return {{"angular_position", angles()},           {"angular_velocity", angles()},
+            {"body_orientation", unit_quaternion()},  {"cursor_position", vec(state.position)},
+            {"cursor_velocity", vec(state.velocity)}, {"mode", state.mode}};
+  return {{"cursor_position", vec(state.position)},
+          {"cursor_velocity", vec(state.velocity)},
+          {"angular_position", angles()},
+          {"angular_velocity", angles()},
+          {"body_orientation", unit_quaternion()},
+          {"current_cursor_force", vec(state.force)},
+          {"current_cursor_position", vec({})},
+          {"current_angular_torques", angles()},
+          {"current_angular_position", angles()},
+          {"control_domain", "cartesian"},
+          {"control_mode", state.mode},
+          {"transform",
+           {{"position", vec({})}, {"rotation", unit_quaternion()}, {"scale", vec({1, 1, 1})}}}};
+}
+
+json config_of(const ArmState& state, Service service) {
+  json info{{"major_version", 7}, {"minor_version", 4}, {"id", state.device_id}};
+  info[service == Service::v3_1 ? "model" : "device_type"] = 4;
+  info["uuid"] = "2D35F80DD9005F599B68F49944CB" + state.device_id;
+  json config{{"type", "inverse3"},
+              {"port", "emulated"},
+              {"device_info", info},
+              {"extended_device_id", info["uuid"]},
+              {"extended_firmware_version", "00000000000000000000000000000000"},
+              {"gravity_compensation", {{"enabled", true}, {"scaling_factor", 1.0}}},
+              {"handedness", "right"},
+              {"torque_scaling", {{"enabled", true}}}};
+  if (service == Service::v3_1) return config;
+  config["streaming_mode"] = "USB";
+  config["home_return"] = {{"enabled", false}};
+  config["preset"] = "defaults";
+  config["basis"] = {{"permutation", "XYZ"}};
+  config["mount"] = {
+      {"position", vec({})}, {"rotation", unit_quaternion()}, {"scale", vec({1, 1, 1})}};
+  config["filters"] = {{"force_gate", {{"gain", 0.3}}}, {"damping", {{"scalar", 0.0}}}};
+  return config;
+}
+
+json status_of(const ArmState& state) {
+  return {{"calibrated", state.ready},
+          {"in_use", state.in_use},
+          {"power_supply", true},
+          {"ready", state.ready},
+          {"started", true}};
+}
+
+json device_of(const ArmState& state, Service service, Extent extent) {
+  json device{{"device_id", state.device_id}};
+  if (extent == Extent::full) device["config"] = config_of(state, service);
+  device["state"] = state_of(state, service);
+  device["status"] = status_of(state);
+  return device;
+}
+
+std::optional<Vec3> vector_in(const json& from) {
+  if (!from.is_object()) return {};
+  Vec3 v{};
+  constexpr std::array names{"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = from.find(names[i]);
+    if (at == from.end() || !at->is_number()) return {};
+    v[i] = at->get<double>();
+  }
+  return v;
+}
+
+void read_force(const json& commands, Service service, Request& request) {
+  const auto command = commands.find("set_cursor_force");
+  if (command == commands.end() || !command->is_object()) return;
+  const auto vector = command->find(spelling(service));
+  if (vector == command->end()) {
+    request.remark = std::string("no `") + spelling(service) + "` in set_cursor_force";
+    return;
+  }
+  const auto force = vector_in(*vector);
+  if (!force) {
+    request.remark = "set_cursor_force wants numbers x, y, z";
+    return;
+  }
+  if (!request.force) request.force.emplace(Vec3{});
+  for (std::size_t i = 0; i < 3; ++i) (*request.force)[i] += (*force)[i];  // additive in a tick
+}
+
+void read_session(const json& session, Request& request) {
+  request.full_state = session.contains("force_render_full_state");
+  const json* at = &session;
+  for (const char* key : {"configure", "profile", "name"}) {
+    if (!at->is_object() || !at->contains(key)) return;
+    at = &at->at(key);
+  }
+  if (at->is_string()) request.profile = at->get<std::string>();
+}
+
+}  // namespace
+
+Request parse_request(const std::string& text, Service service, const std::string& device_id) {
+  Request request;
+  const json message = json::parse(text, nullptr, false);
+  request.json = message.is_object();
+  if (!request.json) {
+    request.remark = "no JSON object";
+    return request;
+  }
+  const auto session = message.find("session");
+  if (session != message.end() && session->is_object()) read_session(*session, request);
+  const auto devices = message.find("inverse3");
+  if (devices == message.end() || !devices->is_array()) return request;
+  for (const json& device : *devices) {
+    if (!device.is_object() || !device.contains("commands")) continue;
+    if (device.value("device_id", json()) != device_id) {
+      request.remark = "no such device";
+      continue;
+    }
+    if (device["commands"].is_object()) read_force(device["commands"], service, request);
+  }
+  return request;
+}
+
+std::string state_message(const ArmState& state, Service service, Extent extent, int session) {
+  json message;
+  if (extent == Extent::full && service == Service::v3_5) message["session_id"] = session;
+  message["inverse3"] = json::array({device_of(state, service, extent)});
+  if (extent == Extent::full) {
+    message["verse_grip"] = json::array();
+    message["wireless_verse_grip"] = json::array();
+  }
+  return message.dump();
+}
+
+std::string odd_message(const ArmState& state, Service service, const Oddity& oddity) {
+  json device = device_of(state, service, Extent::update);
+  json& position = device["state"]["cursor_position"];
+  if (oddity.huge) position["z"] = 1e308;
+  if (oddity.wrong_type)
+    for (const char* axis : {"x", "y", "z"}) position[axis] = position[axis].dump();
+  if (oddity.nan) position["z"] = "NaN";
+  if (oddity.missing_field) device["state"].erase("cursor_position");
+  json devices = json::array();
+  if (oddity.second_device) {
+    ArmState other = state;
+    other.device_id = "0BAD";
+    other.position = other.velocity = {};
+    devices.push_back(device_of(other, service, Extent::update));
+  }
+  if (!oddity.no_device) devices.push_back(device);
+  std::string text = json{{"inverse3", devices}}.dump();
+  if (oddity.nan) text.replace(text.find("\"NaN\""), 5, "NaN");
+  return text;
+}
+
+std::string version_body(Service service) {
+  const std::string version = service == Service::v3_1 ? "3.1.0" : "3.5.0";
+  return json{{"build_time", "2024-08-07T16:01:53Z"},
+              {"git_branch", "main"},
+              {"git_describe", version + "-0-g00000000"},
+              {"git_hash", "00000000"},
+              {"git_tag", version},
+              {"project_name", "haply-inverse-service"},
+              {"project_version", version + ".0"}}
+      .dump();
+}
+
+std::string event_message(const Event& event, const std::string& device_id) {
+  json data{{"device_family", "inverse"}, {"device_id", device_id}};
+  if (!event.safety_type.empty()) data["safety_type"] = event.safety_type;
+  return json{{"name", event.name},
+              {"category", "device"},
+              {"level", event.level},
+              {"data", data},
+              {"message", event.message}}
+      .dump();
+}
+
+}  // namespace emulator
