@@ -27,6 +27,7 @@ struct Parser {
   Sweep sweep;
   Identify identify;
   Export export_to;
+  Device device;
 
   Parser() {
     app.require_subcommand(1);
@@ -36,7 +37,8 @@ struct Parser {
     app.add_flag("--json", arguments.manner.json, "Events as JSON on stdout, one object a line");
     app.footer(
         "Exit codes: 0 good, 1 internal, 2 bad input, 3 comparison differs, 4 diverged, 5 mesh,\n"
-        "75 interrupted, resumable, 130 interrupted. Data goes to stdout, talk to stderr.");
+        "6 device link, 75 interrupted, resumable, 130 interrupted. Data goes to stdout, talk to "
+        "stderr.");
 
     CLI::App* verb = app.add_subcommand("run", "Run scenarios and write their results");
     verb->add_option("scenario", run.scenarios, "Scenario files")->required();
@@ -137,7 +139,27 @@ struct Parser {
     verb->add_option("--out", export_to.out, "Folder to write into")->capture_default_str();
     verb->add_flag("--force", export_to.force, "Replace files");
 
+    add_device();
+
     app.add_subcommand("manual", "The reference of all scenario keys, in markdown");
+  }
+
+  void add_device() {
+    CLI::App* all = app.add_subcommand("device", "Live devices: who is there, and how they do");
+    all->require_subcommand(1);
+    all->fallthrough();
+    const auto add = [&](const char* name, Device::Act act, const char* what) {
+      CLI::App* verb = all->add_subcommand(name, what);
+      verb->callback([this, act] { device.act = act; });
+      verb->add_option("link", device.link, "mark10:PORT, inverse3:HOST:PORT or replay:FILE.csv")
+          ->required();
+      return verb;
+    };
+    add("probe", Device::Act::probe, "Who is there; nothing moves, no force is sent");
+    CLI::App* verb = add("monitor", Device::Act::monitor, "Read samples, and how well they come");
+    verb->add_option("--seconds", device.seconds, "How long")
+        ->capture_default_str()
+        ->check(CLI::Range(0.1, 86400.0));
   }
 
   void add_sweep() {
@@ -193,6 +215,7 @@ struct Parser {
     if (app.got_subcommand("sweep")) return sweep;
     if (app.got_subcommand("identify")) return identify;
     if (app.got_subcommand("export")) return export_to;
+    if (app.got_subcommand("device")) return device;
     return Manual{};
   }
 };

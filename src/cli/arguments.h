@@ -103,10 +103,16 @@ struct Export {
   std::string case_name;
   bool force = false;
 };
+struct Device {
+  enum class Act { probe, monitor };
+  Act act = Act::probe;
+  std::string link;
+  double seconds = 5.0;  // of a monitor
+};
 struct Manual {};
 
 using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Reference, Bench, Chart,
-                          Stability, Sweep, Identify, Export, Manual>;
+                          Stability, Sweep, Identify, Export, Device, Manual>;
 
 struct Arguments {
   Manner manner;

@@ -28,6 +28,7 @@ int dispatch(const Arguments& arguments) {
   if (const auto* one = std::get_if<Identify>(&arguments.verb))
     return identify(*one, arguments, talk);
   if (const auto* one = std::get_if<Export>(&arguments.verb)) return export_results(*one, talk);
+  if (const auto* one = std::get_if<Device>(&arguments.verb)) return device(*one, talk);
   print(scenario::manual());
   return exit_good;
 }
@@ -52,6 +53,9 @@ int program(const std::vector<std::string>& given) {
   } catch (const MeshError& error) {
     Talk::error(std::string("palpate: ") + error.what());
     return exit_mesh;
+  } catch (const LinkError& error) {
+    Talk::error(error.what());
+    return exit_device;
   } catch (const std::exception& error) {
     Talk::error(std::string("palpate: ") + error.what());
     return exit_internal;

@@ -14,6 +14,7 @@ enum Exit {
   exit_different = 3,
   exit_diverged = 4,
   exit_mesh = 5,
+  exit_device = 6,      // a link, or a stop for safety
   exit_resumable = 75,  // interrupted; the same call goes on where it ended
   exit_interrupted = 130,
 };

@@ -15,10 +15,10 @@ namespace palpate::cli {
 [[nodiscard]] int refer(const Reference& command, const Talk& talk);
 [[nodiscard]] int bench(const Bench& command, const Talk& talk);
 [[nodiscard]] int chart(const Chart& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int stability(const Stability& command, const Arguments& arguments,
-                            const Talk& talk);
+[[nodiscard]] int stability(const Stability& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int sweep(const Sweep& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int identify(const Identify& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int device(const Device& command, const Talk& talk);
 [[nodiscard]] int export_results(const Export& command, const Talk& talk);
 
 }  // namespace palpate::cli

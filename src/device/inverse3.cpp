@@ -14,6 +14,9 @@ constexpr double greeting_time = 0.1;  // s a reply
 constexpr int trials = 6;              // replies a spelling has, to leave the idle mode
 constexpr double period = 1e-3;        // s: the paper's frame
 constexpr double stop_time = 0.02;     // s
+constexpr double reply_time = 0.02;    // s, after which a reply is taken for lost
+// After a silence of ours the arm is idle once or twice; longer, and it does not do as it is told.
+constexpr int most_idle = 3;  // replies
 
 }  // namespace
 
@@ -89,7 +92,7 @@ bool Inverse3::try_spelling(inverse3::Spelling spelling) {
     if (got.arrival == Arrival::none) continue;
     ++answers;
     // The first reply may still speak of the time before.
-    if (answers > 1 && mode_ == inverse3::Mode::other) return true;
+    if (answers > 1 && mode_ == inverse3::Mode::other) return confirmed_ = true;
   }
   // A service that does not tell the mode gives no reason to doubt.
   if (answers > 0 && mode_ == inverse3::Mode::unknown) return true;
@@ -102,6 +105,7 @@ bool Inverse3::try_spelling(inverse3::Spelling spelling) {
 bool Inverse3::send(const Vec3& force) {
   const auto message = inverse3::force_message(identity_.id, spelling_, force);
   if (!socket_.send(message.text())) return false;
+  if (!awaiting_) asked_at_ = wire_time();
   awaiting_ = true;
   ++traffic_.sent;
   return true;
@@ -125,8 +129,10 @@ Sample Inverse3::read(const WebSocket::Received& message) {
   if (message.binary) return finished(Arrival::dropped, Fault::garbage);
   const inverse3::Reply reply = inverse3::parse_reply(message.text, identity_.id);
   if (reply.mode != inverse3::Mode::unknown) mode_ = reply.mode;
+  idle_replies_ = reply.mode == inverse3::Mode::idle ? idle_replies_ + 1 : 0;
   if (!reply.position) return finished(Arrival::dropped, reply.fault);
-  Sample sample = finished(Arrival::fresh, reply.fault);
+  const bool braked = confirmed_ && idle_replies_ >= most_idle;
+  Sample sample = finished(Arrival::fresh, braked ? Fault::brake : reply.fault);
   sample.position = *reply.position;
   if (reply.velocity) {
     sample.velocity = *reply.velocity;
@@ -164,6 +170,10 @@ Sample Inverse3::sample(double wait) {
     // The newest that is good; of bad ones the last.
     if (one.arrival == Arrival::fresh || newest.arrival != Arrival::fresh) newest = one;
     any = true;
+  }
+  if (!any && wire_time() - asked_at_ >= reply_time) {
+    awaiting_ = false;  // the next call asks anew
+    newest.fault = Fault::silent;
   }
   return newest;
 }

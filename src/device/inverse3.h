@@ -45,7 +45,10 @@ class Inverse3 {
   Limits limits_;
   inverse3::Spelling spelling_ = inverse3::Spelling::vector;
   bool awaiting_ = false;  // a message was sent since the last reply
+  double asked_at_ = 0.0;  // s, wire time, of the first message since the last reply
   inverse3::Mode mode_ = inverse3::Mode::unknown;
+  bool confirmed_ = false;      // the arm has left its idle mode for our force
+  int idle_replies_ = 0;        // in a row, since then
   std::optional<Sample> last_;  // that was fresh
   Traffic traffic_;
 };

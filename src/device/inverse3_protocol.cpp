@@ -46,7 +46,7 @@ void read_state(JsonScanner& scanner, Reply& reply) {
       reply.velocity = read_vector(scanner);
     } else if (*key == "current_cursor_force") {
       reply.force = read_vector(scanner);
-    } else if (*key == "control_mode") {
+    } else if (*key == "control_mode" || *key == "mode") {  // from 3.5 on, and before
       const auto mode = scanner.string();
       if (mode) reply.mode = *mode == "idle" ? Mode::idle : Mode::other;
     } else {
@@ -161,9 +161,10 @@ std::optional<Snapshot> parse_snapshot(std::string_view message) {
     if (!usable_id(arm.id)) continue;
     const Json* config = member(one, "config");
     const Json* info = config != nullptr ? member(*config, "device_info") : nullptr;
-    arm.model = text_of(info, "model");
-    if (arm.model.empty()) arm.model = text_of(info, "type");
-    arm.firmware = text_of(info, "firmware_version");
+    arm.model = text_of(config, "type");
+    const std::string major = text_of(info, "major_version");
+    const std::string minor = text_of(info, "minor_version");
+    if (!major.empty() && !minor.empty()) arm.firmware = major + "." + minor;
     snapshot.arms.push_back(arm);
   }
   return snapshot;

@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
-
 namespace palpate::device {
 namespace {
 
-constexpr int baud = 115200;              // ESM303 user's guide: 115200 8N1
 constexpr double answer_time = 0.25;      // s, for a question outside of sampling
-constexpr double mute_time = 0.03;        // s, in which a setter may object
 constexpr double sample_time = 0.05;      // s, after which a reading is asked for anew
 constexpr double into_channel = 15e-3;    // s, after `/`; as an open driver waits
 constexpr double out_of_channel = 10e-3;  // s, after `\`
@@ -30,7 +25,7 @@ void pause(double time) {
 }  // namespace
 
 Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
-    : clock_(clock), path_(port), purpose_(purpose), port_(port, baud) {
+    : clock_(clock), path_(port), purpose_(purpose), port_(port, mark10::baud) {
   identity_.kind = Kind::stand;
   limits_.measures_force = true;
   limits_.takes_motion = true;

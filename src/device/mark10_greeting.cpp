@@ -118,7 +118,7 @@ void Mark10::refuse_silence() const {
   // Bytes at another rate are not text; a fifth of them shows it.
   if (mark10::garbage_share(first_bytes_) > 0.2)
     throw LinkError(on + "garbage answers, as at a wrong baud rate; set the stand and its gauge " +
-                    "to " + std::to_string(baud) + " baud, 8 bits, no parity");
+                    "to " + std::to_string(mark10::baud) + " baud, 8 bits, no parity");
   throw LinkError(on + "something answers in words that are no reading (`" +
                   printable(first_bytes_) +
                   "`); is this the stand's port, and is the gauge plugged into the stand?");

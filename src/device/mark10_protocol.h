@@ -15,6 +15,8 @@
 
 namespace palpate::device::mark10 {
 
+inline constexpr int baud = 115200;  // 8N1, no flow control
+
 // Bytes in, lines out; holds the last kilobyte at most and never allocates.
 class LineBuffer {
  public:

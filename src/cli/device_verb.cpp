@@ -1,0 +1,166 @@
+// `palpate device`: who is at the other end of a link, and how well its samples come. Read-only.
+#include <atomic>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/text.h"
+#include "cli/interrupt.h"
+#include "cli/program.h"
+#include "cli/verbs.h"
+#include "device/health.h"
+#include "device/link.h"
+
+namespace palpate::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using device::Arrival;
+
+constexpr double patience = 1.0;     // s, without any new sample
+constexpr double probe_time = 0.5;   // s, of samples that a probe takes
+constexpr double shown_every = 0.2;  // s, of a monitor's line
+
+const char* kind_text(device::Kind kind) {
+  switch (kind) {
+    case device::Kind::stand: return "stand with force gauge";
+    case device::Kind::arm: return "haptic arm";
+    case device::Kind::recording: return "recording";
+  }
+  return "unknown";
+}
+
+std::string in_mm(double metres) { return rounded_text(1e3 * metres, 6) + " mm"; }
+
+std::string or_none(const std::string& text) { return text.empty() ? "not told" : text; }
+
+std::string sample_text(const device::Sample& sample) {
+  std::string text = "position";
+  for (int axis = 0; axis < 3; ++axis) text += " " + rounded_text(1e3 * sample.position[axis]);
+  text += " mm";
+  if (std::isfinite(sample.force)) text += ", force " + rounded_text(sample.force) + " N";
+  return text;
+}
+
+Json sample_json(double time, const device::Sample& sample) {
+  Json json{{"event", "sample"},
+            {"time_s", time},
+            {"position_m", {sample.position.x(), sample.position.y(), sample.position.z()}},
+            {"velocity_m_per_s", {sample.velocity.x(), sample.velocity.y(), sample.velocity.z()}}};
+  if (std::isfinite(sample.force)) json["force_N"] = sample.force;
+  if (sample.fault != device::Fault::none) json["fault"] = device::fault_text(sample.fault);
+  return json;
+}
+
+struct Session {
+  device::Health health;
+  device::Sample last;  // that was fresh
+  double span = 0.0;    // s
+  device::Fault ended_by = device::Fault::none;
+};
+
+// Reads for `time` s, in the link's own period; the arm is asked by zero forces.
+Session read(device::Link& link, device::Clock& clock, double time, const Talk* talk,
+             const std::atomic<bool>& stop) {
+  Session session;
+  const double begin = clock.now();
+  double next = begin;
+  double shown = begin - shown_every;
+  double heard = begin;
+  const double period = link.limits().period;
+  while (clock.now() - begin < time && !stop) {
+    const double asked = device::wire_time();
+    const device::Sample sample = link.sample(std::max(period, 0.02));
+    const double now = clock.now();
+    session.health.count(now - begin, sample);
+    if (sample.arrival == Arrival::fresh) {
+      session.health.reply.add(device::wire_time() - asked);
+      session.last = sample;
+      heard = now;
+    }
+    session.ended_by = sample.fault;
+    if (sample.arrival == Arrival::lost) break;
+    session.ended_by = device::Fault::silent;
+    if (now - heard > patience) break;
+    session.ended_by = device::Fault::none;
+    if (talk != nullptr && sample.arrival == Arrival::fresh && now - shown >= shown_every) {
+      shown = now;
+      talk->progress(sample_text(sample));
+      if (talk->json()) print(sample_json(now - begin, sample).dump() + "\n");
+    }
+    next = std::max(next + period, now);
+    clock.sleep_until(next);
+  }
+  session.span = clock.now() - begin;
+  return session;
+}
+
+double rate_of(const Session& session) {
+  return session.span > 0.0 ? static_cast<double>(session.health.fresh) / session.span : 0.0;
+}
+
+std::vector<std::string> sentences(const device::Link& link) {
+  const device::Identity& who = link.identity();
+  const device::Limits& limits = link.limits();
+  std::vector<std::string> lines{std::string("kind      ") + kind_text(who.kind),
+                                 "id        " + or_none(who.id), "model     " + or_none(who.model),
+                                 "firmware  " + or_none(who.firmware),
+                                 "speaks    " + or_none(who.dialect)};
+  if (std::isfinite(limits.low) && std::isfinite(limits.high))
+    lines.push_back("travel    " + in_mm(limits.low) + " to " + in_mm(limits.high));
+  if (std::isfinite(limits.speed))
+    lines.push_back("speed     " + in_mm(limits.slowest) + "/s to " + in_mm(limits.speed) + "/s");
+  return lines;
+}
+
+std::string rate_sentence(const Session& session) {
+  const device::Health& health = session.health;
+  return "rate      " + rounded_text(rate_of(session), 3) + " samples/s; reply p50 below " +
+         rounded_text(1e3 * health.reply.quantile(0.5), 3) + " ms, p99 below " +
+         rounded_text(1e3 * health.reply.quantile(0.99), 3) + " ms, longest gap " +
+         rounded_text(1e3 * health.longest_gap, 3) + " ms; " + std::to_string(health.dropped) +
+         " dropped, " + std::to_string(health.duplicates) + " duplicate, " +
+         std::to_string(health.missing) + " missing";
+}
+
+}  // namespace
+
+int device(const Device& command, const Talk& talk) {
+  device::Clock clock(device::Clock::Kind::monotonic);
+  const std::atomic<bool>& stop = listen_for_interrupts(exit_interrupted);
+  device::Link link(command.link, device::Purpose::look, clock);
+  const bool monitor = command.act == Device::Act::monitor;
+  if (!talk.json()) {
+    for (const std::string& line : sentences(link)) print(line + "\n");
+    for (const std::string& note : link.identity().notes) print("note      " + note + "\n");
+  }
+  const Session session =
+      read(link, clock, monitor ? command.seconds : probe_time, monitor ? &talk : nullptr, stop);
+  talk.progress("");
+  link.stop();
+  if (talk.json()) {
+    Json json = Json::parse(
+        device::health_json(link.identity(), link.limits(), link.traffic(), session.health));
+    Json event{{"event", monitor ? "monitor" : "probe"},
+               {"link", command.link},
+               {"kind", kind_text(link.identity().kind)},
+               {"rate_per_s", rate_of(session)}};
+    event.update(json);
+    print(event.dump() + "\n");
+  } else {
+    if (session.health.fresh > 0) print("now       " + sample_text(session.last) + "\n");
+    print(rate_sentence(session) + "\n");
+  }
+  if (stop) return exit_interrupted;
+  // A recording that has been played to its end has done what it should.
+  if (session.ended_by == device::Fault::recording_ended) return exit_good;
+  if (session.ended_by != device::Fault::none) {
+    Talk::error("palpate: `" + command.link +
+                "`: " + std::string(device::fault_text(session.ended_by)) +
+                "; see that it is switched on and its cable sits");
+    return exit_device;
+  }
+  return exit_good;
+}
+
+}  // namespace palpate::cli

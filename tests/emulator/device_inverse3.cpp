@@ -1,0 +1,211 @@
+// The arm's link against the emulated service: greeting in both dialects, forces that arrive, and
+// what the link does when something goes wrong.
+#include "device/inverse3.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "device/link.h"
+#include "live_emulator.h"
+
+namespace palpate::device {
+namespace {
+
+using test::LiveEmulator;
+using test::ScratchFile;
+
+int port_of(const LiveEmulator& emulator) { return std::stoi(emulator.port()); }
+
+std::vector<std::string> arguments(std::vector<std::string> more = {}) {
+  std::vector<std::string> all{"inverse3", "--clock", "virtual"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Inverse3Link, SaysWhoIsThere) {
+  const LiveEmulator emulator(arguments());
+  Clock clock(Clock::Kind::monotonic);
+  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  EXPECT_EQ(arm.identity().firmware, "3.5.0.0");
+  EXPECT_EQ(arm.identity().model, "inverse3");
+  EXPECT_FALSE(arm.identity().id.empty());
+  EXPECT_EQ(arm.identity().dialect, "vector");
+  EXPECT_TRUE(arm.limits().takes_force);
+  const Sample sample = arm.sample(0.2);
+  ASSERT_EQ(sample.arrival, Arrival::fresh);
+  EXPECT_TRUE(sample.position.allFinite());
+  EXPECT_TRUE(std::isnan(sample.force));
+}
+
+TEST(Inverse3Link, SpeaksTheOlderDialect) {
+  const LiveEmulator emulator(arguments({"--service", "3.1"}));
+  Clock clock(Clock::Kind::monotonic);
+  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  EXPECT_EQ(arm.identity().dialect, "values");
+  EXPECT_EQ(arm.sample(0.2).arrival, Arrival::fresh);
+}
+
+// A hand at rest is pushed up by the force we send, and by no force that is refused.
+TEST(Inverse3Link, SendsForcesThatAreFelt) {
+  const ScratchFile log("");
+  LiveEmulator emulator(arguments({"--log", log.path()}));
+  Clock clock(Clock::Kind::monotonic);
+  {
+    Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::command, clock);
+    const double start = arm.sample(0.2).position.z();
+    double height = start;
+    for (int i = 0; i < 300; ++i) {
+      ASSERT_EQ(arm.command_force({0.0, 0.0, 1.0}), Fault::none);
+      const Sample sample = arm.sample(0.2);
+      ASSERT_EQ(sample.arrival, Arrival::fresh);
+      height = sample.position.z();
+    }
+    EXPECT_GT(height, start + 1e-3);
+    ASSERT_EQ(arm.command_force({0.0, std::nan(""), 1.0}), Fault::none);
+    EXPECT_EQ(arm.sample(0.2).arrival, Arrival::fresh);
+  }
+  emulator.end();
+  const std::string text = log.text();
+  EXPECT_TRUE(has(text, R"(""x"":0,""y"":0,""z"":1}}}})")) << text.substr(0, 2000);
+  EXPECT_FALSE(has(text, "nan"));
+  // The last word is a zero.
+  const auto last = text.rfind("set_cursor_force");
+  ASSERT_NE(last, std::string::npos);
+  EXPECT_TRUE(has(text.substr(last, 60), R"(""x"":0,""y"":0,""z"":0})"));
+}
+
+TEST(Inverse3Link, SendsNoForceWhereItOnlyLooks) {
+  const LiveEmulator emulator(arguments());
+  Clock clock(Clock::Kind::monotonic);
+  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  EXPECT_EQ(arm.command_force({0.0, 0.0, 0.1}), Fault::refused);
+  EXPECT_EQ(arm.command_force(Vec3::Zero()), Fault::none);
+  EXPECT_TRUE(arm.stop());
+}
+
+TEST(Inverse3Link, GetsOneReplyAMessage) {
+  const LiveEmulator emulator(arguments());
+  Clock clock(Clock::Kind::monotonic);
+  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(arm.sample(0.2).arrival, Arrival::fresh);
+  EXPECT_EQ(arm.traffic().sent, arm.traffic().received);
+  EXPECT_EQ(arm.traffic().duplicates, 0u);
+}
+
+std::string refusal(const std::string& link) {
+  Clock clock(Clock::Kind::monotonic);
+  try {
+    const Link opened(link, Purpose::look, clock);
+  } catch (const LinkError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Inverse3Link, TellsWhyItCannotBeOpened) {
+  std::string port;
+  {
+    const LiveEmulator emulator(arguments());
+    port = emulator.port();
+  }
+  EXPECT_TRUE(has(refusal("inverse3:127.0.0.1:" + port), "nobody listens on"));
+  EXPECT_TRUE(has(refusal("inverse3:no.such.host.invalid:10001"), "is not known"));
+  const ScratchFile script("[[fault]]\nat = \"0 s\"\nkind = \"not_ready\"\nduration = \"60 s\"\n");
+  const LiveEmulator emulator(arguments({"--fault", script.path()}));
+  Clock clock(Clock::Kind::monotonic);
+  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  EXPECT_EQ(arm.sample(0.2).fault, Fault::brake);
+}
+
+struct ArmFault {
+  const char* kind;
+  const char* more;  // keys of its table
+  Fault fault;       // that must be seen at least once
+  bool lost;         // whether the link ends
+};
+void PrintTo(const ArmFault& fault, std::ostream* out) { *out << fault.kind; }
+class Inverse3Faults : public testing::TestWithParam<ArmFault> {};
+
+// Of 400 samples the fault falls in the middle. What is fresh is right but for faults that only
+// rules of safety can tell (a jump, a velocity), and what follows comes again.
+TEST_P(Inverse3Faults, AreSeenAndPassedOver) {
+  const ArmFault& expected = GetParam();
+  const ScratchFile script("[[fault]]\nat = \"0.1 s\"\nkind = \"" + std::string(expected.kind) +
+                           "\"\n" + expected.more);
+  const LiveEmulator emulator(arguments({"--fault", script.path()}));
+  Clock clock(Clock::Kind::monotonic);
+  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  bool seen = false;
+  bool lost = false;
+  int fresh_in_the_end = 0;
+  const Vec3 start = arm.sample(0.2).position;
+  for (int i = 0; i < 400 && !lost; ++i) {
+    const Sample sample = arm.sample(0.02);
+    seen = seen || sample.fault == expected.fault;
+    lost = sample.arrival == Arrival::lost;
+    if (sample.arrival != Arrival::fresh) continue;
+    EXPECT_LT((sample.position - start).norm(), 1e-3) << i;  // a hand that rests
+    EXPECT_LT(sample.velocity.norm(), 0.1) << i;
+    if (i >= 390) ++fresh_in_the_end;
+  }
+  EXPECT_TRUE(seen);
+  EXPECT_EQ(lost, expected.lost);
+  if (std::string(expected.kind) == "duplicate") {
+    EXPECT_EQ(arm.traffic().duplicates, 1u);
+  }
+  if (!expected.lost) {
+    EXPECT_EQ(fresh_in_the_end, 10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Inverse3Faults,
+    testing::Values(
+        ArmFault{"rst", "", Fault::hung_up, true}, ArmFault{"close_1000", "", Fault::hung_up, true},
+        ArmFault{"close_1011", "", Fault::hung_up, true},
+        ArmFault{"reset", "", Fault::hung_up, true}, ArmFault{"drop", "", Fault::silent, false},
+        ArmFault{"late", "value = \"5 ms\"\n", Fault::none, false},
+        ArmFault{"duplicate", "", Fault::none, false},
+        ArmFault{"reorder", "", Fault::silent, false},
+        ArmFault{"invalid_json", "", Fault::garbage, false},
+        ArmFault{"partial", "", Fault::garbage, false},
+        ArmFault{"missing_field", "", Fault::missing_field, false},
+        ArmFault{"wrong_type", "", Fault::missing_field, false},
+        ArmFault{"empty", "", Fault::missing_field, false},
+        ArmFault{"no_device", "", Fault::missing_field, false},
+        ArmFault{"binary", "", Fault::garbage, false}, ArmFault{"nan", "", Fault::garbage, false},
+        ArmFault{"huge", "", Fault::not_finite, false},
+        ArmFault{"velocity_spike", "", Fault::not_finite, false},
+        ArmFault{"id_change", "duration = \"50 ms\"\n", Fault::wrong_device, false},
+        ArmFault{"second_device", "duration = \"50 ms\"\n", Fault::none, false},
+        ArmFault{"brake", "duration = \"50 ms\"\n", Fault::brake, false},
+        ArmFault{"not_ready", "duration = \"50 ms\"\n", Fault::brake, false}),
+    [](const auto& one) { return std::string(one.param.kind); });
+
+TEST(Inverse3Link, FallsSilentWithAHalfOpenSocket) {
+  const ScratchFile script("[[fault]]\nat = \"0.05 s\"\nkind = \"half_open\"\n");
+  const LiveEmulator emulator(arguments({"--fault", script.path()}));
+  Clock clock(Clock::Kind::monotonic);
+  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::command, clock);
+  int fresh = 0;
+  while (arm.sample(0.05).arrival == Arrival::fresh) ++fresh;
+  EXPECT_GT(fresh, 10);
+  const double begin = wire_time();
+  for (int i = 0; i < 50; ++i) {
+    static_cast<void>(arm.command_force({0.0, 0.0, 1.0}));
+    EXPECT_EQ(arm.sample(1e-3).arrival, Arrival::none);
+  }
+  EXPECT_LT(wire_time() - begin, 5.0);  // it never hangs: 50 waits of 1 ms, on a busy machine
+}
+
+}  // namespace
+}  // namespace palpate::device

@@ -1,0 +1,47 @@
+// LINK texts: the three forms, and a sentence with all of them for everything else.
+#include "device/link_text.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <variant>
+
+#include "base/error.h"
+
+namespace palpate::device {
+namespace {
+
+TEST(LinkText, ReadsTheThreeForms) {
+  EXPECT_EQ(std::get<StandAddress>(parse_link("mark10:/dev/ttyUSB0")).port, "/dev/ttyUSB0");
+  EXPECT_EQ(std::get<StandAddress>(parse_link("mark10:/dev/serial/by-id/a:b")).port,
+            "/dev/serial/by-id/a:b");
+  const auto arm = std::get<ArmAddress>(parse_link("inverse3:localhost:10001"));
+  EXPECT_EQ(arm.host, "localhost");
+  EXPECT_EQ(arm.port, 10001);
+  EXPECT_EQ(std::get<ArmAddress>(parse_link("inverse3:[::1]:1")).host, "::1");
+  EXPECT_EQ(std::get<RecordingAddress>(parse_link("replay:a run.csv")).file, "a run.csv");
+}
+
+std::string refusal(std::string_view text) {
+  try {
+    static_cast<void>(parse_link(text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(LinkText, RefusesEverythingElseAndShowsTheForms) {
+  for (const char* text :
+       {"", "mark10", "mark10:", "inverse3", "inverse3:", "inverse3:localhost",
+        "inverse3:localhost:", "inverse3::1", "inverse3:localhost:0", "inverse3:localhost:65536",
+        "inverse3:localhost:1x", "inverse3:localhost:-1", "replay:", "mark11:/dev/ttyUSB0", ":"}) {
+    const std::string message = refusal(text);
+    EXPECT_NE(message.find("`mark10:/dev/ttyUSB0`"), std::string::npos) << text;
+    EXPECT_NE(message.find("`" + std::string(text) + "`"), std::string::npos) << text;
+  }
+  EXPECT_NE(refusal("mark11:x").find("did you mean `mark10:`"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::device
