@@ -31,6 +31,7 @@ run::LiveOptions options_of(const Run& command) {
   options.link = command.device.link;
   if (command.device.arm) options.act = run::LiveOptions::Act::command;
   if (command.device.realtime) options.priority = run::LiveOptions::Priority::realtime;
+  if (command.device.traffic) options.traffic = run::LiveOptions::Traffic::kept;
   if (command.device.clock == "virtual") options.clock = device::Clock::Kind::stepped;
   if (!command.device.surface.empty())
     options.surface = quantity("--surface", command.device.surface, unit::mm);
@@ -94,7 +95,8 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   std::vector<fit::NamedFit> fits;
   if (family.base.output.fits && !result.record.contact.empty())
     fits = fit::case_fits(scene.scenario, result.record);
-  for (const std::string& warning : folder.finish({result.record}, fits, {arguments.given, started}))
+  for (const std::string& warning :
+       folder.finish({result.record}, fits, {arguments.given, started}))
     talk.warn(warning);
   talk.say(folder.path() + ": " + std::to_string(result.record.contact.size()) + " rows");
   talk.event("result", {{"scenario", family.name},

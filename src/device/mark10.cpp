@@ -24,8 +24,9 @@ void pause(double time) {
 
 }  // namespace
 
-Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
+Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
     : clock_(clock), path_(port), purpose_(purpose), port_(port, mark10::baud) {
+  port_.tap(tap);
   identity_.kind = Kind::stand;
   limits_.measures_force = true;
   limits_.takes_motion = true;
@@ -44,6 +45,11 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
 }
 
 Mark10::~Mark10() = default;  // the guard sends the stop, then the port closes
+
+// In lock-step every question takes a reading's time: the emulator answers at such ticks.
+void Mark10::pass_time() {
+  if (clock_.kind() == Clock::Kind::stepped) clock_.sleep_until(clock_.now() + planned_period);
+}
 
 bool Mark10::send(std::string_view bytes) { return port_.write(bytes); }
 
@@ -108,6 +114,7 @@ bool Mark10::ask(std::string_view command) {
     asked_ = false;
   }
   drain();
+  pass_time();
   return send(command);
 }
 
@@ -175,6 +182,7 @@ Sample Mark10::sample(double wait) {
   if (!asked_) {
     drain();
     if (!send("n")) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
+    pass_time();
     asked_ = true;
     ++traffic_.sent;
     heard_ = false;

@@ -35,9 +35,9 @@ struct ContactRow {
 // What a live device adds to a row; NaN where it tells none.
 struct MeasuredRow {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::array<double, 3> place{};                  // m, of the finger from its first touch; z upwards
-  double force = none;                            // N, that the device measured; pressing positive
-  std::array<double, 3> sent{none, none, none};   // N, that the device was told to show
+  std::array<double, 3> place{};                 // m, of the finger from its first touch; z upwards
+  double force = none;                           // N, that the device measured; pressing positive
+  std::array<double, 3> sent{none, none, none};  // N, that the device was told to show
 };
 
 // One row of strain_time.csv, SI; compression positive.

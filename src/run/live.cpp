@@ -23,8 +23,8 @@ namespace {
 using device::Kind;
 
 constexpr int cost_frames = 200;
-constexpr int fifo_priority = 80;              // of 1 to 98
-constexpr std::size_t stack = 512 * 1024;      // bytes, that are touched beforehand
+constexpr int fifo_priority = 80;          // of 1 to 98
+constexpr std::size_t stack = 512 * 1024;  // bytes, that are touched beforehand
 
 std::string newtons(double force) { return rounded_text(force, 3) + " N"; }
 std::string milli(double length) { return rounded_text(1e3 * length, 3) + " mm"; }
@@ -47,8 +47,8 @@ std::string limit_sentence(const device::Limits& limits) {
   if (std::isfinite(limits.speed)) parts.push_back(milli(limits.speed) + "/s");
   if (std::isfinite(limits.low) || std::isfinite(limits.high))
     parts.push_back(milli(limits.low) + " to " + milli(limits.high));
-  parts.push_back("a sample every " + milli(limits.period).substr(0, milli(limits.period).size() - 2) +
-                  "ms");
+  parts.push_back("a sample every " +
+                  milli(limits.period).substr(0, milli(limits.period).size() - 2) + "ms");
   return "the device's own limits: " + joined(parts, ", ");
 }
 
@@ -89,8 +89,9 @@ void refuse_beyond_device(const scene::Scene& scene, const std::string& file,
   const Place place{file, 0, 0};
   const scenario::Scenario& asked = scene.scenario;
   if (asked.uniform())
-    throw InputError(place, "presses the whole specimen, which no device here does; give it "
-                            "`indent` steps, or leave `--device` away");
+    throw InputError(place,
+                     "presses the whole specimen, which no device here does; give it "
+                     "`indent` steps, or leave `--device` away");
   if (!std::holds_alternative<device::StandAddress>(device::parse_link(options.link))) return;
   for (std::size_t i = 0; i < asked.steps.size(); ++i)
     if (std::holds_alternative<scenario::Slide>(asked.steps[i]))
@@ -102,7 +103,9 @@ Live::Live(const scene::Scene& scene, const LiveOptions& options)
     : scene_(&scene),
       options_(&options),
       clock_(clock_of(options)),
-      link_(options.link, purpose_of(options), clock_) {}
+      tap_(options.traffic == LiveOptions::Traffic::kept ? std::make_unique<device::Tap>()
+                                                         : nullptr),
+      link_(options.link, purpose_of(options), clock_, tap_.get()) {}
 
 Live::~Live() = default;
 
@@ -152,10 +155,10 @@ std::vector<std::string> Live::plan(const std::string& file) {
                            " us in one of 100, of " + rounded_text(1e6 * limits.period, 3) + " us";
   lines.push_back(cost);
   if (real && cost_.median > 0.8 * limits.period)
-    throw InputError(place, cost + ": it cannot keep the device's pace; take a cheaper model, as "
-                                   "`solver.integrator = \"modal\"` or `solver.model = \"hertz\"`");
-  if (real && cost_.p99 > 0.8 * limits.period)
-    lines.push_back("some frames will be late: " + cost);
+    throw InputError(place, cost +
+                                ": it cannot keep the device's pace; take a cheaper model, as "
+                                "`solver.integrator = \"modal\"` or `solver.model = \"hertz\"`");
+  if (real && cost_.p99 > 0.8 * limits.period) lines.push_back("some frames will be late: " + cost);
   if (identity.kind == Kind::stand && cost_.force > most_force(*options_, Kind::stand))
     throw InputError(place, "the programme is predicted to press with " + newtons(cost_.force) +
                                 ", beyond the ceiling of " +
@@ -168,7 +171,7 @@ Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(in
   Result result;
   LiveModel model(*scene_);
   device::Health health;
-  LiveLog log(on_step);
+  LiveLog log(on_step, tap_.get());
   if (options_->priority == LiveOptions::Priority::realtime) {
     for (std::string sentence : {device::lock_memory(), device::use_fifo(fifo_priority)})
       if (!sentence.empty()) result.warnings.push_back(std::move(sentence));
@@ -184,11 +187,15 @@ Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(in
     record.contact.push_back(row.contact);
     record.measured.push_back(row.measured);
   }
+  if (tap_) record.attached.emplace_back("traffic.csv", std::move(log.traffic()));
+  if (tap_ && tap_->dropped() > 0)
+    result.warnings.push_back(std::to_string(tap_->dropped()) +
+                              " parts of the traffic found no room and are missing");
   if (log.dropped() > 0)
     result.warnings.push_back(std::to_string(log.dropped()) +
                               " rows found no room in the log and are missing");
-  health.pass({record.contact.empty() ? 0.0 : record.contact.back().time,
-               device::LinkState::closed, device::Trip::none, device::Fault::none});
+  health.pass({record.contact.empty() ? 0.0 : record.contact.back().time, device::LinkState::closed,
+               device::Trip::none, device::Fault::none});
   using Why = LiveEnd::Why;
   if (result.end.why == Why::too_long) record.remarks.push_back(result.end.sentence);
   if (result.end.why == Why::model) record.outcome = record::Outcome::diverged;
@@ -204,8 +211,8 @@ Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(in
   identity.notes.push_back(clock_.kind() == device::Clock::Kind::monotonic
                                ? "times are of the machine's monotonic clock"
                                : "times are of a clock in lock-step with the device");
-  record.attached.emplace_back("device_health.json",
-                               device::health_json(identity, link_.limits(), link_.traffic(), health));
+  record.attached.emplace_back(
+      "device_health.json", device::health_json(identity, link_.limits(), link_.traffic(), health));
   return result;
 }
 

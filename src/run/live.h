@@ -43,6 +43,7 @@ class Live {
   const scene::Scene* scene_;
   const LiveOptions* options_;
   device::Clock clock_;
+  std::unique_ptr<device::Tap> tap_;  // where the traffic is kept
   device::Link link_;
   FrameCost cost_;
   std::vector<std::string> notes_;

@@ -11,9 +11,9 @@ namespace palpate::run {
 
 // Where the finger is, as the model sees it.
 struct GuidePlace {
-  double time = 0.0;            // s
-  Vec3 offset = Vec3::Zero();   // m, from the first touch, z upwards
-  double force = 0.0;           // N
+  double time = 0.0;           // s
+  Vec3 offset = Vec3::Zero();  // m, from the first touch, z upwards
+  double force = 0.0;          // N
 };
 
 class Guide {

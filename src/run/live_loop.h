@@ -26,9 +26,11 @@ struct LiveOptions {
   // m, where the undeformed surface is, along the device's z; empty: a stand feels for it, under an
   // arm it lies `below_hand` below where the hand is at first, a recording has it at 0.
   std::optional<double> surface;
-  std::optional<double> most_force;                            // N; empty: the rules' own
+  enum class Traffic { unheard, kept };
+  Traffic traffic = Traffic::unheard;
+  std::optional<double> most_force;                          // N; empty: the rules' own
   double longest = std::numeric_limits<double>::infinity();  // s
-  static constexpr double below_hand = 0.020;                  // m
+  static constexpr double below_hand = 0.020;                // m
 };
 
 // Everything a loop uses; made before it starts.

@@ -84,8 +84,7 @@ FrameCost predict_cost(const scene::Scene& scene, double frame, int frames) {
   for (int i = 0; i <= all && !cost.wrong; ++i) {
     const Clock::time_point start = Clock::now();
     cost.wrong = model.follow(Vec3(0.0, 0.0, -deepest * i / all), frame * i);
-    if (i > frames)
-      times.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    if (i > frames) times.push_back(std::chrono::duration<double>(Clock::now() - start).count());
   }
   cost.force = model.touch().force();
   if (times.empty()) return cost;

@@ -37,7 +37,8 @@ class LiveModel {
   const scene::Scene* scene_;
   ContactHistory history_;
   std::optional<PressedMesh> mesh_;
-  Vec3 first_ = Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
+  Vec3 first_ =
+      Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
   Touch touch_;
   double step_ = 0.0;           // s
   Vec3 offset_ = Vec3::Zero();  // m, of the last call

@@ -31,7 +31,7 @@ constexpr double feel_to = 40e-3;      // N: enough to know where it began to
 constexpr int quiet_readings = 10;     // out of contact
 constexpr double rest_time = 1.0;      // s, that the tissue has after it was felt
 constexpr double arrived = 0.51 * device::mark10::travel_step;  // m
-constexpr double stuck_time = 1.0;     // s without a change of travel, on the way
+constexpr double stuck_time = 1.0;  // s without a change of travel, on the way
 constexpr int tries = 3;
 
 // m: the deepest travel that the programme may ask for; a step to a force gets twice Hertz's depth.
@@ -92,10 +92,10 @@ class StandLoop {
         return true;
       }
     }
-    return ends({LiveEnd::Why::link,
-                 "the stand is at " + rounded_text(1e3 * last_.position.z()) +
-                     " mm, outside of what this run may travel, " + rounded_text(1e3 * low) +
-                     " to " + rounded_text(1e3 * high) + " mm; jog it there"});
+    return ends({LiveEnd::Why::link, "the stand is at " + rounded_text(1e3 * last_.position.z()) +
+                                         " mm, outside of what this run may travel, " +
+                                         rounded_text(1e3 * low) + " to " +
+                                         rounded_text(1e3 * high) + " mm; jog it there"});
   }
 
   Fault put_limits(double low, double high) {
@@ -316,13 +316,13 @@ class StandLoop {
   double period_;   // s
   double deepest_;  // m, of travel
   device::StandSafety safety_;
-  Sample last_;              // that was fresh
-  Motion motion_;            // that goes on after a halt
-  double start_ = 0.0;       // s, of the clock
-  double next_ = 0.0;        // s, of the clock: the next reading's time
-  double surface_ = 0.0;     // m, along the stand's z
-  double low_ = 0.0;         // m, the stand's range
-  double high_ = 0.0;        // m
+  Sample last_;                   // that was fresh
+  Motion motion_;                 // that goes on after a halt
+  double start_ = 0.0;            // s, of the clock
+  double next_ = 0.0;             // s, of the clock: the next reading's time
+  double surface_ = 0.0;          // m, along the stand's z
+  double low_ = 0.0;              // m, the stand's range
+  double high_ = 0.0;             // m
   double programme_start_ = 0.0;  // s
   int step_ = 0;
   bool felt_ = false;
