@@ -174,10 +174,15 @@ ColumnComparison compare_ends(const Table& got, const Table& want, const Tube& t
       const double distance = std::abs(there - wanted);
       if (distance <= tube.width) continue;
       ++column.differing;
-      column.worst = {
-          none ? 0 : (first ? found->second.rows.front() : found->second.rows.back()) + 1,
-          none ? Cell() : Cell(there), wanted,
-          wanted != 0.0 ? distance / std::abs(wanted) : infinity, tube.width};
+      WorstRow worst;
+      if (!none) {
+        worst.row = (first ? found->second.rows.front() : found->second.rows.back()) + 1;
+        worst.got = there;
+      }
+      worst.want = wanted;
+      worst.relative = wanted != 0.0 ? distance / std::abs(wanted) : infinity;
+      worst.allowed = tube.width;
+      column.worst = std::move(worst);
     }
   }
   return column;
