@@ -184,13 +184,17 @@ class StandLoop {
     const double z = last_.position.z();
     if (std::abs(target - z) <= arrived) return true;
     const bool down = target < z;
+    const double asked = now();
     const Fault fault = down ? put_limits(target, high_) : put_limits(low_, target);
     if (fault != Fault::none)
       return ends(fault == Fault::hung_up ? Trip::link_lost : Trip::not_verified, fault);
     motion_ = {down ? Motion::Act::down : Motion::Act::up, speed};
     if (!send(motion_)) return false;
+    lead_ = now() - asked;
+    if (waiting_) start_programme();
     const bool there = wait_for(target, until_force);
     motion_ = {};
+    arrived_at_ = last_.received - start_;
     return there;
   }
 
@@ -198,8 +202,8 @@ class StandLoop {
     double moved_at = now();
     double before = last_.position.z();
     while (poll()) {
-      if (std::abs(last_.position.z() - target) <= arrived) return true;
-      if (last_.force >= until_force) {
+      // Told to stop even at its limit: one that still brakes would go on once the limit moves.
+      if (std::abs(last_.position.z() - target) <= arrived || last_.force >= until_force) {
         if (loop_.link.stop()) return true;
         return ends(Trip::not_verified, Fault::not_verified);
       }
@@ -266,10 +270,18 @@ class StandLoop {
     return go(surface_, travel_speed, Limits::none);
   }
 
-  bool carry_out() {
+  // Its time begins with its first motion.
+  void start_programme() {
+    waiting_ = false;
     programme_start_ = now();
     programme_ = true;
     follow(last_);
+  }
+
+  bool carry_out() {
+    waiting_ = true;
+    if (std::holds_alternative<scenario::Hold>(loop_.scene.scenario.steps.front()))
+      start_programme();
     double travel = 0.0;  // m, as planned
     for (const scenario::Step& step : loop_.scene.scenario.steps) {
       ++step_;
@@ -284,8 +296,9 @@ class StandLoop {
       } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
         good = go(surface_ - retract->to, retract->rate, Limits::none);
       } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {
-        // The next motion takes about a reading to begin.
-        good = wait(std::max(0.0, hold->time - 2.0 * period_));
+        // The next motion takes so long to begin.
+        const double until = arrived_at_ + hold->time - lead_;
+        good = wait(std::max(0.0, until - now()));
       }
       if (!good) return false;
     }
@@ -324,10 +337,13 @@ class StandLoop {
   double low_ = 0.0;              // m, the stand's range
   double high_ = 0.0;             // m
   double programme_start_ = 0.0;  // s
+  double lead_ = 0.0;             // s, that a motion takes to begin
+  double arrived_at_ = 0.0;       // s
   int step_ = 0;
   bool felt_ = false;
   bool halted_ = false;
-  bool programme_ = false;
+  bool waiting_ = false;    // for the programme's first motion
+  bool programme_ = false;  // its time passes
   bool over_ = false;
   LiveEnd end_;
 };
