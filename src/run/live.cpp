@@ -66,7 +66,7 @@ std::string passivity_sentence(const scene::Scene& scene, double frame) {
     return "passivity: with " + what + " the bound holds at any depth of this tissue";
   return "passivity: with " + what + " and frames of " + rounded_text(1e3 * frame, 3) +
          " ms the bound fails below " + milli(depth) +
-         " of this tissue; there the controller adds damping";
+         " of this tissue; beyond it the tissue is shown no stiffer than that";
 }
 
 }  // namespace
@@ -194,6 +194,9 @@ Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(in
   if (log.dropped() > 0)
     result.warnings.push_back(std::to_string(log.dropped()) +
                               " rows found no room in the log and are missing");
+  if (loop.softened > 0)
+    notes_.push_back(std::to_string(loop.softened) +
+                     " frames were shown less stiff than the tissue is, as the device can hold");
   health.pass({record.contact.empty() ? 0.0 : record.contact.back().time, device::LinkState::closed,
                device::Trip::none, device::Fault::none});
   using Why = LiveEnd::Why;
@@ -207,6 +210,7 @@ Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(in
     record.findings.push_back({"energy_imbalance", *imbalance});
   add_findings(*scene_, record);
   device::Identity identity = link_.identity();
+  identity.notes.insert(identity.notes.end(), notes_.begin(), notes_.end());
   identity.notes.insert(identity.notes.end(), result.warnings.begin(), result.warnings.end());
   identity.notes.push_back(clock_.kind() == device::Clock::Kind::monotonic
                                ? "times are of the machine's monotonic clock"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/passivity.h"
 #include "device/arm_safety.h"
 #include "run/contact_row.h"
 #include "run/live_guide.h"
@@ -31,6 +32,14 @@ device::ArmRules rules_of(const LiveLoop& loop) {
   return rules;
 }
 
+// N/m, of a force over its depth: with Hertz's law, whose slope is 3/2 of that, what the device can
+// hold by Colgate and Brown's bound, a frame late.
+double stiffest_of(const device::ArmRules& rules) {
+  return 2.0 / 3.0 *
+         contact::passive_stiffness(
+             {.damping = rules.damping, .frame = rules.frame, .delay = rules.frame});
+}
+
 class ArmLoop {
  public:
   explicit ArmLoop(LiveLoop& loop)
@@ -40,7 +49,8 @@ class ArmLoop {
         period_(loop.link.limits().period),
         guide_(loop.scene.scenario.steps),
         rules_(rules_of(loop)),
-        safety_(rules_) {}
+        safety_(rules_),
+        stiffest_(stiffest_of(rules_)) {}
 
   LiveEnd run() {
     if (!begin()) return end_;
@@ -101,7 +111,7 @@ class ArmLoop {
     follow();
     arm();
     if (loop_.model.touch().contacts.empty()) safety_.out_of_contact();
-    const Vec3 wanted = failed_ ? Vec3(Vec3::Zero()) : loop_.model.force();
+    const Vec3 wanted = failed_ ? Vec3(Vec3::Zero()) : softened(loop_.model.force());
     force_ = safety_.allow(now_, wanted);
     if (good || !recording_) write();
     note_state();
@@ -117,6 +127,16 @@ class ArmLoop {
                       safety_.freshness() == device::Staleness::State::lost ||
                       safety_.sent().isZero(0.0) || now_ > ended_at_ + longest_fall;
     return !over;
+  }
+
+  // No stiffer than the device can hold: harder tissue is shown as hard as that.
+  Vec3 softened(const Vec3& force) {
+    const SphereContact* deepest = loop_.model.touch().deepest();
+    if (deepest == nullptr) return force;
+    const double most = stiffest_ * std::max(0.0, deepest->approach);
+    if (force.norm() <= most) return force;
+    ++loop_.softened;
+    return device::clamped_norm(force, most);
   }
 
   // A model that has fallen behind leaves time out rather than to fall behind for ever.
@@ -191,6 +211,7 @@ class ArmLoop {
   Guide guide_;
   device::ArmRules rules_;
   device::ArmSafety safety_;
+  double stiffest_;  // N/m
   Sample sample_;
   double start_ = 0.0;          // s, of the clock
   double now_ = 0.0;            // s, since the start

@@ -43,6 +43,7 @@ struct LiveLoop {
   LiveLog& log;
   device::Health& health;
   const std::atomic<bool>& stop;
+  std::uint64_t softened = 0;  // frames of an arm, in which the tissue was shown less stiff
 };
 
 // How a loop ended.

@@ -35,7 +35,7 @@ std::optional<std::string> LiveModel::go_to(const Vec3& offset, double time) {
   offset_ = offset;
   time_ = time;
   const auto set = [&](const Vec3& place) {
-    touch_.travel = -place.z();
+    touch_.travel = 0.0 - place.z();
     touch_.slide = std::hypot(place.x(), place.y());
   };
   if (!mesh_) {
