@@ -143,7 +143,8 @@ Sample Inverse3::read(const WebSocket::Received& message) {
     sample.velocity = (sample.position - last_->position) / (sample.received - last_->received);
   }
   // A moving arm is never twice at the same place to the last bit: that is an old state.
-  const bool frozen = last_ && reply.velocity && !sample.velocity.isZero(0.0) &&
+  // Below a micrometre a second it may well be.
+  const bool frozen = last_ && reply.velocity && sample.velocity.norm() > 1e-6 &&
                       sample.position == last_->position && sample.velocity == last_->velocity;
   if (frozen) {
     sample.arrival = Arrival::duplicate;

@@ -78,7 +78,8 @@ double most_force(const LiveOptions& options, Kind kind) {
 
 LiveEnd ended_by_link(device::Trip trip, device::Fault fault) {
   LiveEnd end{LiveEnd::Why::link, std::string(device::trip_text(trip))};
-  if (fault != device::Fault::none) end.sentence += ": " + std::string(device::fault_text(fault));
+  if (fault != device::Fault::none && trip != device::Trip::brake)
+    end.sentence += ": " + std::string(device::fault_text(fault));
   if (trip == device::Trip::not_verified)
     end.sentence += "; see that the device stands still, by its own stop if it does not";
   return end;
@@ -179,7 +180,7 @@ Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(in
   }
   LiveLoop loop{*scene_, *options_, link_, clock_, model, log, health, stop};
   result.end = link_.identity().kind == Kind::stand ? run_stand(loop) : run_arm(loop);
-  (void)link_.stop();
+  if (link_.identity().kind == Kind::arm) (void)link_.stop();
   if (options_->priority == LiveOptions::Priority::realtime) device::use_ordinary();
 
   record::CaseRecord& record = result.record = begin_case(*scene_);

@@ -30,7 +30,7 @@ constexpr double feel_from = 5e-3;     // N, above the mean out of contact: it t
 constexpr double feel_to = 40e-3;      // N: enough to know where it began to
 constexpr int quiet_readings = 10;     // out of contact
 constexpr double rest_time = 1.0;      // s, that the tissue has after it was felt
-constexpr double arrived = 0.51 * device::mark10::travel_step;  // m
+constexpr double arrived = 0.65 * device::mark10::travel_step;  // m: half a step, in mm or inches
 constexpr double stuck_time = 1.0;  // s without a change of travel, on the way
 constexpr int tries = 3;
 
@@ -150,8 +150,7 @@ class StandLoop {
     switch (safety_.step(now(), sample)) {
       case Verdict::stop:
         note(sample.arrival == Arrival::lost ? LinkState::lost : LinkState::tripped, sample.fault);
-        (void)loop_.link.stop();
-        return ends(safety_.tripped(), sample.fault);
+        return ends(safety_.tripped(), sample.fault);  // run() stops it
       case Verdict::halt:
         note(LinkState::stale, sample.fault);
         if (!halted_) (void)loop_.link.stop();
@@ -310,7 +309,6 @@ class StandLoop {
     const double time = now() - programme_start_;
     const Vec3 offset(0.0, 0.0, sample.position.z() - surface_);
     if (auto wrong = loop_.model.follow(offset, time)) {
-      (void)loop_.link.stop();
       (void)ends({LiveEnd::Why::model, *wrong});
       return;
     }
