@@ -220,6 +220,21 @@ Sample Mark10::sample(double wait) {
   }
 }
 
+// What the stand says its limits are, against what they should be.
+Fault Mark10::compare_limits(double low, double high) {
+  constexpr double close = 0.51 * mark10::travel_step;  // half of what the stand resolves
+  const auto in_metres = [](const mark10::Quantity& one) {
+    return one.unit.empty() ? one.value * 1e-3 : mark10::metres(one).value_or(Sample::nan);
+  };
+  const auto got_low = ask_number("w");
+  const auto got_high = ask_number("v");
+  if (port_.lost()) return Fault::hung_up;
+  if (!got_low || !got_high) return Fault::silent;
+  const bool same = std::abs(in_metres(*got_low) - low) <= close &&
+                    std::abs(in_metres(*got_high) - high) <= close;
+  return same ? Fault::none : Fault::not_verified;
+}
+
 Fault Mark10::set_travel_limits(double low, double high) {
   limits_verified_ = false;
   const auto lower = mark10::lower_limit_command(low);
@@ -230,23 +245,8 @@ Fault Mark10::set_travel_limits(double low, double high) {
   send(lower->text());
   send(upper->text());
   // The stand is mute on setters: ask until it has had time to obey, at most three times.
-  constexpr double close = 0.51 * mark10::travel_step;  // half of what the stand resolves
   Fault fault = Fault::not_verified;
-  for (int tries = 0; tries < 3 && fault != Fault::none; ++tries) {
-    const auto got_low = ask_number("w");
-    const auto got_high = ask_number("v");
-    if (port_.lost()) return Fault::hung_up;
-    if (!got_low || !got_high) {
-      fault = Fault::silent;
-      continue;
-    }
-    const auto in_metres = [](const mark10::Quantity& one) {
-      return one.unit.empty() ? one.value * 1e-3 : mark10::metres(one).value_or(Sample::nan);
-    };
-    const bool same = std::abs(in_metres(*got_low) - low) <= close &&
-                      std::abs(in_metres(*got_high) - high) <= close;
-    fault = same ? Fault::none : Fault::not_verified;
-  }
+  for (int tries = 0; tries < 3 && fault != Fault::none; ++tries) fault = compare_limits(low, high);
   if (fault != Fault::none) return fault;
   const auto status = ask_status();
   // Limits are obeyed in limit mode only; a status without a mode says nothing against it.
@@ -264,6 +264,9 @@ Fault Mark10::move(const Motion& motion) {
   if (!(motion.speed >= limits_.slowest) || !(motion.speed <= limits_.speed)) return Fault::refused;
   const auto speed = mark10::speed_command(motion.speed);
   if (!speed) return Fault::refused;
+  // A stand that was switched off and on between two motions has forgotten them.
+  if (const Fault fault = compare_limits(limits_.low, limits_.high); fault != Fault::none)
+    return fault;
   send(speed->text());
   const auto got = ask_number("a");
   if (port_.lost()) return Fault::hung_up;

@@ -38,7 +38,8 @@ class Mark10 {
   [[nodiscard]] Fault set_travel_limits(double low, double high);
 
   // Starts a motion at a verified speed, or stops. Refused without travel limits, outside of the
-  // stand's speeds, and in a link that is opened to look.
+  // stand's speeds, and in a link that is opened to look; not_verified where the stand has lost
+  // its limits since, as by a reset. Takes a few ms.
   [[nodiscard]] Fault move(const Motion& motion);
 
   // Sends the stop at once, then asks whether it stands; true where that is confirmed.
@@ -66,6 +67,7 @@ class Mark10 {
   std::optional<mark10::Quantity> ask_number(std::string_view command);
   std::optional<mark10::Settings> ask_settings();
   bool stands_still();
+  Fault compare_limits(double low, double high);
   Sample accept(const mark10::Pair& pair);
   [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const;
 

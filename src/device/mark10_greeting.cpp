@@ -112,9 +112,11 @@ void Mark10::refuse_silence() const {
   const std::string on = "palpate: on `" + path_ + "` ";
   if (port_.lost()) throw LinkError(on + "the device hung up; check its cable");
   if (first_bytes_.empty())
-    throw LinkError(on +
-                    "nothing answers; switch the stand on, set CONTROL to CONSOLE and PC Control "
-                    "to on, and check the cable");
+    throw LinkError(
+        on +
+        "nothing answers; switch the stand on, set CONTROL to CONSOLE, PC Control to on "
+        "and the rate to " +
+        std::to_string(mark10::baud) + " baud, and check the cable");
   // Bytes at another rate are not text; a fifth of them shows it.
   if (mark10::garbage_share(first_bytes_) > 0.2)
     throw LinkError(on + "garbage answers, as at a wrong baud rate; set the stand and its gauge " +

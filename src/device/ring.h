@@ -14,7 +14,8 @@ namespace palpate::device {
 template <class Item, std::size_t size>
 class Ring {
   static_assert(size > 1 && (size & (size - 1)) == 0, "a power of two");
-  static_assert(std::is_trivially_copyable_v<Item>);
+  // Nothing that owns memory: a copy in the loop must not allocate.
+  static_assert(std::is_trivially_destructible_v<Item> && std::is_copy_assignable_v<Item>);
 
  public:
   bool push(const Item& item) {

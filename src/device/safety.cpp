@@ -15,6 +15,7 @@ std::string_view trip_text(Trip trip) {
     case Trip::brake: return "the device's own safety has acted";
     case Trip::force_ceiling: return "the force went beyond its ceiling";
     case Trip::travel: return "the travel went beyond its limits";
+    case Trip::jump: return "the position jumped, as after a reset of the stand";
     case Trip::overload: return "the gauge is overloaded";
     case Trip::not_verified: return "the device did not confirm a limit or a stop";
   }

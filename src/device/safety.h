@@ -19,6 +19,7 @@ enum class Trip : std::uint8_t {
   brake,          // the device's own safety has acted
   force_ceiling,  // a stand's force is beyond what was allowed
   travel,         // a stand is beyond its travel limits
+  jump,           // a stand's position changed as no stand can move
   overload,       // a gauge cannot measure any more
   not_verified,   // a limit or a stop was not confirmed
 };

@@ -7,16 +7,21 @@
 namespace palpate::device {
 
 StandSafety::Verdict StandSafety::step(double now, const Sample& sample) {
-  const bool good = sample.arrival == Arrival::fresh && std::isfinite(sample.force) &&
-                    sample.position.allFinite();
+  bool good = sample.arrival == Arrival::fresh && std::isfinite(sample.force) &&
+              sample.position.allFinite();
+  if (good) {
+    good = jump_.takes(now, sample.position);
+    jumps_ = good ? 0 : jumps_ + 1;
+    if (jumps_ >= 2) arming_.trip(Trip::jump);
+    // Of either sign: a gauge whose sign was turned round still stops it.
+    if (std::abs(sample.force) > rules_.force) arming_.trip(Trip::force_ceiling);
+  }
   staleness_.step(now, good                              ? Arrival::fresh
                        : sample.arrival == Arrival::lost ? Arrival::lost
                                                          : Arrival::none);
   if (good) {
     last_ = sample;
     any_ = true;
-    // Of either sign: a gauge whose sign was turned round still stops it.
-    if (std::abs(sample.force) > rules_.force) arming_.trip(Trip::force_ceiling);
     const double z = sample.position.z();
     if (z < rules_.low - rules_.slack || z > rules_.high + rules_.slack) arming_.trip(Trip::travel);
   }

@@ -18,9 +18,11 @@ struct StandRules {
 
 class StandSafety {
  public:
-  explicit StandSafety(const StandRules& rules) : rules_(rules), staleness_(rules.stale) {}
+  explicit StandSafety(const StandRules& rules)
+      : rules_(rules), staleness_(rules.stale), jump_(2.0 * rules.fastest, rules.slack) {}
 
-  // What is to be done with the stand now.
+  // What is to be done with the stand now. A position that no stand can have reached is dropped;
+  // two in a row mean that its zero is another one, and stop it.
   enum class Verdict {
     go_on,
     halt,  // stop it; it may be started again when samples come
@@ -44,6 +46,8 @@ class StandSafety {
   StandRules rules_;
   Arming arming_;
   Staleness staleness_;
+  JumpCheck jump_;
+  int jumps_ = 0;  // in a row
   Sample last_;
   bool any_ = false;
 };

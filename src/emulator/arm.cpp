@@ -9,6 +9,9 @@
 namespace emulator {
 namespace {
 
+// Faults that count messages begin with the next message and not with time that passes.
+constexpr std::int64_t none_counted = -1;
+
 double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 }  // namespace
@@ -50,10 +53,10 @@ void Arm::run_to(Nanoseconds time) {
   }
 }
 
-void Arm::go_to(Nanoseconds time) {
+void Arm::go_to(Nanoseconds time, std::int64_t messages) {
   for (auto next = faults_.next_time(); next && *next <= time; next = faults_.next_time()) {
     run_to(*next);
-    begin_faults();
+    begin_faults(messages);
   }
   // Commands are not kept: after silence the device is idle again (Control Commands, 3.5).
   const Nanoseconds silence = last_message_ + settings_.idle_after;
@@ -63,7 +66,7 @@ void Arm::go_to(Nanoseconds time) {
     log_row("idle", "");
   }
   run_to(time);
-  begin_faults();
+  begin_faults(messages);
   const bool brake = faults_.lasts("brake", now_);
   if (brake != braked_) {
     events_.push_back(
@@ -76,8 +79,8 @@ void Arm::go_to(Nanoseconds time) {
   if (brake || faults_.lasts("not_ready", now_)) let_go();
 }
 
-void Arm::begin_faults() {
-  for (const Fault& fault : faults_.begin(now_, messages_)) {
+void Arm::begin_faults(std::int64_t messages) {
+  for (const Fault& fault : faults_.begin(now_, messages)) {
     log_row("fault", fault.kind);
     if (fault.kind == "rst") wanted_ = Act::reset_connection;
     if (fault.kind == "close_1000") wanted_ = Act::close_normal;
@@ -130,6 +133,7 @@ ArmState Arm::told() {
 
 Outgoing Arm::greet() {
   in_use_ = true;
+  held_.reset();
   return {state_message(told(), settings_.service, Extent::full, session_)};
 }
 
@@ -158,15 +162,21 @@ std::string Arm::spoilt(std::string text) {
 }
 
 Answer Arm::answer(const std::string& text) {
+  begin_faults(messages_);
   const Request request = parse_request(text, settings_.service, settings_.device_id);
+  if (wanted_ != Act::none || silent()) {  // nobody reads it any more
+    log_row("in", "(unheard) " + text);
+    return {{}, std::exchange(wanted_, Act::none)};
+  }
   last_message_ = now_;
   command(request);
   log_row("in", text);
   if (!request.remark.empty()) log_row("remark", request.remark);
-  if (settings_.clock == Clock::lockstep) go_to(now_ + settings_.period);
+  if (settings_.clock == Clock::lockstep) go_to(now_ + settings_.period, none_counted);
   Answer answer;
   Outgoing first = reply(request);
-  if (first.delay > 0 && settings_.clock == Clock::lockstep) go_to(now_ + first.delay);
+  if (first.delay > 0 && settings_.clock == Clock::lockstep)
+    go_to(now_ + first.delay, none_counted);
   if (first.delay > 0) log_row("late", "");
   const bool twice = faults_.spoils("duplicate");
   const bool lost = faults_.spoils("drop");
@@ -178,21 +188,21 @@ Answer Arm::answer(const std::string& text) {
     if (held_) answer.messages.push_back(*std::exchange(held_, {}));
   }
   ++messages_;
-  begin_faults();  // what comes after this message, before the next
   answer.act = std::exchange(wanted_, Act::none);
   return answer;
 }
 
 Act Arm::pass(Nanoseconds now) {
-  if (settings_.clock == Clock::real) go_to(now);
+  if (settings_.clock == Clock::real) go_to(now, none_counted);
   return std::exchange(wanted_, Act::none);
 }
 
 void Arm::leave() {
+  if (!in_use_) return;
   in_use_ = false;
-  held_.reset();
   let_go();
-  log_row("left", "");
+  // When a socket is found closed is a matter of the machine: no row where time is not its own.
+  if (settings_.clock == Clock::real) log_row("left", "");
 }
 
 bool Arm::silent() const { return faults_.lasts("half_open", now_); }

@@ -69,9 +69,9 @@ class Arm {
   void log_state() { log_row("state", ""); }
 
  private:
-  void go_to(Nanoseconds time);
+  void go_to(Nanoseconds time, std::int64_t messages);
   void run_to(Nanoseconds time);
-  void begin_faults();
+  void begin_faults(std::int64_t messages);
   void let_go();
   void command(const Request& request);
   [[nodiscard]] ArmState told();

@@ -203,6 +203,7 @@ class Server {
     accept_watcher();
     tick();
     context_.run();
+    arm_.leave();
     arm_.log_state();
     std::printf("%s\n", arm_.summary().c_str());
     std::fflush(stdout);

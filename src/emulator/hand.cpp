@@ -14,18 +14,20 @@ Matrix product(const Matrix& a, const Matrix& b) {
           a[2] * b[1] + a[3] * b[3]};
 }
 
-// exp(A t) for y'' + (b/m) y' + (k/m) y = 0, whatever its damping: Taylor's series of a 1024th
-// part, squared ten times (Moler and Van Loan 2003, method 3).
+// exp(A t) for y'' + (b/m) y' + (k/m) y = 0, whatever its damping: Taylor's series of a part,
+// squared (Moler and Van Loan 2003, method 3). A step is short, so mostly nothing is squared.
 Matrix exponential(double k_over_m, double b_over_m, double t) {
-  const double part = t / 1024.0;
+  int squarings = 0;
+  double part = t;
+  for (; (1.0 + k_over_m + b_over_m) * part > 0.5; part *= 0.5) ++squarings;
   const Matrix a{0.0, part, -k_over_m * part, -b_over_m * part};
   Matrix sum{1.0, 0.0, 0.0, 1.0};
   Matrix term = sum;
-  for (int n = 1; n <= 12; ++n) {
+  for (int n = 1; n <= 16; ++n) {  // 0.5^17 / 17! is below the last bit
     term = product(term, a);
     for (std::size_t i = 0; i < 4; ++i) sum[i] += (term[i] /= n);
   }
-  for (int squaring = 0; squaring < 10; ++squaring) sum = product(sum, sum);
+  for (; squarings > 0; --squarings) sum = product(sum, sum);
   return sum;
 }
 

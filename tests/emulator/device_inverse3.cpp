@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "device/arm_safety.h"
 #include "device/link.h"
 #include "live_emulator.h"
 
@@ -190,6 +191,45 @@ INSTANTIATE_TEST_SUITE_P(
         ArmFault{"brake", "duration = \"50 ms\"\n", Fault::brake, false},
         ArmFault{"not_ready", "duration = \"50 ms\"\n", Fault::brake, false}),
     [](const auto& one) { return std::string(one.param.kind); });
+
+// A hand that moves down; what the rules make of a state that stands still, and of one that jumps.
+struct Moved {
+  int duplicates = 0;
+  std::uint64_t jumps = 0;
+  int believed = 0;
+  double farthest = 0.0;  // m, between two positions that were believed
+};
+Moved moved_with(const std::string& fault) {
+  const ScratchFile hand(
+      "[[waypoint]]\nat = \"0.6 s\"\nposition = [\"0 mm\", \"-120 mm\", \"100 mm\"]\n");
+  const ScratchFile script("[[fault]]\nat = \"0.3 s\"\nduration = \"30 ms\"\n" + fault);
+  const LiveEmulator emulator(arguments({"--hand", hand.path(), "--fault", script.path()}));
+  Clock clock(Clock::Kind::stepped);
+  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  ArmSafety safety{ArmRules{}};
+  Moved moved;
+  Vec3 last = arm.sample(0.2).position;
+  for (int i = 0; i < 500; ++i) {
+    clock.sleep_until(clock.now() + 1e-3);
+    const Sample sample = arm.sample(0.2);
+    if (sample.arrival == Arrival::duplicate) ++moved.duplicates;
+    if (!safety.take(clock.now(), sample)) continue;
+    ++moved.believed;
+    moved.farthest = std::max(moved.farthest, (sample.position - last).norm());
+    last = sample.position;
+  }
+  moved.jumps = safety.counts().jumps;
+  return moved;
+}
+
+TEST(Inverse3Link, TellsAFrozenStateAndAJump) {
+  const Moved frozen = moved_with("kind = \"freeze\"\n");
+  EXPECT_NEAR(frozen.duplicates, 29, 2);  // 30 ms, the first of them a state like any other
+  EXPECT_EQ(frozen.believed + frozen.duplicates, 500);
+  const Moved jumped = moved_with("kind = \"jump\"\nvalue = \"200 mm\"\n");
+  EXPECT_NEAR(static_cast<double>(jumped.jumps), 30.0, 2.0);
+  EXPECT_LT(jumped.farthest, 20e-3);  // what the hand went in the meantime, and not 200 mm
+}
 
 TEST(Inverse3Link, FallsSilentWithAHalfOpenSocket) {
   const ScratchFile script("[[fault]]\nat = \"0.05 s\"\nkind = \"half_open\"\n");

@@ -2,10 +2,20 @@
 // motion, and what the link does when something goes wrong.
 #include "device/mark10.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/error.h"
@@ -117,14 +127,34 @@ TEST(Mark10Link, StopsOnItsWayOut) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(next_of(again).position.z(), where);
 }
 
-TEST(Mark10Link, ConvertsPoundsAndFlipsTensionPositive) {
+TEST(Mark10Link, LeavesTheGaugesUnitAsItIsWhereItOnlyLooks) {
   const ScratchFile settings("[gauge]\nunit = \"lbF\"\nnoise = \"0 N\"\n");
-  const ScratchFile tissue("surface = \"1 mm\"\n");
   const LiveEmulator emulator({"mark10", "--clock", "virtual", "--stand", settings.path()});
   Clock clock(Clock::Kind::monotonic);
   Mark10 looked(emulator.port(), Purpose::look, clock);
   EXPECT_EQ(looked.identity().dialect, "gauge in lbF");
   EXPECT_EQ(next_of(looked).fault, Fault::none);
+}
+
+// Pressed into the emulator's tissue and held there: 2 mm of it, relaxed, in newton, whatever unit
+// the gauge comes to show.
+TEST(Mark10Link, PressesWithAPositiveForceInNewton) {
+  const ScratchFile script("[[fault]]\nat = \"6 s\"\nkind = \"unit_change\"\n");
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tick", "20 ms", "--fault", script.path()});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  ASSERT_EQ(stand.set_travel_limits(-4e-3, 5e-3), Fault::none);
+  ASSERT_EQ(stand.move({Motion::Act::down, 5e-3}), Fault::none);
+  Sample sample;
+  for (int i = 0; i < 250; ++i) sample = next_of(stand);
+  EXPECT_EQ(sample.fault, Fault::none);
+  // The emulator's default tissue: Einf 12 kPa, nu 0.5, R 5 mm; F = 4/3 sqrt(R) E/(1-nu^2) h^1.5
+  const double relaxed = 4.0 / 3.0 * std::sqrt(5e-3) * 12e3 / 0.75 * std::pow(2e-3, 1.5);
+  EXPECT_NEAR(sample.force, relaxed, 0.02 * relaxed + 5e-3);  // 0.02 mm of 2 mm; the gauge's noise
+  for (int i = 0; i < 100; ++i) sample = next_of(stand);
+  EXPECT_EQ(sample.fault, Fault::unit_changed);
+  EXPECT_NEAR(sample.force, relaxed, 0.02 * relaxed + 1e-2);  // lbF resolve less
 }
 
 TEST(Mark10Link, IsHeldByOneProgram) {
@@ -139,19 +169,136 @@ TEST(Mark10Link, TellsWhyItCannotBeOpened) {
   EXPECT_TRUE(has(refusal("mark10:/dev/null"), "is no serial line"));
 }
 
+// Something that talks without being asked.
+class Babbler {
+ public:
+  explicit Babbler(const std::string& words) : master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
+    ::grantpt(master_);
+    ::unlockpt(master_);
+    thread_ = std::thread([this, words] {
+      while (!done_) {
+        static_cast<void>(::write(master_, words.data(), words.size()));
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+    });
+  }
+  ~Babbler() {
+    done_ = true;
+    thread_.join();
+    ::close(master_);
+  }
+  [[nodiscard]] std::string port() const { return ::ptsname(master_); }
+
+ private:
+  int master_;
+  std::atomic<bool> done_ = false;
+  std::thread thread_;
+};
+
+TEST(Mark10Link, TellsOtherTalkFromAStands) {
+  const Babbler noise("\xf8\x80\x9e\xfe\xe0");
+  EXPECT_TRUE(has(refusal("mark10:" + noise.port()), "garbage answers, as at a wrong baud rate"));
+  const Babbler modem("OK, ready\r\n");
+  EXPECT_TRUE(has(refusal("mark10:" + modem.port()), "in words that are no reading (`OK, ready"));
+}
+
+// At a wrong rate the stand does not understand us, so that it keeps silent.
+TEST(Mark10Link, NamesTheRateWhereNothingAnswers) {
+  const auto refused_with = [](const char* kind) {
+    const ScratchFile script("[[fault]]\nat = \"0 s\"\nkind = \"" + std::string(kind) +
+                             "\"\nduration = \"600 s\"\n");
+    const LiveEmulator emulator({"mark10", "--clock", "virtual", "--fault", script.path()});
+    return refusal("mark10:" + emulator.port());
+  };
+  for (const char* kind : {"wrong_baud", "deaf"})
+    EXPECT_TRUE(has(refused_with(kind), "and the rate to 115200 baud")) << kind;
+}
+
+// A stand that forgets what it was told is not trusted: no motion without limits read back.
+TEST(Mark10Link, DoesNotMoveAStandThatTakesNoLimits) {
+  const ScratchFile settings("[stand]\npc_control = false\n");
+  const LiveEmulator emulator({"mark10", "--clock", "virtual", "--stand", settings.path()});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  EXPECT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::not_verified);
+  EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::refused);
+}
+
+TEST(Mark10Link, DoesNotMoveAStandThatHasForgottenItsLimits) {
+  const ScratchFile script("[[fault]]\nat = \"1.5 s\"\nkind = \"reset\"\n");
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tissue", "none", "--fault", script.path()});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  ASSERT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::none);
+  EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::none);
+  for (int i = 0; i < 100; ++i) static_cast<void>(next_of(stand));
+  EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::not_verified);
+}
+
+TEST(Mark10Link, SaysWhereAStopIsNotObeyed) {
+  const ScratchFile script("[[fault]]\nat = \"2 s\"\nkind = \"runaway\"\n");
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tissue", "none", "--fault", script.path()});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  ASSERT_EQ(stand.set_travel_limits(-100e-3, 5e-3), Fault::none);
+  ASSERT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::none);
+  for (int i = 0; i < 100; ++i) static_cast<void>(next_of(stand));
+  EXPECT_FALSE(stand.stop());
+  EXPECT_EQ(stand.move({}), Fault::not_verified);
+}
+
+class Mark10Deaths : public testing::TestWithParam<int> {};
+
+// Another process drives the stand down and dies by a signal: the stand stands.
+TEST_P(Mark10Deaths, StopTheStand) {
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue", "none"});
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(2);
+    Clock clock(Clock::Kind::monotonic);
+    Mark10 stand(emulator.port(), Purpose::command, clock);
+    if (stand.set_travel_limits(-50e-3, 5e-3) != Fault::none) ::_exit(1);
+    if (stand.move({Motion::Act::down, 5e-3}) != Fault::none) ::_exit(2);
+    for (int i = 0; i < 5; ++i) static_cast<void>(next_of(stand));
+    ::signal(SIGALRM, SIG_DFL);
+    ::raise(GetParam());
+    ::_exit(3);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status)) << WEXITSTATUS(status);
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 again(emulator.port(), Purpose::look, clock);
+  const double where = next_of(again).position.z();
+  EXPECT_LT(where, -0.2e-3);
+  bool stands = true;
+  for (int i = 0; i < 5; ++i) stands = stands && next_of(again).position.z() == where;
+  // Nothing of ours runs after SIGKILL: the limits in the stand are what is left.
+  EXPECT_EQ(stands, GetParam() != SIGKILL);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Mark10Deaths,
+                         testing::Values(SIGINT, SIGTERM, SIGHUP, SIGSEGV, SIGABRT, SIGKILL));
+
 struct StandFault {
   const char* kind;
-  Fault fault;  // that must be seen at least once
-  bool lost;    // whether the link ends
+  Fault fault;            // that must be seen at least once
+  bool lost;              // whether the link ends
+  const char* more = "";  // keys of its table
 };
 void PrintTo(const StandFault& fault, std::ostream* out) { *out << fault.kind; }
 class Mark10Faults : public testing::TestWithParam<StandFault> {};
 
-// Of 60 samples the fault falls in the middle; what is fresh is right, and all that follows comes.
+// A byte that is no request takes the emulator's clock on by 87 us alone: 2 ms are some ten of
+// them. Of 60 samples the fault falls in the middle; what is fresh is right, and all that follows
+// comes.
 TEST_P(Mark10Faults, AreSeenAndPassedOver) {
   const StandFault& expected = GetParam();
   const ScratchFile script("[[fault]]\nat = \"0.8 s\"\nkind = \"" + std::string(expected.kind) +
-                           "\"\n");
+                           "\"\n" + expected.more);
   const LiveEmulator emulator({"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue",
                                "none", "--fault", script.path()});
   Clock clock(Clock::Kind::monotonic);
@@ -176,23 +323,28 @@ TEST_P(Mark10Faults, AreSeenAndPassedOver) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Mark10Faults,
-                         testing::Values(StandFault{"unplug", Fault::hung_up, true},
-                                         StandFault{"garbage", Fault::garbage, false},
-                                         StandFault{"truncate", Fault::truncated, false},
-                                         StandFault{"glue", Fault::truncated, false},
-                                         StandFault{"drop", Fault::silent, false},
-                                         StandFault{"duplicate", Fault::none, false},
-                                         StandFault{"error_reply", Fault::error_reply, false},
-                                         StandFault{"unsolicited", Fault::none, false},
-                                         StandFault{"nul", Fault::garbage, false},
-                                         StandFault{"nan", Fault::garbage, false},
-                                         StandFault{"huge", Fault::garbage, false},
-                                         StandFault{"no_travel", Fault::truncated, false},
-                                         StandFault{"swap", Fault::truncated, false},
-                                         StandFault{"unit_change", Fault::unit_changed, false},
-                                         StandFault{"travel_unit_change", Fault::none, false}),
-                         [](const auto& one) { return std::string(one.param.kind); });
+INSTANTIATE_TEST_SUITE_P(
+    All, Mark10Faults,
+    testing::Values(
+        StandFault{"unplug", Fault::hung_up, true}, StandFault{"garbage", Fault::garbage, false},
+        StandFault{"truncate", Fault::truncated, false},
+        StandFault{"glue", Fault::truncated, false}, StandFault{"drop", Fault::silent, false},
+        StandFault{"duplicate", Fault::none, false},
+        StandFault{"error_reply", Fault::error_reply, false},
+        StandFault{"unsolicited", Fault::none, false}, StandFault{"nul", Fault::garbage, false},
+        StandFault{"nan", Fault::garbage, false}, StandFault{"huge", Fault::garbage, false},
+        StandFault{"no_travel", Fault::truncated, false},
+        StandFault{"swap", Fault::truncated, false},
+        StandFault{"unit_change", Fault::unit_changed, false},
+        StandFault{"travel_unit_change", Fault::none, false},
+        StandFault{"freeze", Fault::none, false, "duration = \"0.1 s\"\n"},
+        StandFault{"stall", Fault::silent, false, "duration = \"0.1 s\"\n"},
+        StandFault{"deaf", Fault::silent, false, "duration = \"2 ms\"\n"},
+        StandFault{"echo", Fault::garbage, false, "duration = \"0.1 s\"\n"},
+        StandFault{"overload", Fault::overload, false, "duration = \"0.1 s\"\n"},
+        StandFault{"wrong_baud", Fault::silent, false, "duration = \"2 ms\"\n"},
+        StandFault{"slow", Fault::none, false, "duration = \"0.1 s\"\n"}),
+    [](const auto& one) { return std::string(one.param.kind); });
 
 }  // namespace
 }  // namespace palpate::device

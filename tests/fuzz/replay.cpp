@@ -1,53 +1,75 @@
 // Runs kept inputs, and variations of them, through a fuzz target without a fuzzer's library:
-// PROGRAM FOLDER [VARIATIONS]. A crash is the failure.
-#include <algorithm>
+//   PROGRAM INPUTS.hex VARIATIONS       each input and so many variations of it
+//   PROGRAM INPUTS.hex --unpack FOLDER  one file an input, as a fuzzer wants them
+// A crash is the failure.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: %s FOLDER [VARIATIONS]\n", argv[0]);
-    return 2;
+namespace {
+
+std::vector<std::string> read_inputs(const char* path) {
+  std::ifstream stream(path);
+  std::vector<std::string> inputs;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with('#')) continue;
+    std::string input;
+    for (std::size_t i = 0; i + 1 < line.size(); i += 2)
+      input += static_cast<char>(std::stoi(line.substr(i, 2), nullptr, 16));
+    inputs.push_back(input);
   }
-  std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(argv[1]))
-    paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
-  const int variations = argc > 2 ? std::atoi(argv[2]) : 0;
-  std::mt19937 random(1);
-  long runs = 0;
-  for (const auto& path : paths) {
-    std::ifstream stream(path, std::ios::binary);
-    const std::string kept{std::istreambuf_iterator<char>(stream), {}};
-    const auto run = [&](const std::string& text) {
-      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-      ++runs;
-    };
-    run(kept);
-    for (int i = 0; i < variations; ++i) {
-      std::string text = kept;
-      for (unsigned edits = 1 + random() % 4; edits > 0 && !text.empty(); --edits) {
-        const std::size_t at = random() % text.size();
-        switch (random() % 4) {
-          case 0: text[at] = static_cast<char>(random() % 256); break;
-          case 1: text.erase(at, 1 + random() % 8); break;
-          case 2: text.insert(at, text.substr(random() % text.size(), random() % 16)); break;
-          default: text[at] = static_cast<char>(text[at] ^ (1 << random() % 8)); break;
-        }
-      }
-      run(text);
+  return inputs;
+}
+
+std::string variation(std::string text, std::mt19937& random) {
+  for (unsigned edits = 1 + random() % 4; edits > 0 && !text.empty(); --edits) {
+    const std::size_t at = random() % text.size();
+    switch (random() % 4) {
+      case 0: text[at] = static_cast<char>(random() % 256); break;
+      case 1: text.erase(at, 1 + random() % 8); break;
+      case 2: text.insert(at, text.substr(random() % text.size(), random() % 16)); break;
+      default: text[at] = static_cast<char>(text[at] ^ (1 << random() % 8)); break;
     }
   }
+  return text;
+}
+
+void run(const std::string& text) {
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 2 ? argv[2] : "";
+  const std::vector<std::string> inputs =
+      argc > 2 ? read_inputs(argv[1]) : std::vector<std::string>();
+  if (inputs.empty()) {
+    std::fprintf(stderr, "usage: %s INPUTS.hex VARIATIONS|--unpack FOLDER\n", argv[0]);
+    return 2;
+  }
+  if (what == "--unpack" && argc > 3) {
+    std::filesystem::create_directories(argv[3]);
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      std::ofstream(std::filesystem::path(argv[3]) / std::to_string(i), std::ios::binary)
+          << inputs[i];
+    return 0;
+  }
+  std::mt19937 random(1);
+  long runs = 0;
+  for (const std::string& input : inputs) {
+    run(input);
+    ++runs;
+    for (int i = std::atoi(what.c_str()); i > 0; --i, ++runs) run(variation(input, random));
+  }
   std::printf("%ld inputs\n", runs);
-  return paths.empty() ? 1 : 0;
+  return 0;
 }

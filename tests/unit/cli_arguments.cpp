@@ -85,13 +85,13 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
   const std::pair<Words, const char*> cases[] = {
       {{},
        "`palpate` wants a verb: run, explain, fit, compare, golden, mesh, reference, bench, chart, "
-       "stability, sweep, identify, export, manual; `palpate "
+       "stability, sweep, identify, export, device, manual; `palpate "
        "--help` shows "
        "how to write it"},
       {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
       {{"xyzzy"},
        "unknown verb `xyzzy`; known: run, explain, fit, compare, golden, mesh, reference, bench, "
-       "chart, stability, sweep, identify, export, manual"},
+       "chart, stability, sweep, identify, export, device, manual"},
       {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
       {{"golden"},
        "`palpate golden` wants a verb: bless; `palpate golden --help` shows how to write "

@@ -78,6 +78,21 @@ TEST(Arm, ClampsTheNormAndTheChange) {
   EXPECT_EQ(ready.safety.counts().slewed, 39u);  // 2 N at 0.05 N a frame: 40 frames, the last whole
 }
 
+// A hand that was pulled along and turns back is braked in the direction of the force itself.
+TEST(Arm, ClampsWhatTheControllerAdds) {
+  Ready ready{ArmRules{}};
+  double x = 0.0;
+  double most = 0.0;
+  for (int i = 0; i < 140; ++i) {
+    const double v = i < 100 ? 0.5 : -0.5;
+    x += v * frame;
+    most = std::max(most, ready.step(at({x, 0.0, 0.0}, {v, 0.0, 0.0}), {2.0, 0.0, 0.0}).norm());
+  }
+  EXPECT_GT(ready.safety.counts().damped, 100u);
+  EXPECT_LT(ready.safety.observer().energy(), 0.0);
+  EXPECT_NEAR(most, 2.0, 1e-12);  // rounding
+}
+
 TEST(Arm, NeverSendsWhatIsNoNumber) {
   Ready ready{ArmRules{}};
   for (int i = 0; i < 50; ++i) ready.step(at(Vec3::Zero()), {1.0, 0.0, 0.0});

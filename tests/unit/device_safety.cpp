@@ -194,7 +194,7 @@ TEST(Stand, StopsForGoodAtItsForceCeilingWhateverTheSign) {
 TEST(Stand, StopsBeyondItsTravelAndAtAnOverload) {
   StandSafety beyond(stand_rules);
   EXPECT_EQ(beyond.step(0.0, at(-10.05e-3, 0.0)), Verdict::go_on);  // its way to a stand-still
-  EXPECT_EQ(beyond.step(0.0, at(-10.2e-3, 0.0)), Verdict::stop);
+  EXPECT_EQ(beyond.step(0.02, at(-10.2e-3, 0.0)), Verdict::stop);
   EXPECT_EQ(beyond.tripped(), Trip::travel);
   StandSafety overloaded(stand_rules);
   Sample sample;
@@ -202,6 +202,21 @@ TEST(Stand, StopsBeyondItsTravelAndAtAnOverload) {
   sample.fault = Fault::overload;
   EXPECT_EQ(overloaded.step(0.0, sample), Verdict::stop);
   EXPECT_EQ(overloaded.tripped(), Trip::overload);
+}
+
+TEST(Stand, DropsAJumpAndStopsWhereItStays) {
+  StandSafety stand(stand_rules);
+  EXPECT_EQ(stand.step(0.0, at(5e-3, 0.0)), Verdict::go_on);
+  ASSERT_TRUE(stand.arm(Fault::none));
+  EXPECT_EQ(stand.step(0.02, at(-5e-3, 0.0)), Verdict::go_on);  // a digit was lost
+  EXPECT_EQ(stand.step(0.04, at(4.9e-3, 0.0)), Verdict::go_on);
+  EXPECT_EQ(stand.step(0.06, at(0.0, 0.0)), Verdict::go_on);
+  EXPECT_EQ(stand.step(0.08, at(0.0, 0.0)), Verdict::stop);  // its zero is another one
+  EXPECT_EQ(stand.tripped(), Trip::jump);
+  // At its fastest it goes 0.4 mm in a period, which is no jump.
+  StandSafety moving(stand_rules);
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(moving.step(0.02 * i, at(-0.37e-3 * i, 0.0)), Verdict::go_on);
 }
 
 TEST(Stand, MovesAwayFromALimitOnly) {

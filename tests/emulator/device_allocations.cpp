@@ -1,0 +1,76 @@
+// Nothing is allocated once a link is open: a loop that asks and commands a thousand times takes
+// no memory.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "device/arm_safety.h"
+#include "device/health.h"
+#include "device/link.h"
+#include "device/ring.h"
+#include "live_emulator.h"
+
+namespace {
+
+long allocations = 0;
+
+}  // namespace
+
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace palpate::device {
+namespace {
+
+TEST(LinkAllocations, AreNoneInTheArmsLoop) {
+  const test::LiveEmulator emulator({"inverse3", "--clock", "virtual"});
+  Clock clock(Clock::Kind::stepped);
+  Link link("inverse3:127.0.0.1:" + emulator.port(), Purpose::command, clock);
+  ArmSafety safety{ArmRules{}};
+  Health health;
+  static Ring<Sample, 4096> ring;
+  const long before = allocations;
+  int fresh = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Sample sample = link.sample(0.5);
+    clock.sleep_until(clock.now() + 1e-3);
+    health.count(clock.now(), sample);
+    if (safety.take(clock.now(), sample)) ++fresh;
+    if (i == 10) safety.arm(clock.now(), -1.0);
+    ASSERT_EQ(link.command_force(safety.allow(clock.now(), {0.0, 0.0, 0.5})), Fault::none);
+    ring.push(sample);
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(fresh, 1000);
+  EXPECT_GT(safety.sent().z(), 0.4);
+}
+
+TEST(LinkAllocations, AreNoneInTheStandsLoop) {
+  const test::LiveEmulator emulator({"mark10", "--clock", "virtual", "--tissue", "none"});
+  Clock clock(Clock::Kind::monotonic);
+  Link link("mark10:" + emulator.port(), Purpose::command, clock);
+  ASSERT_EQ(link.set_travel_limits(-5e-3, 5e-3), Fault::none);
+  const long before = allocations;
+  int fresh = 0;
+  for (int i = 0; i < 100; ++i) {
+    if (i == 10) {
+      EXPECT_EQ(link.command_motion({Motion::Act::down, 1e-3}), Fault::none);
+    }
+    if (i == 50) {
+      EXPECT_TRUE(link.stop());
+    }
+    if (link.sample(0.5).arrival == Arrival::fresh) ++fresh;
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(fresh, 100);
+}
+
+}  // namespace
+}  // namespace palpate::device

@@ -1,0 +1,243 @@
+// Every fault of the arm does what its line in the list says.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "emulator/arm.h"
+
+namespace emulator {
+namespace {
+
+using nlohmann::json;
+
+Fault fault(const std::string& kind, std::int64_t after, std::optional<Nanoseconds> duration = {},
+            double value = 0.0) {
+  for (const FaultKind& known : arm_faults())
+    if (known.name == kind)
+      return {.kind = kind,
+              .life = known.life,
+              .after_messages = after,
+              .duration = duration,
+              .value = value};
+  ADD_FAILURE() << "no fault " << kind;
+  return {};
+}
+
+const std::string push = R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":
+    {"vector":{"x":0,"y":0,"z":2.0}}}}]})";
+
+class Client {
+ public:
+  explicit Client(const Fault& fault) : arm(settings(fault), log_) {}
+  Answer say() { return arm.answer(push); }
+  std::string text() { return one(say()); }
+  json device() { return json::parse(text())["inverse3"][0]; }
+  static std::string one(const Answer& answer) {
+    EXPECT_EQ(answer.messages.size(), 1U);
+    return answer.messages.empty() ? "" : answer.messages[0].text;
+  }
+
+ private:
+  static ArmSettings settings(const Fault& fault) {
+    ArmSettings settings;
+    settings.clock = Clock::lockstep;
+    settings.faults = {fault};
+    return settings;
+  }
+  Log log_{"", ""};
+
+ public:
+  Arm arm;
+};
+
+bool sound(const std::string& text) {
+  const json message = json::parse(text, nullptr, false);
+  return message.is_object() && message["inverse3"].size() == 1 &&
+         message["inverse3"][0]["device_id"] == "049D" &&
+         message["inverse3"][0]["state"]["cursor_position"]["z"].is_number() &&
+         message["inverse3"][0]["state"]["cursor_position"]["z"] < 1.0;
+}
+
+// Those that spoil the text of one reply: the one before and the one after are sound.
+TEST(EmulatorArmFaults, SpoilOneReply) {
+  const std::pair<const char*, bool (*)(const std::string&)> rows[] = {
+      {"invalid_json", [](const std::string& text) { return !json::accept(text); }},
+      {"partial",
+       [](const std::string& text) { return !json::accept(text) && text.starts_with("{\"inv"); }},
+      {"missing_field",
+       [](const std::string& text) {
+         const json state = json::parse(text)["inverse3"][0]["state"];
+         return !state.contains("cursor_position") && state.contains("cursor_velocity");
+       }},
+      {"wrong_type",
+       [](const std::string& text) {
+         return json::parse(text)["inverse3"][0]["state"]["cursor_position"]["x"].is_string();
+       }},
+      {"empty", [](const std::string& text) { return text == "{}"; }},
+      {"no_device",
+       [](const std::string& text) { return json::parse(text)["inverse3"] == json::array(); }},
+      {"nan",
+       [](const std::string& text) {
+         return !json::accept(text) && text.find("\"z\":NaN") != std::string::npos;
+       }},
+      {"huge",
+       [](const std::string& text) {
+         return json::parse(text)["inverse3"][0]["state"]["cursor_position"]["z"] == 1e308;
+       }},
+      {"velocity_spike",
+       [](const std::string& text) {
+         return json::parse(text)["inverse3"][0]["state"]["cursor_velocity"]["z"] == -1000.0;
+       }},
+  };
+  for (const auto& [kind, spoilt] : rows) {
+    Client client(fault(kind, 1));
+    EXPECT_TRUE(sound(client.text())) << kind;
+    EXPECT_TRUE(spoilt(client.text())) << kind;
+    const std::string after = client.text();
+    EXPECT_TRUE(sound(after)) << kind;
+    EXPECT_FALSE(spoilt(after)) << kind;
+  }
+}
+
+TEST(EmulatorArmFaults, BinaryIsTheSameInAnotherKindOfMessage) {
+  Client client(fault("binary", 1));
+  EXPECT_FALSE(client.say().messages.at(0).binary);
+  const Answer odd = client.say();
+  EXPECT_TRUE(odd.messages.at(0).binary);
+  EXPECT_TRUE(sound(odd.messages.at(0).text));
+  EXPECT_FALSE(client.say().messages.at(0).binary);
+}
+
+TEST(EmulatorArmFaults, RepliesAreLostDoubledAndReordered) {
+  Client drop(fault("drop", 1));
+  EXPECT_EQ(drop.say().messages.size(), 1U);
+  EXPECT_EQ(drop.say().messages.size(), 0U);
+  EXPECT_EQ(drop.say().messages.size(), 1U);
+  Client duplicate(fault("duplicate", 1));
+  duplicate.say();
+  const Answer twice = duplicate.say();
+  ASSERT_EQ(twice.messages.size(), 2U);
+  EXPECT_EQ(twice.messages[0].text, twice.messages[1].text);
+  Client reorder(fault("reorder", 1));
+  Client plain(fault("reorder", 100));
+  reorder.say();
+  plain.say();
+  const std::string second = plain.text();
+  const std::string third = plain.text();
+  EXPECT_EQ(reorder.say().messages.size(), 0U);
+  const Answer both = reorder.say();
+  ASSERT_EQ(both.messages.size(), 2U);
+  EXPECT_EQ(both.messages[0].text, third);
+  EXPECT_EQ(both.messages[1].text, second);
+}
+
+TEST(EmulatorArmFaults, LateTakesItsTime) {
+  Client client(fault("late", 1, {}, 0.03));
+  client.say();
+  const Answer late = client.say();
+  EXPECT_EQ(late.messages.at(0).delay, 30'000'000);
+  EXPECT_EQ(client.arm.now(), 2'000'000 + 30'000'000) << "the hand moves on meanwhile";
+  EXPECT_EQ(client.say().messages.at(0).delay, 0);
+}
+
+TEST(EmulatorArmFaults, ConnectionsEnd) {
+  const std::pair<const char*, Act> rows[] = {{"rst", Act::reset_connection},
+                                              {"close_1000", Act::close_normal},
+                                              {"close_1011", Act::close_error},
+                                              {"reset", Act::restart}};
+  for (const auto& [kind, act] : rows) {
+    Client client(fault(kind, 1));
+    EXPECT_EQ(client.say().act, Act::none) << kind;
+    const Answer end = client.say();
+    EXPECT_EQ(end.act, act) << kind;
+    EXPECT_TRUE(end.messages.empty()) << kind;
+    EXPECT_EQ(client.say().act, Act::none) << kind;
+  }
+  Client client(fault("reset", 0));
+  const int before = json::parse(client.arm.greet().text)["session_id"];
+  client.say();
+  EXPECT_NE(json::parse(client.arm.greet().text)["session_id"], before);
+}
+
+TEST(EmulatorArmFaults, HalfOpenIsSilent) {
+  Client client(fault("half_open", 1));
+  client.say();
+  EXPECT_FALSE(client.arm.silent());
+  EXPECT_TRUE(client.say().messages.empty());
+  EXPECT_TRUE(client.arm.silent());
+}
+
+TEST(EmulatorArmFaults, DevicesChange) {
+  Client id(fault("id_change", 1, 2'000'000));
+  EXPECT_EQ(id.device()["device_id"], "049D");
+  EXPECT_EQ(id.device()["device_id"], "0BAD");
+  id.say();
+  EXPECT_EQ(id.device()["device_id"], "049D");
+  Client second(fault("second_device", 1));
+  EXPECT_EQ(json::parse(second.text())["inverse3"].size(), 1U);
+  const json two = json::parse(second.text())["inverse3"];
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_EQ(two[0]["device_id"], "0BAD");
+  EXPECT_EQ(two[1]["device_id"], "049D");
+}
+
+TEST(EmulatorArmFaults, ThePositionLies) {
+  Client jump(fault("jump", 1, {}, 0.05));
+  const double before = jump.device()["state"]["cursor_position"]["z"];
+  const double told = jump.device()["state"]["cursor_position"]["z"];
+  EXPECT_NEAR(told - before, 0.05, 1e-4);  // and a millisecond's way
+  EXPECT_NEAR(told - 0.05, jump.arm.hand().position[2], 1e-15) << "the hand itself does not jump";
+  Client freeze(fault("freeze", 1, 5'000'000));
+  const json first = freeze.device()["state"];
+  EXPECT_EQ(freeze.device()["state"], first);
+  EXPECT_EQ(freeze.device()["state"], first);
+  for (int i = 0; i < 4; ++i) freeze.say();
+  EXPECT_NE(freeze.device()["state"], first);
+}
+
+TEST(EmulatorArmFaults, TheBrakeHoldsAndIsReported) {
+  Client client(fault("brake", 3, 5'000'000));
+  for (int i = 0; i < 3; ++i) client.say();
+  EXPECT_TRUE(client.arm.take_events().empty());
+  const double z = client.arm.hand().position[2];
+  const json braked = client.device();
+  EXPECT_EQ(braked["state"]["control_mode"], "idle");
+  EXPECT_EQ(client.arm.force(), Vec3{});
+  EXPECT_EQ(client.arm.hand().position[2], z);
+  const auto events = client.arm.take_events();
+  ASSERT_EQ(events.size(), 1U);
+  const json event = json::parse(events[0]);
+  EXPECT_EQ(event["name"], "device-safety-triggered");
+  EXPECT_EQ(event["level"], "error");
+  EXPECT_EQ(event["data"]["safety_type"], "ebrake_triggered");
+  EXPECT_EQ(event["data"]["device_id"], "049D");
+  for (int i = 0; i < 8; ++i) client.say();
+  EXPECT_EQ(json::parse(client.arm.take_events().at(0))["data"]["safety_type"], "ebrake_released");
+  EXPECT_EQ(client.arm.force()[2], 2.0);
+}
+
+TEST(EmulatorArmFaults, NotReadyTakesNoForce) {
+  Client client(fault("not_ready", 1, 3'000'000));
+  EXPECT_EQ(client.device()["status"]["ready"], true);
+  const json device = client.device();
+  EXPECT_EQ(device["status"]["ready"], false);
+  EXPECT_EQ(device["status"]["calibrated"], false);
+  EXPECT_EQ(client.arm.force(), Vec3{});
+  for (int i = 0; i < 4; ++i) client.say();
+  EXPECT_EQ(client.arm.force()[2], 2.0);
+}
+
+TEST(EmulatorArmFaults, BeginAtTheirTime) {
+  Fault timed = fault("empty", 0);
+  timed.after_messages.reset();
+  timed.at = 4'500'000;
+  Client client(timed);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(sound(client.text()));
+  EXPECT_EQ(client.text(), "{}");
+  EXPECT_TRUE(sound(client.text()));
+}
+
+}  // namespace
+}  // namespace emulator
