@@ -74,6 +74,11 @@ class Want {
       window.met = window.met || same(got, cell);
       if (const double* value = finite(cell)) window.take(*value);
     }
+    // Between two rows a word is what either of them says.
+    if (first == last && finite(got) == nullptr)
+      for (const auto i : {first - 1, first})
+        if (i >= 0 && i < static_cast<std::ptrdiff_t>(xs.size()))
+          window.met = window.met || same(got, at(i));
     edge(first, x - width, window);
     edge(last, x + width, window);
     return window;

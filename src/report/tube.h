@@ -9,8 +9,9 @@ namespace palpate::report {
 
 // Every value of GOT against what WANT has within the tube's width of the same x, along straight
 // lines between its rows, of the same `case` where both tables have that column; the rows of a case
-// stand by rising x. Words and what is not finite are to be the same as in one of those rows. The
-// worst row's `want` is the nearest value that would have been equal. Both have the columns.
+// stand by rising x. Words and what is not finite are to be the same as in one of those rows, or,
+// where the tube holds none, as in one of the two around it. The worst row's `want` is the nearest
+// value that would have been equal. Both have the columns.
 [[nodiscard]] ColumnComparison compare_in_tube(const record::Table& got, const record::Table& want,
                                                const std::string& name,
                                                const Tolerances& tolerances);
