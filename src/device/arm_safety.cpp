@@ -77,7 +77,7 @@ Vec3 ArmSafety::allow(double now, const Vec3& wanted) {
   // A fall that another rule asks for is not to be held up by the slew.
   const bool falls = staleness_.state() == Staleness::State::stale || !arming_.armed();
   const double rate = falls ? std::max(rules_.slew, rules_.force / rules_.stale.fall) : rules_.slew;
-  const Vec3 sent = slew_.step(force, dt, rate);
+  Vec3 sent = slew_.step(force, dt, rate);
   if (sent != force) ++counts_.slewed;
   return sent;
 }

@@ -124,7 +124,7 @@ std::string parse_version(std::string_view body) {
   const Json* data = member(all, "data");
   if (data == nullptr) data = &all;
   for (const char* name : {"project_version", "git_tag", "version"}) {
-    const std::string version = text_of(data, name);
+    std::string version = text_of(data, name);
     if (!version.empty() && version.size() < 64) return version;
   }
   return {};

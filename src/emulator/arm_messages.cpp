@@ -7,15 +7,15 @@
 namespace emulator {
 namespace {
 
-using json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
-json vec(const Vec3& v) { return {{"x", v[0]}, {"y", v[1]}, {"z", v[2]}}; }
-json angles() { return {{"a0", 0.0}, {"a1", 0.0}, {"a2", 0.0}}; }
-json unit_quaternion() { return {{"w", 1.0}, {"x", 0.0}, {"y", 0.0}, {"z", 0.0}}; }
+Json vec(const Vec3& v) { return {{"x", v[0]}, {"y", v[1]}, {"z", v[2]}}; }
+Json angles() { return {{"a0", 0.0}, {"a1", 0.0}, {"a2", 0.0}}; }
+Json unit_quaternion() { return {{"w", 1.0}, {"x", 0.0}, {"y", 0.0}, {"z", 0.0}}; }
 
 const char* spelling(Service service) { return service == Service::v3_1 ? "values" : "vector"; }
 
-json state_of(const ArmState& state, Service service) {
+Json state_of(const ArmState& state, Service service) {
   if (service == Service::v3_1)  // the 3.1 page has no forces and calls the mode `mode`
     return {{"angular_position", angles()},           {"angular_velocity", angles()},
             {"body_orientation", unit_quaternion()},  {"cursor_position", vec(state.position)},
@@ -35,11 +35,11 @@ json state_of(const ArmState& state, Service service) {
            {{"position", vec({})}, {"rotation", unit_quaternion()}, {"scale", vec({1, 1, 1})}}}};
 }
 
-json config_of(const ArmState& state, Service service) {
-  json info{{"major_version", 7}, {"minor_version", 4}, {"id", state.device_id}};
+Json config_of(const ArmState& state, Service service) {
+  Json info{{"major_version", 7}, {"minor_version", 4}, {"id", state.device_id}};
   info[service == Service::v3_1 ? "model" : "device_type"] = 4;
   info["uuid"] = "2D35F80DD9005F599B68F49944CB" + state.device_id;
-  json config{{"type", "inverse3"},
+  Json config{{"type", "inverse3"},
               {"port", "emulated"},
               {"device_info", info},
               {"extended_device_id", info["uuid"]},
@@ -58,7 +58,7 @@ json config_of(const ArmState& state, Service service) {
   return config;
 }
 
-json status_of(const ArmState& state) {
+Json status_of(const ArmState& state) {
   return {{"calibrated", state.ready},
           {"in_use", state.in_use},
           {"power_supply", true},
@@ -66,15 +66,15 @@ json status_of(const ArmState& state) {
           {"started", true}};
 }
 
-json device_of(const ArmState& state, Service service, Extent extent) {
-  json device{{"device_id", state.device_id}};
+Json device_of(const ArmState& state, Service service, Extent extent) {
+  Json device{{"device_id", state.device_id}};
   if (extent == Extent::full) device["config"] = config_of(state, service);
   device["state"] = state_of(state, service);
   device["status"] = status_of(state);
   return device;
 }
 
-std::optional<Vec3> vector_in(const json& from) {
+std::optional<Vec3> vector_in(const Json& from) {
   if (!from.is_object()) return {};
   Vec3 v{};
   constexpr std::array names{"x", "y", "z"};
@@ -86,7 +86,7 @@ std::optional<Vec3> vector_in(const json& from) {
   return v;
 }
 
-void read_force(const json& commands, Service service, Request& request) {
+void read_force(const Json& commands, Service service, Request& request) {
   const auto command = commands.find("set_cursor_force");
   if (command == commands.end() || !command->is_object()) return;
   const auto vector = command->find(spelling(service));
@@ -103,9 +103,9 @@ void read_force(const json& commands, Service service, Request& request) {
   for (std::size_t i = 0; i < 3; ++i) (*request.force)[i] += (*force)[i];  // additive in a tick
 }
 
-void read_session(const json& session, Request& request) {
+void read_session(const Json& session, Request& request) {
   request.full_state = session.contains("force_render_full_state");
-  const json* at = &session;
+  const Json* at = &session;
   for (const char* key : {"configure", "profile", "name"}) {
     if (!at->is_object() || !at->contains(key)) return;
     at = &at->at(key);
@@ -117,7 +117,7 @@ void read_session(const json& session, Request& request) {
 
 Request parse_request(const std::string& text, Service service, const std::string& device_id) {
   Request request;
-  const json message = json::parse(text, nullptr, false);
+  const Json message = Json::parse(text, nullptr, false);
   request.json = message.is_object();
   if (!request.json) {
     request.remark = "no JSON object";
@@ -127,9 +127,9 @@ Request parse_request(const std::string& text, Service service, const std::strin
   if (session != message.end() && session->is_object()) read_session(*session, request);
   const auto devices = message.find("inverse3");
   if (devices == message.end() || !devices->is_array()) return request;
-  for (const json& device : *devices) {
+  for (const Json& device : *devices) {
     if (!device.is_object() || !device.contains("commands")) continue;
-    if (device.value("device_id", json()) != device_id) {
+    if (device.value("device_id", Json()) != device_id) {
       request.remark = "no such device";
       continue;
     }
@@ -139,25 +139,25 @@ Request parse_request(const std::string& text, Service service, const std::strin
 }
 
 std::string state_message(const ArmState& state, Service service, Extent extent, int session) {
-  json message;
+  Json message;
   if (extent == Extent::full && service == Service::v3_5) message["session_id"] = session;
-  message["inverse3"] = json::array({device_of(state, service, extent)});
+  message["inverse3"] = Json::array({device_of(state, service, extent)});
   if (extent == Extent::full) {
-    message["verse_grip"] = json::array();
-    message["wireless_verse_grip"] = json::array();
+    message["verse_grip"] = Json::array();
+    message["wireless_verse_grip"] = Json::array();
   }
   return message.dump();
 }
 
 std::string odd_message(const ArmState& state, Service service, const Oddity& oddity) {
-  json device = device_of(state, service, Extent::update);
-  json& position = device["state"]["cursor_position"];
+  Json device = device_of(state, service, Extent::update);
+  Json& position = device["state"]["cursor_position"];
   if (oddity.huge) position["z"] = 1e308;
   if (oddity.wrong_type)
     for (const char* axis : {"x", "y", "z"}) position[axis] = position[axis].dump();
   if (oddity.nan) position["z"] = "NaN";
   if (oddity.missing_field) device["state"].erase("cursor_position");
-  json devices = json::array();
+  Json devices = Json::array();
   if (oddity.second_device) {
     ArmState other = state;
     other.device_id = "0BAD";
@@ -165,14 +165,15 @@ std::string odd_message(const ArmState& state, Service service, const Oddity& od
     devices.push_back(device_of(other, service, Extent::update));
   }
   if (!oddity.no_device) devices.push_back(device);
-  std::string text = json{{"inverse3", devices}}.dump();
-  if (oddity.nan) text.replace(text.find("\"NaN\""), 5, "NaN");
+  std::string text = Json{{"inverse3", devices}}.dump();
+  const auto quoted = text.find("\"NaN\"");  // gone where the field is missing too
+  if (quoted != std::string::npos) text.replace(quoted, 5, "NaN");
   return text;
 }
 
 std::string version_body(Service service) {
   const std::string version = service == Service::v3_1 ? "3.1.0" : "3.5.0";
-  return json{{"build_time", "2024-08-07T16:01:53Z"},
+  return Json{{"build_time", "2024-08-07T16:01:53Z"},
               {"git_branch", "main"},
               {"git_describe", version + "-0-g00000000"},
               {"git_hash", "00000000"},
@@ -183,9 +184,9 @@ std::string version_body(Service service) {
 }
 
 std::string event_message(const Event& event, const std::string& device_id) {
-  json data{{"device_family", "inverse"}, {"device_id", device_id}};
+  Json data{{"device_family", "inverse"}, {"device_id", device_id}};
   if (!event.safety_type.empty()) data["safety_type"] = event.safety_type;
-  return json{{"name", event.name},
+  return Json{{"name", event.name},
               {"category", "device"},
               {"level", event.level},
               {"data", data},

@@ -30,7 +30,8 @@ void arrive(Crosshead& crosshead, double end) {
 void send_off(Crosshead& crosshead, int direction) {
   const double left = (end_of_way(crosshead, direction) - crosshead.position) * direction;
   crosshead.half_cycles = 0;
-  if (left <= 0.0) {
+  if (direction != crosshead.pressed) crosshead.pressed = 0;
+  if (left <= 0.0 || crosshead.pressed != 0) {
     crosshead.at_end = direction;
     halt(crosshead);
     return;

@@ -27,6 +27,7 @@ struct Crosshead {
   std::int64_t cycles_set = 1;
   std::int64_t half_cycles = 0;  // strokes that were finished
   int at_end = 0;                // -1 at the lower end of its way, 1 at the upper
+  int pressed = 0;               // the way a switch blocks though it is not at its end: a fault
 };
 
 // Sends it off. Nothing happens where it already stands at that end.

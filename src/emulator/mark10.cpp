@@ -91,7 +91,7 @@ void Mark10::apply(const Fault& fault) {
   if (fault.kind == "overload") halt(stand_.crosshead);
   if (fault.kind == "limit_switch") {
     Crosshead& head = stand_.crosshead;
-    head.at_end = head.velocity > 0.0 || head.direction > 0 ? 1 : -1;
+    head.at_end = head.pressed = head.velocity > 0.0 || head.direction > 0 ? 1 : -1;
     head.direction = 0;
     head.velocity = 0.0;
   }

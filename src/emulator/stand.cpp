@@ -194,7 +194,9 @@ void advance(Stand& stand, Nanoseconds time) {
     sample(stand.gauge, force);
     stand.deepest = std::max(stand.deepest, depth(stand));
     stand.greatest_force = std::max(stand.greatest_force, force);
-    if (overloaded(stand.gauge) && moves(stand.crosshead)) halt(stand.crosshead);
+    // Away from what loads it the way is free: a push is left upwards, a pull downwards.
+    const int loading = force < 0.0 ? 1 : -1;
+    if (overloaded(stand.gauge) && stand.crosshead.direction == loading) halt(stand.crosshead);
     put_out(stand, (stand.steps + 1) * 1'000'000'000 / rate);
   }
 }

@@ -5,10 +5,10 @@
 
 namespace emulator {
 
-// Young's modulus relaxes as a standard linear solid, E(t) = Einf + (E0 - Einf) exp(-t/tau).
+// Young's modulus relaxes as a standard linear solid, E(t) = E_inf + (E0 - E_inf) exp(-t/tau).
 struct TissueSettings {
   double E0 = 30e3;        // Pa, at once
-  double Einf = 12e3;      // Pa, after long
+  double E_inf = 12e3;     // Pa, after long
   double tau = 0.5;        // s
   double nu = 0.5;         // Poisson's ratio
   double R = 5e-3;         // m, of the indenter

@@ -179,7 +179,7 @@ TEST(EmulatorArm, IsIdleAfterSilenceAndWhenLeft) {
 TEST(EmulatorArm, MeetsItsOwnTissueIfThereIsOne) {
   ArmSettings settings = lockstep();
   settings.tissue =
-      TissueSettings{.E0 = 50e3, .Einf = 50e3, .tau = 1.0, .R = 8e-3, .surface = 0.145};
+      TissueSettings{.E0 = 50e3, .E_inf = 50e3, .tau = 1.0, .R = 8e-3, .surface = 0.145};
   settings.hand.waypoints = {{0.3, {0.0, -0.12, 0.14}}};
   Client client(settings);
   for (int i = 0; i < 1500; ++i) client.force(0.0);

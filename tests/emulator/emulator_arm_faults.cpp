@@ -101,6 +101,17 @@ TEST(EmulatorArmFaults, SpoilOneReply) {
   }
 }
 
+TEST(EmulatorArmFaults, MayComeTogether) {
+  ArmSettings settings;
+  settings.clock = Clock::lockstep;
+  for (const FaultKind& kind : arm_faults())
+    if (kind.life == Life::replies) settings.faults.push_back(fault(std::string(kind.name), 0));
+  Log log("", "");
+  Arm arm(settings, log);
+  for (int i = 0; i < 10; ++i) EXPECT_LE(arm.answer(push).messages.size(), 3U);
+  EXPECT_TRUE(sound(Client::one(arm.answer(push))));
+}
+
 TEST(EmulatorArmFaults, BinaryIsTheSameInAnotherKindOfMessage) {
   Client client(fault("binary", 1));
   EXPECT_FALSE(client.say().messages.at(0).binary);
@@ -131,6 +142,7 @@ TEST(EmulatorArmFaults, RepliesAreLostDoubledAndReordered) {
   ASSERT_EQ(both.messages.size(), 2U);
   EXPECT_EQ(both.messages[0].text, third);
   EXPECT_EQ(both.messages[1].text, second);
+  EXPECT_EQ(reorder.say().messages.size(), 1U);
 }
 
 TEST(EmulatorArmFaults, LateTakesItsTime) {

@@ -70,7 +70,7 @@ TEST(EmulatorDocs, ShowTheValuesThatStandWithoutAFile) {
   const TissueSettings tissue = read_tissue(folder.file("T.toml", block("# T.toml")));
   const TissueSettings soft;
   EXPECT_DOUBLE_EQ(tissue.E0, soft.E0);
-  EXPECT_DOUBLE_EQ(tissue.Einf, soft.Einf);
+  EXPECT_DOUBLE_EQ(tissue.E_inf, soft.E_inf);
   EXPECT_DOUBLE_EQ(tissue.tau, soft.tau);
   EXPECT_DOUBLE_EQ(tissue.nu, soft.nu);
   EXPECT_DOUBLE_EQ(tissue.R, soft.R);

@@ -156,7 +156,7 @@ TEST(EmulatorStand, WithoutItsOptionItOnlyReads) {
 
 TEST(EmulatorStand, ReadsWhatItsTissueGives) {
   Mark10Settings settings = quiet();
-  settings.stand.tissue = {.E0 = 40e3, .Einf = 40e3, .tau = 1.0, .R = 10e-3, .surface = -1e-3};
+  settings.stand.tissue = {.E0 = 40e3, .E_inf = 40e3, .tau = 1.0, .R = 10e-3, .surface = -1e-3};
   settings.stand.gauge.filter = 0;
   Conversation stand(settings);
   stand.say("lg-003.00e0300.0d");
@@ -164,6 +164,22 @@ TEST(EmulatorStand, ReadsWhatItsTissueGives) {
   // Elastic: F = 4/3 E/(1 - nu^2) sqrt(R) h^(3/2), h = 2 mm, nu = 0.5.
   const double force = 4.0 / 3.0 * 40e3 / 0.75 * std::sqrt(10e-3) * std::pow(2e-3, 1.5);
   EXPECT_EQ(stand.say("n"), in_steps(force, 2e-3) + " N\r\n-3.00 mm\r\n");
+}
+
+TEST(EmulatorStand, StopsWhenItsGaugeIsOverloaded) {
+  Mark10Settings settings = quiet();
+  settings.stand.tissue = {.E0 = 1e6, .E_inf = 1e6, .tau = 1.0, .R = 10e-3, .surface = 0.0};
+  Conversation stand(settings);
+  stand.say("e0060.0d");
+  for (int i = 0; i < 200; ++i) stand.say("p");
+  EXPECT_EQ(stand.say("p"), "SM\r\n");
+  EXPECT_EQ(stand.say("n").substr(0, 10), "OVERLOAD\r\n");
+  // 110 % of 10 N, and what one step and the braking way of 2.5 um add.
+  EXPECT_NEAR(stand.stand().greatest_force, 11.0, 0.1);
+  EXPECT_EQ(stand.say("dp"), "SM\r\n") << "no further";
+  stand.say("u");
+  for (int i = 0; i < 20; ++i) stand.say("p");
+  EXPECT_LT(std::stod(stand.say("n")), 11.0) << "back is free";
 }
 
 TEST(EmulatorStand, AnswersAtTheTicksOfTheVirtualClock) {

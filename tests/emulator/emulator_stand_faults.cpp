@@ -110,10 +110,11 @@ TEST(EmulatorStandFaults, DeafAndRunawayDoNotStop) {
   deaf.say("e0600.0dn");
   EXPECT_EQ(deaf.say("sp"), "");
   EXPECT_TRUE(moves(deaf->stand().crosshead));
-  Conversation runaway(quiet({fault("runaway", 1, 50 * ms)}));
+  Conversation runaway(quiet({fault("runaway", 1, 200 * ms)}));
   runaway.say("e0600.0dn");
-  EXPECT_EQ(runaway.say("sp"), "DM\r\n");
-  runaway.say("nnn");
+  runaway.say("snnnnn");  // 100 ms, twice what braking takes
+  EXPECT_EQ(runaway.say("p"), "DM\r\n");
+  runaway.say("nnnnn");
   runaway.say("snnn");
   EXPECT_FALSE(moves(runaway->stand().crosshead)) << "after its time it obeys again";
 }
@@ -149,7 +150,7 @@ TEST(EmulatorStandFaults, UnitsChangeByThemselves) {
 TEST(EmulatorStandFaults, TheGaugeLies) {
   Mark10Settings settings = quiet({fault("sign_flip", 6), fault("spike", 12, 50 * ms)});
   settings.faults[1].value = 5.0;
-  settings.stand.tissue = {.E0 = 40e3, .Einf = 40e3, .tau = 1.0, .R = 10e-3, .surface = 0.0};
+  settings.stand.tissue = {.E0 = 40e3, .E_inf = 40e3, .tau = 1.0, .R = 10e-3, .surface = 0.0};
   Conversation stand(settings);
   stand.say("lg-001.00e0600.0dxxxxx");
   const double pressed = std::stod(stand.say("n"));
@@ -192,7 +193,9 @@ TEST(EmulatorStandFaults, TheSwitchStopsAtOnce) {
   stand.say("i");
   EXPECT_EQ(stand.say("p"), "SMDL\r\n");
   EXPECT_EQ(stand->stand().crosshead.velocity, 0.0);
+  EXPECT_EQ(stand.say("dp"), "SMDL\r\n") << "it stays pressed";
   EXPECT_EQ(stand.say("up"), "UM\r\n") << "the way back is free";
+  EXPECT_EQ(stand.say("dp"), "DM\r\n") << "and then that way again";
 }
 
 TEST(EmulatorStandFaults, ResetForgetsSettings) {

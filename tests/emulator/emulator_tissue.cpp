@@ -9,7 +9,7 @@ namespace emulator {
 namespace {
 
 constexpr double dt = 1.0 / 7000.0;  // s, the stand's step
-const TissueSettings skin{.E0 = 40e3, .Einf = 10e3, .tau = 0.3, .nu = 0.45, .R = 6e-3};
+const TissueSettings skin{.E0 = 40e3, .E_inf = 10e3, .tau = 0.3, .nu = 0.45, .R = 6e-3};
 
 // F = C int_0^t E(t - s) 3/2 v^(3/2) s^(1/2) ds by Simpson; s = u^2 takes the root away.
 double ramp_force(double speed, double t) {
@@ -18,7 +18,7 @@ double ramp_force(double speed, double t) {
   double sum = 0.0;
   for (int i = 0; i <= intervals; ++i) {
     const double u = i * width;
-    const double modulus = skin.Einf + (skin.E0 - skin.Einf) * std::exp(-(t - u * u) / skin.tau);
+    const double modulus = skin.E_inf + (skin.E0 - skin.E_inf) * std::exp(-(t - u * u) / skin.tau);
     const double weight = i == 0 || i == intervals ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
     sum += weight * modulus * 3.0 * speed * std::sqrt(speed) * u * u;
   }
@@ -47,7 +47,7 @@ TEST(EmulatorTissue, HoldsAsItsModulusRelaxes) {
   }
   const double late = relaxation_force(skin, depth, 100.0);
   const double coefficient = 4.0 / 3.0 * std::sqrt(skin.R) / (1.0 - skin.nu * skin.nu);
-  EXPECT_NEAR(late, coefficient * skin.Einf * std::pow(depth, 1.5), 1e-12 * late);  // rounding
+  EXPECT_NEAR(late, coefficient * skin.E_inf * std::pow(depth, 1.5), 1e-12 * late);  // rounding
 }
 
 TEST(EmulatorTissue, FollowsTheIntegralOnARamp) {
