@@ -106,6 +106,7 @@ Live::Live(const scene::Scene& scene, const LiveOptions& options)
       clock_(clock_of(options)),
       tap_(options.traffic == LiveOptions::Traffic::kept ? std::make_unique<device::Tap>()
                                                          : nullptr),
+      model_(std::make_unique<LiveModel>(scene)),
       link_(options.link, purpose_of(options), clock_, tap_.get()) {}
 
 Live::~Live() = default;
@@ -150,7 +151,8 @@ std::vector<std::string> Live::plan(const std::string& file) {
                                 quantity_text(limits.period, unit::ms) +
                                 "; set `solver.time_step` to that");
   if (identity.kind == Kind::recording) return lines;
-  cost_ = predict_cost(*scene_, limits.period, cost_frames);
+  cost_ = predict_cost(*scene_, *model_, limits.period, cost_frames);
+  if (!model_->start_again()) model_ = std::make_unique<LiveModel>(*scene_);
   const std::string cost = "the model takes " + rounded_text(1e6 * cost_.median, 3) +
                            " us a frame, " + rounded_text(1e6 * cost_.p99, 3) +
                            " us in one of 100, of " + rounded_text(1e6 * limits.period, 3) + " us";
@@ -170,7 +172,7 @@ std::vector<std::string> Live::plan(const std::string& file) {
 
 Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(int)>& on_step) {
   Result result;
-  LiveModel model(*scene_);
+  LiveModel& model = *model_;
   device::Health health;
   LiveLog log(on_step, tap_.get());
   if (options_->priority == LiveOptions::Priority::realtime) {

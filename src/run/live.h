@@ -44,6 +44,7 @@ class Live {
   const LiveOptions* options_;
   device::Clock clock_;
   std::unique_ptr<device::Tap> tap_;  // where the traffic is kept
+  std::unique_ptr<LiveModel> model_;  // before the link: what takes long is done when it opens
   device::Link link_;
   FrameCost cost_;
   std::vector<std::string> notes_;

@@ -9,7 +9,7 @@
 
 namespace palpate::run {
 
-LiveModel::LiveModel(const scene::Scene& scene) : scene_(&scene), history_(scene) {
+LiveModel::LiveModel(const scene::Scene& scene) : scene_(&scene), history_(std::in_place, scene) {
   touch_.contacts.reserve(scene.finger.centres.size());
   if (!scene.specimen) {
     first_ = scene::pressed_place(scene);
@@ -42,7 +42,7 @@ std::optional<std::string> LiveModel::go_to(const Vec3& offset, double time) {
     set(offset);
     const Vec3 sideways(offset.x(), offset.y(), 0.0);
     if (auto wrong = press_half_space(*scene_, first_ + sideways, touch_)) return wrong;
-    history_.pass(*scene_, passed, touch_);
+    history_->pass(*scene_, passed, touch_);
     return std::nullopt;
   }
   // Steps by their number, so that their times carry no sum's rounding.
@@ -53,9 +53,22 @@ std::optional<std::string> LiveModel::go_to(const Vec3& offset, double time) {
     const double share = passed > 0.0 ? std::clamp((begin_ + now - start) / passed, 0.0, 1.0) : 1.0;
     const Vec3 place = from + share * (offset - from);
     set(place);
-    if (auto wrong = mesh_->step(first_ + place, now, history_, touch_)) return wrong;
+    if (auto wrong = mesh_->step(first_ + place, now, *history_, touch_)) return wrong;
   }
   return std::nullopt;
+}
+
+bool LiveModel::start_again() {
+  if (wrong_ || (mesh_ && !mesh_->forces_follow_finger())) return false;
+  history_.emplace(*scene_);
+  touch_.contacts.clear();
+  touch_.travel = touch_.slide = 0.0;
+  touch_.finger = mesh_ ? first_ : Vec3(first_ + scene_->finger.sphere_radius * Vec3::UnitZ());
+  offset_ = Vec3::Zero();
+  time_ = begin_ = 0.0;
+  steps_ = 0;
+  any_ = false;
+  return true;
 }
 
 std::optional<std::string> LiveModel::follow(const Vec3& offset, double time) {
@@ -74,9 +87,8 @@ std::optional<double> LiveModel::imbalance() {
   return mesh_ ? std::optional(mesh_->imbalance()) : std::nullopt;
 }
 
-FrameCost predict_cost(const scene::Scene& scene, double frame, int frames) {
+FrameCost predict_cost(const scene::Scene& scene, LiveModel& model, double frame, int frames) {
   using Clock = std::chrono::steady_clock;
-  LiveModel model(scene);
   const double deepest = scene::deepest_travel(scene.scenario, scene.law());
   std::vector<double> times;
   FrameCost cost;

@@ -23,6 +23,10 @@ class LiveModel {
   // way waits for the next call. Returns what is wrong where the model ends; it stays wrong.
   [[nodiscard]] std::optional<std::string> follow(const Vec3& offset, double time);
 
+  // As at the start, but that the mesh may still swing: only of a model whose forces do not feel
+  // that; false otherwise, and where it has gone wrong.
+  [[nodiscard]] bool start_again();
+
   [[nodiscard]] const Touch& touch() const { return touch_; }
   // N, on the finger: normal forces and friction.
   [[nodiscard]] Vec3 force() const;
@@ -35,7 +39,7 @@ class LiveModel {
   [[nodiscard]] std::optional<std::string> go_to(const Vec3& offset, double time);
 
   const scene::Scene* scene_;
-  ContactHistory history_;
+  std::optional<ContactHistory> history_;
   std::optional<PressedMesh> mesh_;
   Vec3 first_ =
       Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
@@ -57,8 +61,9 @@ struct FrameCost {
   std::optional<std::string> wrong;  // where the model ends before it
 };
 
-// Presses a model of its own to the deepest travel of the scene's programme in `frames` frames of
-// `frame` s, with a clock around each; as many before them are not counted.
-[[nodiscard]] FrameCost predict_cost(const scene::Scene& scene, double frame, int frames);
+// Presses the model, which is at its start, to the deepest travel of the scene's programme in
+// `frames` frames of `frame` s, with a clock around each; as many before them are not counted.
+[[nodiscard]] FrameCost predict_cost(const scene::Scene& scene, LiveModel& model, double frame,
+                                     int frames);
 
 }  // namespace palpate::run

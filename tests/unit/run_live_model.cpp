@@ -130,13 +130,32 @@ TEST(LiveModel, ClosedFormsAllocateNothing) {
 
 TEST(LiveModel, PredictsTheForceOfTheDeepestTravel) {
   const scene::Scene scene = build(viscous + programme);
-  const FrameCost cost = predict_cost(scene, 1e-3, 100);
+  LiveModel pressed(scene);
+  const FrameCost cost = predict_cost(scene, pressed, 1e-3, 100);
   EXPECT_FALSE(cost.wrong);
   EXPECT_GE(cost.p99, cost.median);
   LiveModel model(scene);
   for (int i = 0; i <= 200; ++i)
     ASSERT_FALSE(model.follow(Vec3(0.0, 0.0, -1e-3 * i / 200.0), 1e-3 * i));
   EXPECT_NEAR(cost.force, model.touch().force(), 1e-12);
+}
+
+// After the prediction the model forgets it: its forces are those of a new one, to the bit.
+TEST(LiveModel, StartsAgain) {
+  for (const std::string* text : {&viscous, &layer, &modal}) {
+    const scene::Scene scene = build(*text + programme);
+    LiveModel again(scene);
+    (void)predict_cost(scene, again, 1e-3, 50);
+    ASSERT_TRUE(again.start_again());
+    LiveModel fresh(scene);
+    for (int i = 0; i <= 50; ++i) {
+      const Vec3 place(0.0, 0.0, -2e-5 * i);
+      ASSERT_FALSE(again.follow(place, 0.5 + 1e-3 * i));
+      ASSERT_FALSE(fresh.follow(place, 0.5 + 1e-3 * i));
+      EXPECT_EQ(again.touch().force(), fresh.touch().force()) << "frame " << i;
+    }
+    EXPECT_GT(fresh.touch().force(), 0.01);
+  }
 }
 
 }  // namespace
