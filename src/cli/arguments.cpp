@@ -46,6 +46,7 @@ struct Parser {
     verb->add_option("--set", run.settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
     verb->add_option("--jobs", run.jobs, "Workers; 0: one a core")->check(CLI::Range(0, 1024));
     verb->add_flag("--force", run.force, "Replace finished results");
+    add_run_device(*verb);
 
     verb = app.add_subcommand("explain", "What a scenario would compute, or what a key means");
     verb->add_option("subject", explain.subject, "Scenario file or key")->required();
@@ -188,6 +189,25 @@ struct Parser {
     verb->add_option("--seconds", device.seconds, "How long")
         ->capture_default_str()
         ->check(CLI::Range(0.1, 86400.0));
+  }
+
+  void add_run_device(CLI::App& verb) {
+    CLI::Option* device = verb.add_option(
+        "--device", run.device.link,
+        "Against mark10:PORT, inverse3:HOST:PORT or replay:FILE.csv; without --arm it only looks");
+    const auto beside = [&](CLI::Option* option) { option->needs(device); };
+    beside(verb.add_flag("--arm", run.device.arm, "Let it move, let it send forces"));
+    beside(verb.add_flag("--realtime", run.device.realtime, "Before all other programs"));
+    beside(verb.add_flag("--traffic", run.device.traffic, "Keep what went over the line"));
+    beside(verb.add_option("--surface", run.device.surface,
+                           "Height of the surface in the device's z, as \"-2 mm\""));
+    beside(verb.add_option("--max-force", run.device.most_force, "Ceiling, as \"2 N\""));
+    beside(verb.add_option("--seconds", run.device.seconds, "End after so long")
+               ->check(CLI::Range(0.001, 1e6)));
+    // Of tests: time passes with the emulator's.
+    beside(verb.add_option("--clock", run.device.clock)
+               ->check(CLI::IsMember({"real", "virtual"}))
+               ->group(""));
   }
 
   void add_sweep() {

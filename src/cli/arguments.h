@@ -16,8 +16,20 @@ struct Manner {
   bool json = false;
 };
 
+// `run --device`.
+struct RunDevice {
+  std::string link;  // empty: offline
+  bool arm = false;
+  bool realtime = false;
+  bool traffic = false;
+  std::string surface;     // a length; empty: felt, or assumed
+  std::string most_force;  // a force; empty: the rules' own
+  double seconds = 0.0;    // 0: until the programme is over
+  std::string clock = "real";
+};
 struct Run {
   std::vector<std::string> scenarios;
+  RunDevice device;
   std::string out = "out";
   std::vector<std::string> settings;
   int jobs = 0;  // 0: as many as there are cores

@@ -127,6 +127,7 @@ bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk
 }  // namespace
 
 int run(const Run& command, const Arguments& arguments, const Talk& talk) {
+  if (!command.device.link.empty()) return run_live(command, arguments, talk);
   std::vector<scenario::Family> families;
   std::vector<Problem> problems;
   for (const std::string& path : command.scenarios) {

@@ -7,6 +7,8 @@
 namespace palpate::cli {
 
 [[nodiscard]] int run(const Run& command, const Arguments& arguments, const Talk& talk);
+// With `command.device`.
+[[nodiscard]] int run_live(const Run& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int explain(const Explain& command);
 [[nodiscard]] int fit_columns(const Fit& command);
 [[nodiscard]] int compare(const Compare& command);

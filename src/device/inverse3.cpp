@@ -20,8 +20,9 @@ constexpr int most_idle = 3;  // replies
 
 }  // namespace
 
-Inverse3::Inverse3(const std::string& host, int port, Purpose purpose, Clock& clock)
+Inverse3::Inverse3(const std::string& host, int port, Purpose purpose, Clock& clock, Tap* tap)
     : clock_(clock), purpose_(purpose), socket_(host, port, connect_time) {
+  socket_.tap(tap);
   identity_.kind = Kind::arm;
   limits_.takes_force = true;
   limits_.period = period;
@@ -103,6 +104,8 @@ bool Inverse3::try_spelling(inverse3::Spelling spelling) {
 }
 
 bool Inverse3::send(const Vec3& force) {
+  // In lock-step every message takes a frame.
+  if (clock_.kind() == Clock::Kind::stepped) clock_.sleep_until(clock_.now() + period);
   const auto message = inverse3::force_message(identity_.id, spelling_, force);
   if (!socket_.send(message.text())) return false;
   if (!awaiting_) asked_at_ = wire_time();
@@ -140,7 +143,8 @@ Sample Inverse3::read(const WebSocket::Received& message) {
     sample.velocity = (sample.position - last_->position) / (sample.received - last_->received);
   }
   // A moving arm is never twice at the same place to the last bit: that is an old state.
-  const bool frozen = last_ && reply.velocity && !sample.velocity.isZero(0.0) &&
+  // Below a micrometre a second it may well be.
+  const bool frozen = last_ && reply.velocity && sample.velocity.norm() > 1e-6 &&
                       sample.position == last_->position && sample.velocity == last_->velocity;
   if (frozen) {
     sample.arrival = Arrival::duplicate;

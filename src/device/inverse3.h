@@ -11,12 +11,14 @@
 
 namespace palpate::device {
 
+class Tap;
+
 class Inverse3 {
  public:
   // Connects, reads the snapshot, chooses the spelling, and exchanges a few zero forces. Takes a
   // few ms with a live service, 2 s at most. Throws LinkError with a plain diagnosis. `clock`
   // outlives the link.
-  Inverse3(const std::string& host, int port, Purpose purpose, Clock& clock);
+  Inverse3(const std::string& host, int port, Purpose purpose, Clock& clock, Tap* tap = nullptr);
   ~Inverse3();
   Inverse3(const Inverse3&) = delete;
   Inverse3& operator=(const Inverse3&) = delete;

@@ -23,14 +23,14 @@ struct Link::Variant {
   }
 };
 
-Link::Link(std::string_view text, Purpose purpose, Clock& clock)
+Link::Link(std::string_view text, Purpose purpose, Clock& clock, Tap* tap)
     : link_(std::make_unique<Variant>()) {
   const Address address = parse_link(text);
   auto& link = link_->link;
   if (const auto* stand = std::get_if<StandAddress>(&address)) {
-    link.emplace<Mark10>(stand->port, purpose, clock);
+    link.emplace<Mark10>(stand->port, purpose, clock, tap);
   } else if (const auto* arm = std::get_if<ArmAddress>(&address)) {
-    link.emplace<Inverse3>(arm->host, arm->port, purpose, clock);
+    link.emplace<Inverse3>(arm->host, arm->port, purpose, clock, tap);
   } else {
     link.emplace<Recording>(std::get<RecordingAddress>(address).file, clock);
   }

@@ -9,11 +9,14 @@
 
 namespace palpate::device {
 
+class Tap;
+
 class Link {
  public:
   // Opens what a LINK text names. Throws InputError where the text or a recording is wrong, and
-  // LinkError with a diagnosis where nobody answers. `clock` outlives the link.
-  Link(std::string_view text, Purpose purpose, Clock& clock);
+  // LinkError with a diagnosis where nobody answers. `clock` outlives the link, as does `tap`,
+  // which hears what goes over the line from the greeting on.
+  Link(std::string_view text, Purpose purpose, Clock& clock, Tap* tap = nullptr);
   ~Link();
   Link(Link&&) noexcept;
 

@@ -8,6 +8,7 @@ namespace palpate::device {
 namespace {
 
 constexpr double answer_time = 0.25;      // s, for a question outside of sampling
+constexpr double stop_time = 0.5;         // s, in which it is told to stop until it says it does
 constexpr double sample_time = 0.05;      // s, after which a reading is asked for anew
 constexpr double into_channel = 15e-3;    // s, after `/`; as an open driver waits
 constexpr double out_of_channel = 10e-3;  // s, after `\`
@@ -24,8 +25,9 @@ void pause(double time) {
 
 }  // namespace
 
-Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
+Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
     : clock_(clock), path_(port), purpose_(purpose), port_(port, mark10::baud) {
+  port_.tap(tap);
   identity_.kind = Kind::stand;
   limits_.measures_force = true;
   limits_.takes_motion = true;
@@ -44,6 +46,11 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock)
 }
 
 Mark10::~Mark10() = default;  // the guard sends the stop, then the port closes
+
+// In lock-step every question takes a reading's time: the emulator answers at such ticks.
+void Mark10::pass_time() {
+  if (clock_.kind() == Clock::Kind::stepped) clock_.sleep_until(clock_.now() + planned_period);
+}
 
 bool Mark10::send(std::string_view bytes) { return port_.write(bytes); }
 
@@ -108,6 +115,7 @@ bool Mark10::ask(std::string_view command) {
     asked_ = false;
   }
   drain();
+  pass_time();
   return send(command);
 }
 
@@ -175,6 +183,7 @@ Sample Mark10::sample(double wait) {
   if (!asked_) {
     drain();
     if (!send("n")) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
+    pass_time();
     asked_ = true;
     ++traffic_.sent;
     heard_ = false;
@@ -271,15 +280,17 @@ Fault Mark10::move(const Motion& motion) {
 
 bool Mark10::stop() {
   if (purpose_ != Purpose::command) return true;  // it never set anything in motion
-  for (int tries = 0; tries < 3 && !port_.lost(); ++tries) {
+  // It brakes from its greatest speed in about 0.1 s.
+  const double until = wire_time() + stop_time;
+  do {
     send("s");
     const auto status = ask_status();
     if (status && status->moving == mark10::Status::Moving::stopped) return true;
-    // Without a clear word, two readings tell: at its slowest the stand goes 0.02 mm in 2.4 s, so
-    // this is only a second opinion on a stand that was told to stop three times.
-    if (tries == 2 && stands_still()) return true;
-  }
-  return false;
+    if (status && clock_.kind() == Clock::Kind::monotonic) pause(planned_period);
+  } while (wire_time() < until && !port_.lost());
+  // Without a clear word, two readings tell: at its slowest the stand goes 0.02 mm in 2.4 s, so
+  // this is only a second opinion on a stand that was told to stop.
+  return !port_.lost() && stands_still();
 }
 
 bool Mark10::stands_still() {

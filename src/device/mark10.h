@@ -15,12 +15,14 @@
 
 namespace palpate::device {
 
+class Tap;
+
 class Mark10 {
  public:
   // Opens the port, quiets the gauge, and asks who is there; for commands it also stops the stand
   // and sets N and mm. Takes about 0.3 s. Throws LinkError with a plain diagnosis.
   // `clock` outlives the link.
-  Mark10(const std::string& port, Purpose purpose, Clock& clock);
+  Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap = nullptr);
   ~Mark10();
   Mark10(const Mark10&) = delete;
   Mark10& operator=(const Mark10&) = delete;
@@ -52,6 +54,7 @@ class Mark10 {
   void ask_stand_limits();
   [[noreturn]] void refuse_silence() const;
 
+  void pass_time();
   bool send(std::string_view bytes);
   void receive(double until);
   void drain();

@@ -19,6 +19,7 @@
 
 #include "base/error.h"
 #include "device/clock.h"
+#include "device/tap.h"
 
 namespace palpate::device {
 namespace {
@@ -112,7 +113,8 @@ SerialPort::SerialPort(const std::string& path, int baud) {
 SerialPort::SerialPort(SerialPort&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
       lock_(std::exchange(other.lock_, -1)),
-      lost_(other.lost_) {}
+      lost_(other.lost_),
+      tap_(other.tap_) {}
 
 SerialPort::~SerialPort() { release(); }
 
@@ -129,6 +131,7 @@ bool SerialPort::write(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t taken = ::write(file_, bytes.data(), bytes.size());
     if (taken > 0) {
+      if (tap_) tap_->note(Tap::Way::sent, bytes.substr(0, static_cast<std::size_t>(taken)));
       bytes.remove_prefix(static_cast<std::size_t>(taken));
     } else if (taken < 0 && errno == EINTR) {
       continue;
@@ -153,7 +156,11 @@ SerialPort::Read SerialPort::read(std::span<char> into, double until) {
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0) return {Outcome::nothing, 0};
     const ssize_t size = ready < 0 ? -1 : ::read(file_, into.data(), into.size());
-    if (size > 0) return {Outcome::bytes, static_cast<std::size_t>(size)};
+    if (size > 0) {
+      const auto got = static_cast<std::size_t>(size);
+      if (tap_) tap_->note(Tap::Way::received, {into.data(), got});
+      return {Outcome::bytes, got};
+    }
     if (size < 0 && errno == EINTR) continue;
     if (size < 0 && errno == EAGAIN && (one.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0)
       return {Outcome::nothing, 0};

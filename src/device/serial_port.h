@@ -8,6 +8,8 @@
 
 namespace palpate::device {
 
+class Tap;
+
 class SerialPort {
  public:
   // Opens and locks `path` at `baud` (only 9600 to 115200 of the usual rates). Throws LinkError
@@ -28,6 +30,9 @@ class SerialPort {
   // Waits for bytes till `until` (s, wire_time) and takes those that are there.
   [[nodiscard]] Read read(std::span<char> into, double until);
 
+  // From now on it hears all that is written and read; null: nobody.
+  void tap(Tap* tap) { tap_ = tap; }
+
   void discard_input();
   [[nodiscard]] bool lost() const { return lost_; }
   [[nodiscard]] int descriptor() const { return file_; }
@@ -38,6 +43,7 @@ class SerialPort {
   int file_ = -1;
   int lock_ = -1;
   bool lost_ = false;
+  Tap* tap_ = nullptr;
 };
 
 }  // namespace palpate::device

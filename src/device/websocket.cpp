@@ -18,6 +18,7 @@
 
 #include "base/error.h"
 #include "device/clock.h"
+#include "device/tap.h"
 #include "device/websocket.h"
 
 namespace palpate::device {
@@ -119,6 +120,7 @@ struct WebSocket::Implementation {
   bool complete = false;  // a message lies in `incoming`
   bool handed_out = false;
   bool writing = false;
+  Tap* tap = nullptr;
   Error failure;
 
   void start_reading() {
@@ -216,12 +218,15 @@ WebSocket::~WebSocket() {
   it.context.poll();
 }
 
+void WebSocket::tap(Tap* tap) { it_->tap = tap; }
+
 bool WebSocket::send(std::string_view text) {
   Implementation& it = *it_;
   it.context.poll();
   if (it.failure || it.writing || text.size() > it.outgoing.size()) return false;
   std::copy(text.begin(), text.end(), it.outgoing.begin());
   it.writing = true;
+  if (it.tap) it.tap->note(Tap::Way::sent, text);
   it.stream.async_write(net::buffer(it.outgoing.data(), text.size()),
                         in_arena(it.arena, [&it](Error error, std::size_t) {
                           it.writing = false;
@@ -240,9 +245,9 @@ WebSocket::Received WebSocket::receive(double until) {
     it.complete = false;
     it.handed_out = true;
     const auto bytes = it.incoming.cdata();
-    return {Outcome::message,
-            std::string_view(static_cast<const char*>(bytes.data()), bytes.size()),
-            it.stream.got_binary()};
+    const std::string_view message(static_cast<const char*>(bytes.data()), bytes.size());
+    if (it.tap) it.tap->note(Tap::Way::received, message);
+    return {Outcome::message, message, it.stream.got_binary()};
   }
   return {it.failure ? Outcome::closed : Outcome::nothing, {}, false};
 }

@@ -8,6 +8,8 @@
 
 namespace palpate::device {
 
+class Tap;
+
 class WebSocket {
  public:
   // Connects and shakes hands within `wait` s of real time. Throws LinkError: no such host, nobody
@@ -15,6 +17,9 @@ class WebSocket {
   WebSocket(const std::string& host, int port, double wait);
   ~WebSocket();
   WebSocket(WebSocket&&) noexcept;
+
+  // From now on it hears all messages; null: nobody.
+  void tap(Tap* tap);
 
   // Sends one text message of at most 512 bytes. False where the last one is still on its way
   // (the other side does not read) or the socket is closed.

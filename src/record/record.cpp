@@ -1,9 +1,24 @@
 // Rows in SI to tables in the units of their column names.
 #include "record/record.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/units.h"
 
 namespace palpate::record {
+namespace {
+
+Cell known(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
+
+void add_measured(const MeasuredRow& row, std::vector<Cell>& cells) {
+  const auto& [x, y, z] = row.sent;
+  cells.insert(cells.end(), {unit::mm.from_si(row.place[0]), unit::mm.from_si(row.place[1]),
+                             unit::mm.from_si(0.0 - row.place[2]), known(row.force), known(x), known(y),
+                             known(z), known(std::sqrt(x * x + y * y + z * z))});
+}
+
+}  // namespace
 
 Table contact_table(const std::vector<CaseRecord>& records) {
   Table table;
@@ -22,14 +37,26 @@ Table contact_table(const std::vector<CaseRecord>& records) {
                    "contacts",
                    "slide_mm",
                    "tangential_N"};
+  const bool live = std::any_of(records.begin(), records.end(),
+                                [](const auto& record) { return !record.measured.empty(); });
+  if (live)
+    for (const char* column :
+         {"measured_x_mm", "measured_y_mm", "measured_travel_mm", "measured_force_N", "sent_x_N",
+          "sent_y_N", "sent_z_N", "sent_force_N"})
+      table.columns.emplace_back(column);
   for (const CaseRecord& record : records)
-    for (const ContactRow& row : record.contact)
+    for (std::size_t i = 0; i < record.contact.size(); ++i) {
+      const ContactRow& row = record.contact[i];
       table.rows.push_back(
           {record.name, static_cast<double>(row.step), row.time, unit::mm.from_si(row.travel),
            unit::mm.from_si(row.indentation), row.force, row.contact_force, row.friction,
            row.ambient, unit::mm.from_si(row.contact_radius), unit::kPa.from_si(row.peak_pressure),
            unit::mm.from_si(row.tissue_radius), static_cast<double>(row.contacts),
            unit::mm.from_si(row.slide), row.tangential});
+      if (live)
+        add_measured(record.measured.empty() ? MeasuredRow{} : record.measured[i],
+                     table.rows.back());
+    }
   return table;
 }
 
@@ -48,6 +75,7 @@ const char* outcome_word(Outcome outcome) {
     case Outcome::completed: return "completed";
     case Outcome::diverged: return "diverged";
     case Outcome::interrupted: return "interrupted";
+    case Outcome::stopped: return "stopped";
   }
   return "";
 }

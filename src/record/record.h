@@ -1,7 +1,10 @@
 // What a case leaves behind: rows over time, maps, findings, and how it ended.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/tet_mesh.h"
@@ -29,6 +32,14 @@ struct ContactRow {
   double tangential = 0.0;  // N, size of the tangential forces together
 };
 
+// What a live device adds to a row; NaN where it tells none.
+struct MeasuredRow {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, 3> place{};                 // m, of the finger from its first touch; z upwards
+  double force = none;                           // N, that the device measured; pressing positive
+  std::array<double, 3> sent{none, none, none};  // N, that the device was told to show
+};
+
 // One row of strain_time.csv, SI; compression positive.
 struct StrainRow {
   int step = 0;
@@ -52,7 +63,8 @@ struct Finding {
   Cell value;
 };
 
-enum class Outcome { completed, diverged, interrupted };
+// `stopped`: a device ended it, by its link or for safety.
+enum class Outcome { completed, diverged, interrupted, stopped };
 
 struct CaseRecord {
   std::string name;
@@ -60,6 +72,7 @@ struct CaseRecord {
   std::string reason;             // a sentence, unless completed
   double last_stable_time = 0.0;  // s
   std::vector<ContactRow> contact;
+  std::vector<MeasuredRow> measured;  // one a row of `contact` in a live run; else empty
   std::vector<StrainRow> strain;
   std::vector<PressureMap> maps;
   geometry::TetMesh mesh;  // of `frames`; empty where none are asked for
@@ -69,6 +82,7 @@ struct CaseRecord {
   std::vector<std::string> remarks;  // on validity, in sentences
   std::string chosen;                // what stands for every `auto`, as `key = word`, by commas
   double seconds = 0.0;              // that the case took: for run.json only
+  std::vector<std::pair<std::string, std::string>> attached;  // files of a live run: name, content
 };
 
 // The CSV files' tables, in the order and units of docs/results.md.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/text.h"
+#include "report/tube.h"
 
 namespace palpate::report {
 namespace {
@@ -97,18 +98,25 @@ bool ColumnComparison::equal() const {
 }
 
 bool Comparison::equal() const {
-  return rows_got == rows_want &&
+  return (rows_got == rows_want || !rows_compared) &&
          std::all_of(columns.begin(), columns.end(), [](const auto& each) { return each.equal(); });
 }
 
 Comparison compare(const Table& got, const Table& want, const Tolerances& tolerances) {
   Comparison comparison{.rows_got = got.rows.size(), .rows_want = want.rows.size()};
+  const auto& tube = tolerances.tube;
+  const bool in_tube = tube && got.find(tube->x) >= 0 && want.find(tube->x) >= 0;
+  comparison.rows_compared = !in_tube;
   for (const std::string& name : want.columns) {
     const Tolerance& tolerance = tolerances.of(name);
     if (tolerance.ignore)
       comparison.columns.push_back({.name = name, .state = State::ignored});
     else if (got.find(name) < 0)
       comparison.columns.push_back({.name = name, .state = State::missing});
+    else if (in_tube && name == tube->x)
+      comparison.columns.push_back(compare_ends(got, want, *tube));
+    else if (in_tube)
+      comparison.columns.push_back(compare_in_tube(got, want, name, tolerances));
     else
       comparison.columns.push_back(compare_column(got, want, name, tolerance));
   }
@@ -121,7 +129,7 @@ Comparison compare(const Table& got, const Table& want, const Tolerances& tolera
 
 std::string comparison_text(const Comparison& comparison) {
   std::string text;
-  if (comparison.rows_got != comparison.rows_want)
+  if (comparison.rows_compared && comparison.rows_got != comparison.rows_want)
     text += "rows: DIFFERS, got " + std::to_string(comparison.rows_got) + ", want " +
             std::to_string(comparison.rows_want) + "\n";
   for (const ColumnComparison& column : comparison.columns) text += column_text(column) + "\n";

@@ -35,13 +35,14 @@ struct Comparison {
   std::vector<ColumnComparison> columns = {};  // WANT's order, then what GOT has besides
   std::size_t rows_got = 0;
   std::size_t rows_want = 0;
+  bool rows_compared = true;  // one by one; not in a tube
 
   [[nodiscard]] bool equal() const;
 };
 
 // Compares row by row, columns by name in any order. NaN equals NaN, infinities of one sign are
 // equal, nothing equals nothing, words are equal letter by letter. Missing and extra rows and
-// columns are differences, unless the column is ignored.
+// columns are differences, unless the column is ignored. With a tube, see tube.h.
 [[nodiscard]] Comparison compare(const record::Table& got, const record::Table& want,
                                  const Tolerances& tolerances);
 

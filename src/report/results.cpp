@@ -182,6 +182,8 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
     if (&input != &family_->inputs.front()) write(input.name, input.content);
   for (const auto& [name, table] : csv_files(*family_, records, fits))
     write(name, record::csv_text(table));
+  for (const record::CaseRecord& record : records)
+    for (const auto& [name, content] : record.attached) write(name, content);
 
   const std::string hash = sha256(echo);
   std::size_t number = 0;

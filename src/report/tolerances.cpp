@@ -14,11 +14,15 @@ namespace palpate::report {
 namespace {
 
 const std::vector<std::string>& tables() {
-  static const std::vector<std::string> names{"default", "column"};
+  static const std::vector<std::string> names{"default", "column", "tube"};
   return names;
 }
 const std::vector<std::string>& keys() {
   static const std::vector<std::string> names{"rel", "abs", "ignore", "reason"};
+  return names;
+}
+const std::vector<std::string>& tube_keys() {
+  static const std::vector<std::string> names{"x", "width"};
   return names;
 }
 
@@ -40,6 +44,10 @@ class Reader {
     if (const Member* standard = root.find("default")) table(*standard, tolerances.standard);
     for (const Member& member : root.members) {
       if (member.key == "default") continue;
+      if (member.key == "tube") {
+        tube(member, tolerances.tube.emplace());
+        continue;
+      }
       if (member.key != "column") {
         report(member.place, unknown(member.key, tables()));
       } else if (member.value.kind != Node::Kind::table) {
@@ -69,10 +77,28 @@ class Reader {
       else if (member.key == "ignore")
         truth(member, to.ignore);
       else if (member.key == "reason")
-        text(member, to.reason);
+        text(member, to.reason, "reason = \"rounding of 1e4 steps\"");
       else
         report(member.place, unknown(member.key, keys()));
     }
+  }
+
+  void tube(const Member& from, Tube& to) {
+    if (from.value.kind != Node::Kind::table)
+      return report(from.value.place, "`tube` wants a table, got `" + from.value.shown() +
+                                          "`; write `[tube]` and below it `x` and `width`");
+    for (const Member& member : from.value.members) {
+      if (member.key == "x")
+        text(member, to.x, "x = \"time_s\"");
+      else if (member.key == "width")
+        number(member, to.width, "0.05");
+      else
+        report(member.place, unknown(member.key, tube_keys()));
+    }
+    if (to.x.empty())
+      report(from.place, "`tube` wants the column it goes along; write `x = \"time_s\"`");
+    if (from.value.find("width") == nullptr)
+      report(from.place, "`tube` wants a width, in the unit of its column; write `width = 0.05`");
   }
 
   void number(const Member& from, double& to, const std::string& example) {
@@ -92,12 +118,11 @@ class Reader {
       report(from.value.place, wants(from.key, "true or false", from.value, "ignore = true"));
   }
 
-  void text(const Member& from, std::string& to) {
+  void text(const Member& from, std::string& to, const std::string& example) {
     if (from.value.kind == Node::Kind::text)
       to = from.value.text;
     else
-      report(from.value.place,
-             wants(from.key, "a text", from.value, "reason = \"rounding of 1e4 steps\""));
+      report(from.value.place, wants(from.key, "a text", from.value, example));
   }
 
   void report(const Place& place, const std::string& message) {

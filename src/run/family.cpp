@@ -42,14 +42,14 @@ std::vector<scene::Scene> build_all(const scenario::Family& family, int workers)
   return scenes;
 }
 
-namespace {
-
 record::CaseRecord begin_case(const scene::Scene& scene) {
   record::CaseRecord record;
   record.name = scene.name;
   record.chosen = chosen(scene.scenario);
   return record;
 }
+
+namespace {
 
 // A task for one worker: a case by itself, or a team of lanes.
 struct Task {

@@ -15,6 +15,9 @@ namespace palpate::run {
 // Builds every case, before any of them runs. Throws what the first case at fault throws.
 [[nodiscard]] std::vector<scene::Scene> build_all(const scenario::Family& family, int workers);
 
+// A record with the case's name and what `auto` chose, without rows.
+[[nodiscard]] record::CaseRecord begin_case(const scene::Scene& scene);
+
 // Runs one scene to its end.
 [[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop);
 

@@ -40,10 +40,11 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
   const Vec3 before = touch.finger;
   touch.finger = top + (radius - touch.travel) * Vec3::UnitZ();
   const Vec3 move = touch.finger - before;
-  std::vector<SphereContact> contacts;
-  for (std::size_t i = 0; touch.travel > 0.0 && i < scene.finger.centres.size(); ++i) {
-    SphereContact contact;
-    if (i < touch.contacts.size()) contact.stretch = touch.contacts[i].stretch;
+  // In the room there is: what runs beside a device allocates nothing.
+  const bool touches = touch.travel > 0.0;
+  touch.contacts.resize(touches ? scene.finger.centres.size() : 0);
+  for (std::size_t i = 0; i < touch.contacts.size(); ++i) {
+    SphereContact& contact = touch.contacts[i];
     contact.sphere = static_cast<int>(i);
     contact.law = *law;
     contact.patch.position = touch.finger + scene.finger.centres[i];
@@ -54,9 +55,7 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
     const auto [a, b] = law->semi_axes(contact.depth);
     contact.patch.a = a;
     contact.patch.b = b;
-    contacts.push_back(contact);
   }
-  touch.contacts = std::move(contacts);
   rub(scene, move, touch);
   return std::nullopt;
 }

@@ -7,8 +7,7 @@
 #include <numbers>
 
 #include "base/units.h"
-#include "contact/friction.h"
-#include "contact/hertz.h"
+#include "run/contact_row.h"
 #include "run/half_space_contact.h"
 #include "run/pace.h"
 #include "run/pressed_mesh.h"
@@ -262,28 +261,9 @@ class Press {
   }
 
   void write_row() {
-    const scenario::Contact& contact = scene_.scenario.contact;
-    record::ContactRow row;
+    record::ContactRow row = contact_row(scene_, touch_);
     row.step = step_;
     row.time = time_;
-    row.travel = touch_.travel;
-    row.slide = touch_.slide;
-    row.contact_force = touch_.normal_force();
-    row.ambient = contact.ambient_force;
-    row.force = touch_.force() + contact.ambient_force;
-    row.friction =
-        touch_.contacts.empty()
-            ? 0.0
-            : contact::friction::limit(contact.friction, touch_.pressed(), scene_.finger.weight);
-    row.tangential = touch_.drag().norm();
-    row.tissue_radius = std::numeric_limits<double>::infinity();
-    if (const SphereContact* deepest = touch_.deepest()) {
-      row.indentation = deepest->depth;
-      row.contact_radius = deepest->patch.radius();
-      row.peak_pressure = peak_pressure(*deepest);
-      if (deepest->law.mean_curvature != 0.0) row.tissue_radius = 1.0 / deepest->law.mean_curvature;
-    }
-    row.contacts = static_cast<int>(touch_.contacts.size());
     record_.contact.push_back(row);
     for (const SphereContact& one : touch_.contacts) {
       on_crease_ = on_crease_ || one.on_crease;

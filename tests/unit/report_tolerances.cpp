@@ -37,8 +37,8 @@ TEST(Tolerances, RefuseWithPlaceAndRemedy) {
             "t.toml:2:1: `rell` is not known here; did you mean `rel`?");
   EXPECT_EQ(refusal("[columns.force_N]\nrel = 1\n"),
             "t.toml:1:2: `columns` is not known here; did you mean `column`?");
-  EXPECT_EQ(refusal("[tube]\nx_abs = 1\n"),
-            "t.toml:1:2: `tube` is not known here; write one of `default`, `column`");
+  EXPECT_EQ(refusal("[pipe]\nx_abs = 1\n"),
+            "t.toml:1:2: `pipe` is not known here; write one of `default`, `column`, `tube`");
   EXPECT_EQ(refusal("[column.force_N]\nrel = -1\nabs = \"1 N\"\nignore = 1\nreason = 2\n"),
             "t.toml:2:7: `rel` wants a number of 0 or more, got `-1`; write it as `rel = 1e-9`\n"
             "t.toml:3:7: `abs` wants a number of 0 or more, got `1 N`; write it as `abs = 1e-12`\n"

@@ -1,0 +1,34 @@
+// The deepest contact speaks for all where one number must.
+#include "run/contact_row.h"
+
+#include <limits>
+
+#include "contact/friction.h"
+
+namespace palpate::run {
+
+record::ContactRow contact_row(const scene::Scene& scene, const Touch& touch) {
+  const scenario::Contact& contact = scene.scenario.contact;
+  record::ContactRow row;
+  row.travel = touch.travel;
+  row.slide = touch.slide;
+  row.contact_force = touch.normal_force();
+  row.ambient = contact.ambient_force;
+  row.force = touch.force() + contact.ambient_force;
+  row.friction =
+      touch.contacts.empty()
+          ? 0.0
+          : contact::friction::limit(contact.friction, touch.pressed(), scene.finger.weight);
+  row.tangential = touch.drag().norm();
+  row.tissue_radius = std::numeric_limits<double>::infinity();
+  if (const SphereContact* deepest = touch.deepest()) {
+    row.indentation = deepest->depth;
+    row.contact_radius = deepest->patch.radius();
+    row.peak_pressure = peak_pressure(*deepest);
+    if (deepest->law.mean_curvature != 0.0) row.tissue_radius = 1.0 / deepest->law.mean_curvature;
+  }
+  row.contacts = static_cast<int>(touch.contacts.size());
+  return row;
+}
+
+}  // namespace palpate::run

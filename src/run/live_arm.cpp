@@ -1,0 +1,234 @@
+// One frame: believe the sample or not, let the model follow, send what the rules allow.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/passivity.h"
+#include "device/arm_safety.h"
+#include "run/contact_row.h"
+#include "run/live_guide.h"
+#include "run/live_loop.h"
+
+namespace palpate::run {
+namespace {
+
+using device::Arrival;
+using device::LinkState;
+using device::Sample;
+using device::Trip;
+
+constexpr double box = 0.15;           // m, half of the workspace's edge, about the hand's start
+constexpr double stepped_wait = 0.25;  // s of the wire, for a reply in lock-step
+constexpr double longest_fall = 0.3;   // s, in which the last force must be gone
+constexpr double most_frames_behind = 8.0;
+
+device::ArmRules rules_of(const LiveLoop& loop) {
+  device::ArmRules rules;
+  const device::Limits& limits = loop.link.limits();
+  rules.force = most_force(loop.options, device::Kind::arm);
+  rules.frame = limits.period;
+  if (loop.scene.scenario.device.damping) rules.damping = *loop.scene.scenario.device.damping;
+  rules.stale.stale_after = limits.stale_after;
+  rules.stale.lost_after = limits.lost_after;
+  return rules;
+}
+
+// N/m, of a force over its depth: with Hertz's law, whose slope is 3/2 of that, what the device can
+// hold by Colgate and Brown's bound, a frame late.
+double stiffest_of(const device::ArmRules& rules) {
+  return 2.0 / 3.0 *
+         contact::passive_stiffness(
+             {.damping = rules.damping, .frame = rules.frame, .delay = rules.frame});
+}
+
+class ArmLoop {
+ public:
+  explicit ArmLoop(LiveLoop& loop)
+      : loop_(loop),
+        recording_(loop.link.identity().kind == device::Kind::recording),
+        real_(loop.clock.kind() == device::Clock::Kind::monotonic),
+        period_(loop.link.limits().period),
+        guide_(loop.scene.scenario.steps),
+        rules_(rules_of(loop)),
+        safety_(rules_),
+        stiffest_(stiffest_of(rules_)) {}
+
+  LiveEnd run() {
+    if (!begin()) return end_;
+    double next = loop_.clock.now();
+    while (frame()) next = exchange(next);
+    loop_.health.rules = safety_.counts();
+    loop_.health.least_energy = safety_.observer().least();
+    return end_;
+  }
+
+ private:
+  // Where the hand is at first says where the tissue is.
+  bool begin() {
+    for (int tries = 0; tries < 50 && sample_.arrival != Arrival::fresh; ++tries) {
+      sample_ = loop_.link.sample(stepped_wait);
+      if (sample_.arrival == Arrival::lost) break;
+    }
+    start_ = loop_.clock.now();
+    loop_.health.pass({0.0, LinkState::open, Trip::none, device::Fault::none});
+    if (sample_.arrival != Arrival::fresh) {
+      end_ = ended_by_link(Trip::link_lost, sample_.fault);
+      return false;
+    }
+    origin_ = recording_ ? Vec3::Zero() : sample_.position;
+    if (!recording_) origin_.z() -= LiveOptions::below_hand;
+    if (loop_.options.surface) origin_.z() = *loop_.options.surface;
+    if (!recording_) {
+      rules_.workspace = {sample_.position.array() - box, sample_.position.array() + box};
+      safety_ = device::ArmSafety(rules_);
+    }
+    return true;
+  }
+
+  void finish(const LiveEnd& end) {
+    if (ending_) return;
+    ending_ = true;
+    end_ = end;
+    ended_at_ = now_;
+    safety_.disarm();
+  }
+
+  // False once the loop is over, with no force left on the wire.
+  bool frame() {
+    const double begun = device::wire_time();
+    now_ = loop_.clock.now() - start_;
+    loop_.health.count(now_, sample_);
+    if (recording_ && sample_.arrival == Arrival::lost) {
+      // What is left of the programme was not recorded.
+      end_.why = guide_.done() ? LiveEnd::Why::done : LiveEnd::Why::too_long;
+      end_.sentence = "the recording ended in step " + std::to_string(guide_.step());
+      return false;
+    }
+    const bool good = recording_ ? sample_.arrival == Arrival::fresh : safety_.take(now_, sample_);
+    if (good) {
+      offset_ = sample_.position - origin_;
+      measured_ = sample_.force;
+    }
+    follow();
+    arm();
+    if (loop_.model.touch().contacts.empty()) safety_.out_of_contact();
+    const Vec3 wanted = failed_ ? Vec3(Vec3::Zero()) : softened(loop_.model.force());
+    force_ = safety_.allow(now_, wanted);
+    if (good || !recording_) write();
+    note_state();
+    if (safety_.tripped() != Trip::none && !ending_)
+      finish(ended_by_link(safety_.tripped(), sample_.fault));
+    if (loop_.stop.load()) finish({LiveEnd::Why::interrupted, "it was interrupted"});
+    if (guide_.done()) finish({});
+    if (now_ >= loop_.options.longest) finish({LiveEnd::Why::too_long, "the time is up"});
+    loop_.health.compute.add(device::wire_time() - begun);
+    if (!ending_) return true;
+    // The last frames bring the force down to nothing.
+    const bool over = recording_ || sample_.arrival == Arrival::lost ||
+                      safety_.freshness() == device::Staleness::State::lost ||
+                      safety_.sent().isZero(0.0) || now_ > ended_at_ + longest_fall;
+    return !over;
+  }
+
+  // No stiffer than the device can hold: harder tissue is shown as hard as that.
+  Vec3 softened(const Vec3& force) {
+    const SphereContact* deepest = loop_.model.touch().deepest();
+    if (deepest == nullptr) return force;
+    const double most = stiffest_ * std::max(0.0, deepest->approach);
+    if (force.norm() <= most) return force;
+    ++loop_.softened;
+    return device::clamped_norm(force, most);
+  }
+
+  // A model that has fallen behind leaves time out rather than to fall behind for ever.
+  void follow() {
+    const double passed = now_ - followed_;
+    followed_ = now_;
+    const bool limited = real_ && !recording_;
+    model_time_ += limited ? std::min(passed, most_frames_behind * period_) : passed;
+    if (failed_) return;
+    if (auto wrong = loop_.model.follow(offset_, model_time_)) {
+      failed_ = true;
+      finish({LiveEnd::Why::model, *wrong});
+    }
+  }
+
+  void arm() {
+    if (loop_.options.act != LiveOptions::Act::command || recording_ || ending_) return;
+    if (safety_.armed() || safety_.tripped() != Trip::none) return;
+    // Inside wherever the model feels anything, or the place is below the surface.
+    const bool inside = !loop_.model.touch().contacts.empty();
+    (void)safety_.arm(now_, inside ? std::max(1e-9, -offset_.z()) : 0.0);
+  }
+
+  void write() {
+    guide_.pass({now_, offset_, loop_.model.touch().force()});
+    LogRow row{contact_row(loop_.scene, loop_.model.touch()), {}};
+    row.contact.step = guide_.step();
+    row.contact.time = now_;
+    row.measured.place = {offset_.x(), offset_.y(), offset_.z()};
+    row.measured.force = measured_;
+    if (!recording_) row.measured.sent = {force_.x(), force_.y(), force_.z()};
+    loop_.log.push(row);
+  }
+
+  void note_state() {
+    LinkState state = safety_.armed() ? LinkState::armed : LinkState::open;
+    if (safety_.freshness() == device::Staleness::State::stale) state = LinkState::stale;
+    if (safety_.tripped() != Trip::none) state = LinkState::tripped;
+    if (sample_.arrival == Arrival::lost) state = LinkState::lost;
+    if (!recording_) loop_.health.pass({now_, state, safety_.tripped(), sample_.fault});
+  }
+
+  // Sends, and waits for the reply within the frame. Returns the next frame's begin, s.
+  double exchange(double next) {
+    if (recording_) {
+      sample_ = loop_.link.sample(10.0 * loop_.link.limits().lost_after);
+      return next;
+    }
+    const double sent = loop_.clock.now();
+    (void)loop_.link.command_force(force_);
+    if (!real_) {
+      sample_ = loop_.link.sample(stepped_wait);
+      return next;
+    }
+    next += period_;
+    if (const double late = loop_.clock.now() - next; late > 0.0) {
+      const double missed = std::floor(late / period_) + 1.0;
+      loop_.health.deadline_misses += static_cast<std::uint64_t>(missed);
+      next += missed * period_;
+    }
+    sample_ = loop_.link.sample(std::max(0.0, next - loop_.clock.now()));
+    if (sample_.arrival == Arrival::fresh) loop_.health.reply.add(sample_.received - sent);
+    if (sample_.arrival != Arrival::lost) loop_.clock.sleep_until(next);
+    loop_.health.lateness.add(loop_.clock.now() - next);
+    return next;
+  }
+
+  LiveLoop& loop_;
+  bool recording_;
+  bool real_;
+  double period_;  // s
+  Guide guide_;
+  device::ArmRules rules_;
+  device::ArmSafety safety_;
+  double stiffest_;  // N/m
+  Sample sample_;
+  double start_ = 0.0;          // s, of the clock
+  double now_ = 0.0;            // s, since the start
+  double followed_ = 0.0;       // s, up to where the model was asked to follow
+  double model_time_ = 0.0;     // s
+  Vec3 origin_ = Vec3::Zero();  // m, of the first touch, in the device's axes
+  Vec3 offset_ = Vec3::Zero();  // m, from there
+  Vec3 force_ = Vec3::Zero();   // N, that is sent
+  double measured_ = Sample::nan;
+  bool failed_ = false;
+  bool ending_ = false;
+  double ended_at_ = 0.0;  // s
+  LiveEnd end_;
+};
+
+}  // namespace
+
+LiveEnd run_arm(LiveLoop& loop) { return ArmLoop(loop).run(); }
+
+}  // namespace palpate::run

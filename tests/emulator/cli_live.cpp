@@ -1,0 +1,279 @@
+// Live runs against the emulator: they agree with offline ones, they look before they move, they
+// keep what they have.
+#include <gtest/gtest.h>
+
+#include "live_session.h"
+
+namespace palpate {
+namespace {
+
+using test::Played;
+using test::Session;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// An offline run of the same scenario, in the session's folder.
+test::Rows offline(const Played& live, const std::string& scenario,
+                   const std::vector<std::string>& more = {}) {
+  std::vector<std::string> call{"run",   test::project_file("scenarios/" + scenario + ".toml"),
+                                "--out", "offline",
+                                "--set", "output.figures=false"};
+  call.insert(call.end(), more.begin(), more.end());
+  EXPECT_EQ(test::palpate(live.folder(), call).code, 0);
+  return test::Rows(
+      record::read_csv((live.folder() / "offline" / scenario / "force_indentation.csv").string()));
+}
+
+// The programme through the stand and back is the programme as planned, but for the stand's
+// resolution and the times its line takes.
+TEST(LiveStand, AgreesWithOfflineInATubeOfItsOwnResolution) {
+  const Played live(Session{});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  (void)offline(live, "device_stand");
+  std::string tolerances =
+      "[tube]\nx = \"time_s\"\nwidth = 0.05  # two readings of 20 ms, and half of one\n"
+      "[default]\nabs = 1e-6\n"
+      "[column.travel_mm]\nabs = 0.01  # half of what the stand resolves\n";
+  for (const char* column :
+       {"measured_x_mm", "measured_y_mm", "measured_travel_mm", "measured_force_N", "sent_x_N",
+        "sent_y_N", "sent_z_N", "sent_force_N"})
+    tolerances += std::string("[column.") + column + "]\nignore = true\n";
+  test::write_file(live.folder() / "tube.toml", tolerances);
+  const auto compare = [&] {
+    return test::palpate(
+        live.folder(), {"compare", "out/device_stand/force_indentation.csv",
+                        "offline/device_stand/force_indentation.csv", "--tolerances", "tube.toml"});
+  };
+  const test::Ended same = compare();
+  EXPECT_EQ(same.code, 0) << same.out;
+  // Without the time's tube they are not the same.
+  test::write_file(
+      live.folder() / "tube.toml",
+      "[tube]\nx = \"time_s\"\nwidth = 0.001\n" + tolerances.substr(tolerances.find("[default]")));
+  EXPECT_EQ(compare().code, 3);
+}
+
+// The emulator's tissue is the scenario's, by another formula: while the press goes in and is held
+// both follow Lee and Radok.
+TEST(LiveStand, TheModelsForceIsTheMeasuredOne) {
+  const Played live(Session{});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  double most = 0.0;
+  for (std::size_t i = 0; i < live.rows.size(); ++i) {
+    if (live.rows.number(i, "step") > 2.0) continue;
+    const double measured = live.rows.number(i, "measured_force_N");
+    most = std::max(most, measured);
+    // 2 mN of display and 3 x 1 mN / sqrt(8) of noise; and at up to 0.3 N/mm in the press, what
+    // half of 0.02 mm of travel and the gauge's lag of 0.6 ms at 2 mm/s are: 3 mN.
+    EXPECT_NEAR(live.rows.number(i, "force_N"), measured, 5e-3) << "row " << i;
+  }
+  EXPECT_NEAR(most, 0.21, 0.02);  // N, the peak: the test would be empty without
+  EXPECT_EQ(live.summary.at("moving"), false);
+}
+
+TEST(LiveArm, ShowsTheForceThatOfflineGivesAtTheHandsPlace) {
+  const Played live(Session{.link = "inverse3", .scenario = "device_arm"});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  const test::Rows off = offline(live, "device_arm");
+  // F = c h^(3/2), c from offline's deepest row.
+  double coefficient = 0.0;
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (off.number(i, "travel_mm") == 1.0) coefficient = off.number(i, "force_N");  // N at 1 mm
+  ASSERT_GT(coefficient, 0.1);
+  double deepest = 0.0;
+  for (std::size_t i = 0; i < live.rows.size(); ++i) {
+    const double travel = std::max(0.0, live.rows.number(i, "measured_travel_mm"));
+    deepest = std::max(deepest, travel);
+    const double force = live.rows.number(i, "force_N");
+    // rounding: the position has passed through 17 digits of JSON
+    EXPECT_NEAR(force, coefficient * travel * std::sqrt(travel), 1e-9);
+  }
+  EXPECT_GT(deepest, 1.0);
+}
+
+// What we say we sent is what arrived, and it is the model's force where no rule cuts it.
+TEST(LiveArm, SendsWhatItRecords) {
+  const Played live(Session{.link = "inverse3", .scenario = "device_arm"});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < live.rows.size(); ++i)
+    greatest = std::max(greatest, live.rows.number(i, "sent_force_N"));
+  EXPECT_NEAR(greatest, live.summary.at("greatest_force_N").get<double>(), 1e-6);  // its digits
+  std::size_t uncut = 0;
+  for (std::size_t i = 0; i < live.rows.size(); ++i)
+    if (live.rows.number(i, "step") == 2.0 &&
+        std::abs(live.rows.number(i, "sent_z_N") - live.rows.number(i, "force_N")) < 1e-12)
+      ++uncut;
+  EXPECT_GT(uncut, 250U);  // of the 300 frames of the hold; some are damped
+}
+
+// The energy that a held force, a frame late and slewed, can give in one contact: with F at most,
+// at the hand's speed v, frames of T and a slew of s,
+//   E = F v (3 T + F / (2 s))                               docs/devices.md
+double energy_bound(const Played& live) {
+  double speed = 0.0;
+  double force = 0.0;
+  for (std::size_t i = 1; i < live.rows.size(); ++i) {
+    const double way =
+        live.rows.number(i, "measured_travel_mm") - live.rows.number(i - 1, "measured_travel_mm");
+    if (live.rows.number(i, "contacts") > 0.0) speed = std::max(speed, std::abs(way));
+    force = std::max(force, live.rows.number(i, "sent_force_N"));
+  }
+  return force * speed * (3e-3 + force / (2.0 * 50.0));  // mm a frame of 1 ms is m/s
+}
+
+class Stiffness : public testing::TestWithParam<const char*> {};
+
+// Muscle is below the passivity limit of the assumed device all the way down, skin crosses it,
+// bone is a thousand times beyond it.
+TEST_P(Stiffness, TheHandNeverGainsMoreThanTheBound) {
+  const Played live(
+      Session{.link = "inverse3",
+              .scenario = "device_arm",
+              .options = {"--arm", "--set", std::string("tissue.material=") + GetParam()}});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  const double given = live.summary.at("most_work_by_device_J").get<double>();
+  EXPECT_LE(given, energy_bound(live));
+  EXPECT_GT(live.summary.at("greatest_force_N").get<double>(), 0.1);  // N: it was pressed
+  // Our observer and the emulator's own count say the same.
+  EXPECT_NEAR(live.health.at("least_energy_J").get<double>(), -given, 1e-8 + 1e-3 * given);
+}
+INSTANTIATE_TEST_SUITE_P(Tissues, Stiffness, testing::Values("muscle", "skin", "bone"));
+
+TEST(LiveRun, WithoutArmNothingMovesAndNoForceIsSent) {
+  const Played stand(Session{.options = {}});
+  EXPECT_EQ(stand.ended.code, 0) << stand.ended.err;
+  EXPECT_TRUE(has(stand.ended.err, "the stand is stopped beyond 5 N")) << stand.ended.err;
+  EXPECT_TRUE(has(stand.ended.err, "give `--arm` to run this"));
+  for (std::size_t i = 0; i < stand.log.size(); ++i) {
+    const std::string said = stand.log.word(i, "text");
+    if (stand.log.word(i, "kind") == "in") {
+      EXPECT_TRUE(said != "d" && said != "u" && said[0] != 'g' && said[0] != 'h') << said;
+    }
+    EXPECT_EQ(stand.log.number(i, "position_m"), 0.0);
+  }
+  EXPECT_FALSE(test::fs::exists(stand.result("device_stand")));
+
+  const Played arm(Session{.link = "inverse3", .scenario = "device_arm", .options = {}});
+  EXPECT_EQ(arm.ended.code, 0) << arm.ended.err;
+  EXPECT_TRUE(has(arm.ended.err, "what is sent at most: 2 N")) << arm.ended.err;
+  EXPECT_EQ(arm.summary.at("greatest_force_N"), 0.0);
+}
+
+TEST(LiveRun, KeepsTheRawTraffic) {
+  const Played live(Session{.options = {"--arm", "--traffic"}});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  const std::string traffic = test::read_file(live.result("device_stand") / "traffic.csv");
+  EXPECT_TRUE(traffic.starts_with("time_s,way,bytes\n0,sent,\"s\"\n")) << traffic.substr(0, 200);
+  EXPECT_TRUE(has(traffic, ",sent,\"LIST\\r\"\n")) << "the greeting is in it";
+  EXPECT_TRUE(has(traffic, ",sent,\"g-004.00\"\n"));
+  EXPECT_TRUE(has(traffic, " mm\\r\\n\"\n"));
+  EXPECT_FALSE(test::fs::exists(Played(Session{}).result("device_stand") / "traffic.csv"));
+}
+
+// A live run's own file, played again, gives the same forces.
+TEST(LiveRun, PlaysARecordingAgain) {
+  const Played live(Session{});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  const test::Ended again =
+      test::palpate(live.folder(), {"run", test::project_file("scenarios/device_stand.toml"),
+                                    "--out", "again", "--set", "output.figures=false", "--device",
+                                    "replay:out/device_stand/force_indentation.csv"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  const test::Rows rows(record::read_csv(
+      (live.folder() / "again" / "device_stand" / "force_indentation.csv").string()));
+  ASSERT_GE(rows.size(), live.rows.size() - 2);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_NEAR(rows.number(i, "time_s"), live.rows.number(i, "time_s"), 1e-9);
+    EXPECT_NEAR(rows.number(i, "force_N"), live.rows.number(i, "force_N"),
+                1e-9);  // times' rounding
+    EXPECT_EQ(rows.word(i, "case"), "device_stand");
+  }
+}
+
+TEST(LiveRun, FeelsForTheSurfaceWhereItIsNotGiven) {
+  test::TemporaryFolder folder;
+  const test::LiveEmulator emulator({"mark10", "--clock", "virtual", "--tissue",
+                                     test::project_file("scenarios/emulator/stand_tissue.toml")});
+  const test::Ended ended =
+      test::palpate(folder.path(), {"run", test::project_file("scenarios/device_stand.toml"),
+                                    "--device", "mark10:" + emulator.port(), "--clock", "virtual",
+                                    "--arm", "--set", "output.figures=false"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto health =
+      nlohmann::json::parse(test::read_file(folder.path() / "out/device_stand/device_health.json"));
+  // The upper limit of the last step is where the surface was found: 2 mm below the start. Felt
+  // from 5 mN on, which is a fifth of a millimetre here, by a line through what is viscous.
+  EXPECT_NEAR(health.at("limits").at("high_m").get<double>(), -2e-3, 1e-4);
+}
+
+TEST(LiveRun, RefusesWhatNoDeviceDoes) {
+  test::TemporaryFolder folder;
+  const std::string stand = test::project_file("scenarios/device_stand.toml");
+  const auto said = [&](const std::vector<std::string>& call) {
+    const test::Ended ended = test::palpate(folder.path(), call);
+    EXPECT_EQ(ended.code, 2) << ended.err;
+    return ended.err;
+  };
+  EXPECT_TRUE(has(said({"run", stand, stand, "--device", "mark10:/dev/none"}), "one scenario"));
+  EXPECT_TRUE(has(said({"run", stand, "--device", "mark11:/dev/none"}), "mark10:/dev/ttyUSB0"));
+  EXPECT_TRUE(
+      has(said({"run", stand, "--device", "mark10:/dev/none", "--surface", "2 N"}), "--surface"));
+  EXPECT_TRUE(has(said({"run", stand, "--arm"}), "--device"));
+  test::write_file(
+      folder / "sweep.toml",
+      test::read_file(stand) + "\n[sweep]\n\"tissue.young_modulus\" = [\"12 kPa\", \"13 kPa\"]\n");
+  EXPECT_TRUE(has(said({"run", "sweep.toml", "--device", "mark10:/dev/none"}), "2 cases"));
+  test::write_file(folder / "slide.toml",
+                   test::read_file(stand) + "\n[[step]]\nkind = \"slide\"\nby = \"1 mm\"\n");
+  EXPECT_TRUE(has(said({"run", "slide.toml", "--device", "mark10:/dev/none"}), "`slide`"));
+  EXPECT_TRUE(has(said({"run", stand, "--device", "replay:none.csv"}), "none.csv"));
+  const test::Ended lost =
+      test::palpate(folder.path(), {"run", stand, "--device", "mark10:/dev/none"});
+  EXPECT_EQ(lost.code, 2 + 4) << lost.err;  // 6: a link
+}
+
+// A programme beyond the ceiling is refused before anything moves.
+TEST(LiveRun, RefusesAProgrammeBeyondTheCeiling) {
+  const Played live(Session{.options = {"--arm", "--max-force", "0.1 N"}});
+  EXPECT_EQ(live.ended.code, 2) << live.ended.err;
+  EXPECT_TRUE(has(live.ended.err, "beyond the ceiling of 0.1 N")) << live.ended.err;
+  EXPECT_EQ(live.summary.at("greatest_force_N"), 0.0);
+  EXPECT_FALSE(test::fs::exists(live.result("device_stand")));
+}
+
+// Ctrl-C: the stand is told to stop at once, what was measured is kept.
+TEST(LiveRun, AnInterruptStopsTheStandAndKeepsTheRows) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    test::TemporaryFolder folder;
+    test::LiveEmulator emulator({"mark10", "--log", (folder / "log.csv").string(), "--tissue",
+                                 test::project_file("scenarios/emulator/stand_tissue.toml")});
+    test::Running running({.arguments = {"run", test::project_file("scenarios/device_stand.toml"),
+                                         "--device", "mark10:" + emulator.port(), "--arm",
+                                         "--surface", "-2 mm", "--set", "output.figures=false"},
+                           .folder = folder.path()});
+    // "d" the second time: the programme's press.
+    ASSERT_TRUE(running.until([&] {
+      const std::string log = test::read_file(folder / "log.csv");
+      const std::size_t first = log.find(",in,\"d\"");
+      return first != std::string::npos && log.find(",in,\"d\"", first + 1) != std::string::npos;
+    }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    running.send(signal);
+    const test::Ended ended = running.wait();
+    EXPECT_EQ(ended.code, 130) << ended.err;
+    const auto summary = emulator.end();
+    EXPECT_EQ(summary.at("summary").at("moving"), false);
+    EXPECT_GT(summary.at("summary").at("position_m").get<double>(), -0.004 + 1e-4)
+        << "it stopped before the end of its way";
+    const test::Rows rows(
+        record::read_csv((folder.path() / "out/device_stand/force_indentation.csv").string()));
+    EXPECT_GT(rows.size(), 2U);
+    EXPECT_TRUE(has(ended.err, "rows are kept")) << ended.err;
+  }
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,71 @@
+// The loops on live links: they allocate nothing, whatever the link, once they are under way.
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "counted_allocations.h"
+#include "live_emulator.h"
+#include "run/live_loop.h"
+#include "scenario/family.h"
+
+namespace palpate::run {
+namespace {
+
+using test::LiveEmulator;
+
+std::string file(const std::string& name) { return std::string(PALPATE_SOURCE_DIR) + "/" + name; }
+
+struct Looped {
+  LiveEnd end;
+  std::size_t allocations = 0;
+  std::size_t rows = 0;
+};
+
+Looped loop(const std::string& scenario, const LiveOptions& options) {
+  const scenario::Family family = scenario::read(file(scenario), {});
+  const scene::Scene scene = scene::build(family.cases.at(0), family);
+  device::Clock clock(device::Clock::Kind::stepped);
+  device::Link link(options.link, device::Purpose::command, clock);
+  LiveModel model(scene);
+  device::Health health;
+  const std::atomic<bool> stop = false;
+  LiveLog log([](int) {});
+  LiveLoop all{scene, options, link, clock, model, log, health, stop};
+  Looped looped;
+  const std::size_t before = test::allocations;
+  looped.end = link.identity().kind == device::Kind::stand ? run_stand(all) : run_arm(all);
+  looped.allocations = test::allocations - before;
+  looped.rows = log.finish().size();
+  return looped;
+}
+
+LiveOptions options(const std::string& link, double surface) {
+  LiveOptions options;
+  options.link = link;
+  options.act = LiveOptions::Act::command;
+  options.clock = device::Clock::Kind::stepped;
+  options.surface = surface;
+  return options;
+}
+
+TEST(LiveLoops, OfTheArmAllocatesNothing) {
+  const LiveEmulator emulator(
+      {"inverse3", "--clock", "virtual", "--hand", file("scenarios/emulator/arm_hand.toml")});
+  const Looped looped =
+      loop("scenarios/device_arm.toml", options("inverse3:127.0.0.1:" + emulator.port(), 0.13));
+  EXPECT_EQ(looped.end.why, LiveEnd::Why::done) << looped.end.sentence;
+  EXPECT_GT(looped.rows, 2500U);
+  EXPECT_EQ(looped.allocations, 0U);
+}
+
+TEST(LiveLoops, OfTheStandAllocatesNothing) {
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tissue", file("scenarios/emulator/stand_tissue.toml")});
+  const Looped looped =
+      loop("scenarios/device_stand.toml", options("mark10:" + emulator.port(), -2e-3));
+  EXPECT_EQ(looped.end.why, LiveEnd::Why::done) << looped.end.sentence;
+  EXPECT_GT(looped.rows, 140U);
+  EXPECT_EQ(looped.allocations, 0U);
+}
+
+}  // namespace
+}  // namespace palpate::run

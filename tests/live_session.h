@@ -1,0 +1,101 @@
+// `palpate run --device` against the emulator: one session, and what both sides say of it.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "live_emulator.h"
+#include "program.h"
+#include "record/csv.h"
+
+namespace palpate::test {
+
+struct Session {
+  std::string link = "mark10";  // or inverse3
+  std::string scenario = "device_stand";
+  std::string clock = "virtual";
+  std::vector<std::string> emulator = {};  // options
+  std::vector<std::string> options = {"--arm"};
+};
+
+// A table's numbers by column.
+class Rows {
+ public:
+  Rows() = default;
+  explicit Rows(record::Table table) : table_(std::move(table)) {}
+  [[nodiscard]] std::size_t size() const { return table_.rows.size(); }
+  [[nodiscard]] double number(std::size_t row, const std::string& column) const {
+    const auto* value = std::get_if<double>(&at(row, column));
+    return value != nullptr ? *value : std::nan("");
+  }
+  [[nodiscard]] std::string word(std::size_t row, const std::string& column) const {
+    const auto* value = std::get_if<std::string>(&at(row, column));
+    return value != nullptr ? *value : std::string();
+  }
+
+ private:
+  [[nodiscard]] const record::Cell& at(std::size_t row, const std::string& column) const {
+    const int found = table_.find(column);
+    if (found < 0) throw std::out_of_range("no column " + column);
+    return table_.rows.at(row).at(static_cast<std::size_t>(found));
+  }
+  record::Table table_;
+};
+
+class Played {
+ public:
+  explicit Played(const Session& session) {
+    std::vector<std::string> words{session.link, "--clock", session.clock, "--log",
+                                   folder_ / "log.csv"};
+    if (session.link == "mark10")
+      words.insert(words.end(), {"--tissue", project_file("scenarios/emulator/stand_tissue.toml")});
+    else
+      words.insert(words.end(), {"--hand", project_file("scenarios/emulator/arm_hand.toml")});
+    words.insert(words.end(), session.emulator.begin(), session.emulator.end());
+    LiveEmulator emulator(words);
+    const std::string place =
+        session.link == "mark10" ? emulator.port() : "127.0.0.1:" + emulator.port();
+    const std::string scenario = project_file("scenarios/" + session.scenario + ".toml");
+    std::vector<std::string> call{
+        "run",     scenario,      "--device", session.link + ":" + place, "--out", "out",
+        "--clock", session.clock, "--set",    "output.figures=false"};
+    // The emulator's surfaces: of the tissue, and 20 mm below the hand's start.
+    call.insert(call.end(), {"--surface", session.link == "mark10" ? "-2 mm" : "130 mm"});
+    call.insert(call.end(), session.options.begin(), session.options.end());
+    ended = palpate(folder_.path(), call);
+    summary = emulator.end();
+    if (summary.contains("summary")) summary = summary.at("summary");
+    const fs::path result = folder_.path() / "out" / session.scenario;
+    if (fs::exists(result / "force_indentation.csv")) {
+      rows = Rows(record::read_csv((result / "force_indentation.csv").string()));
+      findings = Rows(record::read_csv((result / "findings.csv").string()));
+      health = nlohmann::json::parse(read_file(result / "device_health.json"));
+    }
+    log = Rows(record::read_csv((folder_ / "log.csv").string()));
+  }
+
+  [[nodiscard]] fs::path result(const std::string& scenario) const {
+    return folder_.path() / "out" / scenario;
+  }
+  [[nodiscard]] const fs::path& folder() const { return folder_.path(); }
+
+  // The time of the first fault, s of the emulator; NaN where none began.
+  [[nodiscard]] double fault_time() const {
+    for (std::size_t i = 0; i < log.size(); ++i)
+      if (log.word(i, "kind") == "fault") return log.number(i, "time_s");
+    return std::nan("");
+  }
+
+  Ended ended;
+  nlohmann::json summary;
+  nlohmann::json health;
+  Rows rows;      // force_indentation.csv
+  Rows findings;  // findings.csv
+  Rows log;       // of the emulator
+
+ private:
+  TemporaryFolder folder_;
+};
+
+}  // namespace palpate::test
