@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "temporary_folder.h"
+
 namespace emulator::test {
 
 namespace fs = std::filesystem;
@@ -34,26 +36,16 @@ constexpr std::chrono::seconds patience{20};
 
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "palpate-emulator-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   [[nodiscard]] std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return *this / name;
   }
   [[nodiscard]] std::string operator/(const std::string& name) const {
-    return (path_ / name).string();
+    return (folder_ / name).string();
   }
 
  private:
-  fs::path path_;
+  palpate::test::TemporaryFolder folder_;
 };
 
 inline std::string read_file(const std::string& path) {

@@ -59,7 +59,7 @@ struct OneMass final : integrate::Body {
     if (step.size > 0.0) f[0] += tau * k * (u[0] - memory[0]) / step.size;
   }
   [[nodiscard]] SplitMatrix step_stiffness(const Vector&, std::span<const double>,
-                                            const integrate::TimeStep& step) const override {
+                                           const integrate::TimeStep& step) const override {
     return diagonal(k + (step.size > 0.0 ? tau * k / step.size : 0.0));
   }
 };

@@ -14,6 +14,7 @@
 #include "study/sweep_merge.h"
 #include "study/sweep_plan.h"
 #include "study/sweep_run.h"
+#include "temporary_folder.h"
 
 namespace palpate::study {
 
@@ -28,15 +29,6 @@ inline const std::string formulas =
 
 class SweepFolder : public testing::Test {
  protected:
-  SweepFolder() {
-    std::string pattern = (fs::temp_directory_path() / "palpate-sweep-XXXXXX").string();
-    root_ = ::mkdtemp(pattern.data());
-  }
-  ~SweepFolder() override {
-    std::error_code ignored;
-    fs::remove_all(root_, ignored);
-  }
-
   static std::string read(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
     EXPECT_TRUE(stream.good()) << path;
@@ -84,7 +76,8 @@ class SweepFolder : public testing::Test {
                 name);
   }
 
-  fs::path root_;
+  test::TemporaryFolder folder_;
+  fs::path root_ = folder_.path();
 };
 
 }  // namespace palpate::study

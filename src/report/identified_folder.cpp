@@ -118,15 +118,7 @@ std::vector<std::string> IdentifiedFolder::write(const fit::Identification& foun
     if (!drawing.warning.empty()) warnings.push_back(drawing.warning);
   }
 
-  Manifest manifest;
-  manifest.build = this_build();
-  manifest.libraries = library_versions("1.5");
-  manifest.machine = this_machine();
-  manifest.argv = origin.argv;
-  manifest.started = origin.started;
-  manifest.ended = utc_now();
-  for (const scenario::InputFile& input : family.inputs)
-    manifest.inputs.push_back({input.name, sha256(input.content)});
+  Manifest manifest = begin_manifest(origin, family.inputs);
   manifest.inputs.push_back(hashed_file(measured));
   for (const std::string& file : beside.files())
     manifest.outputs.push_back(hashed_file(file, beside.path()));

@@ -61,6 +61,19 @@ std::map<std::string, std::string> library_versions(const std::string& tetgen) {
           {"tetgen", tetgen}};
 }
 
+Manifest begin_manifest(const Origin& origin, const std::vector<scenario::InputFile>& inputs) {
+  Manifest manifest;
+  manifest.build = this_build();
+  manifest.libraries = library_versions("1.5");
+  manifest.machine = this_machine();
+  manifest.argv = origin.argv;
+  manifest.started = origin.started;
+  manifest.ended = utc_now();
+  for (const scenario::InputFile& input : inputs)
+    manifest.inputs.push_back({input.name, sha256(input.content)});
+  return manifest;
+}
+
 std::string manifest_text(const Manifest& manifest) {
   Json json;
   json["program"] = {{"name", "palpate"},

@@ -6,8 +6,15 @@
 #include <vector>
 
 #include "report/machine.h"
+#include "scenario/family.h"
 
 namespace palpate::report {
+
+// What run.json says of how a result was made, beyond what the result itself knows.
+struct Origin {
+  std::vector<std::string> argv;
+  std::string started;  // UTC
+};
 
 struct HashedFile {
   std::string path = {};
@@ -41,6 +48,10 @@ struct Manifest {
 
 // Eigen, Ceres, OpenEXR, nlohmann json and TetGen, whose version its own room knows.
 [[nodiscard]] std::map<std::string, std::string> library_versions(const std::string& tetgen);
+
+// What every manifest begins with: build, libraries, machine, what was called, the inputs' hashes.
+[[nodiscard]] Manifest begin_manifest(const Origin& origin,
+                                      const std::vector<scenario::InputFile>& inputs);
 
 // The manifest as JSON, two spaces a level, `\n` at the end; keys in a fixed order.
 [[nodiscard]] std::string manifest_text(const Manifest& manifest);

@@ -204,15 +204,7 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
     }
   }
 
-  Manifest manifest;
-  manifest.build = this_build();
-  manifest.libraries = library_versions("1.5");
-  manifest.machine = this_machine();
-  manifest.argv = origin.argv;
-  manifest.started = origin.started;
-  manifest.ended = utc_now();
-  for (const scenario::InputFile& input : family_->inputs)
-    manifest.inputs.push_back({input.name, sha256(input.content)});
+  Manifest manifest = begin_manifest(origin, family_->inputs);
   for (const std::string& file : files_) manifest.outputs.push_back(hashed_file(file, partial_));
   for (const record::CaseRecord& record : records)
     manifest.cases.push_back({record.name,

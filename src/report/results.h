@@ -8,15 +8,10 @@
 
 #include "fit/fit_table.h"
 #include "record/record.h"
+#include "report/manifest.h"
 #include "scenario/family.h"
 
 namespace palpate::report {
-
-// What run.json says of how a result was made, beyond what the result itself knows.
-struct Origin {
-  std::vector<std::string> argv;
-  std::string started;  // UTC
-};
 
 // findings.csv: case, the swept keys, then one column a finding, empty where a case has none.
 [[nodiscard]] record::Table findings_table(const scenario::Family& family,

@@ -66,8 +66,7 @@ std::string panel(const std::string& title, const std::string& x_label, const ch
 
 // Measured over theoretical limits of every rung and damping, on the diagonal where they agree.
 std::string agreement(const study::StabilityMap& map) {
-  std::vector<std::string> lines{
-      "x with lines linewidth 1.2 linecolor rgb '#909090' notitle"};
+  std::vector<std::string> lines{"x with lines linewidth 1.2 linecolor rgb '#909090' notitle"};
   for (const Curve& curve : methods) {
     if (!drawn(map, curve, "rung")) continue;
     lines.push_back("'stability.csv' using " + picked(curve, "rung", "theory_us") + ":" +

@@ -93,6 +93,17 @@ TEST_F(Plans, of_a_saltelli_design_may_have_cases_that_are_one) {
   EXPECT_EQ(different.size(), planned.count());
 }
 
+TEST_F(Plans, samples_of_words_repeat_and_are_all_planned) {
+  for (const char* design : {"lhs", "sobol"}) {
+    const SweepPlan planned =
+        plan(press + "[solver]\nmodel = \"hertz\"\n[sweep]\ndesign = \"" + design +
+             "\"\nsamples = 6\n\"tissue.material\" = [\"skin\", \"muscle\"]\n");
+    const std::set<std::uint64_t> different(planned.ids.begin(), planned.ids.end());
+    EXPECT_EQ(different.size(), 6U) << design;
+    fs::remove_all(root_ / "out");
+  }
+}
+
 TEST_F(Plans, the_same_plan_again_is_there_already) {
   EXPECT_FALSE(plan_sweep(order(formulas)).there_already);
   const std::string before = read(root_ / "out/s_sweep/plan.json");
