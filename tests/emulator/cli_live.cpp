@@ -2,6 +2,7 @@
 // keep what they have.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "live_session.h"
@@ -28,34 +29,50 @@ test::Rows offline(const Played& live, const std::string& scenario,
       record::read_csv((live.folder() / "offline" / scenario / "force_indentation.csv").string()));
 }
 
+// Options that make a scenario's half-space a mesh.
+const std::vector<std::string> mesh{
+    "--set", R"(tissue.shape={kind="cuboid",size=["40 mm","40 mm","20 mm"]})",
+    "--set", R"(tissue.mesh={kind="kuhn",cells=[3,4,6]})",
+    "--set", "solver.model=mass_spring",
+    "--set", "solver.integrator=quasi_static",
+    "--set", R"(solver.time_step="1 ms")"};
+
+std::vector<std::string> joined(std::vector<std::string> options,
+                                const std::vector<std::string>& more) {
+  options.insert(options.end(), more.begin(), more.end());
+  return options;
+}
+
 // The programme through the stand and back is the programme as planned, but for the stand's
-// resolution and the times its line takes.
-TEST(LiveStand, AgreesWithOfflineInATubeOfItsOwnResolution) {
-  const Played live(Session{});
+// resolution and the times its line takes: the tube of the shipped file, by a virtual clock
+// narrower, for nobody is late there.
+class StandModel : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(StandModel, AgreesWithOfflineInATubeOfTheStandsResolution) {
+  const Played live(Session{.options = joined({"--arm"}, GetParam())});
   ASSERT_EQ(live.ended.code, 0) << live.ended.err;
-  (void)offline(live, "device_stand");
-  std::string tolerances =
-      "[tube]\nx = \"time_s\"\nwidth = 0.05  # two readings of 20 ms, and half of one\n"
-      "[default]\nabs = 1e-6\n"
-      "[column.travel_mm]\nabs = 0.01  # half of what the stand resolves\n";
-  for (const char* column :
-       {"measured_x_mm", "measured_y_mm", "measured_travel_mm", "measured_force_N", "sent_x_N",
-        "sent_y_N", "sent_z_N", "sent_force_N"})
-    tolerances += std::string("[column.") + column + "]\nignore = true\n";
-  test::write_file(live.folder() / "tube.toml", tolerances);
-  const auto compare = [&] {
+  (void)offline(live, "device_stand", GetParam());
+  const auto compare = [&](const std::string& tolerances) {
+    test::write_file(live.folder() / "tube.toml", tolerances);
     return test::palpate(
         live.folder(), {"compare", "out/device_stand/force_indentation.csv",
                         "offline/device_stand/force_indentation.csv", "--tolerances", "tube.toml"});
   };
-  const test::Ended same = compare();
+  const std::string shipped =
+      test::read_file(test::project_file("scenarios/emulator/stand_tube.toml"));
+  const auto with_width = [&](const std::string& width) {
+    const std::size_t at = shipped.find("width = 0.15");
+    EXPECT_NE(at, std::string::npos);
+    return shipped.substr(0, at) + "width = " + width + shipped.substr(shipped.find(' ', at + 8));
+  };
+  // Two readings of 20 ms, and half of one.
+  const test::Ended same = compare(with_width("0.05"));
   EXPECT_EQ(same.code, 0) << same.out;
   // Without the time's tube they are not the same.
-  test::write_file(
-      live.folder() / "tube.toml",
-      "[tube]\nx = \"time_s\"\nwidth = 0.001\n" + tolerances.substr(tolerances.find("[default]")));
-  EXPECT_EQ(compare().code, 3);
+  EXPECT_EQ(compare(with_width("0.001")).code, 3);
 }
+INSTANTIATE_TEST_SUITE_P(ClosedFormAndMesh, StandModel,
+                         testing::Values(std::vector<std::string>(), mesh));
 
 // The emulator's tissue is the scenario's, by another formula: while the press goes in and is held
 // both follow Lee and Radok.
@@ -116,6 +133,36 @@ TEST(LiveArm, ShowsTheForceThatOfflineGivesAtTheHandsPlace) {
     EXPECT_NEAR(force, coefficient * travel * std::sqrt(travel), 1e-9);
   }
   EXPECT_GT(deepest, 1.0);
+}
+
+// A mesh under the hand gives the force that the same mesh gives offline at that travel.
+TEST(LiveArm, ShowsAMeshsForceToo) {
+  const Played live(
+      Session{.link = "inverse3", .scenario = "device_arm", .options = joined({"--arm"}, mesh)});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  const test::Rows off = offline(live, "device_arm", mesh);
+  // Of the press, as a polyline over travel: 5 um a row.
+  std::vector<double> travels;
+  std::vector<double> forces;
+  for (std::size_t i = 0; i < off.size() && off.number(i, "step") == 1.0; ++i) {
+    travels.push_back(off.number(i, "travel_mm"));
+    forces.push_back(off.number(i, "force_N"));
+  }
+  ASSERT_EQ(travels.size(), 201U);
+  std::size_t pressed = 0;
+  for (std::size_t i = 0; i < live.rows.size(); ++i) {
+    const double travel = live.rows.number(i, "measured_travel_mm");
+    if (!(travel > 0.0) || travel >= travels.back()) continue;
+    const auto above = static_cast<std::size_t>(
+        std::upper_bound(travels.begin(), travels.end(), travel) - travels.begin());
+    const double share = (travel - travels[above - 1]) / (travels[above] - travels[above - 1]);
+    const double wanted = forces[above - 1] + share * (forces[above] - forces[above - 1]);
+    // The mesh's steps end at whole milliseconds, the frames too: 1e-4 is the tolerance to which a
+    // contact is balanced, 1e-5 N what the polyline misses of the first row's h^(3/2).
+    EXPECT_NEAR(live.rows.number(i, "force_N"), wanted, 1e-5 + 1e-4 * wanted) << "row " << i;
+    ++pressed;
+  }
+  EXPECT_GT(pressed, 200U);  // frames, of a press and a withdrawal of 0.15 s each
 }
 
 // What we say we sent is what arrived, and it is the model's force where no rule cuts it.
