@@ -17,6 +17,8 @@ struct Session {
   std::string clock = "virtual";
   std::vector<std::string> emulator = {};  // options
   std::vector<std::string> options = {"--arm"};
+  std::string surface =
+      {};  // empty: where the emulator's tissue begins, 20 mm below a hand's start
 };
 
 // A table's numbers by column.
@@ -60,8 +62,8 @@ class Played {
     std::vector<std::string> call{
         "run",     scenario,      "--device", session.link + ":" + place, "--out", "out",
         "--clock", session.clock, "--set",    "output.figures=false"};
-    // The emulator's surfaces: of the tissue, and 20 mm below the hand's start.
-    call.insert(call.end(), {"--surface", session.link == "mark10" ? "-2 mm" : "130 mm"});
+    const char* usual = session.link == "mark10" ? "-2 mm" : "130 mm";
+    call.insert(call.end(), {"--surface", session.surface.empty() ? usual : session.surface});
     call.insert(call.end(), session.options.begin(), session.options.end());
     ended = palpate(folder_.path(), call);
     summary = emulator.end();

@@ -47,7 +47,7 @@ class ArmSafety {
   // Starts the ramp. `depth` in m, above 0 inside the tissue. False without a good sample, when it
   // is stale, inside the tissue (which trips nothing: move out and ask again), or after a trip.
   bool arm(double now, double depth);
-  void disarm() { arming_.trip(Trip::by_hand); }
+  void disarm(Trip why = Trip::by_hand) { arming_.trip(why); }
 
   // Once a frame, last: the force (N) that may be sent for the one that is wanted. Always finite,
   // never above the ceiling; zero unless armed. Call it once a frame, with take()'s `now`.

@@ -80,6 +80,8 @@ LiveEnd ended_by_link(device::Trip trip, device::Fault fault) {
   LiveEnd end{LiveEnd::Why::link, std::string(device::trip_text(trip))};
   if (fault != device::Fault::none && trip != device::Trip::brake)
     end.sentence += ": " + std::string(device::fault_text(fault));
+  if (trip == device::Trip::inside_tissue)
+    end.sentence += "; move it out and begin again, or give another `--surface`";
   if (trip == device::Trip::not_verified)
     end.sentence += "; see that the device stands still, by its own stop if it does not";
   return end;

@@ -157,7 +157,9 @@ class ArmLoop {
     if (safety_.armed() || safety_.tripped() != Trip::none) return;
     // Inside wherever the model feels anything, or the place is below the surface.
     const bool inside = !loop_.model.touch().contacts.empty();
-    (void)safety_.arm(now_, inside ? std::max(1e-9, -offset_.z()) : 0.0);
+    if (safety_.arm(now_, inside ? std::max(1e-9, -offset_.z()) : 0.0)) return;
+    if (inside && safety_.freshness() == device::Staleness::State::fresh)
+      safety_.disarm(Trip::inside_tissue);
   }
 
   void write() {

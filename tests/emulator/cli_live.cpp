@@ -234,6 +234,17 @@ TEST(LiveRun, WithoutArmNothingMovesAndNoForceIsSent) {
   EXPECT_EQ(arm.summary.at("greatest_force_N"), 0.0);
 }
 
+// Nothing is pushed out of the tissue: the hand has to leave it before a run begins.
+TEST(LiveArm, RefusesToStartInsideTheTissue) {
+  const Played live(Session{.link = "inverse3", .scenario = "device_arm", .surface = "160 mm"});
+  EXPECT_EQ(live.ended.code, 6);
+  EXPECT_TRUE(has(live.ended.err, "the finger was inside the tissue at the start; move it out"))
+      << live.ended.err;
+  EXPECT_EQ(live.summary.at("greatest_force_N"), 0.0);
+  EXPECT_EQ(live.health.at("states").back().at("state"), "closed");
+  EXPECT_EQ(live.health.at("states").at(1).at("state"), "tripped");
+}
+
 TEST(LiveRun, KeepsTheRawTraffic) {
   const Played live(Session{.options = {"--arm", "--traffic"}});
   ASSERT_EQ(live.ended.code, 0) << live.ended.err;
