@@ -52,6 +52,13 @@ void Mark10::pass_time() {
   if (clock_.kind() == Clock::Kind::stepped) clock_.sleep_until(clock_.now() + planned_period);
 }
 
+// How long the wire may be silent (s). In lock-step nothing is late, but the emulator may have to
+// wait for a processor.
+double Mark10::patience(double time) const {
+  constexpr double lockstep = 0.5;  // s
+  return clock_.kind() == Clock::Kind::stepped ? std::max(time, lockstep) : time;
+}
+
 bool Mark10::send(std::string_view bytes) { return port_.write(bytes); }
 
 void Mark10::receive(double until) {
@@ -102,14 +109,14 @@ std::optional<std::string> Mark10::gauge(std::string_view command, double wait) 
 }
 
 std::optional<mark10::Settings> Mark10::ask_settings() {
-  const auto reply = gauge("LIST", answer_time);
+  const auto reply = gauge("LIST", patience(answer_time));
   return reply ? mark10::parse_settings(*reply) : std::nullopt;
 }
 
 bool Mark10::ask(std::string_view command) {
   // A reading that is still on its way would be taken for the answer.
   if (asked_) {
-    const double until = asked_at_ + sample_time;
+    const double until = asked_at_ + patience(sample_time);
     while (const auto line = line_until(until))
       if (pairs_.take(*line).pair) break;
     asked_ = false;
@@ -129,7 +136,7 @@ std::optional<std::string_view> Mark10::line_until(double until) {
 
 std::optional<mark10::Quantity> Mark10::ask_number(std::string_view command) {
   if (!ask(command)) return std::nullopt;
-  const double until = wire_time() + answer_time;
+  const double until = wire_time() + patience(answer_time);
   while (const auto line = line_until(until)) {
     if (mark10::parse_error(*line)) break;
     auto number = mark10::parse_quantity(*line);
@@ -146,7 +153,7 @@ std::optional<mark10::Quantity> Mark10::ask_number(std::string_view command) {
 
 std::optional<mark10::Status> Mark10::ask_status() {
   if (!ask("p")) return std::nullopt;
-  const double until = wire_time() + answer_time;
+  const double until = wire_time() + patience(answer_time);
   while (const auto line = line_until(until))
     if (const auto status = mark10::parse_status(*line)) return status;
   return std::nullopt;
@@ -209,15 +216,17 @@ Sample Mark10::sample(double wait) {
     }
     if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
     const double now = wire_time();
-    if (now >= asked_at_ + sample_time) {
+    if (now >= asked_at_ + patience(sample_time)) {
       asked_ = false;
+      if (clock_.kind() == Clock::Kind::stepped)
+        clock_.sleep_until(clock_.now() + sample_time - planned_period);
       if (!heard_) return finished(Arrival::none, Fault::silent);
       if (fault == Fault::none)
         fault = mark10::garbage_share(lines_.rest()) > 0.0 ? Fault::garbage : Fault::truncated;
       return finished(Arrival::dropped, fault);
     }
     if (now >= until) return finished(Arrival::none, fault);
-    receive(std::min(until, asked_at_ + sample_time));
+    receive(std::min(until, asked_at_ + patience(sample_time)));
   }
 }
 
@@ -281,7 +290,7 @@ Fault Mark10::move(const Motion& motion) {
 bool Mark10::stop() {
   if (purpose_ != Purpose::command) return true;  // it never set anything in motion
   // It brakes from its greatest speed in about 0.1 s.
-  const double until = wire_time() + stop_time;
+  const double until = wire_time() + patience(stop_time);
   do {
     send("s");
     const auto status = ask_status();

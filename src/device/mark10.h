@@ -55,6 +55,7 @@ class Mark10 {
   [[noreturn]] void refuse_silence() const;
 
   void pass_time();
+  [[nodiscard]] double patience(double time) const;
   bool send(std::string_view bytes);
   void receive(double until);
   void drain();

@@ -31,7 +31,7 @@ void Mark10::greet() {
   for (int tries = 0; tries < 2 && !pair; ++tries) {
     pairs_.clear();
     if (!ask("n")) break;
-    const double until = wire_time() + answer_time;
+    const double until = wire_time() + patience(answer_time);
     while (const auto line = pair ? std::nullopt : line_until(until)) {
       const auto step = pairs_.take(*line);
       if (step.error != 0) error = step.error;
@@ -88,7 +88,7 @@ void Mark10::ask_gauge_who_it_is() {
   // Model and serial number, as the gauge gives them.
   for (const auto& [command, into] :
        {std::pair{"RM", &identity_.model}, std::pair{"RS", &identity_.id}}) {
-    const auto reply = gauge(command, answer_time);
+    const auto reply = gauge(command, patience(answer_time));
     if (reply && !mark10::parse_error(*reply) && mark10::garbage_share(*reply) == 0.0)
       *into = *reply;
   }

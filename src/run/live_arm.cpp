@@ -16,9 +16,9 @@ using device::LinkState;
 using device::Sample;
 using device::Trip;
 
-constexpr double box = 0.15;           // m, half of the workspace's edge, about the hand's start
-constexpr double stepped_wait = 0.25;  // s of the wire, for a reply in lock-step
-constexpr double longest_fall = 0.3;   // s, in which the last force must be gone
+constexpr double box = 0.15;          // m, half of the workspace's edge, about the hand's start
+constexpr double stepped_wait = 1.0;  // s of the wire, for a reply in lock-step
+constexpr double longest_fall = 0.3;  // s, in which the last force must be gone
 constexpr double most_frames_behind = 8.0;
 
 device::ArmRules rules_of(const LiveLoop& loop) {

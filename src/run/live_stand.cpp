@@ -22,6 +22,7 @@ using device::Trip;
 using Verdict = device::StandSafety::Verdict;
 
 constexpr double sample_wait = 0.06;   // s of the wire
+constexpr double stepped_wait = 1.0;   // s of the wire, for a reply in lock-step
 constexpr double free_way = 2e-3;      // m, above the surface, where motions begin
 constexpr double travel_speed = 5e-3;  // m/s, out of contact
 constexpr double feel_speed = 0.5e-3;  // m/s
@@ -118,7 +119,7 @@ class StandLoop {
       loop_.health.lateness.add(loop_.clock.now() - next_);
     }
     const double asked = loop_.clock.now();
-    const Sample sample = loop_.link.sample(sample_wait);
+    const Sample sample = loop_.link.sample(real_ ? sample_wait : stepped_wait);
     loop_.health.count(now(), sample);
     if (sample.arrival == Arrival::fresh) {
       loop_.health.reply.add(sample.received - asked);
