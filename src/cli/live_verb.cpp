@@ -1,5 +1,5 @@
 // `palpate run --device`: one case against a live device or its recording.
-#include <thread>
+#include <csignal>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -70,6 +70,10 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   const run::LiveOptions options = options_of(command);
   report::ResultFolder folder(command.out, family, command.force);
+  for (const std::string& rows : folder.rows_left_beside())
+    talk.say("note: " + rows +
+             " has the rows of a run that was killed, or that still goes on; nothing touches it, "
+             "`--device replay:` plays it, remove its folder when it is of no use");
   const scene::Scene scene = scene::build(family.cases.front(), family);
   run::refuse_beyond_device(scene, file, options);
   // Before the link, whose own handlers come on top of these.
@@ -82,12 +86,21 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     return exit_good;
   }
   const std::string started = report::utc_now();
+  // A file that may not grow is an error to be told of, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   folder.open();
-  const auto on_step = [&](int step) {
-    talk.say("step " + std::to_string(step) + ": " +
-             run::guidance(scene.scenario.steps[static_cast<std::size_t>(step - 1)]));
-  };
-  run::Live::Result result = live.go(stop_requested, on_step);
+  const run::Live::Output output{
+      .on_step =
+          [&](int step) {
+            talk.say("step " + std::to_string(step) + ": " +
+                     run::guidance(scene.scenario.steps[static_cast<std::size_t>(step - 1)]));
+          },
+      .on_warning = [&](const std::string& sentence) { talk.warn(sentence); },
+      .rows_file = folder.growing("force_indentation.csv"),
+      .traffic_file = command.device.traffic ? folder.growing("traffic.csv") : std::string()};
+  run::Live::Result result = live.go(stop_requested, output);
+  if (result.rows_are_written) folder.take_grown("force_indentation.csv");
+  if (command.device.traffic) folder.take_grown("traffic.csv");
   for (const std::string& warning : result.warnings) talk.warn(warning);
   for (const std::string& remark : result.record.remarks)
     talk.say(result.record.name + ": " + remark + ".");
