@@ -104,22 +104,28 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   for (const std::string& warning : result.warnings) talk.warn(warning);
   for (const std::string& remark : result.record.remarks)
     talk.say(result.record.name + ": " + remark + ".");
-  folder.keep(0, result.record);
-  std::vector<fit::NamedFit> fits;
-  if (family.base.output.fits && !result.record.contact.empty())
-    fits = fit::case_fits(scene.scenario, result.record);
-  for (const std::string& warning :
-       folder.finish({result.record}, fits, {arguments.given, started}))
-    talk.warn(warning);
-  talk.say(folder.path() + ": " + std::to_string(result.record.contact.size()) + " rows");
+  const std::string rows = std::to_string(result.record.contact.size()) + " rows";
+  const int code = code_of(result.end.why);
+  const std::string ended = "palpate: " + options.link + ": " + result.end.sentence;
+  try {
+    folder.keep(0, result.record);
+    std::vector<fit::NamedFit> fits;
+    if (family.base.output.fits && !result.record.contact.empty())
+      fits = fit::case_fits(scene.scenario, result.record);
+    for (const std::string& warning :
+         folder.finish({result.record}, fits, {arguments.given, started}))
+      talk.warn(warning);
+  } catch (const SystemError& error) {
+    if (code != exit_good) Talk::error(ended);
+    throw SystemError(std::string(error.what()) + "; the rows that it took are in " +
+                      output.rows_file);
+  }
+  talk.say(folder.path() + ": " + rows);
   talk.event("result", {{"scenario", family.name},
                         {"folder", folder.path()},
                         {"outcome", record::outcome_word(result.record.outcome)},
                         {"reason", result.record.reason}});
-  const int code = code_of(result.end.why);
-  if (code != exit_good)
-    Talk::error("palpate: " + options.link + ": " + result.end.sentence + "; " +
-                std::to_string(result.record.contact.size()) + " rows are kept");
+  if (code != exit_good) Talk::error(ended + "; " + rows + " are kept");
   return code;
 }
 
