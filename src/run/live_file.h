@@ -15,9 +15,9 @@ class LiveFile {
   // Nothing is made before the first text. An empty path: a file that takes nothing.
   explicit LiveFile(std::string path);
 
-  // Whether the text is in the file now; where it is not, nothing of it is. After a failure the
-  // file is left alone for a second.
-  bool append(std::string_view text);
+  // Returns how much of the text, which ends with a line feed, is in the file now: whole lines.
+  // After a failure the file is left alone for a second.
+  std::size_t append(std::string_view text);
   // Once a second, brings to the disk what is still on its way.
   void sync_when_due();
   // Does so now.
@@ -33,10 +33,12 @@ class LiveFile {
  private:
   using Clock = std::chrono::steady_clock;
 
+  [[nodiscard]] std::size_t next_piece(std::string_view text) const;
   void fail(const std::string& why);
 
   std::string path_;
   std::unique_ptr<GrowingFile> file_;
+  std::size_t size_ = 0;  // bytes
   std::string trouble_;
   bool dirty_ = false;  // not all of it is on the disk
   Clock::time_point next_sync_{};

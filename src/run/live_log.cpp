@@ -94,9 +94,14 @@ bool LiveLog::write_rows() {
       piece.contact.push_back(rows_[i].contact);
       piece.measured.push_back(rows_[i].measured);
     }
-    const std::string text = record::csv_text(record::contact_table(piece_));
-    const std::size_t header = in_file_ == 0 ? 0 : text.find('\n') + 1;
-    if (rows_file_.append(std::string_view(text).substr(header))) in_file_ = end;
+    const std::string table = record::csv_text(record::contact_table(piece_));
+    const std::size_t header = has_header_ ? table.find('\n') + 1 : 0;
+    const std::string_view text = std::string_view(table).substr(header);
+    const std::string_view taken = text.substr(0, rows_file_.append(text));
+    auto lines = static_cast<std::size_t>(std::count(taken.begin(), taken.end(), '\n'));
+    if (lines > 0 && !has_header_) --lines;
+    has_header_ = has_header_ || !taken.empty();
+    in_file_ = taken.size() == text.size() ? end : in_file_ + lines;
   }
   rows_file_.sync_when_due();
   if (!rows_told_ && !rows_file_.trouble().empty()) {

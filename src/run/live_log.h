@@ -85,6 +85,7 @@ class LiveLog {
   std::string bytes_;          // of a write or read that came in parts
   double first_time_ = -1.0;   // s, wire time
   std::vector<LogRow> rows_;
+  bool has_header_ = false;                // the file of rows
   std::size_t in_file_ = 0;                // so many of `rows_`
   std::vector<record::CaseRecord> piece_;  // one: the rows on their way to the file
   std::uint64_t pushed_ = 0;               // the loop's own count

@@ -112,6 +112,27 @@ TEST_F(LiveLogs, rows_are_in_the_file_while_it_goes_on) {
   }
 }
 
+// What is more than the disk takes at once: as many lines as fit are there.
+TEST_F(LiveLogs, of_many_rows_a_full_disk_has_those_that_fit) {
+  FullDisk disk(20000);
+  std::promise<void> go_on;
+  LiveLog log([&](int) { go_on.get_future().wait(); }, plan());
+  std::vector<LogRow> rows;
+  for (int i = 0; i < 1000; ++i) {
+    rows.push_back(row(i));
+    log.push(rows.back());
+  }
+  go_on.set_value();
+  EXPECT_TRUE(seen_within_10_s([&] { return times_told_ > 0; }));
+  const std::string kept = content(path_);
+  EXPECT_GT(kept.size(), 20000U - 4096U) << "no more than a page is left out";
+  EXPECT_TRUE(table_text(rows).starts_with(kept));
+  EXPECT_EQ(kept.back(), '\n');
+  disk.end();
+  (void)log.finish();
+  EXPECT_EQ(content(path_), table_text(rows));
+}
+
 TEST_F(LiveLogs, without_rows_there_is_no_file) {
   LiveLog log(ignore, plan());
   EXPECT_TRUE(log.finish().empty());
@@ -179,7 +200,7 @@ TEST_F(LiveLogs, a_full_disk_is_told_once_and_tried_again) {
     }
   }();
   EXPECT_LT(whole_lines.size(), 4096U);
-  // Nothing of the rows that did not all fit, or some of them whole.
+  // Of the rows that did not all fit some, whole ones.
   const std::string kept = content(path_);
   EXPECT_TRUE(kept.starts_with(whole_lines));
   EXPECT_TRUE(table_text(rows).starts_with(kept));
