@@ -1,5 +1,5 @@
 // `palpate run --device`: one case against a live device or its recording.
-#include <thread>
+#include <csignal>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -70,6 +70,10 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   const run::LiveOptions options = options_of(command);
   report::ResultFolder folder(command.out, family, command.force);
+  for (const std::string& rows : folder.rows_left_beside())
+    talk.say("note: " + rows +
+             " has the rows of a run that was killed, or that still goes on; nothing touches it, "
+             "`--device replay:` plays it, remove its folder when it is of no use");
   const scene::Scene scene = scene::build(family.cases.front(), family);
   run::refuse_beyond_device(scene, file, options);
   // Before the link, whose own handlers come on top of these.
@@ -82,31 +86,46 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     return exit_good;
   }
   const std::string started = report::utc_now();
+  // A file that may not grow is an error to be told of, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   folder.open();
-  const auto on_step = [&](int step) {
-    talk.say("step " + std::to_string(step) + ": " +
-             run::guidance(scene.scenario.steps[static_cast<std::size_t>(step - 1)]));
-  };
-  run::Live::Result result = live.go(stop_requested, on_step);
+  const run::Live::Output output{
+      .on_step =
+          [&](int step) {
+            talk.say("step " + std::to_string(step) + ": " +
+                     run::guidance(scene.scenario.steps[static_cast<std::size_t>(step - 1)]));
+          },
+      .on_warning = [&](const std::string& sentence) { talk.warn(sentence); },
+      .rows_file = folder.growing("force_indentation.csv"),
+      .traffic_file = command.device.traffic ? folder.growing("traffic.csv") : std::string()};
+  run::Live::Result result = live.go(stop_requested, output);
+  if (result.rows_are_written) folder.take_grown("force_indentation.csv");
+  if (command.device.traffic) folder.take_grown("traffic.csv");
   for (const std::string& warning : result.warnings) talk.warn(warning);
   for (const std::string& remark : result.record.remarks)
     talk.say(result.record.name + ": " + remark + ".");
-  folder.keep(0, result.record);
-  std::vector<fit::NamedFit> fits;
-  if (family.base.output.fits && !result.record.contact.empty())
-    fits = fit::case_fits(scene.scenario, result.record);
-  for (const std::string& warning :
-       folder.finish({result.record}, fits, {arguments.given, started}))
-    talk.warn(warning);
-  talk.say(folder.path() + ": " + std::to_string(result.record.contact.size()) + " rows");
+  const std::string rows = std::to_string(result.record.contact.size()) + " rows";
+  const int code = code_of(result.end.why);
+  const std::string ended = "palpate: " + options.link + ": " + result.end.sentence;
+  try {
+    folder.keep(0, result.record);
+    std::vector<fit::NamedFit> fits;
+    if (family.base.output.fits && !result.record.contact.empty())
+      fits = fit::case_fits(scene.scenario, result.record);
+    for (const std::string& warning :
+         folder.finish({result.record}, fits, {arguments.given, started}))
+      talk.warn(warning);
+  } catch (const SystemError& error) {
+    if (code != exit_good) Talk::error(ended);
+    throw SystemError(std::string(error.what()) + "; the rows that it took are in " +
+                      output.rows_file);
+  }
+  talk.say(folder.path() + ": " + rows);
   talk.event("result", {{"scenario", family.name},
                         {"folder", folder.path()},
                         {"outcome", record::outcome_word(result.record.outcome)},
                         {"reason", result.record.reason}});
-  const int code = code_of(result.end.why);
-  if (code != exit_good)
-    Talk::error("palpate: " + options.link + ": " + result.end.sentence + "; " +
-                std::to_string(result.record.contact.size()) + " rows are kept");
+  if (code != exit_good) Talk::error(ended + "; " + rows + " are kept");
   return code;
 }
 

@@ -87,15 +87,32 @@ record::Table findings_table(const scenario::Family& family,
   return table;
 }
 
-CsvFiles csv_files(const scenario::Family& family, const std::vector<record::CaseRecord>& records,
-                   const std::vector<fit::NamedFit>& fits) {
+namespace {
+
+const char* curve_name(const scenario::Family& family) {
+  return family.base.uniform() ? "strain_time.csv" : "force_indentation.csv";
+}
+
+record::Table curve_table(const scenario::Family& family,
+                          const std::vector<record::CaseRecord>& records) {
+  return family.base.uniform() ? record::strain_table(records) : record::contact_table(records);
+}
+
+// A row a case.
+CsvFiles short_files(const scenario::Family& family, const std::vector<record::CaseRecord>& records,
+                     const std::vector<fit::NamedFit>& fits) {
   CsvFiles files;
-  if (family.base.uniform())
-    files.emplace_back("strain_time.csv", record::strain_table(records));
-  else
-    files.emplace_back("force_indentation.csv", record::contact_table(records));
   files.emplace_back("findings.csv", findings_table(family, records));
   if (family.base.output.fits) files.emplace_back("fits.csv", fit::fit_table(fits));
+  return files;
+}
+
+}  // namespace
+
+CsvFiles csv_files(const scenario::Family& family, const std::vector<record::CaseRecord>& records,
+                   const std::vector<fit::NamedFit>& fits) {
+  CsvFiles files = short_files(family, records, fits);
+  files.emplace(files.begin(), curve_name(family), curve_table(family, records));
   return files;
 }
 
@@ -113,14 +130,52 @@ ResultFolder::ResultFolder(const std::string& out, const scenario::Family& famil
                      "or rename the scenario");
 }
 
+// Numbers of processes come again, in a container at once: a folder that was left is passed by.
 void ResultFolder::open() {
-  make_folder(partial_);
+  const std::string stem = partial_;
+  if (const fs::path parent = fs::path(partial_).parent_path(); !parent.empty())
+    make_folder(parent.string());
+  std::error_code error;
+  for (int i = 2; !fs::create_directory(partial_, error); ++i) {
+    if (error) throw SystemError(partial_ + " cannot be made: " + error.message());
+    partial_ = stem + "-" + std::to_string(i);
+  }
   opened_ = true;
 }
 
 ResultFolder::~ResultFolder() {
   std::error_code ignored;
-  if (opened_ && !finished_ && !cases_kept_) fs::remove_all(partial_, ignored);
+  const bool grows = std::any_of(growing_.begin(), growing_.end(), [&](const std::string& name) {
+    return fs::exists(partial_ + "/" + name, ignored);
+  });
+  if (opened_ && !finished_ && !cases_kept_ && !grows) fs::remove_all(partial_, ignored);
+}
+
+std::string ResultFolder::growing(const std::string& name) {
+  growing_.insert(name);
+  return partial_ + "/" + name;
+}
+
+void ResultFolder::take_grown(const std::string& name) {
+  std::error_code ignored;
+  if (fs::exists(partial_ + "/" + name, ignored)) grown_.insert(name);
+}
+
+std::vector<std::string> ResultFolder::rows_left_beside() const {
+  const fs::path place(path_);
+  const std::string stem = place.filename().string() + ".partial-";
+  const fs::path parent = place.has_parent_path() ? place.parent_path() : fs::path(".");
+  std::vector<std::string> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(parent, ignored)) {
+    const fs::path rows = entry.path() / "force_indentation.csv";
+    // One with run.json is a whole result, beside an older one.
+    if (entry.path().filename().string().starts_with(stem) && fs::exists(rows, ignored) &&
+        !fs::exists(entry.path() / "run.json", ignored))
+      found.push_back(rows.string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
@@ -128,7 +183,7 @@ void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
   const std::string folder = partial_ + "/" + numbered("case", index + 1, "");
   make_folder(folder);
   const std::vector<record::CaseRecord> one{record};
-  if (!record.contact.empty())
+  if (!record.contact.empty() && !grown_.contains("force_indentation.csv"))
     write_atomically(folder + "/force_indentation.csv",
                      record::csv_text(record::contact_table(one)));
   if (!record.strain.empty())
@@ -180,8 +235,15 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   write("scenario.toml", echo);
   for (const scenario::InputFile& input : family_->inputs)
     if (&input != &family_->inputs.front()) write(input.name, input.content);
-  for (const auto& [name, table] : csv_files(*family_, records, fits))
+  const std::string curve = curve_name(*family_);
+  if (grown_.contains(curve))
+    files_.push_back(curve);
+  else
+    write(curve, record::csv_text(curve_table(*family_, records)));
+  for (const auto& [name, table] : short_files(*family_, records, fits))
     write(name, record::csv_text(table));
+  for (const std::string& name : grown_)
+    if (name != curve) files_.push_back(name);
   for (const record::CaseRecord& record : records)
     for (const auto& [name, content] : record.attached) write(name, content);
 

@@ -1,7 +1,7 @@
 // A result folder: written whole beside its place, then renamed.
 #pragma once
 
-#include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,13 +31,24 @@ class ResultFolder {
   // that is no result. Makes nothing yet.
   ResultFolder(const std::string& out, const scenario::Family& family, bool replace);
 
-  // Makes the partial folder. Throws SystemError where it cannot be made.
+  // Makes the partial folder, a new one whatever earlier programs have left. Throws SystemError
+  // where it cannot be made.
   void open();
 
-  // Removes what is left of an unfinished folder, unless a finished case lies in it.
+  // Removes what is left of an unfinished folder, unless a finished case or a growing file lies in
+  // it.
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;
+
+  // The path of a file of the result that grows in the partial folder while the run goes on. Once
+  // it is there the folder stays until finish(), whatever ends the program.
+  [[nodiscard]] std::string growing(const std::string& name);
+  // What has grown, if it is there, is the file of the result: it is not written again.
+  void take_grown(const std::string& name);
+  // Rows that earlier live runs left in folders beside this one, for they were killed, or others
+  // still write: paths of CSV files, in order.
+  [[nodiscard]] std::vector<std::string> rows_left_beside() const;
 
   // Keeps a finished case on the disk at once. One call at a time.
   void keep(std::size_t index, const record::CaseRecord& record);
@@ -63,6 +74,8 @@ class ResultFolder {
   bool cases_kept_ = false;
   bool finished_ = false;
   std::vector<std::string> files_;
+  std::set<std::string> growing_;  // names
+  std::set<std::string> grown_;    // of these, whole
 };
 
 }  // namespace palpate::report

@@ -172,11 +172,19 @@ std::vector<std::string> Live::plan(const std::string& file) {
   return lines;
 }
 
-Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(int)>& on_step) {
+Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   Result result;
   LiveModel& model = *model_;
   device::Health health;
-  LiveLog log(on_step, tap_.get());
+  // Where time passes with the rows, as in a recording, no row is left out for a slow disk.
+  const bool stepped = clock_.kind() == device::Clock::Kind::stepped;
+  LiveLog log(output.on_step,
+              {.rows_file = output.rows_file,
+               .case_name = scene_->name,
+               .tap = tap_.get(),
+               .traffic_file = output.traffic_file,
+               .on_trouble = output.on_warning,
+               .when_full = stepped ? LogPlan::WhenFull::wait : LogPlan::WhenFull::drop});
   if (options_->priority == LiveOptions::Priority::realtime) {
     for (std::string sentence : {device::lock_memory(), device::use_fifo(fifo_priority)})
       if (!sentence.empty()) result.warnings.push_back(std::move(sentence));
@@ -192,13 +200,8 @@ Live::Result Live::go(const std::atomic<bool>& stop, const std::function<void(in
     record.contact.push_back(row.contact);
     record.measured.push_back(row.measured);
   }
-  if (tap_) record.attached.emplace_back("traffic.csv", std::move(log.traffic()));
-  if (tap_ && tap_->dropped() > 0)
-    result.warnings.push_back(std::to_string(tap_->dropped()) +
-                              " parts of the traffic found no room and are missing");
-  if (log.dropped() > 0)
-    result.warnings.push_back(std::to_string(log.dropped()) +
-                              " rows found no room in the log and are missing");
+  result.rows_are_written = log.rows_are_written();
+  notes_.insert(notes_.end(), log.troubles().begin(), log.troubles().end());
   if (loop.softened > 0)
     notes_.push_back(std::to_string(loop.softened) +
                      " frames were shown less stiff than the tissue is, as the device can hold");

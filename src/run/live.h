@@ -30,14 +30,21 @@ class Live {
   // cannot keep the pace of the device, or the programme is predicted beyond the force ceiling.
   [[nodiscard]] std::vector<std::string> plan(const std::string& file);
 
-  // The run. `on_step` is told which step of the programme begins, on another thread. The record
-  // has the rows and device_health.json whatever the end.
+  // Who is told and what is written while the run goes on, both on another thread.
+  struct Output {
+    std::function<void(int step)> on_step;                        // that begins, of the programme
+    std::function<void(const std::string& sentence)> on_warning;  // of the files, and of gaps
+    std::string rows_file;     // force_indentation.csv as it grows; empty: none
+    std::string traffic_file;  // likewise, where the traffic is to be kept
+  };
+  // The run. The record has the rows and device_health.json whatever the end.
   struct Result {
     record::CaseRecord record;
     LiveEnd end;
     std::vector<std::string> warnings;
+    bool rows_are_written = false;  // `rows_file` has them all, and is on the disk
   };
-  [[nodiscard]] Result go(const std::atomic<bool>& stop, const std::function<void(int)>& on_step);
+  [[nodiscard]] Result go(const std::atomic<bool>& stop, const Output& output);
 
  private:
   const scene::Scene* scene_;
