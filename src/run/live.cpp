@@ -41,14 +41,21 @@ device::Purpose purpose_of(const LiveOptions& options) {
                                                   : device::Purpose::look;
 }
 
+// Who is there, as far as the device tells.
+std::vector<std::string> told(const device::Identity& identity) {
+  std::vector<std::string> parts;
+  for (const std::string& one : {identity.model, identity.id, identity.firmware, identity.dialect})
+    if (!one.empty()) parts.push_back(one);
+  return parts;
+}
+
 std::string limit_sentence(const device::Limits& limits) {
   std::vector<std::string> parts;
   if (std::isfinite(limits.force)) parts.push_back(newtons(limits.force));
   if (std::isfinite(limits.speed)) parts.push_back(milli(limits.speed) + "/s");
   if (std::isfinite(limits.low) || std::isfinite(limits.high))
     parts.push_back(milli(limits.low) + " to " + milli(limits.high));
-  parts.push_back("a sample every " +
-                  milli(limits.period).substr(0, milli(limits.period).size() - 2) + "ms");
+  parts.push_back("a sample every " + quantity_text(limits.period, unit::ms));
   return "the device's own limits: " + joined(parts, ", ");
 }
 
@@ -118,12 +125,9 @@ std::vector<std::string> Live::plan(const std::string& file) {
   const device::Limits& limits = link_.limits();
   const bool real = clock_.kind() == device::Clock::Kind::monotonic;
   std::vector<std::string> lines;
-  lines.push_back(options_->link + ": " +
-                  (identity.kind == Kind::recording
-                       ? "a recording"
-                       : joined(std::vector<std::string>{identity.model, identity.id,
-                                                         identity.firmware, identity.dialect},
-                                ", ")));
+  lines.push_back(
+      options_->link + ": " +
+      (identity.kind == Kind::recording ? "a recording" : joined(told(identity), ", ")));
   lines.insert(lines.end(), identity.notes.begin(), identity.notes.end());
   if (identity.kind != Kind::recording) {
     lines.push_back(limit_sentence(limits));
@@ -202,6 +206,10 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   }
   result.rows_are_written = log.rows_are_written();
   notes_.insert(notes_.end(), log.troubles().begin(), log.troubles().end());
+  if (loop.left_out > 0.0)
+    result.warnings.push_back("of frames that came late " + rounded_text(loop.left_out, 3) +
+                              " s are left out of the model's time: what tissue does with time is "
+                              "that much behind");
   if (loop.softened > 0)
     notes_.push_back(std::to_string(loop.softened) +
                      " frames were shown less stiff than the tissue is, as the device can hold");

@@ -144,7 +144,9 @@ class ArmLoop {
     const double passed = now_ - followed_;
     followed_ = now_;
     const bool limited = real_ && !recording_;
-    model_time_ += limited ? std::min(passed, most_frames_behind * period_) : passed;
+    const double taken = limited ? std::min(passed, most_frames_behind * period_) : passed;
+    model_time_ += taken;
+    loop_.left_out += passed - taken;
     if (failed_) return;
     if (auto wrong = loop_.model.follow(offset_, model_time_)) {
       failed_ = true;

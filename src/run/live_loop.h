@@ -44,6 +44,7 @@ struct LiveLoop {
   device::Health& health;
   const std::atomic<bool>& stop;
   std::uint64_t softened = 0;  // frames of an arm, in which the tissue was shown less stiff
+  double left_out = 0.0;       // s, of late frames of an arm, that its model did not pass through
 };
 
 // How a loop ended.

@@ -234,6 +234,26 @@ TEST(LiveRun, WithoutArmNothingMovesAndNoForceIsSent) {
   EXPECT_EQ(arm.summary.at("greatest_force_N"), 0.0);
 }
 
+// A frame that comes 50 ms late is told: the model's time is that much behind.
+TEST(LiveArm, SaysWhatLateFramesLeftOut) {
+  const test::TemporaryFolder folder;
+  const test::LiveEmulator emulator({"inverse3", "--log", (folder / "log.csv").string()});
+  test::Running running({.arguments = {"run", test::project_file("scenarios/device_arm.toml"),
+                                       "--device", "inverse3:127.0.0.1:" + emulator.port(), "--arm",
+                                       "--seconds", "1", "--set", "output.figures=false"},
+                         .folder = folder.path()});
+  // 100 messages after the greeting's: the loop is under way.
+  ASSERT_TRUE(running.until([&] {
+    const std::string log = test::read_file(folder / "log.csv");
+    return std::count(log.begin(), log.end(), '\n') > 150;
+  }));
+  running.send(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  running.send(SIGCONT);
+  const test::Ended ended = running.wait();
+  EXPECT_TRUE(has(ended.err, "left out of the model's time")) << ended.err;
+}
+
 // Nothing is pushed out of the tissue: the hand has to leave it before a run begins.
 TEST(LiveArm, RefusesToStartInsideTheTissue) {
   const Played live(Session{.link = "inverse3", .scenario = "device_arm", .surface = "160 mm"});
