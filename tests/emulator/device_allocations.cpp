@@ -32,7 +32,7 @@ namespace {
 TEST(LinkAllocations, AreNoneInTheArmsLoop) {
   const test::LiveEmulator emulator({"inverse3", "--clock", "virtual"});
   Clock clock(Clock::Kind::stepped);
-  Link link("inverse3:127.0.0.1:" + emulator.port(), Purpose::command, clock);
+  Link link(emulator.arm_link(), Purpose::command, clock);
   ArmSafety safety{ArmRules{}};
   Health health;
   static Ring<Sample, 4096> ring;
