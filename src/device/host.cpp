@@ -53,9 +53,9 @@ Host look_up(const std::string& name, double until) {
   }).detach();
   const std::chrono::duration<double> left(std::max(0.0, until - wire_time()));
   if (found.wait_for(left) != std::future_status::ready)
-    throw LinkError("palpate: where the host `" + name +
-                    "` is was not told in time; the system's name service does not answer: give "
-                    "the host's address as numbers");
+    throw LinkError("palpate: the host `" + name +
+                    "` could not be looked up in time, the system's name service does not answer; "
+                    "give the host's address in numbers");
   std::vector<std::string> addresses = found.get();
   if (addresses.empty())
     throw LinkError("palpate: the host `" + name +
