@@ -93,13 +93,13 @@ void Arm::go_to(Nanoseconds time, std::int64_t messages) {
   run_to(time);
   begin_faults(messages);
   const bool brake = faults_.lasts("brake", now_);
-  if (brake != braked_) {
-    events_.push_back(
-        event_message({"device-safety-triggered", brake ? "error" : "notice",
-                       brake ? "ebrake_triggered" : "ebrake_released",
-                       brake ? "Emergency brake engaged" : "Emergency brake released"},
-                      settings_.device_id));
-    braked_ = brake;
+  const bool told = brake || faults_.lasts("event_brake", now_);
+  if (told != braked_) {
+    events_.push_back(event_message({"device-safety-triggered", told ? "error" : "notice",
+                                     told ? "ebrake_triggered" : "ebrake_released",
+                                     told ? "Emergency brake engaged" : "Emergency brake released"},
+                                    settings_.device_id));
+    braked_ = told;
   }
   if (brake || faults_.lasts("not_ready", now_)) let_go();
 }

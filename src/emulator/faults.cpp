@@ -67,6 +67,9 @@ constexpr std::array arm_kinds{
     FaultKind{"brake", Life::lasting, "the emergency brake holds the arm; commands do nothing"},
     FaultKind{"not_ready", Life::lasting, "status says not ready, not calibrated; no force"},
     FaultKind{"reset", Life::moment, "the service starts again: connections reset, new session"},
+    FaultKind{
+        "event_brake", Life::lasting,
+        "an event says `ebrake_triggered`, and at its end `ebrake_released`; nothing else happens"},
     FaultKind{"event_stall", Life::moment, "an event says `stall_detected`; nothing else happens"},
     FaultKind{"event_ceiling", Life::moment, "an event says `stability_ceiling`"},
     FaultKind{"event_stage", Life::moment, "an event says `fod_stage_changed`, as a warning"},

@@ -216,6 +216,7 @@ INSTANTIATE_TEST_SUITE_P(Inverse3, ArmFault,
                                          Fault{"freeze", "", 6, 0.06},                     //
                                          Fault{"brake", "", 6, 0.02},                      //
                                          Fault{"brake", "duration = \"2 ms\"", 6, 0.02},   //
+                                         Fault{"event_brake", "", 6, 0.02},                //
                                          Fault{"event_stall", "", 6, 0.02},                //
                                          Fault{"event_ceiling", "", 6, 0.02},              //
                                          Fault{"event_stage", "", 6, 0.02},                //
