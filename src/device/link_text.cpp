@@ -25,9 +25,9 @@ std::optional<int> port_number(std::string_view text) {
   return port;
 }
 
-int wanted_port(std::string_view text, std::string_view word) {
+int wanted_port(std::string_view text, std::string_view word, const char* what) {
   const auto port = port_number(word);
-  if (!port) refuse(text, "wants a port from 1 to 65535");
+  if (!port) refuse(text, what);
   return *port;
 }
 
@@ -43,11 +43,13 @@ ArmAddress arm_address(std::string_view text, std::string_view rest) {
   if (host.empty()) refuse(text, "lacks a host");
   ArmAddress address{std::string(host)};
   const auto colon = ports.find(':');
-  address.port = wanted_port(text, ports.substr(0, colon));
+  address.port = wanted_port(text, ports.substr(0, colon), "wants a port from 1 to 65535");
   if (colon == std::string_view::npos) return address;
   const std::string_view events = ports.substr(colon + 1);
   address.events = std::nullopt;
-  if (events != "none") address.events = wanted_port(text, events);
+  if (events != "none")
+    address.events =
+        wanted_port(text, events, "wants a port from 1 to 65535 for the events, too, or `none`");
   return address;
 }
 
