@@ -49,6 +49,10 @@ class LiveEmulator {
     const auto& port = hello_.at("port");
     return port.is_string() ? port.get<std::string>() : port.dump();
   }
+  // Of the arm: the text that names it, and its events, to palpate.
+  [[nodiscard]] std::string arm_link() const {
+    return "inverse3:127.0.0.1:" + port() + ":" + hello_.at("events_port").dump();
+  }
   void send(int signal) const { ::kill(child_, signal); }
   // Ends it and gives its summary; an empty object where it was killed.
   nlohmann::json end() {

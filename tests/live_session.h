@@ -56,12 +56,11 @@ class Played {
       words.insert(words.end(), {"--hand", project_file("scenarios/emulator/arm_hand.toml")});
     words.insert(words.end(), session.emulator.begin(), session.emulator.end());
     LiveEmulator emulator(words);
-    const std::string place =
-        session.link == "mark10" ? emulator.port() : "127.0.0.1:" + emulator.port();
+    const std::string link =
+        session.link == "mark10" ? "mark10:" + emulator.port() : emulator.arm_link();
     const std::string scenario = project_file("scenarios/" + session.scenario + ".toml");
-    std::vector<std::string> call{
-        "run",     scenario,      "--device", session.link + ":" + place, "--out", "out",
-        "--clock", session.clock, "--set",    "output.figures=false"};
+    std::vector<std::string> call{"run", scenario,  "--device",    link,    "--out",
+                                  "out", "--clock", session.clock, "--set", "output.figures=false"};
     const char* usual = session.link == "mark10" ? "-2 mm" : "130 mm";
     call.insert(call.end(), {"--surface", session.surface.empty() ? usual : session.surface});
     call.insert(call.end(), session.options.begin(), session.options.end());

@@ -19,7 +19,9 @@ bool ArmSafety::take(double now, const Sample& sample) {
     ++counts_.jumps;
     good = false;
   }
-  if (sample.fault == Fault::brake) arming_.trip(Trip::brake);
+  if (sample.fault == Fault::brake || sample.fault == Fault::stalled ||
+      sample.fault == Fault::unstable)
+    arming_.trip(Trip::brake);
   const Arrival arrival = good                              ? Arrival::fresh
                           : sample.arrival == Arrival::lost ? Arrival::lost
                                                             : Arrival::none;

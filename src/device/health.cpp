@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "device/events.h"
+
 namespace palpate::device {
 namespace {
 
@@ -36,6 +38,24 @@ Json rules_json(const RuleCounts& rules) {
           {"slew_clamped", rules.slewed},   {"stale_frames", rules.stale},
           {"jumps", rules.jumps},           {"too_fast", rules.too_fast},
           {"outside", rules.outside},       {"damped", rules.damped}};
+}
+
+const char* port_text(Events::Port port) {
+  switch (port) {
+    case Events::Port::none: return "none";
+    case Events::Port::unheard: return "not heard";
+    case Events::Port::heard: return "heard";
+    case Events::Port::lost: return "lost";
+  }
+  return "unknown";
+}
+
+Json events_json(const Events& events) {
+  Json counts = Json::object();
+  for (std::size_t i = 0; i < event_kinds; ++i)
+    if (events.counts[i] > 0)
+      counts[std::string(event_text(static_cast<Event>(i)))] = events.counts[i];
+  return {{"port", port_text(events.port)}, {"counts", counts}};
 }
 
 }  // namespace
@@ -117,6 +137,8 @@ std::string health_json(const Identity& identity, const Limits& limits, const Tr
                      {"received", traffic.received},
                      {"duplicates", traffic.duplicates},
                      {"discarded_bytes", traffic.discarded}};
+  // Of links that have such a port.
+  if (traffic.events.port != Events::Port::none) json["events"] = events_json(traffic.events);
   json["frames"] = health.frames;
   json["deadline_misses"] = health.deadline_misses;
   json["samples"] = {{"fresh", health.fresh},

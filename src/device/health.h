@@ -54,7 +54,7 @@ struct Health {
   double longest_gap = 0.0;   // s, between two fresh samples
   double least_energy = 0.0;  // J, of the passivity observer
   RuleCounts rules;
-  std::array<std::uint64_t, 16> faults{};  // by Fault
+  std::array<std::uint64_t, fault_kinds> faults{};  // by Fault
   std::array<Transition, 64> transitions{};
   std::size_t transition_count = 0;  // may be more than are kept
 

@@ -2,14 +2,17 @@
 #include "device/inverse3.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "base/error.h"
+#include "device/events.h"
 
 namespace palpate::device {
 namespace {
 
-constexpr double connect_time = 2.0;   // s
-constexpr double version_time = 1.0;   // s
+constexpr double connect_time = 2.0;   // s, for all of it
+constexpr double version_time = 1.0;   // s of that, at most
+constexpr double events_time = 0.5;    // s of that, at most
 constexpr double greeting_time = 0.1;  // s a reply
 constexpr int trials = 6;              // replies a spelling has, to leave the idle mode
 constexpr double period = 1e-3;        // s: the paper's frame
@@ -17,21 +20,26 @@ constexpr double stop_time = 0.02;     // s
 constexpr double reply_time = 0.02;    // s, after which a reply is taken for lost
 // After a silence of ours the arm is idle once or twice; longer, and it does not do as it is told.
 constexpr int most_idle = 3;  // replies
+// Of the events a frame; what is more waits for the next one. A whole one is some 200 bytes.
+constexpr int most_events = 16;
+constexpr std::size_t most_event_bytes = 16384;
 
 }  // namespace
 
-Inverse3::Inverse3(const std::string& host, int port, Purpose purpose, Clock& clock, Tap* tap)
-    : clock_(clock), purpose_(purpose), socket_(host, port, connect_time) {
+Inverse3::Inverse3(const ArmAddress& address, Purpose purpose, Clock& clock, Tap* tap)
+    : clock_(clock),
+      purpose_(purpose),
+      connected_by_(wire_time() + connect_time),
+      host_(look_up(address.host, connected_by_)),
+      socket_(host_, address.port, connected_by_) {
   socket_.tap(tap);
   identity_.kind = Kind::arm;
   limits_.takes_force = true;
   limits_.period = period;
   limits_.stale_after = 3.0 * period;
   limits_.lost_after = 0.1;
-  const auto version = http_get(host, port, "/version", version_time);
-  identity_.firmware = version ? inverse3::parse_version(*version) : std::string();
-  if (identity_.firmware.empty())
-    identity_.notes.push_back("the service does not tell its version");
+  listen(address, tap);
+  ask_version(address.port);
   greet();
 }
 
@@ -39,8 +47,35 @@ Inverse3::~Inverse3() {
   if (!socket_.closed()) send(Vec3::Zero());
 }
 
+void Inverse3::listen(const ArmAddress& address, Tap* tap) {
+  traffic_.events.port = Events::Port::unheard;
+  if (!address.events) {
+    identity_.notes.push_back(
+        "the service's events are not listened to, as the link says: a brake is noticed by the "
+        "arm's state alone, some frames later");
+    return;
+  }
+  try {
+    events_.emplace(host_, *address.events, std::min(connected_by_, wire_time() + events_time));
+    events_->tap(tap);
+    traffic_.events.port = Events::Port::heard;
+  } catch (const LinkError&) {
+    identity_.notes.push_back("the service's events are not heard, nobody serves them on " +
+                              host_.name + ":" + std::to_string(*address.events) +
+                              ": a brake is noticed by the arm's state alone, some frames later");
+  }
+}
+
+void Inverse3::ask_version(int port) {
+  const auto version =
+      http_get(host_, port, "/version", std::min(connected_by_, wire_time() + version_time));
+  identity_.firmware = version ? inverse3::parse_version(*version) : std::string();
+  if (identity_.firmware.empty())
+    identity_.notes.push_back("the service does not tell its version");
+}
+
 void Inverse3::greet() {
-  const auto first = socket_.receive(wire_time() + connect_time);
+  const auto first = socket_.receive(std::max(connected_by_, wire_time() + greeting_time));
   if (first.outcome != WebSocket::Outcome::message)
     throw LinkError(first.outcome == WebSocket::Outcome::closed
                         ? "palpate: " + socket_.why_closed() + " before it said who is there"
@@ -80,6 +115,11 @@ void Inverse3::greet() {
     }
   }
   if (socket_.closed()) throw LinkError("palpate: " + socket_.why_closed());
+  if (gone_)
+    throw LinkError("palpate: the service says that the arm " + identity_.id +
+                    " was disconnected; connect it again");
+  if (traffic_.events.counts[static_cast<std::size_t>(Event::busy)] > 0)
+    identity_.notes.push_back("another session uses the arm; end it");
   identity_.dialect = inverse3::spelling_text(spelling_);
 }
 
@@ -154,7 +194,41 @@ Sample Inverse3::read(const WebSocket::Received& message) {
   return sample;
 }
 
+void Inverse3::hear_events() {
+  std::size_t bytes = 0;
+  for (int i = 0; i < most_events && bytes < most_event_bytes; ++i) {
+    if (traffic_.events.port != Events::Port::heard) return;
+    const auto message = events_->glance();
+    if (message.outcome == WebSocket::Outcome::closed) traffic_.events.port = Events::Port::lost;
+    if (message.outcome != WebSocket::Outcome::message) return;
+    bytes += message.text.size();
+    obey(inverse3::parse_event(message.text, identity_.id));
+  }
+}
+
+// What was told stays told until a sample has said so; a release takes back the state, not that.
+void Inverse3::obey(Event event) {
+  ++traffic_.events.counts[static_cast<std::size_t>(event)];
+  if (event == Event::brake) braked_ = true;
+  if (event == Event::released) braked_ = false;
+  if (event == Event::disconnected) gone_ = true;
+  if (const Fault fault = fault_of(event); fault != Fault::none) told_ = fault;
+}
+
 Sample Inverse3::sample(double wait) {
+  Sample sample = exchange(wait);
+  hear_events();
+  if (gone_) return finished(Arrival::lost, Fault::hung_up);
+  if (told_ != Fault::none) {
+    sample.fault = told_;
+    told_ = Fault::none;
+  } else if (braked_) {
+    sample.fault = Fault::brake;
+  }
+  return sample;
+}
+
+Sample Inverse3::exchange(double wait) {
   const double until = wire_time() + std::max(0.0, wait);
   if (!awaiting_) {
     pass_over_duplicates();

@@ -30,7 +30,7 @@ Link::Link(std::string_view text, Purpose purpose, Clock& clock, Tap* tap)
   if (const auto* stand = std::get_if<StandAddress>(&address)) {
     link.emplace<Mark10>(stand->port, purpose, clock, tap);
   } else if (const auto* arm = std::get_if<ArmAddress>(&address)) {
-    link.emplace<Inverse3>(arm->host, arm->port, purpose, clock, tap);
+    link.emplace<Inverse3>(*arm, purpose, clock, tap);
   } else {
     link.emplace<Recording>(std::get<RecordingAddress>(address).file, clock);
   }

@@ -25,15 +25,32 @@ std::optional<int> port_number(std::string_view text) {
   return port;
 }
 
+int wanted_port(std::string_view text, std::string_view word, const char* what) {
+  const auto port = port_number(word);
+  if (!port) refuse(text, what);
+  return *port;
+}
+
+// HOST:PORT or HOST:PORT:EVENTS; a host with colons of its own stands in brackets.
 ArmAddress arm_address(std::string_view text, std::string_view rest) {
-  const auto colon = rest.rfind(':');
-  if (colon == std::string_view::npos) refuse(text, "lacks a port");
-  std::string_view host = rest.substr(0, colon);
-  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  const bool bracketed = rest.starts_with('[');
+  if (bracketed) rest.remove_prefix(1);
+  const std::string_view host = rest.substr(0, rest.find(bracketed ? ']' : ':'));
+  std::string_view ports = rest.substr(host.size());
+  if (bracketed && ports.starts_with(']')) ports.remove_prefix(1);
+  if (!ports.starts_with(':')) refuse(text, "lacks a port");
+  ports.remove_prefix(1);
   if (host.empty()) refuse(text, "lacks a host");
-  const auto port = port_number(rest.substr(colon + 1));
-  if (!port) refuse(text, "wants a port from 1 to 65535");
-  return {std::string(host), *port};
+  ArmAddress address{std::string(host)};
+  const auto colon = ports.find(':');
+  address.port = wanted_port(text, ports.substr(0, colon), "wants a port from 1 to 65535");
+  if (colon == std::string_view::npos) return address;
+  const std::string_view events = ports.substr(colon + 1);
+  address.events = std::nullopt;
+  if (events != "none")
+    address.events =
+        wanted_port(text, events, "wants a port from 1 to 65535 for the events, too, or `none`");
+  return address;
 }
 
 }  // namespace

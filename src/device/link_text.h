@@ -1,6 +1,7 @@
 // What a LINK on the command line names.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -13,13 +14,15 @@ struct StandAddress {
 struct ArmAddress {
   std::string host;
   int port = 0;
+  std::optional<int> events = 10020;  // the port of the service's events; none: not to be heard
 };
 struct RecordingAddress {
   std::string file;
 };
 using Address = std::variant<StandAddress, ArmAddress, RecordingAddress>;
 
-// `mark10:PORT`, `inverse3:HOST:PORT` (a host of IPv6 in brackets) or `replay:FILE.csv`.
+// `mark10:PORT`, `inverse3:HOST:PORT[:EVENTS]` (a host of IPv6 in brackets; EVENTS a port or
+// `none`) or `replay:FILE.csv`.
 // Throws InputError with a sentence that shows these forms.
 [[nodiscard]] Address parse_link(std::string_view text);
 

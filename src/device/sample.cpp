@@ -16,6 +16,8 @@ std::string_view fault_text(Fault fault) {
     case Fault::wrong_device: return "another device answered";
     case Fault::jump: return "the position jumped farther than the device can move";
     case Fault::brake: return "the device's own safety has acted";
+    case Fault::stalled: return "the device says that a motor stalls";
+    case Fault::unstable: return "the device says that it is at its stability ceiling";
     case Fault::not_verified: return "a setting did not read back as it was set";
     case Fault::refused: return "the command is not allowed now";
     case Fault::hung_up: return "the device hung up";

@@ -1,6 +1,8 @@
 // What a live link says: who is there, what it allows, and one sample of position and force.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -39,12 +41,15 @@ enum class Fault : std::uint8_t {
   wrong_device,     // another device's id than at the start
   jump,             // farther than the device can have gone
   brake,            // the device's own safety has acted
+  stalled,          // an arm's service says that a motor stalls
+  unstable,         // an arm's service says that its stability ceiling is reached
   not_verified,     // a setting that did not read back as it was set
   refused,          // a command this link or its state does not allow
   hung_up,          // unplugged, closed or reset
   silent,           // no answer for longer than the link may be silent
   recording_ended,  // the end of a replayed file
 };
+inline constexpr std::size_t fault_kinds = static_cast<std::size_t>(Fault::recording_ended) + 1;
 [[nodiscard]] std::string_view fault_text(Fault fault);  // a clause: "the device hung up"
 
 // Position and velocity of the stand's crosshead are along z, up; of the arm in its own frame.
@@ -84,12 +89,41 @@ struct Limits {
   double lost_after = 0.0;   // s without a new sample
 };
 
+// What an arm's service tells by itself: device/events.h.
+enum class Event : std::uint8_t {
+  other,          // of no concern here
+  garbage,        // no JSON object
+  other_device,   // of safety, but about another device
+  brake,          // the emergency brake holds
+  released,       // it was let go
+  stage_raised,   // its stage of safety changed towards risk
+  stage_lowered,  // and back
+  stall,          // a motor stalls
+  ceiling,        // the stability ceiling is reached
+  safety,         // of a kind that is not known here, a warning or worse
+  notice,         // of a kind that is not known here, nothing to worry about
+  disconnected,   // the arm is gone
+  busy,           // another session uses the arm
+};
+inline constexpr std::size_t event_kinds = static_cast<std::size_t>(Event::busy) + 1;
+struct Events {
+  enum class Port : std::uint8_t {
+    none,     // the link has none
+    unheard,  // nobody serves it, or the link's address says not to listen
+    heard,
+    lost,  // it was heard and closed
+  };
+  Port port = Port::none;
+  std::array<std::uint64_t, event_kinds> counts{};  // by Event
+};
+
 // What went over the wire, of which a link keeps count.
 struct Traffic {
   std::uint64_t sent = 0;        // requests or commands that ask for a reply
   std::uint64_t received = 0;    // replies
   std::uint64_t duplicates = 0;  // replies that came once too often
   std::uint64_t discarded = 0;   // bytes that nobody asked for
+  Events events = {};
 };
 
 // What the stand is told to do.

@@ -26,6 +26,9 @@ constexpr unsigned packed(std::string_view bytes) {
 std::atomic<int> stop_file = -1;
 std::atomic<unsigned> stop_bytes = 0;
 std::atomic<unsigned> closing_bytes = 0;
+// Handlers run here, for the thread's own stack may be what is used up. The system asks for some
+// 2 to 4 kB to save the registers in (getauxval(AT_MINSIGSTKSZ)), we for less.
+alignas(16) std::array<char, 65536> handler_stack;
 std::array<struct sigaction, 64> before{};  // by number; written before a handler can read them
 
 void write_packed(int file, unsigned value) {
@@ -63,6 +66,24 @@ void stop_and_pass_on(int signal, siginfo_t* info, void* context) {
   errno = error;
 }
 
+// False where the thread has one already, as under a sanitizer: that one serves as well.
+bool bring_handler_stack() {
+  stack_t old{};
+  if (::sigaltstack(nullptr, &old) != 0 || (old.ss_flags & SS_DISABLE) == 0) return false;
+  stack_t ours{};
+  ours.ss_sp = handler_stack.data();
+  ours.ss_size = handler_stack.size();
+  return ::sigaltstack(&ours, nullptr) == 0;
+}
+
+void take_handler_stack_away() {
+  stack_t now{};
+  if (::sigaltstack(nullptr, &now) != 0 || now.ss_sp != handler_stack.data()) return;
+  stack_t none{};
+  none.ss_flags = SS_DISABLE;
+  ::sigaltstack(&none, nullptr);
+}
+
 }  // namespace
 
 StopGuard::StopGuard(int file, std::string_view bytes) {
@@ -72,13 +93,14 @@ StopGuard::StopGuard(int file, std::string_view bytes) {
   stop_bytes = packed(bytes);
   closing_bytes = 0;
   stop_file = file;
+  own_stack_ = bring_handler_stack();
   for (const int signal : signals_) {
     auto& old = before[static_cast<std::size_t>(signal)];
     ::sigaction(signal, nullptr, &old);
     if ((old.sa_flags & SA_SIGINFO) == 0 && old.sa_handler == SIG_IGN) continue;
     struct sigaction action {};
     action.sa_sigaction = stop_and_pass_on;
-    action.sa_flags = SA_SIGINFO | SA_RESTART;
+    action.sa_flags = SA_SIGINFO | SA_RESTART | SA_ONSTACK;
     ::sigaction(signal, &action, nullptr);
   }
 }
@@ -92,6 +114,7 @@ StopGuard::~StopGuard() {
     const bool ours = (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == stop_and_pass_on;
     if (ours) ::sigaction(signal, &before[static_cast<std::size_t>(signal)], nullptr);
   }
+  if (own_stack_) take_handler_stack_away();
 }
 
 void StopGuard::open_channel(std::string_view closing) { closing_bytes = packed(closing); }

@@ -15,9 +15,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "base/error.h"
 #include "device/clock.h"
+#include "device/host.h"
 #include "device/tap.h"
 #include "device/websocket.h"
 
@@ -88,18 +90,18 @@ InArena<Function> in_arena(Arena& arena, Function function) {
   return {&arena, std::move(function)};
 }
 
-std::string place(const std::string& host, int port) { return host + ":" + std::to_string(port); }
+std::string place(const Host& host, int port) { return host.name + ":" + std::to_string(port); }
 
-using Endpoints = net::ip::tcp::resolver::results_type;
+using Endpoints = std::vector<net::ip::tcp::endpoint>;
 
-Endpoints resolve(net::io_context& context, const std::string& host, int port) {
-  net::ip::tcp::resolver resolver(context);
-  Error error;
-  const auto found = resolver.resolve(host, std::to_string(port), error);
-  if (error)
-    throw LinkError("palpate: the host `" + host +
-                    "` is not known; give its address, or `localhost`");
-  return found;
+Endpoints endpoints(const Host& host, int port) {
+  Endpoints all;
+  for (const std::string& text : host.addresses) {
+    Error error;
+    const auto address = net::ip::make_address(text, error);
+    if (!error) all.emplace_back(address, static_cast<unsigned short>(port));
+  }
+  return all;
 }
 
 std::chrono::steady_clock::duration duration(double seconds) {
@@ -110,6 +112,11 @@ std::chrono::steady_clock::duration duration(double seconds) {
 }  // namespace
 
 struct WebSocket::Implementation {
+  static constexpr std::size_t portion = 4096;  // bytes, that are read at once
+  // Handlers of a wait and of a glance: each reads a portion at most.
+  static constexpr std::size_t many = 64;
+  static constexpr std::size_t few = 8;
+
   net::io_context context{1};
   net::executor_work_guard<Executor> work{context.get_executor()};
   Arena arena;
@@ -118,29 +125,63 @@ struct WebSocket::Implementation {
   std::array<char, 512> outgoing{};
   bool reading = false;
   bool complete = false;  // a message lies in `incoming`
+  bool overlong = false;  // or would not go in, and is passed over
   bool handed_out = false;
   bool writing = false;
   Tap* tap = nullptr;
   Error failure;
 
   void start_reading() {
-    if (handed_out) incoming.consume(incoming.size());
+    if (handed_out) {
+      incoming.consume(incoming.size());
+      overlong = false;
+    }
     handed_out = false;
-    if (reading || complete || failure) return;
+    if (!reading && !complete && !failure) read_on();
+  }
+
+  void read_on() {
     reading = true;
-    stream.async_read(incoming, in_arena(arena, [this](Error error, std::size_t) {
-                        reading = false;
-                        if (error) {
-                          failure = error;
-                        } else {
-                          complete = true;
-                        }
-                      }));
+    stream.async_read_some(incoming, portion, in_arena(arena, [this](Error error, std::size_t) {
+                             reading = false;
+                             if (error) {
+                               failure = error;
+                             } else if (stream.is_message_done()) {
+                               complete = true;
+                             } else {
+                               make_room();
+                               read_on();
+                             }
+                           }));
+  }
+
+  void make_room() {
+    if (incoming.size() + portion <= incoming.max_size()) return;
+    incoming.consume(incoming.size());
+    overlong = true;
+  }
+
+  // Does what is due, a bounded share of it: who sends faster than we read must not hold us up.
+  std::size_t run_ready(std::size_t most = many) {
+    std::size_t ran = 0;
+    while (ran < most && context.poll_one() > 0) ++ran;
+    return ran;
+  }
+
+  Received take_message() {
+    if (!complete) return {failure ? Outcome::closed : Outcome::nothing, {}, false};
+    complete = false;
+    handed_out = true;
+    if (overlong) return {Outcome::message, {}, stream.got_binary()};
+    const auto bytes = incoming.cdata();
+    const std::string_view message(static_cast<const char*>(bytes.data()), bytes.size());
+    if (tap) tap->note(Tap::Way::received, message);
+    return {Outcome::message, message, stream.got_binary()};
   }
 
   // Waits for the socket till `until` and does what is due.
   void turn(double until) {
-    if (context.poll() > 0) return;
+    if (run_ready() > 0) return;
     const double left = std::max(0.0, until - wire_time());
     timespec wait{};
     wait.tv_sec = static_cast<time_t>(left);
@@ -148,15 +189,14 @@ struct WebSocket::Implementation {
     const auto events = static_cast<short>(writing ? POLLIN | POLLOUT : POLLIN);
     pollfd one{beast::get_lowest_layer(stream).native_handle(), events, 0};
     ::ppoll(&one, 1, &wait, nullptr);
-    context.poll();
+    run_ready();
   }
 };
 
-WebSocket::WebSocket(const std::string& host, int port, double wait)
+WebSocket::WebSocket(const Host& host, int port, double until)
     : it_(std::make_unique<Implementation>()) {
   Implementation& it = *it_;
-  const double until = wire_time() + wait;
-  const Endpoints endpoints = resolve(it.context, host, port);
+  const Endpoints all = endpoints(host, port);
   bool done = false;
   Error error;
   const auto await = [&](const char* what) {
@@ -167,7 +207,7 @@ WebSocket::WebSocket(const std::string& host, int port, double wait)
     done = false;
   };
   Socket& socket = beast::get_lowest_layer(it.stream);
-  net::async_connect(socket, endpoints, [&](Error got, const net::ip::tcp::endpoint&) {
+  net::async_connect(socket, all, [&](Error got, const net::ip::tcp::endpoint&) {
     error = got;
     done = true;
   });
@@ -222,7 +262,7 @@ void WebSocket::tap(Tap* tap) { it_->tap = tap; }
 
 bool WebSocket::send(std::string_view text) {
   Implementation& it = *it_;
-  it.context.poll();
+  it.run_ready();
   if (it.failure || it.writing || text.size() > it.outgoing.size()) return false;
   std::copy(text.begin(), text.end(), it.outgoing.begin());
   it.writing = true;
@@ -232,24 +272,22 @@ bool WebSocket::send(std::string_view text) {
                           it.writing = false;
                           if (error) it.failure = error;
                         }));
-  it.context.poll();
+  it.run_ready();
   return !it.failure;
 }
 
 WebSocket::Received WebSocket::receive(double until) {
   Implementation& it = *it_;
   it.start_reading();
-  it.context.poll();
+  it.run_ready();
   while (!it.complete && !it.failure && wire_time() < until) it.turn(until);
-  if (it.complete) {
-    it.complete = false;
-    it.handed_out = true;
-    const auto bytes = it.incoming.cdata();
-    const std::string_view message(static_cast<const char*>(bytes.data()), bytes.size());
-    if (it.tap) it.tap->note(Tap::Way::received, message);
-    return {Outcome::message, message, it.stream.got_binary()};
-  }
-  return {it.failure ? Outcome::closed : Outcome::nothing, {}, false};
+  return it.take_message();
+}
+
+WebSocket::Received WebSocket::glance() {
+  it_->start_reading();
+  it_->run_ready(Implementation::few);
+  return it_->take_message();
 }
 
 bool WebSocket::closed() const { return static_cast<bool>(it_->failure); }
@@ -262,8 +300,8 @@ std::string WebSocket::why_closed() const {
   return "the connection broke: " + it_->failure.message();
 }
 
-std::optional<std::string> http_get(const std::string& host, int port, const std::string& target,
-                                    double wait) {
+std::optional<std::string> http_get(const Host& host, int port, const std::string& target,
+                                    double until) {
   net::io_context context(1);
   Socket socket(context.get_executor());
   http::request<http::empty_body> request(http::verb::get, target, 11);
@@ -272,18 +310,17 @@ std::optional<std::string> http_get(const std::string& host, int port, const std
   beast::flat_static_buffer<16384> buffer;
   http::response<http::string_body> response;
   std::optional<std::string> body;
-  net::async_connect(socket, resolve(context, host, port),
-                     [&](Error refused, const net::ip::tcp::endpoint&) {
-                       if (refused) return;
-                       http::async_write(socket, request, [&](Error broken, std::size_t) {
-                         if (broken) return;
-                         http::async_read(socket, buffer, response, [&](Error unread, std::size_t) {
-                           if (!unread && response.result() == http::status::ok)
-                             body = response.body();
-                         });
-                       });
-                     });
-  context.run_for(duration(wait));
+  const Endpoints all = endpoints(host, port);
+  net::async_connect(socket, all, [&](Error refused, const net::ip::tcp::endpoint&) {
+    if (refused) return;
+    http::async_write(socket, request, [&](Error broken, std::size_t) {
+      if (broken) return;
+      http::async_read(socket, buffer, response, [&](Error unread, std::size_t) {
+        if (!unread && response.result() == http::status::ok) body = response.body();
+      });
+    });
+  });
+  context.run_for(duration(std::max(0.0, until - wire_time())));
   Error ignored;
   socket.close(ignored);
   context.restart();

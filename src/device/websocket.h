@@ -8,13 +8,14 @@
 
 namespace palpate::device {
 
+struct Host;
 class Tap;
 
 class WebSocket {
  public:
-  // Connects and shakes hands within `wait` s of real time. Throws LinkError: no such host, nobody
-  // listens, no WebSocket there, too late.
-  WebSocket(const std::string& host, int port, double wait);
+  // Connects and shakes hands till `until` (s, wire_time). Throws LinkError: nobody listens, no
+  // WebSocket there, too late.
+  WebSocket(const Host& host, int port, double until);
   ~WebSocket();
   WebSocket(WebSocket&&) noexcept;
 
@@ -28,11 +29,14 @@ class WebSocket {
   enum class Outcome { message, nothing, closed };
   struct Received {
     Outcome outcome = Outcome::nothing;
-    std::string_view text;  // holds till the next call
+    std::string_view text;  // holds till the next call; empty where it was beyond 60 kB
     bool binary = false;
   };
   // The next message, waiting till `until` (s, wire_time).
   [[nodiscard]] Received receive(double until);
+  // The next message where it is there already. Waits for nothing, and does little work whatever
+  // comes in.
+  [[nodiscard]] Received glance();
 
   [[nodiscard]] bool closed() const;
   [[nodiscard]] std::string why_closed() const;  // a clause; empty while it is open
@@ -42,8 +46,8 @@ class WebSocket {
   std::unique_ptr<Implementation> it_;
 };
 
-// The body of `GET http://host:port/target` within `wait` s; nothing where none comes.
-[[nodiscard]] std::optional<std::string> http_get(const std::string& host, int port,
-                                                  const std::string& target, double wait);
+// The body of `GET http://host:port/target` till `until` (s, wire_time); nothing where none comes.
+[[nodiscard]] std::optional<std::string> http_get(const Host& host, int port,
+                                                  const std::string& target, double until);
 
 }  // namespace palpate::device

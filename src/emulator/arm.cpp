@@ -14,6 +14,31 @@ constexpr std::int64_t none_counted = -1;
 
 double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
+// What a fault that sends an event says; nothing for other faults.
+std::optional<Event> event_of(const std::string& kind) {
+  if (kind == "event_stall")
+    return Event{
+        .level = "warning", .safety_type = "stall_detected", .message = "Motor stall detected"};
+  if (kind == "event_ceiling")
+    return Event{.level = "warning",
+                 .safety_type = "stability_ceiling",
+                 .message = "Stability ceiling reached"};
+  if (kind == "event_stage")
+    return Event{.level = "warning",
+                 .safety_type = "fod_stage_changed",
+                 .message = "FOD stage changed: guard -> hard"};
+  if (kind == "event_unknown")
+    return Event{.level = "error", .safety_type = "something_new", .message = "Something new"};
+  if (kind == "event_busy")
+    return Event{.name = "device-busy", .level = "warning", .message = "Device is in use"};
+  if (kind == "event_disconnect")
+    return Event{.name = "device-disconnected", .level = "warning", .message = "Device was lost"};
+  if (kind == "event_other" || kind == "event_partial")
+    return Event{
+        .level = "error", .safety_type = "ebrake_triggered", .message = "Emergency brake engaged"};
+  return {};
+}
+
 }  // namespace
 
 Arm::Arm(const ArmSettings& settings, Log& log)
@@ -68,13 +93,13 @@ void Arm::go_to(Nanoseconds time, std::int64_t messages) {
   run_to(time);
   begin_faults(messages);
   const bool brake = faults_.lasts("brake", now_);
-  if (brake != braked_) {
-    events_.push_back(
-        event_message({"device-safety-triggered", brake ? "error" : "notice",
-                       brake ? "ebrake_triggered" : "ebrake_released",
-                       brake ? "Emergency brake engaged" : "Emergency brake released"},
-                      settings_.device_id));
-    braked_ = brake;
+  const bool told = brake || faults_.lasts("event_brake", now_);
+  if (told != braked_) {
+    events_.push_back(event_message({"device-safety-triggered", told ? "error" : "notice",
+                                     told ? "ebrake_triggered" : "ebrake_released",
+                                     told ? "Emergency brake engaged" : "Emergency brake released"},
+                                    settings_.device_id));
+    braked_ = told;
   }
   if (brake || faults_.lasts("not_ready", now_)) let_go();
 }
@@ -82,6 +107,7 @@ void Arm::go_to(Nanoseconds time, std::int64_t messages) {
 void Arm::begin_faults(std::int64_t messages) {
   for (const Fault& fault : faults_.begin(now_, messages)) {
     log_row("fault", fault.kind);
+    begin_event(fault.kind);
     if (fault.kind == "rst") wanted_ = Act::reset_connection;
     if (fault.kind == "close_1000") wanted_ = Act::close_normal;
     if (fault.kind == "close_1011") wanted_ = Act::close_error;
@@ -98,6 +124,22 @@ void Arm::begin_faults(std::int64_t messages) {
                          .mode = mode_,
                          .in_use = in_use_};
   }
+}
+
+void Arm::begin_event(const std::string& kind) {
+  if (kind == "events_close") events_end_ = true;
+  if (kind == "event_garbage") events_.emplace_back(R"({"name":"device-safety-triggered",,)");
+  if (kind == "event_huge")
+    events_.push_back(event_message(
+        {.name = "system-report", .level = "info", .message = std::string(200'000, '.')},
+        settings_.device_id));
+  for (int i = 0; kind == "event_flood" && i < 2000; ++i)
+    events_.push_back(event_message({.name = "device-battery-low", .level = "warning"}, "0CAF"));
+  const std::optional<Event> event = event_of(kind);
+  if (!event) return;
+  std::string text = event_message(*event, kind == "event_other" ? "0BAD" : settings_.device_id);
+  if (kind == "event_partial") text.resize(text.size() / 2);
+  events_.push_back(std::move(text));
 }
 
 // The vector's length is clamped, not each axis. What is no number is no force.
@@ -217,7 +259,13 @@ std::string Arm::devices() const {
                        settings_.service, Extent::full, session_);
 }
 
-std::vector<std::string> Arm::take_events() { return std::exchange(events_, {}); }
+std::vector<std::string> Arm::take_events() {
+  std::vector<std::string> events = std::exchange(events_, {});
+  if (faults_.lasts("events_half_open", now_)) events.clear();
+  return events;
+}
+
+bool Arm::take_events_end() { return std::exchange(events_end_, false); }
 
 std::string Arm::summary() const {
   std::array<char, 512> text{};

@@ -61,6 +61,7 @@ class Arm {
   [[nodiscard]] bool silent() const;  // half open: neither reads nor sends
   [[nodiscard]] std::string devices() const;
   [[nodiscard]] std::vector<std::string> take_events();
+  [[nodiscard]] bool take_events_end();  // whether the events' connections are to be reset
   [[nodiscard]] const Hand& hand() const { return hand_; }
   [[nodiscard]] const Vec3& force() const { return force_; }
   [[nodiscard]] std::int64_t messages() const { return messages_; }
@@ -72,6 +73,7 @@ class Arm {
   void go_to(Nanoseconds time, std::int64_t messages);
   void run_to(Nanoseconds time);
   void begin_faults(std::int64_t messages);
+  void begin_event(const std::string& kind);
   void let_go();
   void command(const Request& request);
   [[nodiscard]] ArmState told();
@@ -99,6 +101,7 @@ class Arm {
   std::optional<ArmState> frozen_ = {};
   std::optional<Outgoing> held_ = {};  // by a reorder
   std::vector<std::string> events_ = {};
+  bool events_end_ = false;
 };
 
 }  // namespace emulator

@@ -53,10 +53,10 @@ struct Oddity {
 
 // An event of the events channel.
 struct Event {
-  std::string name;
-  std::string level;
-  std::string safety_type;  // may be empty
-  std::string message;
+  std::string name = "device-safety-triggered";
+  std::string level = {};
+  std::string safety_type = {};  // may be empty
+  std::string message = {};
 };
 [[nodiscard]] std::string event_message(const Event& event, const std::string& device_id);
 

@@ -264,8 +264,8 @@ class Server {
     act(arm_.pass(elapsed()));
     if (!session.is_websocket()) return;
     const Answer answer = arm_.answer(text);
+    tell_watchers();  // before the reply, so that whoever has that can have the event
     for (const Outgoing& message : answer.messages) session.send(message);
-    tell_watchers();
     act(answer.act);
   }
 
@@ -282,6 +282,8 @@ class Server {
     for (const std::string& event : arm_.take_events())
       for (const auto& watcher : watching_)
         if (watcher->is_websocket()) watcher->send({event});
+    if (!arm_.take_events_end()) return;
+    for (const auto& watcher : watching_) watcher->reset();
   }
 
   void tick() {

@@ -67,6 +67,24 @@ constexpr std::array arm_kinds{
     FaultKind{"brake", Life::lasting, "the emergency brake holds the arm; commands do nothing"},
     FaultKind{"not_ready", Life::lasting, "status says not ready, not calibrated; no force"},
     FaultKind{"reset", Life::moment, "the service starts again: connections reset, new session"},
+    FaultKind{
+        "event_brake", Life::lasting,
+        "an event says `ebrake_triggered`, and at its end `ebrake_released`; nothing else happens"},
+    FaultKind{"event_stall", Life::moment, "an event says `stall_detected`; nothing else happens"},
+    FaultKind{"event_ceiling", Life::moment, "an event says `stability_ceiling`"},
+    FaultKind{"event_stage", Life::moment, "an event says `fod_stage_changed`, as a warning"},
+    FaultKind{"event_unknown", Life::moment, "an event warns of a `safety_type` that nobody knows"},
+    FaultKind{"event_busy", Life::moment, "an event says `device-busy`"},
+    FaultKind{"event_disconnect", Life::moment,
+              "an event says `device-disconnected`; the arm goes on"},
+    FaultKind{"event_other", Life::moment, "an event says that the brake of another device holds"},
+    FaultKind{"event_garbage", Life::moment, "an event is no JSON"},
+    FaultKind{"event_partial", Life::moment, "an event of the brake ends in its middle"},
+    FaultKind{"event_huge", Life::moment, "an event has 200 kB"},
+    FaultKind{"event_flood", Life::moment, "2000 events come at once, of no concern"},
+    FaultKind{"events_close", Life::moment, "the events port resets its connections"},
+    FaultKind{"events_half_open", Life::lasting,
+              "nothing is sent on the events port, the socket stays"},
 };
 
 Fault read_fault(Table& table, std::span<const FaultKind> kinds) {

@@ -32,8 +32,7 @@ TEST(DeviceProbe, SaysWhoIsThereOnBothLinks) {
                            "travel", "samples/s", "force"})
     EXPECT_TRUE(has(probed.out, part)) << part << "\n" << probed.out;
   const LiveEmulator arm({"inverse3", "--clock", "virtual"});
-  const Ended asked =
-      palpate(folder.path(), {"device", "probe", "inverse3:127.0.0.1:" + arm.port()});
+  const Ended asked = palpate(folder.path(), {"device", "probe", arm.arm_link()});
   EXPECT_EQ(asked.code, 0) << asked.err;
   for (const char* part : {"haptic arm", "3.5.0.0", "vector", "samples/s"})
     EXPECT_TRUE(has(asked.out, part)) << part << "\n" << asked.out;
@@ -50,8 +49,7 @@ TEST(DeviceProbe, MovesNothingAndSendsNoForce) {
     EXPECT_EQ(summary.at("summary").at("moving"), false);
     EXPECT_EQ(summary.at("summary").at("position_m"), 0.0);
     LiveEmulator arm({"inverse3", "--clock", "virtual", "--log", arm_log.path()});
-    EXPECT_EQ(palpate(folder.path(), {"device", "probe", "inverse3:127.0.0.1:" + arm.port()}).code,
-              0);
+    EXPECT_EQ(palpate(folder.path(), {"device", "probe", arm.arm_link()}).code, 0);
     arm.end();
   }
   std::istringstream lines(arm_log.text());
@@ -114,9 +112,8 @@ TEST(DeviceErrors, AnInterruptedMonitorEndsWithItsCounts) {
   const TemporaryFolder folder;
   const ScratchFile log("");
   const LiveEmulator arm({"inverse3", "--log", log.path()});
-  Running monitor(
-      {.arguments = {"device", "monitor", "inverse3:127.0.0.1:" + arm.port(), "--seconds", "60"},
-       .folder = folder.path()});
+  Running monitor({.arguments = {"device", "monitor", arm.arm_link(), "--seconds", "60"},
+                   .folder = folder.path()});
   ASSERT_TRUE(monitor.until([&] { return has(log.text(), "set_cursor_force"); }));
   monitor.send(SIGINT);
   const Ended ended = monitor.wait();

@@ -215,6 +215,21 @@ INSTANTIATE_TEST_SUITE_P(Inverse3, ArmFault,
                                          Fault{"velocity_spike", "", 0, -1.0},             //
                                          Fault{"freeze", "", 6, 0.06},                     //
                                          Fault{"brake", "", 6, 0.02},                      //
+                                         Fault{"brake", "duration = \"2 ms\"", 6, 0.02},   //
+                                         Fault{"event_brake", "", 6, 0.02},                //
+                                         Fault{"event_stall", "", 6, 0.02},                //
+                                         Fault{"event_ceiling", "", 6, 0.02},              //
+                                         Fault{"event_stage", "", 6, 0.02},                //
+                                         Fault{"event_unknown", "", 6, 0.02},              //
+                                         Fault{"event_disconnect", "", 6, 0.002},          //
+                                         Fault{"event_busy", "", 0, -1.0},                 //
+                                         Fault{"event_other", "", 0, -1.0},                //
+                                         Fault{"event_garbage", "", 0, -1.0},              //
+                                         Fault{"event_partial", "", 0, -1.0},              //
+                                         Fault{"event_huge", "", 0, -1.0},                 //
+                                         Fault{"event_flood", "", 0, -1.0},                //
+                                         Fault{"events_close", "", 0, -1.0},               //
+                                         Fault{"events_half_open", "", 0, -1.0},           //
                                          Fault{"not_ready", "", 6, 0.02}),
                          name_of);
 

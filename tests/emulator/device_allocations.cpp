@@ -32,7 +32,7 @@ namespace {
 TEST(LinkAllocations, AreNoneInTheArmsLoop) {
   const test::LiveEmulator emulator({"inverse3", "--clock", "virtual"});
   Clock clock(Clock::Kind::stepped);
-  Link link("inverse3:127.0.0.1:" + emulator.port(), Purpose::command, clock);
+  Link link(emulator.arm_link(), Purpose::command, clock);
   ArmSafety safety{ArmRules{}};
   Health health;
   static Ring<Sample, 4096> ring;
@@ -50,6 +50,33 @@ TEST(LinkAllocations, AreNoneInTheArmsLoop) {
   EXPECT_EQ(allocations - before, 0);
   EXPECT_EQ(fresh, 1000);
   EXPECT_GT(safety.sent().z(), 0.4);
+}
+
+// Events that are many, long, broken, and of a port that closes in the end.
+TEST(LinkAllocations, AreNoneByEvents) {
+  const test::ScratchFile script(
+      "[[fault]]\nkind = \"event_busy\"\nat = \"0.05 s\"\n"
+      "[[fault]]\nkind = \"event_huge\"\nat = \"0.1 s\"\n"
+      "[[fault]]\nkind = \"event_garbage\"\nat = \"0.15 s\"\n"
+      "[[fault]]\nkind = \"event_flood\"\nat = \"0.2 s\"\n"
+      "[[fault]]\nkind = \"event_stall\"\nat = \"0.25 s\"\n"
+      "[[fault]]\nkind = \"events_close\"\nat = \"1.5 s\"\n");
+  const test::LiveEmulator emulator({"inverse3", "--clock", "virtual", "--fault", script.path()});
+  Clock clock(Clock::Kind::stepped);
+  Link link(emulator.arm_link(), Purpose::command, clock);
+  const long before = allocations;
+  int fresh = 0;
+  bool stalled = false;
+  for (int i = 0; i < 1700; ++i) {
+    const Sample sample = link.sample(0.5);
+    if (sample.arrival == Arrival::fresh) ++fresh;
+    stalled = stalled || sample.fault == Fault::stalled;
+    static_cast<void>(link.command_force({0.0, 0.0, 0.5}));
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(fresh, 1700);
+  EXPECT_TRUE(stalled);
+  EXPECT_EQ(link.traffic().events.port, Events::Port::lost);
 }
 
 TEST(LinkAllocations, AreNoneInTheStandsLoop) {

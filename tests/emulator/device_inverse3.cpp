@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "device/arm_safety.h"
 #include "device/link.h"
+#include "device/link_text.h"
 #include "live_emulator.h"
 
 namespace palpate::device {
@@ -23,7 +24,9 @@ namespace {
 using test::LiveEmulator;
 using test::ScratchFile;
 
-int port_of(const LiveEmulator& emulator) { return std::stoi(emulator.port()); }
+ArmAddress address_of(const LiveEmulator& emulator) {
+  return std::get<ArmAddress>(parse_link(emulator.arm_link()));
+}
 
 std::vector<std::string> arguments(std::vector<std::string> more = {}) {
   std::vector<std::string> all{"inverse3", "--clock", "virtual"};
@@ -38,7 +41,7 @@ bool has(const std::string& text, const std::string& part) {
 TEST(Inverse3Link, SaysWhoIsThere) {
   const LiveEmulator emulator(arguments());
   Clock clock(Clock::Kind::monotonic);
-  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  Inverse3 arm(address_of(emulator), Purpose::look, clock);
   EXPECT_EQ(arm.identity().firmware, "3.5.0.0");
   EXPECT_EQ(arm.identity().model, "inverse3");
   EXPECT_FALSE(arm.identity().id.empty());
@@ -53,7 +56,7 @@ TEST(Inverse3Link, SaysWhoIsThere) {
 TEST(Inverse3Link, SpeaksTheOlderDialect) {
   const LiveEmulator emulator(arguments({"--service", "3.1"}));
   Clock clock(Clock::Kind::monotonic);
-  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  Inverse3 arm(address_of(emulator), Purpose::look, clock);
   EXPECT_EQ(arm.identity().dialect, "values");
   EXPECT_EQ(arm.sample(0.2).arrival, Arrival::fresh);
 }
@@ -64,7 +67,7 @@ TEST(Inverse3Link, SendsForcesThatAreFelt) {
   LiveEmulator emulator(arguments({"--log", log.path()}));
   Clock clock(Clock::Kind::monotonic);
   {
-    Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::command, clock);
+    Inverse3 arm(address_of(emulator), Purpose::command, clock);
     const double start = arm.sample(0.2).position.z();
     double height = start;
     for (int i = 0; i < 300; ++i) {
@@ -90,7 +93,7 @@ TEST(Inverse3Link, SendsForcesThatAreFelt) {
 TEST(Inverse3Link, SendsNoForceWhereItOnlyLooks) {
   const LiveEmulator emulator(arguments());
   Clock clock(Clock::Kind::monotonic);
-  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  Inverse3 arm(address_of(emulator), Purpose::look, clock);
   EXPECT_EQ(arm.command_force({0.0, 0.0, 0.1}), Fault::refused);
   EXPECT_EQ(arm.command_force(Vec3::Zero()), Fault::none);
   EXPECT_TRUE(arm.stop());
@@ -99,7 +102,7 @@ TEST(Inverse3Link, SendsNoForceWhereItOnlyLooks) {
 TEST(Inverse3Link, GetsOneReplyAMessage) {
   const LiveEmulator emulator(arguments());
   Clock clock(Clock::Kind::monotonic);
-  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  Inverse3 arm(address_of(emulator), Purpose::look, clock);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(arm.sample(0.2).arrival, Arrival::fresh);
   EXPECT_EQ(arm.traffic().sent, arm.traffic().received);
   EXPECT_EQ(arm.traffic().duplicates, 0u);
@@ -126,7 +129,7 @@ TEST(Inverse3Link, TellsWhyItCannotBeOpened) {
   const ScratchFile script("[[fault]]\nat = \"0 s\"\nkind = \"not_ready\"\nduration = \"60 s\"\n");
   const LiveEmulator emulator(arguments({"--fault", script.path()}));
   Clock clock(Clock::Kind::monotonic);
-  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  Inverse3 arm(address_of(emulator), Purpose::look, clock);
   EXPECT_EQ(arm.sample(0.2).fault, Fault::brake);
 }
 
@@ -147,7 +150,7 @@ TEST_P(Inverse3Faults, AreSeenAndPassedOver) {
                            "\"\n" + expected.more);
   const LiveEmulator emulator(arguments({"--fault", script.path()}));
   Clock clock(Clock::Kind::monotonic);
-  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  Inverse3 arm(address_of(emulator), Purpose::look, clock);
   bool seen = false;
   bool lost = false;
   int fresh_in_the_end = 0;
@@ -211,7 +214,7 @@ Moved moved_with(const std::string& fault) {
   const ScratchFile script("[[fault]]\nat = \"0.3 s\"\nduration = \"30 ms\"\n" + fault);
   const LiveEmulator emulator(arguments({"--hand", hand.path(), "--fault", script.path()}));
   Clock clock(Clock::Kind::stepped);
-  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::look, clock);
+  Inverse3 arm(address_of(emulator), Purpose::look, clock);
   ArmSafety safety{ArmRules{}};
   Moved moved;
   Vec3 last = arm.sample(0.2).position;
@@ -240,7 +243,7 @@ TEST(Inverse3Link, FallsSilentWithAHalfOpenSocket) {
   const ScratchFile script("[[fault]]\nat = \"0.05 s\"\nkind = \"half_open\"\n");
   const LiveEmulator emulator(arguments({"--fault", script.path()}));
   Clock clock(Clock::Kind::monotonic);
-  Inverse3 arm("127.0.0.1", port_of(emulator), Purpose::command, clock);
+  Inverse3 arm(address_of(emulator), Purpose::command, clock);
   int fresh = 0;
   while (arm.sample(0.05).arrival == Arrival::fresh) ++fresh;
   EXPECT_GT(fresh, 10);

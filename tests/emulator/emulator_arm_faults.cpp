@@ -101,6 +101,45 @@ TEST(EmulatorArmFaults, SpoilOneReply) {
   }
 }
 
+TEST(EmulatorArmFaults, OfEventsSayWhatTheirNamesSay) {
+  const auto said = [](const char* kind) {
+    Client client(fault(kind, 1, 2'000'000));
+    EXPECT_TRUE(sound(client.text())) << kind;
+    EXPECT_TRUE(client.arm.take_events().empty()) << kind << ": before its time";
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(sound(client.text())) << kind << ": the arm goes on";
+    return client.arm.take_events();
+  };
+  const auto only = [&](const char* kind) {
+    const auto events = said(kind);
+    EXPECT_EQ(events.size(), 1U) << kind;
+    return events.empty() ? json() : json::parse(events[0], nullptr, false);
+  };
+  for (const auto& [kind, type] :
+       {std::pair{"event_stall", "stall_detected"}, std::pair{"event_ceiling", "stability_ceiling"},
+        std::pair{"event_stage", "fod_stage_changed"},
+        std::pair{"event_unknown", "something_new"}}) {
+    const json event = only(kind);
+    EXPECT_EQ(event["name"], "device-safety-triggered") << kind;
+    EXPECT_EQ(event["data"]["safety_type"], type);
+    EXPECT_EQ(event["data"]["device_id"], "049D") << kind;
+  }
+  EXPECT_EQ(only("event_other")["data"]["device_id"], "0BAD");
+  EXPECT_EQ(only("event_busy")["name"], "device-busy");
+  EXPECT_EQ(only("event_disconnect")["name"], "device-disconnected");
+  EXPECT_TRUE(only("event_garbage").is_discarded());
+  EXPECT_TRUE(only("event_partial").is_discarded());
+  EXPECT_GT(only("event_huge").dump().size(), 200'000U);
+  EXPECT_EQ(said("event_flood").size(), 2000U);
+  const auto brake = said("event_brake");
+  ASSERT_EQ(brake.size(), 2U);
+  EXPECT_EQ(json::parse(brake[0])["data"]["safety_type"], "ebrake_triggered");
+  EXPECT_EQ(json::parse(brake[1])["data"]["safety_type"], "ebrake_released");
+  Client close(fault("events_close", 0));
+  close.say();
+  EXPECT_TRUE(close.arm.take_events_end());
+  EXPECT_FALSE(close.arm.take_events_end()) << "once";
+}
+
 TEST(EmulatorArmFaults, MayComeTogether) {
   ArmSettings settings;
   settings.clock = Clock::lockstep;

@@ -50,8 +50,7 @@ LiveOptions options(const std::string& link, double surface) {
 TEST(LiveLoops, OfTheArmAllocatesNothing) {
   const LiveEmulator emulator(
       {"inverse3", "--clock", "virtual", "--hand", file("scenarios/emulator/arm_hand.toml")});
-  const Looped looped =
-      loop("scenarios/device_arm.toml", options("inverse3:127.0.0.1:" + emulator.port(), 0.13));
+  const Looped looped = loop("scenarios/device_arm.toml", options(emulator.arm_link(), 0.13));
   EXPECT_EQ(looped.end.why, LiveEnd::Why::done) << looped.end.sentence;
   EXPECT_GT(looped.rows, 2500U);
   EXPECT_EQ(looped.allocations, 0U);

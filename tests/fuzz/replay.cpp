@@ -1,7 +1,10 @@
 // Runs kept inputs, and variations of them, through a fuzz target without a fuzzer's library:
 //   PROGRAM INPUTS.hex VARIATIONS       each input and so many variations of it
 //   PROGRAM INPUTS.hex --unpack FOLDER  one file an input, as a fuzzer wants them
+//   PROGRAM INPUTS.hex --pack FOLDER    adds the folder's files that are not in it, the shortest
+//                                       first
 // A crash is the failure.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -42,6 +45,31 @@ std::string variation(std::string text, std::mt19937& random) {
   return text;
 }
 
+std::string hexadecimal(const std::string& input) {
+  static const char digits[] = "0123456789abcdef";
+  std::string text;
+  for (const char c : input) {
+    const auto byte = static_cast<unsigned char>(c);
+    (text += digits[byte >> 4]) += digits[byte & 15];
+  }
+  return text;
+}
+
+void pack(const char* path, const std::vector<std::string>& kept, const char* folder) {
+  std::vector<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream stream(entry.path(), std::ios::binary);
+    const std::string input{std::istreambuf_iterator<char>(stream), {}};
+    if (!input.empty() && std::find(kept.begin(), kept.end(), input) == kept.end())
+      found.push_back(input);
+  }
+  std::sort(found.begin(), found.end(), [](const std::string& a, const std::string& b) {
+    return a.size() != b.size() ? a.size() < b.size() : a < b;
+  });
+  std::ofstream stream(path, std::ios::app);
+  for (const std::string& input : found) stream << hexadecimal(input) << "\n";
+}
+
 void run(const std::string& text) {
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
@@ -53,8 +81,13 @@ int main(int argc, char** argv) {
   const std::vector<std::string> inputs =
       argc > 2 ? read_inputs(argv[1]) : std::vector<std::string>();
   if (inputs.empty()) {
-    std::fprintf(stderr, "usage: %s INPUTS.hex VARIATIONS|--unpack FOLDER\n", argv[0]);
+    std::fprintf(stderr, "usage: %s INPUTS.hex VARIATIONS|--unpack FOLDER|--pack FOLDER\n",
+                 argv[0]);
     return 2;
+  }
+  if (what == "--pack" && argc > 3) {
+    pack(argv[1], inputs, argv[3]);
+    return 0;
   }
   if (what == "--unpack" && argc > 3) {
     std::filesystem::create_directories(argv[3]);

@@ -22,6 +22,19 @@ TEST(LinkText, ReadsTheThreeForms) {
   EXPECT_EQ(std::get<RecordingAddress>(parse_link("replay:a run.csv")).file, "a run.csv");
 }
 
+TEST(LinkText, ReadsAPortOfEvents) {
+  const auto events = [](std::string_view text) {
+    return std::get<ArmAddress>(parse_link(text)).events;
+  };
+  EXPECT_EQ(events("inverse3:localhost:10001"), 10020);
+  EXPECT_EQ(events("inverse3:localhost:10001:4711"), 4711);
+  EXPECT_EQ(events("inverse3:localhost:10001:none"), std::nullopt);
+  const auto arm = std::get<ArmAddress>(parse_link("inverse3:[fe80::1]:10001:10021"));
+  EXPECT_EQ(arm.host, "fe80::1");
+  EXPECT_EQ(arm.port, 10001);
+  EXPECT_EQ(arm.events, 10021);
+}
+
 std::string refusal(std::string_view text) {
   try {
     static_cast<void>(parse_link(text));
@@ -32,14 +45,36 @@ std::string refusal(std::string_view text) {
 }
 
 TEST(LinkText, RefusesEverythingElseAndShowsTheForms) {
-  for (const char* text :
-       {"", "mark10", "mark10:", "inverse3", "inverse3:", "inverse3:localhost",
-        "inverse3:localhost:", "inverse3::1", "inverse3:localhost:0", "inverse3:localhost:65536",
-        "inverse3:localhost:1x", "inverse3:localhost:-1", "replay:", "mark11:/dev/ttyUSB0", ":"}) {
+  for (const char* text : {"",
+                           "mark10",
+                           "mark10:",
+                           "inverse3",
+                           "inverse3:",
+                           "inverse3:localhost",
+                           "inverse3:localhost:",
+                           "inverse3::1",
+                           "inverse3:localhost:0",
+                           "inverse3:localhost:65536",
+                           "inverse3:localhost:1:",
+                           "inverse3:localhost:1:0",
+                           "inverse3:localhost:1:x",
+                           "inverse3:localhost:1:2:3",
+                           "inverse3:localhost:1:none:",
+                           "inverse3:[::1]",
+                           "inverse3:[::1:1",
+                           "inverse3:[]:1",
+                           "inverse3:[::1]1",
+                           "inverse3:::1:1",
+                           "inverse3:localhost:1x",
+                           "inverse3:localhost:-1",
+                           "replay:",
+                           "mark11:/dev/ttyUSB0",
+                           ":"}) {
     const std::string message = refusal(text);
     EXPECT_NE(message.find("`mark10:/dev/ttyUSB0`"), std::string::npos) << text;
     EXPECT_NE(message.find("`" + std::string(text) + "`"), std::string::npos) << text;
   }
+  EXPECT_NE(refusal("inverse3:localhost:1:x").find("or `none`"), std::string::npos);
   EXPECT_NE(refusal("mark11:x").find("did you mean `mark10:`"), std::string::npos);
 }
 

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <functional>
@@ -21,16 +23,15 @@ struct Way {
   int status = 0;    // as waitpid gives it
 };
 
-// What a child writes that leaves by `leave` with a guard in place.
-Way left_by(const std::function<void(int)>& leave) {
-  int wire[2] = {-1, -1};
-  EXPECT_EQ(::pipe2(wire, O_CLOEXEC), 0);
+// What a child writes that leaves by `leave` with a guard in place, into wire[1].
+Way left_by(const std::function<void(int)>& leave, const std::array<int, 2>& wire) {
   const pid_t child = ::fork();
   if (child == 0) {
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
     ::close(2);  // sanitizers and asserts talk
-    for (const int signal : {SIGSEGV, SIGABRT, SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP})
+      ::signal(signal, SIG_DFL);
     leave(wire[1]);
     ::_exit(42);
   }
@@ -42,6 +43,25 @@ Way left_by(const std::function<void(int)>& leave) {
   ::close(wire[0]);
   ::waitpid(child, &way.status, 0);
   return way;
+}
+
+Way left_by(const std::function<void(int)>& leave) {
+  std::array<int, 2> wire{-1, -1};
+  EXPECT_EQ(::pipe2(wire.data(), O_CLOEXEC), 0);
+  return left_by(leave, wire);
+}
+
+// A serial line as the stand has one: a pseudo-terminal, whose far end we hold.
+std::array<int, 2> raw_line() {
+  const int far = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  EXPECT_EQ(::grantpt(far), 0);
+  EXPECT_EQ(::unlockpt(far), 0);
+  const int near = ::open(::ptsname(far), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  termios raw{};
+  EXPECT_EQ(::tcgetattr(near, &raw), 0);
+  ::cfmakeraw(&raw);
+  EXPECT_EQ(::tcsetattr(near, TCSANOW, &raw), 0);
+  return {far, near};
 }
 
 TEST(Stop, IsSentAtTheEndOfItsScope) {
@@ -122,6 +142,54 @@ TEST(Stop, LeavesAnIgnoredSignalIgnored) {
     ::write(wire, "-", 1);
   });
   EXPECT_EQ(way.wire, "-s");  // by the end of the scope alone
+}
+
+// Calls itself till the stack is used up; what it gives depends on every depth of it.
+int descend(int depth) {
+  volatile char frame[4096];
+  for (char volatile& byte : frame) byte = static_cast<char>(depth);
+  return depth == -1 ? 0 : descend(depth + 1) + frame[depth & 4095];
+}
+
+TEST(Stop, IsSentFromAStackThatIsUsedUp) {
+  const Way way = left_by(
+      [](int wire) {
+        const rlimit small{1 << 20, 1 << 20};  // bytes, so that it is soon over
+        ::setrlimit(RLIMIT_STACK, &small);
+        const StopGuard guard(wire, "s");
+        StopGuard::open_channel("\\");
+        ::_exit(descend(0) == 0 ? 43 : 44);
+      },
+      raw_line());
+  EXPECT_EQ(way.wire, "\\s");
+  EXPECT_TRUE(WIFSIGNALED(way.status));
+  EXPECT_EQ(WTERMSIG(way.status), SIGSEGV);
+}
+
+// A thread has one such stack: the guard takes away its own, and nobody else's.
+TEST(Stop, LeavesTheHandlersStackAsItWas) {
+  const auto used = [] {
+    stack_t stack{};
+    ::sigaltstack(nullptr, &stack);
+    return stack;
+  };
+  const stack_t before = used();
+  {
+    const StopGuard guard(-1, "s");
+    EXPECT_EQ(used().ss_flags & SS_DISABLE, 0);
+  }
+  EXPECT_EQ(used().ss_flags, before.ss_flags);
+  static std::array<char, 65536> mine;
+  stack_t stack{};
+  stack.ss_sp = mine.data();
+  stack.ss_size = mine.size();
+  ::sigaltstack(&stack, nullptr);
+  {
+    const StopGuard guard(-1, "s");
+    EXPECT_EQ(used().ss_sp, mine.data());
+  }
+  EXPECT_EQ(used().ss_sp, mine.data());
+  ::sigaltstack(&before, nullptr);
 }
 
 TEST(Stop, ClosesAnotherDevicesChannelFirst) {
