@@ -36,6 +36,7 @@ class KeptList {
   }
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t room() const { return all_.size(); }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] auto begin() { return all_.begin(); }
   [[nodiscard]] auto begin() const { return all_.begin(); }

@@ -307,12 +307,11 @@ void PressedMesh::follow(const Touch& touch) {
   for (const SphereContact& contact : touch.contacts)
     for (const int vertex : contact.load.vertices)
       start_.push_back(specimen_->skin[static_cast<std::size_t>(vertex)]);
-  if (start_.empty() || start_ == followed_) return;
-  followed_ = start_;
-  tissue::Part part =
-      tissue::part_around(specimen_->network, start_, *scene_->scenario.solver.rings);
-  if (part.nodes == part_.nodes && part.edge == part_.edge) return;
-  take(std::move(part), start_);
+  if (start_.empty()) return;
+  const int rings = *scene_->scenario.solver.rings;
+  tissue::reach_around(specimen_->network, start_, rings, reach_);
+  if (tissue::spans(part_, reach_)) return;
+  take(tissue::part_around(specimen_->network, start_, rings), start_);
   Contacts::load(touch, answer(), load_);
 }
 

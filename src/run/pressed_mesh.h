@@ -127,7 +127,8 @@ class PressedMesh {
   integrate::Vector further_;          // N, of a load beyond another
   integrate::Vector reached_, moved_;  // m
   integrate::Vector alone_;            // m, of respond()
-  std::vector<int> start_, followed_;  // nodes that a part is, and was, around
+  std::vector<int> start_;             // nodes that a part is around
+  tissue::Reach reach_;                // of it
   March march_;
   double time_step_ = 0.0;
   // Whether frames pass in modes alone, and whether state_ is where these are. docs/theory.md (41)

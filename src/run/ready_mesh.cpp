@@ -14,8 +14,9 @@ namespace palpate::run {
 void PressedMesh::make_ready(Touch& touch) {
   constexpr double most_answers = 1e9;  // bytes
   for (Touch* one : {&rubbing_, &next_, &touch}) contacts_.make_room(*one);
-  start_.reserve(specimen_->skin.size());
-  followed_.reserve(specimen_->skin.size());
+  start_.reserve(contact::most_shares * touch.contacts.room());
+  for (std::vector<char>* flags : {&reach_.inside, &reach_.moving})
+    flags->reserve(specimen_->network.rest.size());
 
   // Steps at rest, with the finger off the skin, leave zeros everywhere, and every method with its
   // factors, its memory and its vectors: some take them with their second step alone.

@@ -1,4 +1,5 @@
-// A live frame takes no memory, on meshes neither: while contact grows, moves, ends and begins again.
+// A live frame takes no memory, on meshes neither: while contact grows, moves, ends and begins
+// again.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -55,8 +56,8 @@ Vec3 way(int frame) {
   while (stops[next].frame < frame) ++next;
   const Stop& from = stops[next - 1];
   const Stop& to = stops[next];
-  return from.place +
-         static_cast<double>(frame - from.frame) / (to.frame - from.frame) * (to.place - from.place);
+  return from.place + static_cast<double>(frame - from.frame) / (to.frame - from.frame) *
+                          (to.place - from.place);
 }
 
 struct Followed {
@@ -137,17 +138,22 @@ constexpr Model models[] = {
     {"inertia_implicit",
      "solver.model=mass_spring tissue.viscosity=none solver.integrator=backward_difference"},
     {"inertia_staged", "solver.model=mass_spring tissue.viscosity=none solver.integrator=tr_bdf2"},
-    {"inertia_eight_spheres", "solver.model=mass_spring tissue.viscosity=none finger.spheres=8 "
-                              "solver.integrator=backward_difference"},
+    {"inertia_eight_spheres",
+     "solver.model=mass_spring tissue.viscosity=none finger.spheres=8 "
+     "solver.integrator=backward_difference"},
     {"drag", "solver.model=mass_spring tissue.viscosity=nodal_drag"},
-    {"viscous_contact", "solver.model=mass_spring tissue.viscosity=standard_linear_solid "
-                        "contact.viscosity=tissue"},
-    {"viscous_contact_staged", "solver.model=mass_spring tissue.viscosity=standard_linear_solid "
-                               "contact.viscosity=tissue solver.integrator=tr_bdf2"},
-    {"viscous_contact_modal", "solver.model=mass_spring tissue.viscosity=standard_linear_solid "
-                              "contact.viscosity=tissue solver.integrator=modal"},
-    {"viscous_coupled", "solver.model=coupled_springs tissue.viscosity=standard_linear_solid "
-                        "contact.viscosity=tissue"},
+    {"viscous_contact",
+     "solver.model=mass_spring tissue.viscosity=standard_linear_solid "
+     "contact.viscosity=tissue"},
+    {"viscous_contact_staged",
+     "solver.model=mass_spring tissue.viscosity=standard_linear_solid "
+     "contact.viscosity=tissue solver.integrator=tr_bdf2"},
+    {"viscous_contact_modal",
+     "solver.model=mass_spring tissue.viscosity=standard_linear_solid "
+     "contact.viscosity=tissue solver.integrator=modal"},
+    {"viscous_coupled",
+     "solver.model=coupled_springs tissue.viscosity=standard_linear_solid "
+     "contact.viscosity=tissue"},
 };
 INSTANTIATE_TEST_SUITE_P(All, Meshes, testing::ValuesIn(models),
                          [](const auto& one) { return std::string(one.param.name); });
