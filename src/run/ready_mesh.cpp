@@ -9,7 +9,7 @@ namespace palpate::run {
 // - non-linear bodies in implicit steps: factors, at every linearisation; and in explicit ones with
 //   dashpots between nodes: factors, whenever these have turned far;
 // - `resolved`: the systems of the nodes that touch;
-// - `solver.rings`: all that the part which moves consists of, when another part does;
+// - `solver.rings`: when another part moves, all that it consists of and its answers to loads;
 // - answers to loads, once a node that is touched, where all would take more than `most_answers`.
 void PressedMesh::make_ready(Touch& touch) {
   constexpr double most_answers = 1e9;  // bytes
@@ -28,7 +28,6 @@ void PressedMesh::make_ready(Touch& touch) {
   state_.time = 0.0;
   touch.finger = place;
 
-  if (scene_->scenario.solver.rings) return;
   const Eigen::Index freedoms = state_.displacement.size();
   const bool answers =
       body_->linear() && !scenario::explicit_steps(scene_->scenario.solver.integrator);
