@@ -13,7 +13,14 @@ inline thread_local std::size_t blocks_taken = 0;
 }  // namespace palpate::test
 
 // NOLINTBEGIN: replaced for the whole program, as the libraries have it
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define PALPATE_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define PALPATE_SANITIZED
+#endif
+#if defined(PALPATE_SANITIZED)
 // The sanitizer has its own malloc, and tells of every block.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*taken)(const volatile void*,
                                                                        size_t),
