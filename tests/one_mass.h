@@ -47,7 +47,10 @@ struct OneMass final : integrate::Body {
   [[nodiscard]] bool has_dashpots() const override { return tau > 0.0; }
   [[nodiscard]] SplitMatrix dashpots(const Vector&) const override { return diagonal(tau * k); }
   void dashpot_force(const Vector&, const Vector& v, Vector& f) const override { f = tau * k * v; }
-  [[nodiscard]] std::vector<double> memory_at(const Vector& u) const override { return {u[0]}; }
+  using Body::memory_at;
+  void memory_at(const Vector& u, std::vector<double>& memory) const override {
+    memory.assign(1, u[0]);
+  }
   void remember(const Vector& u, const integrate::TimeStep&,
                 std::vector<double>& memory) const override {
     memory[0] = u[0];

@@ -118,6 +118,8 @@ struct Cholesky::Factors {
   Pattern of_bordered;
   Eigen::Index size = 0;
   Eigen::Index shared = 0;
+  Eigen::VectorXd pivots;   // of `bordered`
+  Eigen::VectorXd ordered;  // what is solved for, in the order of elimination
 };
 
 Cholesky::Cholesky() : factors_(std::make_unique<Factors>()) {}
@@ -144,7 +146,8 @@ bool Cholesky::factor(const SplitMatrix& matrix) {
   // matrix itself has negative eigenvalues (Sylvester's law of inertia).
   Eigen::Index expected = 0;
   for (Eigen::Index i = 0; i < factors.shared; ++i) expected += matrix.weights[i] > 0.0 ? 1 : 0;
-  const Eigen::VectorXd pivots = factors.bordered.vectorD();
+  Eigen::VectorXd& pivots = factors.pivots;
+  pivots = factors.bordered.vectorD();
   Eigen::Index negative = 0;
   for (Eigen::Index i = 0; i < pivots.size(); ++i) negative += pivots[i] < 0.0 ? 1 : 0;
   return negative == expected &&
@@ -152,11 +155,32 @@ bool Cholesky::factor(const SplitMatrix& matrix) {
 }
 
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const {
-  if (factors_->shared == 0) return factors_->plain.solve(b);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(factors_->size + factors_->shared);
-  right.head(factors_->size) = b;
-  const Eigen::VectorXd all = factors_->bordered.solve(right);
-  return all.head(factors_->size);
+  Eigen::VectorXd x;
+  solve(b, x);
+  return x;
+}
+
+// As the libraries' own solve(), which takes memory for its permutations.
+void Cholesky::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  Factors& factors = *factors_;
+  const bool plain = factors.shared == 0;
+  const auto& order =
+      (plain ? factors.plain.permutationP() : factors.bordered.permutationP()).indices();
+  // Not every pattern is ordered anew.
+  const auto place = [&](Eigen::Index i) { return order.size() > 0 ? Eigen::Index{order[i]} : i; };
+  Eigen::VectorXd& ordered = factors.ordered;
+  ordered.setZero(factors.size + factors.shared);
+  for (Eigen::Index i = 0; i < factors.size; ++i) ordered[place(i)] = b[i];
+  if (plain) {
+    factors.plain.matrixL().solveInPlace(ordered);
+    factors.plain.matrixU().solveInPlace(ordered);
+  } else {
+    factors.bordered.matrixL().solveInPlace(ordered);
+    ordered = factors.pivots.asDiagonal().inverse() * ordered;
+    factors.bordered.matrixU().solveInPlace(ordered);
+  }
+  x.resize(factors.size);
+  for (Eigen::Index i = 0; i < factors.size; ++i) x[i] = ordered[place(i)];
 }
 
 }  // namespace palpate

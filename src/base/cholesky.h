@@ -22,6 +22,8 @@ class Cholesky {
 
   // Solves A x = b with the last factors.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  // The same; allocates nothing after the first time. `x` may be `b`.
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
  private:
   struct Factors;

@@ -66,7 +66,7 @@ std::optional<double> penetration(const PointLaw& law, double approach, double c
 }
 
 bool balance(std::span<const PointLaw> laws, std::span<const double> approaches,
-             const Eigen::MatrixXd& compliance, std::span<double> depths) {
+             const Eigen::Ref<const Eigen::MatrixXd>& compliance, std::span<double> depths) {
   constexpr int most_sweeps = 1000;
   const std::size_t count = laws.size();
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {

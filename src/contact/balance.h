@@ -37,6 +37,7 @@ struct PointLaw {
 // the left side would be more. `compliance` is n x n, m/N; `depths` holds a first guess and then
 // the answer. False where nothing balances.                             docs/theory.md (15)
 [[nodiscard]] bool balance(std::span<const PointLaw> laws, std::span<const double> approaches,
-                           const Eigen::MatrixXd& compliance, std::span<double> depths);
+                           const Eigen::Ref<const Eigen::MatrixXd>& compliance,
+                           std::span<double> depths);
 
 }  // namespace palpate::contact

@@ -22,6 +22,9 @@ class Detector {
   // The surface's vertices have moved by these displacements, m, one a vertex.
   void refit(std::span<const Vec3> displacement);
 
+  // From now on find() allocates nothing but what it grows of `feet`.
+  void make_room() { near_.reserve(surface_->surface().triangles.size()); }
+
   // The contacts of a sphere (m), in the order of their triangles. `displacement` may be empty:
   // the surface at rest.
   void find(const Vec3& centre, double radius, std::span<const Vec3> displacement,

@@ -39,6 +39,8 @@ Pairs make_pairs() {
   return pairs;
 }
 
+static_assert(most_shares == 3 * 2 * static_cast<std::size_t>(rings * half_spokes));
+
 constexpr double least_facing = 0.2;  // cosine: a triangle turned further away is not pressed
 
 }  // namespace
@@ -49,6 +51,11 @@ Spreader::Spreader(const geometry::SmoothSurface& surface)
     : surface_(&surface),
       share_(surface.surface().vertices.size(), 0.0),
       views_(surface.surface().triangles.size()) {}
+
+void Spreader::make_room() {
+  touched_.reserve(most_shares);
+  met_.reserve(most_shares / 3);
+}
 
 // Views are of a place and its directions, not of the patch's size.
 void Spreader::look_from(const Patch& patch) {

@@ -1,6 +1,7 @@
 // The patch that a sphere presses on a surface, and its pressure spread over the vertices there.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Patch {
   [[nodiscard]] double radius() const;  // m, of the circle of the same area: sqrt(a b)
 };
 
+// Of a patch, at most: three corners of one triangle a quadrature point.
+inline constexpr std::size_t most_shares = 288;
+
 // Shares of a force on the surface's vertices. They sum to 1, and the point of the patch is their
 // centre in the tangent plane: a force along the normal has no moment about it.
 struct Spread {
@@ -33,6 +37,9 @@ struct Spread {
 class Spreader {
  public:
   explicit Spreader(const geometry::SmoothSurface& surface);
+
+  // From now on spreading allocates nothing.
+  void make_room();
 
   // Every quadrature point is shared by the linear shape functions of the triangle that it meets
   // along the normal. Where one of two opposite points misses the surface, or is beyond a crease or

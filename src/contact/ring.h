@@ -27,6 +27,9 @@ class RingReader {
   // patch, or `away` (m) where that is more.                             docs/theory.md (13)
   void read(const Patch& patch, std::span<const double> shares, double away, Reading& reading);
 
+  // From now on reading allocates nothing but what it grows of `reading`.
+  void make_room() { around_.reserve(surface_->surface().vertices.size()); }
+
   // The edge of a typical triangle in the patch's part of the surface, m: that of the equilateral
   // triangle of the mean area between creases.
   [[nodiscard]] double spacing(const Patch& patch) const;

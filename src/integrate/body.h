@@ -58,7 +58,12 @@ class Body {
 
   // The viscous memory: its value at a displacement reached at once from rest, and its passage
   // through a step that ends at `displacement`.
-  [[nodiscard]] virtual std::vector<double> memory_at(const Vector& displacement) const = 0;
+  virtual void memory_at(const Vector& displacement, std::vector<double>& memory) const = 0;
+  [[nodiscard]] std::vector<double> memory_at(const Vector& displacement) const {
+    std::vector<double> memory;
+    memory_at(displacement, memory);
+    return memory;
+  }
   virtual void remember(const Vector& displacement, const TimeStep& step,
                         std::vector<double>& memory) const = 0;
 

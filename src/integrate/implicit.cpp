@@ -20,22 +20,29 @@ bool Implicit::linearise(const Vector& displacement, const Vector& load) {
     has_factors_ = true;
   }
   body_->step_force(displacement, state_->memory, step_, force_);
-  Vector residual = load - force_;
+  residual_ = load - force_;
   if (moving) {
-    const Vector moved = displacement - state_->displacement;
-    residual -= body_->mass().cwiseProduct(moved - dt * state_->velocity) / (dt * dt) +
-                body_->drag().cwiseProduct(moved) / dt;
+    moved_ = displacement - state_->displacement;
+    residual_ -= body_->mass().cwiseProduct(moved_ - dt * state_->velocity) / (dt * dt) +
+                 body_->drag().cwiseProduct(moved_) / dt;
   }
-  base_ = displacement + response(residual);
+  response(residual_, moved_);
+  base_ = displacement + moved_;
   return true;
 }
 
 Vector Implicit::response(const Vector& load) const {
-  Vector right = load;
+  Vector moved;
+  response(load, moved);
+  return moved;
+}
+
+void Implicit::response(const Vector& load, Vector& moved) const {
+  moved = load;
   const auto held = body_->held();
   for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] != 0) right[static_cast<Eigen::Index>(d)] = 0.0;
-  return factors_.solve(right);
+    if (held[d] != 0) moved[static_cast<Eigen::Index>(d)] = 0.0;
+  factors_.solve(moved, moved);
 }
 
 void Implicit::finish(State& state, const Vector& displacement, const Vector&) {

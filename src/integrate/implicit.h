@@ -25,6 +25,7 @@ class Implicit {
   [[nodiscard]] bool linearise(const Vector& displacement, const Vector& load);
   [[nodiscard]] const Vector& base() const { return base_; }
   [[nodiscard]] Vector response(const Vector& load) const;
+  void response(const Vector& load, Vector& moved) const;  // the same; two vectors
 
   // Ends the step at `displacement`. `load` is the whole load at its end, N.
   void finish(State& state, const Vector& displacement, const Vector& load);
@@ -39,6 +40,8 @@ class Implicit {
   Cholesky factors_;
   Vector base_;
   Vector force_;
+  Vector residual_;
+  Vector moved_;
 };
 
 }  // namespace palpate::integrate

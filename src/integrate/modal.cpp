@@ -84,13 +84,12 @@ void Modal::prepare(double time_step) {
 }
 
 // Phi^T f, of the few freedoms that are loaded.
-Vector Modal::modal_force(const Vector& load) const {
-  Vector sum = Vector::Zero(omega_.size());
+void Modal::modal_force(const Vector& load, Vector& sum) const {
+  sum.setZero(omega_.size());
   for (std::size_t i = 0; i < free_.size(); ++i)
     if (const double newton = load[free_[i]]; newton != 0.0)
       mode_loops::add_scaled(static_cast<std::size_t>(sum.size()), newton,
                              shapes_.row(static_cast<Eigen::Index>(i)).data(), sum.data());
-  return sum;
 }
 
 // all += Phi a
@@ -102,15 +101,15 @@ void Modal::add_shapes(const Vector& amplitudes, Vector& all) const {
 }
 
 // A component of the modes at the end of a step between two modal forces.
-Vector Modal::next(std::size_t component, const Vector& before, const Vector& after) const {
+void Modal::next(std::size_t component, const Vector& before, const Vector& after,
+                 Vector& sum) const {
   const auto size = static_cast<std::size_t>(omega_.size());
-  Vector sum = Vector::Zero(omega_.size());
+  sum.setZero(omega_.size());
   for (std::size_t d = 0; d < modes_.size(); ++d)
     mode_loops::add_products(size, propagators_.keep[component][d].data(), modes_[d].data(),
                              sum.data());
   mode_loops::add_products(size, propagators_.begin[component].data(), before.data(), sum.data());
   mode_loops::add_products(size, propagators_.end[component].data(), after.data(), sum.data());
-  return sum;
 }
 
 // The modes move about the displacement of the start, which must be in balance.
@@ -131,27 +130,36 @@ void Modal::begin(const State& state, double time_step, MemoryRule rule) {
 }
 
 bool Modal::linearise(const Vector&, const Vector& load) {
-  const Vector force = modal_force(load);
+  modal_force(load, force_);
   base_ = settled_;
-  add_shapes(next(0, held_load_ ? force : load_before_, force), base_);
+  next(0, held_load_ ? force_ : load_before_, force_, amplitudes_);
+  add_shapes(amplitudes_, base_);
   return true;
 }
 
 Vector Modal::response(const Vector& load) const {
-  Vector all = Vector::Zero(body_->mass().size());
-  add_shapes(modal_force(load).cwiseProduct(propagators_.end[0]), all);
+  Vector all;
+  response(load, all);
   return all;
 }
 
+void Modal::response(const Vector& load, Vector& moved) const {
+  modal_force(load, force_);
+  amplitudes_ = force_.cwiseProduct(propagators_.end[0]);
+  moved.setZero(body_->mass().size());
+  add_shapes(amplitudes_, moved);
+}
+
 void Modal::finish(State& state, const Vector& displacement, const Vector& load) {
-  const Vector force = modal_force(load);
-  std::vector<Vector> modes;
+  modal_force(load, force_);
+  modes_after_.resize(modes_.size());
   for (std::size_t c = 0; c < modes_.size(); ++c)
-    modes.push_back(next(c, held_load_ ? force : load_before_, force));
-  modes_ = std::move(modes);
-  load_before_ = force;
+    next(c, held_load_ ? force_ : load_before_, force_, modes_after_[c]);
+  modes_.swap(modes_after_);
+  load_before_ = force_;
   state.velocity.setZero();
-  add_shapes(modes_[1].cwiseProduct(omega_), state.velocity);
+  amplitudes_ = modes_[1].cwiseProduct(omega_);
+  add_shapes(amplitudes_, state.velocity);
   body_->remember(displacement, {time_step_, MemoryRule::exact}, state.memory);
   state.displacement = displacement;
   state.time += time_step_;

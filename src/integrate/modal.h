@@ -23,6 +23,7 @@ class Modal {
   [[nodiscard]] bool linearise(const Vector& displacement, const Vector& load);
   [[nodiscard]] const Vector& base() const { return base_; }
   [[nodiscard]] Vector response(const Vector& load) const;
+  void response(const Vector& load, Vector& moved) const;  // the same; two vectors
   void finish(State& state, const Vector& displacement, const Vector& load);
 
   // Frames without the body: the load (N) at a frame's end is given freedom by freedom, what is not
@@ -57,8 +58,8 @@ class Modal {
 
   void start(const State& state);
   void prepare(double time_step);
-  [[nodiscard]] Vector modal_force(const Vector& load) const;
-  [[nodiscard]] Vector next(std::size_t component, const Vector& before, const Vector& after) const;
+  void modal_force(const Vector& load, Vector& sum) const;
+  void next(std::size_t component, const Vector& before, const Vector& after, Vector& sum) const;
   void add_shapes(const Vector& amplitudes, Vector& all) const;
 
   const Body* body_;
@@ -77,6 +78,8 @@ class Modal {
   double time_step_ = 0.0;
   Vector settled_;  // the displacement that the modes move about
   Vector base_;
+  mutable Vector force_, amplitudes_;  // of the modes
+  std::vector<Vector> modes_after_;
 };
 
 }  // namespace palpate::integrate

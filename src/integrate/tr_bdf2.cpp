@@ -6,9 +6,10 @@ namespace palpate::integrate {
 // past_: `time` (s) after the state by explicit Euler. An implicit step of the same size from there
 // is the trapezoidal rule.
 void TrBdf2::extrapolate(const State& state, double time) {
-  Vector force;
+  Vector& force = force_;
+  Vector& acceleration = acceleration_;
   body_->force(state.displacement, state.memory, force);
-  Vector acceleration = load_ - force - body_->drag().cwiseProduct(state.velocity);
+  acceleration = load_ - force - body_->drag().cwiseProduct(state.velocity);
   if (body_->has_dashpots()) {
     body_->dashpot_force(state.displacement, state.velocity, force);
     acceleration -= force;
@@ -26,8 +27,11 @@ void TrBdf2::extrapolate(const State& state, double time) {
   }
   // Elongations go on as they change now, e + time e': springs that turn do not stretch alike in
   // both directions, which the mean takes out.
-  const auto ahead = body_->memory_at(past_.displacement);
-  const auto behind = body_->memory_at(state.displacement - time * state.velocity);
+  const std::vector<double>& ahead = memory_ahead_;
+  const std::vector<double>& behind = memory_behind_;
+  behind_ = state.displacement - time * state.velocity;
+  body_->memory_at(past_.displacement, memory_ahead_);
+  body_->memory_at(behind_, memory_behind_);
   for (std::size_t i = 0; i < past_.memory.size(); ++i)
     past_.memory[i] = state.memory[i] + 0.5 * (ahead[i] - behind[i]);
 }

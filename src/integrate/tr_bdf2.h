@@ -32,6 +32,7 @@ class TrBdf2 {
   }
   [[nodiscard]] const Vector& base() const { return euler_.base(); }
   [[nodiscard]] Vector response(const Vector& load) const { return euler_.response(load); }
+  void response(const Vector& load, Vector& moved) const { euler_.response(load, moved); }
 
   // Ends the stage at `displacement` under `load` (N).
   void finish(State& state, const Vector& displacement, const Vector& load);
@@ -42,9 +43,12 @@ class TrBdf2 {
 
   const Body* body_;
   Implicit euler_;
-  State start_;  // of the step
-  State past_;   // that the stage's Euler step starts from
-  Vector load_;  // N, at the start of the step
+  State start_;                  // of the step
+  State past_;                   // that the stage's Euler step starts from
+  Vector load_;                  // N, at the start of the step
+  Vector force_, acceleration_;  // of extrapolate(), as the next three
+  Vector behind_;
+  std::vector<double> memory_ahead_, memory_behind_;
   double time_step_ = 0.0;
   bool second_ = false;
 };

@@ -64,7 +64,7 @@ class Stages {
   PressedMesh mesh_;
   Contacts seeing_;  // its boxes move with the mesh
   int substeps_;
-  std::vector<SphereContact> found_;
+  KeptList<SphereContact> found_;
 };
 
 }  // namespace
@@ -92,8 +92,8 @@ Bench bench(const scene::Scene& scene, int frames) {
       for (int k = 1; k <= plan.substeps && !wrong; ++k) {
         const double done = frame + static_cast<double>(k) / plan.substeps;
         touch.travel = deepest * done / all;
-        wrong = mesh.step(first - touch.travel * Vec3::UnitZ(), done * plan.time_step, history,
-                          touch);
+        wrong =
+            mesh.step(first - touch.travel * Vec3::UnitZ(), done * plan.time_step, history, touch);
       }
     });
     if (wrong) {

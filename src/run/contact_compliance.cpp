@@ -19,7 +19,7 @@ int node_of(const MeshAnswer& mesh, int vertex) {
 
 // Where `consistent` reads the mesh for a contact: around its own patch; spheres that are
 // calibrated to press as one are read as that one, around the patch which it would have.
-contact::Patch Contacts::read_patch(const std::vector<SphereContact>& contacts,
+contact::Patch Contacts::read_patch(const KeptList<SphereContact>& contacts,
                                     const SphereContact& own) const {
   if (!presses_as_one() || contacts.size() == 1) return own.patch;
   contact::Patch joint = own.patch;
@@ -50,9 +50,9 @@ bool Contacts::presses_as_one() const {
 }
 
 // How far the skin at each contact gives way to a newton on each.          docs/theory.md (15)
-void Contacts::find_compliance(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts) {
+void Contacts::find_compliance(const MeshAnswer& mesh, const KeptList<SphereContact>& contacts) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
-  compliance_.setZero(count, count);
+  clear_corner(compliance_, count);
   if (mesh.influence == nullptr) return;
   const bool consistent = scene_->scenario.contact.coupling == Coupling::consistent;
   if (consistent)

@@ -79,8 +79,8 @@ void Contacts::spread_wide(SphereContact& contact) {
 }
 
 // Forgets places that neither the skin at rest nor as it moves lets the finger touch.
-void Contacts::leave_apart(const MeshAnswer& mesh, std::vector<SphereContact>& found) {
-  std::erase_if(found, [&](SphereContact& contact) {
+void Contacts::leave_apart(const MeshAnswer& mesh, KeptList<SphereContact>& found) {
+  found.erase_if([&](SphereContact& contact) {
     if (contact.approach > 0.0) return false;
     contact.patch.axis = contact.patch.normal.unitOrthogonal();
     spread_wide(contact);
@@ -89,12 +89,13 @@ void Contacts::leave_apart(const MeshAnswer& mesh, std::vector<SphereContact>& f
 }
 
 // Fills motion_, moving_by_force_ and still_by_force_, and whom each contact goes on from.
-void Contacts::find_motion(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts) {
+void Contacts::find_motion(const MeshAnswer& mesh, const KeptList<SphereContact>& contacts) {
   const MovingMesh& moving = *mesh.moving;
   const auto count = static_cast<Eigen::Index>(contacts.size());
-  motion_.setZero(count);
-  moving_by_force_.setZero(count, count);
-  still_by_force_.setZero(count, count);
+  if (motion_.size() < count) motion_.resize(count);
+  motion_.head(count).setZero();
+  clear_corner(moving_by_force_, count);
+  clear_corner(still_by_force_, count);
   near_.assign(contacts.size(), {});
   const bool loaded = moving.still->size() > 0 && moving.still->squaredNorm() > 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -128,16 +129,17 @@ void Contacts::find_motion(const MeshAnswer& mesh, const std::vector<SphereConta
 //   part sum_j c_ij <= 0.47 / F_i' + C_ij,  F_i' at the travel.
 // h - c F(h) grows until c F' = 1 and is h/3 there. With F of h^(3/2) and c F' = 0.47 at the travel
 // that is 1.5 times the travel: there is a balance, however little the mesh has moved.
-double Contacts::part_of_motion(const std::vector<SphereContact>& contacts) const {
+double Contacts::part_of_motion(const KeptList<SphereContact>& contacts) const {
   constexpr double most_softening = 0.47;
   double part = 1.0;
+  const auto count = static_cast<Eigen::Index>(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto own = static_cast<Eigen::Index>(i);
     const double stiffness = contacts[i].law.point.stiffness(contacts[i].approach);
     double spare = most_softening;
-    for (Eigen::Index j = 0; j < compliance_.cols(); ++j)
+    for (Eigen::Index j = 0; j < count; ++j)
       spare += stiffness * (j == own ? compliance_(own, j) : std::min(0.0, compliance_(own, j)));
-    const double softening = stiffness * still_by_force_.row(own).sum();
+    const double softening = stiffness * still_by_force_.row(own).head(count).sum();
     if (softening > spare) part = std::min(part, std::max(0.0, spare / softening));
   }
   return part;
@@ -145,8 +147,9 @@ double Contacts::part_of_motion(const std::vector<SphereContact>& contacts) cons
 
 // Waves that are too short for the wide patch leave a contact all the same: what Lysmer's analogue
 // of a half-space knows of them, less what the mesh knows.
-void Contacts::find_near_field(const MovingMesh& moving, const std::vector<SphereContact>& contacts,
+void Contacts::find_near_field(const MovingMesh& moving, const KeptList<SphereContact>& contacts,
                                double part) {
+  const auto count = static_cast<Eigen::Index>(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto own = static_cast<Eigen::Index>(i);
     const contact::PointLaw& law = contacts[i].law.point;
@@ -161,7 +164,7 @@ void Contacts::find_near_field(const MovingMesh& moving, const std::vector<Spher
     // Between contacts there is no such law; as they press each other's tissue it must give way, or
     // their differences would have a compliance below zero.
     double others = 0.0;
-    for (Eigen::Index j = 0; j < compliance_.cols(); ++j)
+    for (Eigen::Index j = 0; j < count; ++j)
       if (j != own) others += std::abs(compliance_(own, j) - part * still_by_force_(own, j));
     if (others > 0.0) {
       const double spare =
@@ -177,39 +180,64 @@ void Contacts::find_near_field(const MovingMesh& moving, const std::vector<Spher
 // Fills whole_compliance_ and the approaches: the balance is then that of statics.
 //   h + W P = A - part m,  P = F(h) + R (h - h_0),  W = C + part (slope G - c)  or, solved for F,
 //   h + (1 + W R)^-1 W F(h) = (1 + W R)^-1 (A - part m + W R h_0)
-void Contacts::add_motion(const MovingMesh& moving, const std::vector<SphereContact>& contacts,
+void Contacts::add_motion(const MovingMesh& moving, const KeptList<SphereContact>& contacts,
                           std::vector<double>& approaches) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
   const double part = part_of_motion(contacts);
   find_near_field(moving, contacts, part);
-  whole_compliance_ = compliance_ + part * (moving.slope * moving_by_force_ - still_by_force_);
-  Eigen::VectorXd right(count);
-  Eigen::VectorXd rate(count);
+  if (whole_compliance_.rows() < count) whole_compliance_.resize(count, count);
+  whole_compliance_.topLeftCorner(count, count) =
+      compliance_.topLeftCorner(count, count) +
+      part * (moving.slope * moving_by_force_.topLeftCorner(count, count) -
+              still_by_force_.topLeftCorner(count, count));
+  if (softness_.size() < count) softness_.resize(count);
+  double fastest = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const NearField& near = near_[static_cast<std::size_t>(i)];
     // Q_1 = (Q_0 + x P) / (1 + x),  x = dt / T: the force as it has reached the wide patch
     const double kept = near.delay / (near.delay + moving.time_step);
     whole_compliance_(i, i) += part * kept * still_by_force_(i, i);
-    right[i] = contacts[static_cast<std::size_t>(i)].approach -
-               part * (motion_[i] - kept * still_by_force_(i, i) * near.past.spread);
-    rate[i] = near.damping / (moving.slope * moving.time_step);
+    approaches[static_cast<std::size_t>(i)] =
+        contacts[static_cast<std::size_t>(i)].approach -
+        part * (motion_[i] - kept * still_by_force_(i, i) * near.past.spread);
+    softness_[i] = whole_compliance_(i, i);
+    fastest = std::max(fastest, near.damping);
   }
-  softness_ = whole_compliance_.diagonal();
-  if (count > 0 && rate.maxCoeff() > 0.0) {
-    const Eigen::MatrixXd damped = whole_compliance_ * rate.asDiagonal();
-    for (Eigen::Index i = 0; i < count; ++i)
-      right += damped.col(i) * near_[static_cast<std::size_t>(i)].past.depth;
-    const Eigen::PartialPivLU<Eigen::MatrixXd> left(Eigen::MatrixXd::Identity(count, count) +
-                                                    damped);
-    right = left.solve(right).eval();
-    whole_compliance_ = left.solve(whole_compliance_).eval();
+  if (!(fastest > 0.0)) return;
+  constexpr int few = 16;
+  const double time_step = moving.slope * moving.time_step;
+  if (count <= few)
+    damp<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, few, few>>(time_step, approaches);
+  else
+    damp<Eigen::MatrixXd>(time_step, approaches);
+}
+
+// The last line of that, from right sides without W R h_0. A matrix of few rows has no memory of
+// its own to take.
+template <class Matrix>
+void Contacts::damp(double time_step, std::vector<double>& approaches) {
+  using Side = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Matrix::MaxRowsAtCompileTime, 1>;
+  const auto count = static_cast<Eigen::Index>(approaches.size());
+  Side right(count);
+  Side rate(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    right[i] = approaches[static_cast<std::size_t>(i)];
+    rate[i] = near_[static_cast<std::size_t>(i)].damping / time_step;
   }
-  for (Eigen::Index i = 0; i < count; ++i) approaches[static_cast<std::size_t>(i)] = right[i];
+  Matrix whole = whole_compliance_.topLeftCorner(count, count);
+  const Matrix damped = whole * rate.asDiagonal();
+  for (Eigen::Index i = 0; i < count; ++i)
+    right += damped.col(i) * near_[static_cast<std::size_t>(i)].past.depth;
+  const Eigen::PartialPivLU<Matrix> left(Matrix::Identity(count, count) + damped);
+  const Side solved = left.solve(right);
+  const Matrix given_way = left.solve(whole);
+  whole_compliance_.topLeftCorner(count, count) = given_way;
+  for (Eigen::Index i = 0; i < count; ++i) approaches[static_cast<std::size_t>(i)] = solved[i];
 }
 
 // Where tissue falls behind a finger that leaves, it is not pulled: takes out the contact that
 // pulls most. True where there was one.
-bool Contacts::release(const MovingMesh& moving, std::vector<SphereContact>& contacts) {
+bool Contacts::release(const MovingMesh& moving, KeptList<SphereContact>& contacts) {
   std::size_t worst = contacts.size();
   double least = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -231,12 +259,12 @@ bool Contacts::release(const MovingMesh& moving, std::vector<SphereContact>& con
                                                    moving.time_step / near.damping)
                                   .value_or(0.0),
                      .spread = near.delay / (near.delay + moving.time_step) * near.past.spread});
-  contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(worst));
+  contacts.erase(worst);
   return true;
 }
 
 // The forces of a balance, and what the next step goes on from.
-void Contacts::remember(const MovingMesh& moving, std::vector<SphereContact>& contacts) {
+void Contacts::remember(const MovingMesh& moving, KeptList<SphereContact>& contacts) {
   past_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     SphereContact& contact = contacts[i];
@@ -270,14 +298,13 @@ void Contacts::keep_forces(const Touch& touch) {
     past_[i].force = i < touch.contacts.size() ? touch.contacts[i].force : 0.0;
 }
 
-integrate::Vector Contacts::finer_load(const Touch& touch, const MeshAnswer& mesh) {
-  integrate::Vector load = integrate::Vector::Zero(mesh.freedoms);
+void Contacts::finer_load(const Touch& touch, const MeshAnswer& mesh, integrate::Vector& load) {
+  load.setZero(mesh.freedoms);
   for (const SphereContact& contact : touch.contacts) {
     const Vec3 push = contact.drag - contact.elastic * contact.patch.normal;
     add(mesh, contact.load, push, load);
     add(mesh, contact.wide, -push, load);
   }
-  return load;
 }
 
 }  // namespace palpate::run

@@ -30,6 +30,7 @@ Contacts::Contacts(const scene::Scene& scene)
       spreader_(*surface_),
       rings_(*surface_),
       stars_(surface_->surface(), surface_->neighbours(), curvature_options(scene)),
+      curvature_of_(surface_->surface().triangles.size(), -1),
       shares_(surface_->surface().vertices.size(), 0.0) {
   if (scene.scenario.contact.coupling == contact::Coupling::resolved)
     resolved_ = std::make_unique<ResolvedContact>(scene);
@@ -38,8 +39,47 @@ Contacts::Contacts(const scene::Scene& scene)
 
 Contacts::~Contacts() = default;
 
-void Contacts::detect(const Vec3& finger, const MeshAnswer& mesh,
-                      std::vector<SphereContact>& found) {
+void clear_corner(Eigen::MatrixXd& matrix, Eigen::Index count) {
+  if (matrix.rows() < count) matrix.resize(count, count);
+  matrix.topLeftCorner(count, count).setZero();
+}
+
+void Contacts::make_room(Touch& touch) {
+  constexpr std::size_t contacts_a_sphere = 4;  // a finger over folds and edges
+  const geometry::Surface& skin = surface_->surface();
+  const std::size_t count = contacts_a_sphere * scene_->finger.centres.size();
+  const std::size_t nodes = std::min(contact::most_shares, skin.vertices.size());
+  const auto reserve = [&](SphereContact& contact) {
+    for (contact::Spread* spread : {&contact.load, &contact.wide}) {
+      spread->vertices.reserve(nodes);
+      spread->shares.reserve(nodes);
+    }
+  };
+  found_.make_room(count, reserve);
+  touch.contacts.make_room(count, reserve);
+  detector_.make_room();
+  spreader_.make_room();
+  rings_.make_room();
+  reading_.vertices.reserve(skin.vertices.size());
+  reading_.weights.reserve(skin.vertices.size());
+  moved_.reserve(skin.vertices.size());
+  feet_.reserve(count);
+  laws_.reserve(count);
+  known_curvature_.reserve(skin.triangles.size());
+  if (scene_->scenario.contact.curvature_on == scenario::Contact::CurvatureOn::deformed)
+    shape_ = skin;
+  for (std::vector<double>* values : {&approaches_, &depths_, &parts_}) values->reserve(count);
+  const auto size = static_cast<Eigen::Index>(count);
+  for (Eigen::MatrixXd* matrix :
+       {&compliance_, &whole_compliance_, &moving_by_force_, &still_by_force_})
+    clear_corner(*matrix, size);
+  for (Eigen::VectorXd* vector : {&softness_, &motion_}) vector->setZero(size);
+  near_.reserve(count);
+  past_.reserve(2 * count);
+  parted_.reserve(count);
+}
+
+void Contacts::detect(const Vec3& finger, const MeshAnswer& mesh, KeptList<SphereContact>& found) {
   moving_ = mesh.displacement != nullptr;
   moved_.clear();
   if (moving_) {
@@ -55,7 +95,7 @@ void Contacts::detect(const Vec3& finger, const MeshAnswer& mesh,
   for (std::size_t i = 0; i < scene_->finger.centres.size(); ++i) {
     detector_.find(finger + scene_->finger.centres[i], reach, moved_, feet_);
     for (const auto& foot : feet_) {
-      SphereContact contact;
+      SphereContact& contact = found.add();
       contact.sphere = static_cast<int>(i);
       contact.patch.at = foot.at;
       contact.patch.position = foot.position;
@@ -64,7 +104,6 @@ void Contacts::detect(const Vec3& finger, const MeshAnswer& mesh,
       contact.on_crease = foot.on_crease;
       contact.patch.beyond = foot.beyond;
       contact.patch.turned = foot.turned;
-      found.push_back(std::move(contact));
     }
   }
 }
@@ -75,17 +114,17 @@ std::optional<std::string> Contacts::find_curvature(const MeshAnswer& mesh,
                                                     geometry::Curvature& here) {
   std::array<geometry::CurvatureEstimate, 3> corners;
   if (mesh.shape != nullptr) {
-    geometry::Surface now = surface_->surface();
-    for (std::size_t v = 0; v < now.vertices.size(); ++v)
-      if (mesh.nodes[v] >= 0) now.vertices[v] += mesh.shape->segment<3>(3 * mesh.nodes[v]);
-    corners = stars_.at_corners(now, at.triangle);
+    shape_ = surface_->surface();
+    for (std::size_t v = 0; v < shape_.vertices.size(); ++v)
+      if (mesh.nodes[v] >= 0) shape_.vertices[v] += mesh.shape->segment<3>(3 * mesh.nodes[v]);
+    corners = stars_.at_corners(shape_, at.triangle);
   } else {
-    auto known = known_curvature_.find(at.triangle);
-    if (known == known_curvature_.end())
-      known =
-          known_curvature_.emplace(at.triangle, stars_.at_corners(surface_->surface(), at.triangle))
-              .first;
-    corners = known->second;
+    int& known = curvature_of_[static_cast<std::size_t>(at.triangle)];
+    if (known < 0) {
+      known = static_cast<int>(known_curvature_.size());
+      known_curvature_.push_back(stars_.at_corners(surface_->surface(), at.triangle));
+    }
+    corners = known_curvature_[static_cast<std::size_t>(known)];
   }
   const geometry::CurvatureEstimate found =
       geometry::between(corners, {at.weights[0], at.weights[1], at.weights[2]});
@@ -147,7 +186,7 @@ void Contacts::guess_depth(SphereContact& contact) const {
   if (depth && *depth > 0.0) contact.depth = *depth;
 }
 
-void Contacts::shape_patches(std::vector<SphereContact>& contacts) {
+void Contacts::shape_patches(KeptList<SphereContact>& contacts) {
   for (SphereContact& contact : contacts) {
     const auto [a, b] = contact.law.semi_axes(contact.depth);
     contact.patch.a = a;
@@ -181,8 +220,8 @@ void Contacts::approach_moving_skin(const Vec3& finger, SphereContact& contact) 
 }
 
 // Contacts at one place press it once: each gets its part, without a jump as they come together.
-void Contacts::share_places(std::vector<SphereContact>& contacts) {
-  std::vector<double> parts(contacts.size(), 1.0);
+void Contacts::share_places(KeptList<SphereContact>& contacts) {
+  parts_.assign(contacts.size(), 1.0);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     for (std::size_t j = 0; j < contacts.size(); ++j) {
       if (i == j) continue;
@@ -190,17 +229,17 @@ void Contacts::share_places(std::vector<SphereContact>& contacts) {
       const double apart = (contacts[i].patch.position - contacts[j].patch.position).norm();
       if (apart >= reach) continue;
       const double overlap = 1.0 - apart / reach;
-      parts[i] += overlap * overlap;
+      parts_[i] += overlap * overlap;
     }
-  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].law.point.part = 1.0 / parts[i];
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].law.point.part = 1.0 / parts_[i];
 }
 
 std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch) {
-  std::vector<SphereContact>& contacts = touch.contacts;
+  KeptList<SphereContact>& contacts = touch.contacts;
   const std::size_t count = contacts.size();
-  std::vector<contact::PointLaw> laws(count);
-  std::vector<double> approaches(count);
-  std::vector<double> depths(count);
+  laws_.resize(count);
+  approaches_.resize(count);
+  depths_.resize(count);
   const double settled = 1e-12 * scene_->finger.sphere_radius;
   if (count == 1 && !moving_ && mesh.moving == nullptr) guess_depth(contacts.front());
   if (mesh.moving != nullptr) find_motion(mesh, contacts);
@@ -211,22 +250,23 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
     share_places(contacts);
     for (std::size_t i = 0; i < count; ++i) {
       if (moving_) approach_moving_skin(touch.finger, contacts[i]);
-      laws[i] = contacts[i].law.point;
-      approaches[i] = contacts[i].approach;
-      depths[i] = contacts[i].depth;
+      laws_[i] = contacts[i].law.point;
+      approaches_[i] = contacts[i].approach;
+      depths_[i] = contacts[i].depth;
     }
     find_compliance(mesh, contacts);
-    if (mesh.moving != nullptr) add_motion(*mesh.moving, contacts, approaches);
-    if (!contact::balance(laws, approaches,
-                          mesh.moving != nullptr ? whole_compliance_ : compliance_, depths))
+    if (mesh.moving != nullptr) add_motion(*mesh.moving, contacts, approaches_);
+    const Eigen::MatrixXd& all = mesh.moving != nullptr ? whole_compliance_ : compliance_;
+    const auto size = static_cast<Eigen::Index>(count);
+    if (!contact::balance(laws_, approaches_, all.topLeftCorner(size, size), depths_))
       return "no penetration balances the contact: the layer is too thin for this depth";
     double change = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-      change = std::max(change, std::abs(contacts[i].law.semi_axes(depths[i])[0] -
+      change = std::max(change, std::abs(contacts[i].law.semi_axes(depths_[i])[0] -
                                          contacts[i].law.semi_axes(contacts[i].depth)[0]));
-      contacts[i].depth = depths[i];
-      contacts[i].force = contacts[i].elastic = laws[i].force(depths[i]);
-      contacts[i].stiffness = laws[i].stiffness(depths[i]);
+      contacts[i].depth = depths_[i];
+      contacts[i].force = contacts[i].elastic = laws_[i].force(depths_[i]);
+      contacts[i].stiffness = laws_[i].stiffness(depths_[i]);
       contacts[i].compliance =
           compliance_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
     }
@@ -242,32 +282,36 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
 std::optional<std::string> Contacts::find(const Vec3& finger, const MeshAnswer& mesh,
                                           Touch& touch) {
   if (resolved_) return resolved_->find(finger, mesh, touch);
-  std::vector<SphereContact> found;
-  detect(finger, mesh, found);
-  if (mesh.moving != nullptr) leave_apart(mesh, found);
-  for (SphereContact& contact : found) {
+  detect(finger, mesh, found_);
+  if (mesh.moving != nullptr) leave_apart(mesh, found_);
+  for (SphereContact& contact : found_) {
     if (auto wrong = give_law(mesh, contact)) return wrong;
     carry_on(touch, contact);
     if (mesh.moving != nullptr) spread_wide(contact);
   }
   const Vec3 move = finger - touch.finger;
   touch.finger = finger;
-  touch.contacts = std::move(found);
+  touch.contacts.swap(found_);
   if (auto wrong = settle(mesh, touch)) return wrong;
   if (mesh.moving != nullptr) {
     while (release(*mesh.moving, touch.contacts))
       if (auto wrong = settle(mesh, touch)) return wrong;
     remember(*mesh.moving, touch.contacts);
   }
-  std::erase_if(touch.contacts, [](const SphereContact& contact) { return contact.depth <= 0.0; });
+  touch.contacts.erase_if([](const SphereContact& contact) { return contact.depth <= 0.0; });
   rub(*scene_, move, touch);
   return std::nullopt;
 }
 
 Vector Contacts::load(const Touch& touch, const MeshAnswer& mesh) {
-  Vector load = Vector::Zero(mesh.freedoms);
+  Vector sum;
+  load(touch, mesh, sum);
+  return sum;
+}
+
+void Contacts::load(const Touch& touch, const MeshAnswer& mesh, Vector& load) {
+  load.setZero(mesh.freedoms);
   push(touch, mesh, [&](int node, const Vec3& force) { load.segment<3>(3 * node) += force; });
-  return load;
 }
 
 }  // namespace palpate::run

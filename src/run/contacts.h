@@ -1,7 +1,6 @@
 // Every contact of the finger's spheres with the specimen, and the forces that balance.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 #include "contact/law.h"
 #include "contact/ring.h"
 #include "run/influence.h"
+#include "run/kept_list.h"
 #include "scene/scene.h"
 
 namespace palpate::run {
@@ -22,6 +22,8 @@ struct NodalContact {
   double peak_pressure = 0.0;  // Pa, the greatest of the nodes'
   std::vector<int> vertices;   // of the skin around the contact, ascending
   std::vector<double> gap;     // m, between them and the sphere
+
+  void renew();
 };
 
 // One sphere at one place of the skin.
@@ -43,6 +45,8 @@ struct SphereContact {
   NodalContact nodal;           // of `resolved`; else empty
   bool on_crease = false;
   bool one_sided = false;  // its curvature
+
+  void renew();  // like new, with the room of its lists
 };
 
 // In the middle of the contact, Pa: 3/2 of the mean under Hertz, a layer's own.
@@ -53,7 +57,7 @@ struct Touch {
   Vec3 finger = Vec3::Zero();  // m, the finger's point
   double travel = 0.0;         // m, below where it first touched
   double slide = 0.0;          // m, sideways
-  std::vector<SphereContact> contacts;
+  KeptList<SphereContact> contacts;
 
   [[nodiscard]] const SphereContact* deepest() const;
   [[nodiscard]] double normal_force() const;  // N, upwards on the finger: of the normal forces
@@ -111,16 +115,21 @@ class Contacts {
 
   // The forces on the mesh, N.
   [[nodiscard]] static integrate::Vector load(const Touch& touch, const MeshAnswer& mesh);
+  static void load(const Touch& touch, const MeshAnswer& mesh, integrate::Vector& load);
 
   // What the pressures' own spreads would load beyond the wide ones that do, relaxed, N; it sums to
   // 0.
-  [[nodiscard]] static integrate::Vector finer_load(const Touch& touch, const MeshAnswer& mesh);
+  static void finer_load(const Touch& touch, const MeshAnswer& mesh, integrate::Vector& load);
 
   // What viscosity has made of the forces that find() found for a mesh in motion.
   void keep_forces(const Touch& touch);
 
+  // From now on nothing is allocated while a finger goes anywhere on the skin, in `touch` neither;
+  // but for more than four contacts a sphere.
+  void make_room(Touch& touch);
+
   // For timing: detection alone, of the finger at a place over the mesh as it is.
-  void detect(const Vec3& finger, const MeshAnswer& mesh, std::vector<SphereContact>& found);
+  void detect(const Vec3& finger, const MeshAnswer& mesh, KeptList<SphereContact>& found);
 
  private:
   [[nodiscard]] std::optional<std::string> find_curvature(const MeshAnswer& mesh,
@@ -131,12 +140,12 @@ class Contacts {
   [[nodiscard]] std::optional<std::string> settle(const MeshAnswer& mesh, Touch& touch);
   void carry_on(const Touch& before, SphereContact& contact) const;
   void guess_depth(SphereContact& contact) const;
-  void shape_patches(std::vector<SphereContact>& contacts);
+  void shape_patches(KeptList<SphereContact>& contacts);
   void load_nearest_node(SphereContact& contact) const;
   void approach_moving_skin(const Vec3& finger, SphereContact& contact);
-  void find_compliance(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts);
+  void find_compliance(const MeshAnswer& mesh, const KeptList<SphereContact>& contacts);
   [[nodiscard]] bool presses_as_one() const;
-  [[nodiscard]] contact::Patch read_patch(const std::vector<SphereContact>& contacts,
+  [[nodiscard]] contact::Patch read_patch(const KeptList<SphereContact>& contacts,
                                           const SphereContact& own) const;
   [[nodiscard]] double sinking(const MeshAnswer& mesh, const contact::Patch& patch,
                                const contact::Reading& reading, const SphereContact& pressed) const;
@@ -164,16 +173,18 @@ class Contacts {
   };
   [[nodiscard]] double rise(const MeshAnswer& mesh) const;
   void spread_wide(SphereContact& contact);
-  void leave_apart(const MeshAnswer& mesh, std::vector<SphereContact>& found);
-  void find_motion(const MeshAnswer& mesh, const std::vector<SphereContact>& contacts);
-  void find_near_field(const MovingMesh& moving, const std::vector<SphereContact>& contacts,
+  void leave_apart(const MeshAnswer& mesh, KeptList<SphereContact>& found);
+  void find_motion(const MeshAnswer& mesh, const KeptList<SphereContact>& contacts);
+  void find_near_field(const MovingMesh& moving, const KeptList<SphereContact>& contacts,
                        double part);
-  [[nodiscard]] double part_of_motion(const std::vector<SphereContact>& contacts) const;
-  void add_motion(const MovingMesh& moving, const std::vector<SphereContact>& contacts,
+  [[nodiscard]] double part_of_motion(const KeptList<SphereContact>& contacts) const;
+  void add_motion(const MovingMesh& moving, const KeptList<SphereContact>& contacts,
                   std::vector<double>& approaches);
-  [[nodiscard]] bool release(const MovingMesh& moving, std::vector<SphereContact>& contacts);
-  void remember(const MovingMesh& moving, std::vector<SphereContact>& contacts);
-  void share_places(std::vector<SphereContact>& contacts);
+  template <class Matrix>
+  void damp(double time_step, std::vector<double>& approaches);
+  [[nodiscard]] bool release(const MovingMesh& moving, KeptList<SphereContact>& contacts);
+  void remember(const MovingMesh& moving, KeptList<SphereContact>& contacts);
+  void share_places(KeptList<SphereContact>& contacts);
 
   const scene::Scene* scene_;
   const geometry::SmoothSurface* surface_;
@@ -181,12 +192,19 @@ class Contacts {
   contact::Spreader spreader_;
   contact::RingReader rings_;
   geometry::CurvatureStars stars_;
-  std::map<int, std::array<geometry::CurvatureEstimate, 3>>
-      known_curvature_;      // by triangle, at rest
+  std::vector<int> curvature_of_;  // of every triangle, its place in the next one; -1: none yet
+  std::vector<std::array<geometry::CurvatureEstimate, 3>> known_curvature_;  // at rest
+  geometry::Surface shape_;  // as it was last asked for, deformed
   std::vector<Vec3> moved_;  // displacement of every vertex, m
   std::vector<geometry::SmoothSurface::Foot> feet_;
+  KeptList<SphereContact> found_;
+  std::vector<contact::PointLaw> laws_;  // of a balance, as the next three
+  std::vector<double> approaches_;       // m
+  std::vector<double> depths_;           // m
+  std::vector<double> parts_;
   std::vector<double> shares_;  // the greatest at every vertex
   contact::Reading reading_;
+  // Of the contacts that are: the first rows and columns. What is behind them is room.
   Eigen::MatrixXd compliance_;        // m/N
   Eigen::MatrixXd whole_compliance_;  // m/N, with what the mesh's motion adds
   Eigen::VectorXd softness_;          // m/N, its diagonal
@@ -200,6 +218,9 @@ class Contacts {
   std::unique_ptr<ResolvedContact> resolved_;  // instead of all this, for `resolved`
   bool moving_ = false;
 };
+
+// Makes the first `count` rows and columns 0; takes memory only where there were never so many.
+void clear_corner(Eigen::MatrixXd& matrix, Eigen::Index count);
 
 template <class Push>
 void Contacts::push(const Touch& touch, const MeshAnswer& mesh, const Push& push) {

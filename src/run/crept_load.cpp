@@ -24,14 +24,14 @@ void CreptLoad::pass(const Vector& load) {
   }
   // L_1 = J_1 + sum b (J_1 - q_1),  q_1 = keep q_0 + begin J_0 + end J_1   docs/theory.md (37)
   double stiffness = 1.0;
-  Vector right = load;
+  right_ = load;
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const double ratio = law_.branches[k].ratio;
     stiffness += ratio * (1.0 - steps_[k].end);
     memory_[k] = steps_[k].keep * memory_[k] + steps_[k].begin * crept_;
-    right += ratio * memory_[k];
+    right_ += ratio * memory_[k];
   }
-  crept_ = right / stiffness;
+  crept_ = right_ / stiffness;
   for (std::size_t k = 0; k < steps_.size(); ++k) memory_[k] += steps_[k].end * crept_;
 }
 

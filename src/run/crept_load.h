@@ -34,6 +34,7 @@ class CreptLoad {
   std::vector<tissue::MemoryStep> steps_;
   integrate::Vector crept_;                // J[L]
   std::vector<integrate::Vector> memory_;  // one a branch, N
+  integrate::Vector right_;                // N
 };
 
 }  // namespace palpate::run

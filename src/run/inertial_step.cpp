@@ -9,25 +9,26 @@ using integrate::MemoryRule;
 using integrate::Vector;
 
 // What a load (N) adds to the end of an implicit step. In modes with inertia it acts all along it.
-Vector PressedMesh::respond(const Vector& unit) {
+void PressedMesh::respond(const Vector& unit, Vector& moved) {
   if (auto* implicit = std::get_if<integrate::Implicit>(&stepper_->method()))
-    return implicit->response(unit);
+    return implicit->response(unit, moved);
   if (auto* staged = std::get_if<integrate::TrBdf2>(&stepper_->method()))
-    return staged->response(unit);
+    return staged->response(unit, moved);
   auto& modal = std::get<integrate::Modal>(stepper_->method());
-  if (!inertia_) return modal.response(unit);
+  if (!inertia_) return modal.response(unit, moved);
   // Modes are linear: there is always an answer.
-  (void)modal.linearise(state_.displacement, Vector::Zero(unit.size()));
-  const Vector alone = modal.base();
+  alone_.setZero(unit.size());
+  (void)modal.linearise(state_.displacement, alone_);
+  alone_ = modal.base();
   (void)modal.linearise(state_.displacement, unit);
-  return modal.base() - alone;
+  moved = modal.base() - alone_;
 }
 
 // Friction as it acts now, N.
-Vector PressedMesh::drag_load(const Touch& touch) const {
-  Touch rubbing = touch;
-  for (SphereContact& contact : rubbing.contacts) contact.force = 0.0;
-  return Contacts::load(rubbing, answer());
+void PressedMesh::find_drag_load(const Touch& touch) {
+  rubbing_ = touch;
+  for (SphereContact& contact : rubbing_.contacts) contact.force = 0.0;
+  Contacts::load(rubbing_, answer(), drag_load_);
 }
 
 std::optional<std::string> PressedMesh::step_with_inertia(const Vec3& finger,
@@ -50,8 +51,8 @@ std::optional<std::string> PressedMesh::meet(const Vec3& finger, MovingMesh movi
   if (one_tissue_) mesh.one_tissue = &*one_tissue_;
   const bool viscous = history.relaxes();
   // Friction acts as it did; what it does in statics is no motion.
-  const Vector still = viscous ? crept_.load() : drag_load(touch);
-  moving.still = &still;
+  if (!viscous) find_drag_load(touch);
+  moving.still = viscous ? &crept_.load() : &drag_load_;
   moving.still_has_past = viscous;
   moving.slope = slope_;
   moving.time_step = stage_step_;
@@ -65,24 +66,27 @@ std::optional<std::string> PressedMesh::meet(const Vec3& finger, MovingMesh movi
     rub(*scene_, Vec3::Zero(), touch);
     contacts_.keep_forces(touch);
   }
-  load_ = Contacts::load(touch, mesh);
+  Contacts::load(touch, mesh, load_);
   if (viscous) crept_.pass(load_);
-  finer_ = Contacts::finer_load(touch, mesh);
+  Contacts::finer_load(touch, mesh, finer_);
   return std::nullopt;
 }
 
 template <class Linearised>
 std::optional<std::string> PressedMesh::step_implicitly(Linearised& method, const Vec3& finger,
                                                         ContactHistory& history, Touch& touch) {
-  const Vector friction = drag_load(touch);
+  find_drag_load(touch);
   method.begin(state_, time_step_, MemoryRule::first_order);
-  if (!method.linearise(state_.displacement, friction))
+  if (!method.linearise(state_.displacement, drag_load_))
     return "the tangent stiffness is not positive";
-  const Vector base = method.base();
-  if (auto wrong = meet(finger, {.displacement = &base, .response = &*response_}, history, touch))
+  reached_ = method.base();
+  if (auto wrong =
+          meet(finger, {.displacement = &reached_, .response = &*response_}, history, touch))
     return wrong;
-  const Vector end = base + response_->to(load_ - friction);
-  method.finish(state_, end, load_);
+  further_ = load_ - drag_load_;
+  response_->to(further_, moved_);
+  moved_ += reached_;
+  method.finish(state_, moved_, load_);
   return std::nullopt;
 }
 
@@ -90,16 +94,19 @@ std::optional<std::string> PressedMesh::step_implicitly(Linearised& method, cons
 // what the contact's spring loses, mode by mode exactly, and no step is too long to be stable.
 std::optional<std::string> PressedMesh::step_in_modes(integrate::Modal& method, const Vec3& finger,
                                                       ContactHistory& history, Touch& touch) {
-  const Vector load_before = load_;
   method.begin(state_, time_step_, MemoryRule::held);
-  const Vector friction = drag_load(touch);
-  (void)method.linearise(state_.displacement, 0.5 * (load_before + friction));
-  const Vector base = method.base();
-  if (auto wrong = meet(finger, {.displacement = &base, .response = &*response_, .share = 0.5},
+  find_drag_load(touch);
+  further_ = 0.5 * (load_before_ + drag_load_);
+  (void)method.linearise(state_.displacement, further_);
+  reached_ = method.base();
+  if (auto wrong = meet(finger, {.displacement = &reached_, .response = &*response_, .share = 0.5},
                         history, touch))
     return wrong;
-  const Vector end = base + response_->to(0.5 * (load_ - friction));
-  method.finish(state_, end, 0.5 * (load_before + load_));
+  further_ = 0.5 * (load_ - drag_load_);
+  response_->to(further_, moved_);
+  moved_ += reached_;
+  further_ = 0.5 * (load_before_ + load_);
+  method.finish(state_, moved_, further_);
   return std::nullopt;
 }
 

@@ -15,7 +15,7 @@ namespace palpate::run {
 class Influence {
  public:
   // The displacement (m) under a load (N), both one entry a degree of freedom.
-  using Respond = std::function<integrate::Vector(const integrate::Vector&)>;
+  using Respond = std::function<void(const integrate::Vector& load, integrate::Vector& moved)>;
 
   explicit Influence(Respond respond) : respond_(std::move(respond)) {}
 
@@ -46,19 +46,30 @@ class Influence {
     if (known_.empty()) known_.resize(static_cast<std::size_t>(freedoms));
     integrate::Vector& known = known_[static_cast<std::size_t>(freedom)];
     if (known.size() == 0) {
-      integrate::Vector unit = integrate::Vector::Zero(freedoms);
-      unit[freedom] = 1.0;
-      known = respond_(unit);
+      unit_.setZero(freedoms);
+      unit_[freedom] = 1.0;
+      respond_(unit_, known);
     }
     return known;
   }
 
+  // Asks for all that loads on the skin may want to know; `nodes` are its vertices', -1 left out.
+  // From then on nothing is allocated, and nothing solved, until forget(); but where all of it
+  // would be more than `most` bytes it is left to be asked for as it is wanted, and false.
+  bool ask_all(std::span<const int> nodes, Eigen::Index freedoms, double most) {
+    kept.make_room(nodes.size());
+    const double each = static_cast<double>(sizeof(double)) * static_cast<double>(freedoms);
+    if (3.0 * static_cast<double>(nodes.size()) * each > most) return false;
+    for (const int node : nodes)
+      for (int axis = 0; node >= 0 && axis < 3; ++axis) (void)column(3 * node + axis, freedoms);
+    return true;
+  }
+
   // The displacement under a load that few degrees of freedom carry, m.
-  [[nodiscard]] integrate::Vector to(const integrate::Vector& load) {
-    integrate::Vector sum = integrate::Vector::Zero(load.size());
+  void to(const integrate::Vector& load, integrate::Vector& sum) {
+    sum.setZero(load.size());
     for (Eigen::Index d = 0; d < load.size(); ++d)
       if (load[d] != 0.0) sum += load[d] * column(static_cast<int>(d), load.size());
-    return sum;
   }
 
   // How node `at` moves by a newton on `node` along each axis, m/N: one column an axis of the load.
@@ -80,6 +91,7 @@ class Influence {
 
  private:
   Respond respond_;
+  integrate::Vector unit_;
   std::vector<integrate::Vector> known_;  // one a degree of freedom; empty: not asked for yet
 };
 

@@ -10,8 +10,8 @@
 namespace palpate::run {
 
 LiveModel::LiveModel(const scene::Scene& scene) : scene_(&scene), history_(std::in_place, scene) {
-  touch_.contacts.reserve(scene.finger.centres.size());
   if (!scene.specimen) {
+    touch_.contacts.make_room(scene.finger.centres.size(), [](SphereContact&) {});
     first_ = scene::pressed_place(scene);
     touch_.finger = first_ + scene.finger.sphere_radius * Vec3::UnitZ();
     return;
@@ -21,6 +21,7 @@ LiveModel::LiveModel(const scene::Scene& scene) : scene_(&scene), history_(std::
   mesh_->set_step(step_);
   first_ = scene::first_touch(scene).finger;
   touch_.finger = first_;
+  mesh_->make_ready(touch_);
 }
 
 std::optional<std::string> LiveModel::go_to(const Vec3& offset, double time) {

@@ -14,8 +14,9 @@ namespace palpate::run {
 
 class LiveModel {
  public:
-  // The scene has a finger and outlives the model. Everything that closed forms need is allocated
-  // here; a mesh still allocates in its steps.
+  // The scene has a finger and outlives the model. Everything that follow() needs is allocated and
+  // solved for here, which takes seconds on a mesh of thousands of nodes; what a mesh allocates in
+  // its steps all the same is said at PressedMesh::make_ready().
   explicit LiveModel(const scene::Scene& scene);
 
   // The finger has gone straight to `offset` (m, from the place of its first touch, z upwards) by

@@ -48,13 +48,26 @@ class PairTable {
   }
 
   void forget() {
-    rows_ = {};
-    columns_ = {};
-    entries_.assign(entries_.size(), {});
+    // What was never asked for is as it was.
+    const std::size_t width = std::min(capacity_, static_cast<std::size_t>(columns_.used));
+    for (std::size_t row = 0; row < capacity_ && row < static_cast<std::size_t>(rows_.used); ++row)
+      std::fill_n(&entries_[row * capacity_], width, Entry{});
+    for (Places* places : {&rows_, &columns_}) {
+      std::fill(places->of.begin(), places->of.end(), 0);
+      places->used = 0;
+    }
     turn_ = 1;
   }
 
+  // All the room that it ever takes, for vertices below `vertices`.
+  void make_room(std::size_t vertices) {
+    while (capacity_ < most) grow();
+    for (Places* places : {&rows_, &columns_})
+      if (places->of.size() < vertices) places->of.resize(vertices, 0);
+  }
+
  private:
+  static constexpr std::size_t most = 256;
   struct Entry {
     PairBlock block;
     double along = 0.0;
@@ -75,8 +88,8 @@ class PairTable {
   // Twice the room; all is asked for anew. Beyond that many vertices the contact has moved far,
   // and those it came from are of no use.
   void grow() {
-    constexpr std::size_t most = 256;
     forget();
+    if (capacity_ == most) return;
     capacity_ = capacity_ == 0 ? 32 : std::min(most, 2 * capacity_);
     entries_.assign(capacity_ * capacity_, {});
   }

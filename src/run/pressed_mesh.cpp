@@ -102,19 +102,21 @@ void PressedMesh::take(tissue::Part part, const std::vector<int>& start) {
 
   influence_.reset();
   if (scene_->scenario.contact.coupling == Coupling::one_way) return;
-  if (inertia_) response_.emplace([this](const Vector& unit) { return respond(unit); });
+  const auto response = [this](const Vector& unit, Vector& moved) { respond(unit, moved); };
+  if (inertia_) response_.emplace(response);
   if (!inertia_ && !forces_follow_finger()) {
-    influence_.emplace([this](const Vector& unit) { return respond(unit); });
+    influence_.emplace(response);
     return;
   }
   const auto statics = [this](Cholesky& factors, const SplitMatrix& stiffness) {
     // The measurement of the network's modulus has shown that it is rigid.
     [[maybe_unused]] const bool factored = factors.factor(stiffness);
     eigen_assert(factored);
-    return [this, &factors](Vector unit) -> Vector {
-      for (Eigen::Index d = 0; d < unit.size(); ++d)
-        if (body_->held()[static_cast<std::size_t>(d)] != 0) unit[d] = 0.0;
-      return factors.solve(unit);
+    return [this, &factors](const Vector& unit, Vector& moved) {
+      moved = unit;
+      for (Eigen::Index d = 0; d < moved.size(); ++d)
+        if (body_->held()[static_cast<std::size_t>(d)] != 0) moved[d] = 0.0;
+      factors.solve(moved, moved);
     };
   };
   influence_.emplace(statics(factors_, body_->stiffness()));
@@ -180,7 +182,7 @@ std::optional<std::string> PressedMesh::add_step(const Vec3& finger, double time
   if (auto wrong = try_out(finger, touch)) return wrong;
   history.pass(*scene_, time_step_, touch);
   if (march_.times.empty()) march_.loads.push_back(tissue::sparse(load_));
-  load_ = Contacts::load(touch, answer());
+  Contacts::load(touch, answer(), load_);
   march_.loads.push_back(tissue::sparse(load_));
   march_.times.push_back(time);
   return std::nullopt;
@@ -204,9 +206,9 @@ std::optional<std::string> PressedMesh::move(const Touch& touch) {
     shown_ = false;
     return std::nullopt;
   }
-  Vector load = Contacts::load(touch, answer());
-  auto wrong = stepper_->step(state_, load_, load, integrate::MemoryRule::exact);
-  load_ = std::move(load);
+  Contacts::load(touch, answer(), load_after_);
+  auto wrong = stepper_->step(state_, load_, load_after_, integrate::MemoryRule::exact);
+  load_.swap(load_after_);
   return wrong;
 }
 
@@ -223,7 +225,7 @@ std::optional<std::string> PressedMesh::step_in_series(const Vec3& finger, Touch
   MeshAnswer mesh = answer();
   mesh.displacement = &state_.displacement;
   if (auto wrong = contacts_.find(finger, mesh, touch)) return wrong;
-  load_ = Contacts::load(touch, mesh);
+  Contacts::load(touch, mesh, load_);
   return std::nullopt;
 }
 
@@ -232,11 +234,11 @@ std::optional<std::string> PressedMesh::balance(Linearised& method, const Vec3& 
                                                 Touch& touch) {
   MeshAnswer mesh = answer();
   mesh.influence = &*influence_;
-  Vector displacement = state_.displacement;
+  Vector& displacement = reached_;
+  displacement = state_.displacement;
   // Friction acts as it did; the balance finds the normal forces.
-  Touch rubbing = touch;
-  for (SphereContact& contact : rubbing.contacts) contact.force = 0.0;
-  const Vector friction = Contacts::load(rubbing, mesh);
+  find_drag_load(touch);
+  const Vector& friction = drag_load_;
   // Nodes that are held to the finger take any load: one that grows evenly along every step would
   // swing about the right one.
   const bool swings = scene_->scenario.contact.coupling == Coupling::resolved;
@@ -244,18 +246,20 @@ std::optional<std::string> PressedMesh::balance(Linearised& method, const Vec3& 
   for (int i = 0; i < most_linearisations; ++i) {
     if (!body_->linear()) influence_->forget();
     if (!method.linearise(displacement, friction)) return "the tangent stiffness is not positive";
-    const Vector base = method.base();
-    mesh.displacement = &base;
-    Touch next = touch;
-    if (auto wrong = contacts_.find(finger, mesh, next)) return wrong;
-    const Vector load = Contacts::load(next, mesh);
-    const Vector moved = base + method.response(load - friction);
-    const double change = (moved - displacement).cwiseAbs().maxCoeff();
-    displacement = moved;
+    mesh.displacement = &method.base();
+    next_ = touch;
+    if (auto wrong = contacts_.find(finger, mesh, next_)) return wrong;
+    Vector& load = load_after_;
+    Contacts::load(next_, mesh, load);
+    further_ = load - friction;
+    method.response(further_, moved_);
+    moved_ += method.base();
+    const double change = (moved_ - displacement).cwiseAbs().maxCoeff();
+    displacement = moved_;
     if (!std::isfinite(change)) return "the motion has left the finite numbers";
     if (body_->linear() || change <= settled_length) {
       method.finish(state_, displacement, load);
-      touch = std::move(next);
+      std::swap(touch, next_);
       load_ = load;
       return std::nullopt;
     }
@@ -289,8 +293,8 @@ std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
   state_.time = time;  // a sum of steps would carry their rounding
   // Modes with inertia take the mean load all along the step.
   const bool mean = inertia_ && std::holds_alternative<integrate::Modal>(stepper_->method());
-  const Vector acted = mean ? Vector(0.5 * (load_before_ + load_)) : Vector();
-  auto unstable = mean ? monitor_->step(before_, state_, acted, acted)
+  if (mean) further_ = 0.5 * (load_before_ + load_);
+  auto unstable = mean ? monitor_->step(before_, state_, further_, further_)
                        : monitor_->step(before_, state_, load_before_, load_);
   if (unstable) return unstable;
   if (scene_->scenario.solver.rings) follow(touch);
@@ -299,16 +303,16 @@ std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
 
 // Moves the part where the contact has moved.
 void PressedMesh::follow(const Touch& touch) {
-  std::vector<int> start;
+  start_.clear();
   for (const SphereContact& contact : touch.contacts)
     for (const int vertex : contact.load.vertices)
-      start.push_back(specimen_->skin[static_cast<std::size_t>(vertex)]);
-  if (start.empty()) return;
-  tissue::Part part =
-      tissue::part_around(specimen_->network, start, *scene_->scenario.solver.rings);
-  if (part.nodes == part_.nodes && part.edge == part_.edge) return;
-  take(std::move(part), start);
-  load_ = Contacts::load(touch, answer());
+      start_.push_back(specimen_->skin[static_cast<std::size_t>(vertex)]);
+  if (start_.empty()) return;
+  const int rings = *scene_->scenario.solver.rings;
+  tissue::reach_around(specimen_->network, start_, rings, reach_);
+  if (tissue::spans(part_, reach_)) return;
+  take(tissue::part_around(specimen_->network, start_, rings), start_);
+  Contacts::load(touch, answer(), load_);
 }
 
 Vector PressedMesh::of_specimen(const Vector& of_part) const {

@@ -26,6 +26,11 @@ class PressedMesh {
   // The next steps have this size, s.
   void set_step(double time_step);
 
+  // From now on, at rest and with its step set, steps allocate nothing while the finger goes
+  // anywhere, but for what make_ready() of pressed_mesh.cpp says; `touch` is the one that will be
+  // given. Solves for all loads on the skin, which takes seconds on thousands of nodes.
+  void make_ready(Touch& touch);
+
   // One step with the finger's point at `finger` (m) at its end, `time` (s). Returns what is wrong
   // where no balance is found or the motion has left the stable.
   //
@@ -90,8 +95,8 @@ class PressedMesh {
                                                          const Vec3& finger,
                                                          ContactHistory& history, Touch& touch);
   void show();
-  [[nodiscard]] integrate::Vector drag_load(const Touch& touch) const;
-  [[nodiscard]] integrate::Vector respond(const integrate::Vector& unit);
+  void find_drag_load(const Touch& touch);
+  void respond(const integrate::Vector& unit, integrate::Vector& moved);
   [[nodiscard]] integrate::Vector of_specimen(const integrate::Vector& of_part) const;
   template <class Linearised>
   [[nodiscard]] std::optional<std::string> balance(Linearised& method, const Vec3& finger,
@@ -115,6 +120,15 @@ class PressedMesh {
   integrate::Vector load_;
   integrate::State before_;  // the step
   integrate::Vector load_before_;
+  // Room of a step:
+  Touch rubbing_, next_;               // with friction alone; what may become the touch
+  integrate::Vector drag_load_;        // N, of the first
+  integrate::Vector load_after_;       // N
+  integrate::Vector further_;          // N, of a load beyond another
+  integrate::Vector reached_, moved_;  // m
+  integrate::Vector alone_;            // m, of respond()
+  std::vector<int> start_;             // nodes that a part is around
+  tissue::Reach reach_;                // of it
   March march_;
   double time_step_ = 0.0;
   // Whether frames pass in modes alone, and whether state_ is where these are. docs/theory.md (41)

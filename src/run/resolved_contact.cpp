@@ -213,7 +213,7 @@ contact::ContactLaw ResolvedContact::law_for_estimates(const geometry::SurfacePo
 
 // The contact of one sphere from its nodes' forces; none where nothing presses it.
 void ResolvedContact::fill(int sphere, const Touch& before, Touch& touch) const {
-  SphereContact contact;
+  SphereContact& contact = touch.contacts.add();
   contact.sphere = sphere;
   Vec3 sum = Vec3::Zero();
   Vec3 centre = Vec3::Zero();
@@ -233,7 +233,10 @@ void ResolvedContact::fill(int sphere, const Touch& before, Touch& touch) const 
     total += one.force;
     area += one.skin.area;
   }
-  if (total <= 0.0) return;
+  if (total <= 0.0) {
+    touch.contacts.erase(touch.contacts.size() - 1);
+    return;
+  }
   contact.force = sum.norm();
   for (double& share : contact.load.shares) share /= total;
   for (Vec3& push : contact.nodal.push) push /= contact.force;
@@ -248,7 +251,6 @@ void ResolvedContact::fill(int sphere, const Touch& before, Touch& touch) const 
   contact.law = law_for_estimates(foot.at);
   for (const SphereContact& old : before.contacts)
     if (old.sphere == sphere) contact.stretch = old.stretch;
-  touch.contacts.push_back(std::move(contact));
 }
 
 std::optional<std::string> ResolvedContact::find(const Vec3& finger, const MeshAnswer& mesh,

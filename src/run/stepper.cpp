@@ -51,11 +51,13 @@ std::optional<std::string> Stepper::step(integrate::State& state,
         } else if constexpr (std::is_same_v<Chosen, integrate::TrBdf2>) {
           constexpr double part = integrate::TrBdf2::first_part;
           method.start_under(load_before);
-          const integrate::Vector load = load_before + part * (load_after - load_before);
-          if (auto wrong = solve_step(method, *body_, state, time_step_, rule, load)) return wrong;
-          return solve_step(method, *body_, state, time_step_, rule, load_after);
+          load_ = load_before + part * (load_after - load_before);
+          if (auto wrong =
+                  solve_step(method, *body_, state, time_step_, rule, load_, displacement_))
+            return wrong;
+          return solve_step(method, *body_, state, time_step_, rule, load_after, displacement_);
         } else {
-          return solve_step(method, *body_, state, time_step_, rule, load_after);
+          return solve_step(method, *body_, state, time_step_, rule, load_after, displacement_);
         }
       },
       *method_);

@@ -50,16 +50,17 @@ class Stepper {
   std::optional<Method> method_;
   double time_step_ = 0.0;
   int beginnings_ = 0;
+  integrate::Vector load_;          // N, where a step has a middle
+  integrate::Vector displacement_;  // m, of linearisations
 };
 
-// One implicit step of `method` (Implicit or Modal), or one stage of TrBdf2, under a known load.
+// One implicit step of `method` (Implicit or Modal), or one stage of TrBdf2, under a known load;
+// `displacement` is room.
 template <class Linearised>
-[[nodiscard]] std::optional<std::string> solve_step(Linearised& method,
-                                                    const scene::SpringBody& body,
-                                                    integrate::State& state, double time_step,
-                                                    integrate::MemoryRule rule,
-                                                    const integrate::Vector& load) {
-  integrate::Vector displacement = state.displacement;
+[[nodiscard]] std::optional<std::string> solve_step(
+    Linearised& method, const scene::SpringBody& body, integrate::State& state, double time_step,
+    integrate::MemoryRule rule, const integrate::Vector& load, integrate::Vector& displacement) {
+  displacement = state.displacement;
   method.begin(state, time_step, rule);
   for (int i = 0; i < most_linearisations; ++i) {
     if (!method.linearise(displacement, load)) return "the tangent stiffness is not positive";
@@ -72,6 +73,16 @@ template <class Linearised>
     }
   }
   return "the non-linear equations did not settle in 100 iterations";
+}
+
+template <class Linearised>
+[[nodiscard]] std::optional<std::string> solve_step(Linearised& method,
+                                                    const scene::SpringBody& body,
+                                                    integrate::State& state, double time_step,
+                                                    integrate::MemoryRule rule,
+                                                    const integrate::Vector& load) {
+  integrate::Vector displacement;
+  return solve_step(method, body, state, time_step, rule, load, displacement);
 }
 
 }  // namespace palpate::run

@@ -1,11 +1,32 @@
 // Sums over the contacts of a moment, and their stick and slip.
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "contact/friction.h"
 #include "run/contacts.h"
 
 namespace palpate::run {
+
+void NodalContact::renew() {
+  push.clear();
+  peak_pressure = 0.0;
+  vertices.clear();
+  gap.clear();
+}
+
+void SphereContact::renew() {
+  SphereContact other;
+  for (auto [kept, own] : {std::pair{&other.load, &load}, std::pair{&other.wide, &wide}}) {
+    kept->vertices.swap(own->vertices);
+    kept->shares.swap(own->shares);
+    kept->vertices.clear();
+    kept->shares.clear();
+  }
+  std::swap(other.nodal, nodal);
+  other.nodal.renew();
+  *this = std::move(other);
+}
 
 double peak_pressure(const SphereContact& contact) {
   if (contact.force <= 0.0) return 0.0;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "tissue/energy.h"
 #include "tissue/fast_vectors.h"
 
 namespace palpate::scene {
@@ -23,6 +22,9 @@ SpringBody::SpringBody(const tissue::Network& network, tissue::Kinematics kinema
       tension_(network.ends.size()),
       effective_(network.ends.size()) {
   mass_ = spread_mass(1.0);
+  steps_.reserve(1 + law.branches.size());
+  for (auto* values : {&scratch_.elongation, &scratch_.along, &scratch_.tension})
+    values->reserve(network.ends.size());
   drag_ = spread_mass(law.kind == Viscosity::nodal_drag ? law.drag : 0.0);
   if (law.kind == Viscosity::nodal_drag) proportional_.drag_rate = law.drag;
   if (law.kind == Viscosity::kelvin_voigt) proportional_.retardation_time = law.time;
@@ -78,7 +80,10 @@ void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocit
   // tau times the forces of the elongations that the velocity would give in a second
   if (!dashpots_) dashpots_.emplace(*network_, tissue::Kinematics::linear, tissue::ViscousLaw{});
   if (!linear() && (turned_at_.size() != displacement.size() || turned_at_ != displacement)) {
-    if (!fast_.stands_at(displacement)) fast_.look(displacement, memory_at(displacement));
+    if (!fast_.stands_at(displacement)) {
+      memory_at(displacement, memory_at_);
+      fast_.look(displacement, memory_at_);
+    }
     dashpots_->turn_as(fast_);
     turned_at_ = displacement;
   }
@@ -87,15 +92,14 @@ void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocit
   force *= law_.time;
 }
 
-std::vector<double> SpringBody::memory_at(const Vector& displacement) const {
+void SpringBody::memory_at(const Vector& displacement, std::vector<double>& memory) const {
   tissue::elongations(*network_, kinematics_, displacement, elongation_);
   const std::size_t size = tissue::memory_size(law_);
-  std::vector<double> memory(size * elongation_.size(), 0.0);
+  memory.assign(size * elongation_.size(), 0.0);
   for (std::size_t s = 0; s < elongation_.size(); ++s) {
     memory[size * s] = elongation_[s];
     if (law_.kind == Viscosity::kelvin_voigt) memory[size * s + 1] = elongation_[s];
   }
-  return memory;
 }
 
 void SpringBody::remember(const Vector& displacement, const integrate::TimeStep& step,
@@ -134,7 +138,7 @@ double SpringBody::stored(const integrate::State& state) const {
   if (const auto* energies = fast_.energies();
       energies != nullptr && fast_.knows(state.displacement, state.memory))
     return energies->stored;
-  return tissue::stored_energy(*network_, law_, state.memory);
+  return tissue::stored_energy(*network_, law_, state.memory, scratch_);
 }
 
 double SpringBody::kinetic(const integrate::State& state) const {
@@ -154,8 +158,8 @@ double SpringBody::dissipated(const integrate::State& before, const integrate::S
                                                fast_.came_from(before.displacement))
     return law_.kind == Viscosity::kelvin_voigt ? law_.time * energies->lost / time_step
                                                 : energies->lost;
-  return tissue::dissipated_energy(*network_, law_, before.memory, after.memory,
-                                   after.displacement - before.displacement, time_step);
+  return tissue::dissipated_energy(*network_, law_, before.memory, after.memory, time_step,
+                                   scratch_);
 }
 
 }  // namespace palpate::scene

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrate/body.h"
+#include "tissue/energy.h"
 #include "tissue/fast_springs.h"
 #include "tissue/springs.h"
 #include "tissue/viscous.h"
@@ -38,7 +39,8 @@ class SpringBody final : public integrate::Body {
   [[nodiscard]] SplitMatrix dashpots(const Vector& displacement) const override;
   void dashpot_force(const Vector& displacement, const Vector& velocity,
                      Vector& force) const override;
-  [[nodiscard]] std::vector<double> memory_at(const Vector& displacement) const override;
+  using Body::memory_at;
+  void memory_at(const Vector& displacement, std::vector<double>& memory) const override;
   void remember(const Vector& displacement, const integrate::TimeStep& step,
                 std::vector<double>& memory) const override;
   void step_force(const Vector& displacement, std::span<const double> memory,
@@ -76,6 +78,8 @@ class SpringBody final : public integrate::Body {
   mutable std::vector<double> elongation_;
   mutable std::vector<double> tension_;
   mutable std::vector<double> effective_;
+  mutable std::vector<double> memory_at_;  // the displacement of dashpots that turn
+  mutable tissue::EnergyScratch scratch_;
   mutable std::optional<integrate::TimeStep> prepared_;
   mutable std::vector<tissue::MemoryStep> steps_;  // of `prepared_`
 };

@@ -5,37 +5,63 @@ namespace palpate::tissue {
 namespace {
 
 // One number of every spring's memory.
-std::vector<double> column(const ViscousLaw& law, std::span<const double> memory,
-                           std::size_t which) {
+void column(const ViscousLaw& law, std::span<const double> memory, std::size_t which,
+            std::vector<double>& values) {
   const std::size_t size = memory_size(law);
-  std::vector<double> values(memory.size() / size);
+  values.resize(memory.size() / size);
   for (std::size_t s = 0; s < values.size(); ++s) values[s] = memory[size * s + which];
-  return values;
 }
 
-// e - q of a branch.
-std::vector<double> stretched(const ViscousLaw& law, std::span<const double> memory,
-                              std::size_t branch) {
-  std::vector<double> values = column(law, memory, 0);
-  const std::vector<double> internal = column(law, memory, 1 + branch);
-  for (std::size_t s = 0; s < values.size(); ++s) values[s] -= internal[s];
-  return values;
-}
-
-std::vector<double> difference(std::vector<double> after, const std::vector<double>& before) {
-  for (std::size_t s = 0; s < after.size(); ++s) after[s] -= before[s];
-  return after;
+// How much one number of every spring's memory is above another of the same or of another memory.
+struct Number {
+  std::span<const double> memory;
+  std::size_t which = 0;
+};
+void difference(const ViscousLaw& law, const Number& a, const Number& b,
+                std::vector<double>& values) {
+  const std::size_t size = memory_size(law);
+  values.resize(a.memory.size() / size);
+  for (std::size_t s = 0; s < values.size(); ++s)
+    values[s] = a.memory[size * s + a.which] - b.memory[size * s + b.which];
 }
 
 }  // namespace
 
+double stored_energy(const Network& network, const ViscousLaw& law, std::span<const double> memory,
+                     EnergyScratch& scratch) {
+  std::vector<double>& e = scratch.elongation;
+  column(law, memory, 0, e);
+  double sum = 0.5 * work(network, e, e, scratch.tension);
+  for (std::size_t i = 0; i < law.branches.size(); ++i) {
+    difference(law, {memory, 0}, {memory, 1 + i}, e);
+    sum += 0.5 * law.branches[i].ratio * work(network, e, e, scratch.tension);
+  }
+  return sum;
+}
+
 double stored_energy(const Network& network, const ViscousLaw& law,
                      std::span<const double> memory) {
-  const std::vector<double> elongation = column(law, memory, 0);
-  double sum = 0.5 * work(network, elongation, elongation);
+  EnergyScratch scratch;
+  return stored_energy(network, law, memory, scratch);
+}
+
+double dissipated_energy(const Network& network, const ViscousLaw& law,
+                         std::span<const double> before, std::span<const double> after,
+                         double time_step, EnergyScratch& scratch) {
+  std::vector<double>& change = scratch.along;
+  if (law.kind == Viscosity::kelvin_voigt) {
+    difference(law, {after, 0}, {before, 0}, change);
+    return law.time * work(network, change, change, scratch.tension) / time_step;
+  }
+  double sum = 0.0;
   for (std::size_t i = 0; i < law.branches.size(); ++i) {
-    const std::vector<double> e = stretched(law, memory, i);
-    sum += 0.5 * law.branches[i].ratio * work(network, e, e);
+    std::vector<double>& mean = scratch.elongation;
+    std::vector<double>& end = scratch.along;
+    difference(law, {before, 0}, {before, 1 + i}, mean);
+    difference(law, {after, 0}, {after, 1 + i}, end);
+    for (std::size_t s = 0; s < mean.size(); ++s) mean[s] = 0.5 * (mean[s] + end[s]);
+    difference(law, {after, 1 + i}, {before, 1 + i}, change);
+    sum += law.branches[i].ratio * work(network, mean, change, scratch.tension);
   }
   return sum;
 }
@@ -43,19 +69,8 @@ double stored_energy(const Network& network, const ViscousLaw& law,
 double dissipated_energy(const Network& network, const ViscousLaw& law,
                          std::span<const double> before, std::span<const double> after,
                          const Vector& moved, double time_step) {
-  if (law.kind == Viscosity::kelvin_voigt) {
-    const std::vector<double> change = difference(column(law, after, 0), column(law, before, 0));
-    return law.time * work(network, change, change) / time_step;
-  }
-  double sum = 0.0;
-  for (std::size_t i = 0; i < law.branches.size(); ++i) {
-    std::vector<double> mean = stretched(law, before, i);
-    const std::vector<double> end = stretched(law, after, i);
-    for (std::size_t s = 0; s < mean.size(); ++s) mean[s] = 0.5 * (mean[s] + end[s]);
-    const std::vector<double> flow =
-        difference(column(law, after, 1 + i), column(law, before, 1 + i));
-    sum += law.branches[i].ratio * work(network, mean, flow);
-  }
+  EnergyScratch scratch;
+  double sum = dissipated_energy(network, law, before, after, time_step, scratch);
   if (law.kind == Viscosity::nodal_drag)
     for (Eigen::Index d = 0; d < moved.size(); ++d)
       sum += network.node_mass[static_cast<std::size_t>(d / 3)] * law.drag * moved[d] * moved[d] /

@@ -253,6 +253,7 @@ FastSprings::FastSprings(const Network& network, Kinematics kinematics, const Vi
   layout.lay_couplings(network);
   for (const Branch& branch : law.branches) layout.ratios.push_back(branch.ratio);
   layout.branches = !law.branches.empty();
+  if (layout.branches) layout.memory.reserve(memory_size(law) * network.ends.size());
   layout.dashpots = law.kind == Viscosity::kelvin_voigt;
   layout.data.ratios = layout.ratios.data();
   layout.data.memory_size = memory_size(law);

@@ -45,10 +45,10 @@ void restrict_couplings(const Network& whole, Part& part) {
 
 }  // namespace
 
-Part part_around(const Network& whole, std::span<const int> start, int rings) {
-  std::vector<char> inside(whole.rest.size(), 0);
+void reach_around(const Network& whole, std::span<const int> start, int rings, Reach& reach) {
+  auto& [inside, moving] = reach;
+  inside.assign(whole.rest.size(), 0);
   for (const int node : start) inside[static_cast<std::size_t>(node)] = 1;
-  std::vector<char> moving;
   for (int ring = 0; ring <= rings; ++ring) {
     moving = inside;
     for (const auto& [a, b] : whole.ends) {
@@ -56,6 +56,22 @@ Part part_around(const Network& whole, std::span<const int> start, int rings) {
       if (moving[static_cast<std::size_t>(b)] != 0) inside[static_cast<std::size_t>(a)] = 1;
     }
   }
+}
+
+bool spans(const Part& part, const Reach& reach) {
+  std::size_t next = 0;
+  for (std::size_t n = 0; n < reach.inside.size(); ++n) {
+    const bool known = next < part.nodes.size() && part.nodes[next] == static_cast<int>(n);
+    if (known != (reach.inside[n] != 0)) return false;
+    if (known && (part.edge[next++] != 0) != (reach.moving[n] == 0)) return false;
+  }
+  return true;
+}
+
+Part part_around(const Network& whole, std::span<const int> start, int rings) {
+  Reach reach;
+  reach_around(whole, start, rings, reach);
+  const auto& [inside, moving] = reach;
   Part part;
   std::vector<int> number(whole.rest.size(), -1);
   for (std::size_t n = 0; n < inside.size(); ++n) {

@@ -83,7 +83,13 @@ void tensions(const Network& network, std::span<const double> elongation,
 
 double work(const Network& network, std::span<const double> elongation,
             std::span<const double> along) {
-  std::vector<double> tension(elongation.size());
+  std::vector<double> tension;
+  return work(network, elongation, along, tension);
+}
+
+double work(const Network& network, std::span<const double> elongation,
+            std::span<const double> along, std::vector<double>& tension) {
+  tension.resize(elongation.size());
   tensions(network, elongation, tension);
   double sum = 0.0;
   for (std::size_t s = 0; s < tension.size(); ++s) sum += tension[s] * along[s];

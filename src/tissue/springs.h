@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "base/split_matrix.h"
 #include "tissue/network.h"
@@ -28,6 +29,9 @@ void tensions(const Network& network, std::span<const double> elongation,
 // What the tensions of some elongations do along other elongations, J; symmetric in both.
 [[nodiscard]] double work(const Network& network, std::span<const double> elongation,
                           std::span<const double> along);
+// The same with room for the tensions.
+[[nodiscard]] double work(const Network& network, std::span<const double> elongation,
+                          std::span<const double> along, std::vector<double>& tension);
 
 // f = sum over springs of tension (N) along the spring's direction, the gradient of the elastic
 // energy: what holds the displacement in balance is +f. Overwrites `force`.

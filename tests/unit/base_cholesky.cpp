@@ -211,6 +211,24 @@ TEST(Cholesky, GivesTheSameBitsInSeveralThreads) {
   for (const Vector& x : together) EXPECT_EQ(x, alone);
 }
 
+// Into a vector that is given, and into the right side itself; with and without a shared part.
+TEST(Cholesky, SolvesInPlace) {
+  Matrix rows(2, 4);
+  rows << 1, 0, -2, 0.5, 0, 3, 1, 0;
+  for (const SplitMatrix& matrix : {plain(chain(4)), split(chain(4), rows, Vector{{2.0, 0.5}})}) {
+    Cholesky factors;
+    ASSERT_TRUE(factors.factor(matrix));
+    const Vector b{{1.0, -2.0, 0.25, 3.0}};
+    Vector x;
+    factors.solve(b, x);
+    EXPECT_LT((dense(matrix) * x - b).norm(), 1e-13);  // rounding
+    Vector same = b;
+    factors.solve(same, same);
+    EXPECT_EQ(same, x);
+    EXPECT_EQ(factors.solve(b), x);
+  }
+}
+
 TEST(SplitMatrix, MultipliesAndScalesAsTheDenseMatrix) {
   Matrix rows(2, 4);
   rows << 1, 0, -2, 0.5, 0, 3, 1, 0;

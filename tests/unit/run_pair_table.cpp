@@ -61,5 +61,22 @@ TEST(PairTable, HoldsMoreVerticesThanItHasRoomFor) {
                 anew(Pairs{}.block(a, 2 * a), Vec3::UnitX(), Vec3::UnitY()));
 }
 
+// Forgetting clears all that was asked for, and no more than that: with its whole room, and through
+// more vertices than that has.
+TEST(PairTable, ForgetsAllPairsWithAllItsRoom) {
+  PairTable table;
+  table.make_room(600);
+  for (const int vertices : {20, 200, 300})
+    for (const double key : {1.0, 2.0}) {
+      Pairs pairs{.known = key + vertices};
+      table.look(Vec3::UnitX(), Vec3::UnitX(), key);
+      for (int a = 0; a < vertices; ++a)
+        for (const int b : {0, a, 2 * a % vertices})
+          ASSERT_EQ(pairs.at(table, a, b),
+                    anew(Pairs{.known = key + vertices}.block(a, b), Vec3::UnitX(), Vec3::UnitX()))
+              << a << " " << b << " of " << vertices;
+    }
+}
+
 }  // namespace
 }  // namespace palpate::run

@@ -56,6 +56,30 @@ TEST(Part, HoldsTheRingsAndOneMoreAsItsEdge) {
   }
 }
 
+// A part spans the reach of the nodes that it is around, and of no others.
+TEST(Part, SpansTheReachThatItIsOf) {
+  const Network whole = block();
+  const std::vector<std::vector<int>> starts{{0}, {1}, {47, 60, 48}, {119}, {0, 119}};
+  tissue::Reach reach;
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    for (const int rings : {1, 2}) {
+      const Part part = tissue::part_around(whole, starts[i], rings);
+      for (std::size_t k = 0; k < starts.size(); ++k)
+        for (const int others : {1, 2}) {
+          tissue::reach_around(whole, starts[k], others, reach);
+          const Part other = tissue::part_around(whole, starts[k], others);
+          EXPECT_EQ(tissue::spans(part, reach),
+                    part.nodes == other.nodes && part.edge == other.edge)
+              << i << " " << rings << " " << k << " " << others;
+        }
+      Part edgeless = part;
+      tissue::reach_around(whole, starts[i], rings, reach);
+      EXPECT_TRUE(tissue::spans(part, reach));
+      edgeless.edge.back() = edgeless.edge.back() != 0 ? 0 : 1;
+      EXPECT_FALSE(tissue::spans(edgeless, reach));
+    }
+}
+
 TEST(Part, KeepsWhatItTakes) {
   const Network whole = block();
   const Part part = tissue::part_around(whole, std::array{60}, 1);
