@@ -35,7 +35,8 @@ struct ContactLaw {
 
 // Of a sphere of radius R_1 (m) and E* (Pa) on a tissue so curved (1/m, convex positive). Nothing
 // where the tissue conforms to the sphere, 1/R_1 + kappa <= 0 for either curvature: Hertz ends.
-// `layer`: of the sphere on the flat of a layer, which takes the place of Hertz's law there; or null.
+// `layer`: of the sphere on the flat of a layer, which takes the place of Hertz's law there; or
+// null.
 [[nodiscard]] std::optional<ContactLaw> contact_law(CurvatureLaw kind, const SphereLaw& sphere,
                                                     const geometry::Curvature& curvature,
                                                     const LayerContact* layer = nullptr);

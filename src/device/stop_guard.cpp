@@ -94,7 +94,7 @@ StopGuard::StopGuard(int file, std::string_view bytes) {
   closing_bytes = 0;
   stop_file = file;
   own_stack_ = bring_handler_stack();
-  for (const int signal : signals_) {
+  for (const int signal : signals) {
     auto& old = before[static_cast<std::size_t>(signal)];
     ::sigaction(signal, nullptr, &old);
     if ((old.sa_flags & SA_SIGINFO) == 0 && old.sa_handler == SIG_IGN) continue;
@@ -108,7 +108,7 @@ StopGuard::StopGuard(int file, std::string_view bytes) {
 StopGuard::~StopGuard() {
   send_stop();
   stop_file = -1;
-  for (const int signal : signals_) {
+  for (const int signal : signals) {
     struct sigaction now {};
     ::sigaction(signal, nullptr, &now);
     const bool ours = (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == stop_and_pass_on;

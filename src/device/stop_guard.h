@@ -27,7 +27,7 @@ class StopGuard {
   static void close_channel();
 
  private:
-  static constexpr std::array signals_{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV,
+  static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV,
                                        SIGBUS, SIGFPE,  SIGILL, SIGABRT};
   bool own_stack_ = false;  // whether handlers run on the stack that it brought
 };

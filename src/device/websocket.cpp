@@ -61,7 +61,7 @@ class Arena {
 
 template <class T>
 struct ArenaAllocator {
-  using value_type = T;
+  using value_type = T;  // NOLINT: the standard's name
   Arena* arena;
 
   explicit ArenaAllocator(Arena* from) : arena(from) {}
@@ -75,7 +75,7 @@ struct ArenaAllocator {
 // A function with the arena as its allocator.
 template <class Function>
 struct InArena {
-  using allocator_type = ArenaAllocator<std::byte>;
+  using allocator_type = ArenaAllocator<std::byte>;  // NOLINT: the standard's name
   Arena* arena;
   Function function;
 

@@ -14,8 +14,8 @@ Cell known(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
 void add_measured(const MeasuredRow& row, std::vector<Cell>& cells) {
   const auto& [x, y, z] = row.sent;
   cells.insert(cells.end(), {unit::mm.from_si(row.place[0]), unit::mm.from_si(row.place[1]),
-                             unit::mm.from_si(0.0 - row.place[2]), known(row.force), known(x), known(y),
-                             known(z), known(std::sqrt(x * x + y * y + z * z))});
+                             unit::mm.from_si(0.0 - row.place[2]), known(row.force), known(x),
+                             known(y), known(z), known(std::sqrt(x * x + y * y + z * z))});
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ class StandLoop {
       loop_.health.lateness.add(loop_.clock.now() - next_);
     }
     const double asked = loop_.clock.now();
-    const Sample sample = loop_.link.sample(real_ ? sample_wait : stepped_wait);
+    Sample sample = loop_.link.sample(real_ ? sample_wait : stepped_wait);
     loop_.health.count(now(), sample);
     if (sample.arrival == Arrival::fresh) {
       loop_.health.reply.add(sample.received - asked);

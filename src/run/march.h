@@ -55,7 +55,7 @@ void carry_out(March& march);
 // A case on its way, which stops whenever its mesh is to be moved.
 class [[nodiscard]] Course {
  public:
-  struct promise_type {
+  struct promise_type {  // NOLINT: the name that the language wants
     March* march = nullptr;
     std::exception_ptr failure;
 

@@ -109,8 +109,8 @@ class Refinement {
     const bool named = solver.integrator != Integrator::automatic;
     dynamic_ =
         named ? solver.integrator != Integrator::quasi_static : found_.inertia >= solver.tolerance;
-    // Where contact leaves viscosity out, what is asked for is the force of the relaxed tissue; these
-    // couplings would feel the mesh's own.
+    // Where contact leaves viscosity out, what is asked for is the force of the relaxed tissue;
+    // these couplings would feel the mesh's own.
     const bool mesh_feels = scenario.contact.coupling == Coupling::series ||
                             scenario.contact.coupling == Coupling::resolved;
     if (scenario.contact.viscosity == scenario::Contact::Viscosity::none && !mesh_feels)

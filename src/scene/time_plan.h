@@ -17,10 +17,10 @@ struct ContactRate {
 
 struct TimePlan {
   double frequency_squared = 0.0;  // 1/s^2, 4 / limit^2: without dashpots omega_max^2
-  double limit = 0.0;              // s, of explicit steps: of central differences, unless another is chosen
-  double time_step = 0.0;          // s, of the scenario
-  int substeps = 1;                // it is cut into
-  double substep = 0.0;            // s, what is stepped
+  double limit = 0.0;      // s, of explicit steps: of central differences, unless another is chosen
+  double time_step = 0.0;  // s, of the scenario
+  int substeps = 1;        // it is cut into
+  double substep = 0.0;    // s, what is stepped
 
   [[nodiscard]] bool stable() const { return substep < limit; }
 };

@@ -108,8 +108,8 @@ double largest_frequency_squared(const Network& network, std::span<const char> h
   const double safe = safe_frequency_squared(network);
   constexpr Eigen::Index most_steps = 300;
   const Eigen::Index steps = std::min(size, most_steps);
-  // A step is made orthogonal to all before it: large bodies stop sooner, and what the residual adds
-  // makes their time step shorter by at most a half of this.
+  // A step is made orthogonal to all before it: large bodies stop sooner, and what the residual
+  // adds makes their time step shorter by at most a half of this.
   constexpr Eigen::Index large = 30000;
   const double enough = size < large ? 1e-10 : 1e-4;
   std::vector<Vector> basis;

@@ -76,8 +76,9 @@ def live(programs, folder, name, sets, seconds):
         cwd=folder, stdout=subprocess.PIPE, text=True,
     )
     try:
-        port = json.loads(arm.stdout.readline())["port"]
-        call = [palpate, "run", name + ".toml", "--device", f"inverse3:127.0.0.1:{port}"]
+        hello = json.loads(arm.stdout.readline())
+        link = f"inverse3:127.0.0.1:{hello['port']}:{hello['events_port']}"
+        call = [palpate, "run", name + ".toml", "--device", link]
         call += ["--arm", "--realtime", "--surface", f"{SURFACE} mm", "--seconds", str(seconds)]
         call += ["--force"] + [word for one in sets for word in ("--set", one)]
         ended = subprocess.run(call, cwd=folder, capture_output=True, text=True)

@@ -239,8 +239,8 @@ TEST(LiveArm, SaysWhatLateFramesLeftOut) {
   const test::TemporaryFolder folder;
   const test::LiveEmulator emulator({"inverse3", "--log", (folder / "log.csv").string()});
   test::Running running({.arguments = {"run", test::project_file("scenarios/device_arm.toml"),
-                                       "--device", "inverse3:127.0.0.1:" + emulator.port(), "--arm",
-                                       "--seconds", "1", "--set", "output.figures=false"},
+                                       "--device", emulator.arm_link(), "--arm", "--seconds", "1",
+                                       "--set", "output.figures=false"},
                          .folder = folder.path()});
   // 100 messages after the greeting's: the loop is under way.
   ASSERT_TRUE(running.until([&] {

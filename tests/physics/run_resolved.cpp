@@ -254,8 +254,8 @@ TEST(Resolved, a_slide_drags_with_mu_times_the_force) {
 
 TEST(Resolved, several_spheres_press_each_its_own_nodes) {
   Pressed pressed({"finger.spheres=4", "finger.calibration=mass",
-                         "tissue.mesh={kind=\"mirrored\",cells=[16,16,5],grading=2}"},
-                        2e-3);
+                   "tissue.mesh={kind=\"mirrored\",cells=[16,16,5],grading=2}"},
+                  2e-3);
   ASSERT_GE(pressed.touch.contacts.size(), 2u);
   std::map<int, int> owners;
   double sum = 0.0;

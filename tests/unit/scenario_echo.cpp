@@ -188,7 +188,8 @@ TEST(Echo, OfEveryStepReadsBack) {
 }
 
 TEST(Echo, OfAListOfDepthsReadsBack) {
-  expect_reads_back(press + "[output]\nforce_at = [\"1 mm\", \"0.7 mm\", \"0.33333333333333331 mm\"]\n");
+  expect_reads_back(press +
+                    "[output]\nforce_at = [\"1 mm\", \"0.7 mm\", \"0.33333333333333331 mm\"]\n");
 }
 
 TEST(Echo, OfAwkwardTextsReadsBack) {

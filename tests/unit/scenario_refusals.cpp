@@ -31,7 +31,8 @@ TEST(Refusals, ThePlainScenarioIsAccepted) { EXPECT_EQ(refusal(press), "accepted
 
 TEST(Refusals, UnknownKeys) {
   const std::string tissue_keys =
-      "base, base_height, branch, density, drag, instantaneous_ratio, material, mesh, poisson_ratio, "
+      "base, base_height, branch, density, drag, instantaneous_ratio, material, mesh, "
+      "poisson_ratio, "
       "relaxation_time, retardation_time, shape, viscosity, young_modulus";
   EXPECT_EQ(refusal("shema = 1\n" + press),
             "press.toml:1:1: `shema` is not a key here; did you mean `schema`?");
@@ -56,11 +57,14 @@ TEST(Refusals, UnknownKeys) {
 TEST(Refusals, UnknownWords) {
   expect_refused({
       {"[solver]\nmodel = \"hertzz\"\n",
-       "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, hertz, layer, mass_spring, coupled_springs"},
+       "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, "
+       "hertz, layer, mass_spring, coupled_springs"},
       {"[solver]\nmodel = \"granite\"\n",
-       "press.toml:5:9: `model` does not know `granite`; it is one of auto, hertz, layer, mass_spring, coupled_springs"},
+       "press.toml:5:9: `model` does not know `granite`; it is one of auto, hertz, layer, "
+       "mass_spring, coupled_springs"},
       {"[solver]\nmodel = 5\n",
-       "press.toml:5:9: `model` wants one of auto, hertz, layer, mass_spring, coupled_springs, got an integer; write it as "
+       "press.toml:5:9: `model` wants one of auto, hertz, layer, mass_spring, coupled_springs, got "
+       "an integer; write it as "
        "`model = \"auto\"`"},
       {"[tissue]\nmesh = { kind = \"kun\" }\n",
        "press.toml:5:17: `kind` does not know `kun`; did you mean `kuhn`? It is one of kuhn, "
@@ -79,7 +83,8 @@ TEST(Refusals, UnknownWords) {
 
 TEST(Refusals, KeysThatTheModelCannotHonour) {
   const std::string meshed =
-      "it is used only with `solver.model = \"mass_spring\"` or `\"coupled_springs\"`; remove it or change that";
+      "it is used only with `solver.model = \"mass_spring\"` or `\"coupled_springs\"`; remove it "
+      "or change that";
   expect_refused({
       {"[solver]\nmodel = \"hertz\"\n[tissue]\ndensity = \"1100 kg/m^3\"\n",
        "press.toml:7:1: `density` has no effect here: " + meshed},
@@ -126,7 +131,8 @@ TEST(Refusals, MachineryOfAnotherModelIsLeftUnreadWithANote) {
   std::string notes;
   for (const Problem& note : family.notes) notes += note.text() + "\n";
   const std::string unread =
-      " is left unread: it is used only with `solver.model = \"mass_spring\"` or `\"coupled_springs\"`\n";
+      " is left unread: it is used only with `solver.model = \"mass_spring\"` or "
+      "`\"coupled_springs\"`\n";
   EXPECT_EQ(notes, "press.toml:9:1: `mesh`" + unread + "press.toml:6:1: `start`" + unread +
                        "press.toml:7:1: `time_step`" + unread);
 }
@@ -274,20 +280,21 @@ TEST(Refusals, DuplicatesAndBrokenFiles) {
 }
 
 TEST(Refusals, TwoMistakesAreToldInTheOrderOfTheFile) {
-  EXPECT_EQ(refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
-                    "radius = \"5\"\n" +
-                    press),
-            "press.toml:2:1: `yung` is not a key here; known keys: base, base_height, branch, density, "
-            "drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
-            "retardation_time, "
-            "shape, viscosity, young_modulus\n"
-            "press.toml:3:12: `material` does not know `skn`; did you mean `skin`? Known here: "
-            "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-            "`file.toml#name`\n"
-            "press.toml:5:12: `material` does not know `fingr`; did you mean `finger`? Known here: "
-            "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-            "`file.toml#name`\n"
-            "press.toml:6:10: `radius` wants a length with its unit, got `5`; write it as `5 mm`");
+  EXPECT_EQ(
+      refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
+              "radius = \"5\"\n" +
+              press),
+      "press.toml:2:1: `yung` is not a key here; known keys: base, base_height, branch, density, "
+      "drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
+      "retardation_time, "
+      "shape, viscosity, young_modulus\n"
+      "press.toml:3:12: `material` does not know `skn`; did you mean `skin`? Known here: "
+      "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+      "`file.toml#name`\n"
+      "press.toml:5:12: `material` does not know `fingr`; did you mean `finger`? Known here: "
+      "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+      "`file.toml#name`\n"
+      "press.toml:6:10: `radius` wants a length with its unit, got `5`; write it as `5 mm`");
 }
 
 TEST(Refusals, OneMistakeIsOneMessage) {
