@@ -180,7 +180,8 @@ struct Parser {
     const auto add = [&](const char* name, Device::Act act, const char* what) {
       CLI::App* verb = all->add_subcommand(name, what);
       verb->callback([this, act] { device.act = act; });
-      verb->add_option("link", device.link, "mark10:PORT, inverse3:HOST:PORT or replay:FILE.csv")
+      verb->add_option("link", device.link,
+                       "mark10:PORT, inverse3:HOST:PORT[:EVENTS] or replay:FILE.csv")
           ->required();
       return verb;
     };
@@ -192,9 +193,10 @@ struct Parser {
   }
 
   void add_run_device(CLI::App& verb) {
-    CLI::Option* device = verb.add_option(
-        "--device", run.device.link,
-        "Against mark10:PORT, inverse3:HOST:PORT or replay:FILE.csv; without --arm it only looks");
+    CLI::Option* device = verb.add_option("--device", run.device.link,
+                                          "Against mark10:PORT, inverse3:HOST:PORT[:EVENTS] or "
+                                          "replay:FILE.csv; without --arm it only "
+                                          "looks");
     const auto beside = [&](CLI::Option* option) { option->needs(device); };
     beside(verb.add_flag("--arm", run.device.arm, "Let it move, let it send forces"));
     beside(verb.add_flag("--realtime", run.device.realtime, "Before all other programs"));

@@ -10,6 +10,7 @@
 #include "contact/hertz.h"
 #include "contact/passivity.h"
 #include "device/arm_safety.h"
+#include "device/events.h"
 #include "device/link_text.h"
 #include "device/realtime.h"
 #include "device/stand_safety.h"
@@ -85,7 +86,8 @@ double most_force(const LiveOptions& options, Kind kind) {
 
 LiveEnd ended_by_link(device::Trip trip, device::Fault fault) {
   LiveEnd end{LiveEnd::Why::link, std::string(device::trip_text(trip))};
-  if (fault != device::Fault::none && trip != device::Trip::brake)
+  const bool said = trip == device::Trip::brake && fault == device::Fault::brake;
+  if (fault != device::Fault::none && !said)
     end.sentence += ": " + std::string(device::fault_text(fault));
   if (trip == device::Trip::inside_tissue)
     end.sentence += "; move it out and begin again, or give another `--surface`";
@@ -210,6 +212,8 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
     result.warnings.push_back("of frames that came late " + rounded_text(loop.left_out, 3) +
                               " s are left out of the model's time: what tissue does with time is "
                               "that much behind");
+  for (std::string& sentence : device::event_sentences(link_.traffic().events))
+    result.warnings.push_back(std::move(sentence));
   if (loop.softened > 0)
     notes_.push_back(std::to_string(loop.softened) +
                      " frames were shown less stiff than the tissue is, as the device can hold");
