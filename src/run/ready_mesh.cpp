@@ -10,7 +10,8 @@ namespace palpate::run {
 //   dashpots between nodes: factors, whenever these have turned far;
 // - `resolved`: the systems of the nodes that touch;
 // - `solver.rings`: when another part moves, all that it consists of and its answers to loads;
-// - answers to loads, once a node that is touched, where all would take more than `most_answers`.
+// - answers to loads, once a node that is touched, where all would take more than `most_answers`;
+// - contacts beyond four a sphere, once each.
 void PressedMesh::make_ready(Touch& touch) {
   constexpr double most_answers = 1e9;  // bytes
   for (Touch* one : {&rubbing_, &next_, &touch}) contacts_.make_room(*one);
