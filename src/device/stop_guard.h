@@ -28,7 +28,7 @@ class StopGuard {
 
  private:
   static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV,
-                                       SIGBUS, SIGFPE,  SIGILL, SIGABRT};
+                                      SIGBUS, SIGFPE,  SIGILL, SIGABRT};
   bool own_stack_ = false;  // whether handlers run on the stack that it brought
 };
 
