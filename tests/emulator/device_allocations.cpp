@@ -2,29 +2,14 @@
 // no memory.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
 #include <string>
 
+#include "counted_memory.h"
 #include "device/arm_safety.h"
 #include "device/health.h"
 #include "device/link.h"
 #include "device/ring.h"
 #include "live_emulator.h"
-
-namespace {
-
-long allocations = 0;
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace palpate::device {
 namespace {
@@ -36,7 +21,7 @@ TEST(LinkAllocations, AreNoneInTheArmsLoop) {
   ArmSafety safety{ArmRules{}};
   Health health;
   static Ring<Sample, 4096> ring;
-  const long before = allocations;
+  const std::size_t before = test::blocks_taken;
   int fresh = 0;
   for (int i = 0; i < 1000; ++i) {
     const Sample sample = link.sample(0.5);
@@ -47,7 +32,7 @@ TEST(LinkAllocations, AreNoneInTheArmsLoop) {
     ASSERT_EQ(link.command_force(safety.allow(clock.now(), {0.0, 0.0, 0.5})), Fault::none);
     ring.push(sample);
   }
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(test::blocks_taken - before, 0U);
   EXPECT_EQ(fresh, 1000);
   EXPECT_GT(safety.sent().z(), 0.4);
 }
@@ -64,7 +49,7 @@ TEST(LinkAllocations, AreNoneByEvents) {
   const test::LiveEmulator emulator({"inverse3", "--clock", "virtual", "--fault", script.path()});
   Clock clock(Clock::Kind::stepped);
   Link link(emulator.arm_link(), Purpose::command, clock);
-  const long before = allocations;
+  const std::size_t before = test::blocks_taken;
   int fresh = 0;
   bool stalled = false;
   for (int i = 0; i < 1700; ++i) {
@@ -73,7 +58,7 @@ TEST(LinkAllocations, AreNoneByEvents) {
     stalled = stalled || sample.fault == Fault::stalled;
     static_cast<void>(link.command_force({0.0, 0.0, 0.5}));
   }
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(test::blocks_taken - before, 0U);
   EXPECT_EQ(fresh, 1700);
   EXPECT_TRUE(stalled);
   EXPECT_EQ(link.traffic().events.port, Events::Port::lost);
@@ -84,7 +69,7 @@ TEST(LinkAllocations, AreNoneInTheStandsLoop) {
   Clock clock(Clock::Kind::monotonic);
   Link link("mark10:" + emulator.port(), Purpose::command, clock);
   ASSERT_EQ(link.set_travel_limits(-5e-3, 5e-3), Fault::none);
-  const long before = allocations;
+  const std::size_t before = test::blocks_taken;
   int fresh = 0;
   for (int i = 0; i < 100; ++i) {
     if (i == 10) {
@@ -95,7 +80,7 @@ TEST(LinkAllocations, AreNoneInTheStandsLoop) {
     }
     if (link.sample(0.5).arrival == Arrival::fresh) ++fresh;
   }
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(test::blocks_taken - before, 0U);
   EXPECT_EQ(fresh, 100);
 }
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "counted_allocations.h"
+#include "counted_memory.h"
 #include "live_emulator.h"
 #include "run/live_loop.h"
 #include "scenario/family.h"
@@ -20,8 +20,9 @@ struct Looped {
   std::size_t rows = 0;
 };
 
-Looped loop(const std::string& scenario, const LiveOptions& options) {
-  const scenario::Family family = scenario::read(file(scenario), {});
+Looped loop(const std::string& scenario, const LiveOptions& options,
+            const std::vector<std::string>& settings = {}) {
+  const scenario::Family family = scenario::read(file(scenario), settings);
   const scene::Scene scene = scene::build(family.cases.at(0), family);
   device::Clock clock(device::Clock::Kind::stepped);
   device::Link link(options.link, device::Purpose::command, clock);
@@ -31,9 +32,9 @@ Looped loop(const std::string& scenario, const LiveOptions& options) {
   LiveLog log([](int) {});
   LiveLoop all{scene, options, link, clock, model, log, health, stop};
   Looped looped;
-  const std::size_t before = test::allocations;
+  const std::size_t before = test::blocks_taken;
   looped.end = link.identity().kind == device::Kind::stand ? run_stand(all) : run_arm(all);
-  looped.allocations = test::allocations - before;
+  looped.allocations = test::blocks_taken - before;
   looped.rows = log.finish().size();
   return looped;
 }
@@ -47,24 +48,36 @@ LiveOptions options(const std::string& link, double surface) {
   return options;
 }
 
-TEST(LiveLoops, OfTheArmAllocatesNothing) {
+// As the scenarios stand, and with a mesh in place of the closed form.
+class LiveLoops : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(LiveLoops, OfTheArmAllocatesNothing) {
   const LiveEmulator emulator(
       {"inverse3", "--clock", "virtual", "--hand", file("scenarios/emulator/arm_hand.toml")});
-  const Looped looped = loop("scenarios/device_arm.toml", options(emulator.arm_link(), 0.13));
+  const Looped looped =
+      loop("scenarios/device_arm.toml", options(emulator.arm_link(), 0.13), GetParam());
   EXPECT_EQ(looped.end.why, LiveEnd::Why::done) << looped.end.sentence;
   EXPECT_GT(looped.rows, 2500U);
   EXPECT_EQ(looped.allocations, 0U);
 }
 
-TEST(LiveLoops, OfTheStandAllocatesNothing) {
+TEST_P(LiveLoops, OfTheStandAllocatesNothing) {
   const LiveEmulator emulator(
       {"mark10", "--clock", "virtual", "--tissue", file("scenarios/emulator/stand_tissue.toml")});
   const Looped looped =
-      loop("scenarios/device_stand.toml", options("mark10:" + emulator.port(), -2e-3));
+      loop("scenarios/device_stand.toml", options("mark10:" + emulator.port(), -2e-3), GetParam());
   EXPECT_EQ(looped.end.why, LiveEnd::Why::done) << looped.end.sentence;
   EXPECT_GT(looped.rows, 140U);
   EXPECT_EQ(looped.allocations, 0U);
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    ClosedFormAndMesh, LiveLoops,
+    testing::Values(std::vector<std::string>(),
+                    std::vector<std::string>{
+                        R"(tissue.shape={kind="cuboid",size=["40 mm","40 mm","20 mm"]})",
+                        R"(tissue.mesh={kind="kuhn",cells=[3,4,6]})", "solver.model=mass_spring",
+                        "solver.integrator=quasi_static", R"(solver.time_step="1 ms")"}));
 
 }  // namespace
 }  // namespace palpate::run

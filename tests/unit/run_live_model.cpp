@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "counted_allocations.h"
+#include "counted_memory.h"
 #include "run/family.h"
 #include "scenario/family.h"
 
@@ -113,19 +113,19 @@ TEST(LiveModel, ClosedFormsAllocateNothing) {
   for (const std::string* text : {&viscous, &layer}) {
     const scene::Scene scene = build(*text + programme);
     LiveModel model(scene);
-    const std::size_t before = test::allocations;
+    const std::size_t before = test::blocks_taken;
     double sum = 0.0;
     for (int i = 0; i < 3000; ++i) {
       const double travel = 1e-3 * std::sin(0.01 * i);
       (void)model.follow(Vec3(0.0, 0.0, -travel), 1e-3 * i);
       sum += model.force().z();
     }
-    EXPECT_EQ(test::allocations - before, 0U);
+    EXPECT_EQ(test::blocks_taken - before, 0U);
     EXPECT_GT(sum, 1.0);
   }
-  const std::size_t before = test::allocations;
+  const std::size_t before = test::blocks_taken;
   const std::vector<int> counted(1000);
-  EXPECT_EQ(test::allocations - before, 1U) << "the counter counts";
+  EXPECT_EQ(test::blocks_taken - before, 1U) << "the counter counts";
 }
 
 TEST(LiveModel, PredictsTheForceOfTheDeepestTravel) {
