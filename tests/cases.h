@@ -17,7 +17,7 @@ struct Case {
 
 inline Case find_case(const std::string& id) {
   static const record::Table table =
-      record::read_csv(std::string(PALPATE_SOURCE_DIR) + "/tests/cases/physics.csv");
+      record::read_csv(PALPATE_SOURCE_DIR "/tests/cases/physics.csv");
   for (const auto& row : table.rows)
     if (std::get<std::string>(row[0]) == id)
       return {std::get<double>(row[static_cast<std::size_t>(table.find("value"))]),

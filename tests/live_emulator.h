@@ -16,6 +16,10 @@
 
 namespace palpate::test {
 
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 class LiveEmulator {
  public:
   explicit LiveEmulator(std::vector<std::string> arguments) {

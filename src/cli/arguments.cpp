@@ -193,11 +193,11 @@ struct Parser {
   }
 
   void add_run_device(CLI::App& verb) {
-    CLI::Option* device = verb.add_option("--device", run.device.link,
-                                          "Against mark10:PORT, inverse3:HOST:PORT[:EVENTS] or "
-                                          "replay:FILE.csv; without --arm it only "
-                                          "looks");
-    const auto beside = [&](CLI::Option* option) { option->needs(device); };
+    CLI::Option* link = verb.add_option("--device", run.device.link,
+                                        "Against mark10:PORT, inverse3:HOST:PORT[:EVENTS] or "
+                                        "replay:FILE.csv; without --arm it only "
+                                        "looks");
+    const auto beside = [&](CLI::Option* option) { option->needs(link); };
     beside(verb.add_flag("--arm", run.device.arm, "Let it move, let it send forces"));
     beside(verb.add_flag("--realtime", run.device.realtime, "Before all other programs"));
     beside(verb.add_flag("--traffic", run.device.traffic, "Keep what went over the line"));

@@ -12,10 +12,6 @@
 namespace palpate::test {
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 std::vector<nlohmann::json> objects_in(const std::string& text) {
   std::vector<nlohmann::json> objects;
   std::istringstream lines(text);

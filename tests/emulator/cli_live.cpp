@@ -10,12 +10,9 @@
 namespace palpate {
 namespace {
 
+using test::has;
 using test::Played;
 using test::Session;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 // An offline run of the same scenario, in the session's folder.
 test::Rows offline(const Played& live, const std::string& scenario,

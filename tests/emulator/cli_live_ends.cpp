@@ -6,12 +6,9 @@
 namespace palpate {
 namespace {
 
+using test::has;
 using test::Played;
 using test::Session;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST(LiveRun, RefusesWhatNoDeviceDoes) {
   test::TemporaryFolder folder;

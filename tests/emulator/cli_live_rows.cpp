@@ -8,6 +8,7 @@ namespace palpate {
 namespace {
 
 namespace fs = test::fs;
+using test::has;
 
 // Runs of the arm in a folder of their own, in lock-step with the emulator, so that a busy machine
 // loses no link; at some thousand frames a second, and with a hold that outlasts every test.
@@ -61,10 +62,6 @@ class LiveRows : public testing::Test {
 
   test::TemporaryFolder folder_;
 };
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t times = 0;

@@ -21,6 +21,7 @@
 namespace palpate::device {
 namespace {
 
+using test::has;
 using test::LiveEmulator;
 using test::ScratchFile;
 
@@ -32,10 +33,6 @@ std::vector<std::string> arguments(std::vector<std::string> more = {}) {
   std::vector<std::string> all{"inverse3", "--clock", "virtual"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(Inverse3Link, SaysWhoIsThere) {

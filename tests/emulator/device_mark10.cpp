@@ -25,6 +25,7 @@
 namespace palpate::device {
 namespace {
 
+using test::has;
 using test::LiveEmulator;
 using test::ScratchFile;
 
@@ -36,10 +37,6 @@ std::string refusal(const std::string& link) {
     return error.what();
   }
   return "none";
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 Sample next_of(Mark10& stand) {
