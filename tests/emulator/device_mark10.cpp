@@ -304,8 +304,11 @@ TEST_P(Mark10Faults, AreSeenAndPassedOver) {
   bool lost = false;
   int fresh_in_the_end = 0;
   for (int i = 0; i < 60 && !lost; ++i) {
-    const Sample sample = stand.sample(0.15);
+    Sample sample = stand.sample(0.15);
     seen = seen || sample.fault == expected.fault;
+    // In the end all are fresh, on a busy machine in a few tries.
+    for (int tries = 0; i >= 50 && tries < 20 && sample.arrival == Arrival::none; ++tries)
+      sample = stand.sample(0.15);
     lost = sample.arrival == Arrival::lost;
     if (sample.arrival == Arrival::fresh) {
       EXPECT_NEAR(sample.force, 0.0, 0.1) << i;          // noise; a wrong reading is not near
