@@ -7,7 +7,8 @@ No test: jitter is the machine's. A hand of the emulator presses a model once a 
 Every run of the table is one row, out of its device_health.json: frames, deadlines missed, our own
 compute time a frame, how late frames began, and the energy that the hand was given against what
 docs/devices.md bounds it by. A machine that stands still for 0.1 s ends a run by the rules; the row
-then says after how many seconds.
+then says after how many seconds. A virtual processor that idles is taken away and comes back late:
+programs of idle priority keep the machine's awake meanwhile.
 """
 
 import csv
@@ -66,6 +67,12 @@ def energy_bound(rows, frame):
     return force * speed * (3.0 * frame + force / (2.0 * SLEW))
 
 
+def stay_awake():
+    """A program of idle priority a processor, which gives way to whatever else wants to run."""
+    spin = "import os; os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))\nwhile True: pass"
+    return [subprocess.Popen([sys.executable, "-c", spin]) for _ in range(os.cpu_count())]
+
+
 def live(programs, folder, name, sets, seconds):
     palpate, emulator = programs
     with open(os.path.join(folder, "hand.toml"), "w") as file:
@@ -101,6 +108,7 @@ def main():
     print("| model | frames | missed | compute p50, p99 below, us | late p99 below, us "
           "| longest gap, ms | given to the hand, uJ | bound, uJ |")
     print("|---|---|---|---|---|---|---|---|")
+    awake = stay_awake()
     for name, sets in RUNS:
         label = " ".join([name] + [one.split("=")[1] for one in sets])
         with tempfile.TemporaryDirectory() as folder:
@@ -117,6 +125,8 @@ def main():
             f"| {1e6 * summary['most_work_by_device_J']:.1f} | {1e6 * bound:.1f} |",
             flush=True,
         )
+    for spinner in awake:
+        spinner.kill()
 
 
 if __name__ == "__main__":
