@@ -68,7 +68,7 @@ class Running {
     for (const std::string& word : call.arguments) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
     // Here, for one that is killed at once may not get as far.
-    for (const fs::path& stream : {out_, err_}) write_file(stream, "");
+    for (const std::string& stream : {out_, err_}) write_file(stream, "");
     child_ = ::fork();
     if (child_ != 0) return;
     if (!call.folder.empty() && ::chdir(call.folder.c_str()) != 0) ::_exit(126);

@@ -122,6 +122,21 @@ Live::Live(const scene::Scene& scene, const LiveOptions& options)
 
 Live::~Live() = default;
 
+// Before anything is written; the loop looks once more.
+void Live::refuse_inside(std::vector<std::string>& lines) {
+  constexpr double wait = 0.25;  // s
+  if (!options_->surface) return;
+  const device::Sample sample = link_.sample(wait);
+  const double depth = *options_->surface - sample.position.z();
+  if (sample.arrival != device::Arrival::fresh || !(depth > 0.0)) return;
+  const std::string sentence = "the finger is " + milli(depth) +
+                               " inside the tissue; move it out and begin again, or give another "
+                               "`--surface`";
+  if (options_->act == LiveOptions::Act::command)
+    throw LinkError("palpate: " + options_->link + ": " + sentence);
+  lines.push_back(sentence);
+}
+
 std::vector<std::string> Live::plan(const std::string& file) {
   const device::Identity& identity = link_.identity();
   const device::Limits& limits = link_.limits();
@@ -140,6 +155,7 @@ std::vector<std::string> Live::plan(const std::string& file) {
                       rounded_text(rules.slew) + " N/s, from nothing within " +
                       rounded_text(rules.start_time) + " s of the start");
       lines.push_back(passivity_sentence(*scene_, limits.period));
+      refuse_inside(lines);
     } else {
       lines.push_back("the stand is stopped beyond " + newtons(most) +
                       " and outside of its travel, from " +

@@ -27,7 +27,8 @@ class Live {
 
   // Sentences: who is there, the limits that hold, what would be done, and what is to be known.
   // Measures the model's cost on this machine. Throws InputError, at `file`, where the model
-  // cannot keep the pace of the device, or the programme is predicted beyond the force ceiling.
+  // cannot keep the pace of the device, or the programme is predicted beyond the force ceiling, and
+  // LinkError where an arm is to be commanded whose hand is inside the tissue.
   [[nodiscard]] std::vector<std::string> plan(const std::string& file);
 
   // Who is told and what is written while the run goes on, both on another thread.
@@ -47,6 +48,8 @@ class Live {
   [[nodiscard]] Result go(const std::atomic<bool>& stop, const Output& output);
 
  private:
+  void refuse_inside(std::vector<std::string>& lines);
+
   const scene::Scene* scene_;
   const LiveOptions* options_;
   device::Clock clock_;

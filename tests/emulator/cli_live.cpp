@@ -251,15 +251,20 @@ TEST(LiveArm, SaysWhatLateFramesLeftOut) {
   EXPECT_TRUE(has(ended.err, "left out of the model's time")) << ended.err;
 }
 
-// Nothing is pushed out of the tissue: the hand has to leave it before a run begins.
+// Nothing is pushed out of the tissue: the hand has to leave it before a run begins, and what is
+// refused leaves nothing behind.
 TEST(LiveArm, RefusesToStartInsideTheTissue) {
-  const Played live(Session{.link = "inverse3", .scenario = "device_arm", .surface = "160 mm"});
+  Session session{.link = "inverse3", .scenario = "device_arm", .surface = "160 mm"};
+  const Played live(session);
   EXPECT_EQ(live.ended.code, 6);
-  EXPECT_TRUE(has(live.ended.err, "the finger was inside the tissue at the start; move it out"))
+  EXPECT_TRUE(has(live.ended.err, "the finger is 10 mm inside the tissue; move it out"))
       << live.ended.err;
   EXPECT_EQ(live.summary.at("greatest_force_N"), 0.0);
-  EXPECT_EQ(live.health.at("states").back().at("state"), "closed");
-  EXPECT_EQ(live.health.at("states").at(1).at("state"), "tripped");
+  EXPECT_FALSE(test::fs::exists(live.folder() / "out"));
+  session.options = {};
+  const Played looked(session);
+  EXPECT_EQ(looked.ended.code, 0) << looked.ended.err;
+  EXPECT_TRUE(has(looked.ended.err, "10 mm inside the tissue")) << looked.ended.err;
 }
 
 TEST(LiveRun, KeepsTheRawTraffic) {

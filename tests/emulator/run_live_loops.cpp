@@ -79,5 +79,16 @@ INSTANTIATE_TEST_SUITE_P(
                         R"(tissue.mesh={kind="kuhn",cells=[3,4,6]})", "solver.model=mass_spring",
                         "solver.integrator=quasi_static", R"(solver.time_step="1 ms")"}));
 
+// Also where the hand has gone in since the plan was made.
+TEST(LiveLoop, OfTheArmEndsWhereItBeginsInsideTheTissue) {
+  const LiveEmulator emulator({"inverse3", "--clock", "virtual"});
+  const Looped looped = loop("scenarios/device_arm.toml", options(emulator.arm_link(), 0.16));
+  EXPECT_EQ(looped.end.why, LiveEnd::Why::link);
+  EXPECT_EQ(looped.end.sentence,
+            "the finger was inside the tissue at the start; move it out and begin again, or give "
+            "another `--surface`");
+  EXPECT_EQ(looped.rows, 1U);
+}
+
 }  // namespace
 }  // namespace palpate::run
