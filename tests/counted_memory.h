@@ -13,12 +13,13 @@ inline thread_local std::size_t blocks_taken = 0;
 }  // namespace palpate::test
 
 // NOLINTBEGIN: replaced for the whole program, as the libraries have it
-#if defined(__has_feature)
+// GCC says so by a macro, Clang by a feature; libraries define __has_feature for those without.
+#if defined(__SANITIZE_ADDRESS__)
+#define PALPATE_SANITIZED
+#elif defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define PALPATE_SANITIZED
 #endif
-#elif defined(__SANITIZE_ADDRESS__)
-#define PALPATE_SANITIZED
 #endif
 #if defined(PALPATE_SANITIZED)
 // The sanitizer has its own malloc, and tells of every block.
