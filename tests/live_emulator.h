@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "temporary_folder.h"
+
 namespace palpate::test {
 
 inline bool has(const std::string& text, const std::string& part) {
@@ -84,17 +86,12 @@ class LiveEmulator {
   nlohmann::json summary_;
 };
 
-// A file in the temporary folder, removed with the object.
+// A file of a test's own, removed with the object.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string& content) {
-    path_ = (std::filesystem::temp_directory_path() / "palpate-link-XXXXXX").string();
-    ::close(::mkstemp(path_.data()));
     std::ofstream(path_, std::ios::binary) << content;
   }
-  ~ScratchFile() { std::filesystem::remove(path_); }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::string text() const {
     std::ifstream stream(path_, std::ios::binary);
@@ -102,7 +99,8 @@ class ScratchFile {
   }
 
  private:
-  std::string path_;
+  TemporaryFolder folder_;
+  std::string path_ = (folder_ / "file").string();
 };
 
 }  // namespace palpate::test

@@ -45,6 +45,14 @@ class Rows {
   record::Table table_;
 };
 
+// The stand's run by the machine's clock, as a process of its own.
+inline Invocation stand_run(const fs::path& folder, const LiveEmulator& stand) {
+  return {.arguments = {"run", project_file("scenarios/device_stand.toml"), "--device",
+                        "mark10:" + stand.port(), "--arm", "--surface", "-2 mm", "--set",
+                        "output.figures=false"},
+          .folder = folder};
+}
+
 class Played {
  public:
   explicit Played(const Session& session) {

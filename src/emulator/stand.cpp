@@ -37,8 +37,8 @@ std::string status(const Stand& stand) {
   return text;
 }
 
-// How many characters a setter's number has: digits, point, digits. ESM303 guide: eXXXX.X, eXX.XX,
-// fXXXX, g-XXX.XX, g-XX.XXX, h the same.
+// How many digits a setter's number has before and behind its point, by the ESM303 guide: `e0200.3`
+// or, in inches, `e07.87`; `f0010`; `g-007.52` or `g-00.296`; `h` as `g`.
 struct Form {
   int whole;
   int places;

@@ -266,10 +266,7 @@ TEST(StandFaults, AKilledProgramLeavesTheStandToItsLimit) {
   test::LiveEmulator emulator({"mark10", "--log", (folder / "log.csv").string(), "--tissue",
                                test::project_file("scenarios/emulator/stand_tissue.toml")});
   {
-    test::Running running({.arguments = {"run", test::project_file("scenarios/device_stand.toml"),
-                                         "--device", "mark10:" + emulator.port(), "--arm",
-                                         "--surface", "-2 mm", "--set", "output.figures=false"},
-                           .folder = folder.path()});
+    test::Running running(test::stand_run(folder.path(), emulator));
     ASSERT_TRUE(running.until([&] {
       return test::read_file(folder / "log.csv").find(",in,\"g-004.00\"") != std::string::npos;
     }));

@@ -55,10 +55,7 @@ TEST_P(LiveInterrupt, StopsTheStandAndKeepsTheRows) {
     test::TemporaryFolder folder;
     test::LiveEmulator emulator({"mark10", "--log", (folder / "log.csv").string(), "--tissue",
                                  test::project_file("scenarios/emulator/stand_tissue.toml")});
-    test::Running running({.arguments = {"run", test::project_file("scenarios/device_stand.toml"),
-                                         "--device", "mark10:" + emulator.port(), "--arm",
-                                         "--surface", "-2 mm", "--set", "output.figures=false"},
-                           .folder = folder.path()});
+    test::Running running(test::stand_run(folder.path(), emulator));
     // "d" the second time: the programme's press.
     const bool pressed = running.until([&] {
       const std::string log = test::read_file(folder / "log.csv");

@@ -233,6 +233,20 @@ TEST(Mark10Link, DoesNotMoveAStandThatHasForgottenItsLimits) {
   EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::not_verified);
 }
 
+// A stand that cannot go as fast takes what it can; it does not start at a speed that nobody asked
+// for.
+TEST(Mark10Link, DoesNotMoveAtAnotherSpeedThanAsked) {
+  const ScratchFile slow("[stand]\nfastest = \"600 mm/min\"\n");
+  LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tissue", "none", "--stand", slow.path()});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  ASSERT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::none);
+  EXPECT_EQ(stand.move({Motion::Act::down, 12e-3}), Fault::not_verified);  // 720 mm/min
+  EXPECT_EQ(next_of(stand).position.z(), 0.0);
+  EXPECT_EQ(stand.move({Motion::Act::down, 10e-3}), Fault::none);
+}
+
 TEST(Mark10Link, SaysWhereAStopIsNotObeyed) {
   const ScratchFile script("[[fault]]\nat = \"2 s\"\nkind = \"runaway\"\n");
   const LiveEmulator emulator(

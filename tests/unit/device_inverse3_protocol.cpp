@@ -86,6 +86,19 @@ TEST(Inverse3Reply, WantsAWholeFinitePosition) {
   }
 }
 
+TEST(Inverse3Reply, WantsAVelocityThatCanBe) {
+  const auto reply_at = [](const std::string& speed) {
+    return parse_reply(R"({"inverse3":[{"device_id":"049D","state":{)"
+                       R"("cursor_position":{"x":0,"y":0,"z":0},)"
+                       R"("cursor_velocity":{"x":0,"y":0,"z":)" +
+                           speed + "}}}]}",
+                       "049D");
+  };
+  EXPECT_EQ(reply_at("-99").fault, Fault::none);
+  EXPECT_EQ(reply_at("-101").fault, Fault::not_finite);
+  EXPECT_FALSE(reply_at("1e308").position);
+}
+
 TEST(Inverse3Reply, ThatIsNoJsonIsGarbage) {
   for (const char* text : {"",
                            "x",

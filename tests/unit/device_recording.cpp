@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "temporary_folder.h"
 
 namespace palpate::device {
 namespace {
@@ -51,12 +51,10 @@ TEST(RecordingFile, IsRefusedWithItsLine) {
 class RecordingLink : public testing::Test {
  protected:
   void SetUp() override {
-    path_ = (std::filesystem::temp_directory_path() / "palpate-recording-XXXXXX").string();
-    ::close(::mkstemp(path_.data()));
     std::ofstream(path_) << "time_s,travel_mm,force_N\n5,0,0\n5.01,1,0.5\n5.04,2,1\n";
   }
-  void TearDown() override { std::filesystem::remove(path_); }
-  std::string path_;
+  test::TemporaryFolder folder_;
+  std::string path_ = (folder_ / "run.csv").string();
 };
 
 TEST_F(RecordingLink, PlaysEachRowOnceAtItsTime) {
