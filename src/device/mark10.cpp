@@ -247,6 +247,9 @@ Fault Mark10::compare_limits(double low, double high) {
 
 Fault Mark10::set_travel_limits(double low, double high) {
   limits_verified_ = false;
+  // As the stand resolves them, for it reads back no finer.
+  low = mark10::travel_step * std::round(low / mark10::travel_step);
+  high = mark10::travel_step * std::round(high / mark10::travel_step);
   const auto lower = mark10::lower_limit_command(low);
   const auto upper = mark10::upper_limit_command(high);
   if (purpose_ != Purpose::command || !lower || !upper || !(low < high)) return Fault::refused;

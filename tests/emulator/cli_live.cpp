@@ -89,6 +89,22 @@ TEST(LiveStand, TheModelsForceIsTheMeasuredOne) {
   EXPECT_EQ(live.summary.at("moving"), false);
 }
 
+// A step to a force ends by the gauge: the stand is stopped there, far above its own limit.
+TEST(LiveStand, StopsWhereAForceIsReached) {
+  const Played live(Session{.options = {"--arm", "--set", "step.1.to=0.1 N"}});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  double lowest = 1.0;
+  double deepest = 0.0;
+  for (std::size_t i = 0; i < live.rows.size(); ++i) {
+    if (live.rows.number(i, "step") != 2.0) continue;
+    lowest = std::min(lowest, live.rows.number(i, "measured_travel_mm"));
+    deepest = std::max(deepest, live.rows.number(i, "measured_travel_mm"));
+  }
+  // 0.1 N is reached at about 1 mm; between two readings it goes 0.04 mm, and as far to brake.
+  EXPECT_NEAR(lowest, 1.0, 0.1);
+  EXPECT_NEAR(deepest, lowest, 0.1);
+}
+
 // What is known of the emulator's tissue, and of nothing else, comes back out of its gauge.
 TEST(LiveStand, ItsTissueIsIdentifiedBack) {
   const Played live(Session{});

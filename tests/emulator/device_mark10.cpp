@@ -233,6 +233,17 @@ TEST(Mark10Link, DoesNotMoveAStandThatHasForgottenItsLimits) {
   EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::not_verified);
 }
 
+// The stand reads a limit back in steps of 0.02 mm, wherever between two of them it was asked for.
+TEST(Mark10Link, SetsLimitsBetweenTheStepsOfTheStand) {
+  LiveEmulator emulator({"mark10", "--clock", "virtual", "--tissue", "none"});
+  Clock clock(Clock::Kind::monotonic);
+  Mark10 stand(emulator.port(), Purpose::command, clock);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(stand.set_travel_limits(-5e-3 - 2e-6 * i, 5e-3 + 3e-6 * i), Fault::none) << i;
+    EXPECT_NEAR(stand.limits().low, -5e-3 - 2e-6 * i, 1.001e-5);  // half a step
+  }
+}
+
 // A stand that cannot go as fast takes what it can; it does not start at a speed that nobody asked
 // for.
 TEST(Mark10Link, DoesNotMoveAtAnotherSpeedThanAsked) {
