@@ -11,7 +11,7 @@
 
 #include "base/text.h"
 #include "record/csv.h"
-#include "run/family.h"
+#include "run_text.h"
 
 namespace palpate::test {
 
@@ -98,10 +98,7 @@ inline std::optional<double> error_of(const Block& block, std::vector<std::strin
   if (!block.below.empty() &&
       std::find(settings.begin(), settings.end(), "solver.model=mass_spring") == settings.end())
     settings.push_back("region.1.poisson_ratio=0.45");
-  const auto family = scenario::parse(programme(block), "block.toml", settings);
-  const auto scene = scene::build(family.cases.front(), family);
-  const std::atomic<bool> stop = false;
-  const record::CaseRecord record = run::run_case(scene, stop);
+  const record::CaseRecord record = run_text(programme(block), settings);
   double worst = 0.0;
   for (const Block::Row& row : block.rows) {
     const auto at = std::find_if(record.contact.begin(), record.contact.end(), [&](const auto& r) {

@@ -13,10 +13,10 @@
 #include <string>
 
 #include "base/error.h"
-#include "geometry/surface_check.h"
-#include "geometry/surface_files.h"
+#include "meshing/surface_check.h"
+#include "meshing/surface_files.h"
 
-namespace palpate::geometry {
+namespace palpate::meshing {
 
 // A corner of a cube of 1 cm in each format: vertex 0 in the origin, the others on the axes.
 inline const std::string good_obj =
@@ -118,4 +118,4 @@ class BrokenSurfaces : public testing::Test {
       std::filesystem::path(testing::TempDir()) / ("palpate_broken_" + std::to_string(getpid()));
 };
 
-}  // namespace palpate::geometry
+}  // namespace palpate::meshing

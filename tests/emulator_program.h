@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -13,44 +14,38 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "patience.h"
 #include "temporary_folder.h"
+
+#ifndef PALPATE_EMULATOR
+#error "this test starts a program now: configure again, so that it gets the label `cli`"
+#endif
 
 namespace emulator::test {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
+using palpate::test::patience;
+using palpate::test::read_file;
+using palpate::test::seen;
+using palpate::test::TemporaryFolder;
 
-inline int milliseconds_left(std::chrono::steady_clock::time_point end) {
-  const auto left = end - std::chrono::steady_clock::now();
-  return std::max(0, static_cast<int>(left / std::chrono::milliseconds(1)));
-}
-
-// Generous: a machine that is busy must not fail a test that is about bytes.
-constexpr std::chrono::seconds patience{20};
-
-class TemporaryFolder {
- public:
-  [[nodiscard]] std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return *this / name;
+// Adds what a descriptor has to give, once there is something; false at its end. That nothing
+// comes at all fails the test.
+inline bool read_more(int descriptor, std::string& text) {
+  pollfd ready{descriptor, POLLIN, 0};
+  if (::poll(&ready, 1, static_cast<int>(patience / std::chrono::milliseconds(1))) <= 0) {
+    ADD_FAILURE() << "nothing comes after `" << text << "`";
+    return false;
   }
-  [[nodiscard]] std::string operator/(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-
- private:
-  palpate::test::TemporaryFolder folder_;
-};
-
-inline std::string read_file(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::array<char, 512> chunk{};
+  const ssize_t got = ::read(descriptor, chunk.data(), chunk.size());
+  if (got > 0) text.append(chunk.data(), static_cast<std::size_t>(got));
+  return got > 0;
 }
 
 // A running emulator; ended with it.
@@ -58,49 +53,35 @@ class Program {
  public:
   explicit Program(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), PALPATE_EMULATOR);
-    arguments.insert(arguments.end(), {"--for", "60 s"});  // should this test die
     launch(arguments);
-  }
-  // With exactly these arguments.
-  static Program plain(std::vector<std::string> arguments) {
-    Program program;
-    arguments.insert(arguments.begin(), PALPATE_EMULATOR);
-    program.launch(arguments);
-    return program;
   }
   ~Program() {
     if (child_ > 0) (void)end();
     for (const int descriptor : {out_, err_})
       if (descriptor >= 0) ::close(descriptor);
   }
-  Program(Program&& other) noexcept
-      : child_(std::exchange(other.child_, -1)),
-        out_(std::exchange(other.out_, -1)),
-        err_(std::exchange(other.err_, -1)) {}
-  Program& operator=(Program&&) = delete;
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
 
   // The next line of its stdout as JSON.
-  nlohmann::json line() {
-    return nlohmann::json::parse(next_line(out_, out_text_), nullptr, false);
-  }
+  json line() { return json::parse(next_line(out_, out_text_), nullptr, false); }
   std::string error_line() { return next_line(err_, err_text_); }
 
   // SIGTERM; the exit code.
   int end() {
-    ::kill(child_, SIGTERM);
+    send(SIGTERM);
     return wait();
   }
+  void send(int signal) const { ::kill(child_, signal); }
   int wait() {
     int status = 0;
     ::waitpid(child_, &status, 0);
     child_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
   }
-  [[nodiscard]] pid_t pid() const { return child_; }
+  [[nodiscard]] bool runs() const { return child_ > 0; }
 
  private:
-  Program() = default;
-
   void launch(std::vector<std::string>& arguments) {
     std::array<int, 2> out{};
     std::array<int, 2> err{};
@@ -110,6 +91,7 @@ class Program {
     argv.push_back(nullptr);
     child_ = ::fork();
     if (child_ == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // should this test die
       ::dup2(out[1], STDOUT_FILENO);
       ::dup2(err[1], STDERR_FILENO);
       ::execv(argv[0], argv.data());
@@ -122,21 +104,12 @@ class Program {
   }
 
   static std::string next_line(int descriptor, std::string& text) {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    for (;;) {
-      const auto newline = text.find('\n');
-      if (newline != std::string::npos) {
-        std::string line = text.substr(0, newline);
-        text.erase(0, newline + 1);
-        return line;
-      }
-      pollfd ready{descriptor, POLLIN, 0};
-      if (::poll(&ready, 1, milliseconds_left(end)) <= 0) return {};
-      std::array<char, 512> chunk{};
-      const ssize_t got = ::read(descriptor, chunk.data(), chunk.size());
-      if (got <= 0) return {};
-      text.append(chunk.data(), static_cast<std::size_t>(got));
-    }
+    std::size_t newline = text.find('\n');
+    for (; newline == std::string::npos; newline = text.find('\n'))
+      if (!read_more(descriptor, text)) return {};
+    std::string line = text.substr(0, newline);
+    text.erase(0, newline + 1);
+    return line;
   }
 
   pid_t child_ = -1;
@@ -152,11 +125,7 @@ class Port {
   explicit Port(const std::string& path, speed_t rate = B115200)
       : descriptor_(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)) {
     EXPECT_GE(descriptor_, 0) << path;
-    termios line{};
-    ::tcgetattr(descriptor_, &line);
-    ::cfmakeraw(&line);
-    ::cfsetspeed(&line, rate);
-    ::tcsetattr(descriptor_, TCSANOW, &line);
+    set_rate(rate);
   }
   ~Port() { ::close(descriptor_); }
   Port(const Port&) = delete;
@@ -165,17 +134,17 @@ class Port {
   void say(const std::string& bytes) const {
     EXPECT_EQ(::write(descriptor_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
-  // As many lines; fewer where nothing comes for `time`.
-  [[nodiscard]] std::string lines(int count, std::chrono::milliseconds time = patience) const {
+  void set_rate(speed_t rate) const {
+    termios line{};
+    ::tcgetattr(descriptor_, &line);
+    ::cfmakeraw(&line);
+    ::cfsetspeed(&line, rate);
+    ::tcsetattr(descriptor_, TCSANOW, &line);
+  }
+  // As many lines; fewer where the port is gone.
+  [[nodiscard]] std::string lines(int count) const {
     std::string text;
-    const auto end = std::chrono::steady_clock::now() + time;
-    while (std::count(text.begin(), text.end(), '\n') < count) {
-      pollfd ready{descriptor_, POLLIN, 0};
-      if (::poll(&ready, 1, milliseconds_left(end)) <= 0) break;
-      std::array<char, 512> chunk{};
-      const ssize_t got = ::read(descriptor_, chunk.data(), chunk.size());
-      if (got <= 0) break;
-      text.append(chunk.data(), static_cast<std::size_t>(got));
+    while (std::count(text.begin(), text.end(), '\n') < count && read_more(descriptor_, text)) {
     }
     return text;
   }

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "fit/identified_tables.h"
-#include "fit/identify.h"
+#include "identify/identify.h"
+#include "identify/tables.h"
 #include "run/family.h"
+#include "run_text.h"
 
 namespace palpate::test {
 
@@ -43,7 +44,7 @@ struct IdentifyScene {
   std::vector<std::string> truth;     // settings
   std::vector<std::string> unknowns;  // `KEY=LOW..HIGH`
   std::vector<double> true_values;    // SI, of the unknowns
-  fit::CurveKind kind;
+  identify::CurveKind kind;
   double contact_point = 0.0;  // m, that the measured travel is shifted by
 };
 
@@ -70,7 +71,7 @@ inline const std::string creep =
 inline const std::string relax = "[[step]]\nkind = \"relax\"\nstrain = 0.02\ntime = \"1.5 s\"\n";
 
 inline const std::vector<IdentifyScene>& identify_scenes() {
-  using fit::CurveKind;
+  using identify::CurveKind;
   const std::string modulus = "tissue.young_modulus=1..500 kPa";
   static const std::vector<IdentifyScene> scenes{
       {"hertz",
@@ -151,16 +152,15 @@ inline const IdentifyScene& identify_scene(const std::string& name) {
 }
 
 // What would have been measured without noise: the rows of a run with the true values.
-inline fit::Measurement clean_curve(const IdentifyScene& scene) {
+inline identify::Measurement clean_curve(const IdentifyScene& scene) {
   std::vector<std::string> settings = scene.truth;
   settings.emplace_back("output.pressure_maps=false");
-  if (scene.kind == fit::CurveKind::strain_time || scene.kind == fit::CurveKind::stress_time)
+  if (scene.kind == identify::CurveKind::strain_time ||
+      scene.kind == identify::CurveKind::stress_time)
     settings.emplace_back("solver.integrator=quasi_static");
-  const auto family = scenario::parse(scene.text, "test.toml", settings);
-  const std::atomic<bool> stop = false;
-  const record::CaseRecord record = run::run_case(scene::build(family.cases.front(), family), stop);
-  fit::Measurement curve;
-  const fit::CurveWords& words = fit::words_of(scene.kind);
+  const record::CaseRecord record = run_text(scene.text, settings);
+  identify::Measurement curve;
+  const identify::CurveWords& words = identify::words_of(scene.kind);
   curve.x_name = words.x_column;
   curve.y_name = words.y_column;
   curve.x_dimension = words.x.dimension;
@@ -172,20 +172,20 @@ inline fit::Measurement clean_curve(const IdentifyScene& scene) {
   double start = 0.0;
   for (const record::ContactRow& row : record.contact) {
     if (row.step == 1) start = row.slide;
-    if (scene.kind == fit::CurveKind::force_travel)
+    if (scene.kind == identify::CurveKind::force_travel)
       add(row.travel + scene.contact_point, row.force);
-    else if (scene.kind == fit::CurveKind::force_time)
+    else if (scene.kind == identify::CurveKind::force_time)
       add(row.time, row.force);
     else if (row.step == 2)
       add(row.slide - start, row.tangential);
   }
   for (const record::StrainRow& row : record.strain)
-    add(row.time, scene.kind == fit::CurveKind::strain_time ? row.strain : row.stress);
+    add(row.time, scene.kind == identify::CurveKind::strain_time ? row.strain : row.stress);
   return curve;
 }
 
 // With noise of a share of the largest value.
-inline fit::Measurement noisy(fit::Measurement curve, double share, std::uint64_t seed) {
+inline identify::Measurement noisy(identify::Measurement curve, double share, std::uint64_t seed) {
   double largest = 0.0;
   for (const double y : curve.y) largest = std::max(largest, std::abs(y));
   Noise noise(seed);
@@ -193,27 +193,28 @@ inline fit::Measurement noisy(fit::Measurement curve, double share, std::uint64_
   return curve;
 }
 
-inline fit::Identification identified(const IdentifyScene& scene, const fit::Measurement& curve,
-                                      const fit::IdentifyOptions& options = {},
-                                      const std::vector<std::string>& settings = {}) {
+inline identify::Identification identified(const IdentifyScene& scene,
+                                           const identify::Measurement& curve,
+                                           const identify::IdentifyOptions& options = {},
+                                           const std::vector<std::string>& settings = {}) {
   const auto family = scenario::parse(scene.text, "test.toml", settings);
-  const auto unknowns = fit::read_unknowns(scene.unknowns, family.cases.front().scenario);
+  const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
   const std::atomic<bool> stop = false;
-  return fit::identify(curve, family, unknowns, stop, options);
+  return identify::identify(curve, family, unknowns, stop, options);
 }
 
 // How often of so many repeats the truth of each unknown lies inside its interval.
 inline std::vector<int> covered(const IdentifyScene& scene, int repeats,
-                                const fit::IdentifyOptions& options = {.searches = 1,
-                                                                       .profiles = false}) {
-  const fit::Measurement clean = clean_curve(scene);
+                                const identify::IdentifyOptions& options = {.searches = 1,
+                                                                            .profiles = false}) {
+  const identify::Measurement clean = clean_curve(scene);
   std::vector<int> inside(scene.unknowns.size(), 0);
   for (int k = 0; k < repeats; ++k) {
     const auto found =
         identified(scene, noisy(clean, 0.01, static_cast<std::uint64_t>(k) + 1), options);
     for (std::size_t i = 0; i < inside.size(); ++i) {
-      const fit::Identified& one = found.unknowns[i];
-      const fit::Interval interval = fit::trusted(one);
+      const identify::Identified& one = found.unknowns[i];
+      const identify::Interval interval = identify::trusted(one);
       const double truth = one.unknown.shown(scene.true_values[i]);
       if (interval.low && interval.high && *interval.low <= truth && truth <= *interval.high)
         ++inside[i];

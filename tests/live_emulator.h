@@ -1,19 +1,13 @@
 // The emulator as another program: started with its arguments, ended with the object.
 #pragma once
 
-#include <fcntl.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "emulator_program.h"
 #include "temporary_folder.h"
 
 namespace palpate::test {
@@ -22,33 +16,13 @@ inline bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+// How long a link's sample is waited for that must come, s.
+inline constexpr double wire_patience = 20.0;
+
 class LiveEmulator {
  public:
-  explicit LiveEmulator(std::vector<std::string> arguments) {
-    int pipe[2] = {-1, -1};
-    EXPECT_EQ(::pipe2(pipe, O_CLOEXEC), 0);
-    arguments.insert(arguments.begin(), PALPATE_EMULATOR);
-    // None outlives a test that was killed.
-    arguments.insert(arguments.end(), {"--for", "60 s"});
-    std::vector<char*> argv;
-    for (std::string& word : arguments) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    child_ = ::fork();
-    if (child_ == 0) {
-      ::dup2(pipe[1], 1);
-      ::execv(argv[0], argv.data());
-      ::_exit(127);
-    }
-    ::close(pipe[1]);
-    out_ = ::fdopen(pipe[0], "r");
-    hello_ = line();
-  }
-  ~LiveEmulator() {
-    end();
-    std::fclose(out_);
-  }
-  LiveEmulator(const LiveEmulator&) = delete;
-  LiveEmulator& operator=(const LiveEmulator&) = delete;
+  explicit LiveEmulator(std::vector<std::string> arguments)
+      : program_(std::move(arguments)), hello_(program_.line()) {}
 
   // A port's path for the stand, a number for the arm.
   [[nodiscard]] std::string port() const {
@@ -59,29 +33,20 @@ class LiveEmulator {
   [[nodiscard]] std::string arm_link() const {
     return "inverse3:127.0.0.1:" + port() + ":" + hello_.at("events_port").dump();
   }
-  void send(int signal) const { ::kill(child_, signal); }
+  void send(int signal) const { program_.send(signal); }
   // Ends it and gives its summary; an empty object where it was killed.
   nlohmann::json end() {
-    if (child_ <= 0) return summary_;
-    ::kill(child_, SIGCONT);
-    ::kill(child_, SIGTERM);
-    summary_ = line();
-    ::waitpid(child_, nullptr, 0);
-    child_ = -1;
+    if (!program_.runs()) return summary_;
+    send(SIGCONT);
+    send(SIGTERM);
+    summary_ = program_.line();
+    if (summary_.is_discarded()) summary_ = nlohmann::json::object();
+    program_.wait();
     return summary_;
   }
 
  private:
-  nlohmann::json line() {
-    std::string text;
-    for (int c = std::fgetc(out_); c != EOF && c != '\n'; c = std::fgetc(out_))
-      text += static_cast<char>(c);
-    const auto parsed = nlohmann::json::parse(text, nullptr, false);
-    return parsed.is_discarded() ? nlohmann::json::object() : parsed;
-  }
-
-  pid_t child_ = -1;
-  std::FILE* out_ = nullptr;
+  emulator::test::Program program_;
   nlohmann::json hello_;
   nlohmann::json summary_;
 };
@@ -89,18 +54,13 @@ class LiveEmulator {
 // A file of a test's own, removed with the object.
 class ScratchFile {
  public:
-  explicit ScratchFile(const std::string& content) {
-    std::ofstream(path_, std::ios::binary) << content;
-  }
+  explicit ScratchFile(const std::string& content) : path_(folder_.file("file", content)) {}
   [[nodiscard]] const std::string& path() const { return path_; }
-  [[nodiscard]] std::string text() const {
-    std::ifstream stream(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  [[nodiscard]] std::string text() const { return read_file(path_); }
 
  private:
   TemporaryFolder folder_;
-  std::string path_ = (folder_ / "file").string();
+  std::string path_;
 };
 
 }  // namespace palpate::test

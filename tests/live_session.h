@@ -1,10 +1,12 @@
 // `palpate run --device` against the emulator: one session, and what both sides say of it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "base/text.h"
 #include "live_emulator.h"
 #include "program.h"
 #include "record/csv.h"
@@ -45,12 +47,31 @@ class Rows {
   record::Table table_;
 };
 
-// The stand's run by the machine's clock, as a process of its own.
+// The stand's run by the machine's clock, as a process of its own; 2 s of it are the press from
+// -2 mm to -4 mm.
 inline Invocation stand_run(const fs::path& folder, const LiveEmulator& stand) {
   return {.arguments = {"run", project_file("scenarios/device_stand.toml"), "--device",
                         "mark10:" + stand.port(), "--arm", "--surface", "-2 mm", "--set",
-                        "output.figures=false"},
+                        "output.figures=false", "--set", "step.1.rate=1 mm/s"},
           .folder = folder};
+}
+
+// By the machine's clock a link is lost where the machine stands still for 0.1 s. Such a run tells
+// nothing of palpate: it is run again, so many times at most.
+inline constexpr int runs_by_the_clock = 10;
+inline bool link_was_lost(const Ended& ended) { return has(ended.err, "the link is lost"); }
+
+// A number of the last row of a stand's log, while it is written; above all heights without rows.
+inline double last_in_log(const fs::path& log, const std::string& column) {
+  const std::string text = read_file(log);
+  const std::size_t end = text.rfind('\n');
+  const std::size_t begin = end == std::string::npos ? end : text.rfind('\n', end - 1);
+  if (begin == std::string::npos) return 1.0;
+  const std::vector<std::string> names = split(text.substr(0, text.find('\n')), ',');
+  const std::vector<std::string> cells = split(text.substr(begin + 1, end - begin - 1), ',');
+  // From the right, for the bytes of the line may have commas.
+  const auto from_right = names.end() - std::find(names.begin(), names.end(), column);
+  return whole_number(*(cells.end() - from_right)).value_or(1.0);
 }
 
 class Played {

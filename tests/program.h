@@ -7,35 +7,25 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <set>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "patience.h"
 #include "temporary_folder.h"
+
+#ifndef PALPATE_PROGRAM
+#error "this test starts a program now: configure again, so that it gets the label `cli`"
+#endif
 
 namespace palpate::test {
 
 namespace fs = std::filesystem;
-
-inline std::string read_file(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  EXPECT_TRUE(stream.good()) << path << " cannot be read";
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-inline void write_file(const fs::path& path, const std::string& content) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << content;
-}
 
 // The names in a folder, in order.
 inline std::set<std::string> names_in(const fs::path& folder) {
@@ -94,18 +84,16 @@ class Running {
   [[nodiscard]] pid_t id() const { return child_; }
   void send(int signal) const { ::kill(child_, signal); }
 
-  // Waits for something that the program does; false where it ends, or half a minute passes, first.
-  bool until(const std::function<bool()>& seen) {
-    constexpr auto pause = std::chrono::milliseconds(2);
-    for (int i = 0; i < 15000; ++i) {
-      if (seen()) return true;
+  // Waits for something that the program does; false where it ends, or patience does, first.
+  bool until(const std::function<bool()>& there) {
+    bool ended = false;
+    const auto there_or_ended = [&] {
       siginfo_t info{};
-      if (::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-          info.si_pid == child_)
-        return seen();
-      std::this_thread::sleep_for(pause);
-    }
-    return false;
+      ended = ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+              info.si_pid == child_;
+      return there() || ended;
+    };
+    return seen(there_or_ended) && (!ended || there());
   }
 
   Ended wait() {
@@ -129,8 +117,15 @@ class Running {
 
 inline Ended run_program(const Invocation& call) { return Running(call).wait(); }
 
-inline Ended palpate(const fs::path& folder, const std::vector<std::string>& arguments) {
-  return run_program({.arguments = arguments, .folder = folder});
+// With the words of `more` behind the others.
+inline Ended palpate(const fs::path& folder, std::vector<std::string> arguments,
+                     const std::vector<std::string>& more = {}) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_program({.arguments = std::move(arguments), .folder = folder});
+}
+
+inline bool says(const Ended& ended, const std::string& words) {
+  return ended.err.find(words) != std::string::npos;
 }
 
 inline std::string project_file(const std::string& name) {

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "scenario/family.h"
+#include "refusal.h"
+#include "scenario/resolved.h"
 
 namespace palpate::scenario {
 
@@ -14,17 +15,12 @@ namespace palpate::scenario {
 inline const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
 inline const std::string creep = "[[step]]\nkind = \"creep\"\nstress = \"1 kPa\"\n";
 
-inline Scenario read_one(const std::string& text) {
-  return parse(text, "press.toml", {}).cases.at(0).scenario;
-}
+inline Case read_case(const std::string& text) { return parse(text, "press.toml", {}).cases.at(0); }
+inline Scenario read_one(const std::string& text) { return filled(read_case(text)); }
 
-inline std::string refusal(const std::string& text) {
-  try {
-    (void)parse(text, "press.toml", {});
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+inline std::string refusal(const std::string& text, const std::vector<std::string>& settings = {},
+                           const std::string& path = "press.toml") {
+  return test::refusal([&] { return parse(text, path, settings); });
 }
 
 inline std::string notes(const std::string& text) {

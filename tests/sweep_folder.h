@@ -6,17 +6,15 @@
 
 #include <atomic>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
-#include "base/error.h"
-#include "study/sweep_merge.h"
-#include "study/sweep_plan.h"
-#include "study/sweep_run.h"
+#include "refusal.h"
+#include "sweep/merge.h"
+#include "sweep/plan.h"
+#include "sweep/run.h"
 #include "temporary_folder.h"
 
-namespace palpate::study {
+namespace palpate::sweep {
 
 namespace fs = std::filesystem;
 
@@ -29,29 +27,17 @@ inline const std::string formulas =
 
 class SweepFolder : public testing::Test {
  protected:
-  static std::string read(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    EXPECT_TRUE(stream.good()) << path;
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-  static void write(const fs::path& path, const std::string& text) {
-    fs::create_directories(path.parent_path());
-    std::ofstream(path, std::ios::binary) << text;
-  }
+  static std::string read(const fs::path& path) { return test::read_file(path); }
+  static void write(const fs::path& path, const std::string& text) { test::write_file(path, text); }
 
   // What an error says, without the test's own folder.
   template <class Work>
   [[nodiscard]] std::string refusal(const Work& work) const {
-    try {
-      work();
-      return "accepted";
-    } catch (const std::exception& error) {
-      std::string text = error.what();
-      const std::string folder = root_.string() + "/";
-      for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder))
-        text.erase(at, folder.size());
-      return text;
-    }
+    std::string text = test::refusal<std::exception>(work);
+    const std::string folder = root_.string() + "/";
+    for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder))
+      text.erase(at, folder.size());
+    return text;
   }
 
   [[nodiscard]] SweepOrder order(const std::string& text) const {
@@ -72,12 +58,15 @@ class SweepFolder : public testing::Test {
   // results.csv of what there is.
   static std::string merged(const SweepPlan& plan, const char* name = "results.csv") {
     const SweepResults results(plan);
-    return read(fs::path(merge_sweep(plan, results, count_results(plan, results), Replace::any)) /
-                name);
+    WholeFolder folder(plan.folder + "/merged", "merged sweep", Replace::any);
+    folder.open();
+    merge_sweep(plan, results, count_results(plan, results), folder);
+    EXPECT_TRUE(folder.put(WholeFolder::State::complete).empty());
+    return read(fs::path(folder.path()) / name);
   }
 
   test::TemporaryFolder folder_;
   fs::path root_ = folder_.path();
 };
 
-}  // namespace palpate::study
+}  // namespace palpate::sweep

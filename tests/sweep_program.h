@@ -78,6 +78,14 @@ class SweepProgram : public testing::Test {
     }
     return count;
   }
+  // Of all those files.
+  [[nodiscard]] std::uintmax_t bytes() const {
+    std::uintmax_t sum = 0;
+    if (!fs::exists(folder_ / "out/s_sweep/results")) return 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/s_sweep/results"))
+      sum += entry.file_size();
+    return sum;
+  }
 
   TemporaryFolder folder_;
 };

@@ -1,7 +1,7 @@
-// Eigen's simplicial factorisations: serial, no BLAS, the same bits everywhere.
+// Cholesky by Eigen's simplicial factorisations: serial, no BLAS, the same bits on every machine.
 #include "base/cholesky.h"
 
-#include <iostream>  // Eigen/MetisSupport wants it
+#include <iostream>  // for Eigen/MetisSupport
 
 #include <Eigen/MetisSupport>
 #include <Eigen/SparseCholesky>
@@ -10,13 +10,15 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.h"
+
 namespace palpate {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-// Minimum degree, and nested dissection where that pays. Measured on a lattice of 5832 nodes: 36 s
-// and 15 s for the factors; of 1728 nodes both alike.
+// Minimum degree ordering, and nested dissection for large matrices. Measured times of the
+// factorisation: 36 s and 15 s on a lattice of 5832 nodes, equal times on one of 1728 nodes.
 struct Ordering {
   using PermutationType = Eigen::AMDOrdering<int>::PermutationType;
 
@@ -27,8 +29,7 @@ struct Ordering {
       Eigen::AMDOrdering<int>()(matrix, order);
       return;
     }
-    // METIS seeds rand() and draws from it, and all threads draw from the same: one at a time, or
-    // the order depends on who else is at work.
+    // METIS uses rand(), which all threads share: without this lock its order would depend on them.
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
     Eigen::MetisOrdering<int>()(matrix, order);
@@ -42,8 +43,8 @@ struct Ordering {
 SparseMatrix bordered(const SplitMatrix& matrix) {
   const Eigen::Index n = matrix.local.rows();
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(matrix.local.nonZeros() + matrix.shared.nonZeros() +
-                                           matrix.weights.size()));
+  entries.reserve(
+      as_index(matrix.local.nonZeros() + matrix.shared.nonZeros() + matrix.weights.size()));
   for (Eigen::Index column = 0; column < n; ++column)
     for (SparseMatrix::InnerIterator entry(matrix.local, column); entry; ++entry)
       if (entry.row() >= column)
@@ -62,10 +63,10 @@ SparseMatrix bordered(const SplitMatrix& matrix) {
   return all;
 }
 
-// Where a matrix has its entries.
+// The positions of a matrix's nonzeros.
 class Pattern {
  public:
-  // Whether it is that of `matrix`; from then on it is.
+  // Replaces the pattern by that of `matrix`; returns whether it was the same.
   bool becomes(const SparseMatrix& matrix) {
     std::vector<int> columns;
     std::vector<int> rows;
@@ -84,7 +85,7 @@ class Pattern {
   std::vector<int> rows_;
 };
 
-// The size of every row's own terms, before anything is eliminated: of A's diagonal, then 1/|W|.
+// The magnitude of each diagonal entry before elimination: the diagonal of A, then 1/|W|.
 Eigen::VectorXd sizes(const SplitMatrix& matrix) {
   const Eigen::Index n = matrix.local.rows();
   Eigen::VectorXd size(n + matrix.weights.size());
@@ -96,9 +97,9 @@ Eigen::VectorXd sizes(const SplitMatrix& matrix) {
   return size;
 }
 
-// A pivot that is no more than rounding belongs to a matrix that is singular. Measured: the
-// smallest of free bodies is at most 2e-14 of its row's own size, that of a bar of 60 cells held at
-// one end, nu = 0.4995, is 4e-7.
+// Whether all pivots are larger than rounding; a smaller pivot means that the matrix is singular.
+// Measured: the smallest pivot of free bodies is at most 2e-14 of its row's size; that of a bar of
+// 60 cells that is held at one end, with nu = 0.4995, is 4e-7.
 bool stands_clear(const Eigen::VectorXd& pivots, const Eigen::VectorXd& size,
                   const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>& order) {
   constexpr double rounding = 1e-12;
@@ -119,7 +120,7 @@ struct Cholesky::Factors {
   Eigen::Index size = 0;
   Eigen::Index shared = 0;
   Eigen::VectorXd pivots;   // of `bordered`
-  Eigen::VectorXd ordered;  // what is solved for, in the order of elimination
+  Eigen::VectorXd ordered;  // right-hand side and solution in the order of elimination
 };
 
 Cholesky::Cholesky() : factors_(std::make_unique<Factors>()) {}
@@ -142,8 +143,8 @@ bool Cholesky::factor(const SplitMatrix& matrix) {
   if (!factors.of_bordered.becomes(all)) factors.bordered.analyzePattern(all);
   factors.bordered.factorize(all);
   if (factors.bordered.info() != Eigen::Success) return false;
-  // The bordered matrix has a negative pivot for every positive weight and, besides, as many as the
-  // matrix itself has negative eigenvalues (Sylvester's law of inertia).
+  // The number of negative pivots of the bordered matrix is the number of positive weights plus the
+  // number of negative eigenvalues of the matrix itself (Sylvester's law of inertia).
   Eigen::Index expected = 0;
   for (Eigen::Index i = 0; i < factors.shared; ++i) expected += matrix.weights[i] > 0.0 ? 1 : 0;
   Eigen::VectorXd& pivots = factors.pivots;
@@ -160,13 +161,13 @@ Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const {
   return x;
 }
 
-// As the libraries' own solve(), which takes memory for its permutations.
+// Like Eigen's solve(), which would allocate memory for its permutations.
 void Cholesky::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   Factors& factors = *factors_;
   const bool plain = factors.shared == 0;
   const auto& order =
       (plain ? factors.plain.permutationP() : factors.bordered.permutationP()).indices();
-  // Not every pattern is ordered anew.
+  // The permutation is empty if Eigen kept the order of the unknowns.
   const auto place = [&](Eigen::Index i) { return order.size() > 0 ? Eigen::Index{order[i]} : i; };
   Eigen::VectorXd& ordered = factors.ordered;
   ordered.setZero(factors.size + factors.shared);

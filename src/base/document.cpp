@@ -1,4 +1,4 @@
-// The only file that includes toml++.
+// Reads TOML with toml++, which only this file includes.
 #include "base/document.h"
 
 #include <toml++/toml.h>
@@ -8,6 +8,7 @@
 
 #include "base/document_writer.h"
 #include "base/files.h"
+#include "base/index.h"
 #include "base/text.h"
 #include "base/toml_message.h"
 
@@ -51,16 +52,16 @@ Node convert(const toml::node& value, const std::string& file) {
   return node;
 }
 
-// The first byte that no text file holds, or the text's size.
+// The offset of the first byte that does not occur in text files, or the text's size.
 std::size_t first_binary_byte(std::string_view text) {
   const auto binary = [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return (byte < 0x20 && c != '\n' && c != '\r' && c != '\t') || byte == 0x7f;
   };
-  return static_cast<std::size_t>(std::find_if(text.begin(), text.end(), binary) - text.begin());
+  return as_index(std::find_if(text.begin(), text.end(), binary) - text.begin());
 }
 
-// The first byte of what is no UTF-8 character, or the text's size.
+// The offset of the first byte that does not start a UTF-8 character, or the text's size.
 std::size_t first_broken_character(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
@@ -102,7 +103,7 @@ std::string Node::kind_name() const {
 std::string Node::shown() const {
   switch (kind) {
     case Kind::text: return text;
-    // Integers of a double are exact below 2^53, and shown without an exponent.
+    // A double represents integers below 2^53 exactly; they are shown without an exponent.
     case Kind::integer:
       return std::abs(number) < 9007199254740992.0
                  ? std::to_string(static_cast<std::int64_t>(number))
@@ -113,8 +114,11 @@ std::string Node::shown() const {
       return whole ? digits + ".0" : digits;
     }
     case Kind::boolean: return boolean ? "true" : "false";
-    default: return kind_name();
+    case Kind::table:
+    case Kind::array:
+    case Kind::date: break;
   }
+  return kind_name();
 }
 
 void refuse_no_text(std::string_view text, const std::string& file, const std::string& remedy) {
@@ -145,7 +149,7 @@ Node read_toml(const std::string& path) { return parse_toml(read_text(path), pat
 
 namespace {
 
-// The array element that a path's number names, or the table member of that name.
+// The entry of a list by its number in a path, or the member of a table by its name.
 Node& descend(Node& node, const std::string& word, const std::string& path, const Place& origin) {
   const auto refuse = [&](const std::string& why) -> Node& {
     throw InputError(origin, "`" + path + "` cannot be set: " + why);
@@ -170,16 +174,16 @@ Node& descend(Node& node, const std::string& word, const std::string& path, cons
   return node.members.back().value;
 }
 
-void set_origin(Node& node, const Place& origin) {
-  node.place = origin;
-  for (Node& item : node.items) set_origin(item, origin);
+}  // namespace
+
+void set_place(Node& node, const Place& place) {
+  node.place = place;
+  for (Node& item : node.items) set_place(item, place);
   for (Member& member : node.members) {
-    member.place = origin;
-    set_origin(member.value, origin);
+    member.place = place;
+    set_place(member.value, place);
   }
 }
-
-}  // namespace
 
 namespace {
 
@@ -212,6 +216,25 @@ void set_value(Node& root, std::string_view path, Node value, const Place& origi
   if (last != nullptr) last->place = origin;
 }
 
+Place place_of(const Node& document, const std::string& path) {
+  const Node* node = &document;
+  Place place = document.place;
+  for (const std::string& word : split(path, '.')) {
+    const Node* next = nullptr;
+    if (node->kind == Node::Kind::array) {
+      const auto number = whole_number(word);
+      if (number && *number >= 1 && *number <= static_cast<double>(node->items.size()))
+        next = &node->items[static_cast<std::size_t>(*number) - 1];
+    } else if (const Member* member = node->find(word)) {
+      next = &member->value;
+    }
+    if (next == nullptr) return place;
+    node = next;
+    place = node->place;
+  }
+  return place;
+}
+
 std::pair<std::string, Node> parse_assignment(const std::string& assignment) {
   const Place origin{"--set " + assignment, 0, 0};
   const std::size_t equals = assignment.find('=');
@@ -229,11 +252,11 @@ std::pair<std::string, Node> parse_assignment(const std::string& assignment) {
   } catch (const toml::parse_error&) {
     node.kind = Node::Kind::text;
     node.text = value;
-    // Escaped, any text is TOML, unless its bytes are no UTF-8.
+    // Any text with escape sequences is TOML, unless its bytes are not UTF-8.
     if (!is_toml("value = " + toml_text(value)))
       throw InputError({"--set " + path, 0, 0}, "the value is not UTF-8 text; write it in UTF-8");
   }
-  set_origin(node, origin);
+  set_place(node, origin);
   return {path, node};
 }
 

@@ -1,4 +1,4 @@
-// A TOML text as a tree of values, each with its place in the file.
+// A TOML document as a tree of values, each with its place in the file.
 #pragma once
 
 #include <string>
@@ -36,23 +36,32 @@ struct Member {
   Node value;
 };
 
-// Parses a whole TOML text; `file` is what places will say. Throws InputError: not TOML, a
-// duplicate key, an empty text, bytes that are no text.
+// Parses a whole TOML document; `file` is the name that places contain. Throws InputError if the
+// text is empty, is not UTF-8 text, is not TOML or gives a key twice.
 [[nodiscard]] Node parse_toml(std::string_view text, const std::string& file);
 
-// Throws InputError where the bytes are no UTF-8 text; `remedy` says what to give instead.
+// Throws InputError if the bytes are not UTF-8 text. If they are binary data, the message ends with
+// `remedy`, which says what kind of file to give.
 void refuse_no_text(std::string_view text, const std::string& file, const std::string& remedy);
 
-// Reads and parses a file. Throws InputError also where the file cannot be read.
+// Reads and parses a file. Throws InputError as parse_toml() does, and if the file cannot be read.
 [[nodiscard]] Node read_toml(const std::string& path);
 
-// Sets the value at a dotted path (`tissue.young_modulus`, `step.2.to` with tables of an array
-// counted from 1), making tables on the way. `origin` is the place of the key in messages; the
-// value keeps its own.
-// Throws InputError where the path runs through something that is no table.
+// Sets the value at a dotted path (`tissue.young_modulus`, or `step.2.to`, where the entries of a
+// list count from 1), with missing tables. `origin` becomes the place of the key; the value keeps
+// its own. Throws InputError if the path leads through a list's missing entry or a value that has
+// no keys.
 void set_value(Node& root, std::string_view path, Node value, const Place& origin);
 
-// `key=value` as given on a command line: the value in TOML, or a bare word or quantity as text.
+// Gives the value, and all keys and values inside it, this place.
+void set_place(Node& node, const Place& place);
+
+// The place of the value at a dotted path, or of the nearest table around it.
+[[nodiscard]] Place place_of(const Node& document, const std::string& path);
+
+// Parses `key=value` of the command line. If the value is not TOML (a bare word or quantity) it
+// becomes a text. Throws InputError without a key, for several values, and for bytes that are no
+// UTF-8.
 [[nodiscard]] std::pair<std::string, Node> parse_assignment(const std::string& assignment);
 
 }  // namespace palpate

@@ -1,4 +1,4 @@
-// Strict where TOML is: control characters are escaped, keys are bare where they may be.
+// Writes TOML: control characters are escaped, and keys are quoted only if they have to be.
 #include "base/document_writer.h"
 
 #include <algorithm>
@@ -28,14 +28,13 @@ bool is_list_of_tables(const Node& node) {
 }  // namespace
 
 std::string toml_text(std::string_view text) {
-  constexpr std::string_view hex = "0123456789abcdef";
   std::string quoted = "\"";
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '\n') {
       quoted += "\\n";
     } else if (byte < 0x20 || byte == 0x7f) {
-      quoted += std::string("\\u00") + hex[byte >> 4] + hex[byte & 15];
+      quoted += "\\u00" + hex_text(byte);
     } else {
       if (c == '"' || c == '\\') quoted += '\\';
       quoted += c;
@@ -62,8 +61,12 @@ std::string toml_value(const Node& value) {
     case Node::Kind::table:
       for (const Member& member : value.members) parts.push_back(entry(member));
       return parts.empty() ? "{}" : "{ " + joined(parts, ", ") + " }";
-    default: return value.shown();
+    case Node::Kind::integer:
+    case Node::Kind::real:
+    case Node::Kind::boolean:
+    case Node::Kind::date: break;
   }
+  return value.shown();
 }
 
 std::string toml_document(const Node& root) {

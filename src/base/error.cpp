@@ -1,4 +1,4 @@
-// Errors as text: one line a problem, its place in front.
+// Errors as text: one line per problem, starting with its place.
 #include "base/error.h"
 
 #include <algorithm>
@@ -49,5 +49,7 @@ InputError::InputError(std::vector<Problem> problems)
 
 InputError::InputError(Place place, std::string message)
     : InputError(std::vector<Problem>{{std::move(place), std::move(message)}}) {}
+
+void refuse(const std::string& sentence) { throw InputError({}, "palpate: " + sentence); }
 
 }  // namespace palpate

@@ -1,4 +1,4 @@
-// What can be wrong with what we were given, and where.
+// Error types: what is wrong with an input, a mesh, a device or the system, and where.
 #pragma once
 
 #include <stdexcept>
@@ -7,14 +7,14 @@
 
 namespace palpate {
 
-// A position in an input. `line` and `column` count from 1; 0 means the whole input.
+// A position in an input. `line` and `column` count from 1; 0 means unknown.
 struct Place {
   std::string file;
   int line = 0;
   int column = 0;
 
   bool operator==(const Place&) const = default;
-  [[nodiscard]] std::string text() const;  // file:line:column, as far as known
+  [[nodiscard]] std::string text() const;  // file:line:column, without the parts that are unknown
 };
 
 struct Problem {
@@ -24,10 +24,10 @@ struct Problem {
   [[nodiscard]] std::string text() const;
 };
 
-// The order of a person who mends a file from its top; problems without a line come last.
+// Sorts by file (in the order of first problems), line and column, problems without a line last.
 void sort_by_place(std::vector<Problem>& problems);
 
-// Input that cannot be used (exit code 2). Carries every problem that was found, in order.
+// Input that cannot be used (exit code 2), with every problem that was found, in order.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);
@@ -38,19 +38,22 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
+// Throws an InputError about the call of the program, which is at no place in a file.
+[[noreturn]] void refuse(const std::string& sentence);
+
 // A mesh that cannot be made or used (exit code 5).
 class MeshError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// A device that cannot be reached, understood or trusted (exit code 6).
+// A device that cannot be reached, sends data that cannot be read, or is not safe (exit code 6).
 class LinkError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// A file or program of the system that failed: a full disk, a folder without permission (exit 1).
+// An operation of the system that failed: a full disk, a folder without permission (exit code 1).
 class SystemError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

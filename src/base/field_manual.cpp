@@ -1,10 +1,10 @@
-// The reference manual of a struct's keys, in markdown.
+// Writes the reference manual of a struct's keys in Markdown.
 #include "base/field_writer.h"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "base/range_text.h"
 #include "base/text.h"
 
 namespace palpate {
@@ -26,37 +26,21 @@ class Manual final : public FieldVisitor {
     return text;
   }
 
-  void number(const Key& key, double& value, const Range& range) override {
-    row(key, "number" + bounds(range, nullptr), number_text(value));
+  void real(const Key& key, std::optional<double>& value, const Real& kind) override {
+    const std::string number = kind.unit != nullptr ? kind.unit->quantity : "number";
+    std::string fallback = kind.open != nullptr ? kind.open : "";
+    if (value)
+      fallback = kind.unit != nullptr ? quantity_text(*value, *kind.unit) : number_text(*value);
+    row(key, or_word(kind.open) + number + bounds(kind.range, kind.unit), fallback);
   }
-  void number(const Key& key, std::optional<double>&, const Range& range) override {
-    row(key, "number" + bounds(range, nullptr), "");
-  }
-  void quantity(const Key& key, double& si, const Unit& unit, const Range& range) override {
-    row(key, unit.quantity + bounds(range, &unit), quantity_text(si, unit));
-  }
-  void quantity(const Key& key, std::optional<double>&, const Unit& unit,
-                const Range& range) override {
-    row(key, unit.quantity + bounds(range, &unit), "");
-  }
-  void quantity_or(const char* word, const Key& key, std::optional<double>& si, const Unit& unit,
-                   const Range& range) override {
-    row(key, "`\"" + std::string(word) + "\"` or " + unit.quantity + bounds(range, &unit),
-        si ? quantity_text(*si, unit) : word);
-  }
-  void count_or(const char* word, const Key& key, std::optional<int>& value,
-                const Range& range) override {
-    const std::string number = " or whole number" + bounds(range, nullptr);
-    row(key, "`\"" + std::string(word) + "\"`" + (range.low > range.high ? "" : number),
-        value ? std::to_string(*value) : word);
+  void whole(const Key& key, std::optional<int>& value, const Whole& kind) override {
+    row(key, or_word(kind.open) + "whole number" + bounds(kind.range, nullptr),
+        value ? std::to_string(*value) : kind.open);
   }
   void either(const Key& key, Target& target, const Unit& first, const Unit& second,
               const Range& range) override {
     row(key, std::string(first.quantity) + bounds(range, &first) + " or " + second.quantity,
         quantity_text(target.value, target.second ? second : first));
-  }
-  void count(const Key& key, int& value, const Range& range) override {
-    row(key, "whole number" + bounds(range, nullptr), std::to_string(value));
   }
   void text(const Key& key, std::string& value) override { row(key, "text", value); }
   void flag(const Key& key, bool& value) override {
@@ -91,7 +75,7 @@ class Manual final : public FieldVisitor {
       values += "`\"" + std::string(word.word) + "\"`";
       if (*word.meaning != '\0') values += ": " + std::string(word.meaning);
     }
-    row(key, values, words[static_cast<std::size_t>(index)].word);
+    row(key, values, words[as_index(index)].word);
   }
   void table(const Key& key, const Fields& fields) override {
     const std::string name = prefix_.empty() ? key.name : prefix_ + "." + key.name;
@@ -108,7 +92,7 @@ class Manual final : public FieldVisitor {
             const std::function<Fields(int)>& choose) override {
     const std::string name = prefix_;
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
-      const Word& word = words[static_cast<std::size_t>(i)];
+      const Word& word = words[as_index(i)];
       const std::string title = "`" + name + "`, `kind = \"" + std::string(word.word) + "\"`" +
                                 (i == chosen && words.size() > 1 ? " (default)" : "");
       section(title, word.meaning, name, choose(i));
@@ -123,7 +107,7 @@ class Manual final : public FieldVisitor {
     std::vector<std::string> rows;
   };
 
-  // Sections stand in the order in which they are opened; rows go to the innermost.
+  // Sections are listed in the order in which they are opened; rows go to the innermost one.
   void section(const std::string& title, const std::string& meaning, const std::string& name,
                const Fields& fields) {
     const std::size_t outer = current_;
@@ -135,18 +119,13 @@ class Manual final : public FieldVisitor {
     prefix_ = outer_prefix;
   }
 
+  static std::string or_word(const char* word) {
+    return word != nullptr ? "`\"" + std::string(word) + "\"` or " : "";
+  }
+
   static std::string bounds(const Range& range, const Unit* unit) {
-    const auto shown = [&](double value) {
-      return unit != nullptr ? quantity_text(value, *unit) : number_text(value);
-    };
-    if (range.low == range.high) return " = " + shown(range.low);
-    std::string text;
-    if (std::isfinite(range.low)) text += (range.low_allowed ? " >= " : " > ") + shown(range.low);
-    if (std::isfinite(range.high)) {
-      text += text.empty() ? "" : " and";
-      text += (range.high_allowed ? " <= " : " < ") + shown(range.high);
-    }
-    return text;
+    const std::string text = range_text(range, unit, {">= ", "> ", "<= ", "< ", "= "});
+    return text.empty() ? text : " " + text;
   }
 
   void row(const Key& key, const std::string& value, const std::string& fallback) {

@@ -1,4 +1,4 @@
-// The visitor that reads, and the wording of what it refuses.
+// The visitor that reads fields, and the messages for everything that it refuses.
 #include "base/field_reader.h"
 
 #include <algorithm>
@@ -13,11 +13,9 @@
 namespace palpate {
 namespace {
 
-std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
-
 class Reader final : public FieldVisitor {
  public:
-  // `trust_uses`: whether the choices that uses depend on could be read.
+  // `trust_uses`: whether all choices on which Key::use depends could be read.
   Reader(const Node& root, Reading* reading, bool trust_uses)
       : reading_(reading), trust_uses_(trust_uses) {
     open_.push_back({&root, {}, {}});
@@ -27,55 +25,30 @@ class Reader final : public FieldVisitor {
 
   [[nodiscard]] bool choices_read() const { return choices_read_; }
 
-  void number(const Key& key, double& value, const Range& range) override {
-    if (const Node* node = find(key)) read_number(key, *node, value, range);
-  }
-  void number(const Key& key, std::optional<double>& value, const Range& range) override {
-    if (const Node* node = find(key)) {
-      double read = 0.0;
-      if (read_number(key, *node, read, range)) value = read;
-    }
-  }
-  void quantity(const Key& key, double& si, const Unit& unit, const Range& range) override {
-    if (const Node* node = find(key)) read_quantity(key, *node, si, unit, range);
-  }
-  void quantity(const Key& key, std::optional<double>& si, const Unit& unit,
-                const Range& range) override {
-    if (const Node* node = find(key)) {
-      double read = 0.0;
-      if (read_quantity(key, *node, read, unit, range)) si = read;
-    }
-  }
-  void quantity_or(const char* word, const Key& key, std::optional<double>& si, const Unit& unit,
-                   const Range& range) override {
+  void real(const Key& key, std::optional<double>& value, const Real& kind) override {
     const Node* node = find(key);
     if (node == nullptr) return;
+    const bool text = kind.open != nullptr && node->kind == Node::Kind::text;
     double read = 0.0;
-    if (node->kind == Node::Kind::text && node->text == word)
-      si.reset();
-    else if (node->kind == Node::Kind::text && !leading_number(trimmed(node->text)))
-      problem(node->place, quoted(key.name) + " wants " + quoted(word) + " or a " + unit.quantity +
-                               ", got " + quoted(node->text) + "; write " + quoted(word));
-    else if (read_quantity(key, *node, read, unit, range))
-      si = read;
+    if (text && node->text == kind.open)
+      value.reset();
+    else if (text && !leading_number(trimmed(node->text)))
+      wants_word(key, *node, kind.open, std::string("a ") + kind.unit->quantity);
+    else if (kind.unit != nullptr ? read_quantity(key, *node, read, *kind.unit, kind.range)
+                                  : read_number(key, *node, read, kind.range))
+      value = read;
   }
-  void count_or(const char* word, const Key& key, std::optional<int>& value,
-                const Range& range) override {
+  void whole(const Key& key, std::optional<int>& value, const Whole& kind) override {
     const Node* node = find(key);
     if (node == nullptr) return;
+    const bool text = kind.open != nullptr && node->kind == Node::Kind::text;
     int read = 0;
-    if (node->kind == Node::Kind::text && node->text == word) {
+    if (text && node->text == kind.open)
       value.reset();
-    } else if (range.low > range.high) {
-      problem(node->place, quoted(key.name) + " must be " + quoted(word) + ", got " +
-                               quoted(node->shown()) + "; write " + quoted(word));
-    } else if (node->kind == Node::Kind::text) {
-      problem(node->place, quoted(key.name) + " wants " + quoted(word) +
-                               " or a whole number, got " + quoted(node->text) + "; write " +
-                               quoted(word));
-    } else if (read_count(key, *node, read, range)) {
+    else if (text)
+      wants_word(key, *node, kind.open, "a whole number");
+    else if (read_count(key, *node, read, kind.range))
       value = read;
-    }
   }
   void either(const Key& key, Target& target, const Unit& first, const Unit& second,
               const Range& range) override {
@@ -94,9 +67,6 @@ class Reader final : public FieldVisitor {
     Unit wanted = first;
     wanted.quantity = both.c_str();
     if (read_quantity(key, *node, value, wanted, range)) target = {value, false};
-  }
-  void count(const Key& key, int& value, const Range& range) override {
-    if (const Node* node = find(key)) read_count(key, *node, value, range);
   }
   void text(const Key& key, std::string& value) override {
     const Node* node = find(key);
@@ -143,7 +113,7 @@ class Reader final : public FieldVisitor {
       double& read = si.emplace_back();
       if (read_quantity(key, item, read, unit, range) &&
           std::find(si.begin(), si.end() - 1, read) != si.end() - 1)
-        problem(item.place, quoted(key.name) + " has " + quoted(item.shown()) + " twice; keep one");
+        problem(item.place, ticked(key.name) + " has " + ticked(item.shown()) + " twice; keep one");
     }
     in_list_ = false;
   }
@@ -175,7 +145,7 @@ class Reader final : public FieldVisitor {
     const Node* node = find(key);
     if (node == nullptr) return;
     if (node->kind != Node::Kind::array)
-      return problem(node->place, quoted(key.name) + " wants a list of tables, got " +
+      return problem(node->place, ticked(key.name) + " wants a list of tables, got " +
                                       node->kind_name() + "; write `[[" + key.name + "]]`");
     resize(static_cast<int>(node->items.size()));
     for (std::size_t i = 0; i < node->items.size(); ++i) {
@@ -184,7 +154,7 @@ class Reader final : public FieldVisitor {
         enter(std::string(key.name) + "." + std::to_string(i + 1), item,
               [&] { fields(*this, static_cast<int>(i)); });
       else
-        problem(item.place, quoted(key.name) + " wants tables, got " + item.kind_name() +
+        problem(item.place, ticked(key.name) + " wants tables, got " + item.kind_name() +
                                 "; write `[[" + key.name + "]]`");
     }
   }
@@ -207,7 +177,7 @@ class Reader final : public FieldVisitor {
  private:
   struct Open {
     const Node* node;
-    std::string name;  // in the table around it
+    std::string name;  // its key in the table around it
     std::set<std::string> known;
   };
 
@@ -215,11 +185,16 @@ class Reader final : public FieldVisitor {
     reading_->problems.push_back({place, message});
   }
 
+  void wants_word(const Key& key, const Node& node, const char* word, const std::string& or_else) {
+    problem(node.place, ticked(key.name) + " wants " + ticked(word) + " or " + or_else + ", got " +
+                            ticked(node.text) + "; write " + ticked(word));
+  }
+
   void wrong_type(const Key& key, const Node& node, const std::string& wanted,
                   const std::string& example) {
     const bool has_text = node.shown() != node.kind_name();
-    const std::string got = node.kind_name() + (has_text ? " " + quoted(node.shown()) : "");
-    problem(node.place, quoted(key.name) + " wants " + wanted + ", got " + got + "; write it as `" +
+    const std::string got = node.kind_name() + (has_text ? " " + ticked(node.shown()) : "");
+    problem(node.place, ticked(key.name) + " wants " + wanted + ", got " + got + "; write it as `" +
                             (in_list_ ? "" : std::string(key.name) + " = ") + example + "`");
   }
 
@@ -232,9 +207,9 @@ class Reader final : public FieldVisitor {
       reading_->unread.push_back({path_of(key), key.use.when});
       if (key.use.otherwise == Use::Otherwise::note)
         reading_->notes.push_back(
-            {member->place, quoted(key.name) + " is left unread: it is used only " + key.use.when});
+            {member->place, ticked(key.name) + " is left unread: it is used only " + key.use.when});
       else
-        problem(member->place, quoted(key.name) + " has no effect here: it is used only " +
+        problem(member->place, ticked(key.name) + " has no effect here: it is used only " +
                                    key.use.when + "; remove it or change that");
       if (key.use.otherwise == Use::Otherwise::error) return nullptr;
     }
@@ -255,7 +230,7 @@ class Reader final : public FieldVisitor {
     open_.pop_back();
   }
 
-  void know_everything() {  // after a wrong `kind` nothing is known of the other keys
+  void know_everything() {  // after a wrong `kind` it is unknown which keys are allowed
     for (const Member& member : open_.back().node->members) open_.back().known.insert(member.key);
   }
 
@@ -265,8 +240,8 @@ class Reader final : public FieldVisitor {
     for (const Member& member : here.node->members) {
       if (here.known.contains(member.key)) continue;
       const auto near = nearest(member.key, known);
-      problem(member.place, quoted(member.key) + " is not a key here; " +
-                                (near ? "did you mean " + quoted(*near) + "?"
+      problem(member.place, ticked(member.key) + " is not a key here; " +
+                                (near ? "did you mean " + ticked(*near) + "?"
                                       : "known keys: " + joined(known, ", ")));
     }
   }
@@ -275,8 +250,8 @@ class Reader final : public FieldVisitor {
               const Unit* unit) {
     if (range.holds(value)) return true;
     problem(node.place,
-            quoted(key.name) + " must be " + range_text(range, unit) + ", got " +
-                quoted(node.shown()) +
+            ticked(key.name) + " must be " + range_text(range, unit) + ", got " +
+                ticked(node.shown()) +
                 (range.low == range.high ? "; write that" : "; give a value in that range"));
     return false;
   }
@@ -298,7 +273,7 @@ class Reader final : public FieldVisitor {
   }
 
   bool not_finite(const Key& key, const Node& node) {
-    problem(node.place, quoted(key.name) + " wants a finite number, got " + quoted(node.shown()) +
+    problem(node.place, ticked(key.name) + " wants a finite number, got " + ticked(node.shown()) +
                             "; write one as `0.5`");
     return false;
   }
@@ -310,7 +285,7 @@ class Reader final : public FieldVisitor {
     }
     if (!within(key, node, node.number, range, nullptr)) return false;
     if (std::abs(node.number) > 1e9) {
-      problem(node.place, quoted(key.name) + " must be below 1e9, got " + quoted(node.shown()) +
+      problem(node.place, ticked(key.name) + " must be below 1e9, got " + ticked(node.shown()) +
                               "; give a smaller number");
       return false;
     }
@@ -333,7 +308,7 @@ class Reader final : public FieldVisitor {
       si = value;
       return true;
     } catch (const std::invalid_argument& error) {
-      problem(node.place, quoted(key.name) + " " + error.what());
+      problem(node.place, ticked(key.name) + " " + error.what());
       return false;
     }
   }
@@ -343,7 +318,7 @@ class Reader final : public FieldVisitor {
     const std::string got = node.kind == Node::Kind::array
                                 ? "a list of " + std::to_string(node.items.size())
                                 : node.kind_name();
-    problem(node.place, quoted(key.name) + " wants a list of " + std::to_string(size) + ", got " +
+    problem(node.place, ticked(key.name) + " wants a list of " + std::to_string(size) + ", got " +
                             got + "; write it as `[" +
                             joined(std::vector<std::string>(size, "..."), ", ") + "]`");
     return false;
@@ -357,15 +332,15 @@ class Reader final : public FieldVisitor {
     choices_read_ = choices_read_ && node.kind == Node::Kind::text &&
                     std::find(known.begin(), known.end(), node.text) != known.end();
     if (node.kind != Node::Kind::text) {
-      problem(node.place, quoted(name) + " wants one of " + choices + ", got " + node.kind_name() +
+      problem(node.place, ticked(name) + " wants one of " + choices + ", got " + node.kind_name() +
                               "; write it as `" + name + " = \"" + known[0] + "\"`");
       return std::nullopt;
     }
     for (std::size_t i = 0; i < words.size(); ++i)
       if (node.text == words[i].word) return static_cast<int>(i);
     const auto near = nearest(node.text, known);
-    problem(node.place, quoted(name) + " does not know " + quoted(node.text) +
-                            (near ? "; did you mean " + quoted(*near) + "? It" : "; it") +
+    problem(node.place, ticked(name) + " does not know " + ticked(node.text) +
+                            (near ? "; did you mean " + ticked(*near) + "? It" : "; it") +
                             " is one of " + choices);
     return std::nullopt;
   }

@@ -1,4 +1,4 @@
-// The echo: top-level keys first, then a [table] each, inline tables below that.
+// Writes the echo: first the top-level keys, then each table; tables inside tables are inline.
 #include "base/field_writer.h"
 
 #include <vector>
@@ -15,32 +15,20 @@ class Writer final : public FieldVisitor {
 
   [[nodiscard]] std::string result() const { return top_ + tables_; }
 
-  void number(const Key& key, double& value, const Range&) override {
-    put(key, number_text(value));
+  void real(const Key& key, std::optional<double>& value, const Real& kind) override {
+    if (value)
+      put(key, kind.unit != nullptr ? toml_text(quantity_text(*value, *kind.unit))
+                                    : number_text(*value));
+    else if (kind.open != nullptr)
+      put(key, toml_text(kind.open));
   }
-  void number(const Key& key, std::optional<double>& value, const Range&) override {
-    if (value) put(key, number_text(*value));
-  }
-  void quantity(const Key& key, double& si, const Unit& unit, const Range&) override {
-    put(key, toml_text(quantity_text(si, unit)));
-  }
-  void quantity(const Key& key, std::optional<double>& si, const Unit& unit,
-                const Range&) override {
-    if (si) put(key, toml_text(quantity_text(*si, unit)));
-  }
-  void quantity_or(const char* word, const Key& key, std::optional<double>& si, const Unit& unit,
-                   const Range&) override {
-    put(key, toml_text(si ? quantity_text(*si, unit) : word));
-  }
-  void count_or(const char* word, const Key& key, std::optional<int>& value,
-                const Range&) override {
-    put(key, value ? std::to_string(*value) : toml_text(word));
+  void whole(const Key& key, std::optional<int>& value, const Whole& kind) override {
+    put(key, value ? std::to_string(*value) : toml_text(kind.open));
   }
   void either(const Key& key, Target& target, const Unit& first, const Unit& second,
               const Range&) override {
     put(key, toml_text(quantity_text(target.value, target.second ? second : first)));
   }
-  void count(const Key& key, int& value, const Range&) override { put(key, std::to_string(value)); }
   void text(const Key& key, std::string& value) override { put(key, toml_text(value)); }
   void flag(const Key& key, bool& value) override { put(key, value ? "true" : "false"); }
   void quantities(const Key& key, std::span<double> si, const Unit& unit, const Range&) override {
@@ -65,7 +53,7 @@ class Writer final : public FieldVisitor {
     if (!items.empty()) put(key, "{ " + joined(items, ", ") + " }");
   }
   void choice_of(const Key& key, int& index, std::span<const Word> words) override {
-    put(key, toml_text(words[static_cast<std::size_t>(index)].word));
+    put(key, toml_text(words[as_index(index)].word));
   }
   void table(const Key& key, const Fields& fields) override {
     if (!all_ && !key.use.used) return;
@@ -96,12 +84,12 @@ class Writer final : public FieldVisitor {
   }
   void kind(int chosen, std::span<const Word> words,
             const std::function<Fields(int)>& choose) override {
-    put({"kind", ""}, toml_text(words[static_cast<std::size_t>(chosen)].word));
+    put({"kind", ""}, toml_text(words[as_index(chosen)].word));
     choose(chosen)(*this);
   }
 
  private:
-  // Tables within a table: a list on one line.
+  // A list of tables inside a table, on one line.
   std::string inline_tables(int size, const std::function<void(FieldVisitor&, int)>& fields) {
     std::vector<std::string> items;
     for (int i = 0; i < size; ++i) {

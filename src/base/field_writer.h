@@ -7,11 +7,11 @@
 
 namespace palpate {
 
-// Keys that have no effect for the present values are left out, unless all are asked for.
+// Keys that have no effect for the present values are written only with `Written::all`.
 enum class Written { used, all };
 [[nodiscard]] std::string fields_as_toml(const Fields& fields, Written written = Written::used);
 
-// A markdown reference of every key: type, default, range, where it is used, meaning.
+// A reference of every key in Markdown: type, range, default, meaning and when it is used.
 [[nodiscard]] std::string fields_as_manual(const Fields& fields);
 
 }  // namespace palpate

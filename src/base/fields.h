@@ -1,7 +1,8 @@
-// The one list of a struct's keys. A struct's `fields(FieldVisitor&, Struct&)` names every key
-// once; visitors read them, write the resolved echo and write the manual.
+// The single list of a struct's keys. A struct's function `fields(FieldVisitor&, Struct&)` names
+// every key once; visitors read the keys, write the resolved echo and write the manual.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -13,11 +14,12 @@
 #include <vector>
 
 #include "base/units.h"
+#include "base/words.h"
 
 namespace palpate {
 
-// Where a key takes effect. Outside of it, giving the key is an error, or, for machinery that a
-// model just does not use, a note.
+// When a key has an effect. If a key that has none is given, this is an error or, for settings that
+// the chosen model does not need, a note.
 struct Use {
   enum class Otherwise { error, note };
   bool used = true;
@@ -46,15 +48,22 @@ struct Range {
 [[nodiscard]] inline Range at_least(double low) { return {.low = low}; }
 [[nodiscard]] inline Range between(double low, double high) { return {low, high}; }
 
-struct Word {
-  const char* word;
-  const char* meaning;
-};
-
-// A quantity that may be given in one of two dimensions, such as travel or force.
+// A quantity that may be given in either of two dimensions, such as travel or force.
 struct Target {
   double value = 0.0;   // SI
-  bool second = false;  // in the second dimension
+  bool second = false;  // `value` has the second dimension
+};
+
+// Which numbers a key accepts. If a key also accepts a word, `open`, as in `time_step = "auto"`,
+// this word is read as an empty value.
+struct Real {
+  const Unit* unit = nullptr;  // null: a pure number
+  Range range = {};            // SI
+  const char* open = nullptr;
+};
+struct Whole {
+  Range range = {};
+  const char* open = nullptr;
 };
 
 class FieldVisitor;
@@ -64,58 +73,95 @@ class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
 
-  virtual void number(const Key& key, double& value, const Range& range) = 0;
-  virtual void number(const Key& key, std::optional<double>& value, const Range& range) = 0;
-  virtual void quantity(const Key& key, double& si, const Unit& unit, const Range& range) = 0;
-  virtual void quantity(const Key& key, std::optional<double>& si, const Unit& unit,
-                        const Range& range) = 0;
-  // Empty stands for `word`, as in `time_step = "auto"`.
-  virtual void quantity_or(const char* word, const Key& key, std::optional<double>& si,
-                           const Unit& unit, const Range& range) = 0;
-  virtual void count_or(const char* word, const Key& key, std::optional<int>& value,
-                        const Range& range) = 0;
+  // A real number; empty if the key is not given or its value is the word `kind.open`.
+  virtual void real(const Key& key, std::optional<double>& value, const Real& kind) = 0;
+  virtual void whole(const Key& key, std::optional<int>& value, const Whole& kind) = 0;
   virtual void either(const Key& key, Target& target, const Unit& first, const Unit& second,
                       const Range& range) = 0;
-  virtual void count(const Key& key, int& value, const Range& range) = 0;
   virtual void text(const Key& key, std::string& value) = 0;
   virtual void flag(const Key& key, bool& value) = 0;
   virtual void quantities(const Key& key, std::span<double> si, const Unit& unit,
                           const Range& range) = 0;
   virtual void counts(const Key& key, std::span<int> values, const Range& range) = 0;
-  // As many as are given, none of them twice; empty where the key is not there.
+  // Any number of different quantities; empty if the key is not given.
   virtual void quantity_list(const Key& key, std::vector<double>& si, const Unit& unit,
                              const Range& range) = 0;
   virtual void numbers_by_name(const Key& key, std::map<std::string, double>& values,
                                const Range& range) = 0;
   virtual void choice_of(const Key& key, int& index, std::span<const Word> words) = 0;
   virtual void table(const Key& key, const Fields& fields) = 0;
-  // A list of tables: `resize(n)` makes n of them, `fields(visitor, i)` visits the i-th.
+  // A list of tables: `resize(n)` makes n of them; `fields(visitor, i)` visits number i, from 0.
   virtual void tables(const Key& key, int size, const std::function<void(int)>& resize,
                       const std::function<void(FieldVisitor&, int)>& fields) = 0;
-  // The alternative of a variant: `choose(i)` makes it the i-th and returns its fields.
+  // The alternative of a variant: `choose(i)` makes the i-th one active and returns its fields.
   virtual void kind(int chosen, std::span<const Word> words,
                     const std::function<Fields(int)>& choose) = 0;
 
-  template <class Enum>
-  void choice(const Key& key, Enum& value, std::span<const Word> words) {
+  void number(const Key& key, double& value, const Range& range) {
+    given(value, [&](auto& any) { real(key, any, {nullptr, range}); });
+  }
+  void number(const Key& key, std::optional<double>& value, const Range& range) {
+    real(key, value, {nullptr, range});
+  }
+  void quantity(const Key& key, double& si, const Unit& unit, const Range& range) {
+    given(si, [&](auto& any) { real(key, any, {&unit, range}); });
+  }
+  void quantity(const Key& key, std::optional<double>& si, const Unit& unit, const Range& range) {
+    real(key, si, {&unit, range});
+  }
+  void quantity_or(const char* word, const Key& key, std::optional<double>& si, const Unit& unit,
+                   const Range& range) {
+    real(key, si, {&unit, range, word});
+  }
+  void count(const Key& key, int& value, const Range& range) {
+    given(value, [&](auto& any) { whole(key, any, {range}); });
+  }
+  void count_or(const char* word, const Key& key, std::optional<int>& value, const Range& range) {
+    whole(key, value, {range, word});
+  }
+
+  template <class Enum, std::size_t size>
+  void choice(const Key& key, Enum& value, const Words<Enum, size>& words) {
     int index = static_cast<int>(value);
     choice_of(key, index, words);
     value = static_cast<Enum>(index);
   }
 
-  // Each alternative has a static `word` (its kind and what it is) and its own `fields`.
+  // An empty value is written as `open`, the first word.
+  template <class Enum, std::size_t size>
+  void choice_or(const Word& open, const Key& key, std::optional<Enum>& value,
+                 const Words<Enum, size>& words) {
+    std::array<Word, size + 1> all{open};
+    std::copy(words.begin(), words.end(), all.begin() + 1);
+    int index = value ? static_cast<int>(*value) + 1 : 0;
+    choice_of(key, index, all);
+    value = index > 0 ? std::optional(static_cast<Enum>(index - 1)) : std::nullopt;
+  }
+
+  // Each alternative has a static `word` (its kind and what it means) and `fields`. The fields in
+  // `besides` follow for every alternative.
   template <class... Kinds>
-  void alternatives(std::variant<Kinds...>& value) {
+  void alternatives(std::variant<Kinds...>& value, const Fields& besides = {}) {
     static constexpr std::array<Word, sizeof...(Kinds)> words{Kinds::word...};
-    kind(static_cast<int>(value.index()), words, [&value](int chosen) -> Fields {
+    kind(static_cast<int>(value.index()), words, [&](int chosen) -> Fields {
       if (chosen != static_cast<int>(value.index())) {
         int index = 0;
         ((index++ == chosen ? void(value.template emplace<Kinds>()) : void()), ...);
       }
-      return [&value](FieldVisitor& visitor) {
+      return [&](FieldVisitor& visitor) {
         std::visit([&visitor](auto& alternative) { fields(visitor, alternative); }, value);
+        if (besides) besides(visitor);
       };
     });
+  }
+
+ private:
+  // Visits a number that is never empty through an optional.
+  template <class Number, class Visit>
+  static void given(Number& value, const Visit& visit) {
+    std::optional<Number> any = value;
+    visit(any);
+    value = any.value_or(value);
   }
 };
 

@@ -1,60 +1,97 @@
-// Files: read whole, written beside and renamed, so that nobody ever sees half of one.
+// Files: reading, writing without readers ever seeing half a file, locks and checksums.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace palpate {
 
-// The whole file. Throws InputError where it is not there or cannot be read.
+// Returns the content of a file. Throws InputError if it does not exist or cannot be read.
 [[nodiscard]] std::string read_text(const std::string& path);
 
-// Writes `path` by way of a temporary file beside it, flushed to the disk and renamed.
-// Throws SystemError (a full disk, no permission); then `path` is as it was before.
+// Writes a temporary file beside `path`, flushes it to the disk and renames it to `path`. Throws
+// SystemError (a full disk, no permission) and then leaves `path` as it was.
 void write_atomically(const std::string& path, std::string_view content);
+
+// Creates a folder and the folders above it if they do not exist. Throws SystemError.
+void make_folders(const std::string& path);
+
+// The paths of a folder's entries in alphabetical order; empty if the folder cannot be read.
+[[nodiscard]] std::vector<std::string> entries_of(const std::string& folder);
+
+// The name of this machine, with every `/` replaced, so that it can be part of a file name.
+[[nodiscard]] std::string host_name();
+
+// A file with an exclusive lock (flock), which the system releases when the process ends.
+class HeldFile {
+ public:
+  HeldFile() = default;
+  ~HeldFile() { release(); }
+  HeldFile(const HeldFile&) = delete;
+  HeldFile& operator=(const HeldFile&) = delete;
+
+  // Writes a file as write_atomically() does. The lock exists before the file has its final name.
+  void write(const std::string& path, std::string_view content);
+  // Locks an existing file. Returns false if another process has the lock, there is no such file,
+  // or its file system has no locks.
+  [[nodiscard]] bool take(const std::string& path);
+  void release();
+
+ private:
+  int file_ = -1;
+};
 
 // SHA-256 as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view content);
+// The same of a file, which may be larger than the memory. Throws InputError if it cannot be read.
+[[nodiscard]] std::string file_sha256(const std::string& path);
 
-// The same of a content that comes in parts.
+// A file's name and the hash of its content.
+struct HashedFile {
+  std::string path = {};
+  std::string sha256 = {};
+};
+
+// SHA-256 of content that comes in parts.
 class Sha256 {
  public:
   Sha256();
   ~Sha256();
   void add(std::string_view part);
-  [[nodiscard]] std::string digits();  // once, at the end
+  [[nodiscard]] std::string digits();  // call once, at the end
 
  private:
   struct Context;
   std::unique_ptr<Context> context_;
 };
 
-// A line of a file: where it begins, in bytes, and its text without the line feed.
+// A line of a file: the offset of its start in bytes, and its text without the line feed.
 struct FileLine {
   std::size_t offset = 0;
   std::string_view text;
   bool whole = true;  // false: the file ends without a line feed
 };
 
-// Calls `see` with every line, holding no more than a part of the file and the longest line at a
-// time. Throws InputError where the file cannot be read.
+// Calls `see` with every line in order. In memory is at most a part of the file and its longest
+// line. Throws InputError if the file cannot be read.
 void for_each_line(const std::string& path, const std::function<void(const FileLine&)>& see);
 
-// A new file that grows at its end, for what is too much to hold or must outlive its program.
+// A new file for appending: for data too large for the memory, or to be kept if the program dies.
 class GrowingFile {
  public:
-  // Throws SystemError where the file cannot be made; it is an error that it is there.
+  // Throws SystemError if the file cannot be created or exists already.
   explicit GrowingFile(std::string path);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
-  // One write() where the system takes it at once. What cannot be written whole is cut off again;
-  // then throws SystemError (a full disk, a limit).
+  // Appends the text, by one write() if the system accepts it whole. On an error the part that was
+  // written is cut off again and SystemError is thrown (a full disk, a size limit).
   void append(std::string_view text);
-  // Returns when all of it is on the disk. Throws SystemError.
+  // Returns when the whole file is on the disk. Throws SystemError.
   void sync();
 
   [[nodiscard]] const std::string& path() const { return path_; }

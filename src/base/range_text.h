@@ -7,7 +7,17 @@
 
 namespace palpate {
 
-// "above 0 kPa and below 3 kPa", in the words of the key's unit; a pure number's has none.
-[[nodiscard]] std::string range_text(const Range& range, const Unit* unit);
+// What stands before the bounds of a range; `equal` where the range has a single value.
+struct RangeWords {
+  const char* at_least = "at least ";
+  const char* above = "above ";
+  const char* at_most = "at most ";
+  const char* below = "below ";
+  const char* equal = "";
+};
+
+// Such as "above 0 kPa and below 3 kPa". `unit` is the unit of the key, or null for a pure number.
+[[nodiscard]] std::string range_text(const Range& range, const Unit* unit,
+                                     const RangeWords& words = {});
 
 }  // namespace palpate

@@ -1,16 +1,16 @@
-// A symmetric sparse matrix with a part that is kept as a product.
+// A symmetric sparse matrix, a part of which is kept as a product.
 #pragma once
 
 #include <Eigen/SparseCore>
 
 namespace palpate {
 
-// A = local + shared^T diag(weights) shared. The product of long rows would fill in; as a product
-// it costs what its rows cost. Without such a part `shared` has no rows.
+// A = local + shared^T diag(weights) shared. If the rows of `shared` are long, multiplying them out
+// would fill in the matrix. Without such a part `shared` has no rows.
 struct SplitMatrix {
   Eigen::SparseMatrix<double> local;   // n x n
   Eigen::SparseMatrix<double> shared;  // m x n
-  Eigen::VectorXd weights;             // m, not zero
+  Eigen::VectorXd weights;             // size m, no zeros
 
   [[nodiscard]] Eigen::VectorXd operator*(const Eigen::VectorXd& x) const {
     Eigen::VectorXd y = local * x;

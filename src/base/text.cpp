@@ -1,4 +1,4 @@
-// std::to_chars and std::from_chars: no locale, the same text on every machine.
+// Numbers as text by std::to_chars and std::from_chars: no locale, the same on every machine.
 #include "base/text.h"
 
 #include <algorithm>
@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 #include <system_error>
+
+#include "base/index.h"
 
 namespace palpate {
 
@@ -22,7 +24,7 @@ std::string rounded_text(double value, int digits) {
   std::array<char, 64> buffer{};
   auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                               std::chars_format::general, digits);
-  const std::string_view text(buffer.data(), static_cast<std::size_t>(result.ptr - buffer.data()));
+  const std::string_view text(buffer.data(), as_index(result.ptr - buffer.data()));
   if (std::abs(value) < 1e6 && text.find("e+") != std::string_view::npos) {  // 3e+02 is 300
     double rounded = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), rounded);
@@ -39,7 +41,7 @@ std::optional<LeadingNumber> leading_number(std::string_view text) {
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number.value);
   if (result.ec == std::errc::invalid_argument) return std::nullopt;
   number.out_of_range = result.ec == std::errc::result_out_of_range;
-  number.rest = given.substr(static_cast<std::size_t>(result.ptr - given.data()));
+  number.rest = given.substr(as_index(result.ptr - given.data()));
   return number;
 }
 
@@ -49,17 +51,14 @@ std::optional<double> whole_number(std::string_view text) {
   return number->value;
 }
 
-namespace {
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = lower(c);
-  return result;
+std::string out_of_range_text(std::string_view given) {
+  return ticked(given) +
+         " is too large or too small; write a number between 1e-300 and 1e300 in size";
 }
 
-// Levenshtein distance with transpositions of neighbours counted as one edit.
+namespace {
+
+// Levenshtein distance in which a transposition of neighbours counts as one edit.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -83,18 +82,54 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known) {
   std::optional<std::string> best;
-  // Of two that are as near, the one that differs in capitals only is meant: `KPA` is `kPa`.
+  // Among equally near candidates one that differs only in capitals comes first: `KPA`, `kPa`.
   std::pair best_distance(1 + std::max<std::size_t>(2, word.size() / 2), std::size_t{0});
   for (const std::string& candidate : known) {
-    const bool same_letters = lower(word) == lower(candidate);
+    const bool same_letters = lower_case(word) == lower_case(candidate);
     const std::size_t distance = same_letters ? 0 : edit_distance(word, candidate);
-    const std::pair ranked(distance, edit_distance(lower(word), lower(candidate)));
+    const std::pair ranked(distance, edit_distance(lower_case(word), lower_case(candidate)));
     if (ranked < best_distance && distance < candidate.size()) {
       best_distance = ranked;
       best = candidate;
     }
   }
   return best;
+}
+
+std::string bytes_text(std::string_view bytes) {
+  std::string text = "\"";
+  for (const char byte : bytes) {
+    const auto value = static_cast<unsigned char>(byte);
+    if (byte == '\r')
+      text += "\\r";
+    else if (byte == '\n')
+      text += "\\n";
+    else if (byte == '\\')
+      text += "\\\\";
+    else if (byte == '"')
+      text += "\"\"";
+    else if (value >= 0x20 && value < 0x7f)
+      text += byte;
+    else
+      text += "\\x" + hex_text(value);
+  }
+  return text + "\"";
+}
+
+std::string hex_text(unsigned char byte) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  return {digits[byte >> 4U], digits[byte & 15U]};
+}
+
+std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+std::string percent_text(double part) { return rounded_text(100.0 * part, 2) + " %"; }
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
 }
 
 std::string trimmed(std::string_view text) {

@@ -1,4 +1,4 @@
-// Numbers and words as text: shortest round-trip numbers, the nearest known word.
+// Numbers and words as text: exact and rounded numbers, and the nearest known word.
 #pragma once
 
 #include <optional>
@@ -12,23 +12,41 @@ namespace palpate {
 // The shortest decimal text that reads back as the same double; `nan`, `inf` and `-inf` by name.
 [[nodiscard]] std::string number_text(double value);
 
-// The number with `digits` significant digits, for people.
+// The number with `digits` significant digits, for messages.
 [[nodiscard]] std::string rounded_text(double value, int digits = 4);
 
 // A number at the start of a text.
 struct LeadingNumber {
   double value = 0.0;
-  std::string_view rest;      // what follows the number
+  std::string_view rest;      // the text after the number
   bool out_of_range = false;  // such as 1e400
 };
 [[nodiscard]] std::optional<LeadingNumber> leading_number(std::string_view text);
 
-// The whole text as one number, or nothing; an out-of-range number is nothing too.
+// The value if the whole text is one number (not only an integer) that is not out of range.
 [[nodiscard]] std::optional<double> whole_number(std::string_view text);
 
-// The known word nearest to `word` by edit distance, or nothing where none is near enough to help.
+// The message for a number whose text is `given` and that no double can represent.
+[[nodiscard]] std::string out_of_range_text(std::string_view given);
+
+// The known word with the smallest edit distance from `word`; empty if none is similar.
 [[nodiscard]] std::optional<std::string> nearest(std::string_view word,
                                                  std::span<const std::string> known);
+
+// Bytes as a quoted CSV field: printable ASCII as it is (quotes doubled), \r, \n, \\ or \xHH.
+[[nodiscard]] std::string bytes_text(std::string_view bytes);
+
+// Two hexadecimal digits, in small letters.
+[[nodiscard]] std::string hex_text(unsigned char byte);
+
+// The text between backticks, as messages quote keys, words and options.
+[[nodiscard]] std::string ticked(std::string_view text);
+
+// A part of 1 with two significant digits, such as "1.5 %".
+[[nodiscard]] std::string percent_text(double part);
+
+// With the letters A to Z in lower case.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 [[nodiscard]] std::string trimmed(std::string_view text);
 [[nodiscard]] std::string joined(std::span<const std::string> words, std::string_view separator);

@@ -1,17 +1,19 @@
-// A parser stops at the byte that it cannot take; a person looks for the key or value before it.
+// Messages for TOML errors: the parser gives the byte where it stopped, the message the key or
+// value before it.
 #include "base/toml_message.h"
 
 #include <algorithm>
 
+#include "base/index.h"
 #include "base/text.h"
 
 namespace palpate {
 namespace {
 
-// Columns count characters, which are the bytes that continue no other.
+// True for the first byte of a UTF-8 character; columns count characters.
 bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }
 
-// The byte offset of a line and column, or the line's or text's end.
+// The byte offset of a line and column; at most the end of that line.
 std::size_t offset_of(std::string_view text, const Place& place) {
   std::size_t at = 0;
   for (int line = 1; line < place.line && at < text.size(); ++line)
@@ -22,14 +24,14 @@ std::size_t offset_of(std::string_view text, const Place& place) {
   return at;
 }
 
-// What stands between quotes of the parser's own: '1e400'.
+// The part of the parser's message that is in single quotes, such as '1e400'.
 std::string_view parser_quote(std::string_view description) {
   const std::size_t from = description.find('\'');
   const std::size_t to = description.rfind('\'');
   return from == to ? "" : description.substr(from + 1, to - from - 1);
 }
 
-// `key` or `[table]`, whose second appearance the parser found at `at`.
+// The `key` or `[table]` whose second definition the parser found at `at`.
 std::string_view repeated(std::string_view text, std::size_t at) {
   const auto rest = text.substr(at, text.find_first_of("\r\n", at) - at);
   if (rest.starts_with('[') && (at == 0 || text[at - 1] == '\n'))
@@ -64,19 +66,18 @@ Problem toml_problem(std::string_view text, const Place& place, std::string_view
     const std::size_t start = part.empty() ? at : text.rfind(part, at);
     return place_at(text, start == std::string_view::npos ? at : start, place.file);
   };
-  const auto quoted = [](std::string_view part) { return "`" + std::string(part) + "`"; };
 
   if (says("redefine")) {
     const std::string_view twice = repeated(text, at);
-    const auto offset = static_cast<std::size_t>(twice.data() - text.data());
+    const auto offset = as_index(twice.data() - text.data());
     return {place_at(text, offset, place.file),
-            quoted(twice) + " is given twice; keep one of the two"};
+            ticked(twice) + " is given twice; keep one of the two"};
   }
   if (says("utf-8") || says("UTF-8"))
     return {place, "the file is not UTF-8 text; save it as UTF-8"};
   if (says("could not be interpreted as a value") || says("not representable")) {
     const std::string_view number = parser_quote(description);
-    return {starting_at(number), quoted(number) + " is a number that " +
+    return {starting_at(number), ticked(number) + " is a number that " +
                                      (says("bits") ? "64 bits cannot" : "no double can") +
                                      " hold; write one between -1e300 and 1e300"};
   }
@@ -87,7 +88,7 @@ Problem toml_problem(std::string_view text, const Place& place, std::string_view
             "a value is followed by more on its line; put quantities in double quotes, as "
             "`\"5 mm\"`, and each key on a line of its own"};
   if (says("determine value type"))
-    return {place, "a value is none that TOML knows; put words in double quotes"};
+    return {place, "this is not a TOML value; put words in double quotes"};
   const std::size_t colon = description.find(": ");
   const bool framed = description.starts_with("Error while parsing ") && colon != description.npos;
   const auto what = framed ? "this " + std::string(description.substr(20, colon - 20)) +

@@ -1,4 +1,4 @@
-// What a TOML parser complains of, as a sentence for the person who wrote the file.
+// Turns an error of the TOML parser into a sentence for the author of the file.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace palpate {
 
-// The place of a byte of a text, its column counted in characters.
+// The place of a byte of a text; the column counts characters.
 [[nodiscard]] Place place_at(std::string_view text, std::size_t offset, const std::string& file);
 
-// `place` and `description` are the parser's; the problem's place is where the mistake starts.
+// `place` and `description` are the parser's; the result has the place where the mistake starts.
 [[nodiscard]] Problem toml_problem(std::string_view text, const Place& place,
                                    std::string_view description);
 

@@ -1,4 +1,4 @@
-// What any written unit is worth, for columns of files: `uN`, `N s/m`, `kg/m^3`.
+// The factor and dimension of a unit in a column header: `uN`, `N s/m`, `kg/m^3`.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace palpate {
 
-// As Unit, without a name: `value / per * times` is the SI value.
+// Like Unit, without a name: `value / per * times` is the SI value.
 struct UnitFactor {
   double times = 1.0;
   double per = 1.0;
@@ -19,10 +19,10 @@ struct UnitFactor {
   [[nodiscard]] double from_si(double value) const { return value / times * per; }
 };
 
-// A unit expression as parse_quantity reads it, or nothing where it is none.
+// Parses a unit expression in the syntax of parse_quantity(); empty if it is not one.
 [[nodiscard]] std::optional<UnitFactor> unit_factor(std::string_view text);
 
-// The unit of SI for a dimension: `m`, `N`, `Pa`, `m^-3*kg`; empty for a number.
+// The SI unit of a dimension: `m`, `N`, `Pa`, `m^-3*kg`; empty for a pure number.
 [[nodiscard]] std::string si_unit(const Dimension& dimension);
 
 }  // namespace palpate

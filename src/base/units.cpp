@@ -1,4 +1,4 @@
-// Unit expressions: prefixed symbols joined by `*`, `/`, spaces and powers, as in `kg/m^3`.
+// Parses unit expressions: symbols with prefixes, joined by `*`, `/`, spaces and powers (`kg/m^3`).
 #include "base/units.h"
 
 #include <array>
@@ -64,8 +64,8 @@ void multiply(Scale& product, const Scale& factor, int power) {
   product.dimension.s += power * factor.dimension.s;
 }
 
-// The same factor in one number where that is exact: `kg` is 1000 g of a thousandth, and times 1000
-// per 1000 would round twice.
+// Combines `times` and `per` into one number if that is exact. Without this, `kg` (1000 g, a gram
+// being a thousandth of the SI unit) would be multiplied and divided by 1000 and rounded twice.
 Scale reduced(Scale scale) {
   const auto divides = [](double part, double whole) {
     return whole < 9007199254740992.0 && std::fmod(whole, part) == 0.0;
@@ -75,7 +75,7 @@ Scale reduced(Scale scale) {
   return scale;
 }
 
-// A unit expression as a factor, or nothing where it is none.
+// Parses a unit expression; empty if it is not one.
 std::optional<Scale> parse_unit(std::string_view text) {
   Scale scale;
   int sign = 1;
@@ -116,7 +116,7 @@ std::optional<Scale> parse_unit(std::string_view text) {
   return reduced(scale);
 }
 
-// The usual unit of `dimension` that is nearest to what was written.
+// The common unit of `dimension` whose name is most similar to `written`.
 std::optional<std::string> nearest_unit(std::string_view written, const Dimension& dimension) {
   std::vector<std::string> known;
   for (const char* usual :

@@ -1,4 +1,4 @@
-// Quantities as text: `"72.4 kPa"` to 72400 and back. Units live only here, at the edge.
+// Quantities as text: `"72.4 kPa"` to 72400 and back. The program itself uses only SI units.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ struct Dimension {
   bool operator==(const Dimension&) const = default;
 };
 
-// A unit that a key is written in: `value / per * times` is the SI value, so that a decimal text
-// in milli-anything is divided by a thousand and rounded once.
+// The unit in which a key is written. `value / per * times` is the SI value: decimal texts in
+// milli-units are divided by a thousand, so that they are rounded only once.
 struct Unit {
   const char* symbol;    // "mm"
   const char* quantity;  // "length", for messages
@@ -36,20 +36,25 @@ inline constexpr Unit ms{"ms", "time", 1, 1e3, {0, 0, 1}};
 inline constexpr Unit per_second{"1/s", "rate", 1, 1, {0, 0, -1}};
 inline constexpr Unit per_metre{"1/m", "curvature", 1, 1, {-1, 0, 0}};
 inline constexpr Unit mm_per_s{"mm/s", "speed", 1, 1e3, {1, 0, -1}};
+inline constexpr Unit mm_per_min{"mm/min", "speed", 1, 6e4, {1, 0, -1}};
+inline constexpr Unit mm_per_s2{"mm/s^2", "acceleration", 1, 1e3, {1, 0, -2}};
+inline constexpr Unit g{"g", "mass", 1, 1e3, {0, 1, 0}};
+inline constexpr Unit N_per_m{"N/m", "stiffness", 1, 1, {0, 1, -2}};
 inline constexpr Unit N_s_per_m{"N s/m", "damping", 1, 1, {0, 1, -1}};
 inline constexpr Unit N{"N", "force", 1, 1, {1, 1, -2}};
 }  // namespace unit
 
-// `"11 mm"` as an SI value of `wanted`'s dimension.
-// Throws std::invalid_argument with a sentence that starts "wants ...": no number, a number out of
-// range, no unit, an unknown unit (and the nearest known one), or a unit of another dimension.
+// Parses a text such as `"11 mm"` to an SI value with the dimension of `wanted`. Throws
+// std::invalid_argument with a sentence that starts with "wants ..." if there is no number, if it
+// is out of range, or if the unit is missing, unknown (then with the nearest known one) or of
+// another dimension.
 [[nodiscard]] double parse_quantity(std::string_view text, const Unit& wanted);
 
-// The SI value in `shown`'s unit, in digits that parse_quantity reads back as the very same
-// double; falls back to the unprefixed SI unit where no such digits exist.
+// The value in the unit `shown`, with digits that parse_quantity() reads back to the same double,
+// or in the SI unit without prefix if no such digits exist.
 [[nodiscard]] std::string quantity_text(double si, const Unit& shown);
 
-// The dimension's name ("a pressure") where it has one, else its SI unit.
+// The name of the dimension ("a pressure") if it has one, otherwise "a quantity in" its SI unit.
 [[nodiscard]] std::string dimension_name(const Dimension& dimension);
 
 }  // namespace palpate

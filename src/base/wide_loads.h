@@ -1,6 +1,6 @@
-// How loops over several numbers at a time read and write them. Included inside the namespace of
-// such loops, which names the vector (Wide) and what the compiler may use there (PALPATE_TARGET);
-// no `#pragma once`: it comes once for each kind of processor.
+// Loads and stores of vectors, for loops that process several numbers at a time. Included inside
+// the namespace of such loops, which defines the vector type (Wide) and the instruction set
+// (PALPATE_TARGET); without `#pragma once`, because it is included once per instruction set.
 #if !defined(PALPATE_TARGET)
 #error "loops for a kind of processor include this"
 #endif

@@ -1,4 +1,4 @@
-// The command line as values: one struct a verb, one table for parsing, help and suggestions.
+// The command line as values: one struct per verb.
 #pragma once
 
 #include <array>
@@ -6,115 +6,131 @@
 #include <variant>
 #include <vector>
 
-#include "record/measured.h"
+#include "base/fields.h"
+#include "measured/measured.h"
 
 namespace palpate::cli {
 
-// How the program talks, whatever the verb.
+// Options of all verbs.
 struct Manner {
   bool quiet = false;
   bool json = false;
 };
 
-// `run --device`.
+// Options of `run` with `--device`.
 struct RunDevice {
-  std::string link;  // empty: offline
+  std::string link;  // empty: no device
   bool arm = false;
   bool realtime = false;
   bool traffic = false;
-  std::string surface;     // a length; empty: felt, or assumed
-  std::string most_force;  // a force; empty: the rules' own
-  double seconds = 0.0;    // 0: until the programme is over
+  std::string surface;     // a length; empty: found by a press, or assumed
+  std::string most_force;  // a force; empty: the default of the safety rules
+  double seconds = 0.0;    // s; 0: until the programme ends
   std::string clock = "real";
 };
 struct Run {
+  static constexpr Word word{"run", "Run scenarios and write their results"};
   std::vector<std::string> scenarios;
   RunDevice device;
   std::string out = "out";
   std::vector<std::string> settings;
-  int jobs = 0;  // 0: as many as there are cores
+  int jobs = 0;  // 0: one per core
   bool force = false;
 };
 struct Explain {
+  static constexpr Word word{"explain", "What a scenario would compute, or what a key means"};
   std::string subject;  // a scenario's path, or a key
   std::vector<std::string> settings;
 };
-// Which columns of a measured file are meant, and how they are written: --x, --x-unit, --skip ...
-using DataOptions = record::DataLayout;
+// The layout of a measured file: --x, --x-unit, --skip ...
+using DataOptions = measured::DataLayout;
 
-// Models of `fit` beyond the table of fit/model.h: they have options of their own.
+// Models of `fit` that are not in the table of fit/model.h and have further options.
 inline constexpr std::array further_models{"hertz", "layer", "prony", "prony_creep"};
 
 struct Fit {
+  static constexpr Word word{"fit", "Fit a curve to two columns of a text table"};
   std::string data;
   DataOptions columns;
   std::string model;
   double x_origin = 0.0;
-  std::string radius;         // of the sphere, `11 mm`: hertz and layer
-  double poisson_ratio = -1;  // of the tissue; -1: not said
+  std::string radius;         // of the sphere, such as `11 mm`, for hertz and layer
+  double poisson_ratio = -1;  // of the tissue; -1: not given
   std::string thickness;      // of the layer
   std::string base;           // of the layer: bonded or frictionless; empty: bonded
-  int terms = 0;              // of prony; 0: not said
+  int terms = 0;              // of prony; 0: not given
 };
 struct Compare {
+  static constexpr Word word{"compare", "Compare results with expected ones"};
   std::string got;
   std::string want;
   std::string tolerances;
 };
 struct Bless {
+  static constexpr Word word{"golden", "Replace the expected results in golden/"};
   std::vector<std::string> names;
   std::string reason;
 };
 struct Mesh {
+  static constexpr Word word{"mesh", "Check and mesh a surface, a mesh or a scenario's specimen"};
   std::string subject;  // a surface, a ready mesh or a scenario, by its ending
   std::string unit;     // of a surface's or mesh's coordinates
-  int nodes = 0;        // 0: as `edge` says
-  std::string edge;     // empty: as fine as the surface's own triangles
+  int nodes = 0;        // 0: given by `edge`
+  std::string edge;     // empty: the mean edge of the surface's triangles
   std::vector<std::string> out;
   std::vector<std::string> settings;
   bool force = false;
 };
 struct Reference {
+  static constexpr Word word{"reference",
+                             "Forces by mesh refinement and extrapolation, with their error"};
   std::string scenario;
   std::vector<std::string> settings;
   int levels = 3;
-  std::string out;  // a folder; empty: nothing is written
+  std::string out;  // a folder; empty: no file is written
   bool force = false;
 };
 struct Bench {
+  static constexpr Word word{"bench", "Time the frames of a press: the paper's Table 2"};
   std::vector<std::string> scenarios;  // none: the paper's four models
+  std::vector<std::string> settings;
   int frames = 1000;
 };
 struct Chart {
+  static constexpr Word word{"chart",
+                             "Measure run time and error of every model, mesh and time step"};
   std::string scenario;
   std::vector<std::string> settings;
   std::string out = "out";
-  int repeats = 5;  // of every timing
+  int repeats = 5;  // timings per variant
   bool force = false;
 };
 struct Stability {
+  static constexpr Word word{"stability", "Measure where methods fail, and compare with theory"};
   std::string scenario;
   std::vector<std::string> settings;
   std::string out = "out";
   bool force = false;
 };
 struct Sweep {
+  static constexpr Word word{"sweep", "Run many cases, on many workers and machines"};
   enum class Act { plan, run, status, retry, merge, slurm };
   Act act = Act::plan;
-  std::string subject;  // of `plan` a scenario, of the others a plan's folder
+  std::string subject;  // of `plan` a scenario, else the folder of a plan
   std::vector<std::string> settings;
-  std::string out = "out";    // of `plan`: the plan is OUT/SCENARIO_sweep
-  bool yes = false;           // more cases than the ceiling are meant
-  bool curves = false;        // every case's curves are kept, too
+  std::string out = "out";    // `plan` writes OUT/SCENARIO_sweep
+  bool yes = false;           // allows any number of cases
+  bool curves = false;        // keeps the curves of every case
   std::string shard = "1/1";  // I/N
   int jobs = 0;
-  std::string lanes = "auto";     // or none, all: which cases share a loop
-  int chunk = 50;                 // cases a task of the array
-  std::string time;               // of a task, as Slurm writes it; empty: the cluster's own limit
-  std::vector<std::string> show;  // columns that `merge` draws; none: the usual ones
+  std::string lanes = "auto";     // cases that share a loop: auto, none, all
+  int chunk = 50;                 // cases per task of the array
+  std::string time;               // limit per task, as Slurm writes it; empty: the cluster's
+  std::vector<std::string> show;  // columns that `merge` draws; empty: the usual ones
   bool force = false;
 };
 struct Identify {
+  static constexpr Word word{"identify", "Estimate tissue properties from a measured curve"};
   std::string data;
   DataOptions columns{.compression = "auto"};
   std::string scenario;
@@ -125,6 +141,7 @@ struct Identify {
   bool force = false;
 };
 struct Export {
+  static constexpr Word word{"export", "Write results in the formats of other tools"};
   std::string result;  // a result folder, or one of its CSV files
   std::string format;
   std::string out = ".";
@@ -132,13 +149,17 @@ struct Export {
   bool force = false;
 };
 struct Device {
+  static constexpr Word word{"device", "Identify a live device, or monitor its samples"};
   enum class Act { probe, monitor };
   Act act = Act::probe;
   std::string link;
   double seconds = 5.0;  // of a monitor
 };
-struct Manual {};
+struct Manual {
+  static constexpr Word word{"manual", "Print the reference of all scenario keys, in markdown"};
+};
 
+// Every verb. It needs `word`, add_options() in arguments.cpp and perform() in verbs.h to compile.
 using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Reference, Bench, Chart,
                           Stability, Sweep, Identify, Export, Device, Manual>;
 
@@ -148,14 +169,17 @@ struct Arguments {
   Verb verb;
 };
 
-// A command line that is not one of ours; the text is a sentence with a remedy.
+// An invalid command line; the text is a sentence with a remedy.
 struct UsageError {
   std::string message;
 };
-// Text that was asked for by --help or --version.
+// The text for --help or --version.
 struct Answer {
   std::string text;
 };
+
+// The number of workers for `--jobs`; 0: one per core.
+[[nodiscard]] int worker_count(int jobs);
 
 [[nodiscard]] std::variant<Arguments, UsageError, Answer> parse(
     const std::vector<std::string>& arguments);

@@ -1,8 +1,8 @@
-// `palpate bench`: frames of 1 ms of a press, in the stages of the paper's Table 2. The four models
-// are pressed 1 mm with coupling `consistent`, by central differences in stable substeps and in
-// modal coordinates, the whole body and 3 rings of it. A frame is detection over the deformed skin
-// once, forces once, and the mesh's substeps; `frame` is what `palpate run` takes for the same
-// millisecond, forces and energy balance in every substep. One thread.
+// `palpate bench`: times frames of 1 ms of a press in the stages of the paper's Table 2. The four
+// models are pressed by 1 mm with the coupling `consistent`, by central differences in stable
+// substeps and by modal coordinates, as whole bodies and with 3 rings. A frame consists of one
+// detection over the deformed skin, one computation of forces, and the mesh's substeps. `frame` is
+// the time of `palpate run` for 1 ms, with forces and energy balance in every substep. One thread.
 #include <unistd.h>
 
 #include <cmath>
@@ -20,19 +20,19 @@
 namespace palpate::cli {
 namespace {
 
-using scenario::Solver;
+using Solver = scenario::Resolved::Solver;
 
 struct Paper {
   double collision, force, deformation;  // ms
 };
 struct Model {
   const char* name;
-  const char* tissue;  // tables of the scenario
+  const char* tissue;  // the scenario's table `tissue`
   Paper paper;
 };
 
-// Chen 2007, Table 2. The paper says no tissues here: skin where the name says none, and the limb's
-// layers are all the upper leg of its Table 1.
+// Chen 2007, Table 2. The paper names no tissues there. Assumed are skin for cube and head, and the
+// upper leg of its Table 1 for all layers of the limb.
 constexpr Model models[] = {
     {"cube",
      "material = \"skin\"\nshape = { kind = \"cuboid\" }\n"
@@ -67,26 +67,24 @@ class Table {
     for (const char* proof : {"force_N", "displacement_mm"}) table_.columns.emplace_back(proof);
   }
 
-  // False where the press ended early.
+  // Times one scene and adds its row; false if the press ended early.
   bool measure(const std::string& name, const scene::Scene& scene, const Paper* paper) {
     const Solver& solver = scene.scenario.solver;
     const std::string rings = solver.rings ? std::to_string(*solver.rings) : "all";
-    talk_.progress(name + ", " +
-                   scenario::words::word(scenario::words::integrators, solver.integrator) +
-                   ", rings " + rings);
+    const char* const integrator = about(solver.integrator).word;
+    talk_.progress(name + ", " + integrator + ", rings " + rings);
     const run::Bench bench = run::bench(scene, frames_);
     talk_.progress("");
     if (bench.wrong) {
-      Talk::error("palpate: " + name + ", " +
-                  scenario::words::word(scenario::words::integrators, solver.integrator) +
-                  ", rings " + rings + ", " + *bench.wrong);
+      Talk::error("palpate: " + name + ", " + integrator + ", rings " + rings + ", " +
+                  *bench.wrong);
       return false;
     }
     std::vector<record::Cell> row{
         name,
         static_cast<double>(scene.specimen->mesh.nodes.size()),
         static_cast<double>(scene.specimen->mesh.tetrahedra.size()),
-        scenario::words::word(scenario::words::integrators, solver.integrator),
+        integrator,
         solver.rings ? record::Cell(static_cast<double>(*solver.rings)) : record::Cell("all"),
         scenario::words::word(scenario::words::couplings, scene.scenario.contact.coupling),
         static_cast<double>(scene.specimen->plan.substeps),
@@ -107,7 +105,7 @@ class Table {
 
   [[nodiscard]] const record::Table& table() const { return table_; }
 
-  // The medians beside the paper's times, for people.
+  // The medians and the paper's times as an aligned table.
   [[nodiscard]] std::string readable() const {
     std::string text;
     char line[200];
@@ -124,11 +122,11 @@ class Table {
                     shown(row, "frame_p50_ms").c_str(), shown(row, "paper_sum_ms").c_str());
       text += line;
     }
-    return text + "ms a frame of 1 ms: medians; `frame` is what `palpate run` takes for it";
+    return text + "medians, ms per frame of 1 ms; `frame` is the time of `palpate run`";
   }
 
  private:
-  // ms, to what the clock tells.
+  // Rounds a time in ms to the resolution of the clock.
   static double to_nanoseconds(double time) { return std::round(1e6 * time) / 1e6; }
 
   static void add_percentiles(const run::Bench& bench, std::vector<record::Cell>& row) {
@@ -146,7 +144,7 @@ class Table {
   }
 
   [[nodiscard]] std::string shown(const std::vector<record::Cell>& row, const char* column) const {
-    const record::Cell& cell = row[static_cast<std::size_t>(table_.find(column))];
+    const record::Cell& cell = row[as_index(table_.find(column))];
     if (const auto* word = std::get_if<std::string>(&cell)) return *word;
     if (const auto* number = std::get_if<double>(&cell)) return rounded_text(*number, 3);
     return "-";
@@ -157,19 +155,24 @@ class Table {
   record::Table table_;
 };
 
-// Each model once; what the rows differ in does not change its mesh.
-bool measure_models(Table& table) {
+// Each model with both integrators, the whole mesh and 3 rings of it, unless the settings fix the
+// integrator or the rings. Neither changes the mesh, which is made once.
+bool measure_models(const std::vector<std::string>& settings, Table& table) {
   bool all = true;
   for (const Model& model : models) {
     const std::string name = model.name;
     const scenario::Family family = scenario::parse(
         "[tissue]\n" + std::string(model.tissue) +
             "[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n",
-        name + ".toml", {});
+        name + ".toml", settings);
+    const scenario::Solver& asked = family.cases.front().scenario.solver;
+    std::vector integrators{Solver::Integrator::central_difference, Solver::Integrator::modal};
+    if (asked.integrator) integrators = {*asked.integrator};
+    std::vector<std::optional<int>> all_rings{std::nullopt, 3};
+    if (asked.rings) all_rings = {asked.rings};
     scene::Scene scene = scene::build(family.cases.front(), family);
-    for (const auto integrator :
-         {Solver::Integrator::central_difference, Solver::Integrator::modal})
-      for (const std::optional<int> rings : {std::optional<int>(), std::optional<int>(3)}) {
+    for (const auto integrator : integrators)
+      for (const std::optional<int> rings : all_rings) {
         scene.scenario.solver.integrator = integrator;
         scene.scenario.solver.rings = rings;
         scene.specimen->plan = scene::plan_time(scene.scenario, *scene.specimen, {});
@@ -179,9 +182,12 @@ bool measure_models(Table& table) {
   return all;
 }
 
-bool measure_scenario(const std::string& path, Table& table, const Talk& talk) {
-  const scenario::Family family = scenario::read(
-      path, {"solver.model=mass_spring", "solver.time_step=1 ms", "output.interval=1 ms"});
+bool measure_scenario(const std::string& path, std::vector<std::string> settings, Table& table,
+                      const Talk& talk) {
+  for (const char* fixed :
+       {"solver.model=mass_spring", "solver.time_step=1 ms", "output.interval=1 ms"})
+    settings.emplace_back(fixed);
+  const scenario::Family family = scenario::read(path, settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   bool all = true;
   for (const scenario::Case& one : family.cases) {
@@ -197,12 +203,12 @@ bool measure_scenario(const std::string& path, Table& table, const Talk& talk) {
 
 }  // namespace
 
-int bench(const Bench& command, const Talk& talk) {
+int perform(const Bench& command, const Arguments&, const Talk& talk) {
   Table table(command.frames, talk);
   bool all = true;
-  if (command.scenarios.empty()) all = measure_models(table);
+  if (command.scenarios.empty()) all = measure_models(command.settings, table);
   for (const std::string& path : command.scenarios)
-    all = measure_scenario(path, table, talk) && all;
+    all = measure_scenario(path, command.settings, table, talk) && all;
   print(talk.json() ? json_lines(table.table()) : record::csv_text(table.table()));
   if (::isatty(STDERR_FILENO) == 1) talk.say(table.readable());
   return all ? exit_good : exit_diverged;

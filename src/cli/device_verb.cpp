@@ -1,4 +1,4 @@
-// `palpate device`: who is at the other end of a link, and how well its samples come. Read-only.
+// `palpate device`: identifies a device and reports the rate of its samples. Read-only.
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -17,9 +17,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using device::Arrival;
 
-constexpr double patience = 1.0;     // s, without any new sample
-constexpr double probe_time = 0.5;   // s, of samples that a probe takes
-constexpr double shown_every = 0.2;  // s, of a monitor's line
+constexpr double patience = 1.0;     // s without a fresh sample before the session ends
+constexpr double probe_time = 0.5;   // s, duration of a probe
+constexpr double shown_every = 0.2;  // s between lines of a monitor
 
 const char* kind_text(device::Kind kind) {
   switch (kind) {
@@ -32,7 +32,7 @@ const char* kind_text(device::Kind kind) {
 
 std::string in_mm(double metres) { return rounded_text(1e3 * metres, 6) + " mm"; }
 
-std::string or_none(const std::string& text) { return text.empty() ? "not told" : text; }
+std::string or_none(const std::string& text) { return text.empty() ? "unknown" : text; }
 
 std::string sample_text(const device::Sample& sample) {
   std::string text = "position";
@@ -54,12 +54,12 @@ Json sample_json(double time, const device::Sample& sample) {
 
 struct Session {
   device::Health health;
-  device::Sample last;  // that was fresh
-  double span = 0.0;    // s
+  device::Sample last;  // the last fresh sample
+  double span = 0.0;    // s, duration
   device::Fault ended_by = device::Fault::none;
 };
 
-// Reads for `time` s, in the link's own period; the arm is asked by zero forces.
+// Reads samples for `time` s with the period of the link; an arm answers to zero forces.
 Session read(device::Link& link, device::Clock& clock, double time, const Talk* talk,
              const std::atomic<bool>& stop) {
   Session session;
@@ -125,7 +125,7 @@ std::string rate_sentence(const Session& session) {
 
 }  // namespace
 
-int device(const Device& command, const Talk& talk) {
+int perform(const Device& command, const Arguments&, const Talk& talk) {
   device::Clock clock(device::Clock::Kind::monotonic);
   const std::atomic<bool>& stop = listen_for_interrupts(exit_interrupted);
   device::Link link(command.link, device::Purpose::look, clock);
@@ -152,12 +152,12 @@ int device(const Device& command, const Talk& talk) {
     print(rate_sentence(session) + "\n");
   }
   if (stop) return exit_interrupted;
-  // A recording that has been played to its end has done what it should.
+  // The end of a recording is not a fault.
   if (session.ended_by == device::Fault::recording_ended) return exit_good;
   if (session.ended_by != device::Fault::none) {
     Talk::error("palpate: `" + command.link +
                 "`: " + std::string(device::fault_text(session.ended_by)) +
-                "; see that it is switched on and its cable sits");
+                "; check that the device is switched on and its cable is plugged in");
     return exit_device;
   }
   return exit_good;

@@ -1,4 +1,4 @@
-// The limit in words, and how many steps a programme takes.
+// The lines of `palpate explain` on time.
 #include "cli/explain_time.h"
 
 #include <cmath>
@@ -9,25 +9,11 @@
 namespace palpate::cli {
 namespace {
 
-using scenario::Solver;
+using Solver = scenario::Resolved::Solver;
 
 std::string milliseconds(double seconds) { return rounded_text(1e3 * seconds) + " ms"; }
 
-const char* integrator_word(Solver::Integrator integrator) {
-  switch (integrator) {
-    case Solver::Integrator::central_difference: return "central differences";
-    case Solver::Integrator::semi_implicit_euler:
-      return "semi-implicit Euler, the new velocity first";
-    case Solver::Integrator::tr_bdf2: return "TR-BDF2, two implicit stages a step";
-    case Solver::Integrator::backward_difference: return "backward differences (implicit Euler)";
-    case Solver::Integrator::quasi_static: return "quasi-static steps, without inertia";
-    case Solver::Integrator::modal: return "modal coordinates, exact in time";
-    case Solver::Integrator::automatic: break;  // has been answered when the scene was built
-  }
-  return "";
-}
-
-// Implicit methods have no limit; the line is then what explicit ones would ask for.
+// For implicit methods, which have no limit, the line gives that of central differences.
 std::string limit_word(const Solver& solver) {
   return solver.integrator == Solver::Integrator::semi_implicit_euler
              ? "semi-implicit Euler is stable below "
@@ -35,7 +21,7 @@ std::string limit_word(const Solver& solver) {
 }
 
 std::string limit_formula(const Solver& solver) {
-  if (!scenario::explicit_steps(solver.integrator)) return " (2 / omega_max)";
+  if (!about(solver.integrator).explicit_steps) return " (2 / omega_max)";
   switch (scenario::damping_velocity(solver)) {
     case integrate::DampingVelocity::centred: return " (2 / omega_max)";
     case integrate::DampingVelocity::lagged:
@@ -45,7 +31,7 @@ std::string limit_formula(const Solver& solver) {
   return " (2 (sqrt(1 + zeta^2) + zeta) / omega_max)";
 }
 
-// Of the paper's own steps, skin and ligament by 0.01 and muscle and leg by 0.05, without a unit.
+// The paper's time step, which it gives without a unit, read as s; 0 for other materials.
 double literal_step(const std::string& material) {
   if (material == "skin" || material == "ligament") return 0.01;
   if (material == "muscle" || material == "upper_leg") return 0.05;
@@ -58,7 +44,7 @@ std::vector<std::string> explain_time(const scene::Scene& scene) {
   const scene::TimePlan& plan = scene.specimen->plan;
   const Solver& solver = scene.scenario.solver;
   std::vector<std::string> lines;
-  lines.push_back(std::string("  time         ") + integrator_word(solver.integrator));
+  lines.push_back(std::string("  time         ") + about(solver.integrator).told);
   lines.push_back("  stability    " + limit_word(solver) + milliseconds(plan.limit) +
                   limit_formula(solver));
   lines.push_back("  steps        time step " + milliseconds(plan.time_step) + " in " +
@@ -67,11 +53,11 @@ std::vector<std::string> explain_time(const scene::Scene& scene) {
                   milliseconds(plan.substep) + ", " +
                   rounded_text(scene.specimen->network.springs() / plan.substep, 2) +
                   " spring updates a second of motion");
-  const bool is_explicit = scenario::explicit_steps(solver.integrator);
+  const bool is_explicit = about(solver.integrator).explicit_steps;
   if (solver.allow_unstable && !plan.stable() && is_explicit)
     lines.emplace_back(
         "  warning      the step is above the stability limit and will diverge; "
-        "`allow_unstable` lets it");
+        "`allow_unstable` permits it");
   const double literal = literal_step(scene.scenario.tissue.material);
   if (literal > plan.limit)
     lines.push_back("  the paper    its literal time step of " + milliseconds(literal) + " is " +

@@ -1,4 +1,4 @@
-// What `palpate explain` says about time: method, stability limit, steps.
+// The lines of `palpate explain` on time: integrator, stability limit, steps.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace palpate::cli {
 
-// Lines about the steps of a scene with a specimen.
+// The scene must have a specimen.
 [[nodiscard]] std::vector<std::string> explain_time(const scene::Scene& scene);
 
 }  // namespace palpate::cli

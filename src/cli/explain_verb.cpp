@@ -1,4 +1,4 @@
-// `palpate explain`: what would be computed and why, in sentences; or what a key means.
+// `palpate explain`: describes what a scenario would compute and why, or what a key means.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -11,22 +11,19 @@
 #include "cli/verbs.h"
 #include "run/family.h"
 #include "scenario/family.h"
-#include "scenario/words.h"
 #include "scene/specimen_mesh.h"
 
 namespace palpate::cli {
 namespace {
 
-using scenario::Solver;
-
-// `step.1.to` as the manual names it, `step.to`.
+// The key as the manual names it: `step.to` for `step.1.to`.
 std::string without_numbers(const std::string& key) {
   std::vector<std::string> words = split(key, '.');
   std::erase_if(words, [](const std::string& word) { return whole_number(word).has_value(); });
   return joined(words, ".");
 }
 
-// The table that a section of the manual is about: `tissue.mesh` of "`[tissue.mesh]`".
+// The table in the heading of a section of the manual: `tissue.mesh` from "`[tissue.mesh]`".
 std::string table_of(const std::string& section) {
   const auto quotes = split(section, '`');
   if (quotes.size() < 2) return "";
@@ -35,7 +32,8 @@ std::string table_of(const std::string& section) {
   return table;
 }
 
-// The rows of the manual that describe a key, given as `table.key` or `key`, or a table's keys.
+// The rows of the manual for a key, given as `table.key` or `key`, or for all keys of a table.
+// Throws InputError, with the nearest key, if there are none.
 std::string meaning(const std::string& asked) {
   const std::string key = without_numbers(asked);
   std::string section;
@@ -58,9 +56,8 @@ std::string meaning(const std::string& asked) {
   }
   if (!found.empty()) return found;
   const auto near = nearest(key, known);
-  throw InputError(
-      {}, "palpate: `" + asked + "` is neither a file nor a key" +
-              (near ? "; did you mean `" + *near + "`?" : "; `palpate manual` lists all keys"));
+  refuse("`" + asked + "` is neither a file nor a key" +
+         (near ? "; did you mean `" + *near + "`?" : "; `palpate manual` lists all keys"));
 }
 
 class Explanation {
@@ -88,30 +85,30 @@ class Explanation {
   void line(const std::string& sentence) { text_ += sentence + "\n"; }
 
   void tissue() {
-    const scenario::Tissue& tissue = scene_.scenario.tissue;
+    const scenario::Resolved::Tissue& tissue = scene_.scenario.tissue;
     line("  tissue       " + tissue.material + ": E " +
-         quantity_text(*tissue.young_modulus, unit::kPa) + ", nu " +
-         number_text(*tissue.poisson_ratio) + ", density " +
-         quantity_text(*tissue.density, unit::density));
+         quantity_text(tissue.young_modulus, unit::kPa) + ", nu " +
+         number_text(tissue.poisson_ratio) + ", density " +
+         quantity_text(tissue.density, unit::density));
     if (!scene_.specimen && scene_.relaxation.elastic()) {
-      line("  viscosity    takes no part");
+      line("  viscosity    not used");
       return;
     }
     using tissue::Viscosity;
     switch (tissue.viscosity) {
       case Viscosity::none: line("  viscosity    none"); break;
       case Viscosity::nodal_drag:
-        line("  viscosity    nodal drag, d/m " + quantity_text(*tissue.drag, unit::per_second) +
+        line("  viscosity    nodal drag, d/m " + quantity_text(tissue.law.drag, unit::per_second) +
              "; its creep time grows with the specimen's length squared");
         break;
       case Viscosity::kelvin_voigt:
         line("  viscosity    Kelvin-Voigt, retardation time " +
-             quantity_text(*tissue.retardation_time, unit::s));
+             quantity_text(tissue.law.time, unit::s));
         break;
       case Viscosity::standard_linear_solid:
         line("  viscosity    standard linear solid, relaxation time " +
-             quantity_text(*tissue.relaxation_time, unit::s) + ", E_0 / E_inf " +
-             number_text(*tissue.instantaneous_ratio));
+             quantity_text(tissue.law.longest_time(), unit::s) + ", E_0 / E_inf " +
+             number_text(tissue.law.instantaneous_ratio()));
         break;
       case Viscosity::prony:
         for (const scenario::Branch& branch : tissue.branches)
@@ -127,7 +124,7 @@ class Explanation {
   }
 
   void shape() {
-    const scenario::Tissue& tissue = scene_.scenario.tissue;
+    const scenario::Resolved::Tissue& tissue = scene_.scenario.tissue;
     std::string text = std::visit(
         [](const auto& one) -> std::string { return std::decay_t<decltype(one)>::word.word; },
         tissue.shape);
@@ -146,45 +143,42 @@ class Explanation {
       return;
     }
     const double height = scene_.specimen->base_height;
-    line(
-        "  base         " +
-        std::string(height > 0.0
-                        ? "the skin up to " + rounded_text(unit::mm.from_si(height)) + " mm"
-                        : "the lowest plane") +
-        (scene_.specimen->base == tissue::Base::bonded ? " stands still" : " slides on the table"));
+    line("  base         " +
+         std::string(height > 0.0
+                         ? "the skin up to " + rounded_text(unit::mm.from_si(height)) + " mm"
+                         : "the lowest plane") +
+         (scene_.specimen->base == tissue::Base::bonded ? " is fixed" : " slides on the table"));
   }
 
-  // Of a closed form.
+  // The curvature of a shape without a mesh.
   void top() {
     const auto top = scene::top_curvature(scene_.scenario.tissue.shape);
     if (!top || (top->kappa_1 == 0.0 && top->kappa_2 == 0.0)) return;
-    line("  top          curves with " + rounded_text(top->kappa_1) + " and " +
-         rounded_text(top->kappa_2) + " 1/m, convex positive");
+    line("  top          curvatures " + rounded_text(top->kappa_1) + " and " +
+         rounded_text(top->kappa_2) + " 1/m, positive if convex");
   }
 
   void regions() {
     const auto& regions = scene_.scenario.regions;
     for (std::size_t i = 0; i < regions.size(); ++i) {
-      const scenario::Substance& substance = scenario::substance(regions[i]);
+      const scenario::Resolved::Region& region = regions[i];
       std::string text = "  region " + std::to_string(i + 1) + "     ";
       text.resize(15, ' ');
-      if (const auto* lump = std::get_if<scenario::Lump>(&regions[i]))
+      if (const auto* lump = std::get_if<scenario::Lump>(&region.part))
         text += "a sphere of radius " + quantity_text(lump->radius, unit::mm);
-      else if (const auto* slab = std::get_if<scenario::Slab>(&regions[i]))
+      else if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
         text += "from " + quantity_text(slab->bottom, unit::mm) + " to " +
                 quantity_text(slab->top, unit::mm) + " in height";
       else
-        text += "tag " + std::to_string(std::get<scenario::TaggedRegion>(regions[i]).tag);
-      text += ", " + substance.material + ": E " +
-              quantity_text(*substance.young_modulus, unit::kPa) + ", density " +
-              quantity_text(*substance.density, unit::density);
+        text += "tag " + std::to_string(std::get<scenario::TaggedRegion>(region.part).tag);
+      text += ", " + region.material + ": E " + quantity_text(region.young_modulus, unit::kPa) +
+              ", density " + quantity_text(region.density, unit::density);
       if (scene_.specimen)
         text += "; " + region_size(scene_.specimen->mesh, static_cast<int>(i) + 1);
       line(text);
     }
     if (!scene::all_slabs(scene_.scenario) && !scene_.scenario.uniform())
-      line(
-          "  note         Hertz takes the tissue's own E and nu, whatever region the finger meets");
+      line("  note         the contact law uses E and nu of `tissue.material` in every region");
   }
 
   static std::string region_size(const geometry::TetMesh& mesh, int region) {
@@ -199,27 +193,27 @@ class Explanation {
   }
 
   void finger() {
-    const scenario::Finger& asked = scene_.scenario.finger;
+    const scenario::PlainFinger& asked = scene_.scenario.finger;
     const scene::Finger& finger = scene_.finger;
     if (asked.spheres == 1) {
       line("  finger       one sphere of radius " + quantity_text(asked.radius, unit::mm));
     } else {
       line("  finger       " + std::to_string(asked.spheres) + " spheres of radius " +
            rounded_text(unit::mm.from_si(finger.sphere_radius)) + " mm for one of " +
-           quantity_text(asked.radius, unit::mm) + ": together they press a flat " +
-           rounded_text(finger.force_factor) + " times as hard (calibration " +
+           quantity_text(asked.radius, unit::mm) + ": their total force on a flat is " +
+           rounded_text(finger.force_factor) + " times that of the one (calibration " +
            (asked.calibration == finger::Calibration::force ? "force" : "mass") + ")");
     }
     if (finger.weight > 0.0)
-      line("  weight       " + rounded_text(finger.weight) + " N, counted by friction besides");
+      line("  weight       " + rounded_text(finger.weight) + " N, added to the force in friction");
   }
 
   void contact() {
-    const scenario::Contact& contact = scene_.scenario.contact;
+    const scenario::PlainContact& contact = scene_.scenario.contact;
     line("  contact      E* " + rounded_text(unit::kPa.from_si(scene_.law().modulus)) +
          " kPa, radius " + quantity_text(scene_.law().radius, unit::mm) +
-         " on a flat; the finger has " + rounded_text(100.0 * scene_.finger.compliance_share, 2) +
-         " % of the compliance");
+         " on a flat; the finger has " + percent_text(scene_.finger.compliance_share) +
+         " of the compliance");
     if (contact.friction > 0.0) line("  friction     mu " + number_text(contact.friction));
     curvature();
     if (!scene_.specimen) return;
@@ -235,24 +229,24 @@ class Explanation {
         break;
       case contact::Coupling::consistent:
         line(scene_.layer
-                 ? "  coupling     consistent: the flat layer's exact law, less what the mesh "
-                   "sinks besides"
-                 : "  coupling     consistent: less that sinking of the mesh which Hertz does "
-                   "not know");
+                 ? "  coupling     consistent: the exact law of the flat layer; the travel is "
+                   "reduced by the mesh's further sinking"
+                 : "  coupling     consistent: the travel is reduced by the sinking of the mesh "
+                   "that Hertz's law lacks");
         break;
       case contact::Coupling::resolved:
-        line("  coupling     resolved: the mesh carries all of the tissue, node by node");
+        line("  coupling     resolved: the mesh represents the whole tissue; no law is used");
     }
     const auto& rings = scene_.scenario.solver.rings;
     if (rings)
       line("  rings        " + std::to_string(*rings) +
-           " rings of nodes around the contact move, the others stand");
+           " rings of nodes around the contact move, the others are fixed");
     else
       line("  rings        all: the whole specimen moves");
   }
 
   void curvature() {
-    const scenario::Contact& contact = scene_.scenario.contact;
+    const scenario::PlainContact& contact = scene_.scenario.contact;
     std::string text = "  curvature    ";
     switch (contact.law) {
       case contact::CurvatureLaw::elliptic: text += "elliptic: both curvatures, exactly"; break;
@@ -262,37 +256,33 @@ class Explanation {
       case contact::CurvatureLaw::mean: text += "mean: the mean curvature, eq. (2)"; break;
     }
     if (scene_.specimen)
-      text += std::string("; read by ") +
+      text += std::string("; measured by ") +
               (contact.curvature == geometry::CurvatureMethod::quadric  ? "quadrics"
                : contact.curvature == geometry::CurvatureMethod::taubin ? "Taubin"
                                                                         : "Taubin without sign") +
               " over " + std::to_string(contact.curvature_rings) +
               (contact.curvature_rings == 1 ? " ring" : " rings") + " of vertices, " +
               (contact.curvature_on == scenario::Contact::CurvatureOn::rest ? "at rest"
-                                                                            : "as it is pressed");
+                                                                            : "as deformed");
     line(text);
   }
 
   void choice() {
-    const Solver::Model model = scene_.scenario.solver.model;
-    const auto model_word = [](Solver::Model one) {
-      return scenario::words::word(scenario::words::models, one);
-    };
-    line(std::string("  model        ") + model_word(model) +
-         (scene_.choice.given ? ", as the scenario says; `auto` would ask:"
-                              : ", chosen by these questions:"));
+    const scenario::Model model = scene_.scenario.solver.model;
+    line(std::string("  model        ") + scenario::rung(model).word +
+         (scene_.choice.given ? ", named by the scenario; criteria of `auto`:"
+                              : ", chosen by these criteria:"));
     for (const scene::Question& question : scene_.choice.questions)
       line("                 " + question.asked + " " + question.measure + " = " +
            rounded_text(question.number) + ", threshold " + rounded_text(question.threshold) +
            ": " + question.answer);
-    for (const scene::Rung& rung : scene_.choice.rungs) {
+    for (const scene::Forecast& rung : scene_.choice.rungs) {
       std::string text =
-          std::string("  ") + (rung.model == model ? "> " : "  ") + model_word(rung.model);
+          std::string("  ") + (rung.model == model ? "> " : "  ") + scenario::rung(rung.model).word;
       text.resize(22, ' ');
-      line(text + (rung.cannot.empty()
-                       ? "error about " + rounded_text(100.0 * rung.error, 2) + " %, about " +
-                             rounded_text(rung.seconds, 1) + " s to set up"
-                       : "cannot: " + rung.cannot));
+      line(text + (rung.cannot.empty() ? "error about " + percent_text(rung.error) + ", about " +
+                                             rounded_text(rung.seconds, 1) + " s to set up"
+                                       : "cannot: " + rung.cannot));
     }
     if (const std::string text = scene_.choice.shortfall(); !text.empty())
       line("  note         " + text);
@@ -302,18 +292,18 @@ class Explanation {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
-    if (scene_.scenario.solver.model == Solver::Model::coupled_springs) {
-      line("  network      coupled in every tetrahedron: it has the tissue's own E and nu");
+    if (scenario::rung(scene_.scenario.solver.model).coupled()) {
+      line("  network      coupled in every tetrahedron: it has E and nu of the tissue");
       return;
     }
     const bool several = !scene_.scenario.regions.empty();
     line(std::string("  network      measured on the specimen") +
-         (several ? ", were it all `tissue.material`" : "") + ": E " +
+         (several ? " with `tissue.material` in all regions" : "") + ": E " +
          rounded_text(unit::kPa.from_si(specimen.measured.young_modulus)) + " kPa (" +
-         rounded_text(specimen.measured.young_modulus / *scene_.scenario.tissue.young_modulus) +
+         rounded_text(specimen.measured.young_modulus / scene_.scenario.tissue.young_modulus) +
          " of the tissue's), nu " + rounded_text(specimen.measured.poisson_ratio) +
-         (scene_.scenario.uniform() ? "; the tissue's own nu does not count"
-                                    : "; the tissue's own nu reaches the contact only"));
+         (scene_.scenario.uniform() ? "; nu of the tissue is not used"
+                                    : "; nu of the tissue is used in the contact only"));
   }
 
   const scene::Scene& scene_;
@@ -322,7 +312,7 @@ class Explanation {
 
 }  // namespace
 
-int explain(const Explain& command) {
+int perform(const Explain& command, const Arguments&, const Talk&) {
   const bool file = command.subject.ends_with(".toml") || std::filesystem::exists(command.subject);
   if (!file) {
     print(meaning(command.subject));

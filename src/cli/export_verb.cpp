@@ -1,4 +1,4 @@
-// `palpate export`: results as other tools read them.
+// `palpate export`: writes results in the formats of other tools.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -25,12 +25,11 @@ const report::ExportFormat& format_of(const std::string& name) {
     known.emplace_back(one.name);
   }
   const auto near = nearest(name, known);
-  throw InputError(
-      {}, "palpate: `--to` does not know `" + name + "`" +
-              (near ? "; did you mean `" + *near + "`?" : "; it is one of " + joined(known, ", ")));
+  refuse("`--to` does not know `" + name + "`" +
+         (near ? "; did you mean `" + *near + "`?" : "; it is one of " + joined(known, ", ")));
 }
 
-// The curves' file of a result folder, or the file itself.
+// The file of the curves in a result folder, or the file itself.
 std::string table_of(const std::string& result) {
   if (!fs::is_directory(result)) return result;
   for (const char* name : {"force_indentation.csv", "strain_time.csv"})
@@ -46,7 +45,7 @@ std::string name_of(const std::string& result) {
   return fs::is_directory(result) ? path.filename().string() : path.stem().string();
 }
 
-// The finger's radius, where the scenario lies beside the result.
+// Adds the radius of the finger if the result folder contains the scenario.
 void add_radii(const std::string& result, std::vector<report::ExportCurve>& curves) {
   const fs::path file = fs::path(result) / "scenario.toml";
   if (!fs::is_directory(result) || !fs::exists(file)) return;
@@ -56,7 +55,7 @@ void add_radii(const std::string& result, std::vector<report::ExportCurve>& curv
       for (const scenario::Case& one : family.cases)
         if (one.name == curve.name || family.cases.size() == 1)
           curve.tip_radius = one.scenario.finger.radius;
-  } catch (const InputError&) {  // an edited echo is no reason not to export its curves
+  } catch (const InputError&) {  // an edited scenario.toml does not prevent the export
   }
 }
 
@@ -72,7 +71,7 @@ void keep_case(std::vector<report::ExportCurve>& curves, const std::string& want
                                            : "; cases: " + joined(names, ", ")));
 }
 
-// A case's name as a file's: what a file system or a shell would stumble over becomes `_`.
+// A case's name as a file name: characters special to file systems or shells become `_`.
 std::string file_name(const std::string& name) {
   std::string safe;
   for (const char c : name) {
@@ -85,7 +84,7 @@ std::string file_name(const std::string& name) {
 
 }  // namespace
 
-int export_results(const Export& command, const Talk& talk) {
+int perform(const Export& command, const Arguments&, const Talk& talk) {
   const report::ExportFormat& format = format_of(command.format);
   const std::string file = table_of(command.result);
   std::vector<report::ExportCurve> curves =
@@ -95,7 +94,7 @@ int export_results(const Export& command, const Talk& talk) {
   if (!command.case_name.empty()) keep_case(curves, command.case_name, file);
   add_radii(command.result, curves);
 
-  // All texts and all names before the first file, so that a refusal leaves nothing behind.
+  // All texts and names are made before the first file, so that a refusal writes no file.
   std::vector<std::pair<fs::path, std::string>> files;
   std::set<fs::path> names;
   for (const report::ExportCurve& curve : curves) {
@@ -107,7 +106,7 @@ int export_results(const Export& command, const Talk& talk) {
     std::error_code ignored;
     if (fs::equivalent(path, file, ignored))
       throw InputError({path.string(), 0, 0},
-                       "is what would be exported, and it stays; give another `--out`");
+                       "is the file to be exported and is not replaced; give another `--out`");
     if (fs::exists(path) && !command.force)
       throw InputError({path.string(), 0, 0},
                        "is there already; give `--force` to replace it, or another `--out`");
@@ -117,9 +116,7 @@ int export_results(const Export& command, const Talk& talk) {
       throw InputError({file, 0, 0}, error.problems().front().message);
     }
   }
-  std::error_code error;
-  fs::create_directories(command.out, error);
-  if (error) throw SystemError(command.out + " cannot be made: " + error.message());
+  make_folders(command.out);
   for (const auto& [path, text] : files) {
     write_atomically(path.string(), text);
     talk.say("wrote " + path.string());

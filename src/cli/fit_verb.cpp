@@ -1,4 +1,4 @@
-// `palpate fit`: one curve through two columns of any table in text.
+// `palpate fit`: fits one curve to two columns of a text table.
 #include <algorithm>
 #include <stdexcept>
 
@@ -9,15 +9,11 @@
 #include "fit/contact_model.h"
 #include "fit/fit_table.h"
 #include "fit/prony.h"
+#include "measured/measured.h"
 #include "record/csv.h"
-#include "record/measured.h"
 
 namespace palpate::cli {
 namespace {
-
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw InputError({}, "palpate: " + sentence);
-}
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -33,7 +29,7 @@ void check_model(const std::string& name) {
          (near ? "; did you mean `" + *near + "`?" : "; it is one of " + joined(known, ", ")));
 }
 
-// Options of the wrong model, and models without their options.
+// Refuses options that the model does not use, and a model without its required options.
 void check_options(const Fit& command) {
   struct Option {
     const char* name;
@@ -50,15 +46,15 @@ void check_options(const Fit& command) {
         Option{"--terms", command.terms > 0, {"prony", "prony_creep"}, true, "2"}}) {
     const bool fits = is_one_of(command.model, option.models);
     if (option.given && !fits)
-      refuse("`" + std::string(option.name) + "` says nothing to the model `" + command.model +
+      refuse("`" + std::string(option.name) + "` is not used by the model `" + command.model +
              "`; leave it out");
     if (!option.given && fits && option.required)
       refuse("the model `" + command.model + "` wants `" + option.name + "`; write it as `" +
              option.name + " " + option.example + "`");
   }
   if (command.x_origin != 0.0 && is_one_of(command.model, {"hertz", "layer"}))
-    refuse("`--origin` says nothing to the model `" + command.model +
-           "`, which finds where contact begins; leave it out");
+    refuse("`--origin` is not used by the model `" + command.model +
+           "`, which fits the contact point; leave it out");
 }
 
 double length_of(const std::string& option, const std::string& text) {
@@ -78,7 +74,7 @@ contact::LayerBase base_of(const std::string& word) {
   refuse("`--base` does not know `" + word + "`; it is bonded or frictionless");
 }
 
-void check_axis(const record::MeasuredCurve& curve, const record::MeasuredAxis& axis,
+void check_axis(const measured::MeasuredCurve& curve, const measured::MeasuredAxis& axis,
                 const Unit& wanted, const std::string& option) {
   if (axis.dimension == wanted.dimension) return;
   const std::string known = axis.has_unit ? dimension_name(axis.dimension) : "without a unit";
@@ -88,7 +84,7 @@ void check_axis(const record::MeasuredCurve& curve, const record::MeasuredAxis& 
                        option + "-unit " + wanted.symbol + "`");
 }
 
-fit::Fit contact_fit(const Fit& command, const record::MeasuredCurve& curve) {
+fit::Fit contact_fit(const Fit& command, const measured::MeasuredCurve& curve) {
   check_axis(curve, curve.x_axis, unit::mm, "--x");
   check_axis(curve, curve.y_axis, unit::N, "--y");
   fit::ContactTest test{.radius = length_of("--radius", command.radius),
@@ -98,7 +94,7 @@ fit::Fit contact_fit(const Fit& command, const record::MeasuredCurve& curve) {
   return fit::fit_contact(curve.x, curve.y, test);
 }
 
-fit::Fit fitted(const Fit& command, const record::MeasuredCurve& curve) {
+fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
   const fit::Options options{
       .x_unit = curve.x_axis.unit, .y_unit = curve.y_axis.unit, .x_origin = command.x_origin};
   if (is_one_of(command.model, {"hertz", "layer"})) return contact_fit(command, curve);
@@ -124,12 +120,12 @@ void say_what_is_odd(const fit::Fit& result) {
 
 }  // namespace
 
-int fit_columns(const Fit& command) {
+int perform(const Fit& command, const Arguments&, const Talk&) {
   check_model(command.model);
   check_options(command);
   DataOptions columns = command.columns;
-  columns.blanks = DataOptions::Blanks::keep;  // the fit counts them with what else it leaves out
-  const record::MeasuredCurve curve = record::read_measured(command.data, columns);
+  columns.blanks = DataOptions::Blanks::keep;  // the fit counts all points that it leaves out
+  const measured::MeasuredCurve curve = measured::read_measured(command.data, columns);
   for (const std::string& note : curve.notes) Talk::error("note: " + note);
   fit::Fit result;
   try {

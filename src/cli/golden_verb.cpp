@@ -1,6 +1,7 @@
-// `palpate golden bless`: today's results become the expected ones, with a reason.
+// `palpate golden bless`: replaces expected results by today's, and records the reason.
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "base/document_writer.h"
 #include "base/error.h"
@@ -9,9 +10,9 @@
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/case_fits.h"
+#include "plot/process.h"
 #include "record/csv.h"
 #include "report/machine.h"
-#include "report/process.h"
 #include "report/results.h"
 #include "run/family.h"
 
@@ -22,13 +23,13 @@ namespace fs = std::filesystem;
 
 std::string git(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "git");
-  const report::ProcessResult result = report::run_process({.argv = arguments});
-  if (result.end != report::ProcessResult::End::exited || result.code != 0)
-    throw InputError({}, "palpate: blessing needs the project's git history; run it in a checkout");
+  const plot::ProcessResult result = plot::run_process({.argv = arguments});
+  if (result.end != plot::ProcessResult::End::exited || result.code != 0)
+    refuse("blessing needs the project's git history; run it in a checkout");
   return result.output;
 }
 
-// What git calls changed, but for expected results that were blessed a moment ago.
+// The files that git lists as changed, except expected results that were just blessed.
 std::string uncommitted() {
   std::string changed;
   for (const std::string& line : split(git({"status", "--porcelain", "-uall"}), '\n')) {
@@ -42,12 +43,12 @@ std::string uncommitted() {
 
 void refuse_where_unsafe() {
   if (const char* ci = std::getenv("CI"); ci != nullptr && *ci != '\0')
-    throw InputError({},
-                     "palpate: `CI` is set, and a machine must not bless its own results; "
-                     "run this by hand");
+    refuse(
+        "`CI` is set, and a machine must not bless its own results; "
+        "run this by hand");
   if (const std::string changed = uncommitted(); !changed.empty())
-    throw InputError({}, "palpate: the tree has uncommitted changes (" + changed +
-                             "); commit them first, so that the blessing names the code");
+    refuse("the tree has uncommitted changes (" + changed +
+           "); commit them first, so that the blessing names the code");
 }
 
 void bless_one(const std::string& name, const std::string& reason) {
@@ -61,10 +62,14 @@ void bless_one(const std::string& name, const std::string& reason) {
     for (fit::NamedFit& named : fit::case_fits(scenes[i].scenario, records[i]))
       fits.push_back(std::move(named));
   const std::string expected = folder + "/expected";
-  fs::remove_all(expected);  // with files that are no longer written
-  fs::create_directories(expected);
-  for (const auto& [file, table] : report::csv_files(family, records, fits))
+  make_folders(expected);
+  std::set<std::string> written;
+  for (const auto& [file, table] : report::csv_files(family, records, fits)) {
     write_atomically(expected + "/" + file, record::csv_text(table));
+    written.insert(expected + "/" + file);
+  }
+  for (const std::string& file : entries_of(expected))
+    if (file.ends_with(".csv") && !written.contains(file)) fs::remove(file);  // no longer written
   const report::Build build = report::this_build();
   write_atomically(folder + "/blessed.toml", "reason = " + toml_text(reason) + "\ncommit = \"" +
                                                  trimmed(git({"rev-parse", "HEAD"})) +
@@ -73,9 +78,9 @@ void bless_one(const std::string& name, const std::string& reason) {
 
 }  // namespace
 
-int bless(const Bless& command, const Talk& talk) {
+int perform(const Bless& command, const Arguments&, const Talk& talk) {
   if (trimmed(command.reason).empty())
-    throw InputError({}, "palpate: `--reason` is empty; say why the results may change");
+    refuse("`--reason` is empty; say why the results may change");
   for (const std::string& name : command.names)
     if (!fs::exists("golden/" + name + "/scenario.toml"))
       throw InputError({"golden/" + name + "/scenario.toml", 0, 0},

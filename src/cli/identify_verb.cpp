@@ -1,21 +1,23 @@
-// `palpate identify`: the properties behind a measured curve.
+// `palpate identify`: estimates tissue properties from a measured curve.
+#include <filesystem>
+
 #include "base/error.h"
 #include "base/text.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
-#include "fit/identified_tables.h"
-#include "fit/identify.h"
-#include "record/measured.h"
-#include "report/identified_folder.h"
+#include "identify/folder.h"
+#include "identify/identify.h"
+#include "identify/tables.h"
+#include "measured/measured.h"
 #include "report/machine.h"
 
 namespace palpate::cli {
 namespace {
 
-fit::Measurement read_measurement(const Identify& command, const Talk& talk) {
-  record::MeasuredCurve curve = record::read_measured(command.data, command.columns);
+identify::Measurement read_measurement(const Identify& command, const Talk& talk) {
+  measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
   for (const std::string& note : curve.notes) talk.say("note: " + note);
   return {.x = std::move(curve.x),
           .y = std::move(curve.y),
@@ -27,24 +29,26 @@ fit::Measurement read_measurement(const Identify& command, const Talk& talk) {
 
 }  // namespace
 
-int identify(const Identify& command, const Arguments& arguments, const Talk& talk) {
+int perform(const Identify& command, const Arguments& arguments, const Talk& talk) {
   const std::string started = report::utc_now();
   const scenario::Family family = scenario::read(command.scenario, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   if (family.cases.size() > 1)
-    talk.say("note: of " + std::to_string(family.cases.size()) + " cases the first is fitted, " +
-             family.cases.front().name);
-  const std::vector<fit::Unknown> unknowns =
-      fit::read_unknowns(command.unknowns, family.cases.front().scenario);
-  report::IdentifiedFolder folder(command.out, family.name, command.force);
-  const fit::Measurement measured = read_measurement(command, talk);
-  fit::IdentifyOptions options;
-  if (command.noise == "relative") options.noise = fit::Noise::relative;
+    talk.say("note: only the first of " + std::to_string(family.cases.size()) +
+             " cases is fitted, " + family.cases.front().name);
+  const std::vector<identify::Unknown> unknowns =
+      identify::read_unknowns(command.unknowns, family.cases.front().scenario);
+  WholeFolder folder((std::filesystem::path(command.out) / (family.name + "_identified")).string(),
+                     "identification", command.force ? Replace::any : Replace::incomplete);
+  folder.refuse_what_is_there();
+  const identify::Measurement measured = read_measurement(command, talk);
+  identify::IdentifyOptions options;
+  if (command.noise == "relative") options.noise = identify::Noise::relative;
 
   const std::atomic<bool>& stop = listen_for_interrupts(exit_interrupted);
-  fit::Identification found;
+  identify::Identification found;
   try {
-    found = fit::identify(measured, family, unknowns, stop, options);
+    found = identify::identify(measured, family, unknowns, stop, options);
   } catch (const InputError&) {
     if (!stop.load()) throw;
     Talk::error("palpate: interrupted; nothing was written");
@@ -52,13 +56,13 @@ int identify(const Identify& command, const Arguments& arguments, const Talk& ta
   }
   for (const std::string& note : found.notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);
-  for (const std::string& warning :
-       folder.write(found, family, command.data, {arguments.given, started}))
+  for (const std::string& warning : identify::write_identification(
+           found, family, command.data, {arguments.given, started}, folder))
     talk.warn(warning);
   if (talk.json()) {
-    print(json_lines(fit::identified_table(found)));
+    print(json_lines(identify::identified_table(found)));
   } else {
-    for (const std::string& line : fit::identified_sentences(found)) print(line + "\n");
+    for (const std::string& line : identify::identified_sentences(found)) print(line + "\n");
   }
   talk.say(folder.path() +
            ": identified.csv, residuals.csv, profile.csv, curve.svg, scenario.toml");

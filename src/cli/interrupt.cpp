@@ -1,4 +1,4 @@
-// Signal handlers reach nothing but two numbers.
+// Signal handlers that use two atomic numbers only.
 #include "cli/interrupt.h"
 
 #include <unistd.h>
@@ -12,7 +12,7 @@ std::atomic<bool> stop_requested = false;
 std::atomic<int> code_at_once = 0;
 
 void request_stop(int) {
-  // A second signal does not wait for the row to end.
+  // A second signal ends the program without waiting for the row.
   if (stop_requested.exchange(true)) ::_exit(code_at_once.load());
 }
 

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM as a flag that work looks at.
+// Ctrl-C and SIGTERM as a flag.
 #pragma once
 
 #include <atomic>
@@ -6,9 +6,8 @@
 
 namespace palpate::cli {
 
-// From now on the first signal, of Ctrl-C, SIGTERM and `more`, sets the flag that is returned, and
-// a second one ends the program at once with `code`. A signal that is ignored, as under nohup,
-// stays so.
+// From now on the first signal among Ctrl-C, SIGTERM and `more` sets the returned flag, and a
+// second one ends the program at once with exit code `code`. Ignored signals (nohup) stay ignored.
 [[nodiscard]] const std::atomic<bool>& listen_for_interrupts(int code,
                                                              const std::vector<int>& more = {});
 

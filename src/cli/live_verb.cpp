@@ -1,4 +1,4 @@
-// `palpate run --device`: one case against a live device or its recording.
+// `palpate run --device`: runs one case with a live device or a recording.
 #include <csignal>
 
 #include "base/error.h"
@@ -8,16 +8,16 @@
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/case_fits.h"
+#include "live/guide.h"
+#include "live/live.h"
 #include "report/machine.h"
 #include "report/results.h"
 #include "run/family.h"
-#include "run/live.h"
-#include "run/live_guide.h"
 
 namespace palpate::cli {
 namespace {
 
-// A quantity of an option. Throws InputError that names it.
+// Reads a quantity. Throws InputError that names the option.
 double quantity(const std::string& option, const std::string& text, const Unit& unit) {
   try {
     return parse_quantity(text, unit);
@@ -26,12 +26,12 @@ double quantity(const std::string& option, const std::string& text, const Unit& 
   }
 }
 
-run::LiveOptions options_of(const Run& command) {
-  run::LiveOptions options;
+live::LiveOptions options_of(const Run& command) {
+  live::LiveOptions options;
   options.link = command.device.link;
-  if (command.device.arm) options.act = run::LiveOptions::Act::command;
-  if (command.device.realtime) options.priority = run::LiveOptions::Priority::realtime;
-  if (command.device.traffic) options.traffic = run::LiveOptions::Traffic::kept;
+  if (command.device.arm) options.act = live::LiveOptions::Act::command;
+  if (command.device.realtime) options.priority = live::LiveOptions::Priority::realtime;
+  if (command.device.traffic) options.traffic = live::LiveOptions::Traffic::kept;
   if (command.device.clock == "virtual") options.clock = device::Clock::Kind::stepped;
   if (!command.device.surface.empty())
     options.surface = quantity("--surface", command.device.surface, unit::mm);
@@ -44,13 +44,13 @@ run::LiveOptions options_of(const Run& command) {
   return options;
 }
 
-int code_of(run::LiveEnd::Why why) {
+int code_of(live::LiveEnd::Why why) {
   switch (why) {
-    case run::LiveEnd::Why::interrupted: return exit_interrupted;
-    case run::LiveEnd::Why::link: return exit_device;
-    case run::LiveEnd::Why::model: return exit_diverged;
-    case run::LiveEnd::Why::done:
-    case run::LiveEnd::Why::too_long: break;
+    case live::LiveEnd::Why::interrupted: return exit_interrupted;
+    case live::LiveEnd::Why::link: return exit_device;
+    case live::LiveEnd::Why::model: return exit_diverged;
+    case live::LiveEnd::Why::done:
+    case live::LiveEnd::Why::too_long: break;
   }
   return exit_good;
 }
@@ -60,7 +60,7 @@ int code_of(run::LiveEnd::Why why) {
 int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   if (command.scenarios.size() != 1)
     throw InputError({"--device", 0, 0},
-                     "wants one scenario, for a device runs one case; give them one by one");
+                     "wants one scenario, because a device runs one case; give them one by one");
   const std::string& file = command.scenarios.front();
   const scenario::Family family = scenario::read(file, command.settings);
   if (family.cases.size() != 1)
@@ -68,17 +68,19 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
                                        " cases, and a device runs one; leave `[sweep]` and "
                                        "`[[case]]` out, or choose one by `--set`");
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
-  const run::LiveOptions options = options_of(command);
-  report::ResultFolder folder(command.out, family, command.force);
+  const live::LiveOptions options = options_of(command);
+  report::ResultFolder folder(command.out, family,
+                              command.force ? Replace::any : Replace::incomplete);
   for (const std::string& rows : folder.rows_left_beside())
-    talk.say("note: " + rows +
-             " has the rows of a run that was killed, or that still goes on; nothing touches it, "
-             "`--device replay:` plays it, remove its folder when it is of no use");
+    talk.say(
+        "note: " + rows +
+        " contains the rows of a run that was killed or is still running; it is left as it is, "
+        "`--device replay:` plays it; remove its folder when you no longer need it");
   const scene::Scene scene = scene::build(family.cases.front(), family);
-  run::refuse_beyond_device(scene, file, options);
-  // Before the link, whose own handlers come on top of these.
+  live::refuse_beyond_device(scene, file, options);
+  // Installed before the link, whose signal handlers are added to these.
   const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);
-  run::Live live(scene, options);
+  live::Live live(scene, options);
   for (const std::string& sentence : live.plan(file)) talk.say(sentence);
   const bool recording = options.link.starts_with("replay:");
   if (!command.device.arm && !recording) {
@@ -86,19 +88,19 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     return exit_good;
   }
   const std::string started = report::utc_now();
-  // A file that may not grow is an error to be told of, as a full disk is.
+  // A limit of file size must give an error message, like a full disk, and not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   folder.open();
-  const run::Live::Output output{
+  const live::Live::Output output{
       .on_step =
           [&](int step) {
             talk.say("step " + std::to_string(step) + ": " +
-                     run::guidance(scene.scenario.steps[static_cast<std::size_t>(step - 1)]));
+                     live::guidance(scene.scenario.steps[as_index(step - 1)]));
           },
       .on_warning = [&](const std::string& sentence) { talk.warn(sentence); },
       .rows_file = folder.growing("force_indentation.csv"),
       .traffic_file = command.device.traffic ? folder.growing("traffic.csv") : std::string()};
-  run::Live::Result result = live.go(stop_requested, output);
+  live::Live::Result result = live.go(stop_requested, output);
   if (result.rows_are_written) folder.take_grown("force_indentation.csv");
   if (command.device.traffic) folder.take_grown("traffic.csv");
   for (const std::string& warning : result.warnings) talk.warn(warning);
@@ -117,7 +119,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
       talk.warn(warning);
   } catch (const SystemError& error) {
     if (code != exit_good) Talk::error(ended);
-    throw SystemError(std::string(error.what()) + "; the rows that it took are in " +
+    throw SystemError(std::string(error.what()) + "; the rows written before are in " +
                       output.rows_file);
   }
   talk.say(folder.path() + ": " + rows);

@@ -1,5 +1,4 @@
-// `palpate mesh`: surface, ready mesh or specimen in; its quality, and files for other programs,
-// out.
+// `palpate mesh`: meshes a surface or scenario, prints the quality of a mesh, and writes it.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -16,12 +15,12 @@
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
-#include "geometry/mesh_check.h"
-#include "geometry/mesh_files.h"
-#include "geometry/mesh_quality.h"
-#include "geometry/surface_check.h"
-#include "geometry/surface_files.h"
-#include "geometry/tetgen_body.h"
+#include "meshing/mesh_check.h"
+#include "meshing/mesh_files.h"
+#include "meshing/mesh_quality.h"
+#include "meshing/surface_check.h"
+#include "meshing/surface_files.h"
+#include "meshing/tetgen_body.h"
 #include "report/vtu.h"
 #include "scene/scene.h"
 
@@ -30,18 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double meshing_time = 120.0;  // s, that TetGen may take, as in a run
+constexpr double meshing_time = 120.0;  // s, time limit of TetGen, as in a run
 
 enum class Kind { surface, mesh, scenario };
 
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw InputError({}, "palpate: " + sentence);
-}
-
 std::string ending_of(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
+  return lower_case(fs::path(path).extension().string());
 }
 
 Kind kind_of(const std::string& path) {
@@ -56,7 +49,7 @@ Kind kind_of(const std::string& path) {
                    "nor a scenario (.toml); save it as one of them");
 }
 
-// Options that the subject would not listen to are mistakes.
+// Refuses options that have no effect on this kind of subject.
 void check_options(const Mesh& command, Kind kind) {
   if (kind == Kind::scenario && !command.unit.empty())
     refuse("a scenario names the units of its files itself; leave out `--unit`");
@@ -70,8 +63,7 @@ void check_options(const Mesh& command, Kind kind) {
   if (kind == Kind::mesh)
     refuse(option + " is for surfaces, " + command.subject + " is a mesh already; leave it out");
   refuse(option +
-         " is for surfaces; write `--set tissue.mesh.nodes=728` or what else the "
-         "scenario's mesh knows");
+         " is for surfaces; write `--set tissue.mesh.nodes=728` or another key of `tissue.mesh`");
 }
 
 double metres_per(const std::string& symbol) {
@@ -93,7 +85,7 @@ double edge_length(const std::string& text) {
   return edge;
 }
 
-// The files that an `--out` names, as they will be called.
+// The names of the files that are written for an `--out`.
 std::vector<std::string> files_of(const std::string& out) {
   const fs::path path(out);
   const std::string ending = path.extension().string();
@@ -104,13 +96,13 @@ std::vector<std::string> files_of(const std::string& out) {
           fs::path(path).replace_extension(".ele").string()};
 }
 
-// Before any work is done.
+// Refuses output files that cannot be written, before any computation.
 void check_outputs(const Mesh& command) {
   for (const std::string& out : command.out)
     for (const std::string& file : files_of(out)) {
       const fs::path folder = fs::absolute(file).parent_path();
       if (!fs::is_directory(folder))
-        throw InputError({file, 0, 0}, "has no folder to stand in; make it first");
+        throw InputError({file, 0, 0}, "is in a folder that does not exist; make it first");
       if (!fs::exists(file)) continue;
       if (fs::is_directory(file)) throw InputError({file, 0, 0}, "is a folder; name a file");
       std::error_code unrelated;
@@ -119,27 +111,27 @@ void check_outputs(const Mesh& command) {
                ? files_of(command.subject)
                : std::vector<std::string>{})
         if (fs::equivalent(file, read, unrelated))
-          throw InputError({file, 0, 0}, "is what is read; give another name to `--out`");
+          throw InputError({file, 0, 0}, "is the input file; give another name to `--out`");
       if (!command.force)
         throw InputError({file, 0, 0}, "is there already; give another name, or `--force`");
     }
 }
 
 geometry::TetMesh mesh_of_surface(const Mesh& command) {
-  geometry::Target target{.nodes = command.nodes};
+  meshing::Target target{.nodes = command.nodes};
   if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
-  geometry::Surface surface = geometry::read_surface(command.subject, metres_per(command.unit));
-  geometry::check_closed(surface, command.subject);
+  geometry::Surface surface = meshing::read_surface(command.subject, metres_per(command.unit));
+  meshing::check_closed(surface, command.subject);
   // An equilateral triangle of edge l has an area of sqrt(3) / 4 l^2.
   if (target.nodes == 0 && target.edge_length == 0.0)
     target.edge_length = std::sqrt(geometry::area(surface) /
                                    (0.433 * static_cast<double>(surface.triangles.size())));
   geometry::Body body;
   body.parts.push_back({std::move(surface), 0});
-  return geometry::tetgen_body(body, target, meshing_time);
+  return meshing::tetgen_body(body, target, meshing_time);
 }
 
-// The specimen of the first case, with all that a run computes of it.
+// The scene of the first case.
 scene::Scene scene_of(const Mesh& command, const Talk& talk) {
   const scenario::Family family = scenario::read(command.subject, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
@@ -149,13 +141,15 @@ scene::Scene scene_of(const Mesh& command, const Talk& talk) {
              " cases; this is the mesh of the first, " + first.name);
   scene::Scene scene = scene::build(first, family);
   if (!scene.specimen)
-    throw InputError(scenario::place_of(family.document, "solver.model"),
-                     "the scenario is computed by `hertz`, which has no mesh; give `--set "
-                     "solver.model=mass_spring` to see the one it would have");
+    throw InputError(place_of(family.document, "solver.model"),
+                     "the scenario is computed by `" +
+                         std::string(scenario::rung(scene.scenario.solver.model).word) +
+                         "`, which has no mesh; give `--set "
+                         "solver.model=mass_spring` to see the one it would have");
   return scene;
 }
 
-// A table of one row that grows by columns.
+// A table of one row, to which columns are added.
 class Report {
  public:
   void add(const std::string& name, record::Cell value) {
@@ -164,7 +158,7 @@ class Report {
   }
   void count(const std::string& name, std::size_t value) { add(name, static_cast<double>(value)); }
 
-  void mesh(const geometry::TetMesh& mesh, const scenario::Scenario* scenario) {
+  void mesh(const geometry::TetMesh& mesh, const scenario::Resolved* scenario) {
     const geometry::Skin skin = geometry::skin(mesh);
     count("nodes", mesh.nodes.size());
     count("tetrahedra", mesh.tetrahedra.size());
@@ -184,13 +178,13 @@ class Report {
       add("highest_" + name + "_mm", unit::mm.from_si(high[axis]));
     }
     regions(mesh, scenario);
-    shapes(geometry::quality(mesh), mesh.tetrahedra.size());
+    shapes(meshing::quality(mesh), mesh.tetrahedra.size());
   }
 
   [[nodiscard]] const record::Table& table() const { return table_; }
 
  private:
-  void regions(const geometry::TetMesh& mesh, const scenario::Scenario* scenario) {
+  void regions(const geometry::TetMesh& mesh, const scenario::Resolved* scenario) {
     struct Share {
       std::size_t tetrahedra = 0;
       double volume = 0.0;
@@ -205,17 +199,14 @@ class Report {
     for (const auto& [number, share] : shares) {
       const std::string name = "region_" + std::to_string(number);
       if (scenario != nullptr)
-        add(name + "_material",
-            number == 0
-                ? scenario->tissue.material
-                : scenario::substance(scenario->regions[static_cast<std::size_t>(number) - 1])
-                      .material);
+        add(name + "_material", number == 0 ? scenario->tissue.material
+                                            : scenario->regions[as_index(number) - 1].material);
       count(name + "_tetrahedra", share.tetrahedra);
       add(name + "_volume_mm3", 1e9 * share.volume);
     }
   }
 
-  void shapes(const geometry::Quality& quality, std::size_t tetrahedra) {
+  void shapes(const meshing::Quality& quality, std::size_t tetrahedra) {
     constexpr double degrees = 180.0 / std::numbers::pi;
     add("smallest_dihedral_angle_deg", degrees * quality.smallest_angle);
     add("largest_dihedral_angle_deg", degrees * quality.largest_angle);
@@ -235,14 +226,14 @@ class Report {
 };
 
 void write(const std::string& out, const geometry::TetMesh& mesh) {
-  if (ending_of(out) != ".vtu") return geometry::write_node_ele(out, mesh);
+  if (ending_of(out) != ".vtu") return meshing::write_node_ele(out, mesh);
   const std::vector<Vec3> still(mesh.nodes.size(), Vec3::Zero());
   write_atomically(out, report::vtu_bytes({.mesh = mesh, .displacement = still}));
 }
 
 }  // namespace
 
-int mesh(const Mesh& command, const Talk& talk) {
+int perform(const Mesh& command, const Arguments&, const Talk& talk) {
   const Kind kind = kind_of(command.subject);
   check_options(command, kind);
   check_outputs(command);
@@ -252,14 +243,14 @@ int mesh(const Mesh& command, const Talk& talk) {
     const scene::Scene scene = scene_of(command, talk);
     mesh = scene.specimen->mesh;
     report.mesh(mesh, &scene.scenario);
-    report.count("springs", static_cast<std::size_t>(scene.specimen->network.springs()));
+    report.count("springs", as_index(scene.specimen->network.springs()));
     report.add("stable_step_ms", unit::ms.from_si(scene.specimen->plan.limit));
   } else {
     if (kind == Kind::surface) {
       mesh = mesh_of_surface(command);
     } else {
-      mesh = geometry::read_mesh(command.subject, metres_per(command.unit));
-      geometry::check(mesh, command.subject, 0.0);
+      mesh = meshing::read_mesh(command.subject, metres_per(command.unit));
+      meshing::check(mesh, command.subject, 0.0);
     }
     report.mesh(mesh, nullptr);
   }

@@ -1,4 +1,4 @@
-// Verbs by their arguments, errors by their exit codes.
+// Parses the command line, runs the verb, and turns errors into exit codes.
 #include "cli/program.h"
 
 #include <exception>
@@ -6,34 +6,15 @@
 #include "base/error.h"
 #include "cli/talk.h"
 #include "cli/verbs.h"
-#include "scenario/family.h"
+#include "report/machine.h"
 
 namespace palpate::cli {
-namespace {
 
-int dispatch(const Arguments& arguments) {
-  const Talk talk(arguments.manner);
-  if (const auto* one = std::get_if<Run>(&arguments.verb)) return run(*one, arguments, talk);
-  if (const auto* one = std::get_if<Explain>(&arguments.verb)) return explain(*one);
-  if (const auto* one = std::get_if<Fit>(&arguments.verb)) return fit_columns(*one);
-  if (const auto* one = std::get_if<Compare>(&arguments.verb)) return compare(*one);
-  if (const auto* one = std::get_if<Bless>(&arguments.verb)) return bless(*one, talk);
-  if (const auto* one = std::get_if<Mesh>(&arguments.verb)) return mesh(*one, talk);
-  if (const auto* one = std::get_if<Reference>(&arguments.verb)) return refer(*one, talk);
-  if (const auto* one = std::get_if<Bench>(&arguments.verb)) return bench(*one, talk);
-  if (const auto* one = std::get_if<Chart>(&arguments.verb)) return chart(*one, arguments, talk);
-  if (const auto* one = std::get_if<Stability>(&arguments.verb))
-    return stability(*one, arguments, talk);
-  if (const auto* one = std::get_if<Sweep>(&arguments.verb)) return sweep(*one, arguments, talk);
-  if (const auto* one = std::get_if<Identify>(&arguments.verb))
-    return identify(*one, arguments, talk);
-  if (const auto* one = std::get_if<Export>(&arguments.verb)) return export_results(*one, talk);
-  if (const auto* one = std::get_if<Device>(&arguments.verb)) return device(*one, talk);
-  print(scenario::manual());
-  return exit_good;
+std::string program_identity() {
+  const report::Build build = report::this_build();
+  return "palpate " + build.version + ", " + build.type + ", " + build.compiler + ", " +
+         build.flags;
 }
-
-}  // namespace
 
 int program(const std::vector<std::string>& given) {
   try {
@@ -46,7 +27,10 @@ int program(const std::vector<std::string>& given) {
       Talk::error("palpate: " + wrong->message);
       return exit_input;
     }
-    return dispatch(std::get<Arguments>(parsed));
+    const auto& arguments = std::get<Arguments>(parsed);
+    const Talk talk(arguments.manner);
+    return std::visit([&](const auto& command) { return perform(command, arguments, talk); },
+                      arguments.verb);
   } catch (const InputError& error) {
     Talk::error(error.what());
     return exit_input;

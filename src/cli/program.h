@@ -15,12 +15,16 @@ enum Exit {
   exit_diverged = 4,
   exit_mesh = 5,
   exit_device = 6,      // a link, or a stop for safety
-  exit_partial = 7,     // a sweep whose cases are not all there and good
-  exit_resumable = 75,  // interrupted; the same call goes on where it ended
+  exit_partial = 7,     // a sweep with missing, diverged or failed cases
+  exit_resumable = 75,  // interrupted; the same call continues
   exit_interrupted = 130,
 };
 
-// Runs the verb that `arguments` (without the program's name) ask for. Never throws.
+// Version, build type, compiler and flags. A plan's runs and a chart's calls must share these.
+[[nodiscard]] std::string program_identity();
+
+// Runs the verb in `arguments` (without the program's name) and returns its exit code. Does not
+// throw: prints errors on stderr.
 [[nodiscard]] int program(const std::vector<std::string>& arguments);
 
 }  // namespace palpate::cli

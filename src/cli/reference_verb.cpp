@@ -1,17 +1,17 @@
-// `palpate reference`: a scenario's forces from the strongest rung, refined and extrapolated.
+// `palpate reference`: prints the forces of a scenario by mesh refinement and extrapolation.
 #include <filesystem>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "chart/reference.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
 #include "record/csv.h"
-#include "run/reference.h"
 
 namespace palpate::cli {
 
-int refer(const Reference& command, const Talk& talk) {
+int perform(const Reference& command, const Arguments&, const Talk& talk) {
   namespace fs = std::filesystem;
   const scenario::Family family = scenario::read(command.scenario, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
@@ -19,12 +19,12 @@ int refer(const Reference& command, const Talk& talk) {
   if (!command.out.empty() && !command.force && fs::exists(file))
     throw InputError({file.string(), 0, 0}, "is there already; give another folder, or `--force`");
   const std::atomic<bool> stop = false;
-  std::vector<std::pair<std::string, run::Reference>> found;
+  std::vector<std::pair<std::string, chart::Reference>> found;
   bool diverged = false;
   for (const scenario::Case& one : family.cases) {
-    run::Reference reference =
-        run::refer(one, family, command.levels, stop,
-                   [&](const std::string& level) { talk.progress(one.name + ", " + level); });
+    chart::Reference reference =
+        chart::refer(one, family, command.levels, stop,
+                     [&](const std::string& level) { talk.progress(one.name + ", " + level); });
     talk.progress("");
     for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");
     if (reference.diverged) {
@@ -34,10 +34,10 @@ int refer(const Reference& command, const Talk& talk) {
     }
     found.emplace_back(one.name, std::move(reference));
   }
-  const record::Table table = run::reference_table(found);
+  const record::Table table = chart::reference_table(found);
   print(talk.json() ? json_lines(table) : record::csv_text(table));
   if (!command.out.empty()) {
-    fs::create_directories(file.parent_path());
+    make_folders(file.parent_path().string());
     write_atomically(file.string(), record::csv_text(table));
   }
   return diverged ? exit_diverged : exit_good;

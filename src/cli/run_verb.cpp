@@ -1,8 +1,7 @@
-// `palpate run`: scenarios one after the other, their cases side by side.
+// `palpate run`: runs scenarios one after the other, and the cases of each in parallel.
 #include <algorithm>
 #include <memory>
 #include <set>
-#include <thread>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -26,7 +25,7 @@ void refuse_same_names(const std::vector<scenario::Family>& families) {
                            "`; rename one, or run them one by one with `--out`");
 }
 
-// The remarks of all cases, each kind once: those that differ in their numbers only are one kind.
+// Prints the remarks of all cases; of remarks that differ in numbers only, the first.
 void say_remarks(const std::vector<record::CaseRecord>& records, const Talk& talk) {
   struct Kind {
     std::string without_numbers;
@@ -57,7 +56,7 @@ void say_remarks(const std::vector<record::CaseRecord>& records, const Talk& tal
              ": " + kind.first + ".");
 }
 
-// A family whose cases are built, and the folder that waits for it.
+// A family with its scenes and its result folder, ready to run.
 struct Prepared {
   const scenario::Family* family = nullptr;
   int workers = 1;
@@ -67,19 +66,25 @@ struct Prepared {
 
 Prepared prepare(const scenario::Family& family, const Run& command, const Talk& talk) {
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  const std::size_t asked = command.jobs > 0 ? static_cast<std::size_t>(command.jobs) : cores;
   Prepared prepared;
   prepared.family = &family;
-  prepared.workers = static_cast<int>(std::min(asked, family.cases.size()));
-  prepared.folder = std::make_unique<report::ResultFolder>(command.out, family, command.force);
+  prepared.workers =
+      static_cast<int>(std::min(as_index(worker_count(command.jobs)), family.cases.size()));
+  prepared.folder = std::make_unique<report::ResultFolder>(
+      command.out, family, command.force ? Replace::any : Replace::incomplete);
   prepared.scenes = run::build_all(family, prepared.workers);
   return prepared;
 }
 
-// Returns whether a case diverged.
-bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk,
-                const std::atomic<bool>& stop_requested) {
+struct Ran {
+  std::size_t kept = 0;  // number of finished cases
+  bool diverged = false;
+};
+
+// Runs all cases and writes the result folder, unless an interrupt came before the first case
+// ended.
+Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk,
+               const std::atomic<bool>& stop_requested) {
   const scenario::Family& family = *prepared.family;
   const std::vector<scene::Scene>& scenes = prepared.scenes;
   report::ResultFolder& folder = *prepared.folder;
@@ -98,10 +103,10 @@ bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk
   const std::vector<record::CaseRecord> records =
       run::run_all(scenes, prepared.workers, stop_requested, finished);
   talk.progress("");
-  if (stop_requested && records.empty()) return false;
+  if (stop_requested && records.empty()) return {};
 
   std::vector<fit::NamedFit> fits;
-  bool diverged = false;
+  Ran ran{.kept = records.size()};
   say_remarks(records, talk);
   for (const record::CaseRecord& record : records) {
     const auto scene = std::find_if(scenes.begin(), scenes.end(),
@@ -110,7 +115,7 @@ bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk
       for (fit::NamedFit& named : fit::case_fits(scene->scenario, record))
         fits.push_back(std::move(named));
     if (record.outcome == record::Outcome::diverged) {
-      diverged = true;
+      ran.diverged = true;
       Talk::error(family.name + ", case " + record.name + ": " + record.reason +
                   "; last stable time " + rounded_text(record.last_stable_time) +
                   " s, everything up to it is kept");
@@ -121,12 +126,12 @@ bool run_family(const Prepared& prepared, const Arguments& arguments, const Talk
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
            std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases"));
   talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
-  return diverged;
+  return ran;
 }
 
 }  // namespace
 
-int run(const Run& command, const Arguments& arguments, const Talk& talk) {
+int perform(const Run& command, const Arguments& arguments, const Talk& talk) {
   if (!command.device.link.empty()) return run_live(command, arguments, talk);
   std::vector<scenario::Family> families;
   std::vector<Problem> problems;
@@ -139,21 +144,24 @@ int run(const Run& command, const Arguments& arguments, const Talk& talk) {
   }
   if (!problems.empty()) throw InputError(problems);
   refuse_same_names(families);
-  // Everything is built before anything runs: mistakes come first, and until here a signal may
-  // end the program as it likes, for nothing has been written.
+  // All scenes are built before the first case runs, so that mistakes are reported first. Until
+  // here a signal may end the program at once, because nothing has been written.
   std::vector<Prepared> all;
   for (const scenario::Family& family : families) all.push_back(prepare(family, command, talk));
   const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);
-  bool diverged = false;
+  Ran ran;
   for (const Prepared& prepared : all) {
     if (stop_requested) break;
-    diverged = run_family(prepared, arguments, talk, stop_requested) || diverged;
+    const auto [kept, diverged] = run_family(prepared, arguments, talk, stop_requested);
+    ran.kept += kept;
+    ran.diverged = ran.diverged || diverged;
   }
   if (stop_requested) {
-    Talk::error("palpate: interrupted; finished cases are kept");
+    Talk::error(std::string("palpate: interrupted; ") +
+                (ran.kept > 0 ? "finished cases are kept" : "nothing was written"));
     return exit_interrupted;
   }
-  return diverged ? exit_diverged : exit_good;
+  return ran.diverged ? exit_diverged : exit_good;
 }
 
 }  // namespace palpate::cli

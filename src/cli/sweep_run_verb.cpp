@@ -1,4 +1,4 @@
-// `palpate sweep run` and `retry`: the cases that want it, with how far it is.
+// `palpate sweep run` and `retry`: run missing or failed cases and report progress.
 #include <cmath>
 #include <csignal>
 
@@ -6,7 +6,7 @@
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
-#include "study/sweep_run.h"
+#include "sweep/run.h"
 
 namespace palpate::cli {
 namespace {
@@ -18,7 +18,7 @@ std::string duration_text(double seconds) {
   return rounded_text(seconds / 3600.0, 3) + " h";
 }
 
-std::string rate_text(const study::SweepProgress& now) {
+std::string rate_text(const sweep::SweepProgress& now) {
   std::string text;
   if (now.done > 0 && now.seconds > 0.0) {
     const double rate = static_cast<double>(now.done) / now.seconds;
@@ -29,21 +29,14 @@ std::string rate_text(const study::SweepProgress& now) {
   return text;
 }
 
-std::string bar(const study::SweepProgress& now) {
-  constexpr std::size_t width = 20;
-  const std::size_t filled = now.all == 0 ? 0 : width * now.done / now.all;
-  return "[" + std::string(filled, '#') + std::string(width - filled, '.') + "] " +
-         std::to_string(now.done) + "/" + std::to_string(now.all) + rate_text(now);
-}
-
-// A bar five times a second on a terminal, a line a minute elsewhere, an event a second with
-// --json.
+// Progress: a bar five times per second on a terminal, otherwise one line per minute; with --json
+// one event per second.
 class Ticker {
  public:
   explicit Ticker(const Talk& talk) : talk_(talk) {}
 
-  void operator()(const study::SweepProgress& now) {
-    talk_.progress(bar(now));
+  void operator()(const sweep::SweepProgress& now) {
+    talk_.progress(bar(now.done, now.all) + rate_text(now));
     if (!talk_.shows_progress() && now.seconds >= next_line_) {
       talk_.say(std::to_string(now.done) + " of " + cases_text(now.all) + rate_text(now));
       next_line_ = now.seconds + 60.0;
@@ -65,17 +58,17 @@ class Ticker {
 }  // namespace
 
 int sweep_run(const Sweep& command, const Talk& talk) {
-  study::SweepTask task{.shard = study::parse_shard(command.shard),
+  sweep::SweepTask task{.shard = sweep::parse_shard(command.shard),
                         .workers = worker_count(command.jobs)};
   if (command.lanes != "auto")
     task.lanes = command.lanes == "all" ? run::Lanes::wherever_possible : run::Lanes::none;
-  if (command.act == Sweep::Act::retry) task.which = study::SweepTask::Which::failed;
-  const study::SweepPlan plan = study::read_plan(command.subject, program_identity());
-  // From here a second signal ends the program at once; no row is lost by that.
+  if (command.act == Sweep::Act::retry) task.which = sweep::SweepTask::Which::failed;
+  const sweep::SweepPlan plan = sweep::read_plan(command.subject, program_identity());
+  // From here a second signal ends the program at once, without losing a finished row.
   const std::atomic<bool>& stop = listen_for_interrupts(exit_resumable, {SIGUSR1});
   Ticker ticker(talk);
-  const study::SweepEnd end =
-      study::run_sweep(plan, task, stop, [&](const study::SweepProgress& now) { ticker(now); });
+  const sweep::SweepEnd end =
+      sweep::run_sweep(plan, task, stop, [&](const sweep::SweepProgress& now) { ticker(now); });
   talk.progress("");
   for (const std::string& warning : end.warnings) talk.warn(warning);
   std::string text = command.subject + ": " + std::to_string(end.completed) + " of " +
@@ -87,7 +80,7 @@ int sweep_run(const Sweep& command, const Talk& talk) {
                      {"failed", std::to_string(end.failed)},
                      {"missing", std::to_string(end.missing)}});
   if (end.interrupted && end.completed + end.failed < end.all) {
-    Talk::error("palpate: interrupted; " + text + "; the same command goes on from there");
+    Talk::error("palpate: interrupted; " + text + "; the same command continues from there");
     return exit_resumable;
   }
   talk.say(text);

@@ -1,24 +1,26 @@
-// `palpate sweep status` and `merge`: what there is, and all of it as one table.
+// `palpate sweep status` and `merge`: count the results of a sweep, and write them as one table.
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/error.h"
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
-#include "report/response.h"
-#include "study/sweep_columns.h"
-#include "study/sweep_merge.h"
+#include "sweep/columns.h"
+#include "sweep/merge.h"
+#include "sweep/response.h"
 
 namespace palpate::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_reasons = 20;  // that people are told
+constexpr std::size_t most_reasons = 20;  // printed by `status`
 
-int exit_of(const study::SweepTotals& totals) { return totals.good() ? exit_good : exit_partial; }
+int exit_of(const sweep::SweepTotals& totals) { return totals.good() ? exit_good : exit_partial; }
 
-std::string status_json(const study::SweepTotals& totals, const study::SweepResults& results) {
+std::string status_json(const sweep::SweepTotals& totals, const sweep::SweepResults& results) {
   Json json{{"cases", totals.cases},
             {"completed", totals.completed},
             {"diverged", totals.diverged},
@@ -29,16 +31,16 @@ std::string status_json(const study::SweepTotals& totals, const study::SweepResu
   json["reasons"] = Json::object();
   for (const auto& [reason, count] : totals.reasons) json["reasons"][reason] = count;
   json["files"] = Json::array();
-  for (const study::RowFile& file : results.files())
+  for (const record::JournalFile& file : results.files())
     json["files"].push_back({{"path", file.path},
                              {"rows", file.rows},
                              {"corrupt", file.corrupt},
                              {"torn", file.torn},
-                             {"foreign", file.foreign}});
+                             {"foreign", file.whose == record::JournalFile::Whose::another}});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string status_text(const study::SweepTotals& totals, const study::SweepResults& results) {
+std::string status_text(const sweep::SweepTotals& totals, const sweep::SweepResults& results) {
   std::string text;
   const auto line = [&](const std::string& name, std::size_t count, const std::string& more = "") {
     text += name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') +
@@ -57,54 +59,63 @@ std::string status_text(const study::SweepTotals& totals, const study::SweepResu
        totals.missing > 0 ? "  (numbers " + totals.missing_numbers + ")" : "");
   line("corrupt", results.corrupt());
   line("files", results.files().size());
-  for (const study::RowFile& file : results.files())
+  for (const record::JournalFile& file : results.files())
     text += "  " + file.path + ": " + std::to_string(file.rows) +
             (file.rows == 1 ? " row\n" : " rows\n");
   return text;
 }
 
-// Sensitivity, maps and curves beside the table. What they cannot say is no failure of the merge.
-void look_at(const study::SweepPlan& plan, const std::string& folder, const Sweep& command,
-             const Talk& talk) {
+// Writes sensitivity, maps and curves beside the table. Returns notes on what could not be
+// computed; this is no failure of the merge.
+std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& command,
+                                 WholeFolder& folder) {
   const scenario::Family& family = plan.family;
-  if (family.design.empty()) return;
-  const study::SweepColumns columns =
-      study::read_sweep_columns(folder + "/results.csv", family.design, command.show);
-  std::optional<report::DrawOptions> options;
+  if (family.design.empty()) return {};
+  const sweep::SweepColumns columns =
+      sweep::read_sweep_columns(folder.file("results.csv"), family.design, command.show);
+  std::optional<plot::DrawOptions> options;
   if (family.base.output.figures) options.emplace();
-  if (options && family.base.output.pdf) options->format = report::PictureFormat::svg_and_pdf;
-  const report::SweepDrawings drawn = report::draw_sweep(columns, family.title, folder, options);
-  for (const std::string& warning : drawn.warnings) talk.warn(warning);
+  if (options && family.base.output.pdf) options->format = plot::PictureFormat::svg_and_pdf;
+  return sweep::draw_sweep(columns, family.title, folder, options);
 }
 
 }  // namespace
 
 int sweep_status(const Sweep& command, const Talk& talk) {
-  const study::SweepPlan plan = study::read_plan(command.subject, program_identity());
-  const study::SweepResults results(plan);
-  const study::SweepTotals totals = study::count_results(plan, results);
+  const sweep::SweepPlan plan = sweep::read_plan(command.subject, program_identity());
+  const sweep::SweepResults results(plan);
+  const sweep::SweepTotals totals = sweep::count_results(plan, results);
   print(talk.json() ? status_json(totals, results) : status_text(totals, results));
   for (const std::string& warning : results.warnings()) talk.warn(warning);
   return exit_of(totals);
 }
 
 int sweep_merge(const Sweep& command, const Talk& talk) {
-  const study::SweepPlan plan = study::read_plan(command.subject, program_identity());
-  const study::SweepResults results(plan);
-  const study::SweepTotals totals = study::count_results(plan, results);
+  const sweep::SweepPlan plan = sweep::read_plan(command.subject, program_identity());
+  const sweep::SweepResults results(plan);
+  const sweep::SweepTotals totals = sweep::count_results(plan, results);
   for (const std::string& warning : results.warnings()) talk.warn(warning);
-  const std::string folder = study::merge_sweep(
-      plan, results, totals, command.force ? study::Replace::any : study::Replace::incomplete);
-  std::string text = folder + ": " + std::to_string(totals.completed) + " of " +
+  using State = WholeFolder::State;
+  WholeFolder folder((std::filesystem::path(plan.folder) / "merged").string(), "merged sweep",
+                     command.force ? Replace::any : Replace::incomplete);
+  if (!command.force && folder.state() == State::complete)
+    throw InputError({folder.path(), 0, 0}, "is complete already; give `--force` to replace it");
+  folder.refuse_what_is_there();
+  folder.open();
+  sweep::merge_sweep(plan, results, totals, folder);
+  for (const std::string& warning :
+       folder.put(totals.missing == 0 ? State::complete : State::incomplete,
+                  look_at(plan, command, folder)))
+    talk.warn(warning);
+  std::string text = folder.path() + ": " + std::to_string(totals.completed) + " of " +
                      cases_text(totals.cases) + " completed";
   if (totals.diverged + totals.failed > 0)
     text += ", " + std::to_string(totals.diverged + totals.failed) + " failed";
   if (totals.missing > 0)
     text += ", " + std::to_string(totals.missing) + " missing (numbers " + totals.missing_numbers +
             "); `palpate sweep run` runs them";
-  look_at(plan, folder, command, talk);
   talk.say(text);
-  talk.event("merged", {{"folder", folder},
+  talk.event("merged", {{"folder", folder.path()},
                         {"cases", std::to_string(totals.cases)},
                         {"completed", std::to_string(totals.completed)},
                         {"missing", std::to_string(totals.missing)}});

@@ -1,4 +1,4 @@
-// Counts stay whole numbers in JSON.
+// Tables as text; whole numbers have no decimal point in JSON.
 #include "cli/table_text.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Tables for stdout: as CSV, on their side, or as JSON.
+// Tables for stdout: transposed as CSV, or as JSON.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace palpate::cli {
 
-// One JSON object a row, one a line; nothing becomes null.
+// One JSON object per row and line; empty cells become null.
 [[nodiscard]] std::string json_lines(const record::Table& table);
 
 // A table of one row as CSV of two columns, `name` and `value`.

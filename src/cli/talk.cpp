@@ -1,4 +1,4 @@
-// Standard streams, each looked at for itself.
+// Messages, progress and events on the standard streams.
 #include "cli/talk.h"
 
 #include <unistd.h>
@@ -33,6 +33,13 @@ void Talk::event(const std::string& name,
   object["event"] = name;
   for (const auto& [key, value] : details) object[key] = value;
   print(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+std::string bar(std::size_t done, std::size_t all) {
+  constexpr std::size_t width = 20;
+  const std::size_t filled = all == 0 ? 0 : width * done / all;
+  return "[" + std::string(filled, '#') + std::string(width - filled, '.') + "] " +
+         std::to_string(done) + "/" + std::to_string(all);
 }
 
 void print(const std::string& data) {

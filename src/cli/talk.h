@@ -1,4 +1,4 @@
-// Talk to people on stderr, events to programs on stdout.
+// Messages on stderr and JSON events on stdout.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ class Talk {
  public:
   explicit Talk(const Manner& manner);
 
-  void say(const std::string& sentence) const;   // stderr, unless quiet
-  void warn(const std::string& sentence) const;  // stderr, unless quiet
-  static void error(const std::string& sentence);
+  void say(const std::string& sentence) const;     // stderr, unless quiet
+  void warn(const std::string& sentence) const;    // stderr, unless quiet
+  static void error(const std::string& sentence);  // stderr, always
 
-  // A line that stands until the next one, on terminals only; empty wipes it.
+  // Replaces the previous progress line, on terminals only; an empty line removes it.
   void progress(const std::string& line) const;
 
-  // One JSON object on stdout, where --json was given: {"event": event, ...}.
+  // With --json, prints one JSON object on stdout: {"event": name, ...}.
   void event(const std::string& name,
              const std::vector<std::pair<std::string, std::string>>& details) const;
 
@@ -33,7 +33,10 @@ class Talk {
   bool terminal_ = false;
 };
 
-// Data for stdout. Throws SystemError where it cannot be written.
+// A progress bar of 20 characters, with the numbers: `[##########..........] 5/10`.
+[[nodiscard]] std::string bar(std::size_t done, std::size_t all);
+
+// Writes data to stdout. Throws SystemError if it cannot be written.
 void print(const std::string& data);
 
 }  // namespace palpate::cli

@@ -1,4 +1,4 @@
-// What each verb does. Each returns an exit code and throws what its input deserves.
+// One function per verb of the command line.
 #pragma once
 
 #include "cli/arguments.h"
@@ -6,21 +6,25 @@
 
 namespace palpate::cli {
 
-[[nodiscard]] int run(const Run& command, const Arguments& arguments, const Talk& talk);
-// With `command.device`.
+// Carries out a verb and returns its exit code. Throws InputError, MeshError, LinkError and
+// SystemError, which program() turns into exit codes.
+[[nodiscard]] int perform(const Run& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Explain& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Fit& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Compare& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Bless& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Mesh& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Reference& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Bench& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Chart& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Stability& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Sweep& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Identify& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Export& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Device& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Manual& command, const Arguments& arguments, const Talk& talk);
+
+// `run --device`.
 [[nodiscard]] int run_live(const Run& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int explain(const Explain& command);
-[[nodiscard]] int fit_columns(const Fit& command);
-[[nodiscard]] int compare(const Compare& command);
-[[nodiscard]] int bless(const Bless& command, const Talk& talk);
-[[nodiscard]] int mesh(const Mesh& command, const Talk& talk);
-[[nodiscard]] int refer(const Reference& command, const Talk& talk);
-[[nodiscard]] int bench(const Bench& command, const Talk& talk);
-[[nodiscard]] int chart(const Chart& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int stability(const Stability& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int sweep(const Sweep& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int identify(const Identify& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int device(const Device& command, const Talk& talk);
-[[nodiscard]] int export_results(const Export& command, const Talk& talk);
 
 }  // namespace palpate::cli

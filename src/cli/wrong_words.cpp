@@ -1,4 +1,4 @@
-// Wrong words are found before CLI11 parses, so that a suggestion can be made.
+// Finds wrong words before CLI11 parses, so that the message can suggest the nearest word.
 #include "cli/wrong_words.h"
 
 #include <CLI/CLI.hpp>
@@ -61,7 +61,7 @@ std::optional<std::string> wrong_word(const CLI::App& app,
     const bool is_long = word.starts_with("--");
     const std::string name = is_long ? word.substr(0, word.find('=')) : word;
     if (const CLI::Option* option = find_option(options, name); word.starts_with("-") && option) {
-      // The next word is its value, whatever it looks like.
+      // The next word is the value of the option, even if it begins with `-`.
       if (option->get_items_expected_min() > 0 && name == word) ++i;
     } else if (is_long) {
       return unknown_option(*verb, name, options);

@@ -1,4 +1,4 @@
-// What is wrong with a command line, in a sentence with a remedy.
+// Messages on wrong command lines: a sentence with a remedy.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ class ParseError;
 
 namespace palpate::cli {
 
-// The first word that no verb or option of `app` is; nothing where all are.
+// The message on the first word that is neither a verb nor an option of `app`, if there is one.
 [[nodiscard]] std::optional<std::string> wrong_word(const CLI::App& app,
                                                     const std::vector<std::string>& arguments);
 
-// CLI11's complaint; `what` of it names an option or positional without quotes.
+// The message for an error of CLI11.
 [[nodiscard]] std::string sentence(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace palpate::cli

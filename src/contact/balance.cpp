@@ -1,4 +1,4 @@
-// One scalar equation a contact, in turn until none of them moves.
+// Solves one scalar equation per contact, in turn until no depth changes.
 #include "contact/balance.h"
 
 #include <algorithm>
@@ -24,11 +24,11 @@ double PointLaw::last_depth() const { return layer != nullptr ? layer->last_dept
 
 namespace {
 
-// h + C F(h) = approach with C < 0. The left side is below approach at h = approach and bends down
-// ever more as F' grows: Newton's tangents lie above it, so that each step ends short of the
-// balance, and there is none where the left side stops growing first.
+// Solves h + C F(h) = approach with C < 0. The left side is below the approach at h = approach, and
+// it is concave, because F' grows. Newton's tangents lie above it, so that each step stays below
+// the solution; if the left side stops growing first, there is no solution.
 std::optional<double> softened(const PointLaw& law, double approach, double compliance) {
-  constexpr int most_steps = 200;  // a balance where it just stops growing is met by halves
+  constexpr int most_steps = 200;  // near a horizontal tangent each step only halves the error
   double h = approach;
   for (int i = 0; i < most_steps; ++i) {
     if (h > law.last_depth()) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<double> penetration(const PointLaw& law, double approach, double c
   double low = 0.0;
   double high = std::min(approach, law.last_depth());
   if (excess(high) < 0.0) return std::nullopt;
-  // Newton within a bracket: the function rises all the way, so it cannot miss.
+  // Newton's method within a bracket; the function increases monotonically.
   double h = std::min(approach, high);
   for (int i = 0; i < 100; ++i) {
     const double value = excess(h);

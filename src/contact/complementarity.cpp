@@ -1,4 +1,4 @@
-// Guesses of who touches, each a linear system, until nobody pulls and nobody overlaps.
+// Solves a linear system for each guess of the points in contact, until all signs are right.
 #include "contact/complementarity.h"
 
 #include <Eigen/Cholesky>
@@ -6,7 +6,7 @@
 namespace palpate::contact {
 namespace {
 
-// The forces that close the gaps of the pressed points; the others have none.
+// Computes the forces that close the gaps of the pressed points; all others are zero.
 bool close_gaps(const Eigen::MatrixXd& compliance, const Eigen::VectorXd& gap,
                 const std::vector<char>& pressed, Eigen::VectorXd& force) {
   std::vector<Eigen::Index> at;
@@ -26,8 +26,8 @@ bool close_gaps(const Eigen::MatrixXd& compliance, const Eigen::VectorXd& gap,
 
 bool press_apart(const Eigen::MatrixXd& compliance, const Eigen::VectorXd& gap,
                  std::vector<char>& pressed, Eigen::VectorXd& force) {
-  constexpr int most_blocks = 10;  // in a row that do not help
-  // Rounding of a gap that is closed, against the depths that close it.
+  constexpr int most_blocks = 10;  // block steps in a row without progress
+  // Rounding error of a closed gap, relative to the depths.
   const double closed = 1e-12 * gap.cwiseAbs().maxCoeff();
   std::size_t fewest = pressed.size() + 1;
   int blocks = most_blocks;

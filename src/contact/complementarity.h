@@ -1,4 +1,4 @@
-// Many points that can be pressed but not pulled: which of them touch, and with what force.
+// Unilateral contact of many points, which transmit pressure but no tension: the contact forces.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,15 +6,14 @@
 
 namespace palpate::contact {
 
-// The forces f >= 0 (N) with gaps g = gap + compliance f >= 0 (m), of which one is zero at every
-// point. `compliance` is n x n, m/N, symmetric and positive definite: there is one answer.
-// docs/theory.md (70)
-// `pressed` holds a first guess of who touches, and then who does; `force` receives the answer.
-// False where the compliance is not positive definite.
-//
-// Block principal pivoting: all points on the wrong side change it at once; where their number no
-// longer falls, one at a time, which always ends (Judice and Pires 1994, Computers & Operations
-// Research 21, 587; Murty 1974, Opsearch 11, 38).
+// Computes the forces f >= 0 (N) with gaps g = gap + compliance f >= 0 (m), one of the two being
+// zero at every point. `compliance` is n x n, m/N, symmetric and positive definite, so that the
+// solution is unique. `pressed` is a first guess of the points in contact and receives the points
+// that are; `force` receives f. Returns false if the compliance is not positive definite.
+//                                                                             docs/theory.md (70)
+// Block principal pivoting: all points with the wrong sign change their state at once, or one at a
+// time when their number no longer falls, which terminates (Judice and Pires 1994, Computers &
+// Operations Research 21, 587; Murty 1974, Opsearch 11, 38).
 [[nodiscard]] bool press_apart(const Eigen::MatrixXd& compliance, const Eigen::VectorXd& gap,
                                std::vector<char>& pressed, Eigen::VectorXd& force);
 

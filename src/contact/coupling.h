@@ -1,14 +1,38 @@
-// How a Hertz contact sits on a mesh: which part of the mesh's sinking the contact law must know.
+// How a contact is coupled to a mesh: which displacements of the mesh enter the contact law.
 #pragma once
 
 namespace palpate::contact {
 
-// h is the penetration of eq. (2), travel how far the finger has come below the tissue at rest.
-// one_way: h = travel. series: h = travel - u, u the pressure-weighted sinking of the mesh under
-// the contact. consistent: h = travel - v, v the sinking that Hertz's half-space does not know,
-// read in the ring of surface around the contact, and where inertia reaches the force by how much
-// the mesh is from its statics. resolved: without eq. (2), nodes of a fine mesh that the finger can
-// press and not pull.                                     docs/theory.md (9)-(14), (70)-(76)
+// `h` is the depth in the contact law, `travel` the displacement of the finger below the undeformed
+// surface (docs/theory.md (9)-(14), (70)-(76)). one_way: h = travel. series: h = travel - u, where
+// u is the pressure-weighted displacement of the mesh under the contact. consistent: h = travel -
+// v, where v is the part of the displacement that the law's half-space or layer does not contain,
+// averaged in a ring of surface around the contact; where inertia reaches the force, the deviation
+// of the mesh from statics is subtracted too. resolved: no contact law; the finger presses nodes of
+// a fine mesh without tension.
 enum class Coupling { one_way, series, consistent, resolved };
+
+// Whether the mesh represents the tissue at the contact, with its viscosity and inertia.
+[[nodiscard]] constexpr bool mesh_is_tissue(Coupling coupling) {
+  switch (coupling) {
+    case Coupling::series:
+    case Coupling::resolved: return true;
+    case Coupling::one_way:
+    case Coupling::consistent: break;
+  }
+  return false;
+}
+
+// Whether the contact force may act on a single node. This requires that the coupling averages the
+// displacement of all nodes that it loads, or uses no displacement.
+[[nodiscard]] constexpr bool presses_one_node(Coupling coupling) {
+  switch (coupling) {
+    case Coupling::one_way:
+    case Coupling::series: return true;
+    case Coupling::consistent:
+    case Coupling::resolved: break;
+  }
+  return false;
+}
 
 }  // namespace palpate::contact

@@ -1,4 +1,4 @@
-// The fitted factors between their Poisson ratios, and the depth of Sneddon's sphere inverted.
+// Interpolates the fitted factors between Poisson's ratios, and inverts Sneddon's depth.
 #include "contact/deep.h"
 
 #include <array>
@@ -72,8 +72,8 @@ std::optional<DeepLaw> deep_law(double poisson_ratio) {
 TrueSphere sneddon_sphere(double depth, double radius, double modulus) {
   if (depth <= 0.0) return {};
   const double x = depth / radius;
-  // h = (a/2) ln((R + a)/(R - a)); with y = atanh(a/R) it is x = y tanh(y). As tanh(y) is no less
-  // than y/(1 + y) the root is below the start; at set-up, so that tanh is allowed.
+  // h = (a/2) ln((R + a)/(R - a)); with y = atanh(a/R) this is x = y tanh(y). Since tanh(y) >= y/(1
+  // + y) the root is below the start value. This runs only at set-up, so tanh is allowed.
   double y = 0.5 * (x + std::sqrt(x * (x + 4.0)));
   for (int pass = 0; pass < 60; ++pass) {
     const double t = std::tanh(y);
@@ -86,7 +86,7 @@ TrueSphere sneddon_sphere(double depth, double radius, double modulus) {
   if (x > 0.01)
     return {.contact_radius = radius * t,
             .force = modulus * radius * radius * ((t * t + 1.0) * y - t)};
-  // Where its terms cancel, by the series; what follows is 3e-5 x^5.
+  // For small x the terms cancel, so a series is used; its error is 3e-5 x^5.
   const double factor =
       1.0 + x * (-1.0 / 10.0 + x * (-1.0 / 840.0 + x * (11.0 / 15120.0 + x * 1357.0 / 6652800.0)));
   return {.contact_radius = radius * t, .force = factor * hertz::force(depth, radius, modulus)};

@@ -1,4 +1,4 @@
-// Broad search by boxes, then one foot for every local minimum of the distance.
+// Finds candidate triangles in the tree of boxes, and one foot for every minimum of the distance.
 #include "contact/detection.h"
 
 #include <algorithm>
@@ -8,10 +8,10 @@ namespace palpate::contact {
 Vec3 displacement_at(const geometry::Surface& surface, const geometry::SurfacePoint& point,
                      std::span<const Vec3> displacement) {
   if (displacement.empty()) return Vec3::Zero();
-  const auto& [a, b, c] = surface.triangles[static_cast<std::size_t>(point.triangle)];
-  return point.weights[0] * displacement[static_cast<std::size_t>(a)] +
-         point.weights[1] * displacement[static_cast<std::size_t>(b)] +
-         point.weights[2] * displacement[static_cast<std::size_t>(c)];
+  const auto& [a, b, c] = surface.triangles[as_index(point.triangle)];
+  return point.weights[0] * displacement[as_index(a)] +
+         point.weights[1] * displacement[as_index(b)] +
+         point.weights[2] * displacement[as_index(c)];
 }
 
 Detector::Detector(const geometry::SmoothSurface& surface)
@@ -30,7 +30,7 @@ bool Detector::nearest_around(const geometry::Near& near) const {
         [](const geometry::Near& one, int number) { return one.triangle < number; });
     return found != near_.end() && found->triangle == triangle ? &*found : nullptr;
   };
-  for (const int corner : surface_->surface().triangles[static_cast<std::size_t>(near.triangle)])
+  for (const int corner : surface_->surface().triangles[as_index(near.triangle)])
     for (const int triangle : surface_->neighbours().triangles_at(corner)) {
       if (triangle == near.triangle) continue;
       const geometry::Near* other = distance(triangle);
@@ -46,7 +46,7 @@ void Detector::find(const Vec3& centre, double radius, std::span<const Vec3> dis
                     std::vector<geometry::SmoothSurface::Foot>& feet) {
   feet.clear();
   tree_.within(centre, radius, near_);
-  // A centre deeper than the radius has no surface within reach, but lies inside.
+  // A centre deeper inside than the radius has no triangle within the radius.
   if (near_.empty()) near_.push_back(tree_.nearest(centre));
   const auto first = std::min_element(near_.begin(), near_.end(), [](const auto& a, const auto& b) {
     return a.distance_squared < b.distance_squared;
@@ -57,11 +57,12 @@ void Detector::find(const Vec3& centre, double radius, std::span<const Vec3> dis
         centre - displacement_at(surface_->surface(), {near.triangle, near.weights}, displacement);
     const auto foot = surface_->foot(carried, near);
     if (foot.height >= radius) continue;
-    // Seen from outside, a face turned away is the tissue's far side; from inside only the nearest
-    // way out counts.
+    // For a centre inside, only the nearest foot counts; for one outside, a foot on a face that is
+    // turned away belongs to the far side of the tissue.
     if (foot.height < 0.0 && &near != &*first) continue;
-    // Where the surface took the sphere's shape there are many minima, all of one contact: from the
-    // one's centre the search leads from the other's foot to its own. The deepest stands for all.
+    // If the surface has taken the shape of the sphere, one contact has many minima. Two minima are
+    // the same contact if the search from the foot of one, with the centre of the other, ends at
+    // the other's foot. Only the deepest is kept.
     const auto known = std::find_if(feet.begin(), feet.end(), [&](const auto& other) {
       const double same = 1e-6 * radius;
       if ((other.position - foot.position).norm() <= same) return true;

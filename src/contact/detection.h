@@ -1,4 +1,4 @@
-// Where spheres touch a surface that deforms.
+// Finds the contacts of spheres with a deforming surface.
 #pragma once
 
 #include <span>
@@ -8,30 +8,29 @@
 
 namespace palpate::contact {
 
-// Finds every contact of a sphere: the feet of the perpendiculars from its centre that are nearer
-// than its radius, each once, also where the sphere has sunk in deep or came in one long move.
-//
-// The surface is searched where it is now (a tree of boxes, refitted as it moves). The foot is then
-// taken on the surface at rest, from the centre carried back by the surface's displacement there:
+// Finds every contact of a sphere once: the perpendiculars from its centre to the surface that are
+// shorter than its radius. Spheres that are deep inside or came in one long move are found too. The
+// search uses the deformed surface (a tree of boxes, refitted as the surface moves). The foot is
+// then computed on the undeformed surface, from the centre minus the surface's displacement there:
 // on the deformed surface the nearest point is not unique, because under a contact the surface
-// takes the very shape of the sphere.                               docs/decisions.md, 29
+// takes the shape of the sphere.                                              docs/decisions.md, 29
 class Detector {
  public:
   explicit Detector(const geometry::SmoothSurface& surface);
 
-  // The surface's vertices have moved by these displacements, m, one a vertex.
+  // Sets the displacements of the surface's vertices, m, one per vertex.
   void refit(std::span<const Vec3> displacement);
 
-  // From now on find() allocates nothing but what it grows of `feet`.
+  // After this, find() allocates memory only for `feet`.
   void make_room() { near_.reserve(surface_->surface().triangles.size()); }
 
-  // The contacts of a sphere (m), in the order of their triangles. `displacement` may be empty:
-  // the surface at rest.
+  // Finds the contacts of a sphere (m), in the order of their triangles. `displacement` is that of
+  // refit(), or empty for the undeformed surface.
   void find(const Vec3& centre, double radius, std::span<const Vec3> displacement,
             std::vector<geometry::SmoothSurface::Foot>& feet);
 
  private:
-  // Whether no neighbour of this triangle is nearer to the centre.
+  // Whether no neighbouring triangle is nearer to the centre.
   [[nodiscard]] bool nearest_around(const geometry::Near& near) const;
 
   const geometry::SmoothSurface* surface_;

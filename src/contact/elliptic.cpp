@@ -1,4 +1,4 @@
-// The shape of the contact ellipse from complete elliptic integrals, by arithmetic-geometric means.
+// Computes the contact ellipse from elliptic integrals, by arithmetic-geometric means.
 #include "contact/elliptic.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace palpate::contact {
 namespace {
 
-// Complete elliptic integrals K and E of the parameter m = 1 - q^2, arranged so that nothing
-// cancels at either end:
+// Complete elliptic integrals K and E of the parameter m = 1 - q^2, written without differences of
+// nearly equal numbers for circles and for line contact:
 //   mean = pi / (2 K),   t = (K - E) / (m K) - 1/2,   slope = t / m
 struct Integrals {
   double mean = 1.0;
@@ -45,9 +45,8 @@ Integrals integrals(double q) {
 // The ratio q = b/a of the axes for r = B/A >= 1, the ratio of the relative curvatures:
 //   q^2 r (1/2 + t) = 1/2 - t                                            docs/theory.md (23)
 double axis_ratio(double r) {
-  // d(ln r)/d(ln q) runs from -3/2 at the circle to -2, so that q lies between r^(-2/3) and
-  // r^(-1/2): surely between 1/r and r^(-1/2). Newton's method from above, bisection where it
-  // steps out.
+  // d(ln r)/d(ln q) goes from -3/2 at the circle to -2, so q is between r^(-2/3) and r^(-1/2), and
+  // a fortiori above 1/r. Newton's method from above, with bisection if it leaves the bracket.
   double high = 1.0 / std::sqrt(r);
   double low = high * high;
   double q = high;

@@ -1,21 +1,21 @@
-// Hertz contact of a sphere with a body that curves differently in two directions.
+// Hertz contact of a sphere with a body whose two principal curvatures differ.
 #pragma once
 
 #include <optional>
 
 namespace palpate::contact {
 
-// Half the axes of the contact ellipse, m.
+// Semi-axes of the contact ellipse, m.
 struct SemiAxes {
-  double along = 0.0;   // the longer one, in the direction of the least curvature
-  double across = 0.0;  // in the direction of the greatest
+  double along = 0.0;   // the longer one, in the direction of least curvature
+  double across = 0.0;  // in the direction of greatest curvature
 };
 
-// Everything that depends on curvatures and modulus, found once; the rest is + - * / and sqrt.
-// Depths in m; without contact, at a depth of 0 or less, all answers are 0.
+// The force law for given curvatures and modulus, evaluated with + - * / and sqrt only (`depth`:
+// cbrt). Depths in m; all results are 0 at a depth of 0 or less.
 struct EllipticLaw {
   double modulus = 0.0;       // E*, Pa
-  double force_radius = 0.0;  // m: the sphere on a flat that presses alike
+  double force_radius = 0.0;  // m: the sphere on a flat with the same force
   double along_radius = 0.0;  // m: along^2 / depth
   double axis_ratio = 1.0;    // across / along, in (0, 1]
 
@@ -24,28 +24,28 @@ struct EllipticLaw {
   [[nodiscard]] double depth(double force) const;      // the inverse of `force`
   [[nodiscard]] SemiAxes semi_axes(double depth) const;
   [[nodiscard]] double peak_pressure(double depth) const;  // Pa
-  // At `x` along the longer axis and `y` across it from the centre, Pa; 0 outside the ellipse.
+  // At `x` along the longer axis and `y` across it (m, from the centre), Pa; 0 outside the ellipse.
   [[nodiscard]] double pressure(double x, double y, double depth) const;
 };
 
-// E* (Pa), the sphere's radius R_1 (m) and the body's principal curvatures (1/m, convex positive,
-// in any order). Empty where the surfaces conform, 1/R_1 + kappa <= 0 in a direction, or where a
-// number is not finite. Good to rounding until 1/R_1 + kappa in one direction is 1e-30 of that in
-// the other; as it goes to 0 the ellipse becomes a line and the force grows without bound, long
-// after a half-space has ceased to be a model: `nearly_conforming` says when to stop believing.
-//                                                                  docs/theory.md (23)-(25)
+// From E* (Pa), the sphere's radius R_1 (m) and the body's principal curvatures (1/m, convex
+// positive, in any order). Empty if the surfaces conform, 1/R_1 + kappa <= 0 in a direction, or a
+// number is not finite. Accurate to rounding until 1/R_1 + kappa in one direction is 1e-30 of that
+// in the other. As it goes to 0 the ellipse becomes a line and the force grows without bound,
+// although the half-space is no longer valid; see nearly_conforming(). docs/theory.md (23)-(25)
 [[nodiscard]] std::optional<EllipticLaw> elliptic_law(double modulus, double sphere_radius,
                                                       double kappa_1, double kappa_2);
 
-// Is the body hollow beyond half the sphere's curvature (kappa < -0.5 / R_1) in a direction? The
-// contact then grows wide against the sphere, and Hertz's law is a poor one.
+// Whether the body is so hollow in a direction (kappa < -0.5 / R_1) that the contact is wide
+// compared with the sphere and Hertz's law is inaccurate.
 [[nodiscard]] bool nearly_conforming(double sphere_radius, double kappa_1, double kappa_2);
 
-// Radii for `hertz::force` from both curvatures, m. Need R_1 kappa > -1 in both directions.
-// Against the ellipse at a ratio 1:2 of the relative curvatures the force is 4 % and 1 % low, at
-// 1:5 18 % and 5 %.                                                    docs/theory.md (26)
+// Effective radii for `hertz::force` from both curvatures, m: by their mean (Chen 2007) and by the
+// geometric mean. They require R_1 kappa > -1 in both directions. Compared with the ellipse the
+// force is 4 % and 1 % low if the ratio of the relative curvatures is 1:2, and 18 % and 5 % at 1:5.
+//                                                                      docs/theory.md (26)
 [[nodiscard]] double mean_radius(double sphere_radius, double kappa_1,
-                                 double kappa_2);  // the paper
+                                 double kappa_2);  // Chen 2007
 [[nodiscard]] double geometric_radius(double sphere_radius, double kappa_1, double kappa_2);
 
 }  // namespace palpate::contact

@@ -1,4 +1,4 @@
-// Coulomb's limit and the solution of Cattaneo and Mindlin.
+// Coulomb's limit, and the solution of Cattaneo and Mindlin.
 #include "contact/friction.h"
 
 #include <algorithm>

@@ -1,29 +1,30 @@
-// Friction of the finger: Coulomb's limit (eq. 4), and stick before slip.
+// Friction of the finger: Coulomb's limit (Chen 2007 eq. (4)), and stick before slip.
 #pragma once
 
 #include "base/vec3.h"
 
 namespace palpate::contact::friction {
 
-// F_m = mu (F_c + W), N: what the contact can carry before it slides, and carries while it does.
-// The integral of mu P over the contact is exactly mu F_c. `weight` is the finger's own weight
-// where it does not already rest in F_c, else 0.            Chen 2007 eq. (4); docs/theory.md (7)
+// F_m = mu (F_c + W), N: the largest tangential force before sliding, and the force during sliding.
+// The integral of mu P over the contact is exactly mu F_c. `weight` is the finger's weight if it is
+// not part of F_c, otherwise 0.                         Chen 2007 eq. (4); docs/theory.md (7)
 [[nodiscard]] double limit(double coefficient, double contact_force, double weight);
 
-// Cattaneo-Mindlin stick before slip under a tangential force Q below the limit.
+// Stick before slip after Cattaneo and Mindlin, under a tangential force Q below the limit.
 // `shear_compliance` is q = (2 - nu_1)/G_1 + (2 - nu_2)/G_2, 1/Pa.
-//                                       K. L. Johnson 1985, sec. 7.2; docs/theory.md (54)
+//                                        K. L. Johnson 1985, sec. 7.2; docs/theory.md (54)
 struct Stick {
   double radius = 0.0;        // m, of the sticking core
-  double displacement = 0.0;  // m, tangential, of the finger against the tissue
-  double stiffness = 0.0;     // N/m, 8 a / q, at the first touch of Q
+  double displacement = 0.0;  // m, tangential, of the finger relative to the tissue
+  double stiffness = 0.0;     // N/m, 8 a / q, dQ/dx at Q = 0
 };
 [[nodiscard]] Stick stick(double tangential_force, double limit, double contact_radius,
                           double shear_compliance);
 
-// The other way round, N: the tangential force on the tissue where the finger has moved by
-// `stretch` (m, tangential) against it; at most the limit, where all of the contact slips. A longer
-// stretch is cut to what slip leaves of it. Zero without a limit. docs/theory.md (8)
+// The inverse, N: the tangential force on the tissue after the finger has moved by `stretch` (m,
+// tangential) relative to it. Its largest value is the limit, at which the whole contact slips; a
+// longer stretch is shortened to that of the limit. Zero, with the stretch reset, if limit <= 0.
+//                                                                             docs/theory.md (8)
 [[nodiscard]] Vec3 drag(Vec3& stretch, double limit, double contact_radius,
                         double shear_compliance);
 

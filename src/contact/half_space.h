@@ -1,4 +1,4 @@
-// How far a half-space sinks under and around a Hertz contact.
+// Normal surface displacement of a half-space under and around a Hertz contact.
 #pragma once
 
 #include <cmath>
@@ -6,9 +6,9 @@
 
 namespace palpate::contact {
 
-// The sinking at distance `r` (m) from the centre of a contact of radius `a` (m) that carries
-// `force` (N), on a half-space of E' = E / (1 - nu^2) (Pa); a point load for a = 0. In m.
-// K. L. Johnson 1985, eq. (3.42); docs/theory.md (16)
+// The sinking (m) at the distance `r` (m) from the centre of a contact of radius `a` (m; 0 for a
+// point load) that carries `force` (N), on a half-space with E' = E / (1 - nu^2) (Pa).
+//                                               K. L. Johnson 1985, eq. (3.42); docs/theory.md (16)
 [[nodiscard]] inline double half_space_sinking(double r, double force, double a,
                                                double plane_modulus) {
   if (a <= 0.0) return force / (std::numbers::pi * plane_modulus * r);

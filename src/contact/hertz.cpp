@@ -26,7 +26,7 @@ double force(double depth, double radius, double modulus) {
 
 double depth(double force, double radius, double modulus) {
   if (force <= 0.0) return 0.0;
-  // h = (3 F / (4 E* sqrt(R)))^(2/3); outside the step, so cbrt is allowed
+  // h = (3 F / (4 E* sqrt(R)))^(2/3); not used in solver steps, so cbrt is allowed
   const double root = std::cbrt(0.75 * force / (modulus * std::sqrt(radius)));
   return root * root;
 }

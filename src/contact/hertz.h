@@ -3,7 +3,7 @@
 
 namespace palpate::contact {
 
-// An elastic material as a contact sees it.
+// Elastic properties of one of the two bodies in contact.
 struct Elastic {
   double young_modulus = 0.0;  // Pa; infinite for a rigid body
   double poisson_ratio = 0.0;
@@ -18,13 +18,14 @@ namespace hertz {
 [[nodiscard]] double effective_modulus(double compliance_1, double compliance_2);
 
 // 1/R = 1/R_1 + kappa: a sphere of radius R_1 (m) on a surface of curvature kappa (1/m, convex
-// positive, 0 on a flat). Needs R_1 kappa > -1: closer surfaces conform and Hertz does not hold.
+// positive, 0 on a flat). Requires R_1 kappa > -1; otherwise the surfaces conform and Hertz's
+// theory does not hold. docs/theory.md (2)
 [[nodiscard]] double effective_radius(double sphere_radius, double curvature);
 
-// F in N for the depth h (m), R (m), E* (Pa); 0 for h <= 0.
+// F = 4/3 E* sqrt(R) h^(3/2), N, for h (m), R (m), E* (Pa); 0 for h <= 0.      docs/theory.md (3)
 [[nodiscard]] double force(double depth, double radius, double modulus);
 
-// The depth that gives a force: the inverse of `force`.
+// The depth (m) for a force (N): the inverse of `force`.
 [[nodiscard]] double depth(double force, double radius, double modulus);
 
 // dF/dh = 2 E* sqrt(R h), N/m.

@@ -1,4 +1,4 @@
-// The three ways to a law of two curvatures.
+// Computes the contact law from two principal curvatures in one of three ways.
 #include "contact/law.h"
 
 #include <cmath>

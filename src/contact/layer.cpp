@@ -1,4 +1,4 @@
-// A table over chi by Chebyshev's polynomials.
+// Tabulates the layer's force law over chi by Chebyshev polynomials.
 #include "contact/layer.h"
 
 #include <algorithm>
@@ -19,9 +19,9 @@ double layer_chi(double depth, double radius, double thickness) {
   return hertz::contact_radius(depth, radius) / thickness;
 }
 
-// The factors, continued to negative chi, have their nearest singularities off the real axis about
-// a top layer's thickness from 0 (where a is +-i of it). In t = chi / (top + chi) these lie further
-// from the interval, on which 24 terms give what 32 would in chi. The last t is stretched to 1.
+// The factors, continued to negative chi, have their nearest singularities off the real axis, where
+// a is about +-i top layer thicknesses. In t = chi / (top + chi) these are farther from the
+// interval: 24 terms are as accurate as 32 terms in chi. t is scaled so that last_chi is at 1.
 double LayerLaw::place(double chi) const {
   return (top_ + last_chi_) / last_chi_ * chi / (top_ + chi);
 }
@@ -31,7 +31,7 @@ double LayerLaw::place_slope(double chi) const {
 
 LayerLaw::LayerLaw(const Layer& layer) : top_(layer.top()), last_chi_(std::min(3.0, 12.0 * top_)) {
   const std::size_t nodes = layer.below.empty() ? 24 : 40;
-  // D > 1/4 in the thinnest layers, so that a/H = chi / sqrt(D) stays below 2 last_chi.
+  // D > 1/4 even in very thin layers, so that a/H = chi / sqrt(D) stays below 2 last_chi.
   const LayerEquation equation(layer, layer_resolution(2.0 * last_chi_ / top_));
   Series force(nodes), radius(nodes);
   std::array<Series, PressureProfile::terms> pressure;
@@ -87,9 +87,9 @@ PressureProfile LayerLaw::pressure(double chi) const {
 std::optional<double> LayerLaw::chi(double load) const {
   if (load <= 0.0) return 0.0;
   if (!(load <= last_chi_ * last_chi_ * last_chi_ * force_factor(last_chi_))) return std::nullopt;
-  // Where f >= 1, chi is no more than load^(1/3), so less than the larger of load^(1/4) and
-  // load^(1/2). From above, Newton's method walks down the convex chi^3 f(chi) - load; over softer
-  // layers, where chi may be more and the function bends, it halves what it has enclosed instead.
+  // If f >= 1, chi is at most load^(1/3), hence below the larger of load^(1/4) and load^(1/2), and
+  // Newton's method converges from above on the convex chi^3 f(chi) - load. Over softer layers chi
+  // may be larger and the function not convex; then bisection replaces steps out of the bracket.
   const double root = std::sqrt(load);
   const double above = std::max(root, std::sqrt(root));
   double low = 0.0;

@@ -1,5 +1,4 @@
-// The force law of a sphere on an elastic layer on a rigid base, tabulated once from the exact
-// solution (contact/layer_integral.h).
+// The force law of a sphere on an elastic layer, tabulated from the solution in layer_integral.h.
 #pragma once
 
 #include <array>
@@ -11,21 +10,20 @@
 
 namespace palpate::contact {
 
-// chi = sqrt(R h) / H for the depth h (m), the effective radius R (m) and the thickness H (m); 0
-// for h <= 0.
+// chi = sqrt(R h) / H for h (m), the effective radius R (m) and the thickness H (m); 0 for h <= 0.
 [[nodiscard]] double layer_chi(double depth, double radius, double thickness);
 
-// F / F_Hertz and its like over chi in [0, last_chi()]: exactly 1 at chi = 0, values within 1e-7 of
-// the integral equation, slopes and pressures within 1e-6; of several layers values within 1e-5.
-// Beyond last_chi(), and below 0, every answer is NaN: a sphere that deep in so thin a layer is for
-// the caller to refuse. To build it takes some 20 ms, of several layers up to 0.5 s; its functions
-// allocate nothing and use + - * / and sqrt alone.
-// docs/theory.md (57)-(59)
+// The table of F / F_Hertz and related factors over chi in [0, last_chi()]. The factors are exactly
+// 1 at chi = 0; values deviate by less than 1e-7 from the integral equation (several layers: 1e-5),
+// slopes and pressures by less than 1e-6. Outside [0, last_chi()] every result is NaN; the caller
+// has to refuse such a deep press into a thin layer. Construction takes about 20 ms, for several
+// layers up to 0.5 s; the functions allocate nothing and use + - * / and sqrt only.
+//                                                                         docs/theory.md (57)-(59)
 class LayerLaw {
  public:
   explicit LayerLaw(const Layer& layer);
 
-  // 3; of several layers less, where the contact is very much wider than the top one is thick.
+  // 3; less for several layers with a top layer much thinner than such a contact is wide.
   [[nodiscard]] double last_chi() const { return last_chi_; }
 
   [[nodiscard]] double force_factor(double chi) const;      // f = F / F_Hertz(h)
@@ -34,8 +32,8 @@ class LayerLaw {
   [[nodiscard]] double radius_factor(double chi) const;     // a / sqrt(R h)
   [[nodiscard]] PressureProfile pressure(double chi) const;
 
-  // The inverse: where chi^3 f(chi) is `load`, F over that of a Hertz contact as wide as the layer
-  // is thick, 4/3 E* H^3 / R. Empty beyond last_chi(), 0 for no load.
+  // The inverse: the chi with chi^3 f(chi) = load, where `load` is F divided by the force of a
+  // Hertz contact with chi = 1, 4/3 E* H^3 / R. Empty beyond last_chi(), 0 for no load.
   [[nodiscard]] std::optional<double> chi(double load) const;
 
  private:
@@ -49,13 +47,14 @@ class LayerLaw {
   [[nodiscard]] bool known(double chi) const { return chi >= 0.0 && chi <= last_chi_; }
 
   double top_, last_chi_;
-  using Series = std::vector<double>;  // of (quantity - its value at chi = 0) / chi
+  using Series =
+      std::vector<double>;  // Chebyshev coefficients of (quantity - value at chi = 0) / chi
   Series force_, radius_;
   std::array<Series, PressureProfile::terms> pressure_;
 };
 
-// The same with sizes. Depths in m; without contact, at a depth of 0 or less, all answers are 0;
-// beyond `last_depth` they are NaN, and there is no depth for the force.
+// The law for given sizes. Depths in m; all results are 0 at a depth of 0 or less. Beyond
+// last_depth() they are NaN, and forces have no depth.
 struct LayerContact {
   double radius;     // R, m
   double modulus;    // E*, Pa

@@ -1,4 +1,4 @@
-// Nystrom's method for the contact with a layer.
+// Solves the integral equation of a layer by Nystrom's method.
 #include "contact/layer_integral.h"
 
 #include <Eigen/Cholesky>
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/index.h"
 #include "contact/layer_stack.h"
 
 namespace palpate::contact {
@@ -17,15 +18,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 constexpr double pi = std::numbers::pi;
 
-// M(u) < (4 u^2 + 4 u + 2) exp(-2u), less than 1e-14 from here on; u over the top layer's
-// thickness.
+// M(u) < (4 u^2 + 4 u + 2) exp(-2u) is below 1e-14 from here on; u per thickness of the top layer.
 constexpr double last_wave = 20.0;
 
-// M(u) = 1 - L(u); L is how far a wave of pressure of wave number u / H sinks into the layer, over
-// a half-space. With K = 3 - 4 nu,
+// M(u) = 1 - L(u); L is the displacement of a layer under a pressure wave of wave number u / H,
+// divided by that of a half-space. With K = 3 - 4 nu,
 //   bonded        L = (2K sinh 2u - 4u) / (2K cosh 2u + 1 + K^2 + 4u^2)
 //   frictionless  L = (cosh 2u - 1) / (sinh 2u + 2u)
-// written with q = exp(-2u), so that nothing overflows and M loses no digits where L goes to 1.
+// written with q = exp(-2u), so that nothing overflows and M keeps its digits as L goes to 1.
+//                                                                       docs/theory.md (56)
 double missing_sinking(double u, const Layer& layer) {
   if (!layer.below.empty()) return 1.0 - stack_sinking(u, layer);
   const double q = std::exp(-2.0 * u);
@@ -36,8 +37,8 @@ double missing_sinking(double u, const Layer& layer) {
   return q * (2.0 * k * q + c + 4.0 * u) / (k * (1.0 + q * q) + c * q);
 }
 
-// Gauss-Legendre over [0, end], by Newton's method on Legendre's polynomial from cosines close to
-// its roots.                                            Abramowitz & Stegun 1964, 25.4.30, 22.16.6
+// Gauss-Legendre points on [0, end], by Newton's method on the Legendre polynomial; the start
+// values are cosines close to its roots.            Abramowitz & Stegun 1964, 25.4.30, 22.16.6
 void gauss_legendre(std::span<double> nodes, std::span<double> weights, double end) {
   const auto n = static_cast<double>(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -60,11 +61,11 @@ void gauss_legendre(std::span<double> nodes, std::span<double> weights, double e
   }
 }
 
-// int_0^1 w(z (1 - tau^2)) dtau at Chebyshev's nodes, of a polynomial w given at the same nodes.
+// Replaces values w(z) of a polynomial at Chebyshev nodes by int_0^1 w(z (1 - tau^2)) dtau there.
 void mean_along_chord(std::span<double> values) {
   std::array<double, PressureProfile::terms> series{}, tau{}, weights{};
   chebyshev_fit(values, series);
-  gauss_legendre(tau, weights, 1.0);  // exact: 2 terms - 2 is the greatest power of tau
+  gauss_legendre(tau, weights, 1.0);  // exact, because the degree in tau is 2 terms - 2
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double z = chebyshev_node(i, values.size());
     values[i] = 0.0;
@@ -91,7 +92,7 @@ double LayerSolution::force_factor() const { return force / (depth * std::sqrt(d
 double LayerSolution::radius_factor() const { return 1.0 / std::sqrt(depth); }
 
 LayerResolution layer_resolution(double greatest_ratio) {
-  // Q's poles are some H / a from the interval, and its cosines make (20 / pi) a / H turns.
+  // Q's poles are about H / a away from the interval; its cosines have (20 / pi) a / H periods.
   return {.points = 16 + static_cast<int>(std::ceil(4.0 * greatest_ratio)),
           .waves = 50 + static_cast<int>(std::ceil(10.0 * greatest_ratio))};
 }
@@ -100,7 +101,7 @@ LayerEquation::LayerEquation(const Layer& layer, const LayerResolution& resoluti
   assert(layer.poisson_ratio > -1.0 && layer.poisson_ratio <= 0.5);
   assert(layer.share >= 0.0 && layer.share <= 1.0);
   assert(resolution.points > 0 && resolution.waves > 0);
-  points_.nodes.resize(static_cast<std::size_t>(resolution.points));
+  points_.nodes.resize(as_index(resolution.points));
   points_.weights.resize(points_.nodes.size());
   gauss_legendre(points_.nodes, points_.weights, 1.0);
   for (const LayerWave& wave : layer_waves(layer, resolution.waves)) {
@@ -121,22 +122,22 @@ LayerSolution LayerEquation::solve(double ratio) const {
   const VectorXd q = ratio * VectorXd::Map(waves_.weights.data(), m);
   const MatrixXd cosines = (x * s.transpose()).array().cos();
 
-  // With sqrt(w) g as the unknown the matrix is symmetric; it is positive definite since 1 - M =
-  // L > 0. The right sides 1 and s^2 give g = D g_1 - g_2.
+  // With sqrt(w) g as the unknown the matrix is symmetric, and positive definite because 1 - M = L
+  // > 0. The solutions g_1 and g_2 for the right-hand sides 1 and s^2 give g = D g_1 - g_2.
   MatrixXd matrix = MatrixXd::Identity(n, n);
   const auto add_waves = [&](const VectorXd& amounts, double sign) {
     const MatrixXd waved = amounts.cwiseSqrt().asDiagonal() * cosines * root.asDiagonal();
     matrix.selfadjointView<Eigen::Lower>().rankUpdate(waved.transpose(), sign);
   };
   add_waves(q.cwiseMax(0.0), -1.0);
-  if (q.minCoeff() < 0.0) add_waves((-q).cwiseMax(0.0), 1.0);  // over softer layers
+  if (q.minCoeff() < 0.0) add_waves((-q).cwiseMax(0.0), 1.0);  // over softer layers, where M < 0
   MatrixXd g(n, 2);
   g.col(0) = root;
   g.col(1) = root.cwiseProduct(s.cwiseAbs2());
   matrix.selfadjointView<Eigen::Lower>().llt().solveInPlace(g);
   g = root.asDiagonal() * g;  // w g from here on
 
-  // g(1) = D g_1(1) - g_2(1) = 0, where between the points
+  // g(1) = D g_1(1) - g_2(1) = 0 determines D. Between the quadrature points
   // g_i(s) = 1 or s^2, + sum_k q_k cos(x_k s) v_ki,   v_ki = int_0^1 cos(x_k t) g_i(t) dt
   const MatrixXd moments = cosines * g;
   const VectorXd at_edge = q.array() * x.array().cos();
@@ -155,11 +156,11 @@ LayerSolution LayerEquation::solve(double ratio) const {
   const VectorXd v = solution.depth * moments.col(0) - moments.col(1);
   const ArrayXd tilt = 0.5 * q.array() * x.array() * v.array();
   const auto slope = [&](double at) { return 1.0 + (tilt * (at * x.array()).sin()).sum() / at; };
-  // The contact widens by da as if a flat punch of its size sank by dh. With G(x) = a^2/R g(x/a)
-  // that is dG = dh g_1; and G stays 0 at the edge: dh/da = -G'(a) / g_1(1).
+  // The contact grows by da as if a flat punch of its size were pressed deeper by dh. With G(x) =
+  // a^2/R g(x/a) this is dG = dh g_1, and G stays 0 at the edge: dh/da = -G'(a) / g_1(1).
   solution.chi_slope = slope(1.0) / (punch_edge * std::sqrt(solution.depth));
 
-  // p(r) = -E*/pi int_r^a G'(x) / sqrt(x^2 - r^2) dx is smooth but for one root: with
+  // p(r) = -E*/pi int_r^a G'(x) / sqrt(x^2 - r^2) dx is smooth except for a factor sqrt(z): with
   // x^2/a^2 = 1 - z (1 - tau^2), z = 1 - r^2/a^2, and w(1 - s^2) = -g'(s) / (2s)
   // p(r) = 2 E* a/(pi R) sqrt(z) int_0^1 w(z (1 - tau^2)) dtau,  F/(pi a^2) = 2 E* a/(pi R) `mean`
   std::array<double, PressureProfile::terms> values{};
@@ -171,8 +172,8 @@ LayerSolution LayerEquation::solve(double ratio) const {
 }
 
 LayerSolution LayerEquation::solve_chi(double chi) const {
-  // chi grows with the ratio, as fast in thick layers and half as fast in thin ones, without a bend
-  // that Newton's method would mind: two to four steps.
+  // chi grows almost linearly with the ratio (slope 1 on thick layers, 1/2 on thin ones), so that
+  // Newton's method needs two to four steps.
   LayerSolution solution = solve(chi);
   for (int pass = 0; pass < 20; ++pass) {
     const double change = (chi - solution.chi) / solution.chi_slope;
@@ -193,7 +194,7 @@ double flat_punch_factor(double ratio, const Layer& layer) {
 }
 
 std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
-  std::vector<double> numbers(static_cast<std::size_t>(count));
+  std::vector<double> numbers(as_index(count));
   std::vector<double> weights(numbers.size());
   gauss_legendre(numbers, weights, last_wave / layer.top());
   std::vector<LayerWave> waves;

@@ -1,5 +1,4 @@
-// Exact contact of a sphere, or of a flat punch, with an elastic layer on a rigid base: the
-// integral equation at one contact radius.
+// Exact contact of a sphere or flat punch with an elastic layer: its integral equation.
 #pragma once
 
 #include <array>
@@ -8,55 +7,55 @@
 
 namespace palpate::contact {
 
-// What the layer's lower face does: it holds to the base, or slides on it without lifting off.
+// Support of the layer's lower face: bonded to the base, or sliding on it without lifting off.
 enum class LayerBase { bonded, frictionless };
 
-// One of the layers under the top one, bonded to its neighbours.
+// A layer under the top one, bonded to its neighbours.
 struct Sublayer {
-  double thickness = 0.0;      // of the whole thickness H
-  double stiffness = 1.0;      // G over that of the top layer
+  double thickness = 0.0;      // fraction of the total thickness H
+  double stiffness = 1.0;      // shear modulus divided by that of the top layer
   double poisson_ratio = 0.5;  // -1 < nu <= 1/2
 };
 
-// A layer, or several on each other, without the size H of all together.
+// One layer, or several bonded layers of total thickness H, without the value of H.
 struct Layer {
-  double poisson_ratio = 0.5;  // -1 < nu <= 1/2; of no effect on a frictionless base
+  double poisson_ratio = 0.5;  // -1 < nu <= 1/2, top layer; no effect on one frictionless layer
   LayerBase base = LayerBase::bonded;
-  // lambda_2 / (lambda_1 + lambda_2), the tissue's part of the compliance, 0 to 1; 1 under a rigid
-  // finger. The finger is a half-space of compliance lambda_1.
+  // lambda_2 / (lambda_1 + lambda_2), the tissue's fraction of the compliance, 0 to 1; 1 under a
+  // rigid finger. The finger is a half-space of compliance lambda_1.
   double share = 1.0;
-  std::vector<Sublayer> below = {};  // from the second to the lowest; thinner than 1 together
+  std::vector<Sublayer> below = {};  // from the second to the lowest; total thickness below 1
 
-  [[nodiscard]] double top() const;  // thickness of the top layer, of H
+  [[nodiscard]] double top() const;  // thickness of the top layer divided by H
 };
 
-// How finely the equation is cut: numbers of Gauss-Legendre points.
+// Discretisation of the equation: numbers of Gauss-Legendre points.
 struct LayerResolution {
   int points = 0;  // over the contact's radius
   int waves = 0;   // over the wave number u = xi H
 };
 
-// Enough for 1e-8 of every number below at a over the top layer's thickness up to `greatest_ratio`
-// <= 40, and for 1e-10 up to 6; tests/convergence/contact_layer.cpp.
+// Sufficient for an error of 1e-8 in every result below if a divided by the top layer's thickness
+// is at most `greatest_ratio` <= 40, and for 1e-10 up to 6; tests/convergence/contact_layer.cpp.
 [[nodiscard]] LayerResolution layer_resolution(double greatest_ratio);
 
-// p(r) of a sphere over its mean F / (pi a^2), so that its own mean over the disc is 1:
-//   p = sqrt(z) sum_k c_k T_k(2z - 1),   z = 1 - (r/a)^2,   T_k Chebyshev's polynomials
-// 3/2 sqrt(z) on a half-space, which is Hertz's.                             docs/theory.md (59)
+// p(r) of a sphere divided by its mean F / (pi a^2), so that the mean over the disc is 1:
+//   p = sqrt(z) sum_k c_k T_k(2z - 1),   z = 1 - (r/a)^2,   T_k Chebyshev polynomials
+// On a half-space it is Hertz's 3/2 sqrt(z).                                   docs/theory.md (59)
 struct PressureProfile {
-  // What is cut off is below 1e-8 up to a/H = 6, the thinnest layers that a LayerLaw knows.
+  // Truncation error below 1e-8 up to a/H = 6, the thinnest layers in a LayerLaw.
   static constexpr std::size_t terms = 20;
   std::array<double, terms> coefficients{};
 
   [[nodiscard]] double at(double radius_ratio) const;  // r/a; 0 outside the contact
 };
 
-// The contact at one radius `a` on a layer of thickness H.
+// The solution for one contact radius `a` on a layer of thickness H.
 struct LayerSolution {
-  double ratio = 0.0;      // a / H
-  double depth = 1.0;      // D = h R / a^2 of the sphere; 1 on a half-space
-  double force = 1.0;      // of the sphere, over 4/3 E* a^3 / R, Hertz's for the same radius
-  double chi = 0.0;        // sqrt(R h) / H = (a/H) sqrt(D)
+  double ratio = 0.0;  // a / H
+  double depth = 1.0;  // D = h R / a^2 of the sphere; 1 on a half-space
+  double force = 1.0;  // of the sphere, divided by Hertz's force 4/3 E* a^3 / R for the same radius
+  double chi = 0.0;    // sqrt(R h) / H = (a/H) sqrt(D)
   double chi_slope = 1.0;  // d chi / d(a/H)
   double punch = 1.0;      // kappa of a flat punch of this radius: F = 2 a E* h kappa
   PressureProfile pressure;
@@ -65,51 +64,51 @@ struct LayerSolution {
   [[nodiscard]] double radius_factor() const;  // a / sqrt(R h)
 };
 
-// The equation of one layer, ready for any ratio a/H:
+// The integral equation of one layer, prepared for any ratio a/H:
 //   g(s) - int_0^1 Q(s,t) g(t) dt = D - s^2,   g(1) = 0,   0 <= s <= 1
-// Hayes and others 1972, J. Biomech. 5, 541-551; docs/theory.md (56), (57)
-// By Nystrom's method, a quarter of a millisecond a solution at the resolution of a/H = 6.
+// Hayes and others 1972, J. Biomech. 5, 541-551; docs/theory.md (56), (57). Solved by Nystrom's
+// method; one solution takes a quarter of a millisecond at the resolution of a/H = 6.
 class LayerEquation {
  public:
   LayerEquation(const Layer& layer, const LayerResolution& resolution);
 
-  [[nodiscard]] LayerSolution solve(double ratio) const;    // at a / H >= 0
-  [[nodiscard]] LayerSolution solve_chi(double chi) const;  // at sqrt(R h) / H >= 0, some solutions
+  [[nodiscard]] LayerSolution solve(double ratio) const;    // ratio = a / H >= 0
+  [[nodiscard]] LayerSolution solve_chi(double chi) const;  // chi >= 0; takes several solutions
 
  private:
   struct Rule {
     std::vector<double> nodes, weights;
   };
   Rule points_;  // s and t over [0, 1]
-  Rule waves_;   // u over [0, 20 H / top]; its weights carry 2/pi M(u) `share`
+  Rule waves_;   // u over [0, 20 H / top]; the weights include 2/pi M(u) `share`
 };
 
-// One solution at the resolution that its ratio a/H wants.
+// One solution with the resolution that the ratio a/H needs.
 [[nodiscard]] LayerSolution solve_layer(double ratio, const Layer& layer);
 
-// kappa >= 1 of a rigid flat punch of radius a at the ratio a/H: F = 2 a E* h kappa.
+// kappa of a rigid flat punch of radius a = ratio H: F = 2 a E* h kappa. At least 1 on one layer.
 [[nodiscard]] double flat_punch_factor(double ratio, const Layer& layer);
 
-// c_1 of F / F_Hertz = 1 + c_1 chi + 7/6 c_1^2 chi^2 + ..., the finite thickness to first order:
+// c_1 of F / F_Hertz = 1 + c_1 chi + 7/6 c_1^2 chi^2 + ..., the thickness to first order:
 //   c_1 = 2/pi share int_0^inf M(u) du                                     docs/theory.md (58)
 [[nodiscard]] double layer_first_coefficient(const Layer& layer);
 
-// Points u_k of a quadrature of int_0^inf M(u) f(u) du = sum_k missing_k f(u_k), share included.
+// Points u_k of a quadrature int_0^inf share M(u) f(u) du = sum_k missing_k f(u_k).
 struct LayerWave {
   double number = 0.0;   // u = xi H
-  double missing = 0.0;  // M(u) times the weight
+  double missing = 0.0;  // share M(u) times the quadrature weight
 };
 [[nodiscard]] std::vector<LayerWave> layer_waves(const Layer& layer, int count);
 
-// sum_k c_k T_k(2z - 1) and its derivative by z, for 0 <= z <= 1, at least one term. + and * only.
+// sum_k c_k T_k(2z - 1) and its derivative by z, for 0 <= z <= 1 and at least one coefficient.
 struct ChebyshevSum {
   double value = 0.0, slope = 0.0;
 };
 [[nodiscard]] ChebyshevSum chebyshev_sum(std::span<const double> coefficients, double z);
 
-// Chebyshev's node i of n, of the first kind: z in (0, 1), from the greatest.
+// Chebyshev node i of n, of the first kind: z in (0, 1), in descending order.
 [[nodiscard]] double chebyshev_node(std::size_t i, std::size_t n);
-// The coefficients of the polynomial with these values at the nodes, as many.
+// The coefficients of the polynomial with these values at the nodes; as many as there are values.
 void chebyshev_fit(std::span<const double> values, std::span<double> coefficients);
 
 }  // namespace palpate::contact

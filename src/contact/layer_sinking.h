@@ -1,4 +1,4 @@
-// How much less a layer sinks than a half-space, at any distance from a force on it.
+// How much less the surface of a layer sinks than that of a half-space, around a force.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace palpate::contact {
 
-// Under a point force F the surface of a layer of thickness H sinks at the distance r by
+// Under a point force F the surface of a layer of thickness H sinks, at the distance r, by
 //   u(r) = F / (pi E') (1/r - Gamma(r/H) / H),   E' = E / (1 - nu^2),
-// 1/r being the half-space's. Gamma(rho) = int_0^inf M(u) J_0(u rho) du is smooth, pi/2 c_1 at 0,
-// and nears 1/rho where the layer no longer sinks.                            docs/theory.md (60)
+// where 1/r is the half-space's part. Gamma(rho) = int_0^inf M(u) J_0(u rho) du is smooth, is pi/2
+// c_1 at 0, and tends to 1/rho far away, where the layer does not sink. docs/theory.md (60)
 class LayerSinking {
  public:
-  // Tabulates Gamma; for set-up.
+  // Tabulates Gamma; for set-up only.
   explicit LayerSinking(const Layer& layer);
 
-  [[nodiscard]] double gamma(double rho) const;  // rho >= 0, within 1e-7, of several layers 3e-5
+  [[nodiscard]] double gamma(double rho) const;  // rho >= 0; error < 1e-7 (several layers: 3e-5)
 
  private:
   struct Knot {
@@ -26,7 +26,7 @@ class LayerSinking {
     double last_rho;
     std::vector<Knot> knots;
   };
-  std::vector<Table> tables_;  // near the force, and, of several layers, far from it; then 1/rho
+  std::vector<Table> tables_;  // for several layers a second one, farther away
 };
 
 }  // namespace palpate::contact

@@ -1,23 +1,25 @@
-// Four waves a layer, one linear system a wave number.
+// Solves a linear system for four waves per layer, for each wave number.
 #include "contact/layer_stack.h"
 
 #include <Eigen/LU>
 #include <cassert>
 #include <cmath>
 
+#include "base/index.h"
+
 namespace palpate::contact {
 namespace {
 
-using Row = Eigen::Vector4d;  // of the four waves
+using Row = Eigen::Vector4d;  // coefficients of the four waves
 
-// u_x = U(z) sin xz, u_z = W(z) cos xz, z downwards; the stresses over 2 G x of the top layer.
+// u_x = U(z) sin kx, u_z = W(z) cos kx, z downwards; stresses divided by 2 G k of the top layer.
 struct Face {
   Row along, down, pull, shear;  // U, W, sigma_zz, sigma_xz
 };
 
-// Of the waves (e, e), ((kz - K) e, kz e), e = exp(-kz), K = 3 - 4 nu, and their mirror images in
-// the layer's middle, as (U, W); `kz` and `kd` are wave numbers times depth and thickness. They
-// meet G (lap u + grad div u / (1 - 2 nu)) = 0 also at nu = 1/2.
+// The waves (U, W) = (e, e) and ((kz - K) e, kz e), e = exp(-kz), K = 3 - 4 nu, and their mirror
+// images at the layer's middle. `kz` and `kd` are the wave number times depth and thickness. They
+// satisfy G (lap u + grad div u / (1 - 2 nu)) = 0, also at nu = 1/2.       docs/theory.md (79)
 Face face(double kz, double kd, double stiffness, double nu) {
   const double big_k = 3.0 - 4.0 * nu;
   const double e = std::exp(-kz);
@@ -41,10 +43,9 @@ double stack_sinking(double u, const Layer& layer) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(4 * layers, 4 * layers);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(4 * layers);
   const auto piece = [&](Eigen::Index i) {
-    return i == 0 ? Sublayer{layer.top(), 1.0, layer.poisson_ratio}
-                  : layer.below[static_cast<std::size_t>(i) - 1];
+    return i == 0 ? Sublayer{layer.top(), 1.0, layer.poisson_ratio} : layer.below[as_index(i) - 1];
   };
-  // A wave of pressure 2 G x on the surface.
+  // The load is a pressure wave of amplitude 2 G k on the surface.
   const Sublayer first = piece(0);
   const Face surface = face(0.0, u * first.thickness, 1.0, first.poisson_ratio);
   matrix.block<1, 4>(0, 0) = surface.pull.transpose();
@@ -71,7 +72,7 @@ double stack_sinking(double u, const Layer& layer) {
     }
   }
   const Eigen::VectorXd waves = matrix.fullPivLu().solve(right);
-  // A half-space sinks by 2 (1 - nu) under it.
+  // A half-space is displaced by 2 (1 - nu) under this load.
   return surface.down.dot(waves.head<4>()) / (2.0 * (1.0 - first.poisson_ratio));
 }
 

@@ -1,4 +1,4 @@
-// Colgate and Brown's bound, both ways round.
+// Colgate and Brown's bound, for the damping and for the stiffness.
 #include "contact/passivity.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ double passive_depth(const PointLaw& law, const SampledDevice& device) {
     high *= 2.0;
     if (high > 1e3 || high > law.last_depth()) return std::numeric_limits<double>::infinity();
   }
-  // To the last digit: a halving a step.
+  // Bisection to the last digit.
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (law.stiffness(middle) < most ? low : high) = middle;

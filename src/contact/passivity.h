@@ -1,28 +1,27 @@
-// Which contacts a haptic device with a frame rate can show without giving energy away.
+// Which contact stiffness a haptic device with a given frame time can render passively.
 #pragma once
 
 #include "contact/balance.h"
 
 namespace palpate::contact {
 
-// A device that reads its place once a frame and holds a force till the next.
+// A device that reads its position once per frame and holds a force until the next frame.
 struct SampledDevice {
-  double damping = 0.0;          // N s/m, its own: b
+  double damping = 0.0;          // N s/m, of the device's mechanics: b
   double frame = 1e-3;           // s, T
-  double virtual_damping = 0.0;  // N s/m, of the law that is shown: B
-  double delay = 0.0;            // s, from a reading to its force: T_d
+  double virtual_damping = 0.0;  // N s/m, of the rendered law: B
+  double delay = 0.0;            // s, from a position to its force: T_d
 };
 
-// The damping that a device needs to hold a wall of `stiffness` (N/m) passively, in N s/m:
-//   b > K T / 2 + |B|, and about K T_d more with a delay.
-// J. E. Colgate and J. M. Brown, ICRA 1994; docs/theory.md (84)
+// The damping that a device needs to render a wall of `stiffness` (N/m) passively, N s/m:
+//   b > K (T/2 + T_d) + |B|          J. E. Colgate and J. M. Brown, ICRA 1994; docs/theory.md (84)
 [[nodiscard]] double needed_damping(double stiffness, const SampledDevice& device);
 
-// The stiffness that bound allows, N/m; 0 where the device's damping is not above |B|.
+// The largest stiffness that this bound allows, N/m; 0 if the device's damping is not above |B|.
 [[nodiscard]] double passive_stiffness(const SampledDevice& device);
 
-// The depth (m) at which a contact law, whose stiffness grows with depth, reaches that stiffness:
-// the first one that can ring in the hand. Infinite where the law ends before.
+// The depth (m) at which the stiffness of a contact law, which grows with depth, reaches the
+// passive stiffness and oscillations become possible. Infinite if the law ends before that depth.
 [[nodiscard]] double passive_depth(const PointLaw& law, const SampledDevice& device);
 
 }  // namespace palpate::contact

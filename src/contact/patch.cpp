@@ -1,4 +1,4 @@
-// Quadrature of the Hertz pressure in polar coordinates, and a walk over the triangles.
+// Distributes Hertz's pressure: a quadrature in polar coordinates and a walk over the triangles.
 #include "contact/patch.h"
 
 #include <algorithm>
@@ -12,22 +12,22 @@ namespace {
 constexpr int rings = 6;
 constexpr int half_spokes = 8;
 
-// A quadrature point and its opposite, in semi-axes.
+// A quadrature point, in units of the semi-axes; the opposite point has the same weight.
 struct Pair {
   double x, y;
-  double weight;  // of each of the two; all together sum to 1
+  double weight;  // of each of the two; the sum over all points is 1
 };
-using Pairs = std::array<Pair, static_cast<std::size_t>(rings* half_spokes)>;
+using Pairs = std::array<Pair, as_index(rings* half_spokes)>;
 
-// With s = sqrt(1 - r^2/a^2) the pressure's share p r dr becomes s^2 ds on [0, 1]: Gauss-Legendre
-// in s, equal angles around. 6-point abscissae: Abramowitz & Stegun 1964, table 25.4.
+// With s = sqrt(1 - r^2/a^2) the force p r dr becomes s^2 ds on [0, 1]: Gauss-Legendre points in s
+// and equal angles. 6-point abscissae: Abramowitz & Stegun 1964, table 25.4. docs/theory.md (9)
 Pairs make_pairs() {
   constexpr std::array abscissae{0.238619186083196909, 0.661209386466264514, 0.932469514203152028};
   constexpr std::array weights{0.467913934572691047, 0.360761573048138608, 0.171324492379170345};
   Pairs pairs{};
   std::size_t next = 0;
   for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t i = static_cast<std::size_t>(ring) / 2;
+    const std::size_t i = as_index(ring) / 2;
     const double s = 0.5 + (ring % 2 == 0 ? -0.5 : 0.5) * abscissae[i];
     const double r = std::sqrt(1.0 - s * s);
     for (int spoke = 0; spoke < half_spokes; ++spoke) {
@@ -39,9 +39,9 @@ Pairs make_pairs() {
   return pairs;
 }
 
-static_assert(most_shares == 3 * 2 * static_cast<std::size_t>(rings * half_spokes));
+static_assert(most_shares == 3 * 2 * as_index(rings * half_spokes));
 
-constexpr double least_facing = 0.2;  // cosine: a triangle turned further away is not pressed
+constexpr double least_facing = 0.2;  // cosine; below it a triangle counts as turned away
 
 }  // namespace
 
@@ -57,7 +57,7 @@ void Spreader::make_room() {
   met_.reserve(most_shares / 3);
 }
 
-// Views are of a place and its directions, not of the patch's size.
+// Views depend on position and directions, not on the size of the patch.
 void Spreader::look_from(const Patch& patch) {
   const bool same = turn_ > 0 && patch.position == from_.position && patch.normal == from_.normal &&
                     patch.axis == from_.axis;
@@ -68,10 +68,10 @@ void Spreader::look_from(const Patch& patch) {
 void Spreader::look_at(int triangle, View& view) const {
   view.turn = turn_;
   const geometry::Surface& surface = surface_->surface();
-  const auto& [i, j, k] = surface.triangles[static_cast<std::size_t>(triangle)];
-  const Vec3& corner = surface.vertices[static_cast<std::size_t>(i)];
-  const Vec3 side_b = surface.vertices[static_cast<std::size_t>(j)] - corner;
-  const Vec3 side_c = surface.vertices[static_cast<std::size_t>(k)] - corner;
+  const auto& [i, j, k] = surface.triangles[as_index(triangle)];
+  const Vec3& corner = surface.vertices[as_index(i)];
+  const Vec3 side_b = surface.vertices[as_index(j)] - corner;
+  const Vec3 side_c = surface.vertices[as_index(k)] - corner;
   const Vec3 upright = side_b.cross(side_c);
   const double seen = upright.dot(from_.normal);
   view.faces = seen >= least_facing * upright.norm();
@@ -89,8 +89,7 @@ void Spreader::look_at(int triangle, View& view) const {
   view.third_y = third.dot(across);
 }
 
-// Walks from the patch's triangle to the one that holds the point, seen along the normal; -1 where
-// there is none.
+// Walks from the patch's triangle to the one that contains the point, seen along the normal, or -1.
 int Spreader::triangle_at(double x, double y) {
   constexpr int most_steps = 1000;
   int triangle = from_.at.triangle;
@@ -99,7 +98,7 @@ int Spreader::triangle_at(double x, double y) {
     if (!seen.faces) return -1;
     const double second = seen.second + x * seen.second_x + y * seen.second_y;
     const double third = seen.third + x * seen.third_x + y * seen.third_y;
-    // The edge opposite to the lowest weight begins at the corner after it.
+    // The edge opposite to the corner with the lowest weight starts at the next corner.
     double lowest = 1.0 - second - third;
     std::size_t edge = 1;
     if (second < lowest) {
@@ -114,7 +113,7 @@ int Spreader::triangle_at(double x, double y) {
     if (lowest >= -rounding) return triangle;
     const int next = surface_->neighbours().across(triangle)[edge];
     if (next < 0 && lowest >= -1e-9) return triangle;
-    // Crossing a crease would load the side beyond at once, as soon as it faces the patch.
+    // Not across a crease: the other side would be loaded suddenly, as soon as it faces the patch.
     if (surface_->crease(triangle, edge)) return -1;
     triangle = next;
   }
@@ -122,9 +121,9 @@ int Spreader::triangle_at(double x, double y) {
 }
 
 void Spreader::share(const geometry::SurfacePoint& point, double weight) {
-  const auto& corners = surface_->surface().triangles[static_cast<std::size_t>(point.triangle)];
+  const auto& corners = surface_->surface().triangles[as_index(point.triangle)];
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto vertex = static_cast<std::size_t>(corners[i]);
+    const auto vertex = as_index(corners[i]);
     if (share_[vertex] == 0.0) touched_.push_back(corners[i]);
     share_[vertex] += weight * point.weights[static_cast<Eigen::Index>(i)];
   }
@@ -135,7 +134,7 @@ void Spreader::spread(const Patch& patch, Spread& spread) {
   look_from(patch);
   touched_.clear();
   met_.clear();
-  // Shares are linear over a triangle: sums of its points are enough.
+  // Shares are linear over a triangle, so the sums over its quadrature points suffice.
   const auto add = [this](int triangle, double x, double y, double weight) {
     View& seen = view(triangle);
     if (seen.weight == 0.0) met_.push_back(triangle);
@@ -182,8 +181,9 @@ void Spreader::spread(const Patch& patch, Spread& spread) {
   spread.vertices.clear();
   spread.shares.clear();
   for (const int vertex : touched_) {
-    double& share = share_[static_cast<std::size_t>(vertex)];
-    // Weights of -1e-12 from points on an edge cancel in sums; what is left of them is no load.
+    double& share = share_[as_index(vertex)];
+    // Weights of -1e-12 from points on an edge cancel in the sums; the rounding left over is no
+    // load.
     if (share > 1e-14) {
       spread.vertices.push_back(vertex);
       spread.shares.push_back(share);

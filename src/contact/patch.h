@@ -1,4 +1,4 @@
-// The patch that a sphere presses on a surface, and its pressure spread over the vertices there.
+// The contact patch of a sphere on a surface, and its pressure distributed over the vertices.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace palpate::contact {
 
-// An ellipse in the tangent plane of a surface point; the pressure over it is Hertz's.
+// An ellipse in the tangent plane of a surface point, with Hertz's pressure distribution.
 struct Patch {
   geometry::SurfacePoint at;
   Vec3 position = Vec3::Zero();   // m
@@ -19,50 +19,49 @@ struct Patch {
   geometry::SurfacePoint beyond;  // as in SmoothSurface::Foot
   double turned = 0.0;
 
-  [[nodiscard]] double radius() const;  // m, of the circle of the same area: sqrt(a b)
+  [[nodiscard]] double radius() const;  // m, of a circle of the same area: sqrt(a b)
 };
 
-// Of a patch, at most: three corners of one triangle a quadrature point.
+// Largest number of shares of a patch: three corners for each quadrature point.
 inline constexpr std::size_t most_shares = 288;
 
-// Shares of a force on the surface's vertices. They sum to 1, and the point of the patch is their
-// centre in the tangent plane: a force along the normal has no moment about it.
+// Shares of a force on the surface's vertices. They sum to 1, and their centroid in the tangent
+// plane is the patch's point, so that a force along the normal has no moment about it.
 struct Spread {
   std::vector<int> vertices;   // ascending
-  std::vector<double> shares;  // one a vertex, >= 0
+  std::vector<double> shares;  // one per vertex, >= 0
 };
 
-// Holds buffers, so that spreading allocates nothing once they have grown, and how triangles look
-// from the last patch's place, as long as the next one has the same.
+// Distributes the pressure of patches. Its buffers make spreading free of allocations after the
+// first patches; projections of triangles are reused while the next patch has the same position.
 class Spreader {
  public:
   explicit Spreader(const geometry::SmoothSurface& surface);
 
-  // From now on spreading allocates nothing.
+  // After this, spreading allocates nothing in the Spreader.
   void make_room();
 
-  // Every quadrature point is shared by the linear shape functions of the triangle that it meets
-  // along the normal. Where one of two opposite points misses the surface, or is beyond a crease or
-  // turned away, both are drawn back to the rim. All on the triangle under the centre for a = b =
-  // 0.                                                                    docs/theory.md (9)
+  // The weight of every quadrature point is distributed by the linear shape functions of the
+  // triangle that it meets along the normal. If one of two opposite points misses the surface, or
+  // meets a triangle beyond a crease or turned away, both are moved towards the centre until they
+  // meet it. For a = b = 0 the triangle under the centre gets everything. docs/theory.md (9)
   void spread(const Patch& patch, Spread& spread);
 
  private:
-  // The weights of a triangle's second and third corner where the perpendicular through a point of
-  // the patch's plane, x along its axis and y across (m), meets the triangle's plane.
+  // The projection of a triangle: the weights of its second and third corner where the normal
+  // through the point (x, y) (m, along and across the axis) meets the triangle's plane.
   struct View {
-    unsigned turn = 0;  // which turn of look_from() it is of
+    unsigned turn = 0;  // the value of turn_ for which it was computed
     double second = 0.0, second_x = 0.0, second_y = 0.0;
     double third = 0.0, third_x = 0.0, third_y = 0.0;
-    bool faces = false;  // it is not turned away
-    // Of the quadrature points that meet it: their weights' sum, and those of weight x and weight
-    // y.
+    bool faces = false;  // the triangle is not turned away
+    // Over the quadrature points that meet the triangle: the sums of weight, weight x and weight y.
     double weight = 0.0, weight_x = 0.0, weight_y = 0.0;
   };
 
   void look_from(const Patch& patch);
   [[nodiscard]] View& view(int triangle) {
-    View& seen = views_[static_cast<std::size_t>(triangle)];
+    View& seen = views_[as_index(triangle)];
     if (seen.turn != turn_) look_at(triangle, seen);
     return seen;
   }
@@ -71,11 +70,11 @@ class Spreader {
   void share(const geometry::SurfacePoint& point, double weight);
 
   const geometry::SmoothSurface* surface_;
-  std::vector<double> share_;  // one a vertex
+  std::vector<double> share_;  // one per vertex
   std::vector<int> touched_;   // vertices
   std::vector<int> met_;       // triangles
-  Patch from_;                 // whose views are known
-  std::vector<View> views_;    // one a triangle
+  Patch from_;                 // the patch for which views_ are valid
+  std::vector<View> views_;    // one per triangle
   unsigned turn_ = 0;
 };
 

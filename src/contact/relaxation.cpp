@@ -1,4 +1,4 @@
-// Relaxation to creep and back: between two poles of one function lies a zero, a pole of the other.
+// Converts relaxation to creep and back: the poles of one are the zeros between poles of the other.
 #include "contact/relaxation.h"
 
 #include <algorithm>
@@ -16,10 +16,10 @@ struct Pole {
   double weight = 0.0;  // a, above 0
 };
 
-// Where  sum_k a_k / (x - p_k) = 1: one x behind each of the ascending poles and before the next.
+// Solutions of  sum_k a_k / (x - p_k) = 1: one x after each of the ascending poles.
 struct Roots {
   std::vector<double> places;  // x_m
-  std::vector<double> gaps;    // x_m - p_k at [m n + k], to rounding of each
+  std::vector<double> gaps;    // x_m - p_k at [m n + k], each accurate to rounding
 };
 
 // The sum at p_origin + offset.
@@ -29,12 +29,12 @@ double sum_at(const std::vector<Pole>& poles, double origin, double offset) {
   return sum;
 }
 
-// The last lies no farther than `last_width` behind its pole.
+// The last root is at most `last_width` after its pole.
 Roots roots_of(const std::vector<Pole>& poles, double last_width) {
   Roots roots;
   for (std::size_t m = 0; m < poles.size(); ++m) {
-    // The sum falls from infinity at each pole. A root close to one end of its interval is found
-    // as the distance from there, which keeps its digits.
+    // After each pole the sum decreases from infinity. A root close to one end of its interval is
+    // computed as the distance from that end, which keeps its digits.
     double origin = poles[m].place;
     const double width = m + 1 < poles.size() ? poles[m + 1].place - origin : last_width;
     double before = 0.0;  // an offset where the sum is above 1
@@ -49,7 +49,7 @@ Roots roots_of(const std::vector<Pole>& poles, double last_width) {
       if (middle == before || middle == behind) break;
       (sum_at(poles, origin, middle) > 1.0 ? before : behind) = middle;
     }
-    // The end itself is no root.
+    // The end itself is not a root.
     const double offset = behind == 0.0 ? before : behind;
     roots.places.push_back(origin + offset);
     for (const Pole& pole : poles) roots.gaps.push_back((origin - pole.place) + offset);
@@ -67,8 +67,8 @@ double slope_at(const std::vector<Pole>& poles, const Roots& roots, std::size_t 
   return sum;
 }
 
-// The branches of  1 / (1 - sum_m j_m s T_m / (1 + s T_m)),  sum j_m < 1, T_m ascending: at its
-// poles s = -1/tau is  sum_m j_m T_m / (T_m - tau) = 1, with the residues
+// The branches of  1 / (1 - sum_m j_m s T_m / (1 + s T_m)),  sum j_m < 1, T_m ascending. Its poles
+// s = -1/tau satisfy  sum_m j_m T_m / (T_m - tau) = 1; the residues are
 // b = 1 / (tau sum_m j_m T_m / (T_m - tau)^2).
 std::vector<Branch> branches_of(const std::vector<Branch>& modes) {
   std::vector<Pole> poles;  // in x = -tau
@@ -92,7 +92,7 @@ double Relaxation::modulus_ratio(double time) const {
 }
 
 double Creep::compliance_ratio(double time) const {
-  // 1 - sum j + sum j (1 - exp(-t/T)), where the first two are what yields at once
+  // (1 - sum j) + sum j (1 - exp(-t/T)): the instantaneous and the delayed part
   double at_once = 1.0, later = 0.0;
   for (const Branch& mode : modes) {
     at_once -= mode.ratio;
@@ -127,7 +127,7 @@ Creep creep(const Relaxation& relaxation) {
   std::vector<Pole> poles;
   for (const Branch& branch : sorted(relaxation).branches)
     poles.push_back({.place = branch.time, .weight = branch.ratio * branch.time});
-  // Behind the last pole the sum is at most bound / (x - p_last): the root is no farther.
+  // After the last pole the sum is at most bound / (x - p_last), so the root is within `bound`.
   double bound = 0.0;
   for (const Pole& pole : poles) bound += pole.weight;
   Roots roots = roots_of(poles, 2.0 * bound);
@@ -144,8 +144,8 @@ Relaxation behind_finger(const Relaxation& tissue, double finger_share) {
   assert(finger_share >= 0.0 && finger_share <= 1.0);
   if (finger_share == 0.0) return sorted(tissue);
   if (finger_share == 1.0) return {};
-  // In series compliances add, and the finger's does not creep: J* = lambda_1 + lambda_2 J / J_inf
-  // has the tissue's times, each with its ratio times lambda_2 / (lambda_1 + lambda_2).
+  // In series, compliances add, and the finger does not creep: J* = lambda_1 + lambda_2 J / J_inf
+  // has the tissue's times; each ratio is multiplied by lambda_2 / (lambda_1 + lambda_2).
   Creep together = creep(tissue);
   for (Branch& mode : together.modes) mode.ratio *= 1.0 - finger_share;
   return {.branches = branches_of(together.modes), .retardation_time = 0.0};

@@ -1,4 +1,4 @@
-// Least squares over the ring, with weights that let no vertex enter or leave with a jump.
+// Least-squares fit over the ring, with weights that change smoothly.
 #include "contact/ring.h"
 
 #include <algorithm>
@@ -9,20 +9,20 @@
 namespace palpate::contact {
 namespace {
 
-// How much a vertex is believed: most at one spacing beyond the patch, half at a half and at one
-// and a half, next to nothing far off. Smooth, so that no vertex enters or leaves with a jump, and
-// never zero, so that a coarse mesh reads the nearest vertices it has.
+// The weight of a vertex: largest at one spacing beyond the patch, half of that at 1/2 and 3/2
+// spacings. It is smooth, so that readings do not jump, and never zero, so that on a coarse mesh
+// the nearest vertices are used, however far away. docs/theory.md (13)
 double ring_weight(double beyond_patch, double spacing) {
   const double x = (beyond_patch - spacing) / (0.5 * spacing);
   const double quarter = 1.0 + 0.1892071150027210667 * x * x;  // (1/2)^(1/4) at x = 1
   return 1.0 / (quarter * quarter * quarter * quarter);
 }
 
-constexpr double dropped = 0.02;  // of the best weight: vertices of less are not read
+constexpr double dropped = 0.02;  // of the largest weight: vertices with less are not used
 
-// A vertex that carries load itself sinks as the mesh likes: it is read less, the more it carries.
+// The displacement of a loaded vertex depends on the mesh, so its weight falls with its load.
 double unloaded(double share) {
-  constexpr double full = 0.01;  // of the force; from here on the vertex is not read at all
+  constexpr double full = 0.01;  // of the force; from this share on the vertex is not used
   const double left = std::max(0.0, 1.0 - share / full);
   return left * left;
 }
@@ -36,7 +36,7 @@ RingReader::RingReader(const geometry::SmoothSurface& surface)
   const auto& triangles = surface.surface().triangles;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
-      auto& known = normals_[static_cast<std::size_t>(triangles[t][i])];
+      auto& known = normals_[as_index(triangles[t][i])];
       const Vec3& normal = surface.corner_normal(static_cast<int>(t), i);
       if (std::find(known.begin(), known.end(), normal) == known.end()) known.push_back(normal);
     }
@@ -51,8 +51,8 @@ RingReader::RingReader(const geometry::SmoothSurface& surface)
       for (std::size_t edge = 0; edge < 3; ++edge) {
         if (surface.crease(found[i], edge)) continue;
         const int next = surface.neighbours().across(found[i])[edge];
-        if (part_[static_cast<std::size_t>(next)] >= 0) continue;
-        part_[static_cast<std::size_t>(next)] = part;
+        if (part_[as_index(next)] >= 0) continue;
+        part_[as_index(next)] = part;
         found.push_back(next);
       }
     }
@@ -63,9 +63,7 @@ RingReader::RingReader(const geometry::SmoothSurface& surface)
 }
 
 double RingReader::spacing(const Patch& patch) const {
-  const auto of = [&](int triangle) {
-    return spacing_[static_cast<std::size_t>(part_[static_cast<std::size_t>(triangle)])];
-  };
+  const auto of = [&](int triangle) { return spacing_[as_index(part_[as_index(triangle)])]; };
   const double here = of(patch.at.triangle);
   return patch.turned > 0.0 ? here + patch.turned * (of(patch.beyond.triangle) - here) : here;
 }
@@ -89,8 +87,8 @@ void RingReader::look_around(const Patch& patch, double reach) {
 void RingReader::weigh(double radius, double spacing, std::span<const double> shares) {
   best_ = 0.0;
   for (Around& one : around_) {
-    one.weight = one.facing * ring_weight(one.r - radius, spacing) *
-                 unloaded(shares[static_cast<std::size_t>(one.vertex)]);
+    one.weight =
+        one.facing * ring_weight(one.r - radius, spacing) * unloaded(shares[as_index(one.vertex)]);
     best_ = std::max(best_, one.weight);
   }
 }
@@ -99,8 +97,8 @@ void RingReader::read(const Patch& patch, std::span<const double> shares, double
                       Reading& reading) {
   const double spacing = std::max(this->spacing(patch), away);
   const double radius = patch.radius();
-  // All that can count beside the best of the near ones; of a coarse mesh, all there are. Looked
-  // for with some room, so that a growing patch need not look again.
+  // Candidates are all vertices whose weight can reach `dropped` times the largest one; on a coarse
+  // mesh all vertices. The factor 1.25 avoids new searches while a patch grows.
   constexpr double near = 4.0;  // spacings beyond the patch
   look_around(patch, 1.25 * radius + near * spacing);
   weigh(radius, spacing, shares);
@@ -114,7 +112,7 @@ void RingReader::read(const Patch& patch, std::span<const double> shares, double
   reading.vertices.clear();
   reading.weights.clear();
   if (best_ <= 0.0) return;
-  // What is dropped is taken off all the others, so that dropping makes no jump.
+  // The threshold is subtracted from all weights, so that no weight jumps when a vertex drops out.
   for (Around& one : around_) {
     one.weight = one.weight / best_ - dropped;
     if (one.weight <= 0.0) continue;
@@ -123,7 +121,7 @@ void RingReader::read(const Patch& patch, std::span<const double> shares, double
     s1 += one.weight * r2;
     s2 += one.weight * r2 * r2;
   }
-  // Where all vertices stand at one distance the slope cannot be told: a small ridge keeps it at 0.
+  // If all vertices have the same distance, the slope is undetermined; a small ridge keeps it at 0.
   const double mean_r2 = s1 / s0;
   const double ridge = 1e-3 * s0 * mean_r2 * mean_r2;
   const double determinant = s0 * (s2 + ridge) - s1 * s1;
@@ -136,10 +134,8 @@ void RingReader::read(const Patch& patch, std::span<const double> shares, double
 
 double RingReader::half_space(int vertex, int pressed, double plane_modulus, double spacing) const {
   const auto& vertices = surface_->surface().vertices;
-  const double r =
-      (vertices[static_cast<std::size_t>(vertex)] - vertices[static_cast<std::size_t>(pressed)])
-          .norm();
-  // A vertex reads its own small share as if it were spread over a disk of half a spacing.
+  const double r = (vertices[as_index(vertex)] - vertices[as_index(pressed)]).norm();
+  // The displacement of a vertex under its own small share is that of a disc half a spacing wide.
   return 1.0 / (std::numbers::pi * plane_modulus * std::max(r, 0.25 * spacing));
 }
 

@@ -1,4 +1,4 @@
-// Rings in and out of contact through a step of time.
+// Moves rings into and out of contact during a time step.
 #include "contact/viscous_contact.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ double sum(const std::vector<double>& values) {
 
 double three_halves(double h) { return h * std::sqrt(h); }
 
-// phi at `level` between two recorded depths, as h^(3/2): exact on Hertz and elliptic contacts.
+// phi at `level`, linear in h^(3/2) between two rings: exact for Hertz and elliptic contacts.
 double between(double level, double lower, double lower_force, double upper, double upper_force) {
   const double start = three_halves(lower);
   const double width = three_halves(upper) - start;
@@ -22,7 +22,7 @@ double between(double level, double lower, double lower_force, double upper, dou
   return lower_force + (upper_force - lower_force) * ((three_halves(level) - start) / width);
 }
 
-// Which part of a step had passed when what goes from `start` to `end` was 0.
+// The fraction of a step after which a quantity that goes linearly from `start` to `end` is 0.
 double moment_of_zero(double start, double end) {
   return std::clamp(start / (start - end), 0.0, 1.0);
 }
@@ -40,7 +40,7 @@ ViscousContact::ViscousContact(const Relaxation& relaxation, std::size_t rings)
       outer_branches_(law_.branch_count()),
       modes_(law_.mode_count()),
       row_(2 * law_.branch_count()) {
-  free_.push(0.0, 0.0, modes_);  // the middle of the contact to come
+  free_.push(0.0, 0.0, modes_);  // the middle of the future contact
 }
 
 double ViscousContact::step(double time_step, double depth, double elastic_force) {
@@ -53,7 +53,7 @@ double ViscousContact::step(double time_step, double depth, double elastic_force
     return force_ = depth > 0.0 ? elastic_force : 0.0;
   }
   pass_time(time_step, depth);
-  // Of a press that is held the edge is exactly at rest, but for rounding.
+  // While a press is held, the edge does not move, except for rounding.
   constexpr double rounding = 1e-14;
   if (!pressed_.empty() && push_of_top() < -rounding * pressed_.level())
     shrink();
@@ -84,7 +84,7 @@ double ViscousContact::push_of_top() const {
   return push;
 }
 
-// Where a finger would meet the nearest free ring, m.
+// The depth at which a finger would meet the nearest free ring, m.
 double ViscousContact::place_of_free() const {
   double place = free_.level();
   for (std::size_t m = 0; m < modes_.size(); ++m) place += free_.value(m);
@@ -108,7 +108,7 @@ void ViscousContact::shrink() {
     push = push_of_top();
   } while (push < 0.0);
   edge_ = ContactEdge::shrinking;
-  // The edge is where q = 0 between the ring that is pressed and the one that let go.
+  // The edge is where q = 0 between the outermost pressed ring and the ring last released.
   const double part = push / (push - outer_push);
   const double inner_level = pressed_.level();
   const double level = std::lerp(inner_level, outer_level, part);
@@ -136,7 +136,7 @@ void ViscousContact::grow(double elastic_force) {
     lay_edge(depth_, elastic_force);
     return;
   }
-  // Where the free surface, straight between two rings, meets the finger.
+  // The edge is where the free surface, linear between two rings, meets the finger.
   edge_ = ContactEdge::returning;
   const double part = (depth_ - place) / (place_of_free() - place);
   const double level = std::lerp(inner_level, free_.level(), part);
@@ -148,7 +148,7 @@ void ViscousContact::grow(double elastic_force) {
                             free_.elastic_force()));
 }
 
-// Lets the top ring go, at the moment of the step when it ceased to push.
+// Releases the top ring at the moment of the step when its q became zero.
 void ViscousContact::release_top() {
   const double level = pressed_.level();
   double start = (depth_before_ - level) + law_.retardation_time() * rate_;
@@ -163,13 +163,13 @@ void ViscousContact::release_top() {
   const double depth = std::lerp(depth_before_, depth_, moment);
   law_.let_go(depth - level, branches_, modes_);
   law_.rise(1.0 - moment, modes_);
-  // It rises no farther than to the finger, which in a step far longer than tau it might.
+  // The ring must not rise above the finger, which could happen in a step much longer than tau.
   modes_[0] += std::max(depth_ - level - sum(modes_), 0.0);
   free_.push(level, pressed_.elastic_force(), modes_);
   pressed_.pop();
 }
 
-// Takes the nearest free ring into contact, at the moment of the step when the finger met it.
+// Adds the nearest free ring to the contact at the moment of the step when the finger met it.
 void ViscousContact::join_top() {
   double before = free_.level();
   for (std::size_t m = 0; m < modes_.size(); ++m) {
@@ -189,8 +189,8 @@ void ViscousContact::join_top() {
   lay_edge(level, elastic_force);
 }
 
-// Puts a ring with the branches in `branches_` on the pressed ones. Between two rings q_k
-// runs straight, and F_k grows by  -dq_k/dc (phi_1 - phi_0).
+// Pushes a ring with the branches `branches_` onto the pressed rings. Between two rings q_k is
+// linear, and F_k grows by  -dq_k/dc (phi_1 - phi_0).
 void ViscousContact::lay_edge(double level, double elastic_force) {
   const std::size_t n = drive_.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -210,8 +210,7 @@ double ViscousContact::force_at_end() const {
   const std::size_t n = drive_.size();
   double force = pressed_.elastic_force();
   for (std::size_t k = 0; k < n; ++k) force += pressed_.value(n + k);
-  // Kelvin-Voigt's edge pushes at once: q(b) phi'(b), with phi straight in h^(3/2) to the ring
-  // below.
+  // The edge of a Kelvin-Voigt contact carries force, q(b) phi'(b), with phi linear in h^(3/2).
   const double push = push_of_top();
   if (push > 0.0 && pressed_.size() > 1) {
     const double level = pressed_.level();

@@ -1,4 +1,4 @@
-// A finger on a viscoelastic tissue, without a mesh: the force of any history of presses.
+// A finger on viscoelastic tissue without a mesh: the force for any loading history.
 #pragma once
 
 #include <cstddef>
@@ -10,50 +10,49 @@
 
 namespace palpate::contact {
 
-// What the contact's edge did in a step.
+// Motion of the contact's edge in a step.
 enum class ContactEdge {
   apart,      // there is no contact
-  growing,    // onto surface that was never touched: Lee and Radok's loading
-  resting,    // it stays where it is
-  shrinking,  // Ting's unloading
-  returning,  // onto surface that it had left and that is recovering
+  growing,    // onto surface that was never touched: loading (Lee and Radok)
+  resting,    // the edge did not move
+  shrinking,  // unloading (Ting)
+  returning,  // onto surface that it had left and that is still recovering
 };
 
-// The force of a press h(t) on a tissue whose elastic, relaxed answer phi(h) is known: any function
-// of the depth alone that grows from phi(0) = 0 with a rising slope, Hertz's or a layer's, if its
-// contact areas enclose one another. In loading it is Lee and Radok's integral, in unloading
-// Ting's; reloading after partial unloading, repeated presses, and presses into a surface that
-// still recovers follow the same theory. There is no adhesion, and Poisson's ratio is constant.
+// The force of a press h(t) on tissue with the relaxed elastic force phi(h). phi may be any
+// function of the depth with phi(0) = 0 and an increasing slope, such as Hertz's or a layer's, if
+// each contact area contains those of smaller depths. Loading follows Lee and Radok's integral,
+// unloading Ting's; reloading, repeated presses and presses into a surface that is still recovering
+// follow the same theory. There is no adhesion, and Poisson's ratio is constant.
 //
-// How: under any history the surface acts as rings that know nothing of each other. The ring of
-// level c is reached where an elastic contact has the depth c; sunk by w, h - c in contact, it
-// pushes back with q (per unit of its strength phi''(c)), and is free where q would pull:
+// Method: for any history the surface acts as independent rings. An elastic contact reaches the
+// ring of level c at the depth c. Displaced by w (h - c in contact), the ring pushes back with q
+// per unit of its stiffness phi''(c); it is free where q would become tensile:
 //   F = integral over 0 < c < b of q(c, t) phi''(c) dc,    q(b, t) = 0 at the contact's edge b.
-//                         Ting 1966, 1968; Argatov and Popov 2016; docs/theory.md (64)
-// Rings are laid down where the edge is at the end of each step; between them q runs straight, and
-// phi as h^(3/2).
-//
-// Second order in the time step while that is below the branches' times; first order for longer
-// ones and for Kelvin-Voigt, whose rate is the step's mean. In loading exact where phi(h(t)) is
-// linear within the steps, and for a step at once. A copy tries a step out.
+//                          Ting 1966, 1968; Argatov and Popov 2016; docs/theory.md (64)
+// At the end of each step a ring is stored at the contact's edge; between rings q is linear in c
+// and phi in h^(3/2). The error is of second order in the time step while it is below the branches'
+// times; for longer steps, and for Kelvin-Voigt, whose rate is the mean of the step, of first
+// order. In loading the method is exact if phi(h(t)) is linear within the steps, and for an
+// instantaneous step. To try a step out, copy the object.
 class ViscousContact {
  public:
-  // Apart and at rest, with the finger touching: depth 0. `rings` is how many are remembered;
-  // beyond, a spacing of about 2 / rings of the depth bounds what is resolved.
+  // Starts out of contact and at rest, with the finger at depth 0. `rings` is the capacity for
+  // stored rings; beyond it, features closer than about 2 / rings of the depth are lost.
   explicit ViscousContact(const Relaxation& relaxation, std::size_t rings = 4096);
 
-  // Moves the finger in `time_step` (s, not below 0; 0 is at once, with Kelvin-Voigt's damper left
-  // out) straight to `depth` (m; below 0 it is off the undeformed surface). `elastic_force` is
-  // phi(depth), N; 0 for depth <= 0. Returns the force at the step's end, N, never negative.
-  // A changed time step costs an exponential for each branch; otherwise + - * / and sqrt, at a
-  // cost of the rings that the edge passes.
+  // Moves the finger at constant speed in `time_step` (s, >= 0; 0 is instantaneous, without
+  // Kelvin-Voigt's damper) to `depth` (m; negative above the undeformed surface). `elastic_force`
+  // is phi(depth), N; 0 for depth <= 0. Returns the force at the end of the step, N, never
+  // negative. A new time step costs exponentials for each branch and mode; otherwise only + - * /
+  // and sqrt are used, and the cost is that of the rings which the edge passes.
   double step(double time_step, double depth, double elastic_force);
 
   [[nodiscard]] double force() const { return force_; }  // N, after the last step
-  // b, m: the depth at which an elastic contact has the area of this one. 0 without contact.
+  // b, m: the depth at which an elastic contact has the same area; 0 without contact.
   [[nodiscard]] double contact_depth() const;
-  // m: the depth at which a finger touches, or touches still, in the middle of the contact: the
-  // impression that is left after a press. 0 on a surface at rest.
+  // m: the depth of the surface in the middle of the contact: that of the finger, or the impression
+  // that is left after a press; 0 on a surface at rest.
   [[nodiscard]] double surface_depth() const;
   [[nodiscard]] ContactEdge edge() const { return edge_; }
 
@@ -70,18 +69,18 @@ class ViscousContact {
 
   ViscousRing law_;
 
-  // At the step's end and, `before`, at its begin. `drive` is q_k of a ring that was never free,
-  // m: that of any ring in contact differs from it by something that only fades.
+  // Values at the end of the step and (`before`) at its start. `drive` (m) is q_k of a ring that
+  // has never been free; in any other ring in contact, q_k differs from it by a decaying term.
   double depth_ = 0.0, depth_before_ = 0.0;  // m
-  double rate_ = 0.0;                        // m/s, the step's mean
+  double rate_ = 0.0;                        // m/s, mean of the step
   std::vector<double> drive_, drive_before_;
 
-  FadingStack pressed_;  // rings in contact, the edge on top: q_k - drive_k, then the force of the
-                         // branch k within the ring, N
-  FadingStack free_;     // rings beside it, the nearest on top: their sinking by modes, m
-  std::vector<double> edge_modes_;  // the edge's ring, were it free, m
+  FadingStack pressed_;  // rings in contact, the edge on top: q_k - drive_k (m), then the force of
+                         // branch k inside the ring (N)
+  FadingStack free_;     // free rings outside, the nearest on top: creep modes, m
+  std::vector<double> edge_modes_;  // creep modes of the edge's ring, if it were free, m
 
-  std::vector<double> branches_, outer_branches_, modes_, row_;  // room for one ring
+  std::vector<double> branches_, outer_branches_, modes_, row_;  // buffers for one ring
 
   ContactEdge edge_ = ContactEdge::apart;
   double force_ = 0.0;

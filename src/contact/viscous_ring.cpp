@@ -1,4 +1,4 @@
-// Branches while a ring is pressed, modes while it is free, and the way from one to the other.
+// Branches of a pressed ring, modes of a free ring, and the conversion between them.
 #include "contact/viscous_ring.h"
 
 #include <algorithm>
@@ -8,13 +8,12 @@
 namespace palpate::contact {
 namespace {
 
-// exp(-x) and (1 - exp(-x)) / x to x^3/6 and x^2/6, falling from 1 to 0 as they do.
+// exp(-x) and (1 - exp(-x)) / x, accurate to x^3/6 and x^2/6 and decreasing from 1 to 0 as well.
 double fade(double x) { return 1.0 / (1.0 + x + 0.5 * x * x); }
 double mean_fade(double x) { return (1.0 + 0.5 * x) * fade(x); }
 
-// Both at part * x, corrected so that the whole is what it is known to be: what is left of the
-// error is of the next order. Every ring that comes or goes within a step asks for them: this
-// spares it an exp.
+// Both at part * x, corrected so that they are exact for the whole step; the remaining error is of
+// the next order. This avoids an exponential for every ring that enters or leaves within a step.
 double fade_over(double part, double x, double whole) {
   return fade(part * x) + part * part * part * (whole - fade(x));
 }
@@ -64,9 +63,9 @@ void ViscousRing::rise(double part, std::span<double> modes) const {
 
 void ViscousRing::let_go(double sinking, std::span<const double> branches,
                          std::span<double> modes) const {
-  // y_m = -sum_k q_k / (T_m - tau_k) / sum_k b_k tau_k / (T_m - tau_k)^2. A ring that was only
-  // ever pushed has none below 0: where interpolation within a long step says so, the others make
-  // up the sum. Kelvin-Voigt has one mode, w.
+  // y_m = -sum_k q_k / (T_m - tau_k) / sum_k b_k tau_k / (T_m - tau_k)^2. For a ring that was only
+  // pushed, no mode is negative; if interpolation in a long step makes one negative, it is set to 0
+  // and the others are scaled to the sum w. Kelvin-Voigt has one mode, w.
   const std::size_t n = branches.size();
   double sum = 0.0;
   for (std::size_t m = 0; m < modes.size(); ++m) {

@@ -1,4 +1,4 @@
-// One ring of viscoelastic surface through a step of time: pressed by the finger, or let go.
+// One ring of viscoelastic surface during a time step: pressed by the finger, or free.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace palpate::contact {
 
-// A ring sunk by w pushes back with q = w + tau w' + sum_k q_k, where each branch q_k follows
+// A ring displaced by w pushes back with q = w + tau w' + sum_k q_k. Each branch q_k follows
 //   q_k' = b_k w' - q_k / tau_k
-// and tau is Kelvin-Voigt's; in m, as forces over the ring's relaxed stiffness. Let go, q = 0, it
-// rises by the modes of creep: w = sum_m y_m, each y_m fading with its T_m.
-//                                                      Park and Schapery 1999
+// and tau is that of Kelvin-Voigt. All are in m: forces divided by the ring's relaxed stiffness. A
+// free ring, q = 0, recovers by the modes of creep, w = sum_m y_m; y_m decays with the time T_m.
+//                                                       Park and Schapery 1999
 class ViscousRing {
  public:
   explicit ViscousRing(const Relaxation& relaxation);
@@ -23,22 +23,22 @@ class ViscousRing {
   [[nodiscard]] bool elastic() const { return relaxation_.elastic(); }
   [[nodiscard]] double retardation_time() const { return relaxation_.retardation_time; }  // s
 
-  // For the steps to come, s; 0 is at once. An exp for each branch and mode if it is a new one.
+  // Sets the length of the following steps, s; 0 is instantaneous. A new one costs exponentials.
   void set_time_step(double time_step);
 
-  // Over a whole step: what stays of a branch, what a steady sinking by 1 in the step adds to it,
-  // what stays of a mode.
+  // Over a whole step: the factor by which a branch decays, the increment of a branch per
+  // displacement at constant speed, and the factor by which a mode decays.
   [[nodiscard]] std::span<const double> branch_keep() const { return branch_keep_; }
   [[nodiscard]] std::span<const double> branch_gain() const { return branch_gain_; }
   [[nodiscard]] std::span<const double> mode_keep() const { return mode_keep_; }
 
-  // Over the given part of a step, 0 to 1; `sinking` (m) is what w grows by in it. Exact for the
-  // whole step; for a part to the order of dt^3.
+  // Advances branches or modes over the given part of a step, 0 to 1; `sinking` (m) is the
+  // increment of w in that part. Exact for a whole step; for a part the error is of the order dt^3.
   void press(double part, double sinking, std::span<double> branches) const;
   void rise(double part, std::span<double> modes) const;
 
-  // The modes (m) of a ring that is let go at the sinking w (m) with the branches q_k (m) when
-  // its q is 0, and the branches of one that has been free.
+  // let_go() computes the modes (m) of a ring released at the displacement w (m) with the branches
+  // q_k (m) when q is 0; meet() computes the branches (m) of a free ring when it meets the finger.
   void let_go(double sinking, std::span<const double> branches, std::span<double> modes) const;
   void meet(std::span<const double> modes, std::span<double> branches) const;
 

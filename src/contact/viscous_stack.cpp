@@ -1,4 +1,4 @@
-// The stack behind a viscoelastic contact: fading of all rings at the price of one.
+// The stack of a viscoelastic contact: all rings decay at the cost of one.
 #include "contact/viscous_stack.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void FadingStack::pop() {
 }
 
 void FadingStack::thin() {
-  // Rings closer than 2/capacity of the whole height go: at most half of them and the two ends
+  // Removes rings closer than about 2/capacity of the height. At most half of them and the two ends
   // stay, so that this happens at most once in about capacity / 2 pushes.
   const double height = std::abs(heads_[size_ - 1].level - heads_[0].level);
   const double spacing = 2.0 * height / static_cast<double>(capacity_ - 4);

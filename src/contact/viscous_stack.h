@@ -1,4 +1,4 @@
-// The rings of surface that a viscoelastic contact remembers, and how what they remember fades.
+// The stored rings of a viscoelastic contact, and the decay of their values.
 #pragma once
 
 #include <cstddef>
@@ -7,29 +7,28 @@
 
 namespace palpate::contact {
 
-// A stack of rings. A ring carries its level (m), the elastic force there (N), and values each of
-// which has faded by itself since the ring was laid down: value j with the rate j % rates. Time
-// costs the same however many rings there are, since only the age of the top one is kept and, for
-// each ring, how much older the one below it is.
-// All memory is taken at construction. A full stack drops rings from where they lie closest; levels
-// run monotonically from the bottom to the top.
+// A stack of rings. A ring has a level (m), the elastic force at that level (N), and values that
+// have decayed since it was pushed: value j with rate j % rates. The cost of a time step does not
+// depend on the number of rings, because only the age of the top ring is stored and, for each ring,
+// how much older the one below it is. Memory is allocated at construction only. When the stack is
+// full, rings are removed where they are closest; levels are monotonic from the bottom to the top.
 class FadingStack {
  public:
-  // `rates` exponential rates, `values` >= 0 values for each, room for `capacity` >= 8 rings.
+  // `rates` exponential rates with `values` >= 0 values each, and room for `capacity` >= 8 rings.
   FadingStack(std::size_t rates, std::size_t values, std::size_t capacity);
 
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  // A step of time in which rate k fades by keep[k]; `before` below is what was there before it.
+  // A time step in which rate k decays by the factor keep[k]; value_before() refers to its start.
   void fade(std::span<const double> keep);
 
-  // Of the top ring.
+  // The top ring.
   [[nodiscard]] double level() const { return heads_[size_ - 1].level; }
   [[nodiscard]] double elastic_force() const { return heads_[size_ - 1].elastic_force; }
   [[nodiscard]] double value(std::size_t j) const;
   [[nodiscard]] double value_before(std::size_t j) const;
-  // Of the ring under it; the stack must hold two.
+  // The ring below the top ring; the stack must have two.
   [[nodiscard]] double level_below() const { return heads_[size_ - 2].level; }
   [[nodiscard]] double elastic_force_below() const { return heads_[size_ - 2].elastic_force; }
 
@@ -47,10 +46,10 @@ class FadingStack {
   std::size_t rates_, stride_, capacity_;
   std::size_t size_ = 0;
   std::vector<Head> heads_;
-  std::vector<double> values_;      // [ring][value], as they were laid down
-  std::vector<double> links_;       // [ring][rate]: how far the ring below has faded till this one
-  std::vector<double> age_;         // [rate]: how far the top ring has faded till now
-  std::vector<double> age_before_;  // and till the step's begin
+  std::vector<double> values_;  // [ring][value], when they were pushed
+  std::vector<double> links_;   // [ring][rate]: decay of the ring below until this one was pushed
+  std::vector<double> age_;     // [rate]: decay of the top ring until now
+  std::vector<double> age_before_;  // [rate]: until the start of the step
 };
 
 }  // namespace palpate::contact

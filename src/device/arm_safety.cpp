@@ -1,4 +1,4 @@
-// One frame: look, arm, allow. The order is: not a number, gains, damping, norm, slew.
+// Rules of one frame. allow() applies them in the order: finite, gains, damping, norm, slew rate.
 #include "device/arm_safety.h"
 
 #include <algorithm>
@@ -28,7 +28,6 @@ bool ArmSafety::take(double now, const Sample& sample) {
   staleness_.step(now, arrival);
   if (staleness_.state() == Staleness::State::stale) ++counts_.stale;
   if (staleness_.state() == Staleness::State::lost) arming_.trip(Trip::link_lost);
-  last_take_ = now;
   if (!good) return false;
   observer_.step(sample.position, slew_.last());
   position_ = sample.position;
@@ -76,7 +75,7 @@ Vec3 ArmSafety::allow(double now, const Vec3& wanted) {
     }
   }
   force = clamped_norm(finite_or_zero(force), rules_.force);
-  // A fall that another rule asks for is not to be held up by the slew.
+  // The slew limit must not delay a fall of the force that another rule requires.
   const bool falls = staleness_.state() == Staleness::State::stale || !arming_.armed();
   const double rate = falls ? std::max(rules_.slew, rules_.force / rules_.stale.fall) : rules_.slew;
   Vec3 sent = slew_.step(force, dt, rate);

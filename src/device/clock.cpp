@@ -1,9 +1,8 @@
-// Absolute sleeps on CLOCK_MONOTONIC: a late wake-up does not make the next one late.
+// Sleeps until absolute times of CLOCK_MONOTONIC, so that late wake-ups do not add up.
 #include "device/clock.h"
 
 #include <cerrno>
 #include <cmath>
-#include <ctime>
 
 namespace palpate::device {
 
@@ -11,6 +10,13 @@ double wire_time() {
   timespec time{};
   ::clock_gettime(CLOCK_MONOTONIC, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+timespec timespec_of(double seconds) {
+  timespec time{};
+  time.tv_sec = static_cast<time_t>(seconds);
+  time.tv_nsec = static_cast<long>(1e9 * (seconds - std::floor(seconds)));
+  return time;
 }
 
 double Clock::now() const { return kind_ == Kind::monotonic ? wire_time() : stepped_; }
@@ -22,9 +28,7 @@ void Clock::sleep_until(double time) {
     return;
   }
   if (time <= 0.0) return;
-  timespec until{};
-  until.tv_sec = static_cast<time_t>(time);
-  until.tv_nsec = static_cast<long>(1e9 * (time - std::floor(time)));
+  const timespec until = timespec_of(time);
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
 }

@@ -1,5 +1,7 @@
-// Time for links and loops: the machine's monotonic clock, or one that only steps when told.
+// Time for links and loops: the machine's monotonic clock, or a clock that the program advances.
 #pragma once
+
+#include <ctime>
 
 namespace palpate::device {
 
@@ -11,7 +13,7 @@ class Clock {
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] double now() const;  // s, from an arbitrary start; a stepped clock starts at 0
 
-  // Sleeps till then, or, for a stepped clock, makes it be then; never goes back.
+  // Sleeps until `time` (s), or sets a stepped clock to `time`. The clock never goes back.
   void sleep_until(double time);
 
  private:
@@ -19,7 +21,10 @@ class Clock {
   double stepped_ = 0.0;  // s
 };
 
-// The machine's monotonic clock in s: what waiting for a wire is measured by, whatever the Clock.
+// The machine's monotonic clock in s. Timeouts of the wire are measured by it, with either Clock.
 [[nodiscard]] double wire_time();
+
+// A time of `seconds` (s, at least 0), as the system calls take it.
+[[nodiscard]] timespec timespec_of(double seconds);
 
 }  // namespace palpate::device

@@ -1,4 +1,4 @@
-// Events as the service's manual lists them; what is not in it and warns of safety is obeyed, too.
+// Events of the service's manual. An unknown safety event that is a warning also trips.
 #include "device/events.h"
 
 #include "device/json_scanner.h"
@@ -32,16 +32,23 @@ Fault fault_of(Event event) {
     case Event::stall: return Fault::stalled;
     case Event::ceiling: return Fault::unstable;
     case Event::disconnected: return Fault::hung_up;
-    default: return Fault::none;
+    case Event::other:
+    case Event::garbage:
+    case Event::other_device:
+    case Event::released:
+    case Event::stage_lowered:
+    case Event::notice:
+    case Event::busy: break;
   }
+  return Fault::none;
 }
 
 std::vector<std::string> event_sentences(const Events& events) {
   std::vector<std::string> sentences;
   if (events.port == Events::Port::lost)
     sentences.emplace_back(
-        "the service's events port closed; from then on a brake was noticed by the arm's state "
-        "alone");
+        "the service's events port closed; from then on a brake was detected from the arm's state "
+        "only");
   for (std::size_t i = 0; i < event_kinds; ++i) {
     const auto event = static_cast<Event>(i);
     const std::uint64_t count = events.counts[i];
@@ -49,7 +56,7 @@ std::vector<std::string> event_sentences(const Events& events) {
     if (event == Event::busy)
       sentences.emplace_back("another session uses the arm (`device-busy`); end it");
     else
-      sentences.push_back("the service told `" + std::string(event_text(event)) + "`" +
+      sentences.push_back("the service reported `" + std::string(event_text(event)) + "`" +
                           (count > 1 ? ", " + std::to_string(count) + " times" : ""));
   }
   return sentences;
@@ -61,7 +68,7 @@ namespace {
 struct Words {
   std::string_view name;
   std::string_view level;
-  std::string_view device;  // empty: none is named
+  std::string_view device;  // empty if the message names none
   std::string_view safety;
 };
 
@@ -83,7 +90,7 @@ Event safety_event(const Words& words) {
   if (words.safety == "ebrake_released") return Event::released;
   if (words.safety == "stall_detected") return Event::stall;
   if (words.safety == "stability_ceiling") return Event::ceiling;
-  // A stage's change is a warning where the risk has grown, an information where it has fallen.
+  // A change of the stage is a warning if the risk has grown, and `info` if it has fallen.
   const bool harmless = words.level == "info" || words.level == "notice";
   if (words.safety == "fod_stage_changed")
     return harmless ? Event::stage_lowered : Event::stage_raised;

@@ -1,4 +1,4 @@
-// What an arm's service tells on its events port: which of it is obeyed, and how often it came.
+// Events that an arm's service sends on its events port, and the fault that follows from each.
 #pragma once
 
 #include <array>
@@ -12,22 +12,21 @@
 
 namespace palpate::device {
 
-// A word for device_health.json, as the service spells it where it has one.
+// The event's name in device_health.json: the service's own spelling if it has one.
 [[nodiscard]] std::string_view event_text(Event event);
 
-// What the next sample says after that event. hung_up: the arm is gone and stays so; brake, stalled
-// and unstable trip; none: it is only told.
+// The fault that the next sample reports after `event`. After hung_up the arm stays lost; brake,
+// stalled and unstable trip the link; none means that the event is only counted.
 [[nodiscard]] Fault fault_of(Event event);
 
-// Sentences for people on the events that were counted, and on a port that is not heard; empty
-// where there is nothing to say.
+// Sentences for people on a port that closed and on all events that were counted, except `other`.
 [[nodiscard]] std::vector<std::string> event_sentences(const Events& events);
 
 namespace inverse3 {
 
 // Reads {"name","category","level","data":{"device_id","safety_type",..},"message"} for the arm
-// `id`. Never allocates, never throws, whatever the bytes. A message about another device counts as
-// other_device; one that names no device counts as ours. Garbage is what is no whole JSON object.
+// `id`. Never allocates and never throws. An event of another device is other_device; an event that
+// names no device is taken as ours; a message that is not a complete JSON object is garbage.
 // docs.haply.co, Inverse Service 3.5: Events & Monitoring.
 [[nodiscard]] Event parse_event(std::string_view message, std::string_view id);
 

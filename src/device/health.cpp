@@ -1,4 +1,4 @@
-// Counting in the loop without allocating; JSON once it is over.
+// Counts the statistics of a link without allocating, and writes them as JSON at the end.
 #include "device/health.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity: what has no limit is null.
+// JSON has no infinity, so that a missing limit is null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json histogram_json(const LatencyHistogram& histogram) {
@@ -108,7 +108,7 @@ void Health::count(double now, const Sample& sample) {
     case Arrival::none:
     case Arrival::lost: ++missing; break;
   }
-  const auto fault = static_cast<std::size_t>(sample.fault);
+  const auto fault = as_index(sample.fault);
   if (fault > 0 && fault < faults.size()) ++faults[fault];
 }
 
@@ -137,7 +137,6 @@ std::string health_json(const Identity& identity, const Limits& limits, const Tr
                      {"received", traffic.received},
                      {"duplicates", traffic.duplicates},
                      {"discarded_bytes", traffic.discarded}};
-  // Of links that have such a port.
   if (traffic.events.port != Events::Port::none) json["events"] = events_json(traffic.events);
   json["frames"] = health.frames;
   json["deadline_misses"] = health.deadline_misses;

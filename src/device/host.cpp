@@ -1,4 +1,4 @@
-// getaddrinfo() knows no deadline and cannot be called off, so that another thread calls it.
+// getaddrinfo() has no timeout and cannot be cancelled, so that a separate thread calls it.
 #include "device/host.h"
 
 #include <arpa/inet.h>
@@ -24,7 +24,7 @@ bool is_address(const std::string& name) {
          ::inet_pton(AF_INET6, name.c_str(), bytes.data()) == 1;
 }
 
-// Empty where the host is not known.
+// Empty if the host is unknown.
 std::vector<std::string> addresses_of(const std::string& name) {
   addrinfo hints{};
   hints.ai_family = AF_UNSPEC;

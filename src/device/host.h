@@ -1,4 +1,4 @@
-// A host's name and where it is, found in time.
+// A host's name and its addresses, looked up with a time limit.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@ namespace palpate::device {
 
 struct Host {
   std::string name;                    // as it was given
-  std::vector<std::string> addresses;  // of IPv4 and IPv6, as numbers, in the system's order
+  std::vector<std::string> addresses;  // numerical, IPv4 and IPv6, in the system's order
 };
 
-// Looks the name up till `until` (s, wire_time); a name that is an address is its own. Throws
-// LinkError where the host is not known, or the system's name service does not say so in time: a
-// thread is left behind then, which waits for it.
+// Looks `name` up until `until` (s, wire_time()); a numerical address is returned as it is. Throws
+// LinkError if the host is unknown or the system's name service does not answer in time; in the
+// latter case a detached thread goes on waiting for the answer.
 [[nodiscard]] Host look_up(const std::string& name, double until);
 
 }  // namespace palpate::device

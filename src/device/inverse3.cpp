@@ -1,4 +1,4 @@
-// The arm's conversation: our message is the clock, the newest reply counts.
+// Messages to the arm and its replies. The client's messages set the pace; the newest reply counts.
 #include "device/inverse3.h"
 
 #include <algorithm>
@@ -10,17 +10,17 @@
 namespace palpate::device {
 namespace {
 
-constexpr double connect_time = 2.0;   // s, for all of it
-constexpr double version_time = 1.0;   // s of that, at most
-constexpr double events_time = 0.5;    // s of that, at most
-constexpr double greeting_time = 0.1;  // s a reply
-constexpr int trials = 6;              // replies a spelling has, to leave the idle mode
+constexpr double connect_time = 2.0;   // s, from looking up the host to the snapshot
+constexpr double version_time = 1.0;   // s, the part of it for the version
+constexpr double events_time = 0.5;    // s, the part of it for the events port
+constexpr double greeting_time = 0.1;  // s, per reply
+constexpr int trials = 6;              // replies in which a spelling must end the idle mode
 constexpr double period = 1e-3;        // s: the paper's frame
 constexpr double stop_time = 0.02;     // s
-constexpr double reply_time = 0.02;    // s, after which a reply is taken for lost
-// After a silence of ours the arm is idle once or twice; longer, and it does not do as it is told.
+constexpr double reply_time = 0.02;    // s, after which a reply counts as lost
+// After a pause without messages the arm is idle for one or two replies. More mean a brake.
 constexpr int most_idle = 3;  // replies
-// Of the events a frame; what is more waits for the next one. A whole one is some 200 bytes.
+// Limits per frame; further events wait for the next frame. An event has some 200 bytes.
 constexpr int most_events = 16;
 constexpr std::size_t most_event_bytes = 16384;
 
@@ -34,7 +34,6 @@ Inverse3::Inverse3(const ArmAddress& address, Purpose purpose, Clock& clock, Tap
       socket_(host_, address.port, connected_by_) {
   socket_.tap(tap);
   identity_.kind = Kind::arm;
-  limits_.takes_force = true;
   limits_.period = period;
   limits_.stale_after = 3.0 * period;
   limits_.lost_after = 0.1;
@@ -51,8 +50,8 @@ void Inverse3::listen(const ArmAddress& address, Tap* tap) {
   traffic_.events.port = Events::Port::unheard;
   if (!address.events) {
     identity_.notes.push_back(
-        "the service's events are not listened to, as the link says: a brake is noticed by the "
-        "arm's state alone, some frames later");
+        "the service's events are not listened to, as the link requests: a brake is detected from "
+        "the arm's state only, some frames later");
     return;
   }
   try {
@@ -60,9 +59,9 @@ void Inverse3::listen(const ArmAddress& address, Tap* tap) {
     events_->tap(tap);
     traffic_.events.port = Events::Port::heard;
   } catch (const LinkError&) {
-    identity_.notes.push_back("the service's events are not heard, nobody serves them on " +
+    identity_.notes.push_back("the service's events are not heard, because no service answers on " +
                               host_.name + ":" + std::to_string(*address.events) +
-                              ": a brake is noticed by the arm's state alone, some frames later");
+                              ": a brake is detected from the arm's state only, some frames later");
   }
 }
 
@@ -71,54 +70,54 @@ void Inverse3::ask_version(int port) {
       http_get(host_, port, "/version", std::min(connected_by_, wire_time() + version_time));
   identity_.firmware = version ? inverse3::parse_version(*version) : std::string();
   if (identity_.firmware.empty())
-    identity_.notes.push_back("the service does not tell its version");
+    identity_.notes.push_back("the service does not report its version");
 }
 
 void Inverse3::greet() {
   const auto first = socket_.receive(std::max(connected_by_, wire_time() + greeting_time));
   if (first.outcome != WebSocket::Outcome::message)
     throw LinkError(first.outcome == WebSocket::Outcome::closed
-                        ? "palpate: " + socket_.why_closed() + " before it said who is there"
+                        ? "palpate: " + socket_.why_closed() + " before it reported any device"
                         : "palpate: the service takes the connection but sends no snapshot; is "
                           "this its simulation port (10001)?");
   const auto snapshot = inverse3::parse_snapshot(first.text);
   if (!snapshot)
     throw LinkError(
-        "palpate: the service's first message is no JSON; is this its simulation "
+        "palpate: the service's first message is not JSON; is this its simulation "
         "port (10001)?");
   if (snapshot->arms.empty())
     throw LinkError(
-        "palpate: the service runs, but no Inverse3 is there; connect and calibrate "
-        "it, and see that no other program owns it");
+        "palpate: the service runs, but reports no Inverse3; connect and calibrate "
+        "it, and check that no other program uses it");
   identity_.id = snapshot->arms.front().id;
   identity_.model = snapshot->arms.front().model;
   if (snapshot->arms.size() > 1)
-    identity_.notes.push_back("of " + std::to_string(snapshot->arms.size()) +
-                              " arms the first is used, " + identity_.id);
+    identity_.notes.push_back("the service reports " + std::to_string(snapshot->arms.size()) +
+                              " arms; the first is used, " + identity_.id);
   if (!snapshot->arms.front().firmware.empty())
     identity_.notes.push_back("the arm's own firmware is " + snapshot->arms.front().firmware);
 
-  // A spelling the service does not know leaves the arm idle.
+  // The arm stays idle if the service does not know the spelling.
   using inverse3::Spelling;
   const Spelling expected = inverse3::spelling_of(identity_.firmware);
   const Spelling other = expected == Spelling::vector ? Spelling::values : Spelling::vector;
   if (!try_spelling(expected)) {
     if (!socket_.closed() && try_spelling(other)) {
-      identity_.notes.push_back("a force is spelled `" +
+      identity_.notes.push_back("the service takes a force as `" +
                                 std::string(inverse3::spelling_text(other)) +
-                                "`, against what the service's version says");
+                                "`, which does not agree with its version");
     } else {
       spelling_ = expected;
       identity_.notes.push_back(
-          "the arm stays idle on a zero force in either spelling; whether it takes forces is not "
-          "known");
+          "the arm stays idle when a zero force is sent as `vector` or as `values`; it is not "
+          "known whether it takes forces");
     }
   }
   if (socket_.closed()) throw LinkError("palpate: " + socket_.why_closed());
   if (gone_)
     throw LinkError("palpate: the service says that the arm " + identity_.id +
                     " was disconnected; connect it again");
-  if (traffic_.events.counts[static_cast<std::size_t>(Event::busy)] > 0)
+  if (traffic_.events.counts[as_index(Event::busy)] > 0)
     identity_.notes.push_back("another session uses the arm; end it");
   identity_.dialect = inverse3::spelling_text(spelling_);
 }
@@ -132,19 +131,19 @@ bool Inverse3::try_spelling(inverse3::Spelling spelling) {
     if (got.arrival == Arrival::lost) return false;
     if (got.arrival == Arrival::none) continue;
     ++answers;
-    // The first reply may still speak of the time before.
+    // The first reply may still describe the time before the message.
     if (answers > 1 && mode_ == inverse3::Mode::other) return confirmed_ = true;
   }
-  // A service that does not tell the mode gives no reason to doubt.
+  // If the service does not report the mode, the spelling is accepted.
   if (answers > 0 && mode_ == inverse3::Mode::unknown) return true;
   if (answers == 0)
-    throw LinkError("palpate: the service does not answer a zero force for " + identity_.id +
+    throw LinkError("palpate: the service does not reply to a zero force for " + identity_.id +
                     "; restart it");
   return false;
 }
 
 bool Inverse3::send(const Vec3& force) {
-  // In lock-step every message takes a frame.
+  // With a stepped clock every message takes one period.
   if (clock_.kind() == Clock::Kind::stepped) clock_.sleep_until(clock_.now() + period);
   const auto message = inverse3::force_message(identity_.id, spelling_, force);
   if (!socket_.send(message.text())) return false;
@@ -154,18 +153,10 @@ bool Inverse3::send(const Vec3& force) {
   return true;
 }
 
-// What comes unasked is a reply once more.
+// Messages that arrive without a request are counted as duplicates.
 void Inverse3::pass_over_duplicates() {
   while (!awaiting_ && socket_.receive(0.0).outcome == WebSocket::Outcome::message)
     ++traffic_.duplicates;
-}
-
-Sample Inverse3::finished(Arrival arrival, Fault fault) const {
-  Sample sample;
-  sample.arrival = arrival;
-  sample.fault = fault;
-  sample.received = clock_.now();
-  return sample;
 }
 
 Sample Inverse3::read(const WebSocket::Received& message) {
@@ -182,8 +173,7 @@ Sample Inverse3::read(const WebSocket::Received& message) {
   } else if (last_ && sample.received > last_->received) {
     sample.velocity = (sample.position - last_->position) / (sample.received - last_->received);
   }
-  // A moving arm is never twice at the same place to the last bit: that is an old state.
-  // Below a micrometre a second it may well be.
+  // A reply that equals the last one to the last bit repeats an old state, unless the arm rests.
   const bool frozen = last_ && reply.velocity && sample.velocity.norm() > 1e-6 &&
                       sample.position == last_->position && sample.velocity == last_->velocity;
   if (frozen) {
@@ -206,9 +196,9 @@ void Inverse3::hear_events() {
   }
 }
 
-// What was told stays told until a sample has said so; a release takes back the state, not that.
+// A fault is kept in told_ until a sample has returned it, even if a release comes in between.
 void Inverse3::obey(Event event) {
-  ++traffic_.events.counts[static_cast<std::size_t>(event)];
+  ++traffic_.events.counts[as_index(event)];
   if (event == Event::brake) braked_ = true;
   if (event == Event::released) braked_ = false;
   if (event == Event::disconnected) gone_ = true;
@@ -245,12 +235,12 @@ Sample Inverse3::exchange(double wait) {
     if (any) ++traffic_.duplicates;
     ++traffic_.received;
     awaiting_ = false;
-    // The newest that is good; of bad ones the last.
+    // Keeps the newest fresh reply, or the last reply if none is fresh.
     if (one.arrival == Arrival::fresh || newest.arrival != Arrival::fresh) newest = one;
     any = true;
   }
   if (!any && wire_time() - asked_at_ >= reply_time) {
-    awaiting_ = false;  // the next call asks anew
+    awaiting_ = false;  // the next call sends a new message
     newest.fault = Fault::silent;
   }
   return newest;

@@ -1,4 +1,4 @@
-// A haptic arm behind its maker's local service: position in, force out, one reply a message.
+// The link to a haptic arm through its maker's local service, which answers each message once.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,9 @@ class Tap;
 
 class Inverse3 {
  public:
-  // Finds the host, connects, asks the version and reads the snapshot, for which there are 2 s in
-  // all; chooses the spelling and exchanges a few zero forces, 1.4 s at most; a few ms with a live
-  // service. A service whose events cannot be heard is no error, but a note of the identity. Throws
-  // LinkError with a plain diagnosis. `clock` outlives the link.
+  // Finds the host, connects, requests the version and reads the snapshot, all within about 2 s;
+  // then finds the spelling by zero forces, within about 1.2 s. Throws LinkError with a diagnosis;
+  // a missing events port is only a note. `clock` and `tap` must outlive the link.
   Inverse3(const ArmAddress& address, Purpose purpose, Clock& clock, Tap* tap = nullptr);
   ~Inverse3();
   Inverse3(const Inverse3&) = delete;
@@ -30,11 +29,13 @@ class Inverse3 {
   [[nodiscard]] const Limits& limits() const { return limits_; }
   [[nodiscard]] Traffic traffic() const { return traffic_; }
 
-  // The newest reply; sends a zero force first where nothing is under way. What the service told
-  // in the meantime stands in its `fault`; an arm that it said is gone is lost.
+  // Returns the newest reply, waiting for it at most `wait` s; sends a zero force first if no
+  // message awaits a reply. Events set `fault`; after a `disconnected` event the link is lost.
   [[nodiscard]] Sample sample(double wait);
-  [[nodiscard]] Fault command_force(const Vec3& force);  // N
-  bool stop();                                           // true where the zero was taken
+  // Sends a force (N), a force that is not finite as zero. Returns refused for a force with
+  // Purpose::look, hung_up if the connection is closed, and silent if the service does not read.
+  [[nodiscard]] Fault command_force(const Vec3& force);
+  bool stop();  // true if a zero force was sent and the link is not lost
 
  private:
   void listen(const ArmAddress& address, Tap* tap);
@@ -47,11 +48,13 @@ class Inverse3 {
   void obey(Event event);
   Sample exchange(double wait);
   Sample read(const WebSocket::Received& message);
-  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const;
+  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
+    return {.arrival = arrival, .fault = fault, .received = clock_.now()};
+  }
 
   Clock& clock_;
   Purpose purpose_;
-  double connected_by_;  // s, wire time
+  double connected_by_;  // s, wire_time(), the deadline of the constructor's first part
   Host host_;
   WebSocket socket_;
   std::optional<WebSocket> events_ = {};
@@ -59,14 +62,14 @@ class Inverse3 {
   Limits limits_;
   inverse3::Spelling spelling_ = inverse3::Spelling::vector;
   bool awaiting_ = false;  // a message was sent since the last reply
-  double asked_at_ = 0.0;  // s, wire time, of the first message since the last reply
+  double asked_at_ = 0.0;  // s, wire_time() of the first message since the last reply
   inverse3::Mode mode_ = inverse3::Mode::unknown;
-  bool confirmed_ = false;      // the arm has left its idle mode for our force
-  int idle_replies_ = 0;        // in a row, since then
-  Fault told_ = Fault::none;    // by an event, for the next sample
-  bool braked_ = false;         // by events, the last one
-  bool gone_ = false;           // the service said so
-  std::optional<Sample> last_;  // that was fresh
+  bool confirmed_ = false;      // the arm has left its idle mode after a zero force
+  int idle_replies_ = 0;        // idle replies in a row
+  Fault told_ = Fault::none;    // of an event, to be returned with the next sample
+  bool braked_ = false;         // according to the last brake event
+  bool gone_ = false;           // a `disconnected` event has come
+  std::optional<Sample> last_;  // the last fresh sample
   Traffic traffic_;
 };
 

@@ -1,4 +1,4 @@
-// Replies by the scanner; the snapshot and the version, which come once, by nlohmann's parser.
+// Reads replies with JsonScanner; the snapshot and version, which come once, with nlohmann json.
 #include "device/inverse3_protocol.h"
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double farthest = 10.0;  // m: no arm that stands on a table reaches that
+constexpr double farthest = 10.0;  // m, beyond the reach of any arm
 constexpr double fastest = 100.0;  // m/s
 
-// {"x": , "y": , "z": }; nothing where one is missing or no number.
+// {"x": , "y": , "z": }; nothing if a component is missing or is not a number.
 std::optional<Vec3> read_vector(JsonScanner& scanner) {
   if (!scanner.enter('{')) {
     scanner.skip();
@@ -44,8 +44,6 @@ void read_state(JsonScanner& scanner, Reply& reply) {
       reply.position = read_vector(scanner);
     } else if (*key == "cursor_velocity") {
       reply.velocity = read_vector(scanner);
-    } else if (*key == "current_cursor_force") {
-      reply.force = read_vector(scanner);
     } else if (*key == "control_mode" || *key == "mode") {  // from 3.5 on, and before
       const auto mode = scanner.string();
       if (mode) reply.mode = *mode == "idle" ? Mode::idle : Mode::other;
@@ -55,7 +53,7 @@ void read_state(JsonScanner& scanner, Reply& reply) {
   }
 }
 
-// A status that says the arm cannot render: its brake, or not ready.
+// Sets Fault::brake if the status says that a brake acts or that the arm is not ready.
 void read_status(JsonScanner& scanner, Reply& reply) {
   if (!scanner.enter('{')) return scanner.skip();
   while (const auto key = scanner.next_key()) {
@@ -69,8 +67,8 @@ void read_status(JsonScanner& scanner, Reply& reply) {
   }
 }
 
-// One element of `inverse3`; true where it is the arm that is asked for. The id may stand behind
-// the state, so that all is read before it counts.
+// Reads one element of `inverse3`; true if it is the arm `id`. The id may come after the state, so
+// that the whole element is read before `reply` is set.
 bool read_arm(JsonScanner& scanner, std::string_view id, Reply& reply, bool& others) {
   if (!scanner.enter('{')) {
     scanner.skip();
@@ -105,7 +103,7 @@ const Json* member(const Json& object, const char* name) {
   return found == object.end() ? nullptr : &*found;
 }
 
-// A text or a number of a JSON object, as text; empty where there is none.
+// A string or number member of a JSON object, as text; empty if there is none.
 std::string text_of(const Json* object, const char* name) {
   const Json* value = object != nullptr ? member(*object, name) : nullptr;
   if (value == nullptr) return {};
@@ -151,8 +149,6 @@ std::optional<Snapshot> parse_snapshot(std::string_view message) {
   const Json all = Json::parse(message, nullptr, false);
   if (!all.is_object()) return std::nullopt;
   Snapshot snapshot;
-  if (const Json* session = member(all, "session_id"); session != nullptr && session->is_number())
-    snapshot.session = session->get<double>();
   const Json* arms = member(all, "inverse3");
   if (arms == nullptr || !arms->is_array()) return snapshot;
   for (const Json& one : *arms) {
@@ -204,7 +200,7 @@ Message force_message(std::string_view id, Spelling spelling, const Vec3& force)
   const auto add_number = [&](double value) {
     std::array<char, 32> digits;
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-    add({digits.data(), static_cast<std::size_t>(end.ptr - digits.data())});
+    add({digits.data(), as_index(end.ptr - digits.data())});
   };
   const Vec3 sent = force.allFinite() ? force : Vec3::Zero();
   add(R"({"inverse3":[{"device_id":")");

@@ -1,6 +1,6 @@
-// The words of an arm's service: JSON in, JSON out, pure functions over bytes.
+// The JSON messages of an arm's service: parsers and commands, without a socket.
 //
-// Every frame is read by a scanner of its own, for a parser that builds a tree allocates.
+// Replies are read by JsonScanner, because a parser that builds a tree would allocate memory.
 // docs.haply.co, Inverse Service: WebSocket protocol, control commands; docs/devices.md.
 #pragma once
 
@@ -16,45 +16,42 @@
 
 namespace palpate::device::inverse3 {
 
-// How the force is spelled: `vector` by services from 3.5 on, `values` by those of 3.1.
+// The JSON name of the force vector: `vector` in services from 3.5 on, `values` in earlier ones.
 enum class Spelling { vector, values };
 [[nodiscard]] std::string_view spelling_text(Spelling spelling);
 
-// The service's version as it answers `GET /version`, in its envelope or without; empty where the
-// text says none.
+// The version in a reply to `GET /version` (with or without the envelope `data`); empty if none.
 [[nodiscard]] std::string parse_version(std::string_view body);
-// From its version; `vector`, the present one, where that is not known.
+// The spelling of that version; `vector` if the version cannot be read.
 [[nodiscard]] Spelling spelling_of(std::string_view version);
 
-// What the first message, a full snapshot, says of the arms that are there.
+// An arm in the first message, which is a full snapshot.
 struct Arm {
   std::string id;
-  std::string model;  // device_info, as it stands there
-  std::string firmware;
+  std::string model;     // config.type
+  std::string firmware;  // MAJOR.MINOR of config.device_info; empty if it is not there
 };
 struct Snapshot {
   std::vector<Arm> arms;
-  std::optional<double> session;
 };
-// Nothing where the text is no JSON object. May allocate. Arms without a usable id are left out.
+// Nothing if the text is not a JSON object. Arms without a usable id are left out. Allocates.
 [[nodiscard]] std::optional<Snapshot> parse_snapshot(std::string_view message);
 
-// Ids that we are ready to send back: 1 to 31 letters, digits, `-` or `_`.
+// True for ids that palpate sends back: 1 to 31 letters, digits, `-` or `_`.
 [[nodiscard]] bool usable_id(std::string_view id);
 
 enum class Mode { unknown, idle, other };
 
-// One reply about one arm.
+// The part of a reply that concerns one arm.
 struct Reply {
   Fault fault = Fault::none;          // garbage, missing_field, wrong_device, not_finite, brake
   std::optional<Vec3> position = {};  // m
   std::optional<Vec3> velocity = {};  // m/s
-  std::optional<Vec3> force = {};     // N, that the service says it renders
   Mode mode = Mode::unknown;
 };
-// Reads a reply for the arm `id`. Never allocates, never throws, whatever the bytes. A reply that
-// is valid JSON but says nothing of this arm is missing_field, or wrong_device where it speaks of
-// others. Numbers beyond any arm (10 m, 100 m/s) are not_finite. A position must have x, y and z.
+// Reads a reply for the arm `id`. Never allocates and never throws. Valid JSON without this arm is
+// missing_field, or wrong_device if it contains other arms. Numbers beyond any arm (10 m, 100 m/s)
+// are not_finite. A vector without x, y or z counts as missing.
 [[nodiscard]] Reply parse_reply(std::string_view message, std::string_view id);
 
 // {"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{...}}}}]}
@@ -63,7 +60,7 @@ struct Message {
   std::size_t size = 0;
   [[nodiscard]] std::string_view text() const { return {bytes.data(), size}; }
 };
-// `force` in N; what is not finite becomes zero, for all three components.
+// `force` in N; if a component is not finite, all three are sent as zero.
 [[nodiscard]] Message force_message(std::string_view id, Spelling spelling, const Vec3& force);
 
 }  // namespace palpate::device::inverse3

@@ -1,4 +1,4 @@
-// JSON by RFC 8259: numbers and texts as strictly as it has them.
+// Scans JSON according to RFC 8259; \u escapes and UTF-8 are not checked.
 #include "device/json_scanner.h"
 
 #include <charconv>
@@ -36,7 +36,7 @@ bool JsonScanner::enter(char bracket) {
   return !failed_;
 }
 
-// Before a member: a comma unless it is the first; false at the bracket's end.
+// Reads the comma before a member or element, unless it is the first; false at the closing `end`.
 bool JsonScanner::separator(char end) {
   if (failed_) return false;
   if (take(end)) {
@@ -100,7 +100,7 @@ std::optional<double> JsonScanner::raw_number() {
   double value = 0.0;
   if (good) {
     const auto read = std::from_chars(text_.data() + start, text_.data() + at_, value);
-    // 1e400 is JSON, but no number of ours.
+    // 1e400 is valid JSON but not a double.
     if (read.ec == std::errc::result_out_of_range) return std::nullopt;
     good = read.ec == std::errc() && read.ptr == text_.data() + at_;
   }

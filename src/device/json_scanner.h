@@ -1,4 +1,4 @@
-// Walks over JSON without building anything: no allocation, bounded depth, any bytes survive.
+// Reads JSON text in one pass, without a tree, without allocation and to a limited depth.
 #pragma once
 
 #include <optional>
@@ -12,24 +12,23 @@ class JsonScanner {
 
   [[nodiscard]] bool failed() const { return failed_; }
 
-  // At `{` or `[`: enters and returns true; anything else is left as it is.
+  // Enters an object (`{`) or array (`[`) and returns true, or reads nothing and returns false.
   bool enter(char bracket);
 
-  // Inside an object: goes to the next member and gives its key, unescaped as it is not; the value
-  // must then be read or skipped. Nothing at the object's end or where the text is broken.
+  // Inside an object: returns the key of the next member, with escape sequences left as they are;
+  // its value must then be read or skipped. Nothing at the object's end and if the text is invalid.
   std::optional<std::string_view> next_key();
 
-  // Inside an array: true where there is an element, which must then be read or skipped.
+  // Inside an array: true if there is another element, which must then be read or skipped.
   bool next_element();
 
-  // A value, passed over where it is of another kind; nothing then.
+  // Each reads a value. A value of another type is skipped, and the result is nothing.
   std::optional<double> number();
   std::optional<std::string_view> string();
   std::optional<bool> boolean();
   void skip();
 
-  // Nothing but white space is left.
-  bool at_end();
+  bool at_end();  // true if the text was valid and only white space is left
 
  private:
   void space();
@@ -45,7 +44,7 @@ class JsonScanner {
   std::string_view text_;
   std::size_t at_ = 0;
   int depth_ = 0;
-  bool first_ = false;  // no member of the present bracket has been read
+  bool first_ = false;  // no member of the current object or array has been read
   bool failed_ = false;
 };
 

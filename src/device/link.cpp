@@ -1,4 +1,4 @@
-// The links there are, by the kind of their address.
+// The kinds of links, each opened by its type of address.
 #include "device/link.h"
 
 #include <utility>
@@ -12,29 +12,35 @@
 namespace palpate::device {
 
 struct Link::Variant {
-  std::variant<std::monostate, Mark10, Inverse3, Recording> link;
+  std::variant<Mark10, Inverse3, Recording> link;
 
-  // Calls `use` with the link there is.
+  template <class Kind, class... Arguments>
+  explicit Variant(std::in_place_type_t<Kind> kind, Arguments&&... arguments)
+      : link(kind, std::forward<Arguments>(arguments)...) {}
+
+  static std::unique_ptr<Variant> open(const StandAddress& address, Purpose purpose, Clock& clock,
+                                       Tap* tap) {
+    return std::make_unique<Variant>(std::in_place_type<Mark10>, address.port, purpose, clock, tap);
+  }
+  static std::unique_ptr<Variant> open(const ArmAddress& address, Purpose purpose, Clock& clock,
+                                       Tap* tap) {
+    return std::make_unique<Variant>(std::in_place_type<Inverse3>, address, purpose, clock, tap);
+  }
+  static std::unique_ptr<Variant> open(const RecordingAddress& address, Purpose, Clock& clock,
+                                       Tap*) {
+    return std::make_unique<Variant>(std::in_place_type<Recording>, address.file, clock);
+  }
+
   template <class Use>
   decltype(auto) with(const Use& use) {
-    if (auto* stand = std::get_if<Mark10>(&link)) return use(*stand);
-    if (auto* arm = std::get_if<Inverse3>(&link)) return use(*arm);
-    return use(std::get<Recording>(link));
+    return std::visit(use, link);
   }
 };
 
 Link::Link(std::string_view text, Purpose purpose, Clock& clock, Tap* tap)
-    : link_(std::make_unique<Variant>()) {
-  const Address address = parse_link(text);
-  auto& link = link_->link;
-  if (const auto* stand = std::get_if<StandAddress>(&address)) {
-    link.emplace<Mark10>(stand->port, purpose, clock, tap);
-  } else if (const auto* arm = std::get_if<ArmAddress>(&address)) {
-    link.emplace<Inverse3>(*arm, purpose, clock, tap);
-  } else {
-    link.emplace<Recording>(std::get<RecordingAddress>(address).file, clock);
-  }
-}
+    : link_(std::visit(
+          [&](const auto& address) { return Variant::open(address, purpose, clock, tap); },
+          parse_link(text))) {}
 
 Link::~Link() = default;
 Link::Link(Link&&) noexcept = default;
@@ -52,6 +58,7 @@ Sample Link::sample(double wait) {
   return link_->with([&](auto& link) { return link.sample(wait); });
 }
 
+// Only the arm accepts forces, and only the stand accepts motions.
 Fault Link::command_force(const Vec3& force) {
   auto* arm = std::get_if<Inverse3>(&link_->link);
   return arm != nullptr ? arm->command_force(force) : Fault::refused;
@@ -66,9 +73,7 @@ Fault Link::command_motion(const Motion& motion) {
 }
 
 bool Link::stop() {
-  if (auto* stand = std::get_if<Mark10>(&link_->link)) return stand->stop();
-  if (auto* arm = std::get_if<Inverse3>(&link_->link)) return arm->stop();
-  return true;
+  return link_->with([](auto& link) { return link.stop(); });
 }
 
 }  // namespace palpate::device

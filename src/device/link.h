@@ -1,4 +1,4 @@
-// One live link, whatever stands behind it.
+// A link to a device of any kind: stand, arm or recording.
 #pragma once
 
 #include <memory>
@@ -13,9 +13,9 @@ class Tap;
 
 class Link {
  public:
-  // Opens what a LINK text names. Throws InputError where the text or a recording is wrong, and
-  // LinkError with a diagnosis where nobody answers. `clock` outlives the link, as does `tap`,
-  // which hears what goes over the line from the greeting on.
+  // Opens the device that a LINK text names. Throws InputError if the text or a recording is wrong,
+  // and LinkError with a diagnosis if the device does not answer. `clock` and `tap` must outlive
+  // the link; `tap` receives a copy of all bytes, from the opening of the link on.
   Link(std::string_view text, Purpose purpose, Clock& clock, Tap* tap = nullptr);
   ~Link();
   Link(Link&&) noexcept;
@@ -24,20 +24,22 @@ class Link {
   [[nodiscard]] const Limits& limits() const;
   [[nodiscard]] Traffic traffic() const;
 
-  // A new sample where one comes within `wait` s of real time; 0 only looks. Allocates nothing.
-  // The arm answers what was sent: after each sample a force, if only zero, asks for the next.
+  // Returns the next sample if one comes within `wait` s of real time; with 0 it does not wait.
+  // Allocates nothing. The arm sends one sample per message that it receives: after each sample,
+  // send a force (zero if need be) to obtain the next one.
   [[nodiscard]] Sample sample(double wait);
 
-  // What the arm's hand should feel, in N, along the axes of `position`: sent at once. A force
-  // that is not finite is sent as zero. `refused` by links that take no force, and by the arm for
-  // anything but zero where it was opened to look.
+  // Sends the force (N, in the coordinates of `position`) that the arm is to exert on the hand. A
+  // force that is not finite is sent as zero. Returns `refused` for a link that takes no force, and
+  // for an arm opened with Purpose::look unless the force is zero.
   [[nodiscard]] Fault command_force(const Vec3& force);
 
-  // What the stand's crosshead should do; see Mark10. `refused` by other links.
+  // Limits (m) and motion of the stand's crosshead; see Mark10. Other links return `refused`.
   [[nodiscard]] Fault set_travel_limits(double low, double high);
   [[nodiscard]] Fault command_motion(const Motion& motion);
 
-  // No motion, no force; true where the device confirms it (the arm does so by its silence).
+  // Stops motion and force. True if the stand confirms it, or if the arm's link is not lost after a
+  // zero force was sent. Does nothing and returns true for a stand opened with Purpose::look.
   bool stop();
 
  private:

@@ -1,4 +1,4 @@
-// LINK texts: a word, a colon, and what the word wants.
+// Parses LINK texts: the word of a kind, a colon, and the address.
 #include "device/link_text.h"
 
 #include <array>
@@ -11,10 +11,34 @@
 namespace palpate::device {
 namespace {
 
+struct LinkKind {
+  const char* word;                                                  // before the colon
+  const char* form;                                                  // for help texts
+  const char* example;                                               // for errors
+  Address (*address)(std::string_view text, std::string_view rest);  // `rest` follows the colon
+};
+Address stand_address(std::string_view text, std::string_view rest);
+Address arm_address(std::string_view text, std::string_view rest);
+Address recording_address(std::string_view text, std::string_view rest);
+
+// In the order of Address.
+constexpr std::array kinds{
+    LinkKind{"mark10", "mark10:PORT", "mark10:/dev/ttyUSB0", stand_address},
+    LinkKind{"inverse3", "inverse3:HOST:PORT[:EVENTS]", "inverse3:localhost:10001", arm_address},
+    LinkKind{"replay", "replay:FILE.csv", "replay:FILE.csv", recording_address}};
+static_assert(kinds.size() == std::variant_size_v<Address>, "a link lacks its text");
+
+// "A, B or C", with the member `text` of every kind.
+std::string listed(const char* LinkKind::*text, const std::string& quote) {
+  std::string list;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == kinds.size() ? " or " : ", ") + quote + kinds[i].*text + quote;
+  return list;
+}
+
 [[noreturn]] void refuse(std::string_view text, const std::string& why) {
-  throw InputError({}, "palpate: the link `" + std::string(text) + "` " + why +
-                           "; write it as `mark10:/dev/ttyUSB0`, `inverse3:localhost:10001` or "
-                           "`replay:FILE.csv`");
+  throw InputError({}, "palpate: the link `" + std::string(text) + "` " + why + "; write it as " +
+                           listed(&LinkKind::example, "`"));
 }
 
 std::optional<int> port_number(std::string_view text) {
@@ -31,8 +55,18 @@ int wanted_port(std::string_view text, std::string_view word, const char* what) 
   return *port;
 }
 
-// HOST:PORT or HOST:PORT:EVENTS; a host with colons of its own stands in brackets.
-ArmAddress arm_address(std::string_view text, std::string_view rest) {
+Address stand_address(std::string_view text, std::string_view rest) {
+  if (rest.empty()) refuse(text, "names no serial port");
+  return StandAddress{std::string(rest)};
+}
+
+Address recording_address(std::string_view text, std::string_view rest) {
+  if (rest.empty()) refuse(text, "names no file");
+  return RecordingAddress{std::string(rest)};
+}
+
+// HOST:PORT or HOST:PORT:EVENTS; a host that contains colons (IPv6) is written in brackets.
+Address arm_address(std::string_view text, std::string_view rest) {
   const bool bracketed = rest.starts_with('[');
   if (bracketed) rest.remove_prefix(1);
   const std::string_view host = rest.substr(0, rest.find(bracketed ? ']' : ':'));
@@ -49,30 +83,27 @@ ArmAddress arm_address(std::string_view text, std::string_view rest) {
   address.events = std::nullopt;
   if (events != "none")
     address.events =
-        wanted_port(text, events, "wants a port from 1 to 65535 for the events, too, or `none`");
+        wanted_port(text, events, "wants, for the events, a port from 1 to 65535 or `none`");
   return address;
 }
 
 }  // namespace
 
 Address parse_link(std::string_view text) {
-  static const std::array<std::string, 3> words{"mark10", "inverse3", "replay"};
   const auto colon = text.find(':');
   const std::string word(text.substr(0, colon));
   const std::string_view rest =
       colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
   if (text.find('\0') != std::string_view::npos) refuse(word, "holds a zero byte");
-  if (word == "mark10") {
-    if (rest.empty()) refuse(text, "names no serial port");
-    return StandAddress{std::string(rest)};
-  }
-  if (word == "inverse3") return arm_address(text, rest);
-  if (word == "replay") {
-    if (rest.empty()) refuse(text, "names no file");
-    return RecordingAddress{std::string(rest)};
+  std::vector<std::string> words;
+  for (const LinkKind& kind : kinds) {
+    if (word == kind.word) return kind.address(text, rest);
+    words.emplace_back(kind.word);
   }
   const auto near = nearest(word, words);
-  refuse(text, "is of no kind we know" + (near ? ", did you mean `" + *near + ":`" : ""));
+  refuse(text, "begins with no known kind" + (near ? ", did you mean `" + *near + ":`" : ""));
 }
+
+std::string link_forms() { return listed(&LinkKind::form, ""); }
 
 }  // namespace palpate::device

@@ -1,4 +1,4 @@
-// What a LINK on the command line names.
+// LINK texts of the command line, and the addresses that they name.
 #pragma once
 
 #include <optional>
@@ -9,21 +9,23 @@
 namespace palpate::device {
 
 struct StandAddress {
-  std::string port;  // of a serial line: /dev/ttyUSB0
+  std::string port;  // path of a serial line: /dev/ttyUSB0
 };
 struct ArmAddress {
   std::string host;
   int port = 0;
-  std::optional<int> events = 10020;  // the port of the service's events; none: not to be heard
+  std::optional<int> events = 10020;  // port of the service's events; none: events are ignored
 };
 struct RecordingAddress {
   std::string file;
 };
 using Address = std::variant<StandAddress, ArmAddress, RecordingAddress>;
 
-// `mark10:PORT`, `inverse3:HOST:PORT[:EVENTS]` (a host of IPv6 in brackets; EVENTS a port or
-// `none`) or `replay:FILE.csv`.
-// Throws InputError with a sentence that shows these forms.
+// Reads `mark10:PORT`, `inverse3:HOST:PORT[:EVENTS]` (an IPv6 host is written in brackets; EVENTS
+// is a port or `none`) or `replay:FILE.csv`. Throws InputError with examples of these forms.
 [[nodiscard]] Address parse_link(std::string_view text);
+
+// The forms of all links, for help texts: "mark10:PORT, ... or replay:FILE.csv".
+[[nodiscard]] std::string link_forms();
 
 }  // namespace palpate::device

@@ -1,4 +1,4 @@
-// The stand's conversation: greeting, questions with deadlines, settings that are read back.
+// Requests to the stand with deadlines, settings that are read back, samples, motion and stop.
 #include "device/mark10.h"
 
 #include <algorithm>
@@ -7,14 +7,13 @@
 namespace palpate::device {
 namespace {
 
-constexpr double answer_time = 0.25;      // s, for a question outside of sampling
-constexpr double stop_time = 0.5;         // s, in which it is told to stop until it says it does
-constexpr double sample_time = 0.05;      // s, after which a reading is asked for anew
-constexpr double into_channel = 15e-3;    // s, after `/`; as an open driver waits
-constexpr double out_of_channel = 10e-3;  // s, after `\`
-constexpr double planned_period = 0.02;   // s: 50 Hz, as that driver polls
+constexpr double stop_time = 0.5;         // s, during which stop() repeats the command
+constexpr double sample_time = 0.05;      // s, after which a reading is requested again
+constexpr double into_channel = 15e-3;    // s, pause after `/`, as in the published driver LabKit
+constexpr double out_of_channel = 10e-3;  // s, pause after `\`
+constexpr double planned_period = 0.02;   // s: 50 Hz, as LabKit polls
 constexpr std::size_t diagnosis_bytes = 400;
-// ESM303 data sheet: 0.5 to 1100 mm/min. The line has no question for it: `j` and `k` set them.
+// ESM303 data sheet: 0.5 to 1100 mm/min. They cannot be requested: `j` and `k` select them.
 constexpr double slowest = 0.5e-3 / 60.0;     // m/s
 constexpr double fastest = 1100.0e-3 / 60.0;  // m/s
 
@@ -30,7 +29,6 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
   port_.tap(tap);
   identity_.kind = Kind::stand;
   limits_.measures_force = true;
-  limits_.takes_motion = true;
   limits_.slowest = slowest;
   limits_.speed = fastest;
   limits_.period = planned_period;
@@ -47,13 +45,13 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
 
 Mark10::~Mark10() = default;  // the guard sends the stop, then the port closes
 
-// In lock-step every question takes a reading's time: the emulator answers at such ticks.
+// With a stepped clock every request takes one period, because the emulator replies at its ticks.
 void Mark10::pass_time() {
   if (clock_.kind() == Clock::Kind::stepped) clock_.sleep_until(clock_.now() + planned_period);
 }
 
-// How long the wire may be silent (s). In lock-step nothing is late, but the emulator may have to
-// wait for a processor.
+// How long to wait for a reply (s of real time) that is due after `time`. With a stepped clock
+// replies are never late, but the emulator may have to wait for a processor.
 double Mark10::patience(double time) const {
   constexpr double lockstep = 0.5;  // s
   return clock_.kind() == Clock::Kind::stepped ? std::max(time, lockstep) : time;
@@ -97,7 +95,7 @@ std::optional<std::string> Mark10::gauge(std::string_view command, double wait) 
   std::optional<std::string> reply;
   const double until = wire_time() + wait;
   while (const auto got = reply ? std::nullopt : line_until(until)) {
-    // Readings that the gauge sends by itself are no answers.
+    // The gauge's automatic readings are not replies.
     const auto quantity = mark10::parse_quantity(*got);
     if (!(quantity && mark10::newtons(*quantity))) reply = std::string(*got);
   }
@@ -114,7 +112,7 @@ std::optional<mark10::Settings> Mark10::ask_settings() {
 }
 
 bool Mark10::ask(std::string_view command) {
-  // A reading that is still on its way would be taken for the answer.
+  // A pending reading would be mistaken for the reply.
   if (asked_) {
     const double until = asked_at_ + patience(sample_time);
     while (const auto line = line_until(until))
@@ -141,7 +139,7 @@ std::optional<mark10::Quantity> Mark10::ask_number(std::string_view command) {
     if (mark10::parse_error(*line)) break;
     auto number = mark10::parse_quantity(*line);
     if (!number) continue;
-    // The unit is a view into the buffer: keep only what outlives it.
+    // The unit is a view into the buffer, and is replaced by a literal that outlives it.
     std::string_view known = "?";
     for (const std::string_view unit : {"", "mm", "in", "mm/min", "in/min"})
       if (number->unit == unit) known = unit;
@@ -163,14 +161,6 @@ Traffic Mark10::traffic() const {
   Traffic traffic = traffic_;
   traffic.discarded += lines_.dropped();
   return traffic;
-}
-
-Sample Mark10::finished(Arrival arrival, Fault fault) const {
-  Sample sample;
-  sample.arrival = arrival;
-  sample.fault = fault;
-  sample.received = clock_.now();
-  return sample;
 }
 
 Sample Mark10::accept(const mark10::Pair& pair) {
@@ -230,9 +220,9 @@ Sample Mark10::sample(double wait) {
   }
 }
 
-// What the stand says its limits are, against what they should be.
+// Compares the limits that the stand reports with `low` and `high` (m).
 Fault Mark10::compare_limits(double low, double high) {
-  constexpr double close = 0.51 * mark10::travel_step;  // half of what the stand resolves
+  constexpr double close = 0.51 * mark10::travel_step;  // rounding to the stand's resolution
   const auto in_metres = [](const mark10::Quantity& one) {
     return one.unit.empty() ? one.value * 1e-3 : mark10::metres(one).value_or(Sample::nan);
   };
@@ -247,7 +237,7 @@ Fault Mark10::compare_limits(double low, double high) {
 
 Fault Mark10::set_travel_limits(double low, double high) {
   limits_verified_ = false;
-  // As the stand resolves them, for it reads back no finer.
+  // Rounded to the stand's resolution, because the stand reports them no finer.
   low = mark10::travel_step * std::round(low / mark10::travel_step);
   high = mark10::travel_step * std::round(high / mark10::travel_step);
   const auto lower = mark10::lower_limit_command(low);
@@ -257,12 +247,12 @@ Fault Mark10::set_travel_limits(double low, double high) {
   send("l");
   send(lower->text());
   send(upper->text());
-  // The stand is mute on setters: ask until it has had time to obey, at most three times.
+  // Setters have no reply: the limits are requested up to three times, until they have changed.
   Fault fault = Fault::not_verified;
   for (int tries = 0; tries < 3 && fault != Fault::none; ++tries) fault = compare_limits(low, high);
   if (fault != Fault::none) return fault;
   const auto status = ask_status();
-  // Limits are obeyed in limit mode only; a status without a mode says nothing against it.
+  // Limits are active in limit mode only; a status without a mode is accepted.
   if (status && status->mode != '?' && status->mode != 'L') return Fault::not_verified;
   limits_.low = low;
   limits_.high = high;
@@ -277,7 +267,7 @@ Fault Mark10::move(const Motion& motion) {
   if (!(motion.speed >= limits_.slowest) || !(motion.speed <= limits_.speed)) return Fault::refused;
   const auto speed = mark10::speed_command(motion.speed);
   if (!speed) return Fault::refused;
-  // A stand that was switched off and on between two motions has forgotten them.
+  // A stand that was switched off and on since the last motion has lost its limits.
   if (const Fault fault = compare_limits(limits_.low, limits_.high); fault != Fault::none)
     return fault;
   send(speed->text());
@@ -291,8 +281,8 @@ Fault Mark10::move(const Motion& motion) {
 }
 
 bool Mark10::stop() {
-  if (purpose_ != Purpose::command) return true;  // it never set anything in motion
-  // It brakes from its greatest speed in about 0.1 s.
+  if (purpose_ != Purpose::command) return true;  // such a link cannot start a motion
+  // The stand brakes from its highest speed in about 0.1 s.
   const double until = wire_time() + patience(stop_time);
   do {
     send("s");
@@ -300,8 +290,8 @@ bool Mark10::stop() {
     if (status && status->moving == mark10::Status::Moving::stopped) return true;
     if (status && clock_.kind() == Clock::Kind::monotonic) pause(planned_period);
   } while (wire_time() < until && !port_.lost());
-  // Without a clear word, two readings tell: at its slowest the stand goes 0.02 mm in 2.4 s, so
-  // this is only a second opinion on a stand that was told to stop.
+  // Without a clear status, two equal readings of the travel count as a stop. They cannot detect
+  // slow motion: at its lowest speed the stand moves by 0.02 mm, its resolution, in 2.4 s.
   return !port_.lost() && stands_still();
 }
 

@@ -1,4 +1,4 @@
-// A motorised stand with a force gauge on a serial line: position and force in, motion out.
+// The link to a motorised stand with a force gauge on a serial line.
 #pragma once
 
 #include <array>
@@ -19,9 +19,9 @@ class Tap;
 
 class Mark10 {
  public:
-  // Opens the port, quiets the gauge, and asks who is there; for commands it also stops the stand
-  // and sets N and mm. Takes about 0.3 s. Throws LinkError with a plain diagnosis.
-  // `clock` outlives the link.
+  // Opens the port, ends the gauge's automatic output, and reads identity and settings. With
+  // Purpose::command it also stops the stand and sets N and mm. Takes about 0.3 s. Throws LinkError
+  // with a diagnosis. `clock` and `tap` must outlive the link.
   Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap = nullptr);
   ~Mark10();
   Mark10(const Mark10&) = delete;
@@ -30,24 +30,27 @@ class Mark10 {
   [[nodiscard]] const Identity& identity() const { return identity_; }
   [[nodiscard]] const Limits& limits() const { return limits_; }
 
-  // Asks for force and travel where that is not yet asked, and waits at most `wait` s.
+  // Requests force and travel unless a request is pending, and waits at most `wait` s for them.
   [[nodiscard]] Sample sample(double wait);
 
-  // Puts travel limits (m, low < high) into the stand and reads them back, in limit mode. The
-  // stand moves only after this has succeeded. not_verified, refused, silent or hung_up otherwise.
+  // Switches to limit mode, writes travel limits (m, low < high) into the stand, reads them back.
+  // The stand moves only after the result none; others are not_verified, refused, silent, hung_up.
   [[nodiscard]] Fault set_travel_limits(double low, double high);
 
-  // Starts a motion at a verified speed, or stops. Refused without travel limits, outside of the
-  // stand's speeds, and in a link that is opened to look; not_verified where the stand has lost
-  // its limits since, as by a reset. Takes a few ms.
+  // Starts a motion after its speed was read back, or stops. Returns refused without travel limits,
+  // outside the stand's speeds and with Purpose::look; not_verified if the stand has lost its
+  // limits, for example by a reset; silent or hung_up. Takes a few ms.
   [[nodiscard]] Fault move(const Motion& motion);
 
-  // Sends the stop at once, then asks whether it stands; true where that is confirmed.
+  // Sends a stop at once and then asks for the status; true if the stand has confirmed the stop.
+  // With Purpose::look it sends nothing and returns true.
   bool stop();
 
   [[nodiscard]] Traffic traffic() const;
 
  private:
+  static constexpr double answer_time = 0.25;  // s, to wait for a reply other than a reading
+
   void greet();
   void quiet_gauge();
   void ask_gauge_who_it_is();
@@ -60,9 +63,9 @@ class Mark10 {
   void receive(double until);
   void drain();
   std::optional<std::string> gauge(std::string_view command, double wait);
-  // Sends a question once no other answer can be mistaken for its own.
+  // Sends a request, after a reading that is still pending, so that replies cannot be confused.
   bool ask(std::string_view command);
-  // The next line that comes till `until` (s, wire_time).
+  // The next line that arrives until `until` (s, wire_time()).
   std::optional<std::string_view> line_until(double until);
   std::optional<mark10::Status> ask_status();
   std::optional<mark10::Quantity> ask_number(std::string_view command);
@@ -70,26 +73,28 @@ class Mark10 {
   bool stands_still();
   Fault compare_limits(double low, double high);
   Sample accept(const mark10::Pair& pair);
-  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const;
+  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
+    return {.arrival = arrival, .fault = fault, .received = clock_.now()};
+  }
 
   Clock& clock_;
   std::string path_;
   Purpose purpose_;
   SerialPort port_;
-  std::unique_ptr<StopGuard> guard_;  // after the port: it writes before the port closes
+  std::unique_ptr<StopGuard> guard_;  // declared after the port: it writes before the port closes
   mark10::LineBuffer lines_;
   mark10::PairReader pairs_;
   Identity identity_;
   Limits limits_;
-  double sign_ = 1.0;  // of a force that presses, as the gauge sends it
+  double sign_ = 1.0;  // of a compressive force, as the gauge sends it
   std::array<char, 8> unit_{};
   bool limits_verified_ = false;
-  bool asked_ = false;
-  bool heard_ = false;          // anything since it was asked
-  double asked_at_ = 0.0;       // s, wire time
-  std::optional<Sample> last_;  // that was fresh
+  bool asked_ = false;          // a reading was requested and has not arrived
+  bool heard_ = false;          // bytes have arrived since that request
+  double asked_at_ = 0.0;       // s, wire_time() of that request
+  std::optional<Sample> last_;  // the last fresh sample
   Traffic traffic_;
-  std::string first_bytes_;  // of the greeting, for a diagnosis
+  std::string first_bytes_;  // received while greeting, for a diagnosis
   bool greeting_ = true;
 };
 

@@ -1,5 +1,5 @@
-// How a stand is met: the gauge is quieted, asked who it is and in which sign and unit it speaks,
-// and where nobody answers, why.
+// Opens the connection to a stand: ends the gauge's automatic output, reads its identity, sign and
+// unit, and diagnoses why a stand does not answer.
 #include <utility>
 
 #include "base/error.h"
@@ -8,10 +8,9 @@
 namespace palpate::device {
 namespace {
 
-constexpr double answer_time = 0.25;  // s
-constexpr double mute_time = 0.03;    // s, in which a setter may object
+constexpr double mute_time = 0.03;  // s, to wait for an error after a setter, which has no reply
 
-// The bytes for a sentence: what cannot be printed as a point.
+// At most 40 bytes for a message, with a point for each byte that cannot be printed.
 std::string printable(std::string_view bytes) {
   std::string text;
   for (const char c : bytes.substr(0, 40)) text += c >= ' ' && c <= '~' ? c : '.';
@@ -27,7 +26,7 @@ void Mark10::greet() {
   if (purpose_ == Purpose::command) send("i");
   std::optional<mark10::Pair> pair;
   int error = 0;
-  // Twice: the first answer may be spoilt by what was on its way.
+  // Two attempts, because earlier bytes may spoil the first reply.
   for (int tries = 0; tries < 2 && !pair; ++tries) {
     pairs_.clear();
     if (!ask("n")) break;
@@ -41,7 +40,7 @@ void Mark10::greet() {
   if (!pair && error != 0)
     throw LinkError("palpate: the stand on `" + path_ + "` answers `*" + std::to_string(error) +
                     "`, " + std::string(mark10::error_text(error)) +
-                    "; put it to PC control and its gauge to its main screen");
+                    "; switch its PC Control on, and its gauge to the main screen");
   if (!pair) refuse_silence();
   unit_ = pair->force_unit;
   identity_.dialect = "gauge in " + std::string(unit_.data());
@@ -59,8 +58,8 @@ void Mark10::ask_gauge_who_it_is() {
   const auto settings = ask_settings();
   if (!settings) {
     identity_.notes.push_back(
-        "the gauge does not list its settings; a pressing force is assumed to be positive, as "
-        "the series is made");
+        "the gauge does not list its settings; a compressive force is assumed to be positive, the "
+        "default of the series");
     return;
   }
   using Sign = mark10::Settings::Sign;
@@ -68,12 +67,13 @@ void Mark10::ask_gauge_who_it_is() {
   if (settings->sign == Sign::tension_positive) sign_ = -1.0;
   if (!settings->sign_listed && settings->sign == Sign::compression_positive)
     identity_.notes.push_back(
-        "the gauge does not list its polarity (IPOL); a pressing force is assumed to be positive");
+        "the gauge does not list its polarity (IPOL); a compressive force is assumed to be "
+        "positive");
   if (settings->auto_output > 0)
-    identity_.notes.push_back("the gauge goes on sending readings by itself, against AOUT0");
+    identity_.notes.push_back("the gauge still sends readings by itself, in spite of AOUT0");
   if (!settings->mode.empty() && settings->mode != "CUR")
     identity_.notes.push_back("the gauge shows a peak (" + settings->mode +
-                              "), not the force of now; put it to CUR");
+                              "), not the current force; set it to CUR");
   if (settings->sign == Sign::omitted) {
     const std::string why = "the gauge omits the sign of its forces; set OPOL0 in its menu";
     if (purpose_ == Purpose::command) throw LinkError("palpate: on `" + path_ + "` " + why);
@@ -83,9 +83,9 @@ void Mark10::ask_gauge_who_it_is() {
     throw LinkError("palpate: on `" + path_ +
                     "` the gauge sends numbers without a unit (NUM); set it to FULL in its menu");
   if (purpose_ == Purpose::command && settings->unit != "N")
-    identity_.notes.push_back("the gauge stays in " + settings->unit +
+    identity_.notes.push_back("the gauge still uses " + settings->unit +
                               "; its forces are converted");
-  // Model and serial number, as the gauge gives them.
+  // Model and serial number.
   for (const auto& [command, into] :
        {std::pair{"RM", &identity_.model}, std::pair{"RS", &identity_.id}}) {
     const auto reply = gauge(command, patience(answer_time));
@@ -104,8 +104,9 @@ void Mark10::ask_stand_limits() {
   const auto length = [](const mark10::Quantity& one) {
     return one.unit.empty() ? std::optional(one.value * 1e-3) : mark10::metres(one);
   };
-  const bool travels = read("v", limits_.high, length) & read("w", limits_.low, length);
-  if (!travels) identity_.notes.push_back("the stand does not tell its travel limits");
+  const bool high = read("v", limits_.high, length);
+  const bool low = read("w", limits_.low, length);
+  if (!high || !low) identity_.notes.push_back("the stand does not report its travel limits");
 }
 
 void Mark10::refuse_silence() const {
@@ -117,11 +118,11 @@ void Mark10::refuse_silence() const {
         "nothing answers; switch the stand on, set CONTROL to CONSOLE, PC Control to on "
         "and the rate to " +
         std::to_string(mark10::baud) + " baud, and check the cable");
-  // Bytes at another rate are not text; a fifth of them shows it.
+  // At another rate most bytes are not text; a fifth of them is enough for the diagnosis.
   if (mark10::garbage_share(first_bytes_) > 0.2)
     throw LinkError(on + "garbage answers, as at a wrong baud rate; set the stand and its gauge " +
                     "to " + std::to_string(mark10::baud) + " baud, 8 bits, no parity");
-  throw LinkError(on + "something answers in words that are no reading (`" +
+  throw LinkError(on + "a device answers in words that are no reading (`" +
                   printable(first_bytes_) +
                   "`); is this the stand's port, and is the gauge plugged into the stand?");
 }

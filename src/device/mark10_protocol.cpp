@@ -1,4 +1,4 @@
-// Lines of the stand and the gauge, read strictly: what is not surely a reading is none.
+// Parses lines of the stand and the gauge strictly: a doubtful line is not accepted as a reading.
 #include "device/mark10_protocol.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace palpate::device::mark10 {
 namespace {
 
-constexpr std::size_t longest_line = 160;  // bytes; a LIST is the longest, about 60
+constexpr std::size_t longest_line = 160;  // bytes; the longest reply, to LIST, has about 60
 
 bool is_end(char c) { return c == '\r' || c == '\n'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -36,7 +36,7 @@ struct UnitFactor {
   double factor;
 };
 
-// Exact by definition: 1 lbf = 0.45359237 kg * 9.80665 m/s^2, 1 ozf = 1/16 of it. NIST SP 811 B.8
+// Exact by definition: 1 lbf = 0.45359237 kg * 9.80665 m/s^2, 1 ozf = 1/16 lbf. NIST SP 811 B.8
 constexpr double pound_force = 0.45359237 * 9.80665;  // N
 constexpr std::array force_units{UnitFactor{"N", 1.0},
                                  UnitFactor{"mN", 1e-3},
@@ -56,7 +56,8 @@ std::optional<double> converted(const Quantity& quantity, const std::array<UnitF
   return std::nullopt;
 }
 
-// `letter` and a number of `whole` digits, a point and `decimals` digits, with leading zeros.
+// `letter`, a `-` if needed, `whole` digits with leading zeros, a point and `decimals` digits.
+// Nothing if the value is not finite or does not fit.
 std::optional<Command> number_command(char letter, double value, int whole, int decimals) {
   if (!std::isfinite(value)) return std::nullopt;
   long scale = 1;
@@ -197,7 +198,7 @@ std::optional<Status> parse_status(std::string_view line) {
     const char c = line[i];
     if (c == ' ' || c == ',' || c == ';' || c == '\t') continue;
     const std::string_view rest = line.substr(i);
-    // A limit's two letters end their word.
+    // `UL` and `DL` are limits only at the end of a word.
     const bool ends = rest.size() == 2 || (rest.size() > 2 && !is_letter(rest[2]));
     if (ends && (rest.starts_with("UL") || rest.starts_with("DL"))) {
       (c == 'U' ? upper_limit : lower_limit) = true;
@@ -231,7 +232,7 @@ PairReader::Step PairReader::take(std::string_view line) {
     step.error = *error;
     return step;
   }
-  // The gauge's word for a force beyond its range is not in its guide: these are what hosts met.
+  // The guide does not give the gauge's word for an overload; these were seen by other programs.
   if (same_word(line, "OVER") || same_word(line, "OL") || same_word(line, "OVERLOAD")) {
     step.fault = Fault::overload;
     return step;
@@ -263,8 +264,7 @@ PairReader::Step PairReader::take(std::string_view line) {
 }
 
 std::optional<Command> speed_command(double speed) {
-  // m/s to mm/min
-  const double value = speed * 60e3;
+  const double value = speed * 60e3;  // mm/min
   if (!(value >= 0.1 - 1e-9)) return std::nullopt;
   return number_command('e', value, 4, 1);
 }

@@ -1,4 +1,4 @@
-// The observer and the controller of the time domain.
+// Time-domain passivity: observer and controller, docs/theory.md (93).
 #include "device/passivity.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ void PassivityObserver::step(const Vec3& position, const Vec3& force) {
 
 Vec3 PassivityController::step(const PassivityObserver& observer, const Vec3& velocity, double dt) {
   damping_ = 0.0;
-  const double power = velocity.squaredNorm() * dt;  // J of a damping of 1 N s/m
+  const double power = velocity.squaredNorm() * dt;  // J, dissipated by a damping of 1 N s/m
   if (observer.energy() >= 0.0 || !(power > 0.0)) return Vec3::Zero();
-  // The deficit is taken out by what the hand feels next: the observer will see it by itself.
+  // The observer receives the damped force in the next step, so nothing is added to it here.
   damping_ = std::min(most_, -observer.energy() / power);
   return -damping_ * velocity;
 }

@@ -1,22 +1,22 @@
-// Energy that goes into the hand, watched and held back. The force of a frame is held until the
-// next position is read, so that the energy between two readings is exact: F_k-1 . (x_k - x_k-1).
+// Passivity of the arm: observes the energy given to the hand and removes an excess by damping. The
+// force is constant between two readings x, so that its work is exactly F_k-1 . (x_k - x_k-1).
 #pragma once
 
 #include "base/vec3.h"
 
 namespace palpate::device {
 
-// What the hand has put in less what it got back, J:
-//   E_k = E_k-1 - F_k-1 . (x_k - x_k-1)        B. Hannaford and J.-H. Ryu, IEEE TRA 18 (2002)
-// A passive wall never has it below zero.
+// Energy from the hand minus energy returned to the hand, J; for a passive wall never below zero:
+//   E_k = E_k-1 - F_k-1 . (x_k - x_k-1)
+// B. Hannaford and J.-H. Ryu, IEEE TRA 18 (2002); docs/theory.md (93)
 class PassivityObserver {
  public:
-  // A new position (m); `force` (N) is what the hand has felt since the last one.
+  // Adds the work of `force` (N), which has acted from the last position to this one (m).
   void step(const Vec3& position, const Vec3& force);
-  [[nodiscard]] double energy() const { return energy_; }
-  [[nodiscard]] double least() const { return least_; }
+  [[nodiscard]] double energy() const { return energy_; }  // J
+  [[nodiscard]] double least() const { return least_; }    // J, smallest energy() so far
 
-  // Out of contact: what the tissue has eaten before is no credit for later.
+  // Call out of contact: energy dissipated in one contact must not pay for activity in the next.
   void forget_surplus() { energy_ = energy_ < 0.0 ? energy_ : 0.0; }
 
  private:
@@ -26,13 +26,13 @@ class PassivityObserver {
   double least_ = 0.0;
 };
 
-// Takes the deficit out by a damping on the hand, in the frame after it was seen:
-//   F = F - alpha v,  alpha = -E / (v . v dt) where E < 0, at most `most`
+// Dissipates a deficit (E < 0) by a damping on the hand, in the frame after it was observed:
+//   F = F - alpha v,  alpha = min(most, -E / (v . v dt))            docs/theory.md (93)
 class PassivityController {
  public:
-  // `most` in N s/m: what the device itself renders stably, below b of Colgate's bound.
+  // `most` (N s/m): a damping that the device renders stably, below b of Colgate's bound (84).
   explicit PassivityController(double most) : most_(most) {}
-  // The force to add (N), for the velocity v (m/s) of this frame and its length dt (s).
+  // Returns the force to add (N), for the velocity v (m/s) of this frame and its length dt (s).
   Vec3 step(const PassivityObserver& observer, const Vec3& velocity, double dt);
   [[nodiscard]] double damping() const { return damping_; }  // N s/m, of the last frame
 

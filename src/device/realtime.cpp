@@ -1,4 +1,4 @@
-// mlockall, SCHED_FIFO, and a stack that is there. Limits: /etc/security/limits.d.
+// Locked memory, SCHED_FIFO and the stack. The system's limits are in /etc/security/limits.d.
 #include "device/realtime.h"
 
 #include <alloca.h>

@@ -1,5 +1,5 @@
-// What a loop asks of the system before it starts. Each call gives an empty text where it was
-// granted, and otherwise a sentence for a warning and for the record; none of them throws.
+// Real-time settings that a loop requests from the system before it starts. A text that is returned
+// is empty on success, and otherwise a sentence for a warning. None of the functions throws.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,14 @@
 
 namespace palpate::device {
 
-// Keeps all memory, present and future, from being paged out.
+// Locks all present and future memory of the program, so that it is not paged out.
 [[nodiscard]] std::string lock_memory();
 
-// Runs the calling thread before all ordinary ones, at `priority` from 1 to 98.
+// Gives the calling thread priority over all ordinary threads (SCHED_FIFO, `priority` 1 to 98).
 [[nodiscard]] std::string use_fifo(int priority);
-void use_ordinary();  // and after the others again
+void use_ordinary();  // back to SCHED_OTHER
 
-// Touches `bytes` of the calling thread's stack, so that no page of it is missing later.
+// Writes to `bytes` of the calling thread's stack, so that they cause no page fault later.
 void prefault_stack(std::size_t bytes);
 
 }  // namespace palpate::device

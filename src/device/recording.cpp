@@ -1,4 +1,4 @@
-// A small reader of CSV, for tables of results are of a room below.
+// Reads and replays a recording. This room may not include `measured`, and reads CSV by itself.
 #include "device/recording.h"
 
 #include <algorithm>
@@ -33,7 +33,8 @@ Columns columns_of(const std::vector<std::string>& header, const std::string& fi
   columns.force = find("force_N");
   const bool whole = *std::min_element(columns.position, columns.position + 3) >= 0;
   if (columns.time < 0)
-    throw InputError({file, 1, 0}, "a recording wants a column `time_s`; name the times so");
+    throw InputError({file, 1, 0},
+                     "a recording wants a column `time_s`; give the column of times this name");
   if (!whole && columns.travel < 0)
     throw InputError({file, 1, 0},
                      "a recording wants a position; name it `travel_mm`, or `position_x_m`, "
@@ -61,12 +62,12 @@ std::vector<Sample> parse_recording(std::string_view text, const std::string& fi
     if (fields.size() != width)
       throw InputError(place, "the row has " + std::to_string(fields.size()) +
                                   " fields, the header " + std::to_string(width) +
-                                  "; give every row as many");
+                                  "; give every row one field per column");
     const auto number = [&](int column) {
-      const auto value = whole_number(fields[static_cast<std::size_t>(column)]);
+      const auto value = whole_number(fields[as_index(column)]);
       if (!value || !std::isfinite(*value))
-        throw InputError(place, "`" + fields[static_cast<std::size_t>(column)] +
-                                    "` is no finite number; leave such rows out");
+        throw InputError(
+            place, "`" + fields[as_index(column)] + "` is no finite number; leave such rows out");
       return *value;
     };
     Sample row;
@@ -77,7 +78,7 @@ std::vector<Sample> parse_recording(std::string_view text, const std::string& fi
     } else {
       row.position.z() = -1e-3 * number(columns.travel);
     }
-    if (columns.force >= 0 && !fields[static_cast<std::size_t>(columns.force)].empty())
+    if (columns.force >= 0 && !fields[as_index(columns.force)].empty())
       row.force = number(columns.force);
     if (!rows.empty()) {
       const double dt = row.device_time - rows.back().device_time;
@@ -101,7 +102,7 @@ Recording::Recording(const std::string& file, Clock& clock)
   double longest = 0.0;
   for (std::size_t i = 1; i < rows_.size(); ++i)
     longest = std::max(longest, rows_[i].device_time - rows_[i - 1].device_time);
-  // Its own gaps are no faults.
+  // Gaps that the recording contains do not count as a stale link.
   limits_.stale_after = std::max(3.0 * limits_.period, 1.5 * longest);
   limits_.lost_after = std::max(0.1, 2.0 * limits_.stale_after);
 }

@@ -1,4 +1,4 @@
-// A recorded run as a link: the same samples at the same times, every time.
+// A recorded run as a link, which returns the same samples at the same times in every run.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,25 @@
 
 namespace palpate::device {
 
-// Reads a recording: a CSV with one header row, a column `time_s` that never falls, a position as
-// `position_x_m`, `position_y_m`, `position_z_m` or as `travel_mm` (downwards, as in
-// force_indentation.csv), and `force_N` where force was measured; other columns are passed over.
-// Throws InputError with file:line.
+// Reads a recording: CSV text with one header row, a column `time_s` that never decreases, the
+// position as `position_x_m`, `position_y_m`, `position_z_m` or as `travel_mm` (positive downwards,
+// as in force_indentation.csv), and `force_N` if force was measured; other columns are ignored.
+// Velocities are differences of the rows. Throws InputError with file and line.
 [[nodiscard]] std::vector<Sample> parse_recording(std::string_view text, const std::string& file);
 
 class Recording {
  public:
-  // `clock` outlives the link; a stepped one is carried on to each sample's time.
+  // `clock` must outlive the link; a stepped clock is advanced to the time of each sample.
   Recording(const std::string& file, Clock& clock);
+
+  static bool stop() { return true; }  // nothing moves
 
   [[nodiscard]] const Identity& identity() const { return identity_; }
   [[nodiscard]] const Limits& limits() const { return limits_; }
   [[nodiscard]] Traffic traffic() const { return traffic_; }
 
-  // The next row once its time has come, counted from the first call; waits `wait` s for it at
-  // most. Each row comes once; after the last one the link is lost, recording_ended.
+  // Returns each row once, when its time since the first row has passed since the first call; waits
+  // for that at most `wait` s. After the last row the link is lost with recording_ended.
   [[nodiscard]] Sample sample(double wait);
 
  private:

@@ -9,12 +9,12 @@
 
 namespace palpate::device {
 
-// Holds `size` items, a power of two. One thread pushes, one pops; neither ever waits. What finds
-// no room is dropped and counted: the loop is never held up by a slow disk.
+// Holds `size` items, a power of two. One thread pushes and another pops, and neither ever waits:
+// an item that finds the queue full is dropped and counted.
 template <class Item, std::size_t size>
 class Ring {
   static_assert(size > 1 && (size & (size - 1)) == 0, "a power of two");
-  // Nothing that owns memory: a copy in the loop must not allocate.
+  // An item owns no memory, because a copy in the loop must not allocate.
   static_assert(std::is_trivially_destructible_v<Item> && std::is_copy_assignable_v<Item>);
 
  public:

@@ -1,4 +1,4 @@
-// Each rule in a few lines, so that each can be read as it is meant.
+// The safety rules that stand and arm share.
 #include "device/safety.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ void Arming::trip(Trip why) {
 Vec3 finite_or_zero(const Vec3& force) { return force.allFinite() ? force : Vec3::Zero(); }
 
 Vec3 clamped_norm(const Vec3& force, double most) {
-  // Scaled first, so that squares of large components do not overflow.
+  // Scaling by the largest component keeps squares from overflowing.
   const double largest = force.cwiseAbs().maxCoeff();
   if (!(largest > 0.0)) return Vec3::Zero();
   const double norm = largest * (force / largest).norm();
@@ -45,7 +45,7 @@ Vec3 clamped_norm(const Vec3& force, double most) {
 
 Vec3 SlewLimit::step(const Vec3& wanted, double dt, double rate) {
   const Vec3 change = clamped_norm(wanted - last_, rate * std::max(0.0, dt));
-  // Where it is reached, exactly so: zero is to be zero.
+  // If `wanted` is reached, it is returned exactly, so that a force falls to exactly zero.
   last_ = (wanted - last_ - change).isZero(0.0) ? wanted : Vec3(last_ + change);
   return last_;
 }
@@ -75,7 +75,7 @@ void Staleness::step(double now, Arrival arrival) {
   }
   const double age = now - last_new_;
   if (arrival == Arrival::fresh) last_new_ = now;
-  // A sample that comes after the link was lost comes too late, also within one long frame.
+  // A sample that comes after `lost_after` is too late, even if it comes within one long frame.
   if (arrival == Arrival::lost || age > rule_.lost_after) {
     state_ = State::lost;
   } else {

@@ -1,4 +1,4 @@
-// Faults as words.
+// The sentences for faults.
 #include "device/sample.h"
 
 namespace palpate::device {

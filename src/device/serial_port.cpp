@@ -1,5 +1,5 @@
-// termios and poll. The lock is a flock on a file in /run/lock as well as TIOCEXCL, which root
-// may pass over; a lock file that is left behind locks nothing.
+// A serial port by termios and poll. It is locked by TIOCEXCL, which root may ignore, and by flock
+// on a file in /run/lock. A lock file that is left behind does not lock the port.
 #include "device/serial_port.h"
 
 #include <fcntl.h>
@@ -12,12 +12,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "device/clock.h"
 #include "device/tap.h"
 
@@ -56,8 +56,8 @@ speed_t speed_of(int baud) {
   }
 }
 
-// The lock file of a device: by the name of what the path leads to, so that a symbolic link and
-// its target are one.
+// Opens and locks the lock file of a device. Its name is that of the resolved path, so that a
+// symbolic link and its target have the same lock.
 int lock_for(const std::string& path) {
   char real[PATH_MAX];
   std::string name = ::realpath(path.c_str(), real) != nullptr ? real : path;
@@ -72,7 +72,7 @@ int lock_for(const std::string& path) {
     ::close(lock);
     if (error == EWOULDBLOCK) refuse(path, "is held by another palpate; end that one first");
   }
-  return -1;  // nowhere to put it; TIOCEXCL must do
+  return -1;  // neither folder is writable; TIOCEXCL alone locks the port
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ SerialPort::SerialPort(const std::string& path, int baud) {
   if (file_ < 0) refuse_open(path, errno);
   try {
     if (::isatty(file_) != 1)
-      refuse(path, "is no serial line; give the device's own, such as `/dev/ttyUSB0`");
+      refuse(path, "is no serial line; give that of the device, such as `/dev/ttyUSB0`");
     lock_ = lock_for(path);
   } catch (...) {
     ::close(file_);
@@ -106,7 +106,7 @@ SerialPort::SerialPort(const std::string& path, int baud) {
     release();
     refuse(path, std::string("cannot be set up as a serial line: ") + std::strerror(error));
   }
-  // Not the output: the stop of whoever held the port before may still be in it.
+  // The output is not flushed: it may still contain the stop of the program that used it before.
   ::tcflush(file_, TCIFLUSH);
 }
 
@@ -131,12 +131,12 @@ bool SerialPort::write(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t taken = ::write(file_, bytes.data(), bytes.size());
     if (taken > 0) {
-      if (tap_) tap_->note(Tap::Way::sent, bytes.substr(0, static_cast<std::size_t>(taken)));
-      bytes.remove_prefix(static_cast<std::size_t>(taken));
+      if (tap_) tap_->note(Tap::Way::sent, bytes.substr(0, as_index(taken)));
+      bytes.remove_prefix(as_index(taken));
     } else if (taken < 0 && errno == EINTR) {
       continue;
     } else {
-      // A full queue passes; anything else, EIO and ENXIO among them, is an unplugged device.
+      // A full queue is temporary; any other error (EIO, ENXIO) means an unplugged device.
       if (taken < 0 && errno != EAGAIN) lost_ = true;
       return false;
     }
@@ -147,29 +147,24 @@ bool SerialPort::write(std::string_view bytes) {
 SerialPort::Read SerialPort::read(std::span<char> into, double until) {
   if (lost_) return {Outcome::lost, 0};
   while (true) {
-    const double left = std::max(0.0, until - wire_time());
-    timespec wait{};
-    wait.tv_sec = static_cast<time_t>(left);
-    wait.tv_nsec = static_cast<long>(1e9 * (left - std::floor(left)));
+    const timespec wait = timespec_of(std::max(0.0, until - wire_time()));
     pollfd one{file_, POLLIN, 0};
     const int ready = ::ppoll(&one, 1, &wait, nullptr);
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0) return {Outcome::nothing, 0};
     const ssize_t size = ready < 0 ? -1 : ::read(file_, into.data(), into.size());
     if (size > 0) {
-      const auto got = static_cast<std::size_t>(size);
+      const auto got = as_index(size);
       if (tap_) tap_->note(Tap::Way::received, {into.data(), got});
       return {Outcome::bytes, got};
     }
     if (size < 0 && errno == EINTR) continue;
     if (size < 0 && errno == EAGAIN && (one.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0)
       return {Outcome::nothing, 0};
-    // End of file, EIO, ENXIO, or a hang-up without bytes: the same unplugged device.
+    // End of file, EIO, ENXIO or a hang-up without bytes: the device was unplugged.
     lost_ = true;
     return {Outcome::lost, 0};
   }
 }
-
-void SerialPort::discard_input() { ::tcflush(file_, TCIFLUSH); }
 
 }  // namespace palpate::device

@@ -1,4 +1,4 @@
-// A serial line for one program alone: raw bytes, 8N1, no flow control, never waiting unasked.
+// A serial line used by one program only: raw bytes, 8N1, no flow control, non-blocking.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@ class Tap;
 
 class SerialPort {
  public:
-  // Opens and locks `path` at `baud` (only 9600 to 115200 of the usual rates). Throws LinkError
-  // with a sentence: no such port, no permission, no serial line, held by another program.
+  // Opens and locks `path` at `baud`: 9600, 19200, 38400 or 57600; any other value means 115200.
+  // Throws LinkError if the port does not exist, is not permitted, not a serial line, or in use.
   SerialPort(const std::string& path, int baud);
   ~SerialPort();
   SerialPort(SerialPort&& other) noexcept;
   SerialPort& operator=(SerialPort&&) = delete;
 
-  // True where all bytes were taken; false where the line is gone or its queue full.
+  // True if all bytes were accepted; false if the line is lost or its queue is full.
   bool write(std::string_view bytes);
 
   enum class Outcome { bytes, nothing, lost };
@@ -27,13 +27,12 @@ class SerialPort {
     Outcome outcome = Outcome::nothing;
     std::size_t size = 0;
   };
-  // Waits for bytes till `until` (s, wire_time) and takes those that are there.
+  // Waits for bytes until `until` (s, wire_time()) and reads those that have arrived.
   [[nodiscard]] Read read(std::span<char> into, double until);
 
-  // From now on it hears all that is written and read; null: nobody.
+  // From now on `tap` receives a copy of all bytes written and read; null ends this.
   void tap(Tap* tap) { tap_ = tap; }
 
-  void discard_input();
   [[nodiscard]] bool lost() const { return lost_; }
   [[nodiscard]] int descriptor() const { return file_; }
 

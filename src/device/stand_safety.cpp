@@ -1,4 +1,4 @@
-// Ceilings of force and travel, and what silence means.
+// Limits of a stand's force and travel, and its reaction to missing samples.
 #include "device/stand_safety.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ StandSafety::Verdict StandSafety::step(double now, const Sample& sample) {
     good = jump_.takes(now, sample.position);
     jumps_ = good ? 0 : jumps_ + 1;
     if (jumps_ >= 2) arming_.trip(Trip::jump);
-    // Of either sign: a gauge whose sign was turned round still stops it.
+    // The limit holds for either sign, because the gauge's sign may be inverted.
     if (std::abs(sample.force) > rules_.force) arming_.trip(Trip::force_ceiling);
   }
   staleness_.step(now, good                              ? Arrival::fresh

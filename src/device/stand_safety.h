@@ -1,5 +1,5 @@
-// The rules of a stand: it moves us, so that what is limited is its force, its travel and its
-// silence. The travel limits are in the stand itself, too (Mark10::set_travel_limits).
+// Safety rules of a stand, which moves by itself: limits of its force, its travel and the time
+// without samples. The stand stores the travel limits as well (Mark10::set_travel_limits).
 #pragma once
 
 #include "device/safety.h"
@@ -8,11 +8,11 @@
 namespace palpate::device {
 
 struct StandRules {
-  double force = 5.0;          // N, either sign; beyond it the stand is stopped
+  double force = 5.0;          // N, of either sign; beyond it the stand is stopped
   double low = -Limits::none;  // m, of travel
-  double high = Limits::none;  // m
-  double slack = 1e-4;         // m, beyond the limits: the stand's way to a stand-still
-  double fastest = 18.4e-3;    // m/s, that may be commanded: 1100 mm/min
+  double high = Limits::none;  // m, of travel
+  double slack = 1e-4;         // m, beyond the limits: the braking distance of the stand
+  double fastest = 18.4e-3;    // m/s, the highest speed that may be commanded: 1100 mm/min
   StaleRule stale{.stale_after = 0.06, .lost_after = 0.25};
 };
 
@@ -21,21 +21,23 @@ class StandSafety {
   explicit StandSafety(const StandRules& rules)
       : rules_(rules), staleness_(rules.stale), jump_(2.0 * rules.fastest, rules.slack) {}
 
-  // What is to be done with the stand now. A position that no stand can have reached is dropped;
-  // two in a row mean that its zero is another one, and stop it.
+  // What must be done with the stand after the sample at `now` (s). A position that the stand
+  // cannot have reached is ignored; two in a row mean that its zero has changed, and trip.
   enum class Verdict {
     go_on,
-    halt,  // stop it; it may be started again when samples come
-    stop,  // stop it for good: tripped() says why
+    halt,  // stop the stand; it may be started again when samples come
+    stop,  // stop the stand for good; tripped() returns the reason
   };
   Verdict step(double now, const Sample& sample);
 
-  // Motion is allowed only once armed, which wants verified limits and a fresh sample within them.
+  // Allows motion if the device has confirmed its limits (`limits_in_device` is none) and the last
+  // sample is fresh and lies within the limits. False otherwise, and after a trip.
   bool arm(Fault limits_in_device);
   void disarm() { arming_.trip(Trip::by_hand); }
 
-  // The motion that may be commanded for the one that is wanted: a stop unless armed and fresh; its
-  // speed cut; away from a limit that was reached only.
+  // Returns the motion that may be commanded instead of `wanted`: the speed is limited to
+  // `fastest`; it is a stop if the stand is not armed, the samples are not fresh, or the stand has
+  // already reached the limit towards which it would move.
   [[nodiscard]] Motion allow(const Motion& wanted) const;
 
   [[nodiscard]] bool armed() const { return arming_.armed(); }

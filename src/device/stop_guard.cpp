@@ -1,4 +1,4 @@
-// Signal handlers reach nothing but lock-free numbers, write() and sigaction().
+// Signal handlers that send the stop. They use only functions that are async-signal-safe.
 #include "device/stop_guard.h"
 
 #include <termios.h>
@@ -9,13 +9,15 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "base/index.h"
+
 namespace palpate::device {
 namespace {
 
 static_assert(std::atomic<int>::is_always_lock_free);
 static_assert(std::atomic<unsigned>::is_always_lock_free);
 
-// Up to four bytes in one number, the first in the lowest byte.
+// Packs up to four bytes into one number, which a handler reads atomically; the first is lowest.
 constexpr unsigned packed(std::string_view bytes) {
   unsigned value = 0;
   for (std::size_t i = 0; i < bytes.size() && i < 4; ++i)
@@ -26,17 +28,17 @@ constexpr unsigned packed(std::string_view bytes) {
 std::atomic<int> stop_file = -1;
 std::atomic<unsigned> stop_bytes = 0;
 std::atomic<unsigned> closing_bytes = 0;
-// Handlers run here, for the thread's own stack may be what is used up. The system asks for some
-// 2 to 4 kB to save the registers in (getauxval(AT_MINSIGSTKSZ)), we for less.
+// The stack of the handlers, because the thread's stack may be exhausted. Saving the registers
+// takes some 2 to 4 kB (getauxval(AT_MINSIGSTKSZ)), and the handlers need less.
 alignas(16) std::array<char, 65536> handler_stack;
-std::array<struct sigaction, 64> before{};  // by number; written before a handler can read them
+std::array<struct sigaction, 64> before{};  // by signal; written before a handler can read them
 
 void write_packed(int file, unsigned value) {
   char bytes[4];
   std::size_t size = 0;
   for (; size < 4 && (value >> (8 * size) & 0xffu) != 0; ++size)
     bytes[size] = static_cast<char>(value >> (8 * size) & 0xffu);
-  // A few tries: a full queue is emptied first, for nothing in it matters more than the stop.
+  // A full queue is emptied and the write repeated, because the stop matters more than its content.
   for (int tries = 0; tries < 3 && size > 0; ++tries) {
     if (::write(file, bytes, size) == static_cast<ssize_t>(size)) return;
     if (errno == EAGAIN) ::tcflush(file, TCOFLUSH);
@@ -53,11 +55,11 @@ void send_stop() {
 void stop_and_pass_on(int signal, siginfo_t* info, void* context) {
   const int error = errno;
   send_stop();
-  const struct sigaction& old = before[static_cast<std::size_t>(signal)];
+  const struct sigaction& old = before[as_index(signal)];
   if ((old.sa_flags & SA_SIGINFO) != 0) {
     old.sa_sigaction(signal, info, context);
   } else if (old.sa_handler == SIG_DFL) {
-    // Delivered as soon as this handler returns.
+    // The signal is delivered again when this handler returns.
     ::sigaction(signal, &old, nullptr);
     ::raise(signal);
   } else if (old.sa_handler != SIG_IGN) {
@@ -66,7 +68,8 @@ void stop_and_pass_on(int signal, siginfo_t* info, void* context) {
   errno = error;
 }
 
-// False where the thread has one already, as under a sanitizer: that one serves as well.
+// Installs handler_stack. False if the thread already has such a stack, for example under a
+// sanitizer; the handlers then run on that one.
 bool bring_handler_stack() {
   stack_t old{};
   if (::sigaltstack(nullptr, &old) != 0 || (old.ss_flags & SS_DISABLE) == 0) return false;
@@ -95,7 +98,7 @@ StopGuard::StopGuard(int file, std::string_view bytes) {
   stop_file = file;
   own_stack_ = bring_handler_stack();
   for (const int signal : signals) {
-    auto& old = before[static_cast<std::size_t>(signal)];
+    auto& old = before[as_index(signal)];
     ::sigaction(signal, nullptr, &old);
     if ((old.sa_flags & SA_SIGINFO) == 0 && old.sa_handler == SIG_IGN) continue;
     struct sigaction action {};
@@ -112,7 +115,7 @@ StopGuard::~StopGuard() {
     struct sigaction now {};
     ::sigaction(signal, nullptr, &now);
     const bool ours = (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == stop_and_pass_on;
-    if (ours) ::sigaction(signal, &before[static_cast<std::size_t>(signal)], nullptr);
+    if (ours) ::sigaction(signal, &before[as_index(signal)], nullptr);
   }
   if (own_stack_) take_handler_stack_away();
 }

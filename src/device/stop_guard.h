@@ -1,4 +1,4 @@
-// The last thing a stand hears from us, whatever ends the program: stop.
+// Sends a stop to the stand when the program ends, for whatever reason.
 #pragma once
 
 #include <array>
@@ -8,13 +8,13 @@
 
 namespace palpate::device {
 
-// While it lives, `bytes` are written to `file` when it is destroyed (also by an exception), when
-// the program exits, and on SIGINT, SIGTERM, SIGHUP, SIGQUIT, and as far as that can work on
-// SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT, also when the stack of the thread that made the
-// guard is used up; the signal then takes the way it had before.
-// Signals that the program ignores stay ignored. Make it after other handlers were installed, and
-// one at a time: a second one asserts. SIGKILL and a dead machine pass it by, which is why the
-// travel limits go into the stand first.
+// Writes `bytes` (at most 4, none of them 0) to the descriptor `file` when it is destroyed (also by
+// an exception), when the program exits, on SIGINT, SIGTERM, SIGHUP and SIGQUIT, and, as far as
+// possible, on SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT, even if the stack of the thread that
+// made the guard is exhausted. Afterwards the signal's previous action follows. Signals that the
+// program ignores stay ignored. Make the guard after other handlers were installed. A second guard
+// at the same time asserts. SIGKILL and a crashed computer send nothing; therefore the travel
+// limits are written into the stand before it moves.
 class StopGuard {
  public:
   StopGuard(int file, std::string_view bytes);
@@ -22,14 +22,15 @@ class StopGuard {
   StopGuard(const StopGuard&) = delete;
   StopGuard& operator=(const StopGuard&) = delete;
 
-  // Bytes that go in front of the stop while a channel to another device is open; at most 4.
+  // Sets the bytes (at most 4) that are sent before the stop while the gauge's channel is open,
+  // because the stand would not receive the stop.
   static void open_channel(std::string_view closing);
   static void close_channel();
 
  private:
   static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV,
                                       SIGBUS, SIGFPE,  SIGILL, SIGABRT};
-  bool own_stack_ = false;  // whether handlers run on the stack that it brought
+  bool own_stack_ = false;  // whether this guard installed the stack on which handlers run
 };
 
 }  // namespace palpate::device

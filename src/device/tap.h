@@ -1,10 +1,9 @@
-// What goes over a link's line, byte for byte, on its way to another thread.
+// A copy of the bytes that a link sends and receives, handed to the thread that writes them.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "device/clock.h"
@@ -15,16 +14,16 @@ namespace palpate::device {
 class Tap {
  public:
   enum class Way : std::uint8_t { sent, received };
-  // Bytes of one write or read, in as many parts as they need.
+  // Bytes of one write or read, divided into as many parts as necessary.
   struct Part {
-    double time = 0.0;  // s, wire time
+    double time = 0.0;  // s, wire_time()
     Way way = Way::sent;
-    bool last = true;  // of its write or read
+    bool last = true;  // the last part of its write or read
     std::uint16_t size = 0;
     std::array<char, 240> bytes{};
   };
 
-  // Allocates nothing, never waits; what finds no room is dropped and counted.
+  // Allocates nothing and never waits; parts that find the queue full are dropped and counted.
   void note(Way way, std::string_view bytes) {
     Part part{.time = wire_time(), .way = way};
     while (!bytes.empty()) {
@@ -42,8 +41,5 @@ class Tap {
  private:
   Ring<Part, 8192> ring_;
 };
-
-// A CSV field: printable ASCII as it is, the rest as \r, \n, \\ or \xHH, in quotes.
-[[nodiscard]] std::string tapped_text(std::string_view bytes);
 
 }  // namespace palpate::device

@@ -1,5 +1,5 @@
-// Boost.Beast and Asio, here alone. All operations are asynchronous, run by whoever waits; their
-// memory comes from an arena, for nothing may be allocated while a hand holds the device.
+// The only file that uses Boost.Beast and Asio. Asynchronous operations run inside the calls that
+// wait. Their memory comes from an arena, because a loop with a device must not allocate.
 #include <utility>  // before asio.hpp, which needs std::exchange and does not include it
 
 #include <boost/asio.hpp>
@@ -13,11 +13,11 @@
 #include <array>
 #include <bitset>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "device/clock.h"
 #include "device/host.h"
 #include "device/tap.h"
@@ -33,7 +33,7 @@ using Error = boost::system::error_code;
 using Executor = net::io_context::executor_type;
 using Socket = net::basic_stream_socket<net::ip::tcp, Executor>;
 
-// Memory for the few operations that can be under way at once.
+// Memory for the few operations that can be pending at once.
 class Arena {
  public:
   void* take(std::size_t size) {
@@ -49,7 +49,7 @@ class Arena {
     if (std::less<>()(byte, memory_.data()) ||
         !std::less<>()(byte, memory_.data() + memory_.size()))
       return ::operator delete(pointer);
-    used_[static_cast<std::size_t>(byte - memory_.data()) / slot_size] = false;
+    used_[as_index(byte - memory_.data()) / slot_size] = false;
   }
 
  private:
@@ -72,7 +72,7 @@ struct ArenaAllocator {
   bool operator==(const ArenaAllocator& other) const { return arena == other.arena; }
 };
 
-// A function with the arena as its allocator.
+// A handler with the arena as its associated allocator.
 template <class Function>
 struct InArena {
   using allocator_type = ArenaAllocator<std::byte>;  // NOLINT: the standard's name
@@ -112,10 +112,9 @@ std::chrono::steady_clock::duration duration(double seconds) {
 }  // namespace
 
 struct WebSocket::Implementation {
-  static constexpr std::size_t portion = 4096;  // bytes, that are read at once
-  // Handlers of a wait and of a glance: each reads a portion at most.
-  static constexpr std::size_t many = 64;
-  static constexpr std::size_t few = 8;
+  static constexpr std::size_t portion = 4096;  // bytes per read operation
+  static constexpr std::size_t many = 64;       // handlers that a wait runs at most
+  static constexpr std::size_t few = 8;         // handlers that a glance runs at most
 
   net::io_context context{1};
   net::executor_work_guard<Executor> work{context.get_executor()};
@@ -124,8 +123,8 @@ struct WebSocket::Implementation {
   beast::flat_static_buffer<65536> incoming;
   std::array<char, 512> outgoing{};
   bool reading = false;
-  bool complete = false;  // a message lies in `incoming`
-  bool overlong = false;  // or would not go in, and is passed over
+  bool complete = false;  // `incoming` contains a whole message
+  bool overlong = false;  // the message did not fit into `incoming` and is discarded
   bool handed_out = false;
   bool writing = false;
   Tap* tap = nullptr;
@@ -161,7 +160,7 @@ struct WebSocket::Implementation {
     overlong = true;
   }
 
-  // Does what is due, a bounded share of it: who sends faster than we read must not hold us up.
+  // Runs at most `most` ready handlers, so that a fast sender cannot delay the caller.
   std::size_t run_ready(std::size_t most = many) {
     std::size_t ran = 0;
     while (ran < most && context.poll_one() > 0) ++ran;
@@ -179,13 +178,10 @@ struct WebSocket::Implementation {
     return {Outcome::message, message, stream.got_binary()};
   }
 
-  // Waits for the socket till `until` and does what is due.
+  // Waits for the socket until `until` (s, wire_time()) and runs the handlers that are ready.
   void turn(double until) {
     if (run_ready() > 0) return;
-    const double left = std::max(0.0, until - wire_time());
-    timespec wait{};
-    wait.tv_sec = static_cast<time_t>(left);
-    wait.tv_nsec = static_cast<long>(1e9 * (left - std::floor(left)));
+    const timespec wait = timespec_of(std::max(0.0, until - wire_time()));
     const auto events = static_cast<short>(writing ? POLLIN | POLLOUT : POLLIN);
     pollfd one{beast::get_lowest_layer(stream).native_handle(), events, 0};
     ::ppoll(&one, 1, &wait, nullptr);
@@ -226,7 +222,7 @@ WebSocket::WebSocket(const Host& host, int port, double until)
     });
     await("takes the connection but says nothing");
   } catch (...) {
-    // What is under way refers to variables of this function.
+    // Pending operations refer to variables of this function, and must end before it does.
     Error ignored;
     socket.close(ignored);
     it.context.poll();
@@ -248,7 +244,7 @@ WebSocket::~WebSocket() {
   if (it.stream.is_open() && !it.failure && !it.writing) {
     bool done = false;
     it.stream.async_close(beast::websocket::close_code::normal, [&](Error) { done = true; });
-    const double until = wire_time() + 0.05;  // s: courtesy, not need
+    const double until = wire_time() + 0.05;  // s, to wait for an orderly close
     while (!done && wire_time() < until) it.context.run_one_for(duration(until - wire_time()));
     socket.close(ignored);
     while (!done && it.context.poll() > 0) {
@@ -324,7 +320,7 @@ std::optional<std::string> http_get(const Host& host, int port, const std::strin
   Error ignored;
   socket.close(ignored);
   context.restart();
-  context.poll();  // what is under way refers to variables of this function
+  context.poll();  // ends pending operations, which refer to variables of this function
   return body;
 }
 

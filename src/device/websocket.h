@@ -1,4 +1,4 @@
-// A WebSocket to a local service, with deadlines and without allocations once it is open.
+// A WebSocket client with deadlines, which allocates no memory once the connection is open.
 #pragma once
 
 #include <memory>
@@ -13,29 +13,28 @@ class Tap;
 
 class WebSocket {
  public:
-  // Connects and shakes hands till `until` (s, wire_time). Throws LinkError: nobody listens, no
-  // WebSocket there, too late.
+  // Connects and completes the handshake until `until` (s, wire_time()). Throws LinkError if no
+  // program listens on the port, if the program there is no WebSocket service, or if time runs out.
   WebSocket(const Host& host, int port, double until);
   ~WebSocket();
   WebSocket(WebSocket&&) noexcept;
 
-  // From now on it hears all messages; null: nobody.
+  // From now on `tap` receives a copy of all messages; null ends this.
   void tap(Tap* tap);
 
-  // Sends one text message of at most 512 bytes. False where the last one is still on its way
-  // (the other side does not read) or the socket is closed.
+  // Sends one text message of at most 512 bytes. False if it is longer, if the last message is
+  // still being written (the other side does not read), or if the socket is closed.
   bool send(std::string_view text);
 
   enum class Outcome { message, nothing, closed };
   struct Received {
     Outcome outcome = Outcome::nothing;
-    std::string_view text;  // holds till the next call; empty where it was beyond 60 kB
+    std::string_view text;  // valid until the next call; empty for a message of more than 60 kB
     bool binary = false;
   };
-  // The next message, waiting till `until` (s, wire_time).
+  // Returns the next message; waits for it until `until` (s, wire_time()).
   [[nodiscard]] Received receive(double until);
-  // The next message where it is there already. Waits for nothing, and does little work whatever
-  // comes in.
+  // Returns the next message if it has arrived already. Never waits, and its work is bounded.
   [[nodiscard]] Received glance();
 
   [[nodiscard]] bool closed() const;
@@ -46,7 +45,7 @@ class WebSocket {
   std::unique_ptr<Implementation> it_;
 };
 
-// The body of `GET http://host:port/target` till `until` (s, wire_time); nothing where none comes.
+// GET http://host:port/target: the body, if it comes with status 200 by `until` (s, wire_time()).
 [[nodiscard]] std::optional<std::string> http_get(const Host& host, int port,
                                                   const std::string& target, double until);
 

@@ -1,4 +1,4 @@
-// Options to settings; the one file of the emulator that knows CLI11.
+// Parses the command line. This is the only file of the emulator that uses CLI11.
 #include "emulator/arguments.h"
 
 #include <CLI/CLI.hpp>
@@ -32,18 +32,32 @@ void add_common(CLI::App& verb, Common& common) {
 Clock clock_of(const Common& common) {
   if (common.clock == "real") return Clock::real;
   if (common.clock == "virtual") return Clock::lockstep;
-  throw Refused("--clock: there is no clock `" + common.clock + "`; write `real` or `virtual`");
+  throw InputError({"--clock"},
+                   "there is no clock `" + common.clock + "`; write `real` or `virtual`");
+}
+
+// The time (s) that an option gives.
+double time_of(const char* option, const std::string& text) {
+  try {
+    return palpate::parse_quantity(text, unit::s);
+  } catch (const std::invalid_argument& error) {
+    throw InputError({option}, error.what());
+  }
+}
+
+Nanoseconds step_of(const char* option, const std::string& text) {
+  const Nanoseconds step = nanoseconds(time_of(option, text));
+  if (step <= 0) throw InputError({option}, "the time must be above 0 s; write `1 ms`");
+  return step;
 }
 
 std::optional<double> lifetime_of(const Common& common) {
   if (common.lifetime.empty()) return {};
-  return parse_quantity(common.lifetime, Quantity::time, "--for: ");
+  return time_of("--for", common.lifetime);
 }
 
 void list_faults(const char* link, std::span<const FaultKind> kinds) {
-  for (const FaultKind& kind : kinds)
-    std::printf("%s\t%.*s\t%.*s\n", link, static_cast<int>(kind.name.size()), kind.name.data(),
-                static_cast<int>(kind.what.size()), kind.what.data());
+  for (const FaultKind& kind : kinds) std::printf("%s\t%s\t%s\n", link, kind.name, kind.what);
 }
 
 struct Mark10Arguments {
@@ -60,7 +74,7 @@ CLI::App* add_mark10(CLI::App& app, Mark10Arguments& given) {
   verb->add_option("--stand", given.stand, "TOML file of the tables [stand] and [gauge]");
   verb->add_option("--seed", given.run.settings.stand.seed, "of the gauge's noise");
   verb->add_option("--baud", given.run.settings.baud, "rate of the line");
-  verb->add_option("--tick", given.tick, "virtual clock: requests are answered at its multiples");
+  verb->add_option("--tick", given.tick, "virtual clock: replies come at multiples of this time");
   return verb;
 }
 
@@ -74,8 +88,7 @@ int start(Mark10Arguments& given) {
   if (!given.common.faults.empty())
     settings.faults = read_faults(given.common.faults, stand_faults());
   settings.clock = clock_of(given.common);
-  settings.tick = nanoseconds(parse_quantity(given.tick, Quantity::time, "--tick: "));
-  if (settings.tick <= 0) throw Refused("--tick: wants to be positive; write `20 ms`");
+  settings.tick = step_of("--tick", given.tick);
   given.run.log = given.common.log;
   given.run.lifetime = lifetime_of(given.common);
   return run_mark10(given.run);
@@ -93,11 +106,11 @@ CLI::App* add_inverse3(CLI::App& app, ArmArguments& given) {
   CLI::App* verb =
       app.add_subcommand("inverse3", "a haptic arm and the hand that holds it, on TCP");
   add_common(*verb, given.common);
-  verb->add_option("--port", given.run.port, "of 127.0.0.1; 0: any that is free");
-  verb->add_option("--events-port", given.run.events_port, "of the events; 0: any that is free");
+  verb->add_option("--port", given.run.port, "of 127.0.0.1; 0: any free port");
+  verb->add_option("--events-port", given.run.events_port, "of the events; 0: any free port");
   verb->add_option("--hand", given.hand, "TOML file of [hand], [[waypoint]] and [device]");
-  verb->add_option("--service", given.service, "`3.1` or `3.5`: how a force is spelt");
-  verb->add_option("--period", given.period, "virtual clock: what one client message takes");
+  verb->add_option("--service", given.service, "version of the service: `3.1` or `3.5`");
+  verb->add_option("--period", given.period, "virtual clock: time that one client message takes");
   return verb;
 }
 
@@ -109,13 +122,14 @@ int start(ArmArguments& given) {
   if (!given.common.faults.empty())
     settings.faults = read_faults(given.common.faults, arm_faults());
   settings.clock = clock_of(given.common);
-  settings.period = nanoseconds(parse_quantity(given.period, Quantity::time, "--period: "));
-  if (settings.period <= 0) throw Refused("--period: wants to be positive; write `1 ms`");
+  settings.period = step_of("--period", given.period);
   if (given.service != "3.1" && given.service != "3.5")
-    throw Refused("--service: there is no `" + given.service + "` here; write `3.1` or `3.5`");
+    throw InputError({"--service"},
+                     "there is no service `" + given.service + "`; write `3.1` or `3.5`");
   if (given.service == "3.1") settings.service = Service::v3_1;
   for (const int port : {given.run.port, given.run.events_port})
-    if (port < 0 || port > 65535) throw Refused("--port: wants to lie between 0 and 65535");
+    if (port < 0 || port > 65535)
+      throw InputError({"--port"}, "the number must lie between 0 and 65535; write 0 for any");
   given.run.log = given.common.log;
   given.run.lifetime = lifetime_of(given.common);
   return run_inverse3(given.run);
@@ -128,14 +142,14 @@ int parse_and_run(int argc, const char* const* argv) {
   const CLI::App* stand_verb = add_mark10(app, mark10);
   ArmArguments arm;
   const CLI::App* arm_verb = add_inverse3(app, arm);
-  const CLI::App* faults_verb = app.add_subcommand("faults", "lists what can go wrong");
+  const CLI::App* faults_verb = app.add_subcommand("faults", "lists the faults for --fault");
   app.require_subcommand(1);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    throw Refused(std::string(error.what()) + "; see palpate-emulator --help");
+    throw InputError(palpate::Place{}, std::string(error.what()) + "; see palpate-emulator --help");
   }
   if (faults_verb->parsed()) {
     list_faults("mark10", stand_faults());
@@ -151,7 +165,7 @@ int parse_and_run(int argc, const char* const* argv) {
 int program(int argc, const char* const* argv) {
   try {
     return parse_and_run(argc, argv);
-  } catch (const Refused& refused) {
+  } catch (const InputError& refused) {
     std::fprintf(stderr, "palpate-emulator: %s\n", refused.what());
     return 2;
   } catch (const std::exception& error) {

@@ -3,7 +3,8 @@
 
 namespace emulator {
 
-// Runs what the arguments say. Returns 0, 1 for a fault of its own, 2 for refused input.
+// Runs the emulator with these arguments. Returns the exit code: 0, 2 if an argument or an input
+// file is refused, 1 for any other error.
 int program(int argc, const char* const* argv);
 
 }  // namespace emulator

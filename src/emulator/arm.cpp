@@ -1,4 +1,4 @@
-// Messages through clock, faults, device and hand.
+// Processes messages: clock, faults, device and hand.
 #include "emulator/arm.h"
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 namespace emulator {
 namespace {
 
-// Faults that count messages begin with the next message and not with time that passes.
+// Faults with `after_messages` begin with a message only, and not while time advances.
 constexpr std::int64_t none_counted = -1;
 
 double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-// What a fault that sends an event says; nothing for other faults.
+// The event that a fault sends; nothing for faults that send none.
 std::optional<Event> event_of(const std::string& kind) {
   if (kind == "event_stall")
     return Event{
@@ -62,7 +62,7 @@ void Arm::let_go() {
   mode_ = "idle";
 }
 
-// The hand's steps up to a time; the force stays what it is.
+// Advances the hand to `time` under the present force.
 void Arm::run_to(Nanoseconds time) {
   now_ = std::max(now_, time);
   const std::int64_t wanted =
@@ -83,8 +83,8 @@ void Arm::go_to(Nanoseconds time, std::int64_t messages) {
     run_to(*next);
     begin_faults(messages);
   }
-  // Commands are not kept: after silence the device is idle again (Control Commands, 3.5).
-  const Nanoseconds silence = last_message_ + settings_.idle_after;
+  // A command expires: without further messages the device is idle (Control Commands, 3.5).
+  const Nanoseconds silence = last_message_ + nanoseconds(settings_.idle_after);
   if (settings_.clock == Clock::real && mode_ != "idle" && time >= silence) {
     run_to(silence);
     let_go();
@@ -142,7 +142,7 @@ void Arm::begin_event(const std::string& kind) {
   events_.push_back(std::move(text));
 }
 
-// The vector's length is clamped, not each axis. What is no number is no force.
+// Limits the vector's length. A vector whose length is not finite counts as no force.
 void Arm::command(const Request& request) {
   let_go();
   if (!request.force || faults_.lasts("brake", now_) || faults_.lasts("not_ready", now_)) return;
@@ -206,7 +206,7 @@ std::string Arm::spoilt(std::string text) {
 Answer Arm::answer(const std::string& text) {
   begin_faults(messages_);
   const Request request = parse_request(text, settings_.service, settings_.device_id);
-  if (wanted_ != Act::none || silent()) {  // nobody reads it any more
+  if (wanted_ != Act::none || silent()) {  // the service does not read the message
     log_row("in", "(unheard) " + text);
     return {{}, std::exchange(wanted_, Act::none)};
   }
@@ -243,7 +243,7 @@ void Arm::leave() {
   if (!in_use_) return;
   in_use_ = false;
   let_go();
-  // When a socket is found closed is a matter of the machine: no row where time is not its own.
+  // When a closed socket is noticed depends on the machine, so a virtual clock's log omits it.
   if (settings_.clock == Clock::real) log_row("left", "");
 }
 

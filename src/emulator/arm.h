@@ -1,4 +1,4 @@
-// The haptic arm behind its service, without a socket: messages in, messages out, and a hand.
+// The emulated haptic arm with its service and a hand; messages are texts, without a socket.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,18 @@ namespace emulator {
 struct ArmSettings {
   Service service = Service::v3_5;
   Clock clock = Clock::real;
-  Nanoseconds period = 1'000'000;        // lockstep: what one client message takes
-  Nanoseconds idle_after = 100'000'000;  // real: silence after which it lets go
-  double force_limit = 10.0;             // N, of the vector's length
+  Nanoseconds period = 1'000'000;  // virtual clock: the time that one client message takes
+  double idle_after = 0.1;         // s, real clock: time without messages until the force ends
+  double force_limit = 10.0;       // N, of the vector's length
   std::string device_id = "049D";
   HandSettings hand = {};
-  std::optional<TissueSettings> tissue = {};  // pushes the hand up by itself, below its `surface`
+  std::optional<TissueSettings> tissue = {};  // pushes the hand up, independently of the client
   std::vector<Fault> faults = {};
 };
 
-// Tables [hand], [[waypoint]] and [device] of a file. Throws `Refused`.
+// The tables [hand], [[waypoint]] and [device].
+void fields(palpate::FieldVisitor& visitor, ArmSettings& settings);
+// Reads these tables; keys that the file does not name keep their values. Throws InputError.
 void read_hand(const std::string& path, ArmSettings& settings);
 
 enum class Act { none, reset_connection, close_normal, close_error, restart };
@@ -35,7 +37,7 @@ enum class Act { none, reset_connection, close_normal, close_error, restart };
 struct Outgoing {
   std::string text;
   bool binary = false;
-  Nanoseconds delay = 0;  // by the machine's clock
+  Nanoseconds delay = 0;  // real time
 };
 
 struct Answer {
@@ -43,25 +45,25 @@ struct Answer {
   Act act = Act::none;
 };
 
-inline constexpr std::int64_t hand_rate = 8000;  // steps a second
+inline constexpr std::int64_t hand_rate = 8000;  // time steps per second
 
 class Arm {
  public:
   Arm(const ArmSettings& settings, Log& log);
 
-  // What a new client is sent first: all there is.
+  // Returns the first message to a new client, a full snapshot.
   [[nodiscard]] Outgoing greet();
-  // One client message: advances a virtual clock by a period with the new force at work.
+  // Answers one client message. A virtual clock advances by a period, in which the new force acts.
   [[nodiscard]] Answer answer(const std::string& text);
-  // Real clock: what happens up to now without a message. Faults may want something done.
+  // Real clock: advances to `now` without a message. Returns an action if a fault requires one.
   [[nodiscard]] Act pass(Nanoseconds now);
-  // The last client went: no force.
+  // The last client has disconnected: ends the force.
   void leave();
 
-  [[nodiscard]] bool silent() const;  // half open: neither reads nor sends
+  [[nodiscard]] bool silent() const;  // fault half_open: neither reads nor sends
   [[nodiscard]] std::string devices() const;
   [[nodiscard]] std::vector<std::string> take_events();
-  [[nodiscard]] bool take_events_end();  // whether the events' connections are to be reset
+  [[nodiscard]] bool take_events_end();  // true once if the events' connections must be reset
   [[nodiscard]] const Hand& hand() const { return hand_; }
   [[nodiscard]] const Vec3& force() const { return force_; }
   [[nodiscard]] std::int64_t messages() const { return messages_; }
@@ -91,15 +93,15 @@ class Arm {
   std::int64_t steps_ = 0;
   std::int64_t messages_ = 0;
   std::int64_t clamped_ = 0;
-  double greatest_force_ = 0;  // N, applied
-  Vec3 force_{};               // N, applied
+  double greatest_force_ = 0;  // N, applied to the hand
+  Vec3 force_{};               // N, applied to the hand
   std::string mode_ = "idle";
   int session_ = 1;
   bool in_use_ = false;
   bool braked_ = false;
   Act wanted_ = Act::none;
   std::optional<ArmState> frozen_ = {};
-  std::optional<Outgoing> held_ = {};  // by a reorder
+  std::optional<Outgoing> held_ = {};  // the reply that the fault `reorder` holds back
   std::vector<std::string> events_ = {};
   bool events_end_ = false;
 };

@@ -1,5 +1,5 @@
-// JSON of the Inverse service, its pages 3.1 and 3.5: websocket-protocol, control-commands, http,
-// events. The one file of the emulator that knows nlohmann's JSON.
+// JSON of the Inverse service, from its pages 3.1 and 3.5: websocket-protocol, control-commands,
+// http, events. This is the only file of the emulator that uses nlohmann's JSON.
 #include "emulator/arm_messages.h"
 
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ Json unit_quaternion() { return {{"w", 1.0}, {"x", 0.0}, {"y", 0.0}, {"z", 0.0}}
 const char* spelling(Service service) { return service == Service::v3_1 ? "values" : "vector"; }
 
 Json state_of(const ArmState& state, Service service) {
-  if (service == Service::v3_1)  // the 3.1 page has no forces and calls the mode `mode`
+  if (service == Service::v3_1)  // no forces on the 3.1 page, and the mode is called `mode`
     return {{"angular_position", angles()},           {"angular_velocity", angles()},
             {"body_orientation", unit_quaternion()},  {"cursor_position", vec(state.position)},
             {"cursor_velocity", vec(state.velocity)}, {"mode", state.mode}};
@@ -100,17 +100,7 @@ void read_force(const Json& commands, Service service, Request& request) {
     return;
   }
   if (!request.force) request.force.emplace(Vec3{});
-  for (std::size_t i = 0; i < 3; ++i) (*request.force)[i] += (*force)[i];  // additive in a tick
-}
-
-void read_session(const Json& session, Request& request) {
-  request.full_state = session.contains("force_render_full_state");
-  const Json* at = &session;
-  for (const char* key : {"configure", "profile", "name"}) {
-    if (!at->is_object() || !at->contains(key)) return;
-    at = &at->at(key);
-  }
-  if (at->is_string()) request.profile = at->get<std::string>();
+  for (std::size_t i = 0; i < 3; ++i) (*request.force)[i] += (*force)[i];  // forces are added
 }
 
 }  // namespace
@@ -124,7 +114,8 @@ Request parse_request(const std::string& text, Service service, const std::strin
     return request;
   }
   const auto session = message.find("session");
-  if (session != message.end() && session->is_object()) read_session(*session, request);
+  if (session != message.end() && session->is_object())
+    request.full_state = session->contains("force_render_full_state");
   const auto devices = message.find("inverse3");
   if (devices == message.end() || !devices->is_array()) return request;
   for (const Json& device : *devices) {
@@ -166,7 +157,7 @@ std::string odd_message(const ArmState& state, Service service, const Oddity& od
   }
   if (!oddity.no_device) devices.push_back(device);
   std::string text = Json{{"inverse3", devices}}.dump();
-  const auto quoted = text.find("\"NaN\"");  // gone where the field is missing too
+  const auto quoted = text.find("\"NaN\"");  // not found if the field is missing as well
   if (quoted != std::string::npos) text.replace(quoted, 5, "NaN");
   return text;
 }

@@ -1,4 +1,4 @@
-// The service's JSON: what a client says, what it is told.
+// The service's JSON: requests of a client, and the messages that it receives.
 #pragma once
 
 #include <optional>
@@ -8,15 +8,14 @@
 
 namespace emulator {
 
-enum class Service { v3_1, v3_5 };  // spells a force as `values`, as `vector`
+enum class Service { v3_1, v3_5 };  // the name of a force is `values` or `vector`
 
-// What one client message asks of the device.
+// The content of one client message.
 struct Request {
-  bool json = false;            // whether it was a JSON object at all
+  bool json = false;            // whether the message is a JSON object
   std::optional<Vec3> force{};  // N, as commanded
   bool full_state = false;      // session.force_render_full_state
-  std::string profile = {};     // session.configure.profile.name
-  std::string remark = {};      // why a command was not taken, for the log
+  std::string remark = {};      // why a command was ignored, for the log
 };
 
 [[nodiscard]] Request parse_request(const std::string& text, Service service,
@@ -32,9 +31,9 @@ struct ArmState {
   bool in_use = false;
 };
 
-enum class Extent { full, update };  // with config and session, or state and status only
+enum class Extent { full, update };  // with config and session, or with state and status only
 
-// Oddities that faults ask for.
+// Defects of a message that faults request.
 struct Oddity {
   bool missing_field = false;
   bool wrong_type = false;
@@ -48,10 +47,9 @@ struct Oddity {
                                         int session);
 [[nodiscard]] std::string odd_message(const ArmState& state, Service service, const Oddity& oddity);
 
-// GET /version and GET /devices.
+// The body of the reply to `GET /version`.
 [[nodiscard]] std::string version_body(Service service);
 
-// An event of the events channel.
 struct Event {
   std::string name = "device-safety-triggered";
   std::string level = {};

@@ -1,5 +1,5 @@
-// HTTP and WebSocket by Boost.Beast: the one file of the emulator that knows it.
-#include <utility>  // before Asio 1.74, which forgets it
+// HTTP and WebSocket. This is the only file of the emulator that uses Boost.Beast.
+#include <utility>  // before asio.hpp 1.74, which uses it without including it
 
 #include <unistd.h>
 
@@ -12,8 +12,8 @@
 #include <list>
 #include <memory>
 
+#include "base/error.h"
 #include "emulator/arm_server.h"
-#include "emulator/settings.h"
 
 namespace emulator {
 namespace {
@@ -25,20 +25,20 @@ namespace websocket = beast::websocket;
 using asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
-constexpr std::chrono::milliseconds beat{2};  // how often time is looked at without traffic
+constexpr std::chrono::milliseconds beat{2};  // between two advances of the clock without traffic
 constexpr std::chrono::milliseconds state_every{20};
 
 class Session;
 
-// What a session asks of whoever keeps it.
+// Functions of the server that a session calls.
 struct Host {
   std::function<Outgoing()> greet;
   std::function<void(Session&, const std::string&)> heard;  // may close the session
-  std::function<std::string(const std::string&)> body;      // of a GET target; empty: not found
+  std::function<std::string(const std::string&)> body;      // for a GET target; empty: not found
   std::function<bool()> silent;
 };
 
-// One connection: HTTP until it asks to be a WebSocket. Lives until nothing of it is under way.
+// A connection: HTTP until the client upgrades it to a WebSocket. Deleted when nothing is pending.
 class Session {
  public:
   Session(tcp::socket socket, Host host)
@@ -52,7 +52,7 @@ class Session {
     if (!writing_) write_next();
   }
 
-  // Reads on after a silence.
+  // Resumes reading after the fault half_open.
   void wake() {
     if (open_ && !reading_) read_message();
   }
@@ -173,7 +173,7 @@ class Session {
   http::request<http::string_body> request_ = {};
   http::response<http::string_body> response_ = {};
   std::deque<Outgoing> queue_ = {};
-  int pending_ = 0;  // handlers that will still be called
+  int pending_ = 0;  // handlers that have not been called yet
   bool reading_ = false;
   bool writing_ = false;
   bool open_ = false;
@@ -216,8 +216,9 @@ class Server {
       return {context_,
               tcp::endpoint(asio::ip::address_v4::loopback(), static_cast<unsigned short>(port))};
     } catch (const boost::system::system_error& error) {
-      throw Refused("port " + std::to_string(port) + " cannot be had: " + error.code().message() +
-                    "; write --port 0 for any that is free");
+      throw palpate::InputError(
+          {"port " + std::to_string(port)},
+          "it cannot be opened: " + error.code().message() + "; write --port 0 for any free port");
     }
   }
 
@@ -264,7 +265,7 @@ class Server {
     act(arm_.pass(elapsed()));
     if (!session.is_websocket()) return;
     const Answer answer = arm_.answer(text);
-    tell_watchers();  // before the reply, so that whoever has that can have the event
+    tell_watchers();  // before the reply, so that a client with the reply can have the event
     for (const Outgoing& message : answer.messages) session.send(message);
     act(answer.act);
   }

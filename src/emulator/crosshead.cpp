@@ -1,4 +1,4 @@
-// Steps of the crosshead: speed up, cruise, brake so that the end of the way is not passed.
+// Time steps of the crosshead: it accelerates, cruises, and brakes before the end of its range.
 #include "emulator/crosshead.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace emulator {
 namespace {
 
-// How far it may go in a direction: the switch, or the travel limit before it.
+// m, the position at which a motion ends: the limit switch, or a travel limit before it.
 double end_of_way(const Crosshead& crosshead, int direction) {
   const CrossheadSettings& s = crosshead.settings;
   if (crosshead.mode == Mode::manual) return direction > 0 ? s.upper_end : s.lower_end;
@@ -45,9 +45,9 @@ bool moves(const Crosshead& crosshead) {
   return crosshead.direction != 0 || crosshead.velocity != 0.0;
 }
 
-// |v| changes by a dt at most, and what is left after the step must do for braking:
+// |v| changes by at most a dt, and the distance left after the step must suffice for braking:
 //   v1^2 / (2 a) <= d - (v + v1) dt / 2   =>   v1 = -a dt/2 + sqrt((a dt/2)^2 + 2 a d - a dt v)
-// The position takes the mean of the two velocities, exact for a constant acceleration.
+// The position moves with the mean of both velocities, which is exact for constant acceleration.
 void step(Crosshead& crosshead, double dt) {
   if (!moves(crosshead)) return;
   const double most = crosshead.settings.acceleration * dt;
@@ -66,7 +66,7 @@ void step(Crosshead& crosshead, double dt) {
   crosshead.position += 0.5 * (before + after) * dt;
   crosshead.velocity = after;
   if (after != 0.0) crosshead.at_end = 0;
-  // What rounding leaves of the way, or the last part of a step: less than a few a dt^2.
+  // A rest of less than a few a dt^2, left by rounding or by a partial step, counts as arrival.
   const double near = 8.0 * most * dt;
   if (way != 0) {
     const double stop = end_of_way(crosshead, way);
@@ -75,10 +75,10 @@ void step(Crosshead& crosshead, double dt) {
       if (left >= -near)
         arrive(crosshead, stop);
       else
-        halt(crosshead);  // the limit was set behind it
+        halt(crosshead);  // a limit was set that it has already passed
     }
   }
-  for (const int side : {-1, 1}) {  // the switches stop it at once, whatever it does
+  for (const int side : {-1, 1}) {  // a limit switch stops every motion at once
     const double end = side > 0 ? crosshead.settings.upper_end : crosshead.settings.lower_end;
     if ((end - crosshead.position) * side >= 0.0) continue;
     crosshead.position = end;

@@ -1,11 +1,11 @@
-// The stand's moving part: constant speed behind an acceleration limit, ends that stop it.
+// The stand's crosshead: constant speed, limited acceleration, travel limits and limit switches.
 #pragma once
 
 #include <cstdint>
 
 namespace emulator {
 
-enum class Mode { limit, manual, cycle };  // the stand's `l`, `m`, `c`
+enum class Mode { limit, manual, cycle };  // commands `l`, `m`, `c`
 
 struct CrossheadSettings {
   double acceleration = 0.2;        // m/s^2, of every change of speed
@@ -20,17 +20,17 @@ struct Crosshead {
   Mode mode = Mode::manual;
   double position = 0;          // m, upwards
   double velocity = 0;          // m/s
-  double speed = 60e-3 / 60.0;  // m/s, what it goes to when it is sent off
+  double speed = 60e-3 / 60.0;  // m/s, of the next motion
   int direction = 0;            // -1 down, 0 stopped or stopping, 1 up
-  double lower_limit = -0.15;   // m, obeyed in limit and cycle mode
-  double upper_limit = 0.15;
+  double lower_limit = -0.15;   // m, active in limit and cycle mode
+  double upper_limit = 0.15;    // m
   std::int64_t cycles_set = 1;
-  std::int64_t half_cycles = 0;  // strokes that were finished
-  int at_end = 0;                // -1 at the lower end of its way, 1 at the upper
-  int pressed = 0;               // the way a switch blocks though it is not at its end: a fault
+  std::int64_t half_cycles = 0;  // completed strokes
+  int at_end = 0;                // -1 at the lower end of its range, 1 at the upper end
+  int pressed = 0;               // fault limit_switch: the direction that is blocked, or 0
 };
 
-// Sends it off. Nothing happens where it already stands at that end.
+// Starts a motion. If the crosshead is already at that end, or blocked, it stops instead.
 void send_off(Crosshead& crosshead, int direction);
 void halt(Crosshead& crosshead);  // brakes with the acceleration limit
 void step(Crosshead& crosshead, double dt);

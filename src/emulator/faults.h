@@ -1,4 +1,4 @@
-// The fault script: what goes wrong, when, for how long.
+// The fault script: kinds of faults, and when each begins and ends.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace emulator {
 
-// How a kind of fault lives: it happens once, spoils a number of replies, or lasts a time.
+// A fault happens once, spoils a number of replies, or lasts for a time.
 enum class Life { moment, replies, lasting };
 
 struct FaultKind {
-  std::string_view name;
+  const char* name;
   Life life;
-  std::string_view what;  // for the manual and for --faults
+  const char* what;  // for docs/emulator.md and the verb `faults`
 };
 
 [[nodiscard]] std::span<const FaultKind> stand_faults();
@@ -27,30 +27,28 @@ struct Fault {
   Life life = Life::moment;
   std::optional<std::int64_t> at = {};              // ns
   std::optional<std::int64_t> after_messages = {};  // requests with a reply, or client messages
-  std::optional<std::int64_t> duration = {};        // ns; none lasts to the end
-  std::int64_t replies = 1;                         // how many are spoilt
-  double value = 0;                                 // SI; what it means depends on the kind
+  std::optional<std::int64_t> duration = {};        // ns; none: until the end
+  int replies = 1;                                  // number of replies to spoil
+  double value = 0;                                 // SI; its meaning depends on the kind
 };
 
-// `[[fault]]` tables; throws `Refused` for a kind this link does not have.
+// Reads `[[fault]]` tables. Throws InputError, also for a kind that this link does not have.
 [[nodiscard]] std::vector<Fault> read_faults(const std::string& path,
                                              std::span<const FaultKind> kinds);
 
-// What is due, and what is still at work.
+// The faults that have not begun yet, and those that have.
 class Faults {
  public:
   explicit Faults(std::vector<Fault> script) : pending_(std::move(script)) {}
 
-  // Faults that begin now. `messages` counts those that came before this one.
+  // Begins the faults that are due and returns them. `messages` counts earlier messages.
   [[nodiscard]] std::vector<Fault> begin(std::int64_t now, std::int64_t messages);
-  // Whether one that lasts is at work.
+  // Whether a lasting fault of this kind is active at `now` (ns).
   [[nodiscard]] bool lasts(std::string_view kind, std::int64_t now) const;
-  // When it ends, where it is at work and ends at all.
-  [[nodiscard]] std::optional<std::int64_t> end_of(std::string_view kind) const;
-  // Uses up one reply of a kind that spoils replies.
+  // True if a fault of this kind spoils the current reply, which is then counted.
   [[nodiscard]] bool spoils(std::string_view kind);
-  [[nodiscard]] double value(std::string_view kind) const;      // of the last one that began
-  [[nodiscard]] std::optional<std::int64_t> next_time() const;  // ns, of those with `at`
+  [[nodiscard]] double value(std::string_view kind) const;      // of the last fault that began
+  [[nodiscard]] std::optional<std::int64_t> next_time() const;  // ns, of the next fault with `at`
 
  private:
   struct Active {

@@ -12,7 +12,7 @@ constexpr double counts_per_step = 64.0;
 
 double count_size(const Gauge& gauge) { return gauge.settings.resolution / counts_per_step; }
 
-// The mean of the last 2^exponent samples, of as many as there are, in counts.
+// Counts: the mean of the last 2^exponent samples, or of all if there are fewer.
 double mean(const Gauge& gauge, int exponent) {
   const std::size_t wanted = std::size_t{1} << static_cast<unsigned>(exponent);
   const std::size_t have = std::min(wanted, gauge.taken);
@@ -55,7 +55,7 @@ double value_of(const Gauge& gauge, Reading reading) {
 }
 
 bool overloaded(const Gauge& gauge) {
-  // The cell feels what was zeroed away too.
+  // The overload concerns the force on the load cell, without the zero.
   return gauge.forced_overload || std::abs(mean(gauge, gauge.peak_filter)) * count_size(gauge) >
                                       1.1 * gauge.settings.capacity;
 }

@@ -1,4 +1,4 @@
-// The force gauge: samples with noise, averages, zeroes, keeps peaks, shows a value with its unit.
+// The force gauge: noisy samples, averages, zero, peaks, and the display with its units.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@
 
 namespace emulator {
 
-// A unit the gauge can show: the GCL2 command that chooses it, its word in LIST, how it is written.
+// A unit that the gauge can display.
 struct ForceUnit {
-  std::string_view command;  // "LB"
-  std::string_view listed;   // "LBF"
-  std::string_view symbol;   // "lbF"
-  double newtons;            // of one
+  std::string_view command;  // GCL2 command that selects it: "LB"
+  std::string_view listed;   // word in the reply to LIST: "LBF"
+  std::string_view symbol;   // on the display: "lbF"
+  double newtons;            // N per unit, exact by definition
 };
 
-// Series 5 guide, GCL2 units; factors are the defined ones.
+// Units of the Series 5 guide, GCL2.
 inline constexpr std::array force_units{
     ForceUnit{"N", "N", "N", 1.0},
     ForceUnit{"MN", "MN", "mN", 1e-3},
@@ -34,10 +34,10 @@ inline constexpr std::array force_units{
 struct GaugeSettings {
   double capacity = 10.0;    // N
   double resolution = 2e-3;  // N, of the display in newtons
-  double noise = 1e-3;       // N, one standard deviation of a sample
-  std::size_t unit = 0;      // of force_units
-  int filter = 3;            // averages 2^filter samples for display: FLTC
-  int peak_filter = 1;       // FLTP
+  double noise = 1e-3;       // N, standard deviation of a sample
+  std::size_t unit = 0;      // index in force_units
+  int filter = 3;            // FLTC: the display averages 2^filter samples
+  int peak_filter = 1;       // FLTP: peaks average 2^peak_filter samples
 };
 
 enum class Polarity { compression_positive, compression_negative };
@@ -58,10 +58,10 @@ struct Gauge {
   // Samples in counts of resolution/64, so that their sums are exact.
   std::array<std::int64_t, longest_average> samples{};
   std::size_t taken = 0;
-  std::int64_t zero = 0;  // counts
-  std::int64_t most = 0;  // counts, peak compression
-  std::int64_t least = 0;
-  // What a fault does to it.
+  std::int64_t zero = 0;   // counts
+  std::int64_t most = 0;   // counts, peak compression
+  std::int64_t least = 0;  // counts, peak tension
+  // Effects of faults.
   double added = 0;  // N
   bool flipped = false;
   bool forced_overload = false;
@@ -70,23 +70,23 @@ struct Gauge {
 
 [[nodiscard]] Gauge make_gauge(const GaugeSettings& settings, std::uint64_t seed);
 
-// Takes one sample of the force on its shaft, N, compression positive.
+// Takes one sample of the force on the gauge (N, positive in compression).
 void sample(Gauge& gauge, double force);
 
-// The mean of the last 2^filter samples less the zero, N.
+// N: the mean of the last 2^filter samples, or a peak, minus the zero.
 [[nodiscard]] double value_of(const Gauge& gauge, Reading reading);
 [[nodiscard]] bool overloaded(const Gauge& gauge);  // above 110 % of the capacity
-void set_zero(Gauge& gauge);                        // and clears the peaks
+void set_zero(Gauge& gauge);                        // also clears the peaks
 void clear_peaks(Gauge& gauge);
 
-// The display's step in a unit: 1, 2 or 5 times a power of ten, nearest to the gauge's resolution.
+// The display's step in a unit: 1, 2 or 5 times a power of ten, the nearest to the resolution.
 [[nodiscard]] double display_step(const Gauge& gauge, std::size_t unit);
 [[nodiscard]] bool offers(const Gauge& gauge, std::size_t unit);
 
-// "4.285 N", "-18.78 lbF": without the line's end.
+// The displayed reading, "4.285 N" or "-18.78 lbF", without a line end.
 [[nodiscard]] std::string shown(const Gauge& gauge, Reading reading);
 
-// A number in steps, with as many places as the step has, never "-0.00".
+// `value` rounded to a multiple of `step`, with the decimals of `step`, and never "-0.00".
 [[nodiscard]] std::string in_steps(double value, double step);
 
 }  // namespace emulator

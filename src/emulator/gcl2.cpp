@@ -1,4 +1,4 @@
-// GCL2, as the Series 5 guide lists it: readings, units, modes, filters, output, identity.
+// GCL2 commands of the Series 5 guide: readings, units, modes, filters, output, identity.
 #include "emulator/gcl2.h"
 
 #include <array>
@@ -21,7 +21,7 @@ constexpr std::array modes{Mode{"CUR", Reading::current}, Mode{"PT", Reading::pe
 
 constexpr std::array output_rates{0, 1, 2, 5, 10, 25, 50, 125, 250};  // per second
 
-// A command that ends in a number: sets it, or says what is wrong with it.
+// Sets `target` to the number at the end of a command. Returns an error reply, or an empty text.
 template <typename Allowed>
 std::string set_number(std::string_view digits, int most, int& target, Allowed allowed) {
   int value = 0;
@@ -70,7 +70,7 @@ std::string set_hidden_sign(Gauge& gauge, std::string_view digits) {
   return error;
 }
 
-// Commands that only set something and take no number.
+// Carries out a setter without a number; false if `command` is not such a setter.
 bool set_word(Gauge& gauge, std::string_view command) {
   for (const Mode& mode : modes)
     if (command == mode.word) return gauge.mode = mode.reading, true;
@@ -78,7 +78,7 @@ bool set_word(Gauge& gauge, std::string_view command) {
   if (command == "Z") return set_zero(gauge), true;
   if (command == "FULL") return gauge.numbers_only = false, true;
   if (command == "NUM") return gauge.numbers_only = true, true;
-  return command == "SAVE";  // nothing is kept across a start
+  return command == "SAVE";  // accepted without effect: settings do not survive a restart
 }
 
 }  // namespace

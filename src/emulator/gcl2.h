@@ -1,4 +1,4 @@
-// The gauge's command language: a line in, a line out, or nothing.
+// GCL2, the gauge's command language.
 #pragma once
 
 #include <string>
@@ -18,15 +18,14 @@ struct Gcl2 {
   ListStyle list = ListStyle::ipol;
   OverloadReply overload = OverloadReply::text;
   int auto_output = 0;  // readings per second
-  int auto_off = 5;     // minutes, kept and listed only
+  int auto_off = 5;     // minutes; stored and listed, without effect
 };
 
-// Carries out one command, without its line's end. Returns the reply with CR LF, or nothing for a
-// setter that was obeyed. Errors: *10 illegal, *11 not applicable, *12 bad specifier, *22 too
-// large.
+// Carries out one command (without its line end). Returns the reply with CR LF; it is empty for a
+// setter without error. Errors: *10 illegal, *11 not applicable, *12 bad specifier, *22 too large.
 [[nodiscard]] std::string obey(Gcl2& language, Gauge& gauge, std::string_view command);
 
-// A reading's line with CR LF, as `?` answers it; where it is overloaded, what says so.
+// The reply to `?` with CR LF: a reading, or the sign of an overload.
 [[nodiscard]] std::string reading_line(const Gcl2& language, const Gauge& gauge, Reading reading);
 
 }  // namespace emulator

@@ -1,4 +1,4 @@
-// The hand's motion, exact for a force and an intended acceleration that are constant in a step.
+// The hand's motion. It is exact if force and intended acceleration are constant during a step.
 #include "emulator/hand.h"
 
 #include <algorithm>
@@ -7,15 +7,15 @@
 namespace emulator {
 namespace {
 
-using Matrix = std::array<double, 4>;  // row by row
+using Matrix = std::array<double, 4>;  // 2 x 2, by rows
 
 Matrix product(const Matrix& a, const Matrix& b) {
   return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
           a[2] * b[1] + a[3] * b[3]};
 }
 
-// exp(A t) for y'' + (b/m) y' + (k/m) y = 0, whatever its damping: Taylor's series of a part,
-// squared (Moler and Van Loan 2003, method 3). A step is short, so mostly nothing is squared.
+// exp(A t) for y'' + (b/m) y' + (k/m) y = 0 with any damping: a Taylor series for a fraction of t,
+// then squarings (Moler and Van Loan 2003, method 3). For a short step there are mostly none.
 Matrix exponential(double k_over_m, double b_over_m, double t) {
   int squarings = 0;
   double part = t;
@@ -67,8 +67,8 @@ Hand make_hand(const HandSettings& settings, double step) {
   return hand;
 }
 
-// With y = x - x_intent: m y'' + b y' + k y = F - m x_intent''. About its rest y = (F - m a)/k the
-// offset turns by the propagator.
+// With y = x - x_intent: m y'' + b y' + k y = F - m x_intent''. The offset from the equilibrium
+// y = (F - m a)/k is multiplied by the propagator.
 void move(Hand& hand, const Vec3& device_force, const Vec3& other_force) {
   const HandSettings& s = hand.settings;
   const Intent before = intent_at(s, hand.t);

@@ -1,4 +1,4 @@
-// What went over the line and what the tissue and the hand truly did: a CSV for tests to judge by.
+// A CSV log of traffic, faults and the true state, with which tests compare the client's results.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,13 @@
 
 namespace emulator {
 
-// Printable ASCII as it is, the rest as \r, \n, \\ or \xHH.
-[[nodiscard]] std::string escaped(std::string_view bytes);
-
 class Log {
  public:
-  // Columns `time_s,kind,text` and those given, units in their names. No path: no log.
-  // Throws `Refused` where the file cannot be written.
+  // The columns are `time_s,kind,text` and `columns`, which have units in their names. Without a
+  // path nothing is logged. Throws InputError if the file cannot be written.
   Log(const std::string& path, std::string_view columns);
 
-  // kind: in, out, fault, state. `values` has as many numbers as columns were given.
+  // `kind`: in, out, fault, state and others; `values`: one number per column of `columns`.
   void row(std::int64_t now, std::string_view kind, std::string_view text,
            std::span<const double> values);
 

@@ -1,4 +1,4 @@
-// palpate-emulator: a test stand and a haptic arm that are not there.
+// palpate-emulator: emulates a test stand and a haptic arm.
 #include "emulator/arguments.h"
 
 int main(int argc, char** argv) { return emulator::program(argc, argv); }

@@ -1,4 +1,4 @@
-// Bytes through clock, faults and stand.
+// Processes bytes: clock, faults and stand.
 #include "emulator/mark10.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace emulator {
 namespace {
 
-// What the other side hears at the wrong rate; never a byte that commands anything.
+// The byte that arrives at a wrong baud rate: never a printable one, so never a command.
 char noise(char byte) {
   return static_cast<char>((static_cast<unsigned char>(byte) * 37U + 11U) | 0x80U);
 }
@@ -20,7 +20,7 @@ std::string without_line_ends(const std::string& text) {
   return bare;
 }
 
-// The first line of a reply with its end, and the rest.
+// Divides a reply into its first line (with its end) and the rest.
 std::pair<std::string, std::string> split(const std::string& reply) {
   const auto end = reply.find('\n');
   if (end == std::string::npos) return {reply, {}};
@@ -56,7 +56,7 @@ void Mark10::log_state() { log_row("state", ""); }
 
 void Mark10::go_to(Nanoseconds time) { go_to(time, requests_); }
 
-// Faults with a time begin at that time, whoever asks when.
+// Advances to `time`. Faults with `at` begin exactly at their time, however long the advance is.
 void Mark10::go_to(Nanoseconds time, std::int64_t requests) {
   for (auto next = faults_.next_time(); next && *next <= time; next = faults_.next_time()) {
     now_ = std::max(now_, *next);
@@ -150,7 +150,7 @@ void Mark10::send(const std::string& bytes) {
 }
 
 void Mark10::pass(Nanoseconds now) {
-  // Without a byte no fault begins that counts requests: the last reply is still on the line.
+  // -1: faults that count requests begin with a byte only, after the last reply has left.
   if (settings_.clock == Clock::real) go_to(now, -1);
 }
 
@@ -177,7 +177,7 @@ void Mark10::take(char byte, Rate rate_of_other_side) {
     send(reply);
   }
   if (lockstep) go_to(now_ + byte_time() * static_cast<Nanoseconds>(reply.size()));
-  if (request) ++requests_;  // what comes after it begins with the next byte
+  if (request) ++requests_;  // faults with `after_messages` begin with the next byte
 }
 
 std::string Mark10::give() {

@@ -1,4 +1,4 @@
-// The stand behind its line: clocks, faults, and the bytes that leave it.
+// The stand on its serial line, with clocks and faults; bytes are texts, without a port.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace emulator {
 
-// real: the machine's monotonic clock. lockstep: time passes by bytes and requests only.
+// The machine's monotonic clock, or `--clock virtual`: only bytes and requests advance the time.
 enum class Clock { real, lockstep };
 
 struct Mark10Settings {
   StandSettings stand = {};
   std::vector<Fault> faults = {};
   Clock clock = Clock::real;
-  Nanoseconds tick = 20'000'000;  // lockstep: requests are answered at its multiples
+  Nanoseconds tick = 20'000'000;  // lockstep: requests are answered at multiples of it
   int baud = 115200;
 };
 
@@ -27,19 +27,19 @@ class Mark10 {
  public:
   Mark10(const Mark10Settings& settings, Log& log);
 
-  // One byte takes ten bits: start, eight, stop.
+  // The time of one byte on the line: ten bits (start, eight, stop).
   [[nodiscard]] Nanoseconds byte_time() const;
 
-  // Real clock: what happens up to now without a byte.
+  // Real clock: advances to `now` without a byte.
   void pass(Nanoseconds now);
-  // A byte that arrived; `heard` is false where the other side runs at another rate.
+  // Processes a byte that arrived; it is garbled if the client's port has another baud rate.
   enum class Rate { same, other };
   void take(char byte, Rate rate_of_other_side);
-  // What leaves now, in order; empty while the line is stalled.
+  // Returns the bytes to be sent now, in order; empty while the fault `stall` lasts.
   [[nodiscard]] std::string give();
 
   [[nodiscard]] bool unplugged() const { return unplugged_; }
-  // When it is plugged in again, if ever.
+  // When the port comes back after `unplug`; none if never.
   [[nodiscard]] std::optional<Nanoseconds> plugged_again_at() const { return again_; }
   void plug_in();
 
@@ -65,8 +65,8 @@ class Mark10 {
   Nanoseconds now_ = 0;
   std::int64_t requests_ = 0;
   std::string out_ = {};
-  std::string command_ = {};  // bytes of the command that arrives, for the log
-  std::string frozen_ = {};   // the reply that a freeze repeats
+  std::string command_ = {};  // bytes of an incomplete command, for the log
+  std::string frozen_ = {};   // the reply that the fault `freeze` repeats
   bool unplugged_ = false;
   std::optional<Nanoseconds> again_ = {};
 };

@@ -1,4 +1,4 @@
-// The loop: what arrives, what time brings, and bytes that leave at the line's rate.
+// The loop of the stand: bytes that arrive, the passage of time, and replies at the line's rate.
 #include "emulator/mark10_link.h"
 
 #include <poll.h>
@@ -19,8 +19,8 @@
 namespace emulator {
 namespace {
 
-constexpr Nanoseconds wake = 2'000'000;          // ns, faults and the gauge's own output are due
-constexpr Nanoseconds state_every = 20'000'000;  // ns, rows of the log without traffic
+constexpr Nanoseconds wake = 2'000'000;          // ns, longest wait, for faults and output by time
+constexpr Nanoseconds state_every = 20'000'000;  // ns, between rows of the log with the state
 
 Nanoseconds monotonic() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
@@ -35,7 +35,7 @@ int signals() {
   return ::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
 }
 
-// A line in one direction: a byte after the other.
+// One direction of the line, on which bytes follow each other.
 struct Line {
   Nanoseconds free_at = 0;
   Nanoseconds add(Nanoseconds earliest, Nanoseconds duration) {
@@ -148,7 +148,7 @@ class Loop {
       ended_ = true;
       return;
     }
-    // No byte can arrive that would drive a virtual clock, so the machine's own is used.
+    // An unplugged port receives no bytes that could advance a virtual clock; real time is used.
     if (!out_since_) out_since_ = now;
     const Nanoseconds away = lockstep() ? *again - mark10_.now() : *again - *out_since_;
     if (now - *out_since_ < away) return;

@@ -1,4 +1,4 @@
-// The stand on a pseudo-terminal, until it is told to end.
+// The stand on a pseudo-terminal.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ struct Mark10Run {
   Mark10Settings settings = {};
   std::string link = {};
   std::string log = {};
-  std::optional<double> lifetime = {};  // s, real; none: until SIGINT or SIGTERM
+  std::optional<double> lifetime = {};  // s, real time; none: until SIGINT or SIGTERM
 };
 
-// Prints one JSON line with the port when it is there, again when it comes back after `unplug`, and
-// one with a summary at the end. Returns the exit code; throws `Refused`.
+// Runs the stand. Prints one JSON line with the port when the port is ready, and again after an
+// `unplug`, and one with a summary at the end. Returns the exit code; throws InputError.
 int run_mark10(const Mark10Run& run);
 
 }  // namespace emulator

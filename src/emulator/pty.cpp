@@ -1,4 +1,4 @@
-// posix_openpt and termios.
+// A pseudo-terminal by posix_openpt and termios.
 #include "emulator/pty.h"
 
 #include <fcntl.h>
@@ -9,10 +9,13 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "emulator/settings.h"
+#include "base/error.h"
+#include "base/index.h"
 
 namespace emulator {
 namespace {
+
+using palpate::InputError;
 
 struct Baud {
   int rate;
@@ -25,18 +28,20 @@ constexpr std::array bauds{Baud{9600, B9600},     Baud{19200, B19200},   Baud{38
 speed_t code_of(int rate) {
   for (const Baud& baud : bauds)
     if (baud.rate == rate) return baud.code;
-  throw Refused("--baud: there is no rate of " + std::to_string(rate) + "; write 115200");
+  throw InputError({"--baud"}, "there is no rate of " + std::to_string(rate) + "; write 115200");
 }
 
 void make_link(const std::string& link, const std::string& path) {
   std::error_code error;
   const auto there = std::filesystem::symlink_status(link, error);
   if (std::filesystem::exists(there) && !std::filesystem::is_symlink(there))
-    throw Refused("--link: `" + link + "` is there already and no link; name another path");
+    throw InputError({"--link"},
+                     "`" + link + "` exists and is not a symbolic link; name another path");
   std::filesystem::remove(link, error);
   std::filesystem::create_symlink(path, link, error);
   if (error)
-    throw Refused("--link: `" + link + "` cannot be made; name a path in a folder that exists");
+    throw InputError({"--link"},
+                     "`" + link + "` cannot be made; name a path in a folder that exists");
 }
 
 }  // namespace
@@ -47,12 +52,13 @@ Pty::Pty(int baud, const std::string& link) : baud_(baud), link_(link) {
   std::array<char, 128> name{};
   if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
       ::ptsname_r(master_, name.data(), name.size()) != 0)
-    throw Refused("no pseudo-terminal can be opened here; is /dev/pts mounted?");
+    throw InputError(palpate::Place{},
+                     "no pseudo-terminal can be opened here; is /dev/pts mounted?");
   path_ = name.data();
   slave_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   termios line{};
   if (slave_ < 0 || ::tcgetattr(slave_, &line) != 0)
-    throw Refused(path_ + ": cannot be opened; is /dev/pts mounted?");
+    throw InputError({path_}, "the port cannot be opened; is /dev/pts mounted?");
   ::cfmakeraw(&line);
   ::cfsetspeed(&line, code);
   ::tcsetattr(slave_, TCSANOW, &line);
@@ -80,13 +86,13 @@ std::string Pty::read_all() const {
   for (;;) {
     const ssize_t got = ::read(master_, chunk.data(), chunk.size());
     if (got <= 0) return bytes;
-    bytes.append(chunk.data(), static_cast<std::size_t>(got));
+    bytes.append(chunk.data(), palpate::as_index(got));
   }
 }
 
 std::size_t Pty::write_some(const std::string& bytes) const {
   const ssize_t written = ::write(master_, bytes.data(), bytes.size());
-  return written < 0 ? 0 : static_cast<std::size_t>(written);
+  return written < 0 ? 0 : palpate::as_index(written);
 }
 
 }  // namespace emulator

@@ -1,4 +1,4 @@
-// A pseudo-terminal that plays the serial port.
+// A pseudo-terminal in place of a serial port.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@ namespace emulator {
 
 class Pty {
  public:
-  // Opens a pair, raw, 8N1 at `baud`; `link` is made to point to it where it is not empty.
-  // Throws `Refused` where there is no pair, no such rate, or something else stands at `link`.
+  // Opens a pair, raw, at `baud`; a `link` that is not empty becomes a symbolic link to the port.
+  // Throws InputError if the pair cannot be opened, `baud` is unknown, or `link` is another file.
   Pty(int baud, const std::string& link);
   ~Pty();
   Pty(const Pty&) = delete;
@@ -16,10 +16,10 @@ class Pty {
 
   [[nodiscard]] int descriptor() const { return master_; }
   [[nodiscard]] const std::string& path() const { return path_; }
-  // Whether the other side still has the rate that was set.
+  // Whether the port still has the rate with which it was opened.
   [[nodiscard]] bool same_rate() const;
   [[nodiscard]] std::string read_all() const;
-  // How many of the bytes the line took.
+  // Returns the number of bytes that were accepted.
   [[nodiscard]] std::size_t write_some(const std::string& bytes) const;
 
  private:
@@ -27,7 +27,7 @@ class Pty {
   std::string link_;
   std::string path_ = {};
   int master_ = -1;
-  int slave_ = -1;  // held open, so that a client may come and go
+  int slave_ = -1;  // kept open, so that clients can disconnect and reconnect
 };
 
 }  // namespace emulator

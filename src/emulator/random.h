@@ -1,4 +1,4 @@
-// Seeded noise with the same bits everywhere: no library's distribution is used.
+// Seeded noise with the same bits on every machine, without distributions of the library.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ inline std::uint64_t next_bits(Random& random) {
   return z ^ (z >> 31U);
 }
 
-// Twelve uniform numbers less six: mean 0, variance 1, within six. Only sums, so the same anywhere.
+// Sum of twelve uniform numbers minus six: mean 0, variance 1, magnitude below 6.
 inline double next_normal(Random& random) {
   std::int64_t sum = 0;
   for (int word = 0; word < 3; ++word) {
@@ -26,7 +26,7 @@ inline double next_normal(Random& random) {
     for (int part = 0; part < 4; ++part)
       sum += static_cast<std::int64_t>((bits >> (16U * static_cast<unsigned>(part))) & 0xFFFFU);
   }
-  return (static_cast<double>(sum) + 6.0) / 65536.0 - 6.0;  // each uniform sits mid-step
+  return (static_cast<double>(sum) + 6.0) / 65536.0 - 6.0;  // each number is the middle of a step
 }
 
 }  // namespace emulator

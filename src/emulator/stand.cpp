@@ -11,12 +11,12 @@ namespace {
 
 constexpr double inch = 25.4e-3;  // m
 
-// Every command that has a reply. `?`, `X` and `S` reach the gauge without slashes.
+// The commands with a reply. `?`, `X` and `S` are answered by the gauge, without slashes.
 constexpr std::string_view requests = "napqrvwx?XS";
 
 std::string travel_text(const Stand& stand, double value) {
   const double step = stand.settings.travel_resolution;
-  const double seen = std::floor(value / step + 0.5) * step;  // what the encoder resolves
+  const double seen = std::floor(value / step + 0.5) * step;  // rounded as by the encoder
   return stand.inches ? in_steps(seen / inch, 0.001) + " in" : in_steps(seen * 1e3, 0.01) + " mm";
 }
 
@@ -37,8 +37,8 @@ std::string status(const Stand& stand) {
   return text;
 }
 
-// How many digits a setter's number has before and behind its point, by the ESM303 guide: `e0200.3`
-// or, in inches, `e07.87`; `f0010`; `g-007.52` or `g-00.296`; `h` as `g`.
+// Digits before and after the point in a setter's number, by the ESM303 guide: `e0200.3`, in inches
+// `e07.87`; `f0010`; `g-007.52`, in inches `g-00.296`; `h` as `g`.
 struct Form {
   int whole;
   int places;
@@ -56,7 +56,7 @@ bool may_follow(const Stand& stand, char byte) {
   const bool limit = stand.setter == 'g' || stand.setter == 'h';
   if (limit && stand.digits.empty() && byte == '-') return true;
   const std::size_t sign = stand.digits.starts_with('-') ? 1 : 0;
-  const bool point = stand.digits.size() - sign == static_cast<std::size_t>(form_of(stand).whole);
+  const bool point = stand.digits.size() - sign == palpate::as_index(form_of(stand).whole);
   return point ? byte == '.' : byte >= '0' && byte <= '9';
 }
 
@@ -64,7 +64,7 @@ bool complete(const Stand& stand) {
   const Form form = form_of(stand);
   const std::size_t sign = stand.digits.starts_with('-') ? 1 : 0;
   const int point = form.places > 0 ? 1 : 0;
-  return stand.digits.size() == sign + static_cast<std::size_t>(form.whole + point + form.places);
+  return stand.digits.size() == sign + palpate::as_index(form.whole + point + form.places);
 }
 
 void set_number(Stand& stand) {
@@ -85,7 +85,7 @@ void set_number(Stand& stand) {
 }
 
 void zero_travel(Stand& stand) {
-  // The limits keep their numbers, so they move along with the zero.
+  // The limits keep their numbers and therefore move with the zero.
   const double moved = stand.crosshead.position - stand.zero;
   stand.crosshead.lower_limit += moved;
   stand.crosshead.upper_limit += moved;
@@ -115,9 +115,9 @@ std::string answer(Stand& stand, char byte) {
   }
 }
 
-// Motion and the mode need the option; units, zero and readings do not.
+// Motion and its modes require pc_control; units, zero and readings do not.
 void command_motion(Stand& stand, char byte) {
-  if (stand.settings.control == Control::off) return;
+  if (!stand.settings.pc_control) return;
   Crosshead& head = stand.crosshead;
   if (byte == 'u') send_off(head, 1);
   if (byte == 'd') send_off(head, -1);
@@ -138,7 +138,7 @@ void command(Stand& stand, char byte) {
   if (byte == 'z') zero_travel(stand);
   if (byte == 'R') set_zero(stand.gauge);
   const bool sets = byte == 'e' || byte == 'f' || byte == 'g' || byte == 'h';
-  if (sets && stand.settings.control == Control::on) stand.setter = byte;
+  if (sets && stand.settings.pc_control) stand.setter = byte;
   stand.digits.clear();
   command_motion(stand, byte);
 }
@@ -194,7 +194,7 @@ void advance(Stand& stand, Nanoseconds time) {
     sample(stand.gauge, force);
     stand.deepest = std::max(stand.deepest, depth(stand));
     stand.greatest_force = std::max(stand.greatest_force, force);
-    // Away from what loads it the way is free: a push is left upwards, a pull downwards.
+    // An overload stops only motion that would load the gauge further; moving back is possible.
     const int loading = force < 0.0 ? 1 : -1;
     if (overloaded(stand.gauge) && stand.crosshead.direction == loading) halt(stand.crosshead);
     put_out(stand, (stand.steps + 1) * 1'000'000'000 / rate);
@@ -232,7 +232,7 @@ std::string receive(Stand& stand, char byte) {
       }
       return {};
     }
-    stand.setter = 0;  // a broken number is dropped, and its byte is a command: `s` must stop
+    stand.setter = 0;  // an incomplete number is dropped; this byte is a command, such as `s`
   }
   if (requests.find(byte) != std::string_view::npos) return answer(stand, byte);
   command(stand, byte);

@@ -1,4 +1,4 @@
-// The motorised stand with its gauge on the tissue: bytes in, bytes out, and time that passes.
+// The motorised stand with its gauge, pressing the tissue: commands, replies and motion in time.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,8 @@ using Nanoseconds = std::int64_t;  // since the emulator's start
   return static_cast<Nanoseconds>(time * 1e9 + (time < 0.0 ? -0.5 : 0.5));
 }
 
-// How `p` writes its codes, for the guide gives the codes and not the layout.
+// The layout of the reply to `p`: the guide lists its codes only.
 enum class StatusLayout { compact, spaced };  // "SLUL", "S L UL"
-
-enum class Control {
-  off,
-  on
-};  // the stand's option "PC Control": without it no motion by the line
 
 struct StandSettings {
   CrossheadSettings crosshead = {};
@@ -34,14 +29,16 @@ struct StandSettings {
   TissueSettings tissue = {};
   double speed = 60e-3 / 60.0;         // m/s, after switching on
   double travel_resolution = 0.02e-3;  // m
-  Control control = Control::on;
+  bool pc_control = true;              // without this option the line cannot move the stand
   StatusLayout status = StatusLayout::compact;
   ListStyle list = ListStyle::ipol;
   OverloadReply overload = OverloadReply::text;
   std::uint64_t seed = 1;
 };
 
-// Tables [stand] and [gauge]; `settings` keeps what the file does not name. Throws `Refused`.
+// The tables [stand] and [gauge].
+void fields(palpate::FieldVisitor& visitor, StandSettings& settings);
+// Reads these tables; keys that the file does not name keep their values. Throws InputError.
 void read_stand(const std::string& path, StandSettings& settings);
 
 struct Stand {
@@ -51,39 +48,38 @@ struct Stand {
   Gcl2 language;
   Tissue tissue;
   std::int64_t steps = 0;  // of 1/7000 s
-  double zero = 0;         // m, the position that reads as no travel
+  double zero = 0;         // m, the position with zero travel
   bool inches = false;
   bool to_gauge = false;  // between `/` and `\`
-  std::string line = {};  // of the gauge, so far
+  std::string line = {};  // bytes of an incomplete line to the gauge
   char setter = 0;        // `e`, `f`, `g` or `h` while its digits arrive
   std::string digits = {};
-  double programmed_speed = 0;  // m/s, what `o` goes back to
-  Nanoseconds next_output = 0;  // of the gauge's own output
+  double programmed_speed = 0;  // m/s, selected by `o`
+  Nanoseconds next_output = 0;  // time of the next automatic reading
   std::string unsolicited = {};
   double deepest = 0;         // m, so far
   double greatest_force = 0;  // N, so far
 };
 
-// Samples of the gauge a second, which is also the mechanics' step.
-inline constexpr std::int64_t rate = 7000;
+inline constexpr std::int64_t rate = 7000;  // gauge samples and mechanical steps per second
 
 [[nodiscard]] Stand make_stand(const StandSettings& settings);
 
-// What switching off and on does: settings, zeroes and limits are lost, the crosshead stays put.
+// Switches the stand off and on: settings, zeros and limits are lost, the crosshead does not move.
 void switch_on_again(Stand& stand);
 
-// Moves, presses and samples up to a time; lines of the gauge's own output go to `unsolicited`.
+// Moves, presses and samples up to a time. Automatic readings are appended to `unsolicited`.
 void advance(Stand& stand, Nanoseconds time);
 
-// Whether this byte ends a request: it may bring a reply.
+// Whether this byte completes a request, which may have a reply.
 [[nodiscard]] bool ends_request(const Stand& stand, char byte);
-// Whether the stand waits for nothing more of a command.
+// Whether no command is incomplete.
 [[nodiscard]] bool between_commands(const Stand& stand);
 
-// Takes one byte now. Returns the reply, mostly nothing.
+// Processes one byte now. Returns the reply, which is empty for most bytes.
 [[nodiscard]] std::string receive(Stand& stand, char byte);
 
-[[nodiscard]] double travel(const Stand& stand);  // m, true, from its zero
-[[nodiscard]] double depth(const Stand& stand);   // m, true, below the surface
+[[nodiscard]] double travel(const Stand& stand);  // m, true travel from the zero
+[[nodiscard]] double depth(const Stand& stand);   // m, true depth below the surface
 
 }  // namespace emulator

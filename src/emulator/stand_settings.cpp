@@ -1,5 +1,5 @@
-// The tables [stand] and [gauge] of a file.
-#include <array>
+// Reads the tables [stand] and [gauge].
+#include <vector>
 
 #include "emulator/settings.h"
 #include "emulator/stand.h"
@@ -7,70 +7,72 @@
 namespace emulator {
 namespace {
 
-constexpr std::array<std::string_view, 2> status_layouts{"compact", "spaced"};
-constexpr std::array<std::string_view, 2> list_styles{"ipol", "pol"};
-constexpr std::array<std::string_view, 2> overload_replies{"text", "saturated"};
+using palpate::above;
+using palpate::between;
+using palpate::Word;
+using palpate::words_of;
 
-std::size_t read_unit(Table& table, std::size_t otherwise) {
-  const std::string symbol = table.text("unit", std::string(force_units[otherwise].symbol));
-  std::string all;
-  for (std::size_t unit = 0; unit < force_units.size(); ++unit) {
-    if (force_units[unit].symbol == symbol) return unit;
-    all += (all.empty() ? "`" : ", `") + std::string(force_units[unit].symbol) + "`";
-  }
-  throw Refused(table.place("unit") + "knows no `" + symbol + "`; choose one of " + all);
+constexpr auto status_words =
+    words_of<StatusLayout>({{"compact", "`SLDL`"}, {"spaced", "`S L DL`"}});
+constexpr auto list_words =
+    words_of<ListStyle>({{"ipol", "with `IPOL0;OPOL0`"}, {"pol", "with `MIT;POL`"}});
+constexpr auto overload_words = words_of<OverloadReply>(
+    {{"text", "`OVERLOAD`"}, {"saturated", "the largest number that it can show"}});
+
+std::vector<Word> unit_words() {
+  std::vector<Word> words;
+  for (const ForceUnit& unit : force_units) words.push_back({unit.symbol.data(), ""});
+  return words;
 }
 
-void read_stand_table(Table& table, StandSettings& settings) {
+void stand_fields(FieldVisitor& visitor, StandSettings& settings) {
   CrossheadSettings& head = settings.crosshead;
-  head.acceleration = table.quantity("acceleration", head.acceleration, Quantity::acceleration);
-  head.slowest = table.quantity("slowest", head.slowest, Quantity::speed);
-  head.fastest = table.quantity("fastest", head.fastest, Quantity::speed);
-  head.lower_end = table.quantity("lower_end", head.lower_end, Quantity::length);
-  head.upper_end = table.quantity("upper_end", head.upper_end, Quantity::length);
-  settings.speed = table.quantity("speed", settings.speed, Quantity::speed);
-  settings.travel_resolution =
-      table.quantity("travel_resolution", settings.travel_resolution, Quantity::length);
-  if (!table.flag("pc_control", "true")) settings.control = Control::off;
-  if (table.choice("status", "compact", status_layouts) == "spaced")
-    settings.status = StatusLayout::spaced;
-  table.finish();
-  if (head.acceleration <= 0.0) throw Refused(table.place("acceleration") + "wants to be positive");
-  if (head.slowest <= 0.0 || head.fastest < head.slowest)
-    throw Refused(table.place("fastest") + "wants `0 < slowest <= fastest`");
-  if (head.lower_end >= 0.0 || head.upper_end <= 0.0)
-    throw Refused(table.place("lower_end") + "wants `lower_end < 0 < upper_end`, about the start");
-  if (settings.travel_resolution <= 0.0)
-    throw Refused(table.place("travel_resolution") + "wants to be positive");
+  visitor.quantity({"acceleration", "of every change of speed"}, head.acceleration, unit::mm_per_s2,
+                   above(0.0));
+  visitor.quantity({"slowest", "lowest speed"}, head.slowest, unit::mm_per_min, above(0.0));
+  visitor.quantity({"fastest", "greatest speed"}, head.fastest, unit::mm_per_min, above(0.0));
+  visitor.quantity({"speed", "after switching on"}, settings.speed, unit::mm_per_min, {});
+  visitor.quantity({"lower_end", "lower limit switch, from the start"}, head.lower_end, unit::mm,
+                   {.high = 0.0, .high_allowed = false});
+  visitor.quantity({"upper_end", "upper limit switch, from the start"}, head.upper_end, unit::mm,
+                   above(0.0));
+  visitor.quantity({"travel_resolution", "resolution of the displayed travel"},
+                   settings.travel_resolution, unit::mm, above(0.0));
+  visitor.flag({"pc_control", "whether the line may move the stand"}, settings.pc_control);
+  visitor.choice({"status", "how `p` writes its codes"}, settings.status, status_words);
 }
 
-void read_gauge_table(Table& table, StandSettings& settings) {
+void gauge_fields(FieldVisitor& visitor, StandSettings& settings) {
   GaugeSettings& gauge = settings.gauge;
-  gauge.capacity = table.quantity("capacity", gauge.capacity, Quantity::force);
-  gauge.resolution = table.quantity("resolution", gauge.resolution, Quantity::force);
-  gauge.noise = table.quantity("noise", gauge.noise, Quantity::force);
-  gauge.unit = read_unit(table, gauge.unit);
-  gauge.filter = static_cast<int>(table.count("filter", gauge.filter));
-  gauge.peak_filter = static_cast<int>(table.count("peak_filter", gauge.peak_filter));
-  if (table.choice("list", "ipol", list_styles) == "pol") settings.list = ListStyle::pol;
-  if (table.choice("overload", "text", overload_replies) == "saturated")
-    settings.overload = OverloadReply::saturated;
-  table.finish();
-  if (gauge.capacity <= 0.0) throw Refused(table.place("capacity") + "wants to be positive");
-  if (gauge.resolution <= 0.0) throw Refused(table.place("resolution") + "wants to be positive");
-  if (gauge.noise < 0.0) throw Refused(table.place("noise") + "wants not to be negative");
-  if (gauge.filter > 10) throw Refused(table.place("filter") + "goes up to 10");
-  if (gauge.peak_filter > 10) throw Refused(table.place("peak_filter") + "goes up to 10");
+  visitor.quantity({"capacity", "greatest rated force"}, gauge.capacity, unit::N, above(0.0));
+  visitor.quantity({"resolution", "of the displayed force"}, gauge.resolution, unit::N, above(0.0));
+  visitor.quantity({"noise", "standard deviation of a sample"}, gauge.noise, unit::N,
+                   at_least(0.0));
+  int unit = static_cast<int>(gauge.unit);
+  visitor.choice_of({"unit", "of the displayed force"}, unit, unit_words());
+  gauge.unit = palpate::as_index(unit);
+  visitor.count({"filter", "the display averages 2^filter samples"}, gauge.filter, between(0, 10));
+  visitor.count({"peak_filter", "peaks average 2^peak_filter samples"}, gauge.peak_filter,
+                between(0, 10));
+  visitor.choice({"list", "the form of the reply to LIST"}, settings.list, list_words);
+  visitor.choice({"overload", "the reply above 110 % of the capacity"}, settings.overload,
+                 overload_words);
 }
 
 }  // namespace
 
+void fields(FieldVisitor& visitor, StandSettings& settings) {
+  visitor.table({"stand", "the crosshead"},
+                [&](FieldVisitor& inside) { stand_fields(inside, settings); });
+  visitor.table({"gauge", "the force gauge"},
+                [&](FieldVisitor& inside) { gauge_fields(inside, settings); });
+}
+
 void read_stand(const std::string& path, StandSettings& settings) {
-  const Document document = read_toml(path);
-  Table table(document, document.root);
-  for (Table& stand : table.tables("stand")) read_stand_table(stand, settings);
-  for (Table& gauge : table.tables("gauge")) read_gauge_table(gauge, settings);
-  table.finish();
+  const palpate::Node file =
+      read_settings(path, [&](FieldVisitor& visitor) { fields(visitor, settings); });
+  if (settings.crosshead.fastest < settings.crosshead.slowest)
+    refuse(file, "stand.fastest", "`fastest` is below `slowest`; give a greater speed");
 }
 
 }  // namespace emulator

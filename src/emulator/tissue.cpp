@@ -1,4 +1,4 @@
-// Hereditary contact of a sphere, stepped exactly for an indentation that is linear in each step.
+// Viscoelastic contact of a sphere, exact if depth^(3/2) is linear in time during each step.
 #include "emulator/tissue.h"
 
 #include <cmath>
@@ -7,24 +7,22 @@
 
 namespace emulator {
 
+void fields(FieldVisitor& visitor, TissueSettings& settings) {
+  using palpate::above;
+  visitor.quantity({"E0", "instantaneous Young's modulus"}, settings.E0, unit::kPa, above(0.0));
+  visitor.quantity({"Einf", "relaxed Young's modulus"}, settings.E_inf, unit::kPa, above(0.0));
+  visitor.quantity({"tau", "relaxation time"}, settings.tau, unit::s, above(0.0));
+  visitor.number({"nu", "Poisson's ratio"}, settings.nu, palpate::between(0.0, 0.5));
+  visitor.quantity({"R", "radius of the indenter"}, settings.R, unit::mm, above(0.0));
+  visitor.quantity({"surface", "height of the undeformed surface"}, settings.surface, unit::mm, {});
+}
+
 TissueSettings read_tissue(const std::string& path) {
-  const Document document = read_toml(path);
-  Table table(document, document.root);
   TissueSettings settings;
-  settings.E0 = table.quantity("E0", settings.E0, Quantity::pressure);
-  settings.E_inf = table.quantity("Einf", settings.E_inf, Quantity::pressure);
-  settings.tau = table.quantity("tau", settings.tau, Quantity::time);
-  settings.nu = table.number("nu", settings.nu);
-  settings.R = table.quantity("R", settings.R, Quantity::length);
-  settings.surface = table.quantity("surface", settings.surface, Quantity::length);
-  table.finish();
-  if (settings.E_inf <= 0.0) throw Refused(table.place("Einf") + "wants to be positive");
+  const palpate::Node file =
+      read_settings(path, [&](FieldVisitor& visitor) { fields(visitor, settings); });
   if (settings.E0 < settings.E_inf)
-    throw Refused(table.place("E0") + "is below `Einf`; a solid relaxes downwards");
-  if (settings.tau <= 0.0) throw Refused(table.place("tau") + "wants to be positive");
-  if (settings.R <= 0.0) throw Refused(table.place("R") + "wants to be positive");
-  if (settings.nu < 0.0 || settings.nu > 0.5)
-    throw Refused(table.place("nu") + "wants to lie between 0 and 0.5");
+    refuse(file, "E0", "`E0` is below `Einf`, and a modulus relaxes to less; give a larger `E0`");
   return settings;
 }
 
@@ -38,9 +36,9 @@ Tissue make_tissue(const TissueSettings& settings, double step) {
 }
 
 // F(t) = 4/3 sqrt(R)/(1 - nu^2) int_0^t E(t - s) d(h^(3/2)): Lee and Radok 1960, while the contact
-// grows. With E of one exponential that is F = C (E_inf y + (E0 - E_inf) q), y = h^(3/2),
-// q' = y' - q/tau; for y linear in a step, q1 = q0 e^(-dt/tau) + (y1 - y0) (1 - e^(-dt/tau))
-// tau/dt. On the way out the same sum is used and cut at zero: a surface that does not stick.
+// grows. With one exponential in E, F = C (E_inf y + (E0 - E_inf) q), y = h^(3/2), q' = y' - q/tau.
+// For y linear in a step, q1 = q0 e^(-dt/tau) + (y1 - y0) (1 - e^(-dt/tau)) tau/dt.
+// During unloading the same formula is used and F is cut at zero: the surface does not adhere.
 double press(Tissue& tissue, double depth) {
   const double above_zero = depth > 0.0 ? depth : 0.0;
   const double next = above_zero * std::sqrt(above_zero);

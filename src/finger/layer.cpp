@@ -1,4 +1,4 @@
-// Centres are pushed apart inside the outline until none is nearer to another than the rest.
+// Packs spheres: pushes their centres apart inside the outline until all keep the same distance.
 #include "finger/layer.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ struct Side {
   double reach = 0.0;
 };
 
-// The outline seen along z as the sides of its convex hull, by Andrew's monotone chain, each with
-// its mirror image in y. Positions from `centre`.
+// The outline seen along z: the sides of its convex hull (Andrew's monotone chain), each with its
+// mirror image in y, relative to `centre`.
 std::vector<Side> outline(const geometry::Surface& surface, const Vec3& centre) {
   std::vector<Point> points;
   for (const Vec3& vertex : surface.vertices)
@@ -75,8 +75,7 @@ Box box_of(std::span<const Side> sides) {
   return box;
 }
 
-// Centres from the centre of gravity: `middle` of them on the line y = 0, then pairs of mirror
-// images.
+// Centres relative to the centre of gravity: `middle` points with y = 0, then mirrored pairs.
 struct Spread {
   std::vector<Point> points;
   std::size_t middle = 0;
@@ -93,9 +92,9 @@ double smallest_distance(std::span<const Point> points) {
   return std::sqrt(least);
 }
 
-// Pushes every two points that are nearer than `distance` apart, each by half of what is missing;
-// a point with several neighbours goes by three times the mean, which settles fastest. Returns
-// whether there were any.
+// Pushes points that are nearer than `distance` apart, each by half of the missing distance. A
+// point with several neighbours moves by three times the mean, which converges fastest. Returns
+// whether any two points were too near.
 bool push_apart(std::vector<Point>& points, double distance) {
   struct Push {
     Point sum;
@@ -109,7 +108,7 @@ bool push_apart(std::vector<Point>& points, double distance) {
       double dy = points[i].y - points[j].y;
       double square = dx * dx + dy * dy;
       if (square >= distance * distance) continue;
-      if (square < 1e-6 * distance * distance) {  // on one spot: part them along a diagonal
+      if (square < 1e-6 * distance * distance) {  // coincident: separate along a diagonal
         dx = dy = 1e-3 * distance;
         square = dx * dx + dy * dy;
       }
@@ -130,7 +129,7 @@ bool push_apart(std::vector<Point>& points, double distance) {
   return pushed;
 }
 
-// Brings every point `inset` or more inside the outline, and then the mean back to the origin.
+// Moves every point to at least `inset` inside the outline, then the mean back to the origin.
 void hold(Spread& spread, std::span<const Side> sides, double inset) {
   std::vector<Point>& points = spread.points;
   double sum = 0.0;
@@ -153,12 +152,12 @@ void hold(Spread& spread, std::span<const Side> sides, double inset) {
 
 double fraction(double value) { return value - std::floor(value); }
 
-// Points strewn evenly over the outline's box: a sequence of multiples of the plastic number's
-// powers (M. Roberts 2018), started at different places.
+// Distributes points evenly over the outline's box by the sequence of multiples of powers of the
+// plastic number (M. Roberts 2018); `start` selects a section of the sequence.
 Spread strewn(const Box& box, int count, int middle, int start) {
   const auto [along, across] = box;
   Spread spread;
-  spread.middle = static_cast<std::size_t>(middle);
+  spread.middle = as_index(middle);
   for (int i = 0; i < middle; ++i)
     spread.points.push_back({along * ((2.0 * i + 1.0) / middle - 1.0), 0.0});
   for (int i = 0; 2 * i < count - middle; ++i) {
@@ -171,24 +170,24 @@ Spread strewn(const Box& box, int count, int middle, int start) {
   return spread;
 }
 
-// From a little too large, the distance that is asked for shrinks until all points can keep it.
+// Starts with a distance that is slightly too large and reduces it until all points keep it.
 void relax(Spread& spread, std::span<const Side> sides, const Box& box, double inset) {
-  // Discs of diameter d in hexagonal order cover sqrt(3)/2 d^2 each, and have d/2 more on every
-  // side than their centres: n sqrt(3)/2 d^2 = (2 p + d) (2 q + d), less the corners.
+  // Discs of diameter d in hexagonal order cover sqrt(3)/2 d^2 each and extend d/2 beyond their
+  // centres: n sqrt(3)/2 d^2 = (2 p + d) (2 q + d), minus the corners.
   const double p = std::max(box.along - inset, 0.0);
   const double q = std::max(box.across - inset, 0.0);
   const double a =
       std::sqrt(3.0) / 2.0 * static_cast<double>(spread.points.size()) - std::numbers::pi / 4.0;
   double distance = 1.1 * (p + q + std::sqrt((p + q) * (p + q) + 4.0 * a * p * q)) / a;
   for (int i = 0; i < 10; ++i) hold(spread, sides, inset);
-  constexpr int most_sweeps = 3000;  // 0.998^3000 of the distance is as good as none
+  constexpr int most_sweeps = 3000;  // 0.998^3000 of the distance is practically zero
   for (int sweep = 0; sweep < most_sweeps && push_apart(spread.points, distance); ++sweep) {
     for (int i = 0; i < 3; ++i) hold(spread, sides, inset);
     distance *= 0.998;
   }
 }
 
-// The best of several starts, each with more points on the mirror line, up to a full row of them.
+// The best of several starts for each number of points on the mirror line, up to a full row.
 std::vector<Point> spread_out(std::span<const Side> sides, double inset, int count) {
   const Box box = box_of(sides);
   const double row = 1.0 + 1.3 * std::sqrt(count * box.along / box.across);

@@ -1,4 +1,4 @@
-// The finger as one sphere body.
+// The finger as a single sphere.
 #pragma once
 
 #include <numbers>

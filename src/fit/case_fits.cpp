@@ -1,4 +1,4 @@
-// From a case's rows to fits.
+// Extracts the curves of a case from its rows and fits them.
 #include "fit/case_fits.h"
 
 #include "base/error.h"
@@ -15,7 +15,7 @@ struct Curve {
 
 class CaseFits {
  public:
-  CaseFits(const scenario::Scenario& scenario, const record::CaseRecord& record)
+  CaseFits(const scenario::Resolved& scenario, const record::CaseRecord& record)
       : scenario_(scenario), record_(record) {}
 
   std::vector<NamedFit> all() {
@@ -40,7 +40,7 @@ class CaseFits {
   void add(const std::string& name, const Curve& curve, Model model, const Options& options) {
     try {
       fits_.push_back({record_.name, name, regress(curve.x, curve.y, model, options)});
-    } catch (const InputError&) {  // too few points to fit is no fault of the run
+    } catch (const InputError&) {  // a curve with too few points is left out
     }
   }
 
@@ -75,7 +75,7 @@ class CaseFits {
       curve.x.push_back(row.time);
       curve.y.push_back(row.strain);
     }
-    // A standard linear solid gives way at once, then creeps: the same curve as its relaxation.
+    // A standard linear solid deforms at once and then creeps, by the same formula as it relaxes.
     const bool solid = scenario_.tissue.viscosity == tissue::Viscosity::standard_linear_solid;
     add("creep", loaded, solid ? Model::standard_linear_solid : Model::kelvin_voigt,
         {.x_unit = "s", .y_unit = "", .x_origin = start});
@@ -95,14 +95,14 @@ class CaseFits {
         {.x_unit = "s", .y_unit = "kPa", .x_origin = curve.x.front()});
   }
 
-  const scenario::Scenario& scenario_;
+  const scenario::Resolved& scenario_;
   const record::CaseRecord& record_;
   std::vector<NamedFit> fits_;
 };
 
 }  // namespace
 
-std::vector<NamedFit> case_fits(const scenario::Scenario& scenario,
+std::vector<NamedFit> case_fits(const scenario::Resolved& scenario,
                                 const record::CaseRecord& record) {
   return CaseFits(scenario, record).all();
 }

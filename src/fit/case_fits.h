@@ -1,18 +1,19 @@
-// Which curves of a case are fitted, and by what.
+// The fits of a case: which curves are fitted, and with which models.
 #pragma once
 
 #include <vector>
 
 #include "fit/fit_table.h"
 #include "record/record.h"
-#include "scenario/scenario.h"
+#include "scenario/resolved.h"
 
 namespace palpate::fit {
 
-// Of a press: force over indentation of the first `indent`, logarithmic, power and exponential.
-// Of a uniform test: creep and recovery by Kelvin-Voigt, relaxation by the standard linear solid.
-// A curve with too few points is left out. A display scale other than 1 adds the scaled curve.
-[[nodiscard]] std::vector<NamedFit> case_fits(const scenario::Scenario& scenario,
+// Press: force over indentation of the first `indent`, with the models logarithmic, power and
+// exponential. Uniform test: creep with Kelvin-Voigt (or standard_linear_solid, for a tissue with
+// that viscosity), recovery with Kelvin-Voigt, relaxation with standard_linear_solid. A curve with
+// too few points is left out. With a display scale other than 1 the scaled curve is fitted as well.
+[[nodiscard]] std::vector<NamedFit> case_fits(const scenario::Resolved& scenario,
                                               const record::CaseRecord& record);
 
 }  // namespace palpate::fit

@@ -1,4 +1,4 @@
-// Curves by their formulas, given to Ceres.
+// Least-squares problems for Ceres.
 #include "fit/ceres_fit.h"
 
 #include <ceres/ceres.h>
@@ -7,12 +7,13 @@
 #include <cmath>
 #include <utility>
 
+#include "base/index.h"
 #include "fit/regression.h"
 
 namespace palpate::fit {
 
-// Without InitGoogleLogging a failing fit writes to stderr, and with it into files below /tmp,
-// unless both flags are set before.
+// Without InitGoogleLogging a failing fit writes to stderr; with it, into files below /tmp unless
+// both flags are set before.
 void silence_glog() {
   static const bool done = [] {
     if (google::IsGoogleLoggingInitialized()) return true;
@@ -26,7 +27,7 @@ void silence_glog() {
 
 namespace {
 
-// All residuals at once, in the unknowns u_i = p_i / scale_i, which are of order one.
+// All residuals as functions of the unknowns u_i = p_i / scale_i, which are of order one.
 class Residuals final : public ceres::CostFunction {
  public:
   Residuals(std::span<const double> y, const CurveAt& curve, std::vector<double> scale)
@@ -35,7 +36,7 @@ class Residuals final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(scale_.size()));
   }
 
-  // False, a normal answer, where the curve has no finite value or slope.
+  // False if a value or slope is not finite; Ceres accepts this as a normal result.
   bool Evaluate(double const* const* unknowns, double* residuals,
                 double** jacobians) const override {
     double* jacobian = jacobians == nullptr ? nullptr : jacobians[0];
@@ -63,11 +64,11 @@ class Residuals final : public ceres::CostFunction {
   std::vector<double> scale_;
 };
 
-// A model's curve over x, by its terms.
+// CurveAt for a model over x.
 bool model_curve(std::span<const double> x, Model model, std::span<const double> parameters,
                  std::span<double> values, std::span<double> slopes) {
   const std::size_t count = parameters.size();
-  const auto linear = static_cast<std::size_t>(term_count(model));
+  const auto linear = as_index(term_count(model));
   bool finite = true;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Terms at = terms(model, x[i], parameters[count - 1]);
@@ -88,7 +89,7 @@ bool model_curve(std::span<const double> x, Model model, std::span<const double>
 std::vector<double> inverse_normal(ceres::Problem& problem, const double* unknowns,
                                    std::span<const double> scale) {
   ceres::Covariance::Options options;
-  options.algorithm_type = ceres::DENSE_SVD;  // the one that refuses a J without full rank
+  options.algorithm_type = ceres::DENSE_SVD;  // which fails if J lacks full rank
   options.num_threads = 1;
   ceres::Covariance covariance(options);
   const std::vector<const double*> blocks{unknowns};
@@ -108,8 +109,8 @@ ceres::Solver::Options solver_options(std::size_t points, int max_iterations) {
   options.max_num_iterations = max_iterations;
   options.logging_type = ceres::SILENT;
   options.minimizer_progress_to_stdout = false;
-  // Unknowns, residuals and slopes are of order one, so that a gradient of 1e-14 a point leaves
-  // an error of about 1e-14; the cost itself is flat to 1e-16 long before.
+  // Unknowns, residuals and slopes are of order one, so that a gradient of 1e-14 per point leaves
+  // an error of about 1e-14. The cost stops changing (to 1e-16) long before that.
   options.gradient_tolerance = 1e-14 * static_cast<double>(points);
   options.parameter_tolerance = 1e-14;
   options.function_tolerance = 0.0;

@@ -1,4 +1,4 @@
-// One least-squares problem, given to Ceres; no type of Ceres crosses this header.
+// Least-squares problems solved by Ceres; no type of Ceres appears in this header.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace palpate::fit {
 
-// Ceres speaks through glog whatever its own options say; from the first call on it is silent.
+// Ceres logs through glog even if its options say otherwise; this call silences glog.
 void silence_glog();
 
 struct Minimum {
@@ -18,23 +18,23 @@ struct Minimum {
 
   Status status = Status::failed;
   std::vector<double> parameters;
-  double squares = 0.0;  // the sum of squared residuals
+  double squares = 0.0;  // sum of squared residuals
   int iterations = 0;
-  // (J^T J)^-1 at the minimum, row by row; empty where J has not full rank, or nothing was found.
+  // (J^T J)^-1 at the minimum, by rows; empty if J lacks full rank or no minimum was found.
   std::vector<double> inverse_normal;
 };
 
-// A curve at all of its points for some parameters: one value a point and, where `slopes` is not
-// empty, the derivatives by the parameters, a row a point. False where it cannot be evaluated.
+// Computes a curve for given parameters: one value per point and, unless `slopes` is empty, the
+// derivatives with respect to the parameters, one row per point. False if this is impossible.
 using CurveAt = std::function<bool(std::span<const double> parameters, std::span<double> values,
                                    std::span<double> slopes)>;
 
-// Minimises sum (value_i - y_i)^2 from `start` by Levenberg-Marquardt. y is of order one: the
-// stopping tolerances are absolute. Writes nothing to the terminal and no log file.
+// Minimises sum (value_i - y_i)^2 from `start` by Levenberg-Marquardt. The stopping tolerances are
+// absolute: scale y to order one. Writes nothing to the terminal and no log file.
 [[nodiscard]] Minimum minimise(std::span<const double> y, const CurveAt& curve,
                                std::span<const double> start, int max_iterations);
 
-// The same of a model's curve over x, by the derivatives of terms().
+// The same for the curve of `model` over x, with the derivatives of terms().
 [[nodiscard]] Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,
                                std::span<const double> start, int max_iterations);
 

@@ -1,4 +1,4 @@
-// E stands before the curve; where contact began is looked for on a grid, then by Ceres.
+// F is proportional to E; the contact point is searched on a grid first, then both by Ceres.
 #include "fit/contact_model.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace palpate::fit {
 namespace {
 
-// Force and stiffness for E* = 1 Pa.
+// The contact law for E* = 1 Pa.
 class UnitLaw {
  public:
   explicit UnitLaw(const ContactTest& test) : radius_(test.radius) {
@@ -44,10 +44,10 @@ class UnitLaw {
 
 struct Points {
   std::vector<double> depth;  // m
-  std::vector<double> force;  // over its largest size
-  double force_scale = 1.0;   // N
-  double low = 0.0;           // of the depths, m
-  double high = 0.0;
+  std::vector<double> force;  // divided by force_scale
+  double force_scale = 1.0;   // N, largest magnitude
+  double low = 0.0;           // m, smallest depth
+  double high = 0.0;          // m, largest depth
 };
 
 Points usable(std::span<const double> depth, std::span<const double> force, Fit& fit) {
@@ -67,7 +67,7 @@ Points usable(std::span<const double> depth, std::span<const double> force, Fit&
   points.low = *low;
   points.high = *high;
   if (points.low == points.high)
-    throw InputError({}, "all points stand at one depth; give a curve over depth");
+    throw InputError({}, "all points have the same depth; give a curve over depth");
   double largest = 0.0;
   for (const double each : points.force) largest = std::max(largest, std::abs(each));
   if (largest > 0.0) points.force_scale = largest;
@@ -76,11 +76,11 @@ Points usable(std::span<const double> depth, std::span<const double> force, Fit&
 }
 
 struct Start {
-  double factor = 0.0;   // E* over force_scale, 1/m^2
+  double factor = 0.0;   // E* / force_scale, 1/m^2
   double contact = 0.0;  // h_0, m
 };
 
-// The factor that suits a contact point best, by linear least squares, and its sum of squares.
+// The best factor for a given contact point, by linear least squares, and its sum of squares.
 struct Suited {
   double factor, squares;
 };
@@ -98,7 +98,7 @@ std::optional<Suited> suited(const UnitLaw& law, const Points& points, double co
   return Suited{product / norm, total - product * product / norm};
 }
 
-// Contact points from one whole range before the first depth to just before the last one.
+// The best of 400 contact points, from one range before the first depth to just before the last.
 std::optional<Start> start_of(const UnitLaw& law, const Points& points) {
   constexpr int steps = 400;
   const double range = points.high - points.low;
@@ -129,15 +129,16 @@ Fit fit_contact(std::span<const double> depth, std::span<const double> force,
   const UnitLaw law(test);
   const auto start = start_of(law, points);
   if (!start)
-    throw InputError({}, "the sphere goes deeper than the law of so thin a layer reaches, " +
-                             rounded_text(unit::mm.from_si(law.deepest())) +
-                             " mm here; give the part of the curve up to there");
+    throw InputError({},
+                     "the curve is deeper than " + rounded_text(unit::mm.from_si(law.deepest())) +
+                         " mm, up to which the law of so thin a layer is valid; give the part of "
+                         "the curve up to that depth");
   if (!(start->factor > 0.0))
     throw InputError({},
-                     "the load falls with depth; give `--compression negative` where the load "
-                     "cell reads compression so, or another `--x`");
+                     "the load falls with depth; give `--compression negative` if the load cell "
+                     "reports compression as negative, or another `--x`");
 
-  // Unknowns: E* over that of the start, and the contact point over the range of depths.
+  // Unknowns: E* divided by its initial guess, the contact point divided by the range of depths.
   const double range = points.high - points.low;
   const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
                             std::span<double> slopes) {
@@ -153,8 +154,7 @@ Fit fit_contact(std::span<const double> depth, std::span<const double> force,
   };
   const std::array unknowns{1.0, start->contact / range};
   const Minimum minimum = minimise(points.force, curve, unknowns, 200);
-  // E = E* (1 - nu^2) of a tissue under a rigid sphere         Chen 2007 eq. (2); docs/theory.md
-  // (1)
+  // E = E* (1 - nu^2) for a rigid sphere               Chen 2007 eq. (2); docs/theory.md (1)
   const double young =
       start->factor * points.force_scale * (1.0 - test.poisson_ratio * test.poisson_ratio);
   const std::array scale{unit::kPa.from_si(young), unit::mm.from_si(range)};

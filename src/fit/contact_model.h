@@ -1,4 +1,4 @@
-// A sphere's force over its depth, fitted for the tissue's stiffness and where contact began.
+// Fits a sphere's force over its depth: the tissue's Young's modulus and the contact point.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,19 @@
 
 namespace palpate::fit {
 
-// What is known of the test. The sphere is rigid.
+// The known quantities of a test with a rigid sphere.
 struct ContactTest {
-  double radius = 0.0;         // of the sphere, m
-  double poisson_ratio = 0.5;  // of the tissue, 0 to 1/2
-  // Of a layer on a rigid base, m; nothing: a half-space.
-  std::optional<double> thickness = {};
+  double radius = 0.0;                   // of the sphere, m
+  double poisson_ratio = 0.5;            // of the tissue, 0 to 1/2
+  std::optional<double> thickness = {};  // m, of a layer on a rigid base; none: a half-space
   contact::LayerBase base = contact::LayerBase::bonded;
 };
 
-// Fits F = 4/3 E / (1 - nu^2) sqrt(R) (h - h_0)^(3/2), 0 before contact, or the same times the
-// exact factor of a finite layer (contact/layer.h), to `depth` (m) and `force` (N) of one size.
+// Fits F = 4/3 E / (1 - nu^2) sqrt(R) (h - h_0)^(3/2) (0 before contact), or the same times the
+// exact factor of a finite layer (contact/layer.h), to `depth` (m) and `force` (N) of equal size.
 // Parameters: E in kPa and h_0 in mm; ranges in mm, rmse in N. Points that are not finite are left
-// out and counted. Throws InputError: fewer than 4 points, a load that does not grow with depth, or
-// a layer so thin that no contact point keeps the data within the law's reach.
+// out and counted. Throws InputError for fewer than 4 points, for a single depth, for a load that
+// does not increase with depth, and for data deeper than the law of a thin layer permits.
 // Hertz: Chen 2007 eq. (2); a layer: docs/theory.md (57)-(59)
 [[nodiscard]] Fit fit_contact(std::span<const double> depth, std::span<const double> force,
                               const ContactTest& test);

@@ -1,4 +1,4 @@
-// One row a parameter.
+// Writes the table of fits.csv.
 #include "fit/fit_table.h"
 
 #include <cmath>

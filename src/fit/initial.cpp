@@ -1,10 +1,12 @@
-// Variable projection on a grid: one shape parameter, the rest by linear least squares.
+// Variable projection on a grid: linear least squares for each value of the shape parameter.
 #include "fit/initial.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/index.h"
 
 namespace palpate::fit {
 namespace {
@@ -15,16 +17,19 @@ std::vector<double> shapes(Model model, double scale) {
     case Model::logarithmic: return {0.0};
     case Model::power:
       for (int i = -16; i <= 40; ++i) grid.push_back(0.25 * i);
-      return grid;
-    case Model::exponential:  // m from 1e-3 to 1e2 over the range, both signs
+      break;
+    case Model::exponential:  // |m| from 1e-3 to 1e2 divided by the largest |x|, both signs
       for (int i = -24; i <= 16; ++i)
         for (const double sign : {1.0, -1.0})
           grid.push_back(sign * std::pow(10.0, i / 8.0) / scale);
-      return grid;
-    default:  // tau from 1e-3 to 1e3 of the range
+      break;
+    case Model::kelvin_voigt:
+    case Model::kelvin_voigt_recovery:
+    case Model::standard_linear_solid:  // tau from 1e-3 to 1e3 times the largest |x|
       for (int i = -24; i <= 24; ++i) grid.push_back(std::pow(10.0, i / 8.0) * scale);
-      return grid;
+      break;
   }
+  return grid;
 }
 
 }  // namespace
@@ -43,8 +48,8 @@ std::optional<std::vector<double>> initial_guess(std::span<const double> x,
   Eigen::MatrixXd matrix(n, count);
   for (const double shape : shapes(model, scale)) {
     for (Eigen::Index i = 0; i < n; ++i) {
-      const Terms at = terms(model, x[static_cast<std::size_t>(i)], shape);
-      for (int k = 0; k < count; ++k) matrix(i, k) = at.phi[static_cast<std::size_t>(k)];
+      const Terms at = terms(model, x[as_index(i)], shape);
+      for (int k = 0; k < count; ++k) matrix(i, k) = at.phi[as_index(k)];
     }
     if (!matrix.allFinite()) continue;
     const Eigen::VectorXd linear = matrix.colPivHouseholderQr().solve(target);

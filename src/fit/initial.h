@@ -1,4 +1,4 @@
-// Where a search begins: the best of a fixed grid of shapes, each with its own linear fit.
+// The initial guess of a fit: the best of a fixed grid of shape parameters.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace palpate::fit {
 
-// Parameters near the least-squares fit, in the order of info(model): for every shape q of a grid
-// (n, or m and tau in units of the largest |x|) the curve is linear in the rest and solved by QR;
-// the smallest sum of squares wins, the first of equals. Nothing where no shape can be evaluated.
-// x and y are finite and of one size.
+// Returns parameters near the least-squares fit, in the order of info(model). For every shape q of
+// a grid (n, or m and tau scaled with the largest |x|) the other parameters are linear and solved
+// for by QR; the smallest sum of squares wins (the first, if several are equal). Nothing if no
+// shape can be evaluated. x and y must be finite and of equal size.
 [[nodiscard]] std::optional<std::vector<double>> initial_guess(std::span<const double> x,
                                                                std::span<const double> y,
                                                                Model model);

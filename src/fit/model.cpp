@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/index.h"
+
 namespace palpate::fit {
 namespace {
 
@@ -33,7 +35,7 @@ constexpr std::array<std::string_view, 16> unit_words{
 std::span<const ModelInfo> models() { return table; }
 
 const ModelInfo& info(Model model) {
-  const ModelInfo& row = table[static_cast<std::size_t>(model)];
+  const ModelInfo& row = table[as_index(model)];
   assert(row.model == model);
   return row;
 }
@@ -54,10 +56,10 @@ Terms terms(Model model, double x, double shape) {
   switch (model) {
     case Model::logarithmic: return {{1.0, std::log(x)}, {}};
     case Model::power: {
-      const double power = std::pow(x, shape);
-      return {{power}, {power * std::log(x)}};
+      const double raised = std::pow(x, shape);
+      return {{raised}, {raised * std::log(x)}};
     }
-    case Model::exponential:  // expm1 keeps small m x exact
+    case Model::exponential:  // expm1 is accurate for small m x
       return {{std::expm1(shape * x)}, {x * std::exp(shape * x)}};
     case Model::kelvin_voigt: {
       // d/dtau (1 - e^(-x/tau)) = -(x/tau^2) e^(-x/tau)
@@ -82,7 +84,7 @@ double value(Model model, std::span<const double> parameters, double x) {
   const Terms at = terms(model, x, parameters.back());
   double sum = 0.0;
   for (int i = 0; i < term_count(model); ++i) {
-    const auto k = static_cast<std::size_t>(i);
+    const auto k = as_index(i);
     sum += parameters[k] * at.phi[k];
   }
   return sum;

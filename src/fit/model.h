@@ -1,4 +1,4 @@
-// The curves that can be fitted, their parameters, and the units these have.
+// The curves that can be fitted, with their parameters and units.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Model {
   standard_linear_solid,  // y = y_inf + (y_0 - y_inf) e^(-x/tau), relaxation
 };
 
-// What a parameter's unit is made of.
+// How a parameter's unit is formed from those of x and y.
 enum class UnitRule { none, of_y, of_x, per_x, y_per_x_to_n };
 
 struct Parameter {
@@ -27,10 +27,10 @@ struct Parameter {
   UnitRule unit;
 };
 
-// One row of the table of models. The parameters in which the curve is linear come first.
+// One row of the table of models. The linear parameters come first.
 struct ModelInfo {
   Model model;
-  std::string_view name;     // the word of the command line and of fits.csv
+  std::string_view name;     // on the command line and in fits.csv
   std::string_view formula;  // for people
   std::span<const Parameter> parameters;
   bool positive_x_only = false;  // points with x <= 0 are left out
@@ -43,25 +43,24 @@ struct ModelInfo {
 // The model of that name, or nothing.
 [[nodiscard]] std::optional<Model> find_model(std::string_view name);
 
-// The curve's value at x; `parameters` as in info(model), in the units of the data.
+// The curve's value at x; `parameters` in the order of info(model) and in the units of the data.
 [[nodiscard]] double value(Model model, std::span<const double> parameters, double x);
 
-// A curve is a sum of at most two terms c_i phi_i(x, q), linear in c and not in its shape q (n, m
-// or tau; unused by the logarithmic model, whose terms are 1 and ln x).
+// A curve is a sum of at most two terms c_i phi_i(x, q). It is linear in c_i and non-linear in the
+// shape parameter q (n, m or tau). The logarithmic model has the terms 1 and ln x, and no q.
 struct Terms {
   std::array<double, 2> phi{};    // the terms at x
   std::array<double, 2> slope{};  // d phi / d q
 };
 [[nodiscard]] Terms terms(Model model, double x, double shape);
 
-// How many terms the curve has, and whether a shape parameter follows them.
 [[nodiscard]] int term_count(Model model);
-[[nodiscard]] bool has_shape(Model model);
+[[nodiscard]] bool has_shape(Model model);  // whether there is a shape parameter, the last one
 
-// The unit by which a column's name ends: `force_N` to `N`, `strain` to the empty text.
+// The unit at the end of a column's name: `N` for `force_N`, empty for `strain`.
 [[nodiscard]] std::string column_unit(std::string_view column);
 
-// The unit of a parameter whose data have these units: x in mm and y in N make `N/mm^n`, `1/mm`.
+// The unit of a parameter, from those of the data: `N/mm^n` or `1/mm` for x in mm and y in N.
 [[nodiscard]] std::string unit_text(UnitRule rule, const std::string& x_unit,
                                     const std::string& y_unit);
 

@@ -1,4 +1,4 @@
-// Times by their logarithms, so that they stay positive; the best of a grid of them to begin with.
+// Searches over the logarithms of the times (they stay positive), from the best times of a grid.
 #include "fit/prony.h"
 
 #include <Eigen/Dense>
@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "fit/ceres_fit.h"
 #include "fit/settle.h"
 
@@ -16,11 +17,11 @@ namespace palpate::fit {
 namespace {
 
 struct Points {
-  std::vector<double> x;  // from the origin, over their range
-  std::vector<double> y;  // over its largest size
-  double x_scale = 1.0;
-  double y_scale = 1.0;
-  double least_gap = 1.0;  // of neighbouring x, over the range
+  std::vector<double> x;   // minus x_origin, divided by x_scale
+  std::vector<double> y;   // divided by y_scale
+  double x_scale = 1.0;    // range of x
+  double y_scale = 1.0;    // largest |y|
+  double least_gap = 1.0;  // smallest distance of two scaled x
 };
 
 Points usable(std::span<const double> x, std::span<const double> y, int needed, Fit& fit) {
@@ -36,11 +37,11 @@ Points usable(std::span<const double> x, std::span<const double> y, int needed, 
   fit.left_out = static_cast<int>(x.size()) - fit.n;
   if (fit.n < needed)
     throw InputError({}, "the model `" + fit.name + "` needs at least " + std::to_string(needed) +
-                             " points for as many terms, and " + std::to_string(fit.n) +
+                             " points for this number of terms, and " + std::to_string(fit.n) +
                              (fit.n == 1 ? " is" : " are") +
                              " usable; record more points, or give fewer `--terms`");
   if (fit.range_low == fit.range_high)
-    throw InputError({}, "all points stand at one x; give a curve over time");
+    throw InputError({}, "all points have the same x; give a curve over time");
   points.x_scale = fit.range_high - fit.range_low;
   double largest = 0.0;
   for (const double each : points.y) largest = std::max(largest, std::abs(each));
@@ -55,7 +56,7 @@ Points usable(std::span<const double> x, std::span<const double> y, int needed, 
   return points;
 }
 
-// phi_k(x) and, over ln tau, its slope.
+// phi_k(x) and d phi_k / d ln tau, docs/theory.md (92).
 struct Term {
   double value, slope;
 };
@@ -67,19 +68,19 @@ Term term(PronySeries::Kind kind, double x, double tau) {
   return {-std::expm1(-x / tau), -slope};
 }
 
-// The linear fit for given times: constant and heights, with its sum of squares.
+// The linear fit for given times: constant and factors y_k, with its sum of squares.
 struct Linear {
   Eigen::VectorXd heights;
   double squares = std::numeric_limits<double>::infinity();
 };
 Linear linear(const Points& points, PronySeries::Kind kind, std::span<const double> times) {
-  // A few hundred points choose as well as many thousand.
+  // At most 400 points suffice to choose the start.
   const std::size_t stride = 1 + points.x.size() / 400;
   const auto rows = static_cast<Eigen::Index>((points.x.size() + stride - 1) / stride);
   Eigen::MatrixXd matrix(rows, static_cast<Eigen::Index>(times.size()) + 1);
   Eigen::VectorXd target(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const std::size_t from = static_cast<std::size_t>(i) * stride;
+    const std::size_t from = as_index(i) * stride;
     matrix(i, 0) = 1.0;
     target(i) = points.y[from];
     for (std::size_t k = 0; k < times.size(); ++k)
@@ -93,7 +94,7 @@ Linear linear(const Points& points, PronySeries::Kind kind, std::span<const doub
   return found;
 }
 
-// Times from the least gap of the points to three ranges, as a geometric row.
+// Geometrically spaced times, from the smallest distance of two points to three times the range.
 std::vector<double> grid(const Points& points) {
   constexpr int count = 12;
   const double low = std::log(std::max(points.least_gap, 1e-5));
@@ -103,8 +104,8 @@ std::vector<double> grid(const Points& points) {
   return times;
 }
 
-// The best of all choices of `terms` different times; unknowns in the order of the search:
-// constant, then height and ln tau of each term.
+// The best combination of `terms` different times of the grid. Returns the unknowns of the search:
+// the constant, then y_k and ln tau_k of each term.
 std::vector<double> start_of(const Points& points, const PronySeries& series) {
   const std::vector<double> times = grid(points);
   std::vector<char> chosen(times.size(), 0);
@@ -127,7 +128,7 @@ std::vector<double> start_of(const Points& points, const PronySeries& series) {
   return best;
 }
 
-// The terms by rising tau: where the search has passed one by the other, they are exchanged.
+// Sorts the terms by increasing tau; the search may have changed their order.
 void sort_terms(Minimum& minimum) {
   const std::size_t count = minimum.parameters.size();
   std::vector<std::size_t> terms(count / 2);
@@ -149,7 +150,7 @@ void sort_terms(Minimum& minimum) {
   }
 }
 
-// From ln tau to tau: d tau = tau d ln tau.
+// Converts ln tau to tau, with d tau = tau d ln tau for the errors.
 void times_of(Minimum& minimum) {
   const std::size_t count = minimum.parameters.size();
   for (std::size_t i = 2; i < count; i += 2) {

@@ -1,4 +1,4 @@
-// Relaxation and creep by a sum of exponentials, as many as are asked for.
+// Fits relaxation and creep with a sum of exponentials (Prony series).
 #pragma once
 
 #include <span>
@@ -16,9 +16,9 @@ struct PronySeries {
   int terms = 2;  // 1 to 5
 };
 
-// Least squares as by regress(). Parameters: y_inf (or y_0), then y_k and tau_k > 0 by rising tau.
-// Intervals are Student's, of tau by its slope. Throws InputError where fewer than 2 terms + 2
-// points are usable.
+// Least squares as in regress(). Parameters: y_inf (or y_0), then y_k and tau_k > 0 in the order of
+// increasing tau. Intervals are Student's, that of tau from the error of ln tau, docs/theory.md
+// (92). Throws InputError for fewer than 2 * terms + 2 usable points, or if all x are equal.
 [[nodiscard]] Fit fit_prony(std::span<const double> x, std::span<const double> y,
                             const PronySeries& series, const Options& options = {});
 

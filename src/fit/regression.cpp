@@ -1,4 +1,4 @@
-// Which points are used, where the search begins, and what its result is worth.
+// Selects the usable points, starts the search, and computes the errors of its result.
 #include "fit/regression.h"
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 namespace palpate::fit {
 namespace {
 
-// The points that can be used; y is divided by its largest size.
+// The usable points.
 struct Points {
-  std::vector<double> x;  // from the origin
-  std::vector<double> y;
-  double y_scale = 1.0;
+  std::vector<double> x;  // minus x_origin
+  std::vector<double> y;  // divided by y_scale
+  double y_scale = 1.0;   // largest |y|
 };
 
 Points usable(std::span<const double> x, std::span<const double> y, const Options& options,
@@ -32,7 +32,7 @@ Points usable(std::span<const double> x, std::span<const double> y, const Option
     points.x.push_back(from_origin);
     points.y.push_back(y[i]);
     largest = std::max(largest, std::abs(y[i]));
-    fit.range_low = std::fmin(fit.range_low, x[i]);  // fmin passes over the NaN that it starts from
+    fit.range_low = std::fmin(fit.range_low, x[i]);  // fmin ignores the initial NaN
     fit.range_high = std::fmax(fit.range_high, x[i]);
   }
   if (largest > 0.0) points.y_scale = largest;
@@ -55,7 +55,7 @@ void refuse_too_few(const Fit& fit) {
   throw InputError({}, message + "; record more points, or fit a model with fewer parameters");
 }
 
-// 1 - SSE / SST, both of the scaled y.
+// 1 - SSE / SST about the mean, both of the scaled y; NaN if y is constant.
 double r_squared(std::span<const double> y, double squares) {
   double mean = 0.0;
   for (const double each : y) mean += each;
@@ -65,7 +65,7 @@ double r_squared(std::span<const double> y, double squares) {
   return total > 0.0 ? 1.0 - squares / total : Estimate::unknown;
 }
 
-// From (J^T J)^-1 to standard errors and intervals; `scale` is each parameter's share of y_scale.
+// From (J^T J)^-1: covariance, standard errors and intervals. `scale` is Scaling::parameters.
 void set_errors(Fit& fit, const Minimum& minimum, std::span<const double> scale) {
   const std::size_t count = fit.parameters.size();
   const double degrees = fit.n - static_cast<double>(count);
@@ -135,12 +135,6 @@ Fit regress(std::span<const double> x, std::span<const double> y, Model model,
   const Minimum minimum = minimise(points.x, points.y, model, *start, options.max_iterations);
   settle(fit, minimum, {points.y, points.y_scale, scale});
   return fit;
-}
-
-double value(const Fit& fit, double x) {
-  std::vector<double> parameters;
-  for (const Estimate& parameter : fit.parameters) parameters.push_back(parameter.estimate);
-  return value(fit.model, parameters, x - fit.x_origin);
 }
 
 }  // namespace palpate::fit

@@ -1,4 +1,4 @@
-// What a least-squares minimum says of its parameters, whatever the curve.
+// Computes estimates, errors and R^2 of any fit from its least-squares minimum.
 #pragma once
 
 #include <span>
@@ -8,16 +8,15 @@
 
 namespace palpate::fit {
 
-// How a search was scaled.
+// How the data and unknowns of a search were scaled.
 struct Scaling {
-  std::span<const double> y;           // of the search, of order one
-  double y_scale = 1.0;                // the fit's rmse over the search's
-  std::span<const double> parameters;  // each parameter over its unknown of the search
+  std::span<const double> y;           // scaled, of order one
+  double y_scale = 1.0;                // unscaled y divided by scaled y
+  std::span<const double> parameters;  // each parameter divided by its unknown in the search
 };
 
-// A minimum into a fit whose n and parameters' names are set: how it ended, estimates, rmse, R^2
-// (1 - SSE / SST about the mean; NaN where y is constant), and, where it converged, the covariance
-// (J^T J)^-1 SSE / (n - p) with Student's 95 % intervals.
+// Completes a fit whose n and parameters' names are set: termination, estimates, rmse, R^2 and, if
+// it has converged, the covariance (J^T J)^-1 SSE / (n - p) and Student's 95 % intervals.
 void settle(Fit& fit, const Minimum& minimum, const Scaling& scaling);
 
 }  // namespace palpate::fit

@@ -1,4 +1,4 @@
-// The incomplete beta function by its continued fraction; the quantile by Newton's method.
+// The distribution by a continued fraction of the beta function, its quantile by Newton's method.
 #include "fit/student.h"
 
 #include <cassert>
@@ -9,9 +9,9 @@
 namespace palpate::fit {
 namespace {
 
-// I_x(a, b) for x < (a + 1) / (a + b + 2), where the fraction converges fast:
+// Regularised incomplete beta function for x < (a + 1) / (a + b + 2), where this converges fast:
 // I_x(a, b) = x^a (1-x)^b / (a B(a, b)) / (1 + d1/(1 + d2/(1 + ...)))       DLMF 8.17.22
-// evaluated from the front by Lentz's method (Thompson and Barnett 1986).
+// The fraction is evaluated by Lentz's method (Thompson and Barnett 1986).
 double beta_fraction(double x, double a, double b) {
   constexpr double tiny = 1e-300;
   double c = 1.0;
@@ -64,8 +64,7 @@ double student_t_quantile(double probability, double degrees) {
   assert(probability > 0.0 && probability < 1.0 && degrees >= 1.0);
   if (probability < 0.5) return -student_t_quantile(1.0 - probability, degrees);
   const double tail = 1.0 - probability;
-  // The tail falls and is convex for t >= 0, so that Newton's steps from 0 rise to the root and
-  // never pass it.
+  // The tail decreases and is convex for t >= 0, so that Newton's steps from 0 never pass the root.
   double t = 0.0;
   for (int i = 0; i < 1000; ++i) {
     const double step = (upper_tail(t, degrees) - tail) / density(t, degrees);

@@ -1,4 +1,4 @@
-// Inside and outside by the solid angle of a surface; near and far by its triangles.
+// Decides inside and outside by the solid angle of a surface, and distances by its triangles.
 #include "geometry/body.h"
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 namespace palpate::geometry {
 namespace {
 
-// A triangle's solid angle from the origin (Van Oosterom & Strackee 1983), summed: 4 pi inside.
+// Sums the triangles' solid angles from the point (Van Oosterom & Strackee 1983): 4 pi inside.
 bool encloses(const Surface& surface, const Vec3& point) {
   double half_angles = 0.0;
   for (const auto& triangle : surface.triangles) {
-    const Vec3 a = surface.vertices[static_cast<std::size_t>(triangle[0])] - point;
-    const Vec3 b = surface.vertices[static_cast<std::size_t>(triangle[1])] - point;
-    const Vec3 c = surface.vertices[static_cast<std::size_t>(triangle[2])] - point;
+    const Vec3 a = surface.vertices[as_index(triangle[0])] - point;
+    const Vec3 b = surface.vertices[as_index(triangle[1])] - point;
+    const Vec3 c = surface.vertices[as_index(triangle[2])] - point;
     const double la = a.norm();
     const double lb = b.norm();
     const double lc = c.norm();
@@ -74,7 +74,7 @@ Surface facets(const Body& body) {
       number.push_back(entry->second);
     }
     for (std::array<int, 3> triangle : part.surface.triangles) {
-      for (int& corner : triangle) corner = number[static_cast<std::size_t>(corner)];
+      for (int& corner : triangle) corner = number[as_index(corner)];
       std::array<int, 3> key = triangle;
       std::sort(key.begin(), key.end());
       if (known.insert(key).second) all.triangles.push_back(triangle);

@@ -1,4 +1,4 @@
-// A body of one or several tissues: closed surfaces inside each other.
+// A body of one or several tissues: closed surfaces, some inside others.
 #pragma once
 
 #include <optional>
@@ -8,34 +8,34 @@
 
 namespace palpate::geometry {
 
-// What a closed surface encloses, less the parts that follow it.
+// The volume inside a closed surface, without the later parts inside it.
 struct Part {
   Surface surface;
   int region = 0;
 };
 
-// The first part is the whole body; a later one takes its inside from those before it. Parts may
-// share faces where their vertices agree bit for bit, but may not cross.
+// The first part is the whole body; a later part replaces the earlier ones inside its surface.
+// Parts may share faces if their vertices are bitwise equal, but their surfaces must not intersect.
 struct Body {
   std::vector<Part> parts;
 };
 
-// A ball of another tissue.
+// A spherical inclusion.
 struct Lump {
   Vec3 centre = Vec3::Zero();  // m
   double radius = 0.0;         // m
   int region = 0;
 };
 
-// Adds a lump as the body's last part, its surface sampled at `spacing` (m) or at 0.8 of its radius
-// where that is less. Lumps may be nested, the outer one first.
-// Throws MeshError where it is not wholly inside the body, or cuts another part.
+// Adds a lump as the body's last part. Its surface has edges of about `spacing` (m), at most 0.8 of
+// its radius. Nested lumps are added from the outside inwards. Throws MeshError if the lump is not
+// wholly inside the body, or touches the surface of another part.
 void add_lump(Body& body, const Lump& lump, double spacing);
 
-// All facets of the body, each once: what TetGen takes.
+// All triangles of the body's surfaces, shared ones only once: the input for TetGen.
 [[nodiscard]] Surface facets(const Body& body);
 
-// The region of a point that lies on no facet; nothing outside the body.
+// The region of a point that is not on a surface; empty outside the body.
 [[nodiscard]] std::optional<int> region_at(const Body& body, const Vec3& point);
 
 }  // namespace palpate::geometry

@@ -1,4 +1,4 @@
-// Lattice points are numbered as the sides meet them; edges and corners only once.
+// Builds the six sides of a box; points on common edges and corners are numbered only once.
 #include "geometry/box_surface.h"
 
 #include <map>
@@ -18,7 +18,7 @@ Surface box_surface(const Vec3& size, const std::array<int, 3>& cells) {
   };
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const bool far : {false, true}) {
-      // (u, v, axis) is right-handed, so u then v runs counter-clockwise seen from the far side.
+      // (u, v, axis) is right-handed: u, then v is counter-clockwise seen from the far side.
       const std::size_t u = (axis + 1) % 3;
       const std::size_t v = (axis + 2) % 3;
       for (int i = 0; i < cells[u]; ++i)
@@ -31,7 +31,7 @@ Surface box_surface(const Vec3& size, const std::array<int, 3>& cells) {
             at[v] = j + (c >= 2 ? 1 : 0);
             ring[far ? c : 3 - c] = number(at);
           }
-          const std::size_t start = static_cast<std::size_t>(i + j) % 2;
+          const std::size_t start = as_index(i + j) % 2;
           const auto corner = [&](std::size_t c) { return ring[(start + c) % 4]; };
           surface.triangles.push_back({corner(0), corner(1), corner(2)});
           surface.triangles.push_back({corner(0), corner(2), corner(3)});

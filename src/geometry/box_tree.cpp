@@ -1,4 +1,4 @@
-// Median splits along the longest side; leaves of a few triangles.
+// Builds and searches the tree: boxes are split at the median of their longest side.
 #include "geometry/box_tree.h"
 
 #include <algorithm>
@@ -57,9 +57,7 @@ BoxTree::BoxTree(const Surface& surface)
   std::iota(order_.begin(), order_.end(), 0);
   std::vector<Vec3> centres;
   for (const auto& [a, b, c] : triangles_)
-    centres.push_back((vertices_[static_cast<std::size_t>(a)] +
-                       vertices_[static_cast<std::size_t>(b)] +
-                       vertices_[static_cast<std::size_t>(c)]) /
+    centres.push_back((vertices_[as_index(a)] + vertices_[as_index(b)] + vertices_[as_index(c)]) /
                       3.0);
   boxes_.emplace_back();
   split(0, 0, static_cast<int>(order_.size()), centres);
@@ -67,9 +65,9 @@ BoxTree::BoxTree(const Surface& surface)
 }
 
 void BoxTree::split(int box, int first, int count, const std::vector<Vec3>& centres) {
-  const auto at = [&](int i) -> const Vec3& { return centres[static_cast<std::size_t>(i)]; };
-  boxes_[static_cast<std::size_t>(box)].first = first;
-  boxes_[static_cast<std::size_t>(box)].count = count;
+  const auto at = [&](int i) -> const Vec3& { return centres[as_index(i)]; };
+  boxes_[as_index(box)].first = first;
+  boxes_[as_index(box)].count = count;
   if (count <= most_in_leaf) return;
   const auto begin = order_.begin() + first;
   Vec3 low = at(*begin);
@@ -85,8 +83,8 @@ void BoxTree::split(int box, int first, int count, const std::vector<Vec3>& cent
     return at(a)[axis] != at(b)[axis] ? at(a)[axis] < at(b)[axis] : a < b;
   });
   const int left = static_cast<int>(boxes_.size());
-  boxes_[static_cast<std::size_t>(box)].first = left;
-  boxes_[static_cast<std::size_t>(box)].count = 0;
+  boxes_[as_index(box)].first = left;
+  boxes_[as_index(box)].count = 0;
   boxes_.resize(boxes_.size() + 2);
   split(left, first, half, centres);
   split(left + 1, first + half, count - half, centres);
@@ -94,8 +92,8 @@ void BoxTree::split(int box, int first, int count, const std::vector<Vec3>& cent
 
 void BoxTree::fit(Box& box) const {
   if (box.count == 0) {
-    const Box& left = boxes_[static_cast<std::size_t>(box.first)];
-    const Box& right = boxes_[static_cast<std::size_t>(box.first) + 1];
+    const Box& left = boxes_[as_index(box.first)];
+    const Box& right = boxes_[as_index(box.first) + 1];
     box.low = left.low.cwiseMin(right.low);
     box.high = left.high.cwiseMax(right.high);
     return;
@@ -104,10 +102,9 @@ void BoxTree::fit(Box& box) const {
   box.low = Vec3::Constant(most);
   box.high = Vec3::Constant(-most);
   for (int i = 0; i < box.count; ++i)
-    for (const int v :
-         triangles_[static_cast<std::size_t>(order_[static_cast<std::size_t>(box.first + i)])]) {
-      box.low = box.low.cwiseMin(vertices_[static_cast<std::size_t>(v)]);
-      box.high = box.high.cwiseMax(vertices_[static_cast<std::size_t>(v)]);
+    for (const int v : triangles_[as_index(order_[as_index(box.first + i)])]) {
+      box.low = box.low.cwiseMin(vertices_[as_index(v)]);
+      box.high = box.high.cwiseMax(vertices_[as_index(v)]);
     }
 }
 
@@ -117,10 +114,10 @@ void BoxTree::refit(std::span<const Vec3> vertices) {
 }
 
 Near BoxTree::near(const Vec3& point, int triangle) const {
-  const auto& [i, j, k] = triangles_[static_cast<std::size_t>(triangle)];
-  const Vec3& a = vertices_[static_cast<std::size_t>(i)];
-  const Vec3& b = vertices_[static_cast<std::size_t>(j)];
-  const Vec3& c = vertices_[static_cast<std::size_t>(k)];
+  const auto& [i, j, k] = triangles_[as_index(triangle)];
+  const Vec3& a = vertices_[as_index(i)];
+  const Vec3& b = vertices_[as_index(j)];
+  const Vec3& c = vertices_[as_index(k)];
   Near near{
       .distance_squared = 0.0, .triangle = triangle, .weights = nearest_weights(point, a, b, c)};
   near.distance_squared =
@@ -134,17 +131,16 @@ void BoxTree::within(const Vec3& point, double radius, std::vector<Near>& found)
   std::array<int, 64> stack;  // the tree is balanced: its depth is below 32
   int waiting = 0;
   stack[0] = 0;
-  for (int next = 0; next >= 0;
-       next = waiting > 0 ? stack[static_cast<std::size_t>(--waiting)] : -1) {
-    const Box& box = boxes_[static_cast<std::size_t>(next)];
+  for (int next = 0; next >= 0; next = waiting > 0 ? stack[as_index(--waiting)] : -1) {
+    const Box& box = boxes_[as_index(next)];
     if (box_distance_squared(point, box.low, box.high) > most) continue;
     if (box.count == 0) {
-      stack[static_cast<std::size_t>(waiting++)] = box.first + 1;
-      stack[static_cast<std::size_t>(waiting++)] = box.first;
+      stack[as_index(waiting++)] = box.first + 1;
+      stack[as_index(waiting++)] = box.first;
       continue;
     }
     for (int i = 0; i < box.count; ++i) {
-      const Near one = near(point, order_[static_cast<std::size_t>(box.first + i)]);
+      const Near one = near(point, order_[as_index(box.first + i)]);
       if (one.distance_squared <= most) found.push_back(one);
     }
   }
@@ -156,22 +152,21 @@ Near BoxTree::nearest(const Vec3& point) const {
   Near best{.distance_squared = std::numeric_limits<double>::infinity()};
   std::array<int, 64> stack;
   int waiting = 0;
-  for (int next = 0; next >= 0;
-       next = waiting > 0 ? stack[static_cast<std::size_t>(--waiting)] : -1) {
-    const Box& box = boxes_[static_cast<std::size_t>(next)];
+  for (int next = 0; next >= 0; next = waiting > 0 ? stack[as_index(--waiting)] : -1) {
+    const Box& box = boxes_[as_index(next)];
     if (box_distance_squared(point, box.low, box.high) > best.distance_squared) continue;
     if (box.count == 0) {
       const auto far = [&](int child) {
-        const Box& one = boxes_[static_cast<std::size_t>(child)];
+        const Box& one = boxes_[as_index(child)];
         return box_distance_squared(point, one.low, one.high);
       };
       const bool left_first = far(box.first) <= far(box.first + 1);
-      stack[static_cast<std::size_t>(waiting++)] = box.first + (left_first ? 1 : 0);
-      stack[static_cast<std::size_t>(waiting++)] = box.first + (left_first ? 0 : 1);
+      stack[as_index(waiting++)] = box.first + (left_first ? 1 : 0);
+      stack[as_index(waiting++)] = box.first + (left_first ? 0 : 1);
       continue;
     }
     for (int i = 0; i < box.count; ++i) {
-      const Near one = near(point, order_[static_cast<std::size_t>(box.first + i)]);
+      const Near one = near(point, order_[as_index(box.first + i)]);
       if (one.distance_squared < best.distance_squared ||
           (one.distance_squared == best.distance_squared && one.triangle < best.triangle))
         best = one;

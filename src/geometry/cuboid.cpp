@@ -1,4 +1,4 @@
-// Nodes on a lattice; in each cell one walk along its edges for each order of the axes.
+// Places nodes on a lattice, and cuts each cell into one tetrahedron for each order of the axes.
 #include "geometry/cuboid.h"
 
 #include <algorithm>
@@ -46,8 +46,8 @@ void refuse_too_many(const Triple& cells) {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-// The q above 1 with q^count = target. By halves and products alone: pow() differs between
-// processors, and the places of nodes reach every number of a run.
+// The q above 1 with q^count = target. It is computed by bisection and multiplications, because
+// pow() differs between processors and the nodes' positions affect every result.
 double root(int count, double target) {
   double low = 1.0;
   double high = target;
@@ -59,9 +59,10 @@ double root(int count, double target) {
   return high;
 }
 
-// Where `count` cells end that reach a `length` (m) together, from their finest end. Cells that are
-// as long as sqrt(1 + d^2 / core^2) says at the distance d end at d_i = core sinh(i theta):
+// The ends of `count` cells that cover a `length` (m) together, from the finest end on. Cells with
+// lengths proportional to sqrt(1 + d^2 / core^2) at the distance d end at d_i = core sinh(i theta):
 //   d_i = length (q^i - q^-i) / (q^count - q^-count),  (q^count - q^-count) / 2 = length / core
+//                                                                             docs/theory.md (73)
 std::vector<double> growing(double length, int count, double core) {
   const double steepness = length / core;
   const double target = steepness + std::sqrt(1.0 + steepness * steepness);
@@ -76,16 +77,17 @@ std::vector<double> growing(double length, int count, double core) {
   return ends;
 }
 
-// The cells' ends along an axis of length `size` (m), from 0.
+// The cell borders along an axis of length `size` (m), from 0.
 std::vector<double> borders(double size, int cells, double core, double finest) {
   std::vector<double> all{0.0};
   if (core == endless) {
-    // i / n first, so that the last node lies exactly at `size`.
+    // i / n is computed first, so that the last node is exactly at `size`.
     for (int i = 1; i <= cells; ++i) all.push_back(size * (static_cast<double>(i) / cells));
     return all;
   }
-  // Both sides get cells as they hold of the integral of 1 / sqrt(1 + d^2 / core^2); nothing but a
-  // whole number remains of the logarithms. A side too short for one begins the other.
+  // The cells are divided between both sides of `finest` in proportion to the integral of 1 /
+  // sqrt(1 + d^2 / core^2). Only a whole number depends on the logarithms. If a side is too short
+  // for a cell, the other side starts at its end.
   const double density = std::asinh(finest / core);
   const double share = density / (density + std::asinh((size - finest) / core));
   const int count = static_cast<int>(std::lround(share * cells));
@@ -93,7 +95,7 @@ std::vector<double> borders(double size, int cells, double core, double finest) 
   if (count == cells) finest = size;
   if (count > 0) {
     const std::vector<double> down = growing(finest, count, core);
-    for (int i = count - 2; i >= 0; --i) all.push_back(finest - down[static_cast<std::size_t>(i)]);
+    for (int i = count - 2; i >= 0; --i) all.push_back(finest - down[as_index(i)]);
     all.push_back(finest);
   }
   if (count < cells) {
@@ -103,12 +105,12 @@ std::vector<double> borders(double size, int cells, double core, double finest) 
   return all;
 }
 
-// Moves the nearest border to every level; the first and the last stay.
+// Moves the nearest inner border to every level.
 void end_at(std::span<const double> levels, std::vector<double>& borders) {
   if (levels.size() + 2 > borders.size())
     throw MeshError("a box of " + std::to_string(borders.size() - 1) +
-                    " cells in height cannot end some at " + std::to_string(levels.size()) +
-                    " heights; ask for more cells");
+                    " cells in height cannot have cell borders at " +
+                    std::to_string(levels.size()) + " given heights; ask for more cells");
   std::size_t next = 1;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const std::size_t last = borders.size() - 1 - (levels.size() - i);
@@ -120,7 +122,7 @@ void end_at(std::span<const double> levels, std::vector<double>& borders) {
   }
 }
 
-// The walk from the cell's start corner to the opposite one, one axis after the other.
+// The path along the cell's edges from its start corner to the opposite one, one axis at a time.
 std::array<int, 4> path_tetrahedron(const Lattice& lattice, const Triple& cell,
                                     const std::array<bool, 3>& reflected, const AxisOrder& order) {
   Triple at = cell;
@@ -132,7 +134,7 @@ std::array<int, 4> path_tetrahedron(const Lattice& lattice, const Triple& cell,
     }
   std::array<int, 4> corner{lattice.node(at), 0, 0, 0};
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<std::size_t>(order.axes[i]);
+    const auto axis = as_index(order.axes[i]);
     at[axis] += reflected[axis] ? -1 : 1;
     corner[i + 1] = lattice.node(at);
   }
@@ -151,7 +153,7 @@ TetMesh cuboid(const Vec3& size, const Triple& cells, CellPattern pattern, const
   assert(grading.ratio >= 1.0);
   const Vec3 finest = grading.finest.cwiseMax(0.0).cwiseMin(size);
   const double farthest = finest.cwiseMax(size - finest).maxCoeff();
-  // sqrt(1 + d^2 / core^2) is the ratio at the farthest end.
+  // sqrt(1 + d^2 / core^2) equals the ratio at the farthest end.
   const double core = grading.ratio == 1.0
                           ? endless
                           : farthest / std::sqrt((grading.ratio - 1.0) * (grading.ratio + 1.0));

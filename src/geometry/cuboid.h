@@ -1,4 +1,4 @@
-// A box cut into regular cells of six tetrahedra each.
+// A lattice: a box of cells, each cut into six tetrahedra.
 #pragma once
 
 #include <array>
@@ -8,29 +8,29 @@
 
 namespace palpate::geometry {
 
-// How the cells' space diagonals lie.
+// Directions of the cells' space diagonals.
 enum class CellPattern {
-  kuhn,      // all alike, from a cell's lowest corner to its highest
-  mirrored,  // reflected along an axis in that axis's every second cell ("Union Jack")
+  kuhn,      // all from a cell's lowest corner to its highest
+  mirrored,  // reflected along each axis in every second cell ("Union Jack")
 };
 
-// Where the cells of a box are small: at `finest` (m, in the box) and, alike, around it; from there
-// they are ever longer, at last in geometric growth, and `ratio` (at least 1) times as long at the
-// farthest end of an axis. With 1 all cells are alike, wherever `finest` is. More cells divide the
-// same course of sizes: meshes of one grading are one family.
+// Grading of the cell size. Cells are smallest at `finest` (m, in the box); from there they grow
+// along each axis, eventually geometrically, to `ratio` (at least 1) times that size at the
+// farthest end of an axis. With 1 all cells are equal. A larger number of cells divides the same
+// size function, so that the meshes of one grading form one family.
+// docs/theory.md (73)
 struct Grading {
   double ratio = 1.0;
   Vec3 finest = Vec3::Zero();
 };
 
-// A box with one corner in the origin and z upwards. `size` in m, each above 0; `cells` along x, y
-// and z, each at least 1. Every cell becomes the six path tetrahedra 000 -> ... -> 111, one for
-// each order of the axes (Kuhn 1960; Freudenthal 1942), so that neighbours share whole faces.
-// Nodes are numbered x fastest, then y, then z. With `mirrored` and even counts the mesh is its
-// own mirror image in the box's three middle planes; a graded one in those that hold `finest`.
-// At every height of `levels` (m, rising, inside the box) cells end: the nearest border moves
-// there. Throws MeshError where the tetrahedra cannot be counted in an int, and where there are
-// fewer borders than levels.
+// A box from the origin to `size` (m, each above 0), with `cells` along x, y and z, each at least
+// 1. Every cell becomes the six path tetrahedra 000 -> ... -> 111, one for each order of the axes
+// (Kuhn 1960; Freudenthal 1942), so that neighbouring cells share whole faces. Nodes are numbered x
+// fastest, then y, then z. With `mirrored` and even counts the mesh is symmetric about the three
+// middle planes of the box (if graded, about the planes through `finest`). At every height of
+// `levels` (m, ascending, inside the box) the nearest cell border is moved to that height. Throws
+// MeshError if there are more tetrahedra than an int can count, or fewer inner borders than levels.
 [[nodiscard]] TetMesh cuboid(const Vec3& size, const std::array<int, 3>& cells, CellPattern pattern,
                              const Grading& grading = {}, std::span<const double> levels = {});
 

@@ -1,4 +1,4 @@
-// Principal values in a tangent plane, and curvature between vertices.
+// Computes principal curvatures in a tangent plane, and curvatures between vertices.
 #include "geometry/curvature.h"
 
 #include <cmath>
@@ -24,7 +24,7 @@ std::string_view explanation(StarStatus status) {
 }
 
 std::array<Vec3, 2> tangent_axes(const Vec3& normal) {
-  // The axis that is farthest from the normal; of equal ones the first.
+  // The coordinate axis with the largest angle to the normal; the first of equal ones.
   int axis = 0;
   for (int i = 1; i < 3; ++i)
     if (std::abs(normal[i]) < std::abs(normal[axis])) axis = i;
@@ -38,7 +38,7 @@ Curvature principal(const Vec3& normal, const std::array<double, 3>& matrix) {
   const double mean = 0.5 * (xx + yy);
   const double half = 0.5 * (xx - yy);
   const double radius = std::sqrt(half * half + xy * xy);
-  // The eigenvector of mean + radius, in the form that does not cancel.
+  // The eigenvector of the eigenvalue mean + radius, in the form without cancellation.
   double x = half >= 0.0 ? half + radius : xy;
   double y = half >= 0.0 ? xy : radius - half;
   const double length = std::sqrt(x * x + y * y);
@@ -83,12 +83,12 @@ Curvature between(const std::array<Curvature, 3>& corners, const std::array<doub
 }
 
 CurvatureEstimate CurvatureStars::at_vertex(const Surface& now, int vertex, int triangle) const {
-  const int first = side_starts_[static_cast<std::size_t>(vertex)];
-  const int last = side_starts_[static_cast<std::size_t>(vertex) + 1];
+  const int first = side_starts_[as_index(vertex)];
+  const int last = side_starts_[as_index(vertex) + 1];
   if (first == last) return {};
   if (triangle >= 0) {
-    for (const int side : corners_[static_cast<std::size_t>(triangle)])
-      if (vertex_[static_cast<std::size_t>(side)] == vertex) return at_side(now, side);
+    for (const int side : corners_[as_index(triangle)])
+      if (vertex_[as_index(side)] == vertex) return at_side(now, side);
   }
   if (last - first > 1) return {.status = StarStatus::on_crease, .curvature = {}};
   return at_side(now, first);
@@ -97,8 +97,7 @@ CurvatureEstimate CurvatureStars::at_vertex(const Surface& now, int vertex, int 
 std::array<CurvatureEstimate, 3> CurvatureStars::at_corners(const Surface& now,
                                                             int triangle) const {
   std::array<CurvatureEstimate, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i)
-    corners[i] = at_side(now, corners_[static_cast<std::size_t>(triangle)][i]);
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = at_side(now, corners_[as_index(triangle)][i]);
   return corners;
 }
 
@@ -120,7 +119,7 @@ CurvatureEstimate between(const std::array<CurvatureEstimate, 3>& corners,
     left[i] = corners[i].known() ? weights[i] : 0.0;
     sum += left[i];
   }
-  // All of the point's weight is on corners that tell nothing: any of the others must do.
+  // All weight is on corners without an estimate; the others are then used with equal weights.
   if (sum <= 0.0) left = {1.0, 1.0, 1.0};
   for (double& weight : left) weight /= sum > 0.0 ? sum : 3.0;
   all.curvature = between(curvatures, left);

@@ -1,4 +1,4 @@
-// Principal curvatures of a triangulated surface, at rest or deformed: at vertices and between.
+// Principal curvatures of a triangulated surface, undeformed or deformed, at and between vertices.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,53 +24,53 @@ struct Curvature {
 // kappa_1 t_1 t_1^T + kappa_2 t_2 t_2^T, 1/m.                                docs/theory.md (19)
 [[nodiscard]] Eigen::Matrix3d shape_tensor(const Curvature& curvature);
 
-// How well a vertex's neighbours tell its curvature.
+// How well a vertex's neighbours determine its curvature.
 enum class StarStatus {
   full,        // neighbours all around
-  one_sided,   // cut by a boundary or a crease, but enough is left: first order only
-  on_crease,   // the vertex belongs to several smooth sides and no triangle says which is meant
+  one_sided,   // cut by a boundary or a crease; enough neighbours remain, first-order accuracy only
+  on_crease,   // the vertex belongs to several smooth sides, and no triangle selects one of them
   too_few,     // fewer neighbours than the fit has unknowns, or none
-  degenerate,  // neighbours on one or two lines, at one place, or not finite
+  degenerate,  // neighbours on one or two lines, coincident, or not finite
 };
 [[nodiscard]] std::string_view explanation(StarStatus status);
 
 struct CurvatureEstimate {
   StarStatus status = StarStatus::too_few;
-  Curvature curvature;  // where `known`
+  Curvature curvature;  // valid if known()
   [[nodiscard]] bool known() const {
     return status == StarStatus::full || status == StarStatus::one_sided;
   }
 };
 
 enum class CurvatureMethod {
-  quadric,  // a quadric through the vertex, fitted to its neighbours: second order
-  taubin,   // normal voting, Chen 2007 eq. (6)-(9), signed: for comparison, does not converge
-  taubin_unsigned,  // as printed: the arccos of eq. (9) makes hollow surfaces convex
+  quadric,  // quadric through the vertex, fitted to its neighbours: second order
+  taubin,   // normal voting, Chen 2007 eq. (6)-(9), with sign: for comparison, does not converge
+  taubin_unsigned,  // as printed: with the arccos of eq. (9), concave surfaces become convex
 };
 
 struct CurvatureOptions {
   CurvatureMethod method = CurvatureMethod::quadric;
-  int rings = 2;                                          // neighbours up to so many edges away
-  double crease_angle = 40.0 * std::numbers::pi / 180.0;  // rad: sharper edges part the surface
+  int rings = 2;  // neighbours up to this number of edges away
+  double crease_angle = 40.0 * std::numbers::pi / 180.0;  // rad: sharper edges are creases
 };
 
-// Who takes part at which vertex is settled on the surface at rest, so that it does not jump while
-// the surface moves; positions and normals are those of the surface that is asked about.
+// Neighbourhoods (stars) for curvature estimates. The neighbours of each vertex are chosen on the
+// undeformed surface, so that they stay the same; positions and normals are those of `now`.
 class CurvatureStars {
  public:
   CurvatureStars(const Surface& rest, const Neighbours& neighbours,
                  const CurvatureOptions& options = {});
 
-  // The curvature of `now`, which has the triangles of the surface at rest, at a vertex. A vertex
-  // on a crease needs one of its triangles to say which side is meant. Does not allocate.
+  // The curvature of `now`, which has the triangles of the undeformed surface, at a vertex. For a
+  // vertex on a crease, one of its triangles selects the side. Allocates nothing.
   [[nodiscard]] CurvatureEstimate at_vertex(const Surface& now, int vertex,
                                             int triangle = -1) const;
 
-  // At the corners of a triangle, on its side of any crease.
+  // The curvatures at the corners of a triangle, on its side of any crease.
   [[nodiscard]] std::array<CurvatureEstimate, 3> at_corners(const Surface& now, int triangle) const;
 
  private:
-  // A side is a vertex together with those of its triangles that hang together without a crease.
+  // A side is a vertex with a set of its triangles that are connected without a crease.
   [[nodiscard]] CurvatureEstimate at_side(const Surface& now, int side) const;
   [[nodiscard]] CurvatureEstimate quadric(const Surface& now, int side) const;
   [[nodiscard]] CurvatureEstimate taubin(const Surface& now, int side) const;
@@ -78,12 +78,12 @@ class CurvatureStars {
   [[nodiscard]] std::span<const int> triangles_of(int side) const;
   [[nodiscard]] std::span<const int> star_of(int side) const;
   [[nodiscard]] const Vec3& position(const Surface& now, int side) const {
-    return now.vertices[static_cast<std::size_t>(vertex_[static_cast<std::size_t>(side)])];
+    return now.vertices[as_index(vertex_[as_index(side)])];
   }
   [[nodiscard]] StarStatus status_of(int side) const {
-    return cut_[static_cast<std::size_t>(side)] != 0 ? StarStatus::one_sided : StarStatus::full;
+    return cut_[as_index(side)] != 0 ? StarStatus::one_sided : StarStatus::full;
   }
-  // The neighbours' root mean square distance, m.
+  // Root mean square distance of the neighbours, m.
   [[nodiscard]] double spread(const Surface& now, int side) const;
   [[nodiscard]] bool bears_cubic(const Surface& rest, int side) const;
   void part_at_creases(const Surface& rest, const Neighbours& neighbours, double crease_angle);
@@ -91,33 +91,33 @@ class CurvatureStars {
 
   CurvatureMethod method_;
   std::vector<std::array<int, 3>> corners_;       // of each triangle, as sides
-  std::vector<int> side_starts_;                  // the sides of vertex v from side_starts_[v]
+  std::vector<int> side_starts_;                  // sides of vertex v: from side_starts_[v]
   std::vector<int> vertex_;                       // of each side
   std::vector<int> triangle_starts_, triangles_;  // of each side, ascending
   std::vector<int> star_starts_, stars_;          // the neighbours of each side, ascending
-  std::vector<char> cut_;                         // of each side: is its star one-sided?
-  std::vector<char> cubic_;                       // of each side: does its star bear cubic terms?
+  std::vector<char> cut_;                         // per side: the star is one-sided
+  std::vector<char> cubic_;                       // per side: the star determines cubic terms
 };
 
-// The mean of three tensors, each turned by the shortest way to the mean normal: continuous as a
-// point moves over the surface, exact on a sphere.                            docs/theory.md (22)
+// The weighted mean of three shape tensors, each rotated by the shortest rotation to the mean
+// normal: continuous over the surface, and exact on a sphere.                  docs/theory.md (22)
 [[nodiscard]] Curvature between(const std::array<Curvature, 3>& corners,
                                 const std::array<double, 3>& weights);
 
-// The same curvature in another tangent plane, turned there by the shortest way. `normal` is of
-// unit length and not opposite to the old one.
+// The curvature rotated to another tangent plane by the shortest rotation. `normal` is a unit
+// vector and not opposite to the old normal.
 [[nodiscard]] Curvature turned_to(const Curvature& curvature, const Vec3& normal);
 
-// The same of estimates: corners that tell nothing leave their part to the others, and the answer
-// is then as doubtful as the worst of them; refused only where none tells anything.
+// The mean of estimates. Corners without an estimate leave their weight to the others, and the
+// result is then marked as one_sided; it has no curvature only if no corner has one.
 [[nodiscard]] CurvatureEstimate between(const std::array<CurvatureEstimate, 3>& corners,
                                         const std::array<double, 3>& weights);
 
-// The symmetric matrix (xx, xy, yy) in the tangent plane of a unit normal, in the axes that
-// `tangent_axes` gives, by its principal values.
+// The principal curvatures of a symmetric matrix (xx, xy, yy) in the tangent plane of a unit
+// normal, with the axes of `tangent_axes`.
 [[nodiscard]] Curvature principal(const Vec3& normal, const std::array<double, 3>& matrix);
 
-// Two unit vectors that make a right-handed frame with a unit normal; they follow from it alone.
+// Two unit vectors that form a right-handed frame with a unit normal and depend only on it.
 [[nodiscard]] std::array<Vec3, 2> tangent_axes(const Vec3& normal);
 
 }  // namespace palpate::geometry

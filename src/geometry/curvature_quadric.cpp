@@ -1,4 +1,4 @@
-// Curvature by a quadric through the vertex, fitted by least squares to its neighbours.
+// Computes curvature from a quadric through the vertex, fitted to its neighbours by least squares.
 #include <cmath>
 #include <optional>
 
@@ -7,8 +7,9 @@
 namespace palpate::geometry {
 namespace {
 
-// A pivot below this share of its column counts as zero: neighbours' errors would come back more
-// than a hundredfold. The cubic terms only serve the accuracy and must pay less for it.
+// A pivot below this fraction of its diagonal entry counts as zero: it would amplify the
+// neighbours' errors more than a hundredfold. Cubic terms only add accuracy: their limit is
+// stricter.
 constexpr double smallest_pivot = 1e-4;
 constexpr double smallest_cubic_pivot = 3e-3;
 
@@ -24,13 +25,13 @@ class Fit {
     }
   }
 
-  // By L D L^T. Empty where a pivot is too small, or not a number.
+  // Solves by L D L^T. Empty if a pivot is too small or not a number.
   std::optional<std::array<double, n>> solve(double least_pivot) {
     std::array<double, n> inverse{};  // of D
     for (std::size_t j = 0; j < n; ++j) {
       double pivot = matrix_[j][j];
       for (std::size_t k = 0; k < j; ++k) {
-        const double scaled = matrix_[j][k];  // rows hold L D until their turn comes, then L
+        const double scaled = matrix_[j][k];  // rows contain L D until they are processed, then L
         matrix_[j][k] *= inverse[k];
         pivot -= matrix_[j][k] * scaled;
       }
@@ -60,7 +61,8 @@ std::array<double, n> terms(double x, double y) {
     return {x, y, 0.5 * x * x, x * y, 0.5 * y * y, x * x * x, x * x * y, x * y * y, y * y * y};
 }
 
-// The coefficients of `terms`, lengths in units of `length`. `offset(i)` is neighbour i's place.
+// The coefficients of `terms` with lengths in units of `length`. `offset(i)` is neighbour i's
+// position relative to the vertex, m.
 template <std::size_t n, class Offset>
 std::optional<std::array<double, n>> fit(std::size_t count, const Offset& offset,
                                          const Vec3& normal, double length, double least_pivot) {
@@ -72,10 +74,11 @@ std::optional<std::array<double, n>> fit(std::size_t count, const Offset& offset
     const double x = d.dot(axis_x);
     const double y = d.dot(axis_y);
     const double z = d.dot(normal);
-    // The circle that touches the plane in the vertex and goes through the neighbour has the
-    // radius (r^2 + z^2) / (2 z), so that z r^2/(r^2 + z^2) is the height of its parabola: on a
-    // sphere exact, where z itself has terms of fourth order. Near neighbours count more, for
-    // what the fit leaves out is smaller there.                            docs/theory.md (20)
+    // The circle that touches the plane at the vertex and passes through the neighbour has the
+    // radius (r^2 + z^2) / (2 z). z r^2/(r^2 + z^2) is the height of the parabola with this
+    // curvature; with it the fit is exact on a sphere, where z itself has terms of fourth order.
+    // Near neighbours weigh more: there, omitted terms are smaller.
+    // docs/theory.md (20)
     const double square = x * x + y * y;
     const double distance = square + z * z;
     fit.add(terms<n>(x, y), z * square / distance, 1.0 / distance);
@@ -83,7 +86,7 @@ std::optional<std::array<double, n>> fit(std::size_t count, const Offset& offset
   return fit.solve(least_pivot);
 }
 
-// The unit normal of a plane that rises by `x` and `y` along the axes of `normal`.
+// The unit normal of a plane with the slopes `x` and `y` along the axes of `normal`.
 Vec3 tilted(const Vec3& normal, double x, double y) {
   const auto [axis_x, axis_y] = tangent_axes(normal);
   return (normal - x * axis_x - y * axis_y).normalized();
@@ -108,13 +111,13 @@ CurvatureEstimate CurvatureStars::quadric(const Surface& now, int side) const {
   const auto offset = [&](std::size_t i) -> Vec3 { return position(now, star[i]) - origin; };
   CurvatureEstimate degenerate{.status = StarStatus::degenerate, .curvature = {}};
   const double length = spread(now, side);
-  // The normal of the triangles is good enough to see the slope by; then once more.
+  // A first fit with the triangles' normal gives the slope, and with it the normal for the second.
   Vec3 normal = this->normal(now, side).normalized();
   const auto slope = fit<5>(star.size(), offset, normal, length, smallest_pivot);
   if (!slope) return degenerate;
   normal = tilted(normal, (*slope)[0], (*slope)[1]);
-  // Outwards is up, so that a convex surface curves down. The slope that is left is small enough
-  // for the formula of a level vertex; the normal takes it in.
+  // The height is positive outwards, so that a convex surface curves down. The remaining slope is
+  // small enough for the formula without slope; it only corrects the normal.
   const auto answer = [&](double x, double y, const std::array<double, 3>& second) {
     const std::array<double, 3> matrix{-second[0] / length, -second[1] / length,
                                        -second[2] / length};
@@ -122,7 +125,7 @@ CurvatureEstimate CurvatureStars::quadric(const Surface& now, int side) const {
         .status = status_of(side),
         .curvature = turned_to(principal(normal, matrix), tilted(normal, x, y))};
   };
-  if (cubic_[static_cast<std::size_t>(side)] != 0) {
+  if (cubic_[as_index(side)] != 0) {
     const auto c = fit<9>(star.size(), offset, normal, length, smallest_pivot);
     return c ? answer((*c)[0], (*c)[1], {(*c)[2], (*c)[3], (*c)[4]}) : degenerate;
   }

@@ -1,30 +1,10 @@
-// Which neighbours take part at which vertex: rings that stop at boundaries and creases.
+// Chooses the neighbours of every vertex: rings that stop at boundaries and creases.
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/curvature.h"
 
 namespace palpate::geometry {
-namespace {
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));  // 0 where a triangle has no area
-}
-
-std::span<const int> list_of(const std::vector<int>& starts, const std::vector<int>& items,
-                             int index) {
-  const auto first = static_cast<std::size_t>(starts[static_cast<std::size_t>(index)]);
-  const auto last = static_cast<std::size_t>(starts[static_cast<std::size_t>(index) + 1]);
-  return std::span(items).subspan(first, last - first);
-}
-
-std::size_t corner_of(const std::array<int, 3>& triangle, int vertex) {
-  return static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), vertex) -
-                                  triangle.begin());
-}
-
-}  // namespace
-
 CurvatureStars::CurvatureStars(const Surface& rest, const Neighbours& neighbours,
                                const CurvatureOptions& options)
     : method_(options.method), corners_(rest.triangles.size(), {-1, -1, -1}) {
@@ -47,7 +27,7 @@ void CurvatureStars::part_at_creases(const Surface& rest, const Neighbours& neig
     side_starts_.push_back(static_cast<int>(vertex_.size()));
     for (const int start : neighbours.triangles_at(vertex)) {
       const auto corner = [&](int triangle) -> int& {
-        const auto t = static_cast<std::size_t>(triangle);
+        const auto t = as_index(triangle);
         return corners_[t][corner_of(rest.triangles[t], vertex)];
       };
       if (corner(start) >= 0) continue;
@@ -57,9 +37,8 @@ void CurvatureStars::part_at_creases(const Surface& rest, const Neighbours& neig
       waiting.assign(1, start);
       for (std::size_t i = 0; i < waiting.size(); ++i) {
         const int triangle = waiting[i];
-        const std::size_t at =
-            corner_of(rest.triangles[static_cast<std::size_t>(triangle)], vertex);
-        // The edges that end in the vertex: the one from it and the one to it.
+        const std::size_t at = corner_of(rest.triangles[as_index(triangle)], vertex);
+        // The two edges of the triangle that meet at the vertex.
         for (const std::size_t edge : {at, (at + 2) % 3}) {
           const int other = neighbours.across(triangle)[edge];
           if (!joined(triangle, other) || corner(other) >= 0) continue;
@@ -76,7 +55,7 @@ void CurvatureStars::part_at_creases(const Surface& rest, const Neighbours& neig
 }
 
 void CurvatureStars::collect_stars(int rings) {
-  // Parted at its creases the surface has them as boundaries.
+  // A copy of the surface that is cut along its creases, which thereby become boundaries.
   Surface parted;
   parted.vertices.resize(vertex_.size());
   parted.triangles = corners_;
@@ -91,8 +70,8 @@ void CurvatureStars::collect_stars(int rings) {
     const auto look_around = [&](int from) {
       cut = cut || neighbours.on_boundary(from);
       for (const int next : neighbours.vertices_at(from)) {
-        if (seen_from[static_cast<std::size_t>(next)] == side) continue;
-        seen_from[static_cast<std::size_t>(next)] = side;
+        if (seen_from[as_index(next)] == side) continue;
+        seen_from[as_index(next)] = side;
         stars_.push_back(next);
       }
     };

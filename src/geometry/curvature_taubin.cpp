@@ -1,4 +1,4 @@
-// Curvature by the paper's vote of normals: Chen 2007 eq. (6)-(9), with the sign that they lose.
+// Computes curvature by the paper's voting of normals, Chen 2007 eq. (6)-(9), with its sign.
 #include <cmath>
 
 #include "geometry/curvature.h"
@@ -14,12 +14,12 @@ CurvatureEstimate CurvatureStars::taubin(const Surface& now, int side) const {
   for (const int other : star_of(side)) {
     const Vec3 d = position(now, other) - origin;
     const Vec3 tangent = (d - normal.dot(d) * normal).normalized();
-    // n_i: the neighbour's normal in the plane of N_p and T_i. Its angle from N_p, towards T_i, is
+    // n_i is the neighbour's normal in the plane of N_p and T_i. Its angle from N_p towards T_i is
     // positive where the surface is convex; the paper's arccos is always positive.
     const Vec3 other_normal = this->normal(now, other);
     double angle = std::atan2(other_normal.dot(tangent), other_normal.dot(normal));
     if (method_ == CurvatureMethod::taubin_unsigned) angle = std::abs(angle);
-    // The arc over the chord, exact on a sphere.
+    // Arc length divided by chord; exact on a sphere.
     const double half = 0.5 * angle;
     const double arc = d.norm() * (half != 0.0 ? half / std::sin(half) : 1.0);
     const double kappa = angle / arc;

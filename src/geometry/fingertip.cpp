@@ -1,4 +1,4 @@
-// Rings of vertices from the tip to the base, joined by triangles.
+// Builds the fingertip from rings of vertices, from the tip to the base.
 #include "geometry/fingertip.h"
 
 #include <cmath>
@@ -8,22 +8,22 @@
 namespace palpate::geometry {
 namespace {
 
-// In mm before scaling.
+// mm, before scaling.
 constexpr double half_breadth = 9.0;
 constexpr double nail_height = 8.0;  // above the axis
 constexpr double pad_depth = 7.0;    // below it
 constexpr double length = 26.0;
-constexpr double tip_length = 10.0;  // the rounded part of it
+constexpr double tip_length = 10.0;  // the rounded part of the length
 
-// Where a ring stands: `cosine` = 0 on the finger's body, 1 at the tip.
+// A ring: `cosine` is 0 on the finger's body and 1 at the tip.
 struct Ring {
   int count;
   double cosine;
   double x;  // mm
 };
 
-// Even counts have a vertex on the nail's line and on the pad's, so that the rings join without
-// breaking the mirror symmetry. The base's 15 makes the number of triangles odd:
+// Rings with an even count have vertices on the middle lines of nail and pad, so that the triangles
+// between them are mirror-symmetric. With the base's 15 the number of triangles is odd:
 // 2 (6 + 12 + 4 x 16) + 15 = 179.
 std::array<Ring, 7> rings() {
   const double half_root_3 = std::sqrt(3.0) / 2.0;
@@ -37,10 +37,10 @@ std::array<Ring, 7> rings() {
            {15, 0.0, 0.0}}};
 }
 
-// The vertex of a ring at `angle` from the pad's line, counter-clockwise seen from the tip.
+// The vertex of a ring at `angle` from the pad's middle line, counter-clockwise seen from the tip.
 Vec3 on_ring(const Ring& ring, double angle) {
-  // The outline from above and the nail side are ellipses, the pad side and the pad's line are
-  // |y|^4 + |z|^4 = 1 and |x|^4 + |z|^4 = 1, flatter.                 docs/theory.md (27)
+  // The outline from above and the nail side are ellipses. The pad side and the pad's middle line
+  // are flatter: |y|^4 + |z|^4 = 1 and |x|^4 + |z|^4 = 1. docs/theory.md (27)
   const double square = ring.cosine * ring.cosine;
   const double round = std::sqrt(1.0 - square);
   const double flat = std::sqrt(std::sqrt(1.0 - square * square));
@@ -51,8 +51,8 @@ Vec3 on_ring(const Ring& ring, double angle) {
   return {ring.x, half_breadth * round * right * reach, -pad_depth * flat * down * reach};
 }
 
-// Triangles between the ring of `inner` vertices from `inner_first` and the next one towards the
-// base. Joined from the pad's line upwards on one side, and so in the mirror on the other.
+// Triangles between a ring of `inner` vertices, starting at `inner_first`, and the next ring
+// towards the base, from the pad's middle line upwards on one side and mirrored on the other.
 void join(int inner_first, int inner, int outer_first, int outer, Surface& surface) {
   const auto add = [&](int a, int b, int c) { surface.triangles.push_back({a, b, c}); };
   const auto in = [&](int i) { return inner_first + (i + inner) % inner; };
@@ -60,7 +60,7 @@ void join(int inner_first, int inner, int outer_first, int outer, Surface& surfa
   int i = 0;
   int o = 0;
   while (i < inner / 2 || o < outer / 2) {
-    // The lower of both next vertices goes first; angles are 2 pi i / count.
+    // The next vertex with the smaller angle comes first; angles are 2 pi i / count.
     if (i < inner / 2 && (o == outer / 2 || (i + 1) * outer <= (o + 1) * inner)) {
       add(in(i), out(o), in(i + 1));
       add(in(-i), in(-i - 1), out(-o));
@@ -71,7 +71,7 @@ void join(int inner_first, int inner, int outer_first, int outer, Surface& surfa
       ++o;
     }
   }
-  if (outer % 2 != 0) add(in(i), out(o), out(o + 1));  // across the nail's line
+  if (outer % 2 != 0) add(in(i), out(o), out(o + 1));  // across the middle line of the nail
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ Surface fingertip(double volume) {
   for (const Ring& ring : rings()) {
     const int first = static_cast<int>(surface.vertices.size());
     for (int i = 0; i < ring.count; ++i) {
-      // The left half is the right half's mirror image, to the bit.
+      // The left half is the exact mirror image of the right half.
       const int right = i <= ring.count / 2 ? i : ring.count - i;
       Vec3 vertex = on_ring(ring, 2.0 * std::numbers::pi * right / ring.count);
       if (2 * right == ring.count) vertex.y() = 0.0;
@@ -112,7 +112,7 @@ Surface with_closed_base(const Surface& open) {
       const int from = open.triangles[t][i];
       const int to = open.triangles[t][(i + 1) % 3];
       closed.triangles.push_back({to, from, centre});
-      sum += open.vertices[static_cast<std::size_t>(from)];
+      sum += open.vertices[as_index(from)];
       ++count;
     }
   if (count > 0) closed.vertices.push_back(sum / count);

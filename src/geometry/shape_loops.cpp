@@ -1,6 +1,5 @@
-// Loops at equal arcs, turned by half a step from one to the next, a triangle's height apart.
-//
-// sin, cos and the arcs come from the C library: two libraries may differ in a vertex's last bit.
+// Builds surfaces from loops with equal arcs, each one triangle height above the last and shifted
+// by half an arc. sin, cos and arcs are those of the C library, and may differ in their last bit.
 #include "geometry/shape_loops.h"
 
 #include <algorithm>
@@ -13,16 +12,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double row_height = 0.8660254037844386;  // of an equilateral triangle of side 1
-// Two lengths that symmetry makes equal differ by rounding: the first one asked for then wins.
+// Lengths that are equal by symmetry may differ by rounding; then the first candidate is taken.
 constexpr double equal = 1.0 - 1e-9;
-// Of a round: beyond it a loop would meet the second half of one that runs back along itself.
+// Fraction of a loop: beyond it, a loop would be connected to the returning half of a double line.
 constexpr double farthest_ahead = 0.25;
 
 int count_of(double length, double spacing, int least) {
   return std::max(least, static_cast<int>(std::lround(length / spacing)));
 }
 
-// Numbers the points of a loop, one that occurs twice only once.
+// Numbers the points of a loop; a point that occurs twice gets a single number.
 std::vector<int> added(const Loop& loop, std::vector<Vec3>& vertices) {
   const std::size_t first = vertices.size();
   std::vector<int> numbers;
@@ -39,22 +38,20 @@ double share(double steps, std::size_t all) { return steps / static_cast<double>
 
 void stitch(const std::vector<int>& below, const std::vector<int>& above, Surface& surface) {
   const auto distance = [&](int a, int b) {
-    return (surface.vertices[static_cast<std::size_t>(a)] -
-            surface.vertices[static_cast<std::size_t>(b)])
-        .norm();
+    return (surface.vertices[as_index(a)] - surface.vertices[as_index(b)]).norm();
   };
   std::size_t start = 0;
   for (std::size_t j = 1; j < above.size(); ++j)
     if (distance(below[0], above[j]) < equal * distance(below[0], above[start])) start = j;
   const auto low = [&](std::size_t i) { return below[i % below.size()]; };
   const auto high = [&](std::size_t j) { return above[(start + j) % above.size()]; };
-  // A pole has no edge to walk along.
+  // A pole has no edges.
   const std::size_t low_steps = below.size() > 1 ? below.size() : 0;
   const std::size_t high_steps = above.size() > 1 ? above.size() : 0;
   for (std::size_t i = 0, j = 0; i < low_steps || j < high_steps;) {
     bool along_low = j == high_steps;
     if (i < low_steps && j < high_steps) {
-      // How far round the edges' middles would be ahead of the point across.
+      // The fractions of a loop by which the edges' midpoints would be ahead of the opposite point.
       const double low_ahead = share(i + 0.5, low_steps) - share(j, high_steps);
       const double high_ahead = share(j + 0.5, high_steps) - share(i, low_steps);
       along_low = high_ahead > farthest_ahead ||
@@ -75,7 +72,7 @@ double perimeter(const Section& section) {
   return 4.0 * section.straight + 2.0 * pi * section.radius;
 }
 
-// `arc` (m) from the middle below towards smaller x and up.
+// The point at the arc length `arc` (m) from the lowest point, towards smaller x and then upwards.
 Vec3 on_section(const Sweep& sweep, const Section& section, double y, double arc) {
   const double straight = 2.0 * section.straight;
   const double half_circle = pi * section.radius;
@@ -98,8 +95,8 @@ Vec3 on_section(const Sweep& sweep, const Section& section, double y, double arc
   return {sweep.x + section.straight - (arc - half_circle), y, sweep.z - section.radius};
 }
 
-// Half a step further in every second loop. A circle starts from its lowest point, a flat section
-// from its side, where the nearest point of its middle line is one that the line has only once.
+// Every second loop is shifted by half an arc. A circle starts at its lowest point; a flat section
+// starts at its side, where the nearest point of its double middle line occurs only once.
 Loop section_loop(const Sweep& sweep, const Section& section, double y, int count, int row) {
   const double around = perimeter(section);
   const double start = section.straight > 0.0 ? 0.25 * around : 0.0;
@@ -109,8 +106,8 @@ Loop section_loop(const Sweep& sweep, const Section& section, double y, int coun
   return loop;
 }
 
-// How many points go around a section at height y: the same from end to end where that keeps their
-// distance within a quarter of `spacing`, so that all triangles are alike; else as many as fit.
+// The number of points around a section at height y: the same from end to end if their distance
+// then stays within a quarter of `spacing`, so that triangles are alike; otherwise as many as fit.
 int count_around(const Sweep& sweep, std::size_t which, double y, double spacing) {
   constexpr int looks = 32;
   const auto& section = sweep.sections[which];
@@ -125,34 +122,41 @@ int count_around(const Sweep& sweep, std::size_t which, double y, double spacing
   return count_of(alike ? std::sqrt(least * most) : perimeter(section(y)), spacing, 6);
 }
 
-// The heights of a side's rows: each a triangle's height above the last, as wide as those are
-// there. An even or odd number as `like` is.
+// The parameters in [0, to] at which a sum reaches 0, 1/count, 2/count ... 1 of its last value.
+// `sums` are its values at the ends of equal parts of [0, to], ascending; it is linear in a part.
+std::vector<double> equal_parts(const std::vector<double>& sums, double to, int count) {
+  const std::size_t last = sums.size() - 1;
+  std::vector<double> parameters;
+  std::size_t end = 1;  // of the part that contains the wanted sum
+  for (int k = 0; k <= count; ++k) {
+    const double wanted = sums.back() * k / count;
+    while (end < last && sums[end] < wanted) ++end;
+    const double part = (wanted - sums[end - 1]) / (sums[end] - sums[end - 1]);
+    parameters.push_back(to * (static_cast<double>(end) - 1.0 + part) / static_cast<double>(last));
+  }
+  return parameters;
+}
+
+// The heights of a side's rows, one triangle height apart for triangles of the local width. The
+// number of rows is even or odd as `like` is.
 std::vector<double> row_heights(const Sweep& sweep, std::size_t which, double spacing,
                                 std::optional<int> like) {
   constexpr int slices = 1000;
-  std::vector<double> rows{0.0};  // how many fit up to each slice
+  std::vector<double> rows{0.0};  // number of rows up to each slice
   for (int i = 0; i < slices; ++i) {
     const double y = sweep.length * (i + 0.5) / slices;
     const double chord =
         perimeter(sweep.sections[which](y)) / count_around(sweep, which, y, spacing);
-    // Six points around a thin rod stand closer than asked; its triangles may be longer then.
+    // Six points around a thin rod are closer than `spacing`; its triangles may then be longer.
     const double width = chord < 0.7 * spacing ? std::min(spacing, 2.0 * chord) : chord;
     rows.push_back(rows.back() + sweep.length / slices / (row_height * width));
   }
   int count = count_of(rows.back(), 1.0, 1);
   if (like) count += (count - *like) % 2 != 0;
-  std::vector<double> heights;
-  std::size_t slice = 1;
-  for (int row = 0; row <= count; ++row) {
-    const double wanted = rows.back() * row / count;
-    while (slice < slices && rows[slice] < wanted) ++slice;
-    const double part = (wanted - rows[slice - 1]) / (rows[slice] - rows[slice - 1]);
-    heights.push_back(sweep.length * (static_cast<double>(slice) - 1.0 + part) / slices);
-  }
-  return heights;
+  return equal_parts(rows, sweep.length, count);
 }
 
-// The middle of an end face: a point, or a line there and back.
+// The middle of an end face: a point, or a line followed forth and back.
 Loop middle(const Sweep& sweep, double straight, double y, double spacing) {
   if (straight == 0.0) return {Vec3(sweep.x, y, sweep.z)};
   const int steps = count_of(2.0 * straight, spacing, 1);
@@ -165,8 +169,8 @@ Loop middle(const Sweep& sweep, double straight, double y, double spacing) {
   return loop;
 }
 
-// An end face from its middle outwards, up to the edge of the sweep's section `which`; all edges
-// are turned as `row` says. Between two edges the spacing changes evenly.
+// An end face from its middle outwards to the edge of section `which`. All edges are shifted
+// according to `row`. Between two edges the spacing changes linearly.
 std::vector<Loop> end_face(const Sweep& sweep, double y, std::size_t which, const Spacing& spacing,
                            int row) {
   const std::size_t last = sweep.sections.size() - 1;
@@ -183,15 +187,14 @@ std::vector<Loop> end_face(const Sweep& sweep, double y, std::size_t which, cons
       const int count = count_of(perimeter(within), from + part * (to - from), 6);
       loops.push_back(section_loop(sweep, within, y, count, row + rows - k));
     }
-    // The edge itself is the side's loop to the bit.
+    // The edge is bitwise equal to the loop of the side.
     loops.push_back(section_loop(sweep, edge, y, count_around(sweep, s, y, to), row));
     inner = edge.radius;
   }
   return loops;
 }
 
-// Parameters at the ends of `count` equal arcs of the curve (a sin t, b cos t) over [0, to]; by
-// 2000 chords.
+// Parameters t at the ends of `count` equal arcs of (a sin t, b cos t) over [0, to]; 2000 chords.
 std::vector<double> equal_arcs(double a, double b, double to, int count) {
   constexpr int chords = 2000;
   std::vector<double> arc{0.0};
@@ -200,18 +203,10 @@ std::vector<double> equal_arcs(double a, double b, double to, int count) {
     return Eigen::Vector2d(a * std::sin(t), b * std::cos(t));
   };
   for (int i = 1; i <= chords; ++i) arc.push_back(arc.back() + (at(i) - at(i - 1)).norm());
-  std::vector<double> angles;
-  std::size_t chord = 1;
-  for (int k = 0; k <= count; ++k) {
-    const double wanted = arc.back() * k / count;
-    while (chord < chords && arc[chord] < wanted) ++chord;
-    const double part = (wanted - arc[chord - 1]) / (arc[chord] - arc[chord - 1]);
-    angles.push_back(to * (static_cast<double>(chord) - 1.0 + part) / chords);
-  }
-  return angles;
+  return equal_parts(arc, to, count);
 }
 
-// Of an ellipse with these half axes (Ramanujan 1914: to 1e-4 even at 5 : 1).
+// Perimeter of an ellipse with these semi-axes (Ramanujan 1914; error 1e-4 even at 5 : 1).
 double ellipse_perimeter(double a, double b) {
   return pi * (3.0 * (a + b) - std::sqrt((3.0 * a + b) * (a + 3.0 * b)));
 }
@@ -234,13 +229,13 @@ std::vector<Surface> sweep_surfaces(const Sweep& sweep, const Spacing& spacing) 
   std::vector<Surface> surfaces;
   for (std::size_t which = 0; which < sweep.sections.size(); ++which) {
     const double edge = spacing.of(which);
-    // All sides meet the far end face turned alike.
+    // At the far end face the loops of all sides have the same shift.
     const std::vector<double> heights = row_heights(sweep, which, edge, rows_outside);
     const int rows = static_cast<int>(heights.size()) - 1;
     if (!rows_outside) rows_outside = rows;
     std::vector<Loop> loops = end_face(sweep, 0.0, which, spacing, 0);
     for (int row = 1; row < rows; ++row) {
-      const double y = heights[static_cast<std::size_t>(row)];
+      const double y = heights[as_index(row)];
       loops.push_back(section_loop(sweep, sweep.sections[which](y), y,
                                    count_around(sweep, which, y, edge), row));
     }
@@ -258,14 +253,14 @@ Surface ellipsoid_surface(const Vec3& centre, const Vec3& size, double spacing) 
   const std::vector<double> polar = equal_arcs(mean, half.z(), pi, rows);
   std::vector<Loop> loops{{centre - Vec3(0.0, 0.0, half.z())}};
   for (int row = 1; row < rows; ++row) {
-    const double wide = std::sin(polar[static_cast<std::size_t>(row)]);
-    const double height = -half.z() * std::cos(polar[static_cast<std::size_t>(row)]);
+    const double wide = std::sin(polar[as_index(row)]);
+    const double height = -half.z() * std::cos(polar[as_index(row)]);
     const int count = count_of(wide * ellipse_perimeter(half.x(), half.y()), spacing, 5);
-    // Twice as many arcs, of which every second is a vertex: the others are the next row's.
+    // Twice as many arcs; every second end is a vertex, the others are for the next row.
     const std::vector<double> around = equal_arcs(half.y(), half.x(), 2.0 * pi, 2 * count);
     Loop loop;
     for (int i = 0; i < count; ++i) {
-      const double angle = around[static_cast<std::size_t>(2 * i + row % 2)];
+      const double angle = around[as_index(2 * i + row % 2)];
       loop.push_back(centre + Vec3(wide * half.x() * std::cos(angle),
                                    wide * half.y() * std::sin(angle), height));
     }

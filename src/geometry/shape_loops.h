@@ -1,4 +1,4 @@
-// Closed surfaces from loops of points: every loop is stitched to the next with triangles.
+// Closed surfaces from loops of points that are connected by triangles.
 #pragma once
 
 #include <functional>
@@ -8,31 +8,31 @@
 
 namespace palpate::geometry {
 
-// Points around the surface, without a repeated last one. A single point is a pole; a loop that
-// runs along a line and back names the points between its ends twice.
+// Points around the surface; the first is not repeated at the end. A single point is a pole. A loop
+// that follows a line and returns contains the points between its ends twice.
 using Loop = std::vector<Vec3>;
 
-// The surface through `loops`, each joined to the next by the shorter of the two possible edges,
-// again and again. It closes where the first and last loops enclose nothing. The triangles look
-// outwards where, seen from outside with the sequence running upwards, every loop runs to the
-// right. Points that a loop names twice become one vertex.
+// The surface through `loops`. Between two loops, each next edge is the shorter one of two
+// candidates. The surface is closed if the first and last loops enclose no area. The triangles face
+// outwards if every loop runs to the right, seen from outside with the sequence of loops upwards.
+// Points that a loop contains twice become one vertex.
 [[nodiscard]] Surface stitched(const std::vector<Loop>& loops);
 
-// A cross-section normal to y: two half circles joined by straight lines along x, or a circle.
+// A cross-section normal to y: a circle, or two half circles connected by straight lines along x.
 struct Section {
-  double straight = 0.0;  // m, half the length of a straight line
+  double straight = 0.0;  // m, half the length of each straight line
   double radius = 0.0;    // m, of the half circles
 };
 
-// A body along y from 0 to `length` with flat ends: its section at each height y, and those of
-// what lies inside it from end to end, outermost first; each lies within the one before.
+// A body along y from 0 to `length` with flat ends: its section as a function of the height y, then
+// those of the bodies inside it, which extend from end to end, from the outside inwards.
 struct Sweep {
   double length;  // m
-  double x, z;    // m, where all sections have their middles
+  double x, z;    // m, the middle of all sections
   std::vector<std::function<Section(double)>> sections;
 };
 
-// How long edges are, about, in m: on a body's outer surface and on those inside it.
+// Approximate edge lengths, m: on a body's outer surface and on those inside it.
 struct Spacing {
   double outer;
   double inner;
@@ -40,12 +40,12 @@ struct Spacing {
   [[nodiscard]] double of(std::size_t surface) const { return surface == 0 ? outer : inner; }
 };
 
-// One closed surface for each of the sweep's sections, its edges about `spacing` long, but with at
-// least six vertices around. Every vertex of a side lies on it exactly. Where two of the
-// surfaces share an end face, they have its vertices and triangles in common, bit for bit.
+// One closed surface for each of the sweep's sections, with edges of about `spacing`, but at least
+// six vertices around. Every vertex of a side is exactly on it. Where two surfaces share an end
+// face, their vertices and triangles there are bitwise equal.
 [[nodiscard]] std::vector<Surface> sweep_surfaces(const Sweep& sweep, const Spacing& spacing);
 
-// An ellipsoid with these full axes (m) about `centre`, a vertex at each end of the axis along z.
+// An ellipsoid with full axes `size` and edges of about `spacing` (m); two vertices end its z axis.
 [[nodiscard]] Surface ellipsoid_surface(const Vec3& centre, const Vec3& size, double spacing);
 
 }  // namespace palpate::geometry

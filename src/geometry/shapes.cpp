@@ -1,4 +1,4 @@
-// Every shape as loops of points, or as a box; its profile along y where it has one.
+// Samples every shape as loops of points or as a box.
 #include "geometry/shapes.h"
 
 #include <algorithm>
@@ -15,9 +15,10 @@
 namespace palpate::geometry {
 namespace {
 
-constexpr double ligament_ends = 1.2;  // their width and thickness over the middle's: assumed
+constexpr double ligament_ends =
+    1.2;  // width and thickness of the ends divided by those of the middle: assumed
 
-// 0 in the middle of a length, 1 at both ends.
+// 0 in the middle of the length, 1 at both ends.
 double towards_ends(double y, double length) {
   const double part = 2.0 * (y / length) - 1.0;
   return part * part;
@@ -35,7 +36,7 @@ struct Sampler {
   Body operator()(const Cuboid& cuboid) const {
     std::array<int, 3> cells{};
     for (int axis = 0; axis < 3; ++axis)
-      cells[static_cast<std::size_t>(axis)] =
+      cells[as_index(axis)] =
           std::max(1, static_cast<int>(std::lround(cuboid.size[axis] / spacing.outer)));
     return one_part(box_surface(cuboid.size, cells));
   }
@@ -94,7 +95,7 @@ struct Sampler {
       sweep.sections.push_back([=](double) { return Section{0.0, limb.bone_radius}; });
       regions.push_back(2);
     }
-    // A chord h of a circle of radius R lies h^2 / (8 R) within it: at most half of what is there.
+    // A chord h of a circle of radius R is at most h^2 / (8 R) inside it: half of the thickness.
     const auto chord = [](double radius, double thickness) {
       return 2.0 * std::sqrt(radius * thickness);
     };

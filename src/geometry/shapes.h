@@ -1,4 +1,4 @@
-// The bodies that a scenario can name instead of a file, and their surfaces.
+// The shapes that a scenario can name instead of a file, and their surfaces.
 #pragma once
 
 #include <variant>
@@ -8,13 +8,13 @@
 
 namespace palpate::geometry {
 
-// All lengths in m. Every shape's bounding box begins at the origin.
+// All lengths are in m. The bounding box of every shape starts at the origin.
 
 struct Cuboid {
   Vec3 size{0.060, 0.060, 0.030};
 };
 
-// Lies along y: its lowest line is at z = 0.
+// Its axis is along y, its lowest line at z = 0.
 struct Cylinder {
   double radius = 0.030;
   double length = 0.080;
@@ -26,8 +26,8 @@ struct Ellipsoid {
   Vec3 size{0.154, 0.199, 0.230};
 };
 
-// A strap along y with rounded edges, a fifth wider and thicker at its ends than in the middle.
-// The default is a patellar ligament: 44 mm long (Exp Ther Med 2013; 5: 917, men of 15 to 24), 27
+// A strap along y with rounded edges, a fifth wider and thicker at its ends than in the middle. The
+// default is a patellar ligament: 44 mm long (Exp Ther Med 2013; 5: 917, men of 15 to 24), 27 mm
 // wide in the middle (Knee 2019, 32 specimens), thickness assumed.
 struct Ligament {
   double length = 0.044;
@@ -42,9 +42,9 @@ struct BoneShaft {
   double end_radius = 0.022;
 };
 
-// The upper leg: round along y, slightly tapered, with a bone in its axis and a skin all around.
-// Regions: 0 skin with the fat under it, 1 muscle, 2 bone; all run through to the flat end faces.
-// A thickness or bone radius of 0 leaves that region out.
+// The upper leg: circular sections along y, slightly tapered, with a bone on its axis and skin all
+// around. Regions: 0 skin with the fat under it, 1 muscle, 2 bone; all extend to the flat end
+// faces. A region with thickness or radius 0 is left out.
 struct LayeredLimb {
   double length = 0.350;
   double radius = 0.090;      // at y = 0
@@ -55,12 +55,12 @@ struct LayeredLimb {
 
 using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb>;
 
-// The shape's closed surfaces, sampled with edges of about `spacing`. The vertices lie on the
-// shape, so what they enclose is a little less than it where it is round. Throws MeshError for a
-// limb whose bone and skin leave no muscle.
+// The shape's closed surfaces with edges of about `spacing`. The vertices are on the shape, so that
+// the enclosed volume is slightly too small where the shape is round. Throws MeshError for a limb
+// whose bone and skin leave no room for muscle.
 [[nodiscard]] Body sampled(const Shape& shape, const Spacing& spacing);
 
-// What the shape's bounding box measures along x, y and z.
+// The size of the shape's bounding box along x, y and z, m.
 [[nodiscard]] Vec3 extent(const Shape& shape);
 
 }  // namespace palpate::geometry

@@ -1,4 +1,4 @@
-// Corner normals that stop at creases, and Newton's method for the foot of a perpendicular.
+// Computes corner normals up to creases, and feet of perpendiculars by Newton's method.
 #include "geometry/smooth_surface.h"
 
 #include <Eigen/LU>
@@ -9,10 +9,10 @@
 namespace palpate::geometry {
 namespace {
 
-// The edge that a move of the weights from inside meets first, and after which part of it.
+// The edge through which a change of the weights first leaves the triangle, and at which fraction.
 struct Exit {
   double part = 1.0;
-  int edge = -1;  // opposite to the corner whose weight vanished; -1: stays inside
+  int edge = -1;  // opposite to the corner whose weight became zero; -1: stays inside
 };
 
 Exit first_exit(const Vec3& weights, const Vec3& move) {
@@ -23,12 +23,6 @@ Exit first_exit(const Vec3& weights, const Vec3& move) {
     if (part < exit.part) exit = {part, (corner + 1) % 3};
   }
   return exit;
-}
-
-std::size_t corner_of(const Surface& surface, int triangle, int vertex) {
-  const auto& corners = surface.triangles[static_cast<std::size_t>(triangle)];
-  return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) -
-                                  corners.begin());
 }
 
 }  // namespace
@@ -58,33 +52,27 @@ void SmoothSurface::find_normals() {
   for (std::size_t t = 0; t < normals_.size(); ++t) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const int vertex = surface_.triangles[t][corner];
-      // The fan around the vertex, as far as no crease parts it from this triangle.
+      // The triangles around the vertex that no crease separates from this triangle.
       std::vector<int> fan{static_cast<int>(t)};
       for (std::size_t i = 0; i < fan.size(); ++i)
         for (std::size_t edge = 0; edge < 3; ++edge) {
-          const auto& corners = surface_.triangles[static_cast<std::size_t>(fan[i])];
+          const auto& corners = surface_.triangles[as_index(fan[i])];
           if (crease(fan[i], edge) ||
               (corners[edge] != vertex && corners[(edge + 1) % 3] != vertex))
             continue;
           const int next = neighbours_.across(fan[i])[edge];
           if (std::find(fan.begin(), fan.end(), next) == fan.end()) fan.push_back(next);
         }
-      std::sort(fan.begin(), fan.end());  // the sum must not depend on where the walk began
+      std::sort(fan.begin(), fan.end());  // the sum must not depend on the start triangle
       Vec3 sum = Vec3::Zero();
       for (const int triangle : fan) {
-        const auto& corners = surface_.triangles[static_cast<std::size_t>(triangle)];
-        const std::size_t here = corner_of(surface_, triangle, vertex);
-        const auto point = [&](std::size_t i) -> const Vec3& {
-          return surface_.vertices[static_cast<std::size_t>(corners[i % 3])];
-        };
-        const Vec3 left = point(here + 1) - point(here);
-        const Vec3 right = point(here + 2) - point(here);
-        const double angle = std::atan2(left.cross(right).norm(), left.dot(right));
-        sum += angle * twice_area(surface_, triangle).normalized();
+        const auto& corners = surface_.triangles[as_index(triangle)];
+        sum += corner_angle(surface_, triangle, corner_of(corners, vertex)) *
+               twice_area(surface_, triangle).normalized();
       }
       normals_[t][corner] = sum.normalized();
     }
-    // A flat part keeps its triangle's own normal to the last bit.
+    // On a flat part the normal is bitwise equal to that of the triangle.
     const Vec3 own = twice_area(surface_, static_cast<int>(t)).normalized();
     for (Vec3& normal : normals_[t])
       if ((normal - own).norm() < 1e-12) normal = own;
@@ -92,11 +80,11 @@ void SmoothSurface::find_normals() {
 }
 
 Vec3 SmoothSurface::flat_position(const SurfacePoint& point) const {
-  const auto& [a, b, c] = surface_.triangles[static_cast<std::size_t>(point.triangle)];
-  // Not the sum of three parts: on a flat at z the weights' rounding must leave z alone.
-  const Vec3& origin = surface_.vertices[static_cast<std::size_t>(a)];
-  return origin + point.weights[1] * (surface_.vertices[static_cast<std::size_t>(b)] - origin) +
-         point.weights[2] * (surface_.vertices[static_cast<std::size_t>(c)] - origin);
+  const auto& [a, b, c] = surface_.triangles[as_index(point.triangle)];
+  // Not the sum of three products: on a flat at height z, rounding of the weights must not alter z.
+  const Vec3& origin = surface_.vertices[as_index(a)];
+  return origin + point.weights[1] * (surface_.vertices[as_index(b)] - origin) +
+         point.weights[2] * (surface_.vertices[as_index(c)] - origin);
 }
 
 Vec3 SmoothSurface::position(const SurfacePoint& point) const {
@@ -104,9 +92,9 @@ Vec3 SmoothSurface::position(const SurfacePoint& point) const {
   const Vec3 flat = flat_position(point);
   Vec3 smooth = flat;
   for (std::size_t i = 0; i < 3; ++i) {
-    const int vertex = surface_.triangles[static_cast<std::size_t>(point.triangle)][i];
+    const int vertex = surface_.triangles[as_index(point.triangle)][i];
     const Vec3& normal = corner_normal(point.triangle, i);
-    const double rise = (surface_.vertices[static_cast<std::size_t>(vertex)] - flat).dot(normal);
+    const double rise = (surface_.vertices[as_index(vertex)] - flat).dot(normal);
     smooth += 0.5 * point.weights[static_cast<Eigen::Index>(i)] * rise * normal;
   }
   return smooth;
@@ -128,15 +116,14 @@ SmoothSurface::Foot SmoothSurface::at(const Vec3& point, const SurfacePoint& whe
   return foot;
 }
 
-// Tells outside from inside at a nearest point, also on edges sharper than a right angle, where the
-// triangles' own normals do not: Baerentzen & Aanaes 2005.
+// The normal that decides between outside and inside at a nearest point. The triangles' normals
+// fail for this at edges sharper than a right angle: Baerentzen & Aanaes 2005.
 Vec3 SmoothSurface::pseudo_normal(const SurfacePoint& point) const {
   constexpr double rounding = 1e-12;
   Vec3 sum = twice_area(surface_, point.triangle).normalized();
   for (std::size_t i = 0; i < 3; ++i) {
     if (point.weights[static_cast<Eigen::Index>(i)] >= 1.0 - rounding)
-      return vertex_normals_[static_cast<std::size_t>(
-          surface_.triangles[static_cast<std::size_t>(point.triangle)][i])];
+      return vertex_normals_[as_index(surface_.triangles[as_index(point.triangle)][i])];
     const int other = neighbours_.across(point.triangle)[i];
     if (point.weights[static_cast<Eigen::Index>((i + 2) % 3)] <= rounding && other >= 0)
       sum += twice_area(surface_, other).normalized();
@@ -152,7 +139,7 @@ SmoothSurface::Foot SmoothSurface::flat_foot(const Vec3& point, const Near& star
   const Vec3 away = point - foot.position;
   const double distance = away.norm();
   foot.height = away.dot(pseudo_normal(foot.at)) < 0.0 ? -distance : distance;
-  // Beside an edge the perpendicular leans; in its plane it is the triangle's own.
+  // The perpendicular to an edge is inclined; above the triangle it is the triangle's normal.
   if (distance > 0.0 && foot.height > 0.0) foot.normal = away / distance;
   for (std::size_t edge = 0; edge < 3; ++edge)
     if (crease(start.triangle, edge) &&
@@ -172,23 +159,24 @@ struct SmoothSurface::Crease {
   [[nodiscard]] std::size_t count() const { return sides[1] < 0 ? 1 : 2; }
 };
 
-// The curve bulges from the edge as both its sides do: each of them moves the edge by s (1 - s) / 2
-// times a vector, of which the curve has what is along that side's normal.  docs/theory.md (17)
+// The crease's curve. Each of the two sides displaces the edge by s (1 - s) / 2 times a vector; the
+// curve has the components of both vectors along the normals of their sides.  docs/theory.md (17)
 SmoothSurface::Crease SmoothSurface::nearest_on_crease(const Vec3& point, int triangle,
                                                        std::size_t edge, double start) const {
-  const auto& corners = surface_.triangles[static_cast<std::size_t>(triangle)];
+  const auto& corners = surface_.triangles[as_index(triangle)];
   Crease crease;
   crease.ends = {corners[edge], corners[(edge + 1) % 3]};
   crease.sides = {triangle, neighbours_.across(triangle)[edge]};
   crease.s = start;
-  const Vec3& from = surface_.vertices[static_cast<std::size_t>(crease.ends[0])];
-  const Vec3 side = surface_.vertices[static_cast<std::size_t>(crease.ends[1])] - from;
+  const Vec3& from = surface_.vertices[as_index(crease.ends[0])];
+  const Vec3 side = surface_.vertices[as_index(crease.ends[1])] - from;
   std::array<Vec3, 2> middle;
   std::array<double, 2> rise{};
   for (std::size_t k = 0; k < crease.count(); ++k) {
     for (std::size_t end = 0; end < 2; ++end)
       crease.normals[k][end] =
-          corner_normal(crease.sides[k], corner_of(surface_, crease.sides[k], crease.ends[end]));
+          corner_normal(crease.sides[k],
+                        corner_of(surface_.triangles[as_index(crease.sides[k])], crease.ends[end]));
     const auto& [n0, n1] = crease.normals[k];
     middle[k] = (n0 + n1).normalized();
     rise[k] = middle[k].dot(side.dot(n1) * n1 - side.dot(n0) * n0);
@@ -197,7 +185,7 @@ SmoothSurface::Crease SmoothSurface::nearest_on_crease(const Vec3& point, int tr
   if (crease.count() == 2) {
     const double both = middle[0].dot(middle[1]);
     const double determinant = 1.0 - both * both;
-    bulge.setZero();  // on a knife's edge
+    bulge.setZero();  // the two sides are nearly folded onto each other
     if (determinant > 0.1)
       bulge = ((rise[0] - both * rise[1]) * middle[0] + (rise[1] - both * rise[0]) * middle[1]) /
               determinant;
@@ -220,12 +208,12 @@ SmoothSurface::Foot SmoothSurface::crease_foot(const Vec3& point, const SurfaceP
                                                std::size_t edge) const {
   Crease crease = nearest_on_crease(point, start.triangle, edge,
                                     start.weights[static_cast<Eigen::Index>((edge + 1) % 3)]);
-  // At an end the crease may go on along other edges.
+  // At an end, the crease may continue along other edges.
   if (crease.s == 0.0 || crease.s == 1.0) {
     const int vertex = crease.ends[crease.s == 0.0 ? 0 : 1];
     for (const int triangle : neighbours_.triangles_at(vertex))
       for (std::size_t i = 0; i < 3; ++i) {
-        const auto& corners = surface_.triangles[static_cast<std::size_t>(triangle)];
+        const auto& corners = surface_.triangles[as_index(triangle)];
         const bool begins = corners[i] == vertex;
         if (!this->crease(triangle, i) || (!begins && corners[(i + 1) % 3] != vertex)) continue;
         const Crease next = nearest_on_crease(point, triangle, i, begins ? 0.0 : 1.0);
@@ -234,22 +222,23 @@ SmoothSurface::Foot SmoothSurface::crease_foot(const Vec3& point, const SurfaceP
   }
   const double s = crease.s;
   const auto place = [&](int triangle) {
+    const auto& corners = surface_.triangles[as_index(triangle)];
     SurfacePoint at{triangle, Vec3::Zero()};
-    at.weights[static_cast<Eigen::Index>(corner_of(surface_, triangle, crease.ends[0]))] = 1.0 - s;
-    at.weights[static_cast<Eigen::Index>(corner_of(surface_, triangle, crease.ends[1]))] = s;
+    at.weights[static_cast<Eigen::Index>(corner_of(corners, crease.ends[0]))] = 1.0 - s;
+    at.weights[static_cast<Eigen::Index>(corner_of(corners, crease.ends[1]))] = s;
     return at;
   };
   Foot foot;
   foot.on_crease = true;
   foot.at = place(crease.sides[0]);
-  foot.position = flat_position(foot.at);  // where loads can be put
-  std::array<double, 2> past{};            // how far the point is past each side
+  foot.position = flat_position(foot.at);  // on the triangles, where loads can act
+  std::array<double, 2> past{};            // distance of the point beyond each side
   for (std::size_t k = 0; k < crease.count(); ++k) {
     const auto& [n0, n1] = crease.normals[k];
     const Vec3 normal = ((1.0 - s) * n0 + s * n1).normalized();
     past[k] = crease.away.dot(crease.along.cross(normal)) * (k == 0 ? 1.0 : -1.0);
     if (past[k] > 0.0 || s == 0.0 || s == 1.0) continue;
-    // Between edge and curve a side goes on for a little, as flat as it is there.
+    // Between the edge and the curve, the side is continued with its normal there.
     foot.at = place(crease.sides[k]);
     foot.normal = normal;
     foot.height = crease.away.dot(normal);
@@ -273,12 +262,10 @@ SmoothSurface::Foot SmoothSurface::foot(const Vec3& point, const Near& start) co
   SurfacePoint here{start.triangle, start.weights};
   int stuck = 0;
   for (int move_number = 0; move_number < most_moves; ++move_number) {
-    const auto& [a, b, c] = surface_.triangles[static_cast<std::size_t>(here.triangle)];
-    const Vec3 side_b = surface_.vertices[static_cast<std::size_t>(b)] -
-                        surface_.vertices[static_cast<std::size_t>(a)];
-    const Vec3 side_c = surface_.vertices[static_cast<std::size_t>(c)] -
-                        surface_.vertices[static_cast<std::size_t>(a)];
-    // What is left of (point - x) across the normal, along two sides of the triangle.
+    const auto& [a, b, c] = surface_.triangles[as_index(here.triangle)];
+    const Vec3 side_b = surface_.vertices[as_index(b)] - surface_.vertices[as_index(a)];
+    const Vec3 side_c = surface_.vertices[as_index(c)] - surface_.vertices[as_index(a)];
+    // The part of (point - x) across the normal, along two sides of the triangle.
     const auto lean = [&](const Vec3& weights) -> Eigen::Vector2d {
       const SurfacePoint where{here.triangle, weights};
       const Vec3 away = point - position(where);
@@ -303,16 +290,16 @@ SmoothSurface::Foot SmoothSurface::foot(const Vec3& point, const Near& start) co
       stuck = 0;
       continue;
     }
-    const auto edge = static_cast<std::size_t>(exit.edge);
+    const auto edge = as_index(exit.edge);
     if (crease(here.triangle, edge)) {
-      // A long move may have overshot: only one that starts at the crease means it.
+      // A long move may have overshot; only a move that starts at the crease ends there.
       if (exit.part <= 1e-12 || ++stuck > 6) return crease_foot(point, here, edge);
       continue;
     }
-    // Across the edge, at the same point of it.
+    // Continue in the next triangle, from the same point of the edge.
     const int next = neighbours_.across(here.triangle)[edge];
-    const auto& old_corners = surface_.triangles[static_cast<std::size_t>(here.triangle)];
-    const auto& new_corners = surface_.triangles[static_cast<std::size_t>(next)];
+    const auto& old_corners = surface_.triangles[as_index(here.triangle)];
+    const auto& new_corners = surface_.triangles[as_index(next)];
     SurfacePoint there{next, Vec3::Zero()};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k)
@@ -320,7 +307,7 @@ SmoothSurface::Foot SmoothSurface::foot(const Vec3& point, const Near& start) co
           there.weights[static_cast<Eigen::Index>(i)] =
               std::max(0.0, here.weights[static_cast<Eigen::Index>(k)]);
     there.weights /= there.weights.sum();
-    // Sent to and fro across an edge: the foot lies on it.
+    // Repeated crossings of the same edge mean that the foot is on it.
     stuck = exit.part <= 1e-12 ? stuck + 1 : 0;
     if (stuck > 6) return at(point, here);
     here = there;

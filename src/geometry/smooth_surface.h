@@ -1,4 +1,4 @@
-// A triangulated surface read as the smooth one that it samples, with its creases kept.
+// A triangulated surface interpreted as the smooth surface that it samples, with creases.
 #pragma once
 
 #include <array>
@@ -9,18 +9,18 @@
 
 namespace palpate::geometry {
 
-// A place on a surface: a triangle and the weights of its corners, which sum to 1.
+// A point on a surface: a triangle and the weights of its corners, which sum to 1.
 struct SurfacePoint {
   int triangle = -1;
   Vec3 weights = Vec3::Zero();
 };
 
-// Two triangles whose normals differ by more than this meet in a crease; a boundary is one too.
+// An edge between triangles whose normals differ by more than this is a crease; so is a boundary.
 inline constexpr double crease_cosine = 0.766044443118978;  // 40 degrees
 
-// Normals vary linearly over a triangle between those of its corners, and points bulge with them:
-// Phong tessellation (Boubekeur & Alexa 2008) with the factor 1/2, which follows a quadratic
-// surface to second order. On flat parts both are the triangles' own, exactly.
+// Normals vary linearly over a triangle between those of its corners, and points are displaced
+// accordingly: Phong tessellation (Boubekeur & Alexa 2008) with the factor 1/2, which follows a
+// quadratic surface to second order. Flat parts are identical to the triangles. docs/theory.md (17)
 class SmoothSurface {
  public:
   explicit SmoothSurface(Surface surface);
@@ -30,37 +30,37 @@ class SmoothSurface {
 
   // Edge i of a triangle runs from its corner i to the next.
   [[nodiscard]] bool crease(int triangle, std::size_t edge) const {
-    return crease_[static_cast<std::size_t>(triangle)][edge];
+    return crease_[as_index(triangle)][edge];
   }
 
-  // The smooth side's unit normal at a triangle's corner.
+  // The unit normal at a triangle's corner, on the triangle's side of any crease.
   [[nodiscard]] const Vec3& corner_normal(int triangle, std::size_t corner) const {
-    return normals_[static_cast<std::size_t>(triangle)][corner];
+    return normals_[as_index(triangle)][corner];
   }
 
   [[nodiscard]] Vec3 flat_position(const SurfacePoint& point) const;  // m, on the triangle
   [[nodiscard]] Vec3 position(const SurfacePoint& point) const;       // m, on the smooth surface
   [[nodiscard]] Vec3 normal(const SurfacePoint& point) const;         // unit, outwards
 
-  // Where the perpendicular from a point meets the surface.
+  // The foot of the perpendicular from a point.
   struct Foot {
     SurfacePoint at;
     Vec3 position = Vec3::Zero();
     Vec3 normal = Vec3::UnitZ();
     double height = 0.0;  // m, of the point above the surface; negative inside
     bool on_crease = false;
-    // On a crease: the same place seen from its other side, and how far the perpendicular has
-    // turned from this side's normal to that one's, 0 to 1.
+    // On a crease: the same point as part of the other side, and how far the perpendicular has
+    // turned from this side's normal (0) to the other side's (1).
     SurfacePoint beyond;
     double turned = 0.0;
   };
-  // Searched from the nearest point of the flat triangles. Where the search ends at a crease, the
-  // foot is on the crease's own curve. Continuous as `point` moves, until another foot is nearer.
+  // Searches for the foot from the nearest point of the flat triangles. If the search ends at a
+  // crease, the foot is on the crease's curve. Continuous in `point` until another foot is nearer.
   [[nodiscard]] Foot foot(const Vec3& point, const Near& start) const;
 
  private:
   [[nodiscard]] Foot flat_foot(const Vec3& point, const Near& start) const;
-  // The smooth course of a crease along edge `edge` of a triangle, and where it is nearest.
+  // The smooth curve of the crease at edge `edge` of a triangle, and its point nearest to `point`.
   struct Crease;
   [[nodiscard]] Crease nearest_on_crease(const Vec3& point, int triangle, std::size_t edge,
                                          double start) const;
@@ -75,7 +75,7 @@ class SmoothSurface {
   Neighbours neighbours_;
   std::vector<std::array<bool, 3>> crease_;
   std::vector<std::array<Vec3, 3>> normals_;
-  std::vector<Vec3> vertex_normals_;  // over creases as well
+  std::vector<Vec3> vertex_normals_;  // averaged over creases too
 };
 
 }  // namespace palpate::geometry

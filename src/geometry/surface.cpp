@@ -1,13 +1,12 @@
-// Neighbourhoods by sorting and counting, so that their order follows from the surface alone.
+// Computes neighbourhoods by sorting and counting, so that their order depends on the surface only.
 #include "geometry/surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace palpate::geometry {
 namespace {
 
-// Lists of different lengths in one array: list i runs from starts[i] to starts[i + 1].
+// Stores lists in one array, for list_of().
 void pack(const std::vector<std::vector<int>>& lists, std::vector<int>& starts,
           std::vector<int>& items) {
   starts.push_back(0);
@@ -17,13 +16,6 @@ void pack(const std::vector<std::vector<int>>& lists, std::vector<int>& starts,
   }
 }
 
-std::span<const int> list_of(const std::vector<int>& starts, const std::vector<int>& items,
-                             int index) {
-  const auto first = static_cast<std::size_t>(starts[static_cast<std::size_t>(index)]);
-  const auto last = static_cast<std::size_t>(starts[static_cast<std::size_t>(index) + 1]);
-  return std::span(items).subspan(first, last - first);
-}
-
 }  // namespace
 
 Skin skin(const TetMesh& mesh) {
@@ -31,7 +23,7 @@ Skin skin(const TetMesh& mesh) {
   skin.surface.triangles = boundary_faces(mesh);
   std::vector<int> vertex_of(mesh.nodes.size(), -1);
   for (const auto& triangle : skin.surface.triangles)
-    for (const int node : triangle) vertex_of[static_cast<std::size_t>(node)] = 0;
+    for (const int node : triangle) vertex_of[as_index(node)] = 0;
   for (std::size_t n = 0; n < vertex_of.size(); ++n) {
     if (vertex_of[n] < 0) continue;
     vertex_of[n] = static_cast<int>(skin.nodes.size());
@@ -39,15 +31,14 @@ Skin skin(const TetMesh& mesh) {
     skin.surface.vertices.push_back(mesh.nodes[n]);
   }
   for (auto& triangle : skin.surface.triangles)
-    for (int& corner : triangle) corner = vertex_of[static_cast<std::size_t>(corner)];
+    for (int& corner : triangle) corner = vertex_of[as_index(corner)];
   return skin;
 }
 
 Vec3 twice_area(const Surface& surface, int triangle) {
-  const auto& [a, b, c] = surface.triangles[static_cast<std::size_t>(triangle)];
-  const Vec3& origin = surface.vertices[static_cast<std::size_t>(a)];
-  return (surface.vertices[static_cast<std::size_t>(b)] - origin)
-      .cross(surface.vertices[static_cast<std::size_t>(c)] - origin);
+  const auto& [a, b, c] = surface.triangles[as_index(triangle)];
+  const Vec3& origin = surface.vertices[as_index(a)];
+  return (surface.vertices[as_index(b)] - origin).cross(surface.vertices[as_index(c)] - origin);
 }
 
 double area(const Surface& surface) {
@@ -60,14 +51,14 @@ double area(const Surface& surface) {
 Enclosed enclosed(const Surface& surface) {
   Enclosed inside;
   if (surface.vertices.empty()) return inside;
-  // Tetrahedra from a vertex of the surface to every triangle: V = sum d . (a x b) / 6, the first
-  // moment a quarter of the corners' sum each.
+  // Tetrahedra from one vertex to every triangle: V = sum a . (b x c) / 6, with centroids that are
+  // a quarter of the sum of their corners. docs/theory.md (18)
   const Vec3 apex = surface.vertices.front();
   Vec3 moment = Vec3::Zero();
   for (const auto& triangle : surface.triangles) {
-    const Vec3 a = surface.vertices[static_cast<std::size_t>(triangle[0])] - apex;
-    const Vec3 b = surface.vertices[static_cast<std::size_t>(triangle[1])] - apex;
-    const Vec3 c = surface.vertices[static_cast<std::size_t>(triangle[2])] - apex;
+    const Vec3 a = surface.vertices[as_index(triangle[0])] - apex;
+    const Vec3 b = surface.vertices[as_index(triangle[1])] - apex;
+    const Vec3 c = surface.vertices[as_index(triangle[2])] - apex;
     const double volume = a.dot(b.cross(c)) / 6.0;
     inside.volume += volume;
     moment += 0.25 * volume * (a + b + c);
@@ -75,6 +66,26 @@ Enclosed enclosed(const Surface& surface) {
   inside.centroid = apex;
   if (inside.volume != 0.0) inside.centroid += moment / inside.volume;
   return inside;
+}
+
+double corner_angle(const Surface& surface, int triangle, std::size_t corner) {
+  const auto at = [&](std::size_t i) -> const Vec3& {
+    return surface.vertices[as_index(surface.triangles[as_index(triangle)][i % 3])];
+  };
+  const Vec3 left = at(corner + 1) - at(corner);
+  const Vec3 right = at(corner + 2) - at(corner);
+  return angle_between(left, right);
+}
+
+std::size_t corner_of(const std::array<int, 3>& triangle, int vertex) {
+  return as_index(std::find(triangle.begin(), triangle.end(), vertex) - triangle.begin());
+}
+
+std::span<const int> list_of(const std::vector<int>& starts, const std::vector<int>& items,
+                             int index) {
+  const auto first = as_index(starts[as_index(index)]);
+  const auto last = as_index(starts[as_index(index) + 1]);
+  return std::span(items).subspan(first, last - first);
 }
 
 Neighbours::Neighbours(const Surface& surface) : across_(surface.triangles.size(), {-1, -1, -1}) {
@@ -89,9 +100,9 @@ Neighbours::Neighbours(const Surface& surface) : across_(surface.triangles.size(
     for (std::size_t i = 0; i < 3; ++i) {
       const int from = surface.triangles[t][i];
       const int to = surface.triangles[t][(i + 1) % 3];
-      triangles[static_cast<std::size_t>(from)].push_back(static_cast<int>(t));
-      vertices[static_cast<std::size_t>(from)].push_back(to);
-      vertices[static_cast<std::size_t>(to)].push_back(from);
+      triangles[as_index(from)].push_back(static_cast<int>(t));
+      vertices[as_index(from)].push_back(to);
+      vertices[as_index(to)].push_back(from);
       sides.push_back({std::min(from, to), std::max(from, to), static_cast<int>(t), i});
     }
   }
@@ -110,13 +121,13 @@ Neighbours::Neighbours(const Surface& surface) : across_(surface.triangles.size(
     const bool shared =
         i + 1 < sides.size() && sides[i + 1].low == side.low && sides[i + 1].high == side.high;
     if (!shared) {
-      on_boundary_[static_cast<std::size_t>(side.low)] = 1;
-      on_boundary_[static_cast<std::size_t>(side.high)] = 1;
+      on_boundary_[as_index(side.low)] = 1;
+      on_boundary_[as_index(side.high)] = 1;
       continue;
     }
     const Side& other = sides[++i];
-    across_[static_cast<std::size_t>(side.triangle)][side.edge] = other.triangle;
-    across_[static_cast<std::size_t>(other.triangle)][other.edge] = side.triangle;
+    across_[as_index(side.triangle)][side.edge] = other.triangle;
+    across_[as_index(other.triangle)][other.edge] = side.triangle;
   }
 }
 
@@ -131,14 +142,14 @@ std::span<const int> Neighbours::vertices_at(int vertex) const {
 std::vector<int> Neighbours::rings(std::span<const int> start, int rings) const {
   std::vector<char> known(on_boundary_.size(), 0);
   std::vector<int> found(start.begin(), start.end());
-  for (const int vertex : start) known[static_cast<std::size_t>(vertex)] = 1;
+  for (const int vertex : start) known[as_index(vertex)] = 1;
   std::size_t first = 0;
   for (int ring = 0; ring < rings; ++ring) {
     const std::size_t last = found.size();
     for (; first < last; ++first)
       for (const int next : vertices_at(found[first])) {
-        if (known[static_cast<std::size_t>(next)] != 0) continue;
-        known[static_cast<std::size_t>(next)] = 1;
+        if (known[as_index(next)] != 0) continue;
+        known[as_index(next)] = 1;
         found.push_back(next);
       }
   }
@@ -150,15 +161,9 @@ std::vector<Vec3> vertex_normals(const Surface& surface) {
   std::vector<Vec3> normals(surface.vertices.size(), Vec3::Zero());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const Vec3 normal = twice_area(surface, static_cast<int>(t)).normalized();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = [&](std::size_t corner) -> const Vec3& {
-        return surface.vertices[static_cast<std::size_t>(surface.triangles[t][corner % 3])];
-      };
-      const Vec3 left = at(i + 1) - at(i);
-      const Vec3 right = at(i + 2) - at(i);
-      const double angle = std::atan2(left.cross(right).norm(), left.dot(right));
-      normals[static_cast<std::size_t>(surface.triangles[t][i])] += angle * normal;
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      normals[as_index(surface.triangles[t][i])] +=
+          corner_angle(surface, static_cast<int>(t), i) * normal;
   }
   for (Vec3& normal : normals)
     if (normal.squaredNorm() > 0.0) normal.normalize();

@@ -1,4 +1,4 @@
-// Edges and faces by sorting, so that their order follows from the mesh and from nothing else.
+// Finds edges and faces by sorting, so that their order depends on the mesh only.
 #include "geometry/tet_mesh.h"
 
 #include <algorithm>
@@ -7,11 +7,11 @@
 namespace palpate::geometry {
 
 double signed_volume(const TetMesh& mesh, int tetrahedron) {
-  const auto& corner = mesh.tetrahedra[static_cast<std::size_t>(tetrahedron)];
-  const Vec3& a = mesh.nodes[static_cast<std::size_t>(corner[0])];
-  const Vec3& b = mesh.nodes[static_cast<std::size_t>(corner[1])];
-  const Vec3& c = mesh.nodes[static_cast<std::size_t>(corner[2])];
-  const Vec3& d = mesh.nodes[static_cast<std::size_t>(corner[3])];
+  const auto& corner = mesh.tetrahedra[as_index(tetrahedron)];
+  const Vec3& a = mesh.nodes[as_index(corner[0])];
+  const Vec3& b = mesh.nodes[as_index(corner[1])];
+  const Vec3& c = mesh.nodes[as_index(corner[2])];
+  const Vec3& d = mesh.nodes[as_index(corner[3])];
   // V = (b - a) x (c - a) . (d - a) / 6
   return (b - a).cross(c - a).dot(d - a) / 6.0;
 }
@@ -53,8 +53,7 @@ std::vector<FaceUse> face_uses(const TetMesh& mesh) {
     const auto& corner = mesh.tetrahedra[t];
     for (const auto& [i, j, k] : outward_faces) {
       FaceUse use;
-      use.nodes = {corner[static_cast<std::size_t>(i)], corner[static_cast<std::size_t>(j)],
-                   corner[static_cast<std::size_t>(k)]};
+      use.nodes = {corner[as_index(i)], corner[as_index(j)], corner[as_index(k)]};
       use.key = use.nodes;
       std::sort(use.key.begin(), use.key.end());
       use.tetrahedron = static_cast<int>(t);
@@ -75,10 +74,9 @@ std::vector<std::array<int, 3>> boundary_faces(const TetMesh& mesh) {
     if (!like_before && !like_after) single.push_back(uses[i]);
   }
   const auto place = [&](const FaceUse& use) {  // the number of the face's opposite node
-    const auto& corner = mesh.tetrahedra[static_cast<std::size_t>(use.tetrahedron)];
+    const auto& corner = mesh.tetrahedra[as_index(use.tetrahedron)];
     int opposite = 0;
-    while (std::count(use.key.begin(), use.key.end(), corner[static_cast<std::size_t>(opposite)]))
-      ++opposite;
+    while (std::count(use.key.begin(), use.key.end(), corner[as_index(opposite)])) ++opposite;
     return opposite;
   };
   std::sort(single.begin(), single.end(), [&](const FaceUse& a, const FaceUse& b) {

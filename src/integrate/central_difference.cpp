@@ -1,9 +1,10 @@
-// Steps in increments w = u(t+dt) - u(t), which keeps small motions exact.
+// Steps in increments w = u(t+dt) - u(t), which keeps small motions accurate.
 #include "integrate/central_difference.h"
 
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "tissue/fast_vectors.h"
 
 namespace palpate::integrate {
@@ -31,7 +32,7 @@ CentralDifference::CentralDifference(const Body& body, double time_step, Start s
   right_rate_ = 2.0 * time_step - left_rate_;
   const Vector twice = 2.0 * body.mass();
   keep_ = twice - right_rate_ * body.drag();
-  // U1 = U0 + dt V0 + dt^2 A0 / 2: what damps the start velocity is on the left where it can be.
+  // (39): the damping of the start velocity is in the matrix on the left, unless it is lagged.
   keep_first_ = velocity == lagged ? Vector(twice - time_step * body.drag()) : twice;
   diagonal_ = twice + left_rate_ * body.drag();
   inverse_ = diagonal_.cwiseInverse();
@@ -42,14 +43,13 @@ void CentralDifference::factor(const Vector& displacement) {
   SplitMatrix left = body_->dashpots(displacement);
   left *= left_rate_;
   left.local.diagonal() += diagonal_;
-  // A sum of positive masses and non-negative dashpots: always positive definite.
+  // Positive masses plus non-negative dashpots are always positive definite.
   [[maybe_unused]] const bool factored = factors_.factor(left);
   eigen_assert(factored || !displacement.allFinite());
   has_factors_ = true;
 }
 
-// (2 M + D dt) w = right_ - lag D w_before where D joins nodes: from w of the step before to the
-// next one.
+// Solves (2 M + dt D) w = right_ - lag D w_before if dashpots join nodes; before_ becomes w.
 void CentralDifference::solve_dashpots(const State& state, double lag) {
   if (lag > 0.0) {
     body_->dashpot_force(state.displacement, before_, image_);
@@ -68,14 +68,14 @@ void CentralDifference::solve_dashpots(const State& state, double lag) {
   clear_held(body_->held(), before_);
 }
 
-// Dashpots that have turned since they were factored: conjugate gradients, preconditioned by the
-// factors and begun with the step before. The error is measured where it is small for sure, in
-// energy: |w - w_exact|_A <= 1e-10 |w|_A.
+// For dashpots that have rotated since they were factored: conjugate gradients, preconditioned by
+// the old factors and started from the previous step. They stop at an error in the energy norm of
+// |w - w_exact|_A <= 1e-10 |w|_A.
 void CentralDifference::solve_turned(const Vector& displacement) {
   constexpr double tolerance = 1e-10;
   constexpr int worth_factoring = 12;
   constexpr int most = 200;
-  const auto count = static_cast<std::size_t>(right_.size());
+  const auto count = as_index(right_.size());
   const auto dot = [count](const Vector& a, const Vector& b) {
     return tissue::sum_of_products(count, a.data(), b.data());
   };
@@ -102,7 +102,7 @@ void CentralDifference::solve_turned(const Vector& displacement) {
     size = next;
     ++i;
   }
-  // What did not settle is no answer: numbers that are not end the run.
+  // Without convergence there is no result: NaN ends the run as diverged.
   if (i == most) before_.setConstant(std::numeric_limits<double>::quiet_NaN());
   has_factors_ = i <= worth_factoring;
 }
@@ -110,7 +110,7 @@ void CentralDifference::solve_turned(const Vector& displacement) {
 void CentralDifference::step(State& state, const Vector& load) {
   // (2 M + D dt) w = 2 dt^2 (F - f(u)) + (2 M - D dt) (u - u_before)   Chen 2007 eq. (12) in
   // increments; the consistent first one is dt^2 (F - f) + 2 M dt v   docs/theory.md (38), (39)
-  // Ahead, the velocity of the state is the one before already: there is no other first step.
+  // With `ahead` the velocity of the state is that of the previous step, also in a first step.
   const bool begins = first_ && velocity_ != DampingVelocity::ahead;
   const bool consistent = begins && start_ == Start::consistent;
   if (first_) before_ = time_step_ * state.velocity;
@@ -122,23 +122,22 @@ void CentralDifference::step(State& state, const Vector& load) {
   const Vector& keep = consistent ? keep_first_ : keep_;
   if (body_->has_dashpots()) {
     right_ = square * (load - force_) + keep.cwiseProduct(before_);
-    // A consistent first step halves what the others subtract; centred, it stands on the left.
+    // In a consistent first step the lagged D counts half, and the centred D is on the left alone.
     const bool lags = velocity_ == DampingVelocity::lagged;
     solve_dashpots(state, consistent ? (lags ? time_step_ : 0.0) : right_rate_);
     state.displacement += before_;
     state.velocity = rate * before_;
   } else {
-    // Times the inverse: a division costs as much as all the rest of the line.
-    tissue::advance(static_cast<std::size_t>(before_.size()),
-                    {.square = square,
-                     .rate = rate,
-                     .inverse = inverse_.data(),
-                     .keep = keep.data(),
-                     .external = load.data(),
-                     .internal = force_.data(),
-                     .moved = before_.data(),
-                     .displacement = state.displacement.data(),
-                     .velocity = state.velocity.data()});
+    // Multiplies by the inverse, because a division costs as much as the rest of the line.
+    tissue::advance(as_index(before_.size()), {.square = square,
+                                               .rate = rate,
+                                               .inverse = inverse_.data(),
+                                               .keep = keep.data(),
+                                               .external = load.data(),
+                                               .internal = force_.data(),
+                                               .moved = before_.data(),
+                                               .displacement = state.displacement.data(),
+                                               .velocity = state.velocity.data()});
   }
   state.time += time_step_;
   body_->remember(state.displacement, {time_step_, MemoryRule::exact}, state.memory);

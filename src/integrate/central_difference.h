@@ -6,42 +6,42 @@
 
 namespace palpate::integrate {
 
-// How the first step begins. paper: U(-dt) = U(0), first order. consistent: second order; without
-// damping it is U(-dt) = U0 - dt V0 + dt^2 A0 / 2, and under heavy damping, where that would throw
-// the body, it is the trapezoidal rule.                                  docs/theory.md (39)
+// The first step. paper: U(-dt) = U(0), first order. consistent: second order; without damping it
+// is U(-dt) = U0 - dt V0 + dt^2 A0 / 2; under heavy damping, where that formula would overshoot, it
+// is the trapezoidal rule.                                                  docs/theory.md (39)
 enum class Start { consistent, paper };
 
-// The velocity that drag and dashpots take in a step: the mean of its own and that of the step
-// before (eq. 12), that of the step before, or its own. The last two are of first order.
+// The velocity with which drag and dashpots act in a step: the mean of this step's and the previous
+// step's (eq. 12), the previous step's, or this step's. The last two are of first order (80).
 enum class DampingVelocity { centred, lagged, ahead };
 
-// The fastest motion of a body.
+// The fastest mode of a body.
 struct FastestMode {
   double squared = 0.0;  // 1/s^2, omega^2
-  double rate = 0.0;     // 1/s, 2 zeta omega, of the damping that the method knows
-  double forces = 0.0;   // 1/s, of dashpots outside it, whose forces act in the step after
+  double rate = 0.0;     // 1/s, 2 zeta omega, of the damping in the integrator's equation
+  double forces = 0.0;   // 1/s, of dashpots outside it, with the rate of the step before
 };
 
-// The step below which such an explicit method is stable, s. With w = omega dt
+// The time step (s) below which such an explicit method is stable. With w = omega dt
 //   centred: w < 2
 //   lagged:  w < 2 (sqrt(1 + zeta^2) - zeta)
 //   ahead:   w < 2 (sqrt(1 + zeta^2) + zeta)
-// where a mode turns over, u_n = (-1)^n:
+// At the limit a mode changes its sign in each step, u_n = (-1)^n:
 //   dt^2 omega^2 + dt (forces +- 2 rate) = 4       docs/theory.md (81)
 [[nodiscard]] double explicit_limit(DampingVelocity velocity, const FastestMode& mode);
 
-// Second order; with a centred velocity stable for dt < 2 / omega_max whatever the damping, because
-// mass, drag and dashpots stand in the left matrix: a product where that is diagonal, a sparse
-// factorisation where dashpots join nodes, made once. Where they turn with the body it is a
-// preconditioner, made again when they have turned so far that a step needs more than a dozen
-// iterations.
+// The integrator is of second order. With a centred velocity it is stable for dt < 2 / omega_max
+// with any damping, because mass, drag and dashpots are in the matrix on the left. That matrix is
+// inverted once: by division if it is diagonal, by a sparse factorisation if dashpots join nodes.
+// If the dashpots rotate with the body, the factors are a preconditioner, which is renewed after a
+// step that needs more than a dozen iterations.                          docs/theory.md (38)
 class CentralDifference {
  public:
   CentralDifference(const Body& body, double time_step, Start start,
                     DampingVelocity velocity = DampingVelocity::centred);
 
-  // From the state at t under the load at t to the state at t + dt. The velocity it leaves is the
-  // mean over the step.
+  // Advances the state from t to t + dt under the load (N) at t. The resulting velocity is the mean
+  // over the step.
   void step(State& state, const Vector& load);
 
  private:
@@ -53,21 +53,21 @@ class CentralDifference {
   double time_step_;
   Start start_;
   DampingVelocity velocity_;
-  double left_rate_;   // s, times D in the left matrix
-  double right_rate_;  // s, times D on the right
+  double left_rate_;   // s, the factor of D in the matrix on the left
+  double right_rate_;  // s, the factor of D on the right
   bool first_ = true;
   bool has_factors_ = false;
   Vector before_;         // u(t) - u(t - dt)
-  Vector diagonal_;       // 2 M + D dt, where no dashpots are, the velocity being centred
+  Vector diagonal_;       // 2 M + left_rate_ D, with D the drag alone
   Vector inverse_;        // of the diagonal; 0 where held
-  Vector keep_;           // 2 M - D dt, and of a consistent first step:
-  Vector keep_first_;     // 2 M
-  PanelFactors factors_;  // of 2 M + D dt
+  Vector keep_;           // 2 M - right_rate_ D, with D the drag alone
+  Vector keep_first_;     // the same for a consistent first step
+  PanelFactors factors_;  // of the matrix on the left, if dashpots join nodes
   Vector force_;
   Vector right_;
-  Vector image_;     // of a vector under D or under 2 M + D dt
-  Vector residual_;  // of conjugate gradients, as the next two
-  Vector refined_;   // factors_ applied to it
+  Vector image_;     // product of a vector with D or with the matrix on the left
+  Vector residual_;  // of conjugate gradients, like the next two
+  Vector refined_;   // factors_ applied to residual_
   Vector direction_;
 };
 

@@ -1,4 +1,4 @@
-// Implicit steps as linearisations: statics, and backward differences in time.
+// Implicit steps in linearised form: quasi-statics and backward differences in time.
 #pragma once
 
 #include "base/cholesky.h"
@@ -6,28 +6,28 @@
 
 namespace palpate::integrate {
 
-// What an implicit step offers to whoever solves a contact inside it: the displacement at the end
-// of the step is  base + response(load)  for any further load, linearised about a displacement.
+// One implicit step (40) for callers that solve a contact in it: linearised about a displacement,
+// the displacement at the end of the step is  base + response(load)  for any additional load (N).
 class Implicit {
  public:
   enum class Inertia { none, backward_difference };
 
-  // none: quasi-static, exact viscous memory, second order in smooth courses of load.
-  // backward_difference: implicit Euler, first order, stable for every step.
+  // none: quasi-static; with MemoryRule::exact of second order for loads that are smooth in time.
+  // backward_difference: implicit Euler, of first order, stable for every step.
   Implicit(const Body& body, Inertia inertia) : body_(&body), inertia_(inertia) {}
 
-  // Starts a step from `state`, which must stay as it is until finish(). `rule` counts only
-  // without inertia: implicit Euler has its own.
+  // Starts a step from `state`, which must not change until finish(). `rule` is used only without
+  // inertia; with inertia the rule is first_order.
   void begin(const State& state, double time_step, MemoryRule rule);
 
-  // Linearises about `displacement` under `load` (N). Returns false where the matrix cannot be
-  // factored (the body has become unstable); then nothing else may be called.
+  // Linearises about `displacement` under `load` (N). Returns false if the matrix cannot be
+  // factored (the body has become unstable); then no other function may be called.
   [[nodiscard]] bool linearise(const Vector& displacement, const Vector& load);
   [[nodiscard]] const Vector& base() const { return base_; }
   [[nodiscard]] Vector response(const Vector& load) const;
-  void response(const Vector& load, Vector& moved) const;  // the same; two vectors
+  void response(const Vector& load, Vector& moved) const;  // the same, into another vector
 
-  // Ends the step at `displacement`. `load` is the whole load at its end, N.
+  // Ends the step at `displacement` under the whole load (N) at its end.
   void finish(State& state, const Vector& displacement, const Vector& load);
 
  private:

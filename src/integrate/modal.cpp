@@ -1,4 +1,4 @@
-// Eigenmodes once; then each step multiplies every mode by its exact propagator.
+// Computes the eigenmodes once; a step then multiplies every mode by its exact propagator.
 #include "integrate/modal.h"
 
 #include <Eigen/Eigenvalues>
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "base/index.h"
 #include "integrate/mode_loops.h"
 
 namespace palpate::integrate {
@@ -19,15 +20,15 @@ Modal::Modal(const Body& body) : body_(&body) {
   Vector scale(size);
   row_.assign(held.size(), -1);
   for (Eigen::Index i = 0; i < size; ++i) {
-    scale[i] = 1.0 / std::sqrt(body.mass()[free_[static_cast<std::size_t>(i)]]);
-    row_[static_cast<std::size_t>(free_[static_cast<std::size_t>(i)])] = i;
+    scale[i] = 1.0 / std::sqrt(body.mass()[free_[as_index(i)]]);
+    row_[as_index(free_[as_index(i)])] = i;
   }
   Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(size, size);
   const auto add = [&](const Eigen::SparseMatrix<double>& matrix) {
     for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
       for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-        const Eigen::Index i = row_[static_cast<std::size_t>(entry.row())];
-        const Eigen::Index j = row_[static_cast<std::size_t>(entry.col())];
+        const Eigen::Index i = row_[as_index(entry.row())];
+        const Eigen::Index j = row_[as_index(entry.col())];
         if (i >= 0 && j >= 0) scaled(i, j) += entry.value() * scale[i] * scale[j];
       }
   };
@@ -61,21 +62,20 @@ void Modal::prepare(double time_step) {
     system(1, 0) = -omega;
     system(1, 1) = -damping;
     for (Eigen::Index b = 0; b < inner; ++b) {
-      const auto& branch = p.branches[static_cast<std::size_t>(b)];
+      const auto& branch = p.branches[as_index(b)];
       system(1, 0) -= omega * branch.ratio;
       system(1, 2 + b) = omega * branch.ratio;
       system(2 + b, 0) = 1.0 / branch.time;
       system(2 + b, 2 + b) = -1.0 / branch.time;
     }
-    // The force is f0 + (f1 - f0) s with s' = 1/dt, carried as two more unknowns.
+    // The force f0 + (f1 - f0) s with s' = 1/dt is represented by two more unknowns.
     system(1, size) = 1.0 / omega;
     system(size, size + 1) = 1.0 / time_step;
     const Eigen::MatrixXd exponent = system * time_step;
     const Eigen::MatrixXd whole = exponent.exp();
     for (Eigen::Index c = 0; c < size; ++c) {
-      const auto to = static_cast<std::size_t>(c);
-      for (Eigen::Index d = 0; d < size; ++d)
-        propagators_.keep[to][static_cast<std::size_t>(d)][i] = whole(c, d);
+      const auto to = as_index(c);
+      for (Eigen::Index d = 0; d < size; ++d) propagators_.keep[to][as_index(d)][i] = whole(c, d);
       propagators_.end[to][i] = whole(c, size + 1);
       propagators_.begin[to][i] = whole(c, size) - whole(c, size + 1);
     }
@@ -83,12 +83,12 @@ void Modal::prepare(double time_step) {
   }
 }
 
-// Phi^T f, of the few freedoms that are loaded.
+// Phi^T f over the degrees of freedom that are loaded.
 void Modal::modal_force(const Vector& load, Vector& sum) const {
   sum.setZero(omega_.size());
   for (std::size_t i = 0; i < free_.size(); ++i)
     if (const double newton = load[free_[i]]; newton != 0.0)
-      mode_loops::add_scaled(static_cast<std::size_t>(sum.size()), newton,
+      mode_loops::add_scaled(as_index(sum.size()), newton,
                              shapes_.row(static_cast<Eigen::Index>(i)).data(), sum.data());
 }
 
@@ -96,14 +96,14 @@ void Modal::modal_force(const Vector& load, Vector& sum) const {
 void Modal::add_shapes(const Vector& amplitudes, Vector& all) const {
   for (std::size_t i = 0; i < free_.size(); ++i)
     all[free_[i]] +=
-        mode_loops::product(static_cast<std::size_t>(amplitudes.size()),
+        mode_loops::product(as_index(amplitudes.size()),
                             shapes_.row(static_cast<Eigen::Index>(i)).data(), amplitudes.data());
 }
 
-// A component of the modes at the end of a step between two modal forces.
+// One component of the modes at the end of a step, from the modal forces at its start and end.
 void Modal::next(std::size_t component, const Vector& before, const Vector& after,
                  Vector& sum) const {
-  const auto size = static_cast<std::size_t>(omega_.size());
+  const auto size = as_index(omega_.size());
   sum.setZero(omega_.size());
   for (std::size_t d = 0; d < modes_.size(); ++d)
     mode_loops::add_products(size, propagators_.keep[component][d].data(), modes_[d].data(),
@@ -112,7 +112,7 @@ void Modal::next(std::size_t component, const Vector& before, const Vector& afte
   mode_loops::add_products(size, propagators_.end[component].data(), after.data(), sum.data());
 }
 
-// The modes move about the displacement of the start, which must be in balance.
+// The modes move about the displacement at the start, which must be in equilibrium.
 void Modal::start(const State& state) {
   if (started_) return;
   started_ = true;
@@ -166,10 +166,10 @@ void Modal::finish(State& state, const Vector& displacement, const Vector& load)
 }
 
 void Modal::press(Eigen::Index freedom, double load) {
-  const Eigen::Index row = row_[static_cast<std::size_t>(freedom)];
+  const Eigen::Index row = row_[as_index(freedom)];
   if (row < 0 || load == 0.0) return;
   if (load_after_.size() == 0) load_after_ = Vector::Zero(omega_.size());
-  mode_loops::add_scaled(static_cast<std::size_t>(omega_.size()), load, shapes_.row(row).data(),
+  mode_loops::add_scaled(as_index(omega_.size()), load, shapes_.row(row).data(),
                          load_after_.data());
 }
 
@@ -181,17 +181,16 @@ void Modal::pass(const State& start, double time_step) {
   }
   prepare(time_step);
   const Propagators& p = propagators_;
-  mode_loops::pass(static_cast<std::size_t>(omega_.size()),
-                   {.keep = {{p.keep[0][0].data(), p.keep[0][1].data()},
-                             {p.keep[1][0].data(), p.keep[1][1].data()}},
-                    .begin = {p.begin[0].data(), p.begin[1].data()},
-                    .end = {p.end[0].data(), p.end[1].data()},
-                    .force_before = load_before_.data(),
-                    .force_after = load_after_.data(),
-                    .damping = p.damping.data(),
-                    .x = {modes_[0].data(), modes_[1].data()},
-                    .work = work_.data(),
-                    .lost = lost_.data()});
+  mode_loops::pass(as_index(omega_.size()), {.keep = {{p.keep[0][0].data(), p.keep[0][1].data()},
+                                                      {p.keep[1][0].data(), p.keep[1][1].data()}},
+                                             .begin = {p.begin[0].data(), p.begin[1].data()},
+                                             .end = {p.end[0].data(), p.end[1].data()},
+                                             .force_before = load_before_.data(),
+                                             .force_after = load_after_.data(),
+                                             .damping = p.damping.data(),
+                                             .x = {modes_[0].data(), modes_[1].data()},
+                                             .work = work_.data(),
+                                             .lost = lost_.data()});
   load_before_.swap(load_after_);
   load_after_.setZero();
 }
@@ -204,7 +203,7 @@ void Modal::show(State& state) const {
   state.memory = body_->memory_at(state.displacement);
 }
 
-// 1/2 omega^2 (q^2 + (q'/omega)^2) of every mode.
+// `held` is the sum of 1/2 omega^2 (q^2 + (q'/omega)^2) over the modes.
 Modal::Energies Modal::energies() const {
   Energies sum;
   for (Eigen::Index i = 0; i < omega_.size(); ++i) {

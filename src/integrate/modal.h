@@ -9,50 +9,48 @@
 
 namespace palpate::integrate {
 
-// Offers the same calls as Implicit: the end of a step is base + response(load). Where the load is
-// known, press() and pass() take the modes through a step alone, and show() tells where the body
-// is.
+// Has the same interface as Implicit: the displacement at the end of a step is base +
+// response(load). If the load is known in advance, press() and pass() advance the modes alone, and
+// show() computes the displacement when it is needed.                   docs/theory.md (41)
 class Modal {
  public:
-  // Decomposes K phi = omega^2 M phi of the body about rest (dense: time grows with the cube of
-  // the degrees of freedom). The body must be linear, its damping proportional.
+  // Solves K phi = omega^2 M phi for the body at rest by a dense solver, whose time grows with the
+  // cube of the degrees of freedom. The body must be linear and its damping proportional.
   explicit Modal(const Body& body);
 
-  // `rule` `held` says that the load jumped to its end value at the start of the step.
+  // The rule `held` means that the load jumps to its final value at the start of the step.
   void begin(const State& state, double time_step, MemoryRule rule);
   [[nodiscard]] bool linearise(const Vector& displacement, const Vector& load);
   [[nodiscard]] const Vector& base() const { return base_; }
   [[nodiscard]] Vector response(const Vector& load) const;
-  void response(const Vector& load, Vector& moved) const;  // the same; two vectors
+  void response(const Vector& load, Vector& moved) const;  // the same, into another vector
   void finish(State& state, const Vector& displacement, const Vector& load);
 
-  // Frames without the body: the load (N) at a frame's end is given freedom by freedom, what is not
-  // given is not loaded. Of bodies whose damping has no inner branches.
+  // Steps in the modes alone, for bodies whose damping has no branches: press() adds the load (N)
+  // of one degree of freedom at the end of the next step (others are zero); pass() takes the step.
   [[nodiscard]] bool passes_alone() const { return body_->proportional().branches.empty(); }
   void press(Eigen::Index freedom, double load);
   void pass(const State& start, double time_step);
 
-  // The body's displacement and velocity after pass(); the memory is that of a body at rest there.
+  // Displacement and velocity after pass(); the memory is that of a body at rest in this position.
   void show(State& state) const;
 
-  // Of all frames that pass() has taken, J.
+  // Energies of the steps by pass(), J.
   struct Energies {
     double work = 0.0;
     double lost = 0.0;
-    double held = 0.0;  // stored and kinetic, now
+    double held = 0.0;  // stored and kinetic energy at present
   };
   [[nodiscard]] Energies energies() const;
 
-  [[nodiscard]] const Vector& frequencies() const { return omega_; }  // 1/s, ascending
-
  private:
-  // A mode's position, velocity over omega, and inner position of every viscous branch: one vector
-  // each over the modes.
+  // The state of a mode is its position q, q'/omega, and the inner position of every viscous
+  // branch; every component is a vector over the modes.
   struct Propagators {
     std::vector<std::vector<Vector>> keep;
-    std::vector<Vector> begin;  // per modal force at the start of the step
-    std::vector<Vector> end;    // per modal force at its end
-    Vector damping;             // 1/s^2, of pass()
+    std::vector<Vector> begin;  // change per modal force at the start of the step
+    std::vector<Vector> end;    // change per modal force at its end
+    Vector damping;             // 1/s^2, for pass()
   };
   using Shapes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -63,20 +61,20 @@ class Modal {
   void add_shapes(const Vector& amplitudes, Vector& all) const;
 
   const Body* body_;
-  Vector omega_;
-  Shapes shapes_;  // columns phi with phi^T M phi = 1, rows only of free freedoms
+  Vector omega_;   // 1/s, the modes' angular frequencies, ascending
+  Shapes shapes_;  // columns phi with phi^T M phi = 1, rows of the free degrees of freedom
   std::vector<Eigen::Index> free_;
-  std::vector<Eigen::Index> row_;  // of every freedom; -1 where held
+  std::vector<Eigen::Index> row_;  // of every degree of freedom; -1 where held
   Propagators propagators_;
   double prepared_step_ = -1.0;
-  std::vector<Vector> modes_;  // as Propagators
+  std::vector<Vector> modes_;  // components as in Propagators
   Vector load_before_;         // modal force at the start of the step
-  Vector load_after_;          // what press() has gathered
+  Vector load_after_;          // modal force at its end, as added up by press()
   Vector work_, lost_;         // J, of every mode
   bool started_ = false;
   bool held_load_ = false;
   double time_step_ = 0.0;
-  Vector settled_;  // the displacement that the modes move about
+  Vector settled_;  // m, the displacement about which the modes move
   Vector base_;
   mutable Vector force_, amplitudes_;  // of the modes
   std::vector<Vector> modes_after_;

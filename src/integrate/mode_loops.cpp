@@ -1,4 +1,4 @@
-// Entry by entry, so that any width gives the same bits. CMakeLists.txt says how this is compiled.
+// Sums entry by entry, so that any width gives the same bits; CMakeLists.txt has compiler options.
 #include "integrate/mode_loops.h"
 
 #if defined(__x86_64__)

@@ -1,4 +1,4 @@
-// Panels out of Eigen's simplicial factorisation.
+// Makes panels from Eigen's simplicial factorisation.
 #include "integrate/panel_factors.h"
 
 #include <Eigen/SparseCholesky>
@@ -7,7 +7,7 @@
 #include <span>
 
 #if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // all calls with vectors of four are inlined
+#pragma GCC diagnostic ignored "-Wpsabi"  // all functions that take vectors of four are inlined
 #endif
 
 namespace palpate::integrate {
@@ -21,6 +21,7 @@ using Four = double __attribute__((vector_size(32)));
 
 #define PALPATE_LOOPS portable
 #define PALPATE_TARGET
+#include "base/index.h"
 #include "integrate/panel_loops.h"
 #undef PALPATE_LOOPS
 #undef PALPATE_TARGET
@@ -37,8 +38,8 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-// The lower triangle of [local, shared^T; shared, -1/weights]: with p = W S x as further unknowns
-// the product needs not be multiplied out.
+// The lower triangle of [local, shared^T; shared, -1/weights]. With p = W S x as further unknowns,
+// the product S^T W S is not multiplied out.                             docs/theory.md (67)
 SparseMatrix bordered(const SplitMatrix& matrix) {
   const Eigen::Index n = matrix.local.rows();
   std::vector<Eigen::Triplet<double>> entries;
@@ -59,8 +60,6 @@ SparseMatrix bordered(const SplitMatrix& matrix) {
   return all;
 }
 
-std::size_t index(Eigen::Index i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 bool PanelFactors::factor(const SplitMatrix& matrix) {
@@ -80,8 +79,8 @@ bool PanelFactors::factor(const SplitMatrix& matrix) {
   return true;
 }
 
-// Neighbouring columns, each the parent of the one before in the elimination tree, share a panel
-// where that adds few zeros.
+// Puts neighbouring columns, each the parent of the previous one in the elimination tree, into one
+// panel if this adds few zeros.
 void PanelFactors::gather(const SparseMatrix& lower) {
   const int* const start = lower.outerIndexPtr();
   const int* const row = lower.innerIndexPtr();
@@ -97,12 +96,12 @@ void PanelFactors::gather(const SparseMatrix& lower) {
     while (last + 1 < size && length(last) > 1 && row[start[last] + 1] == last + 1) {
       const long width = last + 2 - first;
       const long full = width * (length(last + 1) + width - 1) - width * (width - 1) / 2;
-      // A panel costs about as much as 40 further numbers.
+      // A panel costs about as much time as 40 additional numbers.
       if (full > (entries + length(last + 1)) * 5 / 4 + 40) break;
       entries += length(last + 1);
       ++last;
     }
-    // A column by itself that touches nothing else is a pivot alone.
+    // A single column without entries below its diagonal needs no panel, only its pivot.
     if (last > first || length(first) > 1) {
       Panel panel;
       panel.first = first;
@@ -112,30 +111,31 @@ void PanelFactors::gather(const SparseMatrix& lower) {
       panel.rows = rows_.size();
       panel.values = values;
       rows_.insert(rows_.end(), row + start[last] + 1, row + start[last + 1]);
-      values += 4 * static_cast<std::size_t>(panel.fours) * static_cast<std::size_t>(panel.width);
+      values += 4 * as_index(panel.fours) * as_index(panel.width);
       widest = std::max(widest, 4 * panel.fours + 4 * panel.width);
       panels_.push_back(panel);
     }
     first = last + 1;
   }
   values_.assign(values, 0.0);
-  scratch_.assign(index(widest) + 16, 0.0);
-  x_.assign(index(size) + 4, 0.0);
+  scratch_.assign(as_index(widest) + 16, 0.0);
+  x_.assign(as_index(size) + 4, 0.0);
 }
 
-// [1; B] T^-1 of every panel with the unit triangle T and the rows B below it.
+// Fills every panel with [1; B] T^-1: T is its unit triangle, B the rows below the triangle.
 void PanelFactors::fill(const SparseMatrix& lower) {
-  std::vector<int> local(index(lower.rows()), 0);
+  std::vector<int> local(as_index(lower.rows()), 0);
   for (const Panel& panel : panels_) {
     const int width = panel.width;
-    for (int c = 0; c < width; ++c) local[index(panel.first + c)] = c;
-    for (int k = 0; k < panel.below; ++k) local[index(rows_[panel.rows + index(k)])] = width + k;
-    // X T = [1; B]: the last column first, each less those to its right.
+    for (int c = 0; c < width; ++c) local[as_index(panel.first + c)] = c;
+    for (int k = 0; k < panel.below; ++k)
+      local[as_index(rows_[panel.rows + as_index(k)])] = width + k;
+    // Solves X T = [1; B] from the last column to the first, subtracting the columns to the right.
     Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(width, width);
     Eigen::MatrixXd x = Eigen::MatrixXd::Zero(4 * panel.fours, width);
     for (int c = 0; c < width; ++c)
       for (SparseMatrix::InnerIterator entry(lower, panel.first + c); entry; ++entry) {
-        const int r = local[index(entry.row())];
+        const int r = local[as_index(entry.row())];
         (r < width ? triangle(r, c) : x(r, c)) = entry.value();
       }
     for (int c = width - 1; c >= 0; --c) {
@@ -154,7 +154,7 @@ void PanelFactors::fill(const SparseMatrix& lower) {
 
 void PanelFactors::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   std::fill(x_.begin(), x_.end(), 0.0);
-  for (Eigen::Index i = 0; i < size_; ++i) x_[index(place_[index(i)])] = b[i];
+  for (Eigen::Index i = 0; i < size_; ++i) x_[as_index(place_[as_index(i)])] = b[i];
   auto* work = &portable::solve;
 #if defined(__x86_64__)
   if (lanes_ == Lanes::widest && __builtin_cpu_supports("avx2")) work = &avx2::solve;
@@ -162,7 +162,7 @@ void PanelFactors::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   work(panels_, values_.data(), rows_.data(), inverse_pivots_.data(), inverse_pivots_.size(),
        x_.data(), scratch_.data());
   x.resize(size_);
-  for (Eigen::Index i = 0; i < size_; ++i) x[i] = x_[index(place_[index(i)])];
+  for (Eigen::Index i = 0; i < size_; ++i) x[i] = x_[as_index(place_[as_index(i)])];
 }
 
 }  // namespace palpate::integrate

@@ -1,4 +1,4 @@
-// A sparse factorisation kept as dense panels, for the many solves that follow it.
+// A sparse factorisation stored in dense panels, for the many solves that follow it.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -8,29 +8,29 @@
 
 namespace palpate::integrate {
 
-// L D L^T of a matrix, its columns of like pattern gathered in panels. A panel stands with its own
-// triangle inverted into it, so that each half of a solve is one product a panel: in rows of four,
-// instead of one number after the other.                                     docs/theory.md (38)
+// L D L^T of a matrix, with columns of similar pattern gathered in panels. A panel is stored as the
+// product with the inverse of its triangle, so that each half of a solve is one product per panel
+// with four rows at a time, instead of a chain of single operations.
 class PanelFactors {
  public:
-  enum class Lanes { portable, widest };  // the same bits
+  enum class Lanes { portable, widest };  // both give the same bits
 
   explicit PanelFactors(Lanes lanes = Lanes::widest) : lanes_(lanes) {}
 
-  // Factors a symmetric matrix, positive definite but for a bordered part where `shared` has rows,
-  // its order found anew. Returns false where a pivot is zero or not finite.
+  // Orders and factors a symmetric matrix, which must be positive definite except for its border,
+  // the rows of `shared` (67). Returns false if a pivot is zero or not finite.
   [[nodiscard]] bool factor(const SplitMatrix& matrix);
 
-  // x with A x = b: overwrites `x`, which has the size of `b`. Allocates nothing.
+  // Solves A x = b; `x` is resized like `b` if necessary. Allocates nothing otherwise.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
   struct Panel {
-    int first = 0;           // column
-    int width = 0;           // columns
-    int below = 0;           // rows below its own triangle
-    int fours = 0;           // rows, own and below, rounded up to fours
-    std::size_t rows = 0;    // where its list of rows below begins
-    std::size_t values = 0;  // where its numbers begin: 16 rows of every column, 16 more, and so on
+    int first = 0;           // first column
+    int width = 0;           // number of columns
+    int below = 0;           // number of rows below its triangle
+    int fours = 0;           // number of groups of four in its rows, rounded up
+    std::size_t rows = 0;    // start of the list of the rows below, in rows_
+    std::size_t values = 0;  // start in values_: all columns of 16 rows, of the next 16, and so on
   };
 
  private:
@@ -39,7 +39,7 @@ class PanelFactors {
 
   Lanes lanes_;
   Eigen::Index size_ = 0;   // of the matrix without its border
-  std::vector<int> place_;  // of every unknown in the order of elimination
+  std::vector<int> place_;  // position of every unknown in the order of elimination
   std::vector<Panel> panels_;
   std::vector<int> rows_;
   std::vector<double> values_;

@@ -1,5 +1,5 @@
-// Products with the panels of a factorisation, four rows at a time. Included by one .cpp, once for
-// each kind of processor, as tissue/fast_loops.h is; no `#pragma once`.
+// Products with the panels of a factorisation, four rows at a time. One .cpp includes this file
+// once per instruction set, like tissue/fast_loops.h; no `#pragma once`.
 #if !defined(PALPATE_LOOPS) || !defined(PALPATE_TARGET)
 #error "panel_factors.cpp includes this"
 #endif
@@ -9,7 +9,7 @@ namespace palpate::integrate::PALPATE_LOOPS {
 using Wide = Four;
 #include "base/wide_loads.h"
 
-// out = block x, `fours` times four rows, stored column after column.
+// out = block x, where the block has 4 `fours` rows and is stored by columns.
 template <int fours>
 PALPATE_INLINE void times(const double* block, int columns, const double* x, double* out) {
   Four sum[fours] = {};
@@ -23,7 +23,7 @@ PALPATE_INLINE void times(const double* block, int columns, const double* x, dou
   for (int k = 0; k < fours; ++k) store(out + 4 * k, sum[k]);
 }
 
-// sum_c += block^T x, the four lanes of each of the columns apart.
+// sums += block^T x, with four partial sums (lanes) for every column.
 template <int fours>
 PALPATE_INLINE void transposed_times(const double* block, int columns, const double* x,
                                      double* sums) {

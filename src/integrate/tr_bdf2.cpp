@@ -1,10 +1,10 @@
-// Both stages as implicit Euler steps.
+// Computes both stages as implicit Euler steps.
 #include "integrate/tr_bdf2.h"
 
 namespace palpate::integrate {
 
-// past_: `time` (s) after the state by explicit Euler. An implicit step of the same size from there
-// is the trapezoidal rule.
+// past_ = the state advanced by `time` (s) with explicit Euler. An implicit Euler step of the same
+// length from there gives the trapezoidal rule.
 void TrBdf2::extrapolate(const State& state, double time) {
   Vector& force = force_;
   Vector& acceleration = acceleration_;
@@ -25,8 +25,8 @@ void TrBdf2::extrapolate(const State& state, double time) {
     body_->remember(state.displacement, {time, MemoryRule::forward}, past_.memory);
     return;
   }
-  // Elongations go on as they change now, e + time e': springs that turn do not stretch alike in
-  // both directions, which the mean takes out.
+  // Elongations are extrapolated as e + time e'. Those of springs that rotate contain terms of
+  // second order in time, which the central difference of the elongations ahead and behind removes.
   const std::vector<double>& ahead = memory_ahead_;
   const std::vector<double>& behind = memory_behind_;
   behind_ = state.displacement - time * state.velocity;
@@ -45,7 +45,7 @@ void TrBdf2::begin(const State& state, double time_step, MemoryRule) {
     extrapolate(state, euler_step);
   } else {
     // u1 - a u_gamma + (a - 1) u0 = (1 - gamma) / (2 - gamma) dt u1',  a = 1 / (gamma (2 - gamma));
-    // and (1 - gamma) / (2 - gamma) = gamma / 2 for this gamma.
+    // for this gamma, (1 - gamma) / (2 - gamma) = gamma / 2.
     constexpr double a = 1.0 / (first_part * (2.0 - first_part));
     past_ = state;
     past_.displacement = a * state.displacement - (a - 1.0) * start_.displacement;

@@ -1,31 +1,31 @@
-// The trapezoidal rule and then a backward difference of second order: TR-BDF2.
+// TR-BDF2: the trapezoidal rule followed by a backward difference of second order.
 #pragma once
 
 #include "integrate/implicit.h"
 
 namespace palpate::integrate {
 
-// Second order and L-stable: what is too fast for the step is gone after it. A step has two stages:
-// trapezoidal to t + gamma dt, and from both that and the start a backward difference to t + dt.
-// With gamma = 2 - sqrt(2) each is an implicit Euler step of gamma dt / 2 from another past, so
-// that they share one matrix.
+// The method is of second order and L-stable: modes too fast for the step vanish after one step. A
+// step has two stages: the trapezoidal rule to t + gamma dt, and a backward difference from t and
+// t + gamma dt to t + dt. With gamma = 2 - sqrt(2), both are implicit Euler steps of length
+// gamma dt / 2 from different past values, and share one matrix.
 //          R. E. Bank and others, IEEE Trans. CAD 4(4), 1985; docs/theory.md (83)
 //
-// Offers the calls of Implicit for each stage in turn: begin() ... finish() twice make a step, and
-// contacts are solved in both, because a load that is only interpolated in between would make
-// stiff contacts swing.
+// Each stage has the interface of Implicit: a step is begin() ... finish() twice. Contacts are
+// solved in both stages, because stiff contacts oscillate if the load is only interpolated at
+// t + gamma dt.
 class TrBdf2 {
  public:
-  // The part of a step where its first stage ends, gamma; rounded, and the second stage with it.
+  // gamma, rounded: the part of a step after which its first stage ends. Both stages use this one.
   static constexpr double first_part = 0.58578643762690495;
 
   explicit TrBdf2(const Body& body) : body_(&body), euler_(body, inertia) {}
 
-  // The load (N) at the start of the next step; before the first stage of every step.
+  // Sets the load (N) at the start of the next step; call it before the first stage of every step.
   void start_under(const Vector& load) { load_ = load; }
 
-  // Starts a stage of a step of `time_step` (s) from `state`: the first one from that of t, the
-  // second from what the first left. The rule of the memory does not count.
+  // Starts a stage of a step of `time_step` (s): the first stage from the state at t, the second
+  // one from the result of the first. The memory rule is ignored.
   void begin(const State& state, double time_step, MemoryRule rule);
   [[nodiscard]] bool linearise(const Vector& displacement, const Vector& load) {
     return euler_.linearise(displacement, load);
@@ -43,10 +43,10 @@ class TrBdf2 {
 
   const Body* body_;
   Implicit euler_;
-  State start_;                  // of the step
-  State past_;                   // that the stage's Euler step starts from
+  State start_;                  // at the start of the step
+  State past_;                   // from which the Euler step of the stage starts
   Vector load_;                  // N, at the start of the step
-  Vector force_, acceleration_;  // of extrapolate(), as the next three
+  Vector force_, acceleration_;  // buffers of extrapolate(), like the next three
   Vector behind_;
   std::vector<double> memory_ahead_, memory_behind_;
   double time_step_ = 0.0;

@@ -1,4 +1,4 @@
-// Reading tissue tables: the built-in one is part of the program.
+// Reads tissue tables; the built-in table is compiled into the program.
 #include "material/tissue_table.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Node& table) {
   visitor.text({"title", "for figures"}, tissue.title);
   sourced(visitor, "density", "", tissue.density, quantity(unit::density, above(0)));
   sourced(visitor, "young_modulus", "", tissue.young_modulus, quantity(unit::kPa, above(0)));
-  // The finger's rubber may be incompressible: only Hertz asks for its ratio.
+  // The finger's material may be incompressible, because its ratio is used in Hertz's law only.
   sourced(visitor, "poisson_ratio", "", tissue.poisson_ratio,
           number({.low = -1, .high = 0.5, .low_allowed = false}));
   optional("retardation_time", "", tissue.retardation_time, quantity(unit::s, above(0)));
@@ -55,7 +55,7 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Node& table) {
 
 void require(const Node& table, const std::string& name, const Place& place,
              std::vector<Problem>& problems) {
-  // `densitty` was told as an unknown key; that `density` is missing is the same mistake.
+  // A misspelt key (`densitty`) is reported once, as unknown; its correct name is not also missing.
   std::vector<std::string> unknown;
   for (const Member& member : table.members)
     for (const Problem& problem : problems)

@@ -1,4 +1,4 @@
-// RFC 4180 with one addition: quotes tell a word from a number.
+// CSV by RFC 4180 with one addition: a quoted field is a word, even if it looks like a number.
 #include "record/csv.h"
 
 #include <algorithm>
@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/text.h"
 
 namespace palpate::record {
 namespace {
 
-// A word that would be read as something else, were it not quoted.
+// Whether a word would be read as something else without quotes.
 bool needs_quotes(const std::string& word) {
   if (word.empty() || word.find_first_of(",;\t\"\r\n") != std::string::npos) return true;
   if (trimmed(word) != word || word.starts_with("\xEF\xBB\xBF")) return true;
@@ -39,17 +38,16 @@ struct Field {
   bool quoted = false;
 };
 
-// Takes a CSV text apart, line by line.
+// Splits a CSV text into fields, row by row.
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // as Excel begins its UTF-8
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte order mark, as of Excel
   }
 
   [[nodiscard]] bool at_end() const { return at_ == text_.size(); }
   [[nodiscard]] int line() const { return line_; }
 
-  // Whether nothing but white space is left.
   [[nodiscard]] bool only_blank_left() const { return trimmed(text_.substr(at_)).empty(); }
 
   [[nodiscard]] std::vector<Field> next_row() {
@@ -121,7 +119,7 @@ std::vector<std::string> header(Scanner& scanner) {
       scanner.refuse(line, "column " + std::to_string(names.size() + 1) +
                                " has no name; the first row names every column");
     if (std::find(names.begin(), names.end(), field.text) != names.end())
-      scanner.refuse(line, "the column `" + field.text + "` stands there twice; rename one");
+      scanner.refuse(line, "the column name `" + field.text + "` occurs twice; rename one");
     names.push_back(field.text);
   }
   if (fields.size() == 1 && !fields[0].quoted &&
@@ -135,9 +133,7 @@ Cell cell(const Scanner& scanner, int line, const Field& field) {
   if (field.text.empty()) return std::monostate{};
   const auto number = leading_number(field.text);
   if (!number || !number->rest.empty()) return field.text;
-  if (number->out_of_range)
-    scanner.refuse(line, "no double holds `" + field.text +
-                             "`; write a number between 1e-300 and 1e300 in size");
+  if (number->out_of_range) scanner.refuse(line, out_of_range_text(field.text));
   return number->value;
 }
 
@@ -171,12 +167,32 @@ Table parse_csv(std::string_view text, const std::string& file) {
     if (row.size() != width)
       scanner.refuse(line, "this row has " + std::to_string(row.size()) +
                                " fields, the header names " + std::to_string(width) +
-                               "; give every row one field a column");
+                               "; give every row one field per column");
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 Table read_csv(const std::string& path) { return parse_csv(read_text(path), path); }
+
+CsvFile::CsvFile(const std::string& path, std::vector<std::string> columns)
+    : file_(path), held_{std::move(columns), {}} {}
+
+void CsvFile::add(std::vector<Cell> row) {
+  held_.rows.push_back(std::move(row));
+  if (held_.rows.size() >= 2000) flush();
+}
+
+void CsvFile::flush() {
+  const std::string text = csv_text(held_);
+  file_.append(std::string_view(text).substr(begun_ ? text.find('\n') + 1 : 0));
+  begun_ = true;
+  held_.rows.clear();
+}
+
+void CsvFile::finish() {
+  flush();
+  file_.sync();
+}
 
 }  // namespace palpate::record

@@ -8,7 +8,7 @@
 
 namespace palpate::record {
 
-// Row by row from the lowest y, x fastest. A pixel holds the mean pressure over its square.
+// Values row by row from the lowest y, x fastest; the pressure of a pixel is the mean over it.
 struct PressureMap {
   int width = 0;
   int height = 0;
@@ -17,15 +17,15 @@ struct PressureMap {
   double time = 0.0;           // s
   std::string scenario_case;   // the case's name
   int step = 0;                // counted from 1
-  double contact_force = 0.0;  // N, what the map must integrate to
+  double contact_force = 0.0;  // N, the exact value of integral(map)
   // width * height values each
   std::vector<float> pressure;  // Pa, compression positive
-  // Pa of the map, of the finger on the tissue
+  // Pa per area of the map, of the finger on the tissue
   std::vector<float> traction_x, traction_y, traction_z;
   std::vector<float> gap;  // m, between finger and tissue; 0 in contact, infinite beside the finger
 };
 
-// The map's integral over its area, in N.
+// The integral of the pressure over the map, N.
 [[nodiscard]] double integral(const PressureMap& map);
 
 }  // namespace palpate::record

@@ -1,4 +1,4 @@
-// Rows in SI to tables in the units of their column names.
+// Converts rows in SI units to tables in the units of the column names.
 #include "record/record.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a case leaves behind: rows over time, maps, findings, and how it ended.
+// The result of one case: rows over time, maps, findings, and how the case ended.
 #pragma once
 
 #include <array>
@@ -16,28 +16,28 @@ namespace palpate::record {
 
 // One row of force_indentation.csv, SI.
 struct ContactRow {
-  int step = 0;  // counted from 1
-  double time = 0.0;
+  int step = 0;                 // counted from 1
+  double time = 0.0;            // s
   double travel = 0.0;          // of the finger below the undeformed surface, m
   double indentation = 0.0;     // h of eq. (2), m
-  double force = 0.0;           // F_c + F_a, normal, N
-  double contact_force = 0.0;   // F_c, N
-  double friction = 0.0;        // F_m = mu (F_c + W): what the contact can carry, N
+  double force = 0.0;           // on the hand along z, docs/theory.md (6), N
+  double contact_force = 0.0;   // F_c along z, N
+  double friction = 0.0;        // F_m = mu (F_c + W), the friction limit (7), N
   double ambient = 0.0;         // F_a, N
   double contact_radius = 0.0;  // m
   double peak_pressure = 0.0;   // Pa
   double tissue_radius = 0.0;   // m, infinite on a flat
   int contacts = 0;
   double slide = 0.0;       // m, sideways
-  double tangential = 0.0;  // N, size of the tangential forces together
+  double tangential = 0.0;  // N, magnitude of the sum of the tangential forces
 };
 
-// What a live device adds to a row; NaN where it tells none.
+// Values of a live device for a row; NaN where the device gives none.
 struct MeasuredRow {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::array<double, 3> place{};                 // m, of the finger from its first touch; z upwards
-  double force = none;                           // N, that the device measured; pressing positive
-  std::array<double, 3> sent{none, none, none};  // N, that the device was told to show
+  double force = none;                           // N, measured by the device; pressing positive
+  std::array<double, 3> sent{none, none, none};  // N, commanded to the device
 };
 
 // One row of strain_time.csv, SI; compression positive.
@@ -52,40 +52,40 @@ struct StrainRow {
 struct TissueFrame {
   int step = 0;
   double time = 0.0;                     // s
-  std::vector<Vec3> displacement;        // m, one a node
-  std::vector<double> contact_pressure;  // Pa, one a node: its part of the contact forces over its
-                                         // part of the skin
+  std::vector<Vec3> displacement;        // m, one per node
+  std::vector<double> contact_pressure;  // Pa, one per node: its share of the contact forces
+                                         // divided by its share of the skin's area
 };
 
-// A named number (or word); the unit is the name's last part.
+// A named number (or word); the name ends with the unit.
 struct Finding {
   std::string name;
   Cell value;
 };
 
-// `stopped`: a device ended it, by its link or for safety.
+// `stopped`: ended by a device, because of its link or a safety rule.
 enum class Outcome { completed, diverged, interrupted, stopped };
 
 struct CaseRecord {
   std::string name;
   Outcome outcome = Outcome::completed;
-  std::string reason;             // a sentence, unless completed
+  std::string reason;             // a sentence; empty if completed
   double last_stable_time = 0.0;  // s
   std::vector<ContactRow> contact;
-  std::vector<MeasuredRow> measured;  // one a row of `contact` in a live run; else empty
+  std::vector<MeasuredRow> measured;  // one per row of `contact` in a live run; otherwise empty
   std::vector<StrainRow> strain;
   std::vector<PressureMap> maps;
-  geometry::TetMesh mesh;  // of `frames`; empty where none are asked for
+  geometry::TetMesh mesh;  // of `frames`; empty if no frames are requested
   std::vector<TissueFrame> frames;
-  ScenePicture picture;  // without faces where none is asked for
+  ScenePicture picture;  // without faces if no picture is requested
   std::vector<Finding> findings;
-  std::vector<std::string> remarks;  // on validity, in sentences
-  std::string chosen;                // what stands for every `auto`, as `key = word`, by commas
-  double seconds = 0.0;              // that the case took: for run.json only
+  std::vector<std::string> remarks;  // sentences on the validity of the result
+  std::string chosen;                // values chosen for `auto`: `key = word`, comma-separated
+  double seconds = 0.0;              // run time, for run.json only
   std::vector<std::pair<std::string, std::string>> attached;  // files of a live run: name, content
 };
 
-// The CSV files' tables, in the order and units of docs/results.md.
+// The tables of the CSV files, with the columns and units of docs/results.md.
 [[nodiscard]] Table contact_table(const std::vector<CaseRecord>& records);
 [[nodiscard]] Table strain_table(const std::vector<CaseRecord>& records);
 

@@ -1,4 +1,4 @@
-// The scene before anything moves, as far as a picture shows it.
+// The parts of a scene at rest that a picture shows.
 #pragma once
 
 #include <array>
@@ -12,19 +12,19 @@ namespace palpate::record {
 struct ScenePicture {
   struct Face {
     std::array<Vec3, 3> corners;  // m, counter-clockwise from outside
-    int region = 0;               // that it bounds
-    int within = -1;              // the region around that one; -1: none, it is on the skin
+    int region = 0;               // on the inner side of the face
+    int within = -1;              // region on the outer side; -1: the face is part of the skin
   };
   struct Sphere {
     Vec3 centre = Vec3::Zero();  // m
     double radius = 0.0;         // m
   };
   std::vector<Face> faces;             // of the specimen at rest; empty: no picture
-  std::vector<std::string> materials;  // one a region
-  std::vector<Sphere> finger;          // where it first touches
+  std::vector<std::string> materials;  // one per region
+  std::vector<Sphere> finger;          // at its first touch
   double travel = 0.0;                 // m, the deepest
-  Vec3 touch = Vec3::Zero();           // m, where the slides begin
-  std::vector<Vec3> slides;            // m, one after the other
+  Vec3 touch = Vec3::Zero();           // m, on the surface, where the first slide begins
+  std::vector<Vec3> slides;            // m, displacements, each from the end of the previous one
 };
 
 }  // namespace palpate::record

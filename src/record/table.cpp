@@ -1,4 +1,4 @@
-// Looking a column up.
+// Lookup of a column by name.
 #include "record/table.h"
 
 namespace palpate::record {

@@ -1,4 +1,4 @@
-// A table of results: named columns, rows of numbers and words.
+// A table of results with named columns and rows of numbers and words.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace palpate::record {
 
-// Nothing (an empty field), a number, or a word.
+// Missing (an empty field), a number, or a word.
 using Cell = std::variant<std::monostate, double, std::string>;
 
 struct Table {
-  std::vector<std::string> columns;  // the unit is the name's last part: `force_N`
+  std::vector<std::string> columns;  // a name ends with its unit: `force_N`
   std::vector<std::vector<Cell>> rows;
 
   // The column's index, or -1.

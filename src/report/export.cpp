@@ -1,4 +1,4 @@
-// From a result's table to curves in SI, and the formats that are plain columns.
+// Converts a result's table to curves in SI, and writes the formats that are plain columns.
 #include "report/export.h"
 
 #include <algorithm>
@@ -7,9 +7,10 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "base/text.h"
+#include "measured/unit.h"
 #include "record/csv.h"
-#include "record/measured_unit.h"
 
 namespace palpate::report {
 namespace {
@@ -36,7 +37,7 @@ std::vector<SourceColumn> number_columns(const record::Table& table) {
       return std::holds_alternative<std::string>(row[i]);
     });
     if (words) continue;
-    const record::NamedColumn named = record::named_column(table.columns[i]);
+    const measured::NamedColumn named = measured::named_column(table.columns[i]);
     if (named.unit)
       columns.push_back({i, named.bare, si_unit(named.unit->factor.dimension), named.unit->factor});
     else
@@ -60,7 +61,7 @@ std::vector<ExportCurve> export_curves(const record::Table& table, const std::st
   for (const auto& row : table.rows) {
     std::string name = fallback;
     if (name_at >= 0) {
-      const record::Cell& cell = row[static_cast<std::size_t>(name_at)];
+      const record::Cell& cell = row[as_index(name_at)];
       if (const auto* word = std::get_if<std::string>(&cell)) name = *word;
       if (const auto* number = std::get_if<double>(&cell)) name = number_text(*number);
     }
@@ -87,31 +88,22 @@ std::vector<ExportCurve> export_curves(const record::Table& table, const std::st
 
 std::span<const ExportFormat> export_formats() { return formats; }
 
-namespace {
-
 const ExportColumn& wanted(const ExportCurve& curve, std::string_view column,
-                           const ExportFormat& format) {
+                           std::string_view format) {
   if (const ExportColumn* found = curve.find(column)) return *found;
+  const auto& row = *std::find_if(formats.begin(), formats.end(),
+                                  [&](const ExportFormat& one) { return one.name == format; });
   std::vector<std::string> names;
   for (const ExportColumn& one : curve.columns) names.push_back(one.name);
-  throw InputError({}, "`" + std::string(format.name) + "` holds " + std::string(format.wants) +
-                           ", and the curve `" + curve.name + "` has no `" + std::string(column) +
-                           "`, only " + joined(names, ", ") +
-                           "; take another format, as `--to csv-si`");
+  throw InputError({}, ticked(format) + " needs " + std::string(row.wants) + ", and the curve " +
+                           ticked(curve.name) + " has no " + ticked(column) + ", only " +
+                           joined(names, ", ") + "; choose another format, such as `--to csv-si`");
 }
-
-const ExportFormat& format_of(std::string_view name) {
-  return *std::find_if(formats.begin(), formats.end(),
-                       [&](const ExportFormat& one) { return one.name == name; });
-}
-
-}  // namespace
 
 std::string rheos_text(const ExportCurve& curve) {
-  const ExportFormat& format = format_of("rheos");
-  const ExportColumn& stress = wanted(curve, "stress", format);
-  const ExportColumn& strain = wanted(curve, "strain", format);
-  const ExportColumn& time = wanted(curve, "time", format);
+  const ExportColumn& stress = wanted(curve, "stress", "rheos");
+  const ExportColumn& strain = wanted(curve, "strain", "rheos");
+  const ExportColumn& time = wanted(curve, "time", "rheos");
   std::string text;
   for (std::size_t i = 0; i < time.values.size(); ++i)
     text += number_text(stress.values[i]) + "," + number_text(strain.values[i]) + "," +
@@ -120,7 +112,7 @@ std::string rheos_text(const ExportCurve& curve) {
 }
 
 std::string febio_log_text(const ExportCurve& curve) {
-  const ExportColumn& time = wanted(curve, "time", format_of("febio-log"));
+  const ExportColumn& time = wanted(curve, "time", "febio-log");
   std::vector<const ExportColumn*> values;
   std::vector<std::string> names;
   for (const ExportColumn& column : curve.columns)
@@ -131,7 +123,7 @@ std::string febio_log_text(const ExportCurve& curve) {
   const std::string data = joined(names, ";");
   std::string text;
   for (std::size_t i = 0; i < time.values.size(); ++i) {
-    // The spaces around `=` are those of FEBio's DataRecord::Write.
+    // FEBio's DataRecord::Write has the same spaces around `=`.
     text += "*Step  = " + std::to_string(i) + "\n*Time  = " + number_text(time.values[i]) +
             "\n*Data  = " + data + "\n1";
     for (const ExportColumn* column : values) text += "," + number_text(column->values[i]);

@@ -1,6 +1,4 @@
 // The formats of indenters: afmformats' .tab and Optics11 Chiaro's text.
-#include "report/export_press.h"
-
 #include <array>
 #include <cmath>
 #include <limits>
@@ -8,10 +6,21 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "report/export.h"
 #include "report/machine.h"
 
 namespace palpate::report {
 namespace {
+
+// A press in the form of an indenter's data: approach up to the largest force, then retraction.
+struct Press {
+  const ExportColumn* time = nullptr;         // s; null if missing
+  const ExportColumn* indentation = nullptr;  // m
+  const ExportColumn* force = nullptr;        // N
+  const ExportColumn* travel = nullptr;       // m, of the finger; the indentation if missing
+  std::size_t peak = 0;  // row of the largest force, the last row of the approach
+  double speed = 0.0;    // m/s, mean of the approach; NaN without a time or an approach
+};
 
 double largest(const std::vector<double>& values) {
   double found = -std::numeric_limits<double>::infinity();
@@ -25,8 +34,7 @@ double smallest(const std::vector<double>& values) {
   return found;
 }
 
-// The digits in a unit of 1/per of the SI one that read back as the same double, or as its
-// neighbour where no such digits exist.
+// `si` in a unit of 1/per SI units, with digits that read back as the same double if there are any.
 std::string scaled_text(double si, double per) {
   const double value = si * per;
   double candidate = value;
@@ -39,22 +47,13 @@ std::string scaled_text(double si, double per) {
   return number_text(value);
 }
 
-}  // namespace
-
-Press press_of(const ExportCurve& curve, std::string_view format, std::string_view wants) {
+// Throws InputError with what `format` needs if the curve has no indentation or no force.
+Press press_of(const ExportCurve& curve, std::string_view format) {
   Press press;
   press.time = curve.find("time");
-  press.indentation = curve.find("indentation");
-  press.force = curve.find("force");
+  press.indentation = &wanted(curve, "indentation", format);
+  press.force = &wanted(curve, "force", format);
   press.travel = curve.find("travel");
-  for (const char* name : {"indentation", "force"})
-    if (curve.find(name) == nullptr) {
-      std::vector<std::string> names;
-      for (const ExportColumn& one : curve.columns) names.push_back(one.name);
-      throw InputError({}, "`" + std::string(format) + "` holds " + std::string(wants) +
-                               ", and the curve `" + curve.name + "` has no `" + name + "`, only " +
-                               joined(names, ", ") + "; take another format, as `--to csv-si`");
-    }
   if (press.travel == nullptr) press.travel = press.indentation;
   for (std::size_t i = 0; i < press.force->values.size(); ++i)
     if (press.force->values[i] > press.force->values[press.peak]) press.peak = i;
@@ -66,10 +65,12 @@ Press press_of(const ExportCurve& curve, std::string_view format, std::string_vi
   return press;
 }
 
-// AFM-analysis/afmformats, afm_data.py (_export_tab), fmt_tab.py and meta.py: CR LF, metadata as
-// JSON in comments, the last comment names the columns, booleans as Python writes them.
+}  // namespace
+
+// Format: AFM-analysis/afmformats, afm_data.py (_export_tab), fmt_tab.py and meta.py. CR LF,
+// metadata as JSON in comments, column names in the last comment, booleans as in Python.
 std::string afm_tab_text(const ExportCurve& curve) {
-  const Press press = press_of(curve, "afm-tab", "indentation and force");
+  const Press press = press_of(curve, "afm-tab");
   const std::size_t rows = press.force->values.size();
   nlohmann::json metadata;
   metadata["curve id"] = curve.name;
@@ -98,26 +99,27 @@ std::string afm_tab_text(const ExportCurve& curve) {
   for (std::size_t i = 0; i < rows; ++i) {
     text += number_text(press.force->values[i]) + (i > press.peak ? "\tTrue\t" : "\tFalse\t");
     if (press.time != nullptr) text += number_text(press.time->values[i]) + "\t";
-    // The tip's height falls as it goes in; 0 - x so that 0 stays without a sign.
+    // The tip's height decreases with the indentation; 0 - x avoids a negative zero.
     text += number_text(0.0 - press.indentation->values[i]) + end;
   }
   return text;
 }
 
-// AFM-analysis/afmformats, fmt_chiaro_txt.py: pairs of key and value by tabs, the columns' names,
-// numbers; ISO 8859-1. There is no cantilever here: it does not bend, and its stiffness is unknown.
+// Format: AFM-analysis/afmformats, fmt_chiaro_txt.py. Keys and values separated by tabs, column
+// names, numbers; ISO 8859-1. There is no cantilever: its deflection is 0, its stiffness unknown.
 std::string chiaro_text(const ExportCurve& curve) {
-  const Press press = press_of(curve, "chiaro", "time, indentation and force");
+  const Press press = press_of(curve, "chiaro");
   if (press.time == nullptr)
-    throw InputError({}, "`chiaro` holds time, indentation and force, and the curve `" +
-                             curve.name + "` has no `time`; take another format, as `--to csv-si`");
+    throw InputError({}, "`chiaro` needs time, indentation and force, and the curve `" +
+                             curve.name +
+                             "` has no `time`; choose another format, such as `--to csv-si`");
   const std::string end = "\r\n";
   const std::string micro = "\xB5";
   const double z_range = largest(press.travel->values) - smallest(press.travel->values);
   const auto line = [&](const std::string& key, const std::string& value) {
     return key + "\t" + value + end;
   };
-  // A simulation has no date, and 00:00:00 is the time that every reader can parse.
+  // A simulation has no date and no time; every reader can parse 00:00:00.
   std::string text = line("Date", "none") + line("Time", "00:00:00");
   text += line("Device:", "Chiaro") + line("Software version", "palpate " + this_build().version);
   text += line("Sample", curve.name) + line("k (N/m)", "nan");

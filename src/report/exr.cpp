@@ -1,4 +1,4 @@
-// The only file that includes OpenEXR.
+// Writes EXR images. This is the only file that includes OpenEXR.
 #include "report/exr.h"
 
 #include <ImfChannelList.h>
@@ -19,13 +19,12 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/units.h"
 
 namespace palpate::report {
 namespace {
 
-// What a channel shows of a map.
+// A channel and the part of a map that it contains.
 struct Shown {
   const char* channel;
   const std::vector<float> record::PressureMap::*values;
@@ -44,9 +43,9 @@ class Memory final : public Imf::OStream {
   Memory() : OStream("memory") {}
 
   void write(const char bytes[], int count) override {
-    const std::size_t end = at_ + static_cast<std::size_t>(count);
+    const std::size_t end = at_ + as_index(count);
     if (end > content_.size()) content_.resize(end);
-    content_.replace(at_, static_cast<std::size_t>(count), bytes, static_cast<std::size_t>(count));
+    content_.replace(at_, as_index(count), bytes, as_index(count));
     at_ = end;
   }
   std::uint64_t tellp() override { return at_; }
@@ -86,11 +85,11 @@ Imf::Header header(const record::PressureMap& map,
 
 std::string exr_bytes(const record::PressureMap& map,
                       const std::map<std::string, std::string>& more_attributes) {
-  const auto width = static_cast<std::size_t>(map.width);
+  const auto width = as_index(map.width);
   assert(map.width > 0 && map.height > 0);
   std::array<std::vector<float>, channels.size()> pixels;
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    assert((map.*channels[i].values).size() == width * static_cast<std::size_t>(map.height));
+    assert((map.*channels[i].values).size() == width * as_index(map.height));
     for (const float value : map.*channels[i].values)
       pixels[i].push_back(static_cast<float>(channels[i].unit.from_si(static_cast<double>(value))));
   }
@@ -106,16 +105,11 @@ std::string exr_bytes(const record::PressureMap& map,
                                 sizeof(float), sizeof(float) * width));
       file.setFrameBuffer(frame);
       file.writePixels(map.height);
-    }  // the file ends its tables where it is destroyed
+    }  // the destructor of the file completes its tables
     return memory.content();
   } catch (const std::exception& error) {
-    throw SystemError(std::string("the pressure map cannot be made an EXR image: ") + error.what());
+    throw SystemError(std::string("the pressure map cannot be written as EXR: ") + error.what());
   }
-}
-
-void write_exr(const std::string& path, const record::PressureMap& map,
-               const std::map<std::string, std::string>& more_attributes) {
-  write_atomically(path, exr_bytes(map, more_attributes));
 }
 
 std::string exr_version() { return OPENEXR_VERSION_STRING; }

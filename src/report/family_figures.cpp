@@ -1,7 +1,9 @@
-// One series a case; its fits over it.
+// Chooses the figures of a family, with one series per case and its fits.
 #include "report/family_figures.h"
 
 #include <algorithm>
+
+#include "report/figures.h"
 
 namespace palpate::report {
 namespace {
@@ -11,7 +13,7 @@ bool has_step(const scenario::Scenario& scenario, bool (*is)(const scenario::Ste
 }
 
 bool is_logarithmic(const fit::NamedFit& named) {
-  // The scaled copy of a curve is drawn by scaling this one.
+  // The fit of a scaled curve is left out: the figure scales this fit instead.
   return named.curve == "force_indentation" && named.fit.model == fit::Model::logarithmic;
 }
 bool is_creep(const fit::NamedFit& named) {
@@ -19,13 +21,13 @@ bool is_creep(const fit::NamedFit& named) {
 }
 bool is_relaxation(const fit::NamedFit& named) { return named.curve == "relaxation"; }
 
-std::vector<Series> series_of(const scenario::Family& family,
-                              const std::vector<record::CaseRecord>& records,
-                              const std::vector<fit::NamedFit>& fits,
-                              bool (*wanted)(const fit::NamedFit&)) {
-  std::vector<Series> all;
+std::vector<plot::Series> series_of(const scenario::Family& family,
+                                    const std::vector<record::CaseRecord>& records,
+                                    const std::vector<fit::NamedFit>& fits,
+                                    bool (*wanted)(const fit::NamedFit&)) {
+  std::vector<plot::Series> all;
   for (const record::CaseRecord& record : records) {
-    Series series;
+    plot::Series series;
     series.case_name = record.name;
     const auto& scales = family.base.output.display_scale;
     const auto scale = scales.find(record.name);
@@ -39,7 +41,7 @@ std::vector<Series> series_of(const scenario::Family& family,
   return all;
 }
 
-// The first step that the predicate holds for, counted from 1; 0: none.
+// The number (from 1) of the first step for which `is` is true; 0 if there is none.
 int first_step(const scenario::Scenario& scenario, bool (*is)(const scenario::Step&)) {
   const auto found = std::find_if(scenario.steps.begin(), scenario.steps.end(), is);
   return found == scenario.steps.end() ? 0 : static_cast<int>(found - scenario.steps.begin()) + 1;
@@ -47,9 +49,10 @@ int first_step(const scenario::Scenario& scenario, bool (*is)(const scenario::St
 
 bool is_slide(const scenario::Step& step) { return std::holds_alternative<scenario::Slide>(step); }
 
-// Over cases whose curvatures differ: one curve a tissue, where tissues are swept too.
-std::optional<Figure> curvature_figure(const scenario::Family& family,
-                                       const std::vector<record::CaseRecord>& records) {
+// Force over curvature, with one curve per material if `tissue.material` is swept. Nothing if the
+// cases have fewer than three different curvatures.
+std::optional<plot::Figure> curvature_figure(const scenario::Family& family,
+                                             const std::vector<record::CaseRecord>& records) {
   std::vector<double> curvatures;
   for (const record::CaseRecord& record : records)
     for (const record::Finding& finding : record.findings)
@@ -58,14 +61,14 @@ std::optional<Figure> curvature_figure(const scenario::Family& family,
   std::sort(curvatures.begin(), curvatures.end());
   curvatures.erase(std::unique(curvatures.begin(), curvatures.end()), curvatures.end());
   if (curvatures.size() < 3) return std::nullopt;
-  std::vector<Series> all;
+  std::vector<plot::Series> all;
   const std::vector<std::string>& keys = family.design.keys();
   const auto swept = std::find(keys.begin(), keys.end(), "tissue.material");
   if (swept == keys.end()) return figure_force_curvature({{.label = "all cases"}});
   for (const scenario::Case& one : family.cases) {
-    const std::string& material = one.swept[static_cast<std::size_t>(swept - keys.begin())].second;
+    const std::string& material = one.swept[as_index(swept - keys.begin())].second;
     if (std::none_of(all.begin(), all.end(),
-                     [&](const Series& series) { return series.case_name == material; }))
+                     [&](const plot::Series& series) { return series.case_name == material; }))
       all.push_back({.case_name = material, .column = "tissue.material"});
   }
   return figure_force_curvature(all);
@@ -73,21 +76,21 @@ std::optional<Figure> curvature_figure(const scenario::Family& family,
 
 }  // namespace
 
-std::vector<Figure> family_figures(const scenario::Family& family,
-                                   const std::vector<record::CaseRecord>& records,
-                                   const std::vector<fit::NamedFit>& fits) {
-  std::vector<Figure> figures;
+std::vector<plot::Figure> family_figures(const scenario::Family& family,
+                                         const std::vector<record::CaseRecord>& records,
+                                         const std::vector<fit::NamedFit>& fits) {
+  std::vector<plot::Figure> figures;
   if (records.empty()) return figures;
   if (!family.base.uniform()) {
     figures.push_back(figure_force_indentation(series_of(family, records, fits, is_logarithmic)));
     if (const int slide = first_step(family.base, is_slide)) {
       const auto nothing = [](const fit::NamedFit&) { return false; };
-      std::vector<Series> along = series_of(family, records, fits, nothing);
-      for (Series& series : along) series.step = slide;
-      const auto& step = family.base.steps[static_cast<std::size_t>(slide) - 1];
+      std::vector<plot::Series> along = series_of(family, records, fits, nothing);
+      for (plot::Series& series : along) series.step = slide;
+      const auto& step = family.base.steps[as_index(slide) - 1];
       const bool keeps_force = std::get<scenario::Slide>(step).keep == scenario::Slide::Keep::force;
       figures.push_back(keeps_force ? figure_travel_slide(along) : figure_force_slide(along));
-      for (Series& series : figures.front().series) series.step = 1;  // before it slid
+      for (plot::Series& series : figures.front().series) series.step = 1;  // not the slide
     }
     if (const auto figure = curvature_figure(family, records)) figures.push_back(*figure);
   } else {
@@ -96,22 +99,22 @@ std::vector<Figure> family_figures(const scenario::Family& family,
     if (has_step(family.base, [](const scenario::Step& step) {
           return std::holds_alternative<scenario::Creep>(step);
         })) {
-      Figure figure = figure_strain_time(series_of(family, records, fits, is_creep));
+      plot::Figure figure = figure_strain_time(series_of(family, records, fits, is_creep));
       figure.fit_label = fit_label;
       figures.push_back(figure);
     }
     if (has_step(family.base, [](const scenario::Step& step) {
           return std::holds_alternative<scenario::Relax>(step);
         })) {
-      Figure figure = figure_strain_time(series_of(family, records, fits, is_relaxation));
+      plot::Figure figure = figure_strain_time(series_of(family, records, fits, is_relaxation));
       figure.name = "figure_stress_time";
       figure.y_label = "Stress (kPa)";
       figure.fit_label = "Standard linear solid fit";
-      for (Series& series : figure.series) series.y_column = "stress_kPa";
+      for (plot::Series& series : figure.series) series.y_column = "stress_kPa";
       figures.push_back(figure);
     }
   }
-  for (Figure& figure : figures) figure.title = family.title;
+  for (plot::Figure& figure : figures) figure.title = family.title;
   return figures;
 }
 

@@ -1,4 +1,4 @@
-// The machine as Linux shows it, the build as the compiler knows it.
+// Reads the machine from Linux, and the build from the compiler and CMake.
 #include "report/machine.h"
 
 #include <sched.h>
@@ -11,7 +11,7 @@
 
 #include "base/text.h"
 
-// Given by CMake; a build without them says so.
+// CMake defines these.
 #ifndef PALPATE_VERSION
 #define PALPATE_VERSION "unknown"
 #endif

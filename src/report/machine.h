@@ -1,4 +1,4 @@
-// Where and by what a result was made: the machine, the build, the clock.
+// The machine, the build and the time with which a result was made, for run.json.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 namespace palpate::report {
 
 struct Machine {
-  std::string cpu = {};  // the model, as /proc/cpuinfo says
-  int cores = 0;         // that this process may use
+  std::string cpu = {};  // model name in /proc/cpuinfo
+  int cores = 0;         // number that this process may use; 0 if unknown
   std::string kernel = {};
 };
 [[nodiscard]] Machine this_machine();
@@ -20,10 +20,10 @@ struct Build {
 };
 [[nodiscard]] Build this_build();
 
-// The time in UTC as `2026-01-31T12:00:00Z`; SOURCE_DATE_EPOCH stands in for the clock where set.
+// The time in UTC as `2026-01-31T12:00:00Z`; SOURCE_DATE_EPOCH, if set, replaces the clock.
 [[nodiscard]] std::string utc_now();
 
-// Seconds since 1970-01-01 as such a text.
+// A time in seconds since 1970-01-01 in the same format.
 [[nodiscard]] std::string utc_text(long long seconds);
 
 }  // namespace palpate::report

@@ -1,11 +1,9 @@
-// The manifest as JSON; the only file of this room that includes nlohmann json.
+// Fills the manifest and writes it as JSON.
 #include "report/manifest.h"
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/files.h"
 #include "fit/regression.h"
 #include "report/exr.h"
 
@@ -48,15 +46,6 @@ std::string dotted(int major, int minor, int patch) {
 
 }  // namespace
 
-HashedFile hashed_file(const std::string& path, const std::string& folder) {
-  Sha256 hash;  // not of the whole in memory: an hour at 1 kHz is a gigabyte
-  for_each_line((std::filesystem::path(folder) / path).string(), [&](const FileLine& line) {
-    hash.add(line.text);
-    if (line.whole) hash.add("\n");
-  });
-  return {path, hash.digits()};
-}
-
 std::map<std::string, std::string> library_versions(const std::string& tetgen) {
   return {{"eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"ceres", fit::ceres_version()},
@@ -98,7 +87,7 @@ std::string manifest_text(const Manifest& manifest) {
   json["failed"] = cases_json(manifest.cases, CaseEntry::State::failed);
   json["inputs"] = files_json(manifest.inputs);
   json["outputs"] = files_json(manifest.outputs);
-  // A path need not be UTF-8; what is not becomes U+FFFD.
+  // A path need not be UTF-8; invalid bytes become U+FFFD.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

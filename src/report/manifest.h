@@ -1,24 +1,20 @@
-// run.json: what made a result, from what, and when.
+// run.json: the program, machine, inputs, outputs and times of a result.
 #pragma once
 
 #include <map>
 #include <string>
 #include <vector>
 
+#include "base/files.h"
 #include "report/machine.h"
 #include "scenario/family.h"
 
 namespace palpate::report {
 
-// What run.json says of how a result was made, beyond what the result itself knows.
+// The command that made a result.
 struct Origin {
   std::vector<std::string> argv;
   std::string started;  // UTC
-};
-
-struct HashedFile {
-  std::string path = {};
-  std::string sha256 = {};
 };
 
 struct CaseEntry {
@@ -26,16 +22,16 @@ struct CaseEntry {
 
   std::string name = {};
   State state = State::finished;
-  std::string why = {};                        // where failed
+  std::string why = {};                        // reason of a failure
   std::map<std::string, double> timings = {};  // s, by stage
 };
 
 struct Manifest {
   Build build = {};
-  std::map<std::string, std::string> libraries = {};  // name to version
+  std::map<std::string, std::string> libraries = {};  // versions by name
   Machine machine = {};
   std::vector<std::string> argv = {};
-  std::string started = {};  // UTC, as utc_now gives it
+  std::string started = {};  // UTC, in the format of utc_now
   std::string ended = {};
   std::vector<HashedFile> inputs = {};
   std::vector<HashedFile> outputs = {};
@@ -43,17 +39,14 @@ struct Manifest {
   bool complete = false;
 };
 
-// The hash of a file as it stands below `folder` (empty: here). Throws InputError as read_text.
-[[nodiscard]] HashedFile hashed_file(const std::string& path, const std::string& folder = {});
-
-// Eigen, Ceres, OpenEXR, nlohmann json and TetGen, whose version its own room knows.
+// Versions of Eigen, Ceres, OpenEXR, nlohmann json and TetGen; that of TetGen is given.
 [[nodiscard]] std::map<std::string, std::string> library_versions(const std::string& tetgen);
 
-// What every manifest begins with: build, libraries, machine, what was called, the inputs' hashes.
+// Returns a manifest with build, libraries, machine, command, times and the hashes of the inputs.
 [[nodiscard]] Manifest begin_manifest(const Origin& origin,
                                       const std::vector<scenario::InputFile>& inputs);
 
-// The manifest as JSON, two spaces a level, `\n` at the end; keys in a fixed order.
+// The manifest as JSON with keys in a fixed order, indented by two spaces, with `\n` at the end.
 [[nodiscard]] std::string manifest_text(const Manifest& manifest);
 
 }  // namespace palpate::report

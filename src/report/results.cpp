@@ -1,20 +1,16 @@
-// The files of a result, in the order in which they depend on each other.
+// Writes the files of a result.
 #include "report/results.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "plot/gnuplot.h"
 #include "record/csv.h"
 #include "report/exr.h"
 #include "report/family_figures.h"
-#include "report/gnuplot.h"
 #include "report/manifest.h"
 #include "report/scene_picture.h"
 #include "report/vtu.h"
@@ -25,39 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make_folder(const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw SystemError(path + " cannot be made: " + error.message());
-}
-
-void move(const std::string& from, const std::string& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error) throw SystemError(from + " cannot be renamed to " + to + ": " + error.message());
-}
-
-bool is_complete(const std::string& folder) {
-  const std::string manifest = folder + "/run.json";
-  return fs::exists(manifest) &&
-         read_text(manifest).find("\"complete\": true") != std::string::npos;
-}
-
-// A folder of the user's own that happens to have the scenario's name, as with `--out .`.
-bool is_foreign(const std::string& path) {
-  std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(path, ignored)) || fs::exists(path + "/run.json"))
-    return false;
-  return !fs::is_directory(path) || !fs::is_empty(path);
-}
-
 std::string numbered(const char* stem, std::size_t number, const char* ending) {
   std::string digits = std::to_string(number);
   while (digits.size() < 3) digits.insert(digits.begin(), '0');
   return std::string(stem) + "_" + digits + ending;
 }
 
-// A file that every case has: by the case's row in findings.csv where there are several.
+// The name of a case's file, with the case's row in findings.csv as a number if there are several.
 std::string case_file(const char* stem, std::size_t index, std::size_t cases, const char* ending) {
   if (cases == 1) return std::string(stem) + ending;
   return numbered((std::string(stem) + "_case").c_str(), index + 1, ending);
@@ -81,7 +51,7 @@ record::Table findings_table(const scenario::Family& family,
                                   [&](const auto& other) { return other.name == record.name; });
     for (std::size_t i = 1; i < fixed; ++i) row[i] = one->swept[i - 1].second;
     for (const record::Finding& finding : record.findings)
-      row[static_cast<std::size_t>(table.find(finding.name))] = finding.value;
+      row[as_index(table.find(finding.name))] = finding.value;
     table.rows.push_back(row);
   }
   return table;
@@ -98,7 +68,7 @@ record::Table curve_table(const scenario::Family& family,
   return family.base.uniform() ? record::strain_table(records) : record::contact_table(records);
 }
 
-// A row a case.
+// Files with a few rows per case.
 CsvFiles short_files(const scenario::Family& family, const std::vector<record::CaseRecord>& records,
                      const std::vector<fit::NamedFit>& fits) {
   CsvFiles files;
@@ -116,72 +86,36 @@ CsvFiles csv_files(const scenario::Family& family, const std::vector<record::Cas
   return files;
 }
 
-ResultFolder::ResultFolder(const std::string& out, const scenario::Family& family, bool replace)
-    : family_(&family),
-      path_((fs::path(out) / family.name).string()),
-      partial_(path_ + ".partial-" + std::to_string(::getpid())),
-      replace_(replace) {
-  if (!replace && is_complete(path_))
-    throw InputError({path_, 0, 0},
-                     "holds a finished result; give `--force` to replace it, or another `--out`");
-  if (is_foreign(path_))
-    throw InputError({path_, 0, 0},
-                     "is there and is no result, so that it is not replaced; give another `--out`, "
-                     "or rename the scenario");
-}
-
-// Numbers of processes come again, in a container at once: a folder that was left is passed by.
-void ResultFolder::open() {
-  const std::string stem = partial_;
-  if (const fs::path parent = fs::path(partial_).parent_path(); !parent.empty())
-    make_folder(parent.string());
-  std::error_code error;
-  for (int i = 2; !fs::create_directory(partial_, error); ++i) {
-    if (error) throw SystemError(partial_ + " cannot be made: " + error.message());
-    partial_ = stem + "-" + std::to_string(i);
-  }
-  opened_ = true;
-}
-
-ResultFolder::~ResultFolder() {
-  std::error_code ignored;
-  const bool grows = std::any_of(growing_.begin(), growing_.end(), [&](const std::string& name) {
-    return fs::exists(partial_ + "/" + name, ignored);
-  });
-  if (opened_ && !finished_ && !cases_kept_ && !grows) fs::remove_all(partial_, ignored);
+ResultFolder::ResultFolder(const std::string& out, const scenario::Family& family, Replace replace)
+    : family_(&family), folder_((fs::path(out) / family.name).string(), "result", replace) {
+  folder_.refuse_what_is_there();
 }
 
 std::string ResultFolder::growing(const std::string& name) {
-  growing_.insert(name);
-  return partial_ + "/" + name;
+  folder_.keep(name);
+  return folder_.file(name);
 }
 
 void ResultFolder::take_grown(const std::string& name) {
-  std::error_code ignored;
-  if (fs::exists(partial_ + "/" + name, ignored)) grown_.insert(name);
+  if (fs::exists(folder_.file(name))) grown_.insert(name);
 }
 
 std::vector<std::string> ResultFolder::rows_left_beside() const {
-  const fs::path place(path_);
-  const std::string stem = place.filename().string() + ".partial-";
-  const fs::path parent = place.has_parent_path() ? place.parent_path() : fs::path(".");
   std::vector<std::string> found;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(parent, ignored)) {
-    const fs::path rows = entry.path() / "force_indentation.csv";
-    // One with run.json is a whole result, beside an older one.
-    if (entry.path().filename().string().starts_with(stem) && fs::exists(rows, ignored) &&
-        !fs::exists(entry.path() / "run.json", ignored))
-      found.push_back(rows.string());
-  }
-  std::sort(found.begin(), found.end());
+  for (const std::string& left : folder_.left_beside())
+    // A folder with run.json is a complete result that could not replace an older one.
+    if (fs::exists(left + "/force_indentation.csv") && !fs::exists(left + "/run.json"))
+      found.push_back(left + "/force_indentation.csv");
   return found;
 }
 
 void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
   if (record.outcome == record::Outcome::interrupted) return;
-  const std::string folder = partial_ + "/" + numbered("case", index + 1, "");
-  make_folder(folder);
+  const std::string name = numbered("case", index + 1, "");
+  const std::string folder = folder_.file(name);
+  if (!cases_kept_) folder_.keep(name + "/findings.csv");  // written last
+  cases_kept_ = true;
+  make_folders(folder);
   const std::vector<record::CaseRecord> one{record};
   if (!record.contact.empty() && !grown_.contains("force_indentation.csv"))
     write_atomically(folder + "/force_indentation.csv",
@@ -189,12 +123,6 @@ void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
   if (!record.strain.empty())
     write_atomically(folder + "/strain_time.csv", record::csv_text(record::strain_table(one)));
   write_atomically(folder + "/findings.csv", record::csv_text(findings_table(*family_, one)));
-  cases_kept_ = true;
-}
-
-void ResultFolder::write(const std::string& name, const std::string& content) {
-  write_atomically(partial_ + "/" + name, content);
-  files_.push_back(name);
 }
 
 void ResultFolder::write_tissue(const std::vector<record::CaseRecord>& records) {
@@ -204,14 +132,14 @@ void ResultFolder::write_tissue(const std::vector<record::CaseRecord>& records) 
     for (const record::TissueFrame& frame : records[i].frames) {
       const std::vector<Strain> strain = tissue::small_strain(records[i].mesh, frame.displacement);
       series.push_back({frame.time, numbered("tissue", ++number, ".vtu")});
-      write(series.back().file, vtu_bytes({.mesh = records[i].mesh,
-                                           .time = frame.time,
-                                           .displacement = frame.displacement,
-                                           .contact_pressure = frame.contact_pressure,
-                                           .strain = strain}));
+      folder_.write(series.back().file, vtu_bytes({.mesh = records[i].mesh,
+                                                   .time = frame.time,
+                                                   .displacement = frame.displacement,
+                                                   .contact_pressure = frame.contact_pressure,
+                                                   .strain = strain}));
     }
     if (!series.empty())
-      write(case_file("tissue", i, family_->cases.size(), ".pvd"), pvd_bytes(series));
+      folder_.write(case_file("tissue", i, family_->cases.size(), ".pvd"), pvd_bytes(series));
   }
 }
 
@@ -219,55 +147,51 @@ void ResultFolder::write_pictures(const std::vector<record::CaseRecord>& records
   const bool several = family_->cases.size() > 1;
   for (std::size_t i = 0; i < records.size(); ++i)
     if (!records[i].picture.faces.empty())
-      write(case_file("scene", i, family_->cases.size(), ".svg"),
-            scene_svg(records[i].picture,
-                      several ? family_->title + ": " + records[i].name : family_->title));
+      folder_.write(case_file("scene", i, family_->cases.size(), ".svg"),
+                    scene_svg(records[i].picture,
+                              several ? family_->title + ": " + records[i].name : family_->title));
 }
 
 std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseRecord>& records,
                                               const std::vector<fit::NamedFit>& fits,
                                               const Origin& origin) {
   std::vector<std::string> warnings;
-  files_.clear();
   scenario::Chosen chosen;
   for (const record::CaseRecord& record : records) chosen.emplace_back(record.name, record.chosen);
   const std::string echo = scenario::echo(*family_, chosen);
-  write("scenario.toml", echo);
+  folder_.write("scenario.toml", echo);
   for (const scenario::InputFile& input : family_->inputs)
-    if (&input != &family_->inputs.front()) write(input.name, input.content);
+    if (&input != &family_->inputs.front()) folder_.write(input.name, input.content);
   const std::string curve = curve_name(*family_);
   if (grown_.contains(curve))
-    files_.push_back(curve);
+    folder_.add({curve});
   else
-    write(curve, record::csv_text(curve_table(*family_, records)));
+    folder_.write(curve, record::csv_text(curve_table(*family_, records)));
   for (const auto& [name, table] : short_files(*family_, records, fits))
-    write(name, record::csv_text(table));
+    folder_.write(name, record::csv_text(table));
   for (const std::string& name : grown_)
-    if (name != curve) files_.push_back(name);
+    if (name != curve) folder_.add({name});
   for (const record::CaseRecord& record : records)
-    for (const auto& [name, content] : record.attached) write(name, content);
+    for (const auto& [name, content] : record.attached) folder_.write(name, content);
 
   const std::string hash = sha256(echo);
   std::size_t number = 0;
   for (const record::CaseRecord& record : records)
     for (const record::PressureMap& map : record.maps)
-      write(numbered("pressure", ++number, ".exr"),
-            exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
+      folder_.write(numbered("pressure", ++number, ".exr"),
+                    exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
   write_tissue(records);
   write_pictures(records);
 
   if (family_->base.output.figures) {
-    for (const Figure& figure : family_figures(*family_, records, fits)) {
-      DrawOptions options;
-      if (family_->base.output.pdf) options.format = PictureFormat::svg_and_pdf;
-      const Drawing drawing = draw(figure, partial_, options);
-      files_.insert(files_.end(), drawing.files.begin(), drawing.files.end());
-      if (!drawing.warning.empty()) warnings.push_back(drawing.warning);
-    }
+    plot::DrawOptions options;
+    if (family_->base.output.pdf) options.format = plot::PictureFormat::svg_and_pdf;
+    for (const plot::Figure& figure : family_figures(*family_, records, fits))
+      plot::draw(plot::sheet_of(figure), folder_, warnings, options);
   }
 
   Manifest manifest = begin_manifest(origin, family_->inputs);
-  for (const std::string& file : files_) manifest.outputs.push_back(hashed_file(file, partial_));
+  manifest.outputs = folder_.files();
   for (const record::CaseRecord& record : records)
     manifest.cases.push_back({record.name,
                               record.outcome == record::Outcome::completed
@@ -276,34 +200,10 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
                               record.reason,
                               {{"run", record.seconds}}});
   manifest.complete = records.size() == family_->cases.size();
-  write_atomically(partial_ + "/run.json", manifest_text(manifest));
+  folder_.write("run.json", manifest_text(manifest));
 
-  std::error_code ignored;
-  for (std::size_t i = 0; i < family_->cases.size(); ++i)
-    fs::remove_all(partial_ + "/" + numbered("case", i + 1, ""), ignored);
-  finished_ = true;
-  if (is_complete(path_) && !(replace_ && manifest.complete)) {  // of before, or of meanwhile
-    warnings.push_back(path_ + " is a finished result and is not replaced; this run's is in " +
-                       partial_);
-    path_ = partial_;
-  } else {
-    put_in_place();
-  }
-  return warnings;
-}
-
-void ResultFolder::put_in_place() {
-  if (!fs::exists(path_)) return move(partial_, path_);
-  // The old and the new result change places at once; where the file system cannot do that, the
-  // old one steps aside first.
-  if (::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) != 0) {
-    const std::string aside = partial_ + ".old";
-    move(path_, aside);
-    move(partial_, path_);
-    move(aside, partial_);
-  }
-  std::error_code ignored;
-  fs::remove_all(partial_, ignored);
+  using State = WholeFolder::State;
+  return folder_.put(manifest.complete ? State::complete : State::incomplete, warnings);
 }
 
 }  // namespace palpate::report

@@ -1,4 +1,4 @@
-// Parallel projection, painter's algorithm, flat shading.
+// Draws the picture by parallel projection, painter's algorithm and flat shading.
 #include "report/scene_picture.h"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ using record::ScenePicture;
 
 using Colour = std::array<double, 3>;  // red, green, blue, 0 to 255
 
-constexpr double width = 800.0, height = 640.0;  // of the page, px
+constexpr double width = 800.0, height = 640.0;  // px, of the page
 constexpr double margin = 60.0, head = 100.0, foot = 90.0;
 
-// A skin's own colour, then muscle, bone and others: by region.
+// Colours by region: those of skin, muscle and bone, then others.
 constexpr std::array<Colour, 6> palette{{{236, 188, 160},
                                          {190, 74, 66},
                                          {240, 232, 205},
@@ -30,20 +30,18 @@ constexpr std::array<Colour, 6> palette{{{236, 188, 160},
                                          {120, 165, 100},
                                          {150, 118, 185}}};
 
-Colour colour(int region) { return palette[static_cast<std::size_t>(region) % palette.size()]; }
+Colour colour(int region) { return palette[as_index(region) % palette.size()]; }
 
 std::string hex(const Colour& colour, double brightness) {
-  constexpr const char* digits = "0123456789abcdef";
   std::string text = "#";
   for (const double part : colour) {
     const int value = std::clamp(static_cast<int>(std::lround(brightness * part)), 0, 255);
-    text += digits[value / 16];
-    text += digits[value % 16];
+    text += hex_text(static_cast<unsigned char>(value));
   }
   return text;
 }
 
-// To a tenth of a pixel.
+// Rounded to a tenth of a pixel.
 std::string px(double value) { return number_text(std::round(10.0 * value) / 10.0 + 0.0); }
 
 std::string escaped(const std::string& text) {
@@ -55,7 +53,7 @@ std::string escaped(const std::string& text) {
       safe += "&lt;";
     else if (letter == '>')
       safe += "&gt;";
-    else  // XML knows no control characters
+    else  // XML permits no control characters
       safe += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
   }
   return safe;
@@ -66,17 +64,17 @@ struct Point {
   [[nodiscard]] std::string text() const { return px(x) + " " + px(y); }
 };
 
-// Unit vectors of the page: `towards` the eye, 30 degrees over the horizon and as far from -y to
-// +x.
+// Unit vectors of the page. `towards` points to the eye: 30 degrees above the horizon, and 30
+// degrees from -y to +x.
 const Vec3 right(0.5 * std::sqrt(3.0), 0.5, 0.0);
 const Vec3 up(-0.25, 0.25 * std::sqrt(3.0), 0.5 * std::sqrt(3.0));
 const Vec3 towards = right.cross(up);
-const Vec3 light = Vec3(-0.35, -0.45, 0.82).normalized();  // over the eye's left shoulder
+const Vec3 light = Vec3(-0.35, -0.45, 0.82).normalized();  // from behind the eye's left
 
-// From space to the page.
+// The projection from space to the page.
 struct View {
   double scale = 1.0;            // px/m
-  double left = 0.0, top = 0.0;  // m, of the page's corner along right and up
+  double left = 0.0, top = 0.0;  // m, the page's upper left corner along `right` and `up`
 
   [[nodiscard]] Point operator()(const Vec3& place) const {
     return {scale * (place.dot(right) - left), scale * (top - place.dot(up))};
@@ -105,7 +103,7 @@ View fitting(const ScenePicture& picture) {
   return view;
 }
 
-// Those of `faces` that look at the eye, the farthest first; neighbours of one colour in one path.
+// Paints the faces towards the eye, the farthest first; successive faces of one colour form a path.
 std::string painted(const std::vector<const ScenePicture::Face*>& faces, const View& view) {
   struct Seen {
     double nearness;
@@ -138,7 +136,7 @@ std::string painted(const std::vector<const ScenePicture::Face*>& faces, const V
   return before.empty() ? text : text + "\"/>\n";
 }
 
-// Solid regions first, then those with others inside, the innermost first, as seen through glass.
+// Paints opaque regions first, then the translucent ones, which contain others, innermost first.
 std::string specimen(const ScenePicture& picture, const View& view) {
   using Faces = std::vector<const ScenePicture::Face*>;
   Faces solid;
@@ -162,7 +160,7 @@ std::string label(const Point& at, const std::string& attributes, const std::str
 
 std::string mm_text(double metres) { return rounded_text(unit::mm.from_si(metres), 3) + " mm"; }
 
-// A line with a head at its end, `reach` px long.
+// An arrow from one point to another, with a head of `reach` px.
 std::string arrow(const Point& from, const Point& to, double reach,
                   const std::string& attributes = "") {
   const double x = to.x - from.x, y = to.y - from.y;
@@ -203,7 +201,7 @@ std::string finger(const ScenePicture& picture, const View& view) {
   return text;
 }
 
-// Down onto the finger, not to scale.
+// The arrow of the travel, above the finger, not to scale.
 std::string travel(const ScenePicture& picture, const View& view) {
   double top = std::numeric_limits<double>::infinity(), x = 0.0;
   for (const auto& sphere : picture.finger) {
@@ -216,7 +214,7 @@ std::string travel(const ScenePicture& picture, const View& view) {
          label({x + 10.0, tail + 12.0}, " stroke=\"none\"", mm_text(picture.travel));
 }
 
-// The longest of 1, 2 and 5 times a power of ten that is at most 160 px long.
+// Its length is 1, 2 or 5 times a power of ten: the longest that is at most 160 px.
 std::string scale_bar(const View& view) {
   double length = 1e-6;  // m
   for (const double next : {2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5,
@@ -233,7 +231,7 @@ std::string scale_bar(const View& view) {
 }
 
 std::string axes() {
-  constexpr double length = 34.0;  // px, of an axis that lies in the page
+  constexpr double length = 34.0;  // px, of an axis parallel to the page
   const Point origin{width - 100.0, height - 40.0};
   std::string text;
   constexpr std::array<const char*, 3> names{"x", "y", "z"};
@@ -241,7 +239,7 @@ std::string axes() {
     const double x = right[axis], y = -up[axis];
     text += arrow(origin, {origin.x + length * x, origin.y + length * y}, 7.0);
     text += label({origin.x + (length + 10.0) * x, origin.y + (length + 10.0) * y + 4.5},
-                  " stroke=\"none\" text-anchor=\"middle\"", names[static_cast<std::size_t>(axis)]);
+                  " stroke=\"none\" text-anchor=\"middle\"", names[as_index(axis)]);
   }
   return text;
 }

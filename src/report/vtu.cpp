@@ -1,4 +1,4 @@
-// XML with the numbers in base64.
+// Writes VTK's XML files with numbers in base64.
 #include "report/vtu.h"
 
 #include <bit>
@@ -15,9 +15,16 @@
 namespace palpate::report {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
+static_assert(std::endian::native == std::endian::little, "the files declare LittleEndian");
 
-constexpr std::string_view head = "<?xml version=\"1.0\"?>\n";
+// The beginning of a file, up to an element `name`, which is left open.
+std::string xml_file(const char* name) {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"";
+  text += name;
+  text += "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<";
+  text += name;
+  return text += ">\n";
+}
 
 // RFC 4648, section 4.
 std::string base64(std::string_view bytes) {
@@ -36,7 +43,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-// One array. Its number of bytes stands before the numbers, inside the same base64 text.
+// One array. The base64 text contains the number of bytes, then the numbers.
 template <class Number>
 std::string array(std::string_view type, const std::string& name, const std::string& attributes,
                   const std::vector<Number>& values) {
@@ -91,7 +98,7 @@ std::string point_data(const VtuFrame& frame) {
   return text + "</PointData>\n";
 }
 
-// sqrt(2/3 e:e) of the deviator, whose shears count twice.
+// sqrt(2/3 e:e) of the deviatoric strain; each shear component occurs twice in e:e.
 double equivalent(const Strain& strain, double volume_change) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -119,7 +126,7 @@ std::string cell_data(const VtuFrame& frame) {
   return text + "</CellData>\n";
 }
 
-// A text between quotes.
+// An attribute value in quotes, with XML's special characters escaped.
 std::string quoted(std::string_view text) {
   std::string safe = "\"";
   for (const char letter : text) {
@@ -143,9 +150,7 @@ std::string vtu_bytes(const VtuFrame& frame) {
   assert(frame.displacement.empty() || frame.displacement.size() == nodes);
   assert(frame.contact_pressure.empty() || frame.contact_pressure.size() == nodes);
   assert(frame.strain.empty() || frame.strain.size() == tetrahedra);
-  return std::string(head) +
-         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-         "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
+  return xml_file("UnstructuredGrid") + "<FieldData>\n" +
          array("Float64", "TimeValue", " NumberOfTuples=\"1\"", std::vector<double>{frame.time}) +
          "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(nodes) + "\" NumberOfCells=\"" +
          std::to_string(tetrahedra) + "\">\n" + point_data(frame) + cell_data(frame) +
@@ -153,9 +158,7 @@ std::string vtu_bytes(const VtuFrame& frame) {
 }
 
 std::string pvd_bytes(std::span<const TimedFile> files) {
-  std::string text = std::string(head) +
-                     "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                     "header_type=\"UInt64\">\n<Collection>\n";
+  std::string text = xml_file("Collection");
   for (const TimedFile& entry : files)
     text += "<DataSet timestep=\"" + number_text(entry.time) +
             "\" part=\"0\" file=" + quoted(entry.file) + "/>\n";

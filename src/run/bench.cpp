@@ -1,17 +1,17 @@
-// Calls what a press calls, with a clock around it.
+// Measures the functions that a press calls with a clock.
 #include "run/bench.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "run/pressed_mesh.h"
+#include "mechanics/pressed_mesh.h"
 #include "scene/first_touch.h"
 
 namespace palpate::run {
 namespace {
 
-constexpr int warm_up = 50;  // frames: caches are filled, the processor is awake
+constexpr int warm_up = 50;  // frames before the counted ones, to fill caches
 
 template <class Work>
 double seconds(const Work& work) {
@@ -21,7 +21,7 @@ double seconds(const Work& work) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// The stages one by one.
+// Times the stages separately.
 class Stages {
  public:
   Stages(const scene::Scene& scene, int substeps)
@@ -29,16 +29,16 @@ class Stages {
     mesh_.set_step(scene.specimen->plan.substep);
   }
 
-  // `before` and `after` are the touches of the whole before and after its frame.
-  std::optional<std::string> frame(const Vec3& finger, Touch before, const Touch& after,
-                                   FrameTime& time) {
+  // `before` and `after` are the touches of the complete press before and after this frame.
+  std::optional<std::string> frame(const Vec3& finger, mechanics::Touch before,
+                                   const mechanics::Touch& after, FrameTime& time) {
     std::optional<std::string> wrong;
-    MeshAnswer deformed = mesh_.answer();
+    mechanics::MeshAnswer deformed = mesh_.answer();
     deformed.displacement = &mesh_.state().displacement;
     time.collision = seconds([&] { seeing_.detect(finger, deformed, found_); });
     if (mesh_.forces_follow_finger()) {
-      // Such forces look at the skin at rest, a search of its own.
-      const MeshAnswer resting = mesh_.answer();
+      // These forces use contacts found on the skin at rest, by another detection.
+      const mechanics::MeshAnswer resting = mesh_.answer();
       const double search = seconds([&] { mesh_.contacts().detect(finger, resting, found_); });
       time.force = seconds([&] { wrong = mesh_.try_out(finger, before); }) - search;
     } else {
@@ -61,10 +61,10 @@ class Stages {
   }
 
  private:
-  PressedMesh mesh_;
-  Contacts seeing_;  // its boxes move with the mesh
+  mechanics::PressedMesh mesh_;
+  mechanics::Contacts seeing_;  // for detection on the deformed mesh
   int substeps_;
-  KeptList<SphereContact> found_;
+  mechanics::KeptList<mechanics::SphereContact> found_;
 };
 
 }  // namespace
@@ -73,18 +73,18 @@ Bench bench(const scene::Scene& scene, int frames) {
   const scene::TimePlan& plan = scene.specimen->plan;
   const int all = warm_up + frames;
   const double deepest = scene::deepest_travel(scene.scenario, scene.law());
-  PressedMesh mesh(scene);
+  mechanics::PressedMesh mesh(scene);
   mesh.set_step(plan.substep);
   Stages stages(scene, plan.substeps);
-  ContactHistory history(scene);
-  Touch touch;
+  mechanics::ContactHistory history(scene);
+  mechanics::Touch touch;
   const Vec3 first = scene::first_touch(scene).finger;
   touch.finger = first;
   Bench found;
-  // The whole first, by itself, then the stages on their own mesh: together they would empty each
-  // other's caches.
+  // The complete frames are timed first and the stages afterwards on a second mesh; interleaved
+  // they would disturb each other's caches.
   std::vector<FrameTime> times;
-  std::vector<Touch> touches{touch};
+  std::vector<mechanics::Touch> touches{touch};
   for (int frame = 0; frame < all; ++frame) {
     std::optional<std::string> wrong;
     FrameTime time;
@@ -104,7 +104,7 @@ Bench bench(const scene::Scene& scene, int frames) {
     touches.push_back(touch);
   }
   for (std::size_t frame = 0; frame < times.size(); ++frame) {
-    const Touch& after = touches[frame + 1];
+    const mechanics::Touch& after = touches[frame + 1];
     if (auto wrong = stages.frame(after.finger, touches[frame], after, times[frame])) {
       found.wrong = "frame " + std::to_string(frame + 1) + ": " + *wrong;
       break;

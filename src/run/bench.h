@@ -1,4 +1,4 @@
-// How long the frames of a press take, stage by stage.
+// Measures the run time of the frames of a press, stage by stage.
 #pragma once
 
 #include <optional>
@@ -9,31 +9,31 @@
 
 namespace palpate::run {
 
-// One frame: one time step of the scenario, its substeps included. All in s.
+// Run times of one frame, that is one time step of the scenario with its substeps. All in s.
 struct FrameTime {
-  double collision = 0.0;    // detection once, over the mesh as it is deformed, its boxes refitted
-  double force = 0.0;        // laws, curvatures, patches and balance, once: less detection
-  double deformation = 0.0;  // all substeps of the mesh, under forces that are known
-  double whole = 0.0;        // as `palpate run` takes it: contacts, mesh and energy, every substep
+  double collision = 0.0;    // one detection on the deformed mesh, with the refit of its boxes
+  double force = 0.0;        // laws, curvatures, patches and contact equations once, no detection
+  double deformation = 0.0;  // all substeps of the mesh alone, under given forces
+  double whole = 0.0;        // the frame as in `palpate run`: contacts, mesh, energy, all substeps
 
   [[nodiscard]] double sum() const { return collision + force + deformation; }
 };
 
 struct Bench {
   std::vector<FrameTime> frames;
-  double force = 0.0;                // N, of the last frame: the work that was timed
-  double displacement = 0.0;         // m, the greatest, of the mesh of `deformation`
-  std::optional<std::string> wrong;  // where the press ended early, and why
+  double force = 0.0;                // N, on the finger in the last frame
+  double displacement = 0.0;         // m, the largest of the mesh that timed `deformation`
+  std::optional<std::string> wrong;  // why the press ended early; empty if it did not
 };
 
-// Presses to the deepest travel of the scene's programme in `frames` equal time steps, after a few
-// that are not counted, with the scene's coupling, integrator and rings, on one thread. The stages
-// are timed after the whole, on a mesh of their own that gets the same forces; with `rings` this
-// mesh keeps the part around the first touch. Times come from the steady clock; all else is the
-// same at every call. The scene has a specimen and a finger.
+// Presses to the deepest travel of the scene's programme in equal time steps on one thread: 50
+// frames that are not counted, then `frames`, with the scene's coupling, integrator and rings. The
+// stages are timed afterwards on a second mesh under the same forces; with `solver.rings` its
+// moving part stays that of the first touch. All results but the times are reproducible. The scene
+// must have a specimen and a finger.
 [[nodiscard]] Bench bench(const scene::Scene& scene, int frames);
 
-// The value that `share` (0 to 1) of the values do not exceed, by nearest rank.
+// The smallest value that is not exceeded by the fraction `share` (0 to 1) of the values.
 [[nodiscard]] double percentile(std::vector<double> values, double share);
 
 }  // namespace palpate::run

@@ -1,4 +1,4 @@
-// The deepest contact speaks for all where one number must.
+// Fills a row; indentation, radius and pressure are those of the deepest contact.
 #include "run/contact_row.h"
 
 #include <limits>
@@ -7,8 +7,8 @@
 
 namespace palpate::run {
 
-record::ContactRow contact_row(const scene::Scene& scene, const Touch& touch) {
-  const scenario::Contact& contact = scene.scenario.contact;
+record::ContactRow contact_row(const scene::Scene& scene, const mechanics::Touch& touch) {
+  const scenario::PlainContact& contact = scene.scenario.contact;
   record::ContactRow row;
   row.travel = touch.travel;
   row.slide = touch.slide;
@@ -21,10 +21,10 @@ record::ContactRow contact_row(const scene::Scene& scene, const Touch& touch) {
           : contact::friction::limit(contact.friction, touch.pressed(), scene.finger.weight);
   row.tangential = touch.drag().norm();
   row.tissue_radius = std::numeric_limits<double>::infinity();
-  if (const SphereContact* deepest = touch.deepest()) {
+  if (const mechanics::SphereContact* deepest = touch.deepest()) {
     row.indentation = deepest->depth;
     row.contact_radius = deepest->patch.radius();
-    row.peak_pressure = peak_pressure(*deepest);
+    row.peak_pressure = mechanics::peak_pressure(*deepest);
     if (deepest->law.mean_curvature != 0.0) row.tissue_radius = 1.0 / deepest->law.mean_curvature;
   }
   row.contacts = static_cast<int>(touch.contacts.size());

@@ -1,12 +1,13 @@
-// A touch as a row of results.
+// Converts a touch to a row of results.
 #pragma once
 
+#include "mechanics/contacts.h"
 #include "record/record.h"
-#include "run/contacts.h"
 
 namespace palpate::run {
 
-// All of the row but its step and time. Allocates nothing.
-[[nodiscard]] record::ContactRow contact_row(const scene::Scene& scene, const Touch& touch);
+// The row, without step and time. Allocates nothing.
+[[nodiscard]] record::ContactRow contact_row(const scene::Scene& scene,
+                                             const mechanics::Touch& touch);
 
 }  // namespace palpate::run

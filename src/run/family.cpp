@@ -1,4 +1,4 @@
-// Workers take the next case from a counter; each case is computed by one thread alone.
+// Runs the cases of a family: workers take the next task from a counter.
 #include "run/family.h"
 
 #include <chrono>
@@ -7,7 +7,6 @@
 
 #include "run/findings.h"
 #include "run/lanes.h"
-#include "run/march.h"
 #include "run/press.h"
 #include "run/share_out.h"
 #include "run/uniform.h"
@@ -17,13 +16,12 @@
 namespace palpate::run {
 namespace {
 
-std::string chosen(const scenario::Scenario& scenario) {
+std::string chosen(const scenario::Resolved& scenario) {
   namespace words = scenario::words;
-  const scenario::Solver& solver = scenario.solver;
-  std::string text = std::string("solver.model = ") + words::word(words::models, solver.model);
+  const scenario::Resolved::Solver& solver = scenario.solver;
+  std::string text = "solver.model = " + std::string(scenario::rung(solver.model).word);
   if (scenario.meshed())
-    text += std::string(", solver.integrator = ") +
-            words::word(words::integrators, solver.integrator) +
+    text += std::string(", solver.integrator = ") + about(solver.integrator).word +
             ", solver.volume = " + words::word(words::volumes, solver.volume);
   if (!scenario.uniform())
     text += std::string(", contact.viscosity = ") +
@@ -51,14 +49,14 @@ record::CaseRecord begin_case(const scene::Scene& scene) {
 
 namespace {
 
-// A task for one worker: a case by itself, or a team of lanes.
+// A task for one worker: a single case, or a team of lanes.
 struct Task {
   std::size_t number = 0;
   LaneQueue* queue = nullptr;
   std::size_t lanes = 0;
 };
 
-// Teams of lanes first: they take longest.
+// Makes the tasks; teams of lanes come first, because they take longest.
 std::vector<Task> share_lanes(const std::vector<scene::Scene>& scenes, int workers, Lanes lanes,
                               const std::vector<std::vector<std::size_t>>& groups,
                               std::vector<LaneQueue>& queues) {
@@ -71,8 +69,7 @@ std::vector<Task> share_lanes(const std::vector<scene::Scene>& scenes, int worke
     if (cases < least || least > tissue::LaneSprings::width) continue;
     for (const std::size_t i : groups[g]) taken[i] = 1;
     queues[g].group = groups[g];
-    const std::size_t teams =
-        std::min(static_cast<std::size_t>(std::max(1, workers)), cases / least);
+    const std::size_t teams = std::min(as_index(std::max(1, workers)), cases / least);
     const std::size_t each = std::min(tissue::LaneSprings::width, (cases + teams - 1) / teams);
     for (std::size_t team = 0; team < teams; ++team) tasks.push_back({0, &queues[g], each});
   }
@@ -83,11 +80,18 @@ std::vector<Task> share_lanes(const std::vector<scene::Scene>& scenes, int worke
 
 }  // namespace
 
+void run_programme(const scene::Scene& scene, const std::atomic<bool>& stop,
+                   record::CaseRecord& record) {
+  if (scene.scenario.uniform())
+    load_uniformly(scene, stop, record);
+  else
+    press(scene, stop, record);
+}
+
 record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop) {
   const auto start = std::chrono::steady_clock::now();
   record::CaseRecord record = begin_case(scene);
-  carry_out(scene.scenario.uniform() ? load_uniformly(scene, stop, record)
-                                     : press(scene, stop, record));
+  run_programme(scene, stop, record);
   add_findings(scene, record);
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;

@@ -1,4 +1,4 @@
-// All cases of a scenario, on several workers.
+// Builds and runs all cases of a scenario on several workers (threads).
 #pragma once
 
 #include <atomic>
@@ -12,29 +12,34 @@
 
 namespace palpate::run {
 
-// Builds every case, before any of them runs. Throws what the first case at fault throws.
+// Builds every case. Throws the exception of the first case (by number) that has one.
 [[nodiscard]] std::vector<scene::Scene> build_all(const scenario::Family& family, int workers);
 
-// A record with the case's name and what `auto` chose, without rows.
+// A record with the case's name and the values chosen for `auto`, without rows.
 [[nodiscard]] record::CaseRecord begin_case(const scene::Scene& scene);
 
-// Runs one scene to its end.
+// Runs the steps of a scene's programme and adds rows, maps and frames to `record`. Of the findings
+// it adds only those that need the state of the mesh.
+void run_programme(const scene::Scene& scene, const std::atomic<bool>& stop,
+                   record::CaseRecord& record);
+
+// Runs one scene to its end, with findings.
 [[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop);
 
-// Which cases share a loop, lane beside lane: as many as it makes cheaper, all that can, or none.
-// Their records are the same to the bit.
+// Which cases are computed together in lanes: those for which this is faster, all that can be, or
+// none. The records are the same bits in each case.
 enum class Lanes { where_they_pay, wherever_possible, none };
 
-// Runs the scenes; the records stand in the order of the scenes whatever the workers do.
-// `finished` is called after each case, one call at a time, on the worker's thread. A set `stop`
-// ends running cases at their next row and leaves the rest out.
+// Runs the scenes and returns their records in the order of the scenes. `finished` is called after
+// each case, one call at a time, on the worker's thread. When `stop` is set, running cases end as
+// interrupted at their next row; these and the cases not begun are left out of the result.
 [[nodiscard]] std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished,
     Lanes lanes = Lanes::where_they_pay);
 
-// The same where records need not be kept together: `ended` is given each as soon as its case has
-// ended, on its worker's thread, several calls at a time.
+// The same without collecting the records: `ended` receives each one when its case has ended, on
+// the worker's thread, with several calls at a time.
 void run_each(const std::vector<scene::Scene>& scenes, int workers, const Stop& stop,
               const std::function<void(std::size_t, record::CaseRecord&&)>& ended,
               Lanes lanes = Lanes::where_they_pay);

@@ -1,4 +1,4 @@
-// Numbers of the specimen, of the contact at its deepest, and of the identities.
+// Findings on the specimen, on the contact at the largest force, and on integrals of the maps.
 #include "run/findings.h"
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include "run/known_failures.h"
 #include "run/readings.h"
 #include "scenario/integrators.h"
-#include "scenario/words.h"
 #include "scene/estimates.h"
 
 namespace palpate::run {
@@ -19,20 +18,20 @@ namespace {
 
 using record::Finding;
 
-std::string percent(double ratio) { return rounded_text(100.0 * ratio, 2) + " %"; }
-
 class Findings {
  public:
   Findings(const scene::Scene& scene, record::CaseRecord& record)
-      : scene_(scene), record_(record), before_(record.findings) {
+      : scene_(scene),
+        rung_(scenario::rung(scene.scenario.solver.model)),
+        record_(record),
+        before_(record.findings) {
     record_.findings.clear();
   }
 
   void all() {
     add("outcome", std::string(record::outcome_word(record_.outcome)));
     add("last_stable_time_s", record_.last_stable_time);
-    add("model",
-        std::string(scenario::words::word(scenario::words::models, scene_.scenario.solver.model)));
+    add("model", rung_.word);
     if (scene_.specimen) specimen(*scene_.specimen);
     if (!record_.contact.empty()) contact();
     if (!record_.strain.empty()) strain();
@@ -44,7 +43,7 @@ class Findings {
     for (const Finding& finding : before_) {
       record_.findings.push_back(finding);
       if (finding.name == "energy_imbalance" && std::get<double>(finding.value) > 0.05)
-        remark(percent(std::get<double>(finding.value)) +
+        remark(percent_text(std::get<double>(finding.value)) +
                " of the energy is not accounted for: the first step or all of them are too long "
                "for what happens in them; set a shorter `output.interval` or more "
                "`solver.substeps`");
@@ -58,7 +57,7 @@ class Findings {
   void remark(const std::string& sentence) { record_.remarks.push_back(sentence); }
 
   void specimen(const scene::Specimen& specimen) {
-    const double table_modulus = *scene_.scenario.tissue.young_modulus;
+    const double table_modulus = scene_.scenario.tissue.young_modulus;
     const double modulus = specimen.measured.young_modulus;
     add("nodes", static_cast<double>(specimen.network.nodes()));
     add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
@@ -70,19 +69,19 @@ class Findings {
     add("time_step_ms", unit::ms.from_si(specimen.plan.substep));
     add("substeps", static_cast<double>(specimen.plan.substeps));
     add("damping_ratio", damping_ratio(specimen));
-    if (!specimen.plan.stable() && scenario::explicit_steps(scene_.scenario.solver.integrator))
+    if (!specimen.plan.stable() && about(scene_.scenario.solver.integrator).explicit_steps)
       remark("the step is " + rounded_text(specimen.plan.substep / specimen.plan.limit, 3) +
              " times the stability limit: this motion grows from rounding, do not trust it");
     if (std::abs(modulus / table_modulus - 1.0) > 0.05)
-      remark("the spring network is " + percent(std::abs(modulus / table_modulus - 1.0)) +
+      remark("the spring network is " + percent_text(std::abs(modulus / table_modulus - 1.0)) +
              (modulus > table_modulus ? " stiffer" : " softer") +
              " than the tissue's Young's modulus, measured on the specimen");
   }
 
-  // Of the lowest axial mode of a bar on a fixed base, omega_1 = pi c / (2 H).
+  // Of the lowest axial mode of a bar on a fixed base.                       docs/theory.md (55)
   double damping_ratio(const scene::Specimen& specimen) const {
     const double speed =
-        std::sqrt(specimen.measured.young_modulus / *scene_.scenario.tissue.density);
+        std::sqrt(specimen.measured.young_modulus / scene_.scenario.tissue.density);
     const double omega = std::numbers::pi * speed / (2.0 * specimen.measured.height);
     if (specimen.law.kind == tissue::Viscosity::kelvin_voigt)
       return 0.5 * specimen.law.time * omega;
@@ -140,7 +139,7 @@ class Findings {
       map_error = std::max(map_error, std::abs(force / map.contact_force - 1.0));
       const double mu = scene_.scenario.contact.friction;
       if (mu <= 0.0) continue;
-      // eq. (4): the integral of mu P over the map, and mu times the weight that rests apart
+      // eq. (4): mu P integrated over the map, plus mu times the weight W of docs/theory.md (6)
       const auto row = std::find_if(
           record_.contact.rbegin(), record_.contact.rend(),
           [&](const auto& one) { return one.step == map.step && one.time <= map.time; });
@@ -152,7 +151,7 @@ class Findings {
     add("friction_imbalance", friction_error);
   }
 
-  // What the ladder's questions said beforehand, beside what happened.
+  // The estimates on which the choice of the model was based, and the force to compare them with.
   void predictions(const record::ContactRow& peak) {
     expected_ = scene::estimate(scene_.scenario);
     add("thickness_effect", expected_.thickness);
@@ -162,7 +161,7 @@ class Findings {
     add("viscous_effect", expected_.viscous);
     add("inertia_effect", expected_.inertia);
     add("curvature_ratio", expected_.curvature_ratio);
-    if (const scene::Rung* rung = scene_.choice.taken()) add("predicted_error", rung->error);
+    if (const auto* forecast = scene_.choice.taken()) add("predicted_error", forecast->error);
     if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
     const auto top = scene::top_curvature(scene_.scenario.tissue.shape);
     if (!top || peak.travel <= 0.0) return;
@@ -182,8 +181,7 @@ class Findings {
     const auto coupling = scene_.scenario.contact.coupling;
     const scene::Estimates& e = expected_;
     const double tolerance = scene_.scenario.solver.tolerance;
-    const bool mesh = scene_.specimen != nullptr;
-    const bool hertz = !mesh && !scene_.layer;
+    const bool mesh = rung_.meshed();
     const double depth = peak.indentation / scene_.law().radius;
     if (depth > contact::DeepLaw::deepest && coupling != contact::Coupling::resolved)
       remark("the indentation reached " + rounded_text(depth, 2) +
@@ -193,53 +191,55 @@ class Findings {
       remark("the indentation reached " + rounded_text(depth, 2) +
              " of the sphere's radius: Hertz assumes far less, and at a quarter of the radius true "
              "forces differ by up to 6 % (docs/paper.md, 13)" +
-             (e.deep > 0.0 ? "; in neo-Hookean tissue this one by about " + percent(e.deep) : ""));
-    if (hertz || coupling == contact::Coupling::one_way) {
+             (e.deep > 0.0 ? "; in neo-Hookean tissue this one by about " + percent_text(e.deep)
+                           : ""));
+    if (!rung_.thickness || coupling == contact::Coupling::one_way) {
       if (e.thickness * e.tissue_share > tolerance)
         remark("the force is that of a half-space: at this thickness it would be higher by about " +
-               percent(e.thickness));
+               percent_text(e.thickness));
       if (e.sides > tolerance)
-        remark("the force is that of a half-space: free sides this near take about " +
-               percent(e.sides));
+        remark("the force is that of a half-space: free sides this near would lower it by about " +
+               percent_text(e.sides));
       if (e.curved_body > tolerance)
         remark(
-            "the force is that of an endless body of this curvature: its finite width changes "
-            "up to about " +
-            percent(e.curved_body));
+            "the force is that of an infinite body of this curvature: the finite width would "
+            "change it by up to about " +
+            percent_text(e.curved_body));
     }
-    if (!mesh && scene_.layer && e.sides > tolerance)
-      remark("the layer has no sides: free ones this near take about " + percent(e.sides));
-    if (scene_.relaxation.elastic() && coupling != contact::Coupling::series &&
-        coupling != contact::Coupling::resolved && e.viscous > 0.2 * tolerance)
+    if (rung_.thickness && !rung_.sides && e.sides > tolerance)
+      remark("the layer has no sides: free sides this near would lower the force by about " +
+             percent_text(e.sides));
+    if (scene_.relaxation.elastic() && !contact::mesh_is_tissue(coupling) &&
+        e.viscous > 0.2 * tolerance)
       remark(
           "the contact force is that of the relaxed tissue; with the tissue's viscosity it would "
           "be "
           "higher by about " +
-          percent(e.viscous) + " while it is pressed: give `contact.viscosity = \"tissue\"`");
-    if (!mesh && e.inertia > tolerance)
-      remark("a formula has no mass: waves would add about " + percent(e.inertia) +
-             " to the force of a press this fast");
-    if (mesh && e.inertia > tolerance && !scene::inertia_reaches_force(scene_.scenario) &&
-        coupling != contact::Coupling::series && coupling != contact::Coupling::resolved)
+          percent_text(e.viscous) + " while it is pressed: give `contact.viscosity = \"tissue\"`");
+    if (!rung_.inertia && e.inertia > tolerance)
+      remark("the formula leaves out the tissue's mass: waves would add about " +
+             percent_text(e.inertia) + " to the force of a press this fast");
+    if (rung_.inertia && e.inertia > tolerance && !scene::inertia_reaches_force(scene_.scenario) &&
+        !contact::mesh_is_tissue(coupling))
       remark("the tissue's mass does not reach the contact force: waves would add about " +
-             percent(e.inertia) +
+             percent_text(e.inertia) +
              " at this rate; take an integrator with inertia and `viscosity = \"none\"`, or "
              "`coupling = \"resolved\"`");
     if (mesh && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
-             percent(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +
-             " of the force is lost, and the answer drifts with the mesh");
+             percent_text(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +
+             " of the force is lost, and the force depends on the mesh");
     const double ratio_error =
         mesh ? std::abs(scene_.specimen->measured.poisson_ratio -
-                        std::min(*scene_.scenario.tissue.poisson_ratio, 0.4995))
+                        std::min(scene_.scenario.tissue.poisson_ratio, 0.4995))
              : 0.0;
     if (ratio_error > 0.05 && coupling != contact::Coupling::one_way)
       remark("the springs have a Poisson's ratio of " +
              rounded_text(scene_.specimen->measured.poisson_ratio, 2) + ", the tissue " +
-             number_text(*scene_.scenario.tissue.poisson_ratio) +
-             ": what sides and other tissues change of the force may be wrong by about " +
-             percent(ratio_error * (e.sides + e.curved_body + (hertz ? 0.0 : 0.05))) +
-             " of it; `coupled_springs` has the tissue's");
+             number_text(scene_.scenario.tissue.poisson_ratio) +
+             ": the effect of sides and other tissues may be wrong by about " +
+             percent_text(ratio_error * (e.sides + e.curved_body + 0.05)) +
+             " of the force; `coupled_springs` has the tissue's ratio");
   }
 
   void strain() {
@@ -266,6 +266,7 @@ class Findings {
   }
 
   const scene::Scene& scene_;
+  const scenario::Rung& rung_;
   record::CaseRecord& record_;
   std::vector<Finding> before_;
   scene::Estimates expected_;

@@ -1,4 +1,4 @@
-// What a finished case shows: named numbers, and sentences on its validity.
+// Computes the findings and remarks of a finished case.
 #pragma once
 
 #include "record/record.h"
@@ -6,7 +6,7 @@
 
 namespace palpate::run {
 
-// Adds the findings and remarks that follow from the scene and its rows.
+// Adds findings (named numbers) and remarks (sentences on validity) from the scene and the rows.
 void add_findings(const scene::Scene& scene, record::CaseRecord& record);
 
 }  // namespace palpate::run

@@ -1,4 +1,4 @@
-// One number and one sentence for each of them.
+// A finding and a remark for each of the known failures.
 #include "run/known_failures.h"
 
 #include <algorithm>
@@ -22,7 +22,6 @@ namespace {
 
 using scenario::Contact;
 
-std::string percent(double ratio) { return rounded_text(100.0 * ratio, 2) + " %"; }
 std::string millimetres(double length) { return rounded_text(unit::mm.from_si(length), 3) + " mm"; }
 
 class KnownFailures {
@@ -53,8 +52,8 @@ class KnownFailures {
 
   [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
 
-  // A fixed edge at the distance rho is a bonded base there, which stiffens a half-space by
-  // 1 + c sqrt(R h) / rho, c = 0.86 at nu = 0.27 to 1.13 at 1/2.       docs/theory.md (85)
+  // A fixed edge at the distance rho acts like a bonded base there, which raises the force by the
+  // factor 1 + c sqrt(R h) / rho, c = 0.86 at nu = 0.27 to 1.13 at 1/2.    docs/theory.md (85)
   void edge() {
     if (!scene_.scenario.solver.rings) return;
     double share = 0.0;
@@ -63,9 +62,8 @@ class KnownFailures {
     const scene::Specimen& specimen = *scene_.specimen;
     const scene::FirstTouch touch = scene::first_touch(scene_);
     std::vector<int> start;
-    for (const int vertex :
-         specimen.surface->surface().triangles[static_cast<std::size_t>(touch.at.triangle)])
-      start.push_back(specimen.skin[static_cast<std::size_t>(vertex)]);
+    for (const int vertex : specimen.surface->surface().triangles[as_index(touch.at.triangle)])
+      start.push_back(specimen.skin[as_index(vertex)]);
     const tissue::Part part =
         tissue::part_around(specimen.network, start, *scene_.scenario.solver.rings);
     const Vec3 centre = specimen.surface->position(touch.at);
@@ -76,13 +74,13 @@ class KnownFailures {
     constexpr double least = 0.86;
     const double stiffening = least * peak_.contact_radius / nearest;
     if (share <= tolerance() || stiffening <= tolerance()) return;
-    remark("the edge of the part that moves stands " + millimetres(nearest) +
-           " from the contact and carries " + percent(share) +
+    remark("the edge of the part that moves is " + millimetres(nearest) +
+           " from the contact and carries " + percent_text(share) +
            " of its force: a base that near stiffens a half-space by at least " +
-           percent(stiffening) + "; give more `solver.rings`, or \"all\"");
+           percent_text(stiffening) + "; give more `solver.rings`, or \"all\"");
   }
 
-  // How deep a Hertz pressure of 1 N sinks the skin under itself in statics, m/N.
+  // Mean static displacement of the skin under a Hertz pressure of 1 N, m/N; 0 if not rigid.
   [[nodiscard]] double sinking(const tissue::Network& network) const {
     const scene::Specimen& specimen = *scene_.specimen;
     Cholesky factors;
@@ -97,18 +95,17 @@ class KnownFailures {
     contact::Spreader(*specimen.surface).spread(patch, spread);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * network.nodes());
     for (std::size_t k = 0; k < spread.vertices.size(); ++k)
-      load.segment<3>(3 * specimen.skin[static_cast<std::size_t>(spread.vertices[k])]) -=
+      load.segment<3>(3 * specimen.skin[as_index(spread.vertices[k])]) -=
           spread.shares[k] * patch.normal;
     for (std::size_t d = 0; d < specimen.held.size(); ++d)
       if (specimen.held[d] != 0) load[static_cast<Eigen::Index>(d)] = 0.0;
     return load.dot(factors.solve(load));
   }
 
-  // Against the same mesh with its volumes averaged around nodes.
+  // Compares with the same mesh with volumes averaged at nodes.
   void locking() {
-    const scenario::Solver& solver = scene_.scenario.solver;
-    if (solver.volume != scenario::Solver::Volume::tetrahedron ||
-        solver.model != scenario::Solver::Model::coupled_springs ||
+    const scenario::Resolved::Solver& solver = scene_.scenario.solver;
+    if (solver.volume != tissue::Volume::tetrahedron || !scenario::rung(solver.model).coupled() ||
         !scene_.scenario.regions.empty())
       return;
     const scene::Specimen& specimen = *scene_.specimen;
@@ -126,7 +123,7 @@ class KnownFailures {
              " times less than with volumes averaged at nodes; write `solver.volume = \"nodal\"`");
   }
 
-  // u of order F / (E l) for cells of the size l: no answer of the tissue.
+  // The displacement is of the order F / (E l) with the cell size l and does not converge.
   void one_node() {
     if (scene_.scenario.contact.spread != Contact::Spread::nearest_node) return;
     double sunk = 0.0;
@@ -158,10 +155,9 @@ class KnownFailures {
              " 1/m: it is hollow there in some direction; write `contact.curvature = \"quadric\"`");
   }
 
-  // From row to row the force of friction can change by what the normal force changes and by what
-  // stick takes up; the whole of it appears or goes at once only where nothing sticks.
+  // Without sticking, the whole friction force appears or vanishes from one row to the next.
   void sudden_friction() {
-    const Contact& contact = scene_.scenario.contact;
+    const scenario::PlainContact& contact = scene_.scenario.contact;
     if (contact.slip != Contact::Slip::coulomb || contact.friction <= 0.0) return;
     double jump = 0.0;
     for (std::size_t i = 1; i < record_.contact.size(); ++i)
@@ -174,7 +170,7 @@ class KnownFailures {
              "write `contact.slip = \"mindlin\"`");
   }
 
-  // Ting's force of Kelvin-Voigt: the dashpots follow the rate, which turns in no time.
+  // The dashpots of a Kelvin-Voigt contact follow the rate, which changes its sign at once.
   void turning_back() {
     if (scene_.relaxation.elastic() ||
         scene_.scenario.tissue.viscosity != tissue::Viscosity::kelvin_voigt)
@@ -186,8 +182,7 @@ class KnownFailures {
     double drop = 0.0;
     for (std::size_t i = 1; i < rows.size(); ++i) {
       if (rows[i].step == rows[i - 1].step ||
-          !std::holds_alternative<scenario::Retract>(
-              steps[static_cast<std::size_t>(rows[i].step - 1)]) ||
+          !std::holds_alternative<scenario::Retract>(steps[as_index(rows[i].step - 1)]) ||
           rows[i - 1].contact_force <= 0.0)
         continue;
       const double one = 1.0 - rows[i].contact_force / rows[i - 1].contact_force;
@@ -217,9 +212,9 @@ class KnownFailures {
     add("passive_depth_mm", unit::mm.from_si(depth));
     if (needed > *asked.damping)
       remark("a device of " + quantity_text(*asked.damping, unit::N_s_per_m) + " and frames of " +
-             quantity_text(asked.frame, unit::ms) + " gives energy away below " +
-             millimetres(depth) + ": at " + millimetres(peak_.indentation) +
-             " the contact asks for " + rounded_text(needed, 3) +
+             quantity_text(asked.frame, unit::ms) + " generates energy below " +
+             millimetres(depth) + ": at " + millimetres(peak_.indentation) + " the contact needs " +
+             rounded_text(needed, 3) +
              " N s/m (Colgate and Brown); shorten `device.frame`, or press less deep");
   }
 

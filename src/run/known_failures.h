@@ -1,4 +1,4 @@
-// What is known to go wrong with settings that are there to be compared: found, and named.
+// Findings on settings that are known to fail and that are kept for comparison.
 #pragma once
 
 #include "record/record.h"
@@ -6,9 +6,10 @@
 
 namespace palpate::run {
 
-// Adds findings and remarks of a pressed case where its settings ask for a method that fails: a
-// fixed edge too near, volumes that lock, a load on one node, curvature without sign, friction that
-// jumps, Kelvin-Voigt turning back, a stiffness that the device cannot hold. Nothing otherwise.
+// Adds findings and remarks to a press whose settings select a method that fails: a fixed edge too
+// near, volumes that lock, a load on one node, curvature without sign, friction that jumps,
+// Kelvin-Voigt tissue under a finger that turns back, and a stiffness that a device cannot render
+// passively. Adds nothing otherwise.                                          docs/theory.md (85)
 void add_known_failures(const scene::Scene& scene, record::CaseRecord& record);
 
 }  // namespace palpate::run

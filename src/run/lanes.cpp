@@ -1,5 +1,4 @@
-// Every lane goes at its own pace: a case that is at its next row, or at its end, stops for no
-// other.
+// Runs cases in lanes. Each lane has its own case and time, and takes the next case when one ends.
 #include "run/lanes.h"
 
 #include <algorithm>
@@ -8,8 +7,6 @@
 #include <optional>
 
 #include "run/march.h"
-#include "run/pace.h"
-#include "run/press.h"
 #include "run/uniform.h"
 #include "tissue/lane_springs.h"
 
@@ -24,20 +21,20 @@ double seconds_since(Clock::time_point start) {
 }
 
 bool alike(const scene::Specimen& a, const scene::Specimen& b) {
-  return a.kinematics == b.kinematics && a.law.kind == b.law.kind &&
-         a.law.branches.size() == b.law.branches.size() && LaneSprings::alike(a.network, b.network);
+  return a.law.kind == b.law.kind && a.law.branches.size() == b.law.branches.size() &&
+         LaneSprings::alike(a.network, b.network);
 }
 
-// A case in its lane.
+// The case in a lane.
 struct Place {
   std::size_t number = 0;
   record::CaseRecord record;
   std::optional<Course> course;
-  March* march = nullptr;  // null: nobody is here
-  std::size_t step = 0;    // of the march, to be done next
-  bool entered = false;    // the lane knows the body
-  int standing = 0;        // of the march that it knows
-  int beginnings = 0;      // of its stepper
+  March* march = nullptr;  // null: the lane is empty
+  std::size_t step = 0;    // index of the march's next step
+  bool entered = false;    // the body has been loaded into the lane
+  int standing = 0;        // March::standing of the body in the lane
+  int beginnings = 0;      // Stepper::beginnings() of the body in the lane
 };
 
 class Team {
@@ -49,7 +46,6 @@ class Team {
         stop_(stop),
         calls_(calls),
         lanes_(scenes[queue.group.front()].specimen->network,
-               scenes[queue.group.front()].specimen->kinematics,
                scenes[queue.group.front()].specimen->law) {}
 
   void run(std::size_t lanes) {
@@ -74,7 +70,7 @@ class Team {
     return busy;
   }
 
-  // Begins cases until one wants its mesh moved.
+  // Begins cases until one needs steps of its mesh.
   void fill(std::size_t lane) {
     while (places_[lane].march == nullptr && !stop_.no_more()) {
       const std::size_t taken = queue_.next++;
@@ -85,20 +81,16 @@ class Team {
       place.number = queue_.group[taken];
       place.record = calls_.begin(place.number);
       const scene::Scene& scene = scenes_[place.number];
-      // The place stays where it is as long as the course runs.
-      place.course.emplace(scene.scenario.uniform()
-                               ? load_uniformly(scene, stop_.end_now, place.record)
-                               : press(scene, stop_.end_now, place.record));
+      // The course refers to place.record, which is not moved while the course runs.
+      place.course.emplace(uniform_course(scene, stop_.end_now, place.record));
       go_on(lane, start);
     }
   }
 
-  // To the case's next march, or its end.
+  // Continues the case to its next march, or to its end.
   void go_on(std::size_t lane, Clock::time_point start) {
     Place& place = places_[lane];
-    do {
-      place.march = place.course->next();
-    } while (place.march != nullptr && place.march->times.empty());
+    place.march = place.course->next();
     if (place.march == nullptr) {
       place.course.reset();
       lanes_.leave(lane);
@@ -122,12 +114,12 @@ class Team {
     place.standing = march.standing;
     place.beginnings = march.stepper->beginnings();
     place.step = 0;
-    lanes_.load(lane, march.first_load ? *march.first_load : march.load(0), march.load(1));
+    lanes_.load(lane, march.first_load ? *march.first_load : march.load, march.load);
     if (march.first_load) lanes_.jump(lane);
     place.record.seconds += seconds_since(start);
   }
 
-  // What a step has done to the case.
+  // Accounts for the step that the lane has just done.
   void settle(std::size_t lane) {
     Place& place = places_[lane];
     March& march = *place.march;
@@ -140,8 +132,7 @@ class Team {
     if (!march.wrong) {
       march.done = ++place.step;
       if (place.step < march.times.size()) {
-        if (march.loads.size() > 1 || march.first_load)
-          lanes_.load(lane, march.load(place.step), march.load(place.step + 1));
+        if (place.step == 1 && march.first_load) lanes_.load(lane, march.load, march.load);
         return;
       }
       march.state->time = march.times.back();
@@ -178,18 +169,10 @@ std::vector<std::vector<std::size_t>> lane_groups(const std::vector<scene::Scene
 }
 
 std::size_t least_for_lanes(const scene::Scene& scene) {
-  constexpr int most_nodes = 25000;  // has not been measured beyond
+  constexpr int most_nodes = 25000;  // the largest mesh that was measured
   const tissue::Network& network = scene.specimen->network;
   if (network.nodes() > most_nodes) return LaneSprings::width + 1;
-  const bool simple = scene.specimen->kinematics == tissue::Kinematics::linear &&
-                      network.coupled.empty() && network.volumes.empty();
-  if (simple) return 4;
-  // A square root or a product of 6 x 6 costs eight lanes nearly what it costs eight bodies: where
-  // every step is followed by contacts, lanes that have left the cache meanwhile are dearer.
-  constexpr int few_nodes = 300;
-  constexpr int few_steps = 4;
-  const int steps = make_pace(scene, scene.scenario.output.interval).steps;
-  return network.nodes() > few_nodes && steps < few_steps ? LaneSprings::width + 1 : 6;
+  return network.coupled.empty() && network.volumes.empty() ? 4 : 6;
 }
 
 void run_in_lanes(const std::vector<scene::Scene>& scenes, LaneQueue& queue, std::size_t lanes,

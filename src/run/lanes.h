@@ -1,4 +1,4 @@
-// Cases on one mesh, up to eight at a time, their meshes moved in lanes.
+// Computes up to eight cases with the same mesh at a time, in the lanes of one vectorised loop.
 #pragma once
 
 #include <atomic>
@@ -12,24 +12,25 @@
 
 namespace palpate::run {
 
-// Cases that may stand in lanes side by side: suits_lanes(), one mesh, one form of springs. Numbers
-// of scenes, ascending; in the order of their first ones. Others are in no group.
+// Groups of cases that can share a loop: they fulfil suits_lanes() and have the same mesh, kind of
+// springs and viscosity. A group contains numbers of scenes, ascending; groups are ordered by their
+// first scene. Other cases are in no group.
 [[nodiscard]] std::vector<std::vector<std::size_t>> lane_groups(
     const std::vector<scene::Scene>& scenes);
 
-// How many cases of a group it takes for lanes to be cheaper than each alone: a pass costs what two
-// to five bodies alone do, whether its lanes are taken or not. More than there are lanes where
-// lanes do not pay at all. docs/speed.md
+// The smallest number of cases of a group for which lanes are faster than single runs. A pass over
+// all lanes, used or not, costs as much as two to five single bodies. Larger than the number of
+// lanes if they are never faster. docs/speed.md
 [[nodiscard]] std::size_t least_for_lanes(const scene::Scene& scene);
 
-// Which cases of a group are still to be begun, for several teams of lanes.
+// The cases of a group, taken one after the other by one or more teams of lanes.
 struct LaneQueue {
   std::span<const std::size_t> group;
-  std::atomic<std::size_t> next = 0;  // of the group
+  std::atomic<std::size_t> next = 0;  // index in `group` of the next case to begin
 };
 
-// Takes cases from the queue, `lanes` at a time (1 to 8), until it is empty and they have ended.
-// `begin` makes what a case records, `end` is given it.
+// Takes cases from the queue, `lanes` at a time (1 to 8), until the queue is empty and all have
+// ended. `begin` makes the record of a case, and `end` receives it.
 struct LaneCalls {
   std::function<record::CaseRecord(std::size_t)> begin;
   std::function<void(std::size_t, record::CaseRecord&&)> end;

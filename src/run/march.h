@@ -1,5 +1,4 @@
-// Steps of a mesh under loads that are known before it moves, and cases that stop to have them
-// done.
+// Series of solver steps under loads known in advance, and cases as coroutines that request them.
 #pragma once
 
 #include <coroutine>
@@ -9,50 +8,44 @@
 #include <utility>
 #include <vector>
 
-#include "run/monitor.h"
-#include "run/stepper.h"
+#include "mechanics/monitor.h"
+#include "mechanics/stepper.h"
 #include "scene/scene.h"
 #include "tissue/lane_springs.h"
 
 namespace palpate::run {
 
 struct March {
-  // What moves. In a lane the state gets its time and displacement, and no more.
+  // The body that moves. In a lane only time and displacement of the state are updated.
   const scene::SpringBody* body = nullptr;
-  EnergyMonitor* monitor = nullptr;
-  Stepper* stepper = nullptr;
+  mechanics::EnergyMonitor* monitor = nullptr;
+  mechanics::Stepper* stepper = nullptr;
   integrate::State* state = nullptr;
-  int standing = 0;  // another number: body and state have been set anew
+  int standing = 0;  // changes when body and state have been replaced
 
-  std::vector<double> times;              // s, at the end of every step
-  std::vector<tissue::SparseLoad> loads;  // N, before the first step and after each; or one, which
-                                          // stays
-  std::optional<tissue::SparseLoad> first_load;  // N, that moves the first step instead, where the
-                                                 // load has jumped and then stays
+  std::vector<double> times;                     // s, at the end of every step
+  tissue::SparseLoad load;                       // N, in all of them
+  std::optional<tissue::SparseLoad> first_load;  // N, in the first step, after a jump of the load
   integrate::MemoryRule rule = integrate::MemoryRule::exact;
   bool force_wanted = false;
 
-  // What came of it.
-  std::size_t done = 0;              // steps
-  std::optional<std::string> wrong;  // with the step after those
-  integrate::Vector force;           // N, of the springs at the end, where wanted
+  // Results:
+  std::size_t done = 0;              // number of steps completed
+  std::optional<std::string> wrong;  // error in the step after these
+  integrate::Vector force;           // N, of the springs at the end, if force_wanted
 
-  [[nodiscard]] const tissue::SparseLoad& load(std::size_t step) const {
-    return loads.size() == 1 ? loads.front() : loads[step];
-  }
-  // Ready for other steps of the same body.
+  // Clears times, first load and results for the next series of steps of the same body.
   void clear();
 };
 
-// Does the steps of one body by itself.
+// Carries out the steps of one body alone.
 void carry_out(March& march);
 
-// Whether a scene's mesh moves in marches that lanes can do: central differences without dashpots
-// between nodes, the loads known beforehand: of platens, or of a finger that does not feel the
-// mesh move.
+// Whether a case can be computed in a lane: a uniform test by central differences, with linear
+// kinematics and without dashpots between nodes (LaneSprings::can).
 [[nodiscard]] bool suits_lanes(const scene::Scene& scene);
 
-// A case on its way, which stops whenever its mesh is to be moved.
+// A case as a coroutine: it pauses whenever its mesh has to be advanced, which its caller does.
 class [[nodiscard]] Course {
  public:
   struct promise_type {  // NOLINT: the name that the language wants
@@ -81,8 +74,8 @@ class [[nodiscard]] Course {
     if (handle_) handle_.destroy();
   }
 
-  // Goes on to the next march, which is to be carried out before this is called again; null at the
-  // end of the case. Throws what the case throws.
+  // Continues to the next march, which the caller carries out before the next call; null at the end
+  // of the case. Rethrows exceptions of the case.
   [[nodiscard]] March* next();
 
  private:
@@ -90,7 +83,7 @@ class [[nodiscard]] Course {
   std::coroutine_handle<promise_type> handle_;
 };
 
-// The whole course of a case by itself.
+// Runs a case to its end alone.
 void carry_out(Course course);
 
 }  // namespace palpate::run

@@ -1,4 +1,4 @@
-// Triangles rastered by supersampling; a sample belongs to the first triangle that it meets.
+// Draws triangles by supersampling; a sample belongs to the first triangle that contains it.
 #include "run/nodal_map.h"
 
 #include <algorithm>
@@ -8,41 +8,39 @@
 namespace palpate::run {
 namespace {
 
-constexpr int samples = 8;  // along a pixel
 constexpr double outside = std::numeric_limits<double>::infinity();
 
 const geometry::Surface& skin_of(const scene::Scene& scene) {
   return scene.specimen->surface->surface();
 }
 
-// Twice the area seen from above, m^2; 0 where a triangle looks down.
+// Twice the area of a triangle seen from above, m^2; 0 if it faces downwards.
 double seen_from_above(const geometry::Surface& skin, std::size_t triangle) {
   return std::max(0.0, geometry::twice_area(skin, static_cast<int>(triangle)).z());
 }
 
-// Numbers of one contact at the skin's vertices.
+// Values of one contact at all vertices of the skin.
 struct Nodes {
-  std::vector<Vec3> force;   // N, on the tissue, friction's part too
-  std::vector<double> down;  // N, of the pressure
-  std::vector<double> area;  // m^2, seen from above
+  std::vector<Vec3> force;   // N, on the tissue, with friction
+  std::vector<double> down;  // N, vertical component of the normal force
+  std::vector<double> area;  // m^2, the vertex's share, seen from above
   std::vector<double> gap;   // m
 
-  Nodes(const geometry::Surface& skin, const SphereContact& contact)
+  Nodes(const geometry::Surface& skin, const mechanics::SphereContact& contact)
       : force(skin.vertices.size(), Vec3::Zero()),
         down(skin.vertices.size(), 0.0),
         area(skin.vertices.size(), 0.0),
         gap(skin.vertices.size(), outside) {
     for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
-      const auto vertex = static_cast<std::size_t>(contact.load.vertices[k]);
+      const auto vertex = as_index(contact.load.vertices[k]);
       const Vec3 push = contact.force * contact.nodal.push[k];
       force[vertex] = push + contact.load.shares[k] * contact.drag;
       down[vertex] = -push.z();
     }
     for (std::size_t k = 0; k < contact.nodal.vertices.size(); ++k)
-      gap[static_cast<std::size_t>(contact.nodal.vertices[k])] = contact.nodal.gap[k];
+      gap[as_index(contact.nodal.vertices[k])] = contact.nodal.gap[k];
     for (std::size_t t = 0; t < skin.triangles.size(); ++t)
-      for (const int v : skin.triangles[t])
-        area[static_cast<std::size_t>(v)] += seen_from_above(skin, t) / 6.0;
+      for (const int v : skin.triangles[t]) area[as_index(v)] += seen_from_above(skin, t) / 6.0;
   }
 };
 
@@ -74,10 +72,11 @@ void raster(const std::array<Vec3, 3>& corners, const record::PressureMap& map, 
     }
 }
 
-void draw(const geometry::Surface& skin, const SphereContact& contact, record::PressureMap& map) {
+void draw(const geometry::Surface& skin, const mechanics::SphereContact& contact,
+          record::PressureMap& map) {
   const Nodes nodes(skin, contact);
   const int across = map.width * samples;
-  std::vector<char> taken(static_cast<std::size_t>(across * map.height * samples), 0);
+  std::vector<char> taken(as_index(across * map.height * samples), 0);
   std::vector<Vec3> traction_sum(map.pressure.size(), Vec3::Zero());
   std::vector<double> pressure_sum(map.pressure.size(), 0.0);
   for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
@@ -88,7 +87,7 @@ void draw(const geometry::Surface& skin, const SphereContact& contact, record::P
     std::array<double, 3> gap{};
     double widest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto v = static_cast<std::size_t>(skin.triangles[t][i]);
+      const auto v = as_index(skin.triangles[t][i]);
       corners[i] = skin.vertices[v];
       traction[i] = nodes.force[v] / nodes.area[v];
       pressure[i] = nodes.down[v] / nodes.area[v];
@@ -97,10 +96,10 @@ void draw(const geometry::Surface& skin, const SphereContact& contact, record::P
     }
     if (widest == outside) continue;
     raster(corners, map, [&](int i, int j, const std::array<double, 3>& weights) {
-      char& mark = taken[static_cast<std::size_t>(j * across + i)];
+      char& mark = taken[as_index(j * across + i)];
       if (mark != 0) return;
       mark = 1;
-      const auto pixel = static_cast<std::size_t>(j / samples * map.width + i / samples);
+      const auto pixel = as_index(j / samples * map.width + i / samples);
       float& least = map.gap[pixel];
       double here = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -121,23 +120,23 @@ void draw(const geometry::Surface& skin, const SphereContact& contact, record::P
 
 }  // namespace
 
-double nodal_reach(const scene::Scene& scene, const SphereContact& contact) {
+double nodal_reach(const scene::Scene& scene, const mechanics::SphereContact& contact) {
   double reach = 0.0;
   if (contact.nodal.push.empty()) return reach;
   const auto& surface = *scene.specimen->surface;
   for (const int v : surface.neighbours().rings(contact.load.vertices, 1))
-    reach = std::max(
-        reach,
-        (surface.surface().vertices[static_cast<std::size_t>(v)] - contact.patch.position).norm());
+    reach =
+        std::max(reach, (surface.surface().vertices[as_index(v)] - contact.patch.position).norm());
   return reach;
 }
 
-void draw_nodes(const scene::Scene& scene, const Touch& touch, record::PressureMap& map) {
-  const auto pixels = static_cast<std::size_t>(map.width * map.height);
+void draw_nodes(const scene::Scene& scene, const mechanics::Touch& touch,
+                record::PressureMap& map) {
+  const auto pixels = as_index(map.width * map.height);
   map.pressure.assign(pixels, 0.0F);
   map.traction_x = map.traction_y = map.traction_z = map.pressure;
   map.gap.assign(pixels, std::numeric_limits<float>::infinity());
-  for (const SphereContact& contact : touch.contacts) draw(skin_of(scene), contact, map);
+  for (const mechanics::SphereContact& contact : touch.contacts) draw(skin_of(scene), contact, map);
   for (std::size_t p = 0; p < pixels; ++p)
     if (map.pressure[p] > 0.0F) map.gap[p] = 0.0F;
 }

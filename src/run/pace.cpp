@@ -1,4 +1,4 @@
-// Whole numbers of rows and steps.
+// Computes the numbers of rows and solver steps.
 #include "run/pace.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ int steps_a_row(const scene::Scene& scene) {
 }  // namespace
 
 Pace make_pace(const scene::Scene& scene, double duration) {
-  // A duration that is a whole number of intervals but for rounding keeps that number.
+  // Rounding errors in a duration of a whole number of intervals add no row.
   const double rows = std::ceil(duration / scene.scenario.output.interval - 1e-6);
   return {duration, std::max(1, static_cast<int>(rows)), steps_a_row(scene)};
 }

@@ -1,4 +1,4 @@
-// Travel and slide over time, and a row of results at every output interval.
+// Moves the finger through the loading programme and writes a row at every output interval.
 #include "run/press.h"
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "base/units.h"
+#include "mechanics/half_space_contact.h"
+#include "mechanics/pressed_mesh.h"
 #include "run/contact_row.h"
-#include "run/half_space_contact.h"
 #include "run/pace.h"
-#include "run/pressed_mesh.h"
 #include "run/pressure_map.h"
 #include "run/scene_picture.h"
 #include "scene/first_touch.h"
@@ -27,8 +27,8 @@ using scenario::Slide;
 struct Motion {
   double from = 0.0, to = 0.0;                             // m, travel
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();           // m, sideways
-  double duration = 0.0;                                   // s; the longest, until a force
-  double force = std::numeric_limits<double>::infinity();  // N, to stop at
+  double duration = 0.0;                                   // s; for a step to a force, the longest
+  double force = std::numeric_limits<double>::infinity();  // N, at which the motion ends
   bool keeps_force = false;
 
   [[nodiscard]] double travel(double time) const {
@@ -43,7 +43,7 @@ Motion make_motion(const scenario::Step& step, double travel, const Vec3& sidewa
                    const scene::Scene& scene) {
   Motion motion{.from = travel, .to = travel, .start = sideways, .end = sideways};
   if (const auto* indent = std::get_if<Indent>(&step)) {
-    // A force that never comes must not press for ever: to the radius, where Hertz ends.
+    // The travel of a step to a force is limited to the finger's radius, beyond Hertz's range.
     motion.to =
         indent->to.second ? std::max(travel, scene.scenario.finger.radius) : indent->to.value;
     if (indent->to.second) motion.force = indent->to.value;
@@ -72,30 +72,24 @@ class Press {
       return;
     }
     mesh_.emplace(scene);
-    in_rows_ = suits_lanes(scene);
     first_ = scene::first_touch(scene).finger;
     touch_.finger = first_;
     if (scene.scenario.output.tissue) record_.mesh = scene.specimen->mesh;
     if (scene.scenario.output.picture) record_.picture = make_picture(scene);
   }
 
-  Course all() {
+  void run() {
     Vec3 sideways = Vec3::Zero();
     for (std::size_t i = 0; i < scene_.scenario.steps.size(); ++i) {
       step_ = static_cast<int>(i) + 1;
       const Motion motion = make_motion(scene_.scenario.steps[i], touch_.travel, sideways, scene_);
       if (i == 0) write_row();
-      if (motion.duration <= 0.0) {  // after a step to a force nobody knows the travel beforehand
+      if (motion.duration <= 0.0) {  // possible after a step to a force, whose travel is unknown
         record_.remarks.push_back("step " + std::to_string(step_) +
                                   " has nothing to do: the finger is there already");
         continue;
       }
-      going_ = true;
-      if (in_rows_)
-        for (Course rows = run_in_rows(motion); March* march = rows.next();) co_yield *march;
-      else
-        going_ = run(motion);
-      if (!going_) co_return;
+      if (!run(motion)) return;
       sideways = motion.end;
       if (scene_.scenario.output.pressure_maps) add_map();
       if (scene_.scenario.output.tissue && mesh_) add_frame();
@@ -107,9 +101,9 @@ class Press {
       record_.findings.push_back({"sinking_mm", unit::mm.from_si(deepest_sinking_)});
     if (!mesh_ && (scene_.scenario.output.tissue || scene_.scenario.output.picture))
       record_.remarks.push_back(
-          "there is no mesh to show: `auto` chose `hertz`; set `solver.model = \"mass_spring\"` "
-          "for "
-          "`output.tissue` and `output.picture`");
+          "there is no mesh to show: `auto` chose `" +
+          std::string(scenario::rung(scene_.scenario.solver.model).word) +
+          "`; set `solver.model = \"mass_spring\"` for `output.tissue` and `output.picture`");
     if (on_crease_)
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "
@@ -118,10 +112,11 @@ class Press {
       record_.remarks.push_back(
           "the tissue is hollow beyond half the finger's curvature where it was pressed: the "
           "contact "
-          "grows wide against the sphere, and Hertz's law is a poor one");
+          "grows wide compared with the sphere, and Hertz's law is inaccurate");
     if (one_sided_)
       record_.remarks.push_back(
-          "near a boundary or crease the curvature was read from one side only, to first order");
+          "near a boundary or crease the curvature was estimated from one side only, to first "
+          "order");
   }
 
  private:
@@ -135,61 +130,16 @@ class Press {
     return pace;
   }
 
-  // Row by row: first the forces, which follow from the finger alone, then the mesh. What run()
-  // gives is in going_.
-  Course run_in_rows(const Motion& motion) {
-    const Pace pace = begin(motion);
-    const double start = time_;
-    going_ = false;
-    for (int row = 0; row < pace.rows; ++row) {
-      if (stop_.load()) {
-        (void)end_early(record_, record::Outcome::interrupted, "interrupted");
-        co_return;
-      }
-      mesh_->clear_march();
-      std::optional<std::string> wrong;
-      bool there = false;
-      double end = start + pace.time(row + 1, 0);
-      for (int k = 1; k <= pace.steps && !there && !wrong; ++k) {
-        const double time = pace.time(row, k);
-        const Vec3 sideways = move_finger(motion, time);
-        if (motion.keeps_force) wrong = keep_force(sideways);
-        if (!wrong) wrong = mesh_->add_step(place(sideways), start + time, history_, touch_);
-        there = !wrong && touch_.force() >= motion.force;
-        if (there) end = start + time;
-      }
-      March& march = mesh_->march();
-      if (!march.times.empty()) co_yield march;
-      if (march.done > 0) record_.last_stable_time = march.times[march.done - 1];
-      if (march.wrong) wrong = march.wrong;  // the forces went wrong after it, if they did
-      if (wrong) {
-        (void)diverged(*wrong);
-        co_return;
-      }
-      time_ = end;
-      write_row();
-      if (there) break;
-      if (mesh_->inverted()) {
-        (void)diverged("a tetrahedron has turned inside out");
-        co_return;
-      }
-      if (row + 1 == pace.rows && std::isfinite(motion.force)) {
-        (void)diverged("the force of the step was not reached");
-        co_return;
-      }
-    }
-    going_ = true;
-  }
-
-  // Where it is after `time` s of the motion, sideways; a travel that is kept is set.
+  // Returns the sideways displacement (m) after `time` s of the motion, and sets slide and travel
+  // of touch_; the travel not during a slide at constant force.
   Vec3 move_finger(const Motion& motion, double time) {
-    const Vec3 sideways = motion.sideways(time);
+    Vec3 sideways = motion.sideways(time);
     if (!motion.keeps_force) touch_.travel = motion.travel(time);
     touch_.slide = sideways.norm();
     return sideways;
   }
 
-  // False where the case ended early.
+  // Returns false if the case has ended early.
   bool run(const Motion& motion) {
     const bool to_force = std::isfinite(motion.force);
     const Pace pace = begin(motion);
@@ -213,11 +163,12 @@ class Press {
     return true;
   }
 
-  // To the finger's place after `time` s of the motion, at `now`, s.
+  // Advances to the finger's position after `time` s of the motion, at `now` (s).
   bool advance(const Motion& motion, double time, double now) {
     const Vec3 sideways = move_finger(motion, time);
     if (!mesh_) {
-      if (auto wrong = press_half_space(scene_, first_ + sideways, touch_)) return diverged(*wrong);
+      if (auto wrong = mechanics::press_half_space(scene_, first_ + sideways, touch_))
+        return diverged(*wrong);
       history_.pass(scene_, solver_step_, touch_);
       return true;
     }
@@ -232,23 +183,23 @@ class Press {
     return first_ + sideways - touch_.travel * Vec3::UnitZ();
   }
 
-  // Sets the travel at which the force is what it was when the slide began. Where the force waits
-  // for the mesh, one Newton step a solver step follows it.
+  // Sets the travel at which the force equals that at the start of the slide. If the force depends
+  // on the mesh's motion, only one Newton step is made per solver step.
   std::optional<std::string> keep_force(const Vec3& sideways) {
     constexpr int most_tries = 50;
-    Touch tried = touch_;
+    mechanics::Touch tried = touch_;
     for (int i = 0; i < most_tries; ++i) {
       if (mesh_->forces_follow_finger()) {
         tried = touch_;
         if (auto wrong = mesh_->try_out(place(sideways), tried)) return wrong;
       }
       double stiffness = 0.0;
-      for (const SphereContact& contact : tried.contacts)
+      for (const mechanics::SphereContact& contact : tried.contacts)
         stiffness += (contact.stiffness > 0.0 ? contact.stiffness
                                               : contact.law.point.stiffness(contact.depth)) *
                      contact.patch.normal.z();
       const double missing = kept_force_ - tried.force();
-      // Out of touch, down by a little.
+      // Without contact the finger moves down slightly.
       touch_.travel += stiffness > 0.0 ? missing / stiffness : 1e-3 * scene_.finger.sphere_radius;
       if (!mesh_->forces_follow_finger() || std::abs(missing) <= 1e-9 * kept_force_)
         return std::nullopt;
@@ -265,7 +216,7 @@ class Press {
     row.step = step_;
     row.time = time_;
     record_.contact.push_back(row);
-    for (const SphereContact& one : touch_.contacts) {
+    for (const mechanics::SphereContact& one : touch_.contacts) {
       on_crease_ = on_crease_ || one.on_crease;
       nearly_conforming_ = nearly_conforming_ || one.law.nearly_conforming;
       one_sided_ = one_sided_ || (one.one_sided && one.law.mean_curvature != 0.0);
@@ -273,17 +224,17 @@ class Press {
     if (mesh_ && scene_.scenario.solver.rings && touch_.pressed() > 0.0)
       edge_share_ = std::max(edge_share_, mesh_->edge_reaction() / touch_.pressed());
     if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
-      for (const SphereContact& one : touch_.contacts)
+      for (const mechanics::SphereContact& one : touch_.contacts)
         deepest_sinking_ = std::max(deepest_sinking_, sunk(one));
     if (!mesh_) record_.last_stable_time = time_;
   }
 
-  // Of the nodes under a contact, by their shares of its force, m.
-  [[nodiscard]] double sunk(const SphereContact& contact) {
+  // Mean displacement of the nodes under a contact, weighted by their shares of its force, m.
+  [[nodiscard]] double sunk(const mechanics::SphereContact& contact) {
     const integrate::Vector displacement = mesh_->displacement();
     double sum = 0.0;
     for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
-      const auto vertex = static_cast<std::size_t>(contact.load.vertices[k]);
+      const auto vertex = as_index(contact.load.vertices[k]);
       sum -= contact.load.shares[k] *
              contact.patch.normal.dot(displacement.segment<3>(3 * scene_.specimen->skin[vertex]));
     }
@@ -310,13 +261,12 @@ class Press {
     const geometry::Surface& surface = specimen.surface->surface();
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
       for (const int vertex : surface.triangles[t])
-        area[static_cast<std::size_t>(vertex)] +=
-            geometry::twice_area(surface, static_cast<int>(t)).norm() / 6.0;
+        area[as_index(vertex)] += geometry::twice_area(surface, static_cast<int>(t)).norm() / 6.0;
     frame.contact_pressure.assign(specimen.mesh.nodes.size(), 0.0);
-    for (const SphereContact& contact : touch_.contacts)
+    for (const mechanics::SphereContact& contact : touch_.contacts)
       for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
-        const auto vertex = static_cast<std::size_t>(contact.load.vertices[k]);
-        frame.contact_pressure[static_cast<std::size_t>(specimen.skin[vertex])] +=
+        const auto vertex = as_index(contact.load.vertices[k]);
+        frame.contact_pressure[as_index(specimen.skin[vertex])] +=
             contact.force * contact.load.shares[k] / area[vertex];
       }
     record_.frames.push_back(std::move(frame));
@@ -325,19 +275,17 @@ class Press {
   const scene::Scene& scene_;
   const std::atomic<bool>& stop_;
   record::CaseRecord& record_;
-  ContactHistory history_;
-  std::optional<PressedMesh> mesh_;
+  mechanics::ContactHistory history_;
+  std::optional<mechanics::PressedMesh> mesh_;
   double solver_step_ = 0.0;  // s
   Vec3 first_ =
       Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
-  Touch touch_;
-  double kept_force_ = 0.0;  // N, during a slide
-  double edge_share_ = 0.0;
-  double deepest_sinking_ = 0.0;  // m, where all is on one node
+  mechanics::Touch touch_;
+  double kept_force_ = 0.0;       // N, during a slide
+  double edge_share_ = 0.0;       // largest ratio of edge reaction to contact force
+  double deepest_sinking_ = 0.0;  // m, with `contact.spread = "nearest_node"`
   double time_ = 0.0;
   int step_ = 1;
-  bool in_rows_ = false;
-  bool going_ = true;
   bool on_crease_ = false;
   bool one_sided_ = false;
   bool nearly_conforming_ = false;
@@ -345,9 +293,8 @@ class Press {
 
 }  // namespace
 
-Course press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
-  Press one(scene, stop, record);
-  for (Course course = one.all(); March* march = course.next();) co_yield *march;
+void press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
+  Press(scene, stop, record).run();
 }
 
 }  // namespace palpate::run

@@ -1,4 +1,4 @@
-// Pixels by supersampling, so that the rim is shared by the pixels it runs through.
+// Draws maps by supersampling; a pixel at the rim of a contact has its proper share.
 #include "run/pressure_map.h"
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 namespace palpate::run {
 namespace {
 
-// A contact's patch as the picture needs it.
+// A contact's patch seen from above.
 struct View {
-  const SphereContact* contact;
+  const mechanics::SphereContact* contact;
   Vec3 across;
   double mean;                                    // Pa, over the ellipse
-  std::optional<contact::PressureProfile> shape;  // on a layer; else Hertz's
+  std::optional<contact::PressureProfile> shape;  // on a layer; empty: Hertz's
 
-  explicit View(const SphereContact& one)
+  explicit View(const mechanics::SphereContact& one)
       : contact(&one),
         across(one.patch.normal.cross(one.patch.axis)),
         mean(one.force / (std::numbers::pi * one.patch.a * one.patch.b)) {
@@ -29,7 +29,7 @@ struct View {
       shape = layer->law.pressure(contact::layer_chi(one.depth, layer->radius, layer->thickness));
   }
 
-  // From the patch's centre to where the vertical through (x, y) meets its tangent plane.
+  // Vector from the patch's centre to the vertical through (x, y), in the tangent plane, m.
   [[nodiscard]] Vec3 arm(double x, double y) const {
     const contact::Patch& patch = contact->patch;
     Vec3 away(x - patch.position.x(), y - patch.position.y(), 0.0);
@@ -46,9 +46,8 @@ struct View {
   }
 };
 
-// Between finger and tissue along the vertical, m: the spheres' own shapes against the curved
-// tissue, less the depth, plus what the half-space or layer sinks around all contacts; 0 in
-// contact.
+// The vertical gap between finger and tissue, m: the parabolic height of the spheres above the
+// curved tissue, minus the depth, plus the displacement of the half-space or layer; 0 in contact.
 double gap(const std::vector<View>& views, const scene::Scene& scene, double x, double y) {
   double least = std::numeric_limits<double>::infinity();
   double sinking = 0.0;
@@ -74,11 +73,11 @@ double gap(const std::vector<View>& views, const scene::Scene& scene, double x, 
 
 }  // namespace
 
-record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch) {
+record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& touch) {
   record::PressureMap map;
   map.contact_force = touch.normal_force();
   std::vector<View> views;
-  for (const SphereContact& contact : touch.contacts)
+  for (const mechanics::SphereContact& contact : touch.contacts)
     if (contact.patch.normal.z() > 0.1) views.emplace_back(contact);
   if (views.empty()) {
     map.width = map.height = 1;
@@ -89,7 +88,6 @@ record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch) {
     return map;
   }
   constexpr int longest = 128;  // pixels
-  constexpr int samples = 8;
   constexpr double margin = 1.25;
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = -low;
@@ -127,8 +125,8 @@ record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch) {
         }
         sum /= samples * samples;
         pressure += sum;
-        const SphereContact& contact = *view.contact;
-        // Per area of the picture, so that it integrates to the force on a slope too.
+        const mechanics::SphereContact& contact = *view.contact;
+        // Per area seen from above, so that its integral is the force on a slope too.
         traction +=
             sum / contact.patch.normal.z() * (contact.drag / contact.force - contact.patch.normal);
       }

@@ -1,13 +1,14 @@
-// What the finger does to the surface at one moment, as a picture of numbers.
+// Pressure maps of a touch.
 #pragma once
 
+#include "mechanics/contacts.h"
 #include "record/pressure_map.h"
-#include "run/contacts.h"
 
 namespace palpate::run {
 
-// Pressure, traction and gap over the contacts' surroundings, seen from above. `scene` gives the
-// moduli and radii. The integral of the pressure is Touch::normal_force().
-[[nodiscard]] record::PressureMap draw_map(const scene::Scene& scene, const Touch& touch);
+// Pressure, traction and gap around the contacts, seen from above, without time, step and case. The
+// integral of the pressure is Touch::normal_force().               docs/theory.md, below (5)
+[[nodiscard]] record::PressureMap draw_map(const scene::Scene& scene,
+                                           const mechanics::Touch& touch);
 
 }  // namespace palpate::run

@@ -1,4 +1,4 @@
-// The first row that has come so far, and the one before it.
+// Interpolates between the first row that reaches a value and the row before it.
 #include "run/readings.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ struct Point {
   double y = 0.0;
 };
 
-// x on the straight line from a to b where it is at `y`, which lies above a's and not above b's.
+// The x at which the straight line from a to b has the given y, with a.y < y <= b.y.
 double crossing(const Point& a, const Point& b, double y) {
   if (y == b.y) return b.x;
   return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
@@ -19,7 +19,7 @@ double crossing(const Point& a, const Point& b, double y) {
 
 }  // namespace
 
-std::optional<double> force_at_indentation(const scenario::Scenario& scenario,
+std::optional<double> force_at_indentation(const scenario::PlainScenario& scenario,
                                            const record::CaseRecord& record, double depth) {
   const auto first =
       std::find_if(scenario.steps.begin(), scenario.steps.end(),

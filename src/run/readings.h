@@ -1,4 +1,4 @@
-// Single numbers read off a case's curves, between its rows.
+// Values of a case's curves between its rows, by linear interpolation.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,15 @@
 
 namespace palpate::run {
 
-// The force (N, `force` of the rows) at which the first `indent` comes to the indentation `depth`
-// (m, above 0), on a straight line between the two rows around it: of F ~ h^(3/2) at rows dh apart
-// that is at most 3/32 (dh / h)^2 of the force too much. Nothing where it does not get there.
-[[nodiscard]] std::optional<double> force_at_indentation(const scenario::Scenario& scenario,
+// The force (N, ContactRow::force) at which the first `indent` reaches the indentation `depth` (m,
+// above 0). For F ~ h^(3/2) and rows at a distance dh it is too large by at most the fraction 3/32
+// (dh / h)^2. Nothing if the indentation is not reached.
+[[nodiscard]] std::optional<double> force_at_indentation(const scenario::PlainScenario& scenario,
                                                          const record::CaseRecord& record,
                                                          double depth);
 
-// How long (s) after its load the first creep test has half of `elastic_strain`, on a straight
-// line between two rows: tau ln 2 of a Kelvin-Voigt solid. Nothing where the load is taken off
-// before.
+// The time (s) from the application of the load until the first creep test reaches half of
+// `elastic_strain`: tau ln 2 for a Kelvin-Voigt solid. Nothing if the load is removed earlier.
 [[nodiscard]] std::optional<double> creep_half_time(const record::CaseRecord& record,
                                                     double elastic_strain);
 

@@ -1,4 +1,4 @@
-// Faces that one tetrahedron has alone, or that two share whose regions differ.
+// Finds the faces of only one tetrahedron, and those between tetrahedra of different regions.
 #include "run/scene_picture.h"
 
 #include <cmath>
@@ -14,8 +14,7 @@ using Face = record::ScenePicture::Face;
 
 Face face(const geometry::TetMesh& mesh, const geometry::FaceUse& use) {
   Face result;
-  for (std::size_t i = 0; i < 3; ++i)
-    result.corners[i] = mesh.nodes[static_cast<std::size_t>(use.nodes[i])];
+  for (std::size_t i = 0; i < 3; ++i) result.corners[i] = mesh.nodes[as_index(use.nodes[i])];
   result.region = mesh.region(use.tetrahedron);
   return result;
 }
@@ -26,7 +25,7 @@ std::vector<Face> faces(const geometry::TetMesh& mesh) {
   for (std::size_t i = 0; i < uses.size(); ++i) {
     Face one = face(mesh, uses[i]);
     if (i + 1 < uses.size() && uses[i + 1].key == uses[i].key) {
-      // Two uses: what a later region has inside an earlier one is seen from the earlier one.
+      // Between two regions, the face belongs to the later one and is seen from the earlier one.
       Face other = face(mesh, uses[++i]);
       if (one.region == other.region) continue;
       if (one.region < other.region) std::swap(one, other);
@@ -43,8 +42,7 @@ record::ScenePicture make_picture(const scene::Scene& scene) {
   record::ScenePicture picture;
   picture.faces = faces(scene.specimen->mesh);
   picture.materials = {scene.scenario.tissue.material};
-  for (const scenario::Region& region : scene.scenario.regions)
-    picture.materials.push_back(scenario::substance(region).material);
+  for (const auto& region : scene.scenario.regions) picture.materials.push_back(region.material);
   const scene::FirstTouch first = scene::first_touch(scene);
   for (const Vec3& centre : scene.finger.centres)
     picture.finger.push_back({first.finger + centre, scene.finger.sphere_radius});

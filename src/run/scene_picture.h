@@ -1,4 +1,4 @@
-// A scene as a picture needs it.
+// Collects the parts of a scene that its picture shows.
 #pragma once
 
 #include "record/scene_picture.h"
@@ -6,8 +6,8 @@
 
 namespace palpate::run {
 
-// The specimen's skin and the surfaces of the regions inside it, each seen from outside, and the
-// finger at its first touch. Needs a scene with a specimen and a finger.
+// The specimen's skin, the surfaces of the regions inside it (counter-clockwise from outside the
+// region), and the finger at its first touch. The scene must have a specimen and a finger.
 [[nodiscard]] record::ScenePicture make_picture(const scene::Scene& scene);
 
 }  // namespace palpate::run

@@ -1,4 +1,4 @@
-// A failure waits until all calls have ended, so that which one is told depends on no clock.
+// Exceptions are rethrown after all calls, so that the reported one does not depend on timing.
 #include "run/share_out.h"
 
 #include <atomic>

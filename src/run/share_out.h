@@ -1,4 +1,4 @@
-// Work by number, taken by several threads from one counter.
+// Distributes numbered tasks to several threads.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace palpate::run {
 
-// Calls work(i) once for every i below `count`, on `workers` threads, this one among them. Returns
-// when all calls have; then rethrows the failure of the least i, if there was one.
+// Calls work(i) once for every i below `count`, on `workers` threads including the calling one.
+// Returns when all calls have ended; rethrows the exception of the smallest i that had one.
 void share_out(std::size_t count, int workers, const std::function<void(std::size_t)>& work);
 
 }  // namespace palpate::run

@@ -1,4 +1,4 @@
-// How cases that run are asked to end.
+// Flags that end running cases or prevent new ones.
 #pragma once
 
 #include <atomic>
@@ -6,8 +6,8 @@
 namespace palpate::run {
 
 struct Stop {
-  const std::atomic<bool>& end_now;        // at the next row; such a case counts as not run
-  const std::atomic<bool>& begin_no_more;  // cases that run go on to their end
+  const std::atomic<bool>& end_now;        // running cases end at the next row, as interrupted
+  const std::atomic<bool>& begin_no_more;  // no case is begun; running cases go on to their end
 
   [[nodiscard]] bool no_more() const { return end_now.load() || begin_no_more.load(); }
 };

@@ -1,4 +1,4 @@
-// Creep by platen forces, relaxation by a platen's travel.
+// Runs creep tests under platen forces and relaxation tests at constant platen travel.
 #include "run/uniform.h"
 
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "run/pace.h"
+#include "scenario/integrators.h"
 
 namespace palpate::run {
 namespace {
@@ -33,8 +34,8 @@ class UniformTest {
         const Pace pace = make_pace(scene_, stage.duration);
         const int beginnings = stepper_->beginnings();
         stepper_->set_step(pace.step());
-        // Where central differences go on through a jump, the mean of both loads in the step after
-        // it keeps their order.                                          docs/theory.md (81)
+        // Central differences that continue through a jump of the load take the mean of both loads
+        // in the next step, which preserves their order.       docs/theory.md, below (39) and (81)
         const bool met_by_mean =
             stage.jumps && stepper_->beginnings() == beginnings &&
             scene_.scenario.solver.integrator == scenario::Solver::Integrator::central_difference;
@@ -45,7 +46,7 @@ class UniformTest {
             co_return;
           }
           march_.clear();
-          march_.loads.push_back(tissue::sparse(stage.load));
+          march_.load = tissue::sparse(stage.load);
           if (row == 0 && met_by_mean)
             march_.first_load = tissue::sparse(0.5 * (stage.load_before + stage.load));
           march_.force_wanted = !stage.stress;
@@ -66,12 +67,12 @@ class UniformTest {
   }
 
  private:
-  // A load that stays for a time. `stress` is that of the rows; nothing: it is measured.
+  // A time under constant load. `stress` (Pa) is that of the rows; if empty, it is measured.
   struct Stage {
     Vector load_before, load;  // N
     double duration = 0.0;     // s
     std::optional<double> stress;
-    bool jumps = false;  // to `load`
+    bool jumps = false;  // the load changes from load_before to load at the start
   };
 
   void fresh(const std::vector<char>& held) {
@@ -89,16 +90,15 @@ class UniformTest {
     march_.stepper = &*stepper_;
     march_.state = &state_;
     ++march_.standing;
-    // A standard linear solid without inertia gave way at once and creeps on from there; for the
-    // others the load has its value from the start of the step.
-    const bool creeps_on =
-        scene_.scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
-        specimen_.law.kind == tissue::Viscosity::standard_linear_solid;
+    // Without inertia a standard linear solid has an immediate response and then creeps with an
+    // elongation linear in each step; otherwise the load is constant from the start of the step.
+    const bool creeps_on = !about(scene_.scenario.solver.integrator).inertia &&
+                           specimen_.law.kind == tissue::Viscosity::standard_linear_solid;
     march_.rule = creeps_on ? MemoryRule::exact : MemoryRule::held;
     stages_.clear();
   }
 
-  // The platen's force as shares on the nodes under it, pressing down.
+  // The platen's downward force, distributed over the nodes of the top by the platen shares, N.
   [[nodiscard]] Vector platen_load(double stress) const {
     Vector load = Vector::Zero(3 * specimen_.network.nodes());
     const tissue::Uniaxial& pressed = specimen_.pressed;
@@ -107,7 +107,7 @@ class UniformTest {
     return load;
   }
 
-  // The platen's travel over the height: sinkings weighted as the platen's force is.
+  // The platen's travel over the height: the mean displacement weighted by the platen shares.
   [[nodiscard]] double strain() const {
     const tissue::Uniaxial& pressed = specimen_.pressed;
     double sum = 0.0;
@@ -116,7 +116,7 @@ class UniformTest {
     return sum / pressed.height;
   }
 
-  // The force with which the specimen pushes back over the top's area; `force` (N) is the springs'.
+  // The reaction of the specimen over the area of the top, Pa; `force` (N) is that of the springs.
   [[nodiscard]] double stress_of(const Vector& force) const {
     double sum = 0.0;
     for (const int node : specimen_.pressed.top) sum -= force[3 * node + 2];
@@ -139,13 +139,13 @@ class UniformTest {
 
   bool relax(const Relax& relax) {
     fresh(specimen_.held_between_platens);
-    // The strain is applied at once and evenly: the specimen starts in the static shape that the
-    // platens give it, at rest.
+    // The strain is applied at once: the specimen starts in its static shape, at rest.
     state_.displacement = relax.strain * specimen_.pressed.displacement;
     state_.memory = body_->memory_at(Vector::Zero(state_.displacement.size()));
     const Vector none = Vector::Zero(state_.displacement.size());
     integrate::Implicit statics(*body_, integrate::Implicit::Inertia::none);
-    if (const auto wrong = solve_step(statics, *body_, state_, 0.0, MemoryRule::at_once, none))
+    if (const auto wrong =
+            mechanics::solve_step(statics, *body_, state_, 0.0, MemoryRule::at_once, none))
       return diverged(*wrong);
     state_.memory = body_->memory_at(state_.displacement);
     monitor_->begin(state_);
@@ -156,17 +156,16 @@ class UniformTest {
     return true;
   }
 
-  // A load that changes at once: without inertia, a standard linear solid gives way at once too.
+  // Applies a jump of the load: without inertia, tissue other than Kelvin-Voigt deforms at once.
   bool begin(const Stage& stage) {
     if (!stage.jumps) return true;
-    const bool at_once =
-        scene_.scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
-        specimen_.law.kind != tissue::Viscosity::kelvin_voigt;
+    const bool at_once = !about(scene_.scenario.solver.integrator).inertia &&
+                         specimen_.law.kind != tissue::Viscosity::kelvin_voigt;
     if (at_once) {
       const State before = state_;
       integrate::Implicit statics(*body_, integrate::Implicit::Inertia::none);
       if (const auto wrong =
-              solve_step(statics, *body_, state_, 0.0, MemoryRule::at_once, stage.load))
+              mechanics::solve_step(statics, *body_, state_, 0.0, MemoryRule::at_once, stage.load))
         return diverged(*wrong);
       if (const auto wrong = monitor_->step(before, state_, stage.load_before, stage.load))
         return diverged(*wrong);
@@ -186,8 +185,8 @@ class UniformTest {
   const std::atomic<bool>& stop_;
   record::CaseRecord& record_;
   std::optional<scene::SpringBody> body_;
-  std::optional<EnergyMonitor> monitor_;
-  std::optional<Stepper> stepper_;
+  std::optional<mechanics::EnergyMonitor> monitor_;
+  std::optional<mechanics::Stepper> stepper_;
   std::vector<Stage> stages_;
   March march_;
   State state_;
@@ -198,7 +197,12 @@ class UniformTest {
 
 }  // namespace
 
-Course load_uniformly(const scene::Scene& scene, const std::atomic<bool>& stop,
+void load_uniformly(const scene::Scene& scene, const std::atomic<bool>& stop,
+                    record::CaseRecord& record) {
+  carry_out(uniform_course(scene, stop, record));
+}
+
+Course uniform_course(const scene::Scene& scene, const std::atomic<bool>& stop,
                       record::CaseRecord& record) {
   UniformTest test(scene, stop, record);
   for (Course course = test.all(); March* march = course.next();) co_yield *march;

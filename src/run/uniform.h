@@ -9,9 +9,13 @@
 
 namespace palpate::run {
 
-// Every `creep` or `relax` step is a test of its own on a fresh specimen; time runs on. All that is
-// given must outlive the course.
-[[nodiscard]] Course load_uniformly(const scene::Scene& scene, const std::atomic<bool>& stop,
+// Runs every `creep` or `relax` step as a separate test of an unloaded specimen; time continues
+// from step to step. If `stop` is set, the case ends as interrupted at the next row.
+void load_uniformly(const scene::Scene& scene, const std::atomic<bool>& stop,
+                    record::CaseRecord& record);
+
+// The same as a coroutine, which pauses when its mesh has to be advanced. The arguments outlive it.
+[[nodiscard]] Course uniform_course(const scene::Scene& scene, const std::atomic<bool>& stop,
                                     record::CaseRecord& record);
 
 }  // namespace palpate::run

@@ -1,4 +1,4 @@
-// A row of a CSV file as the settings of a case.
+// Parses rows of a CSV file into the settings of cases.
 #include "scenario/case_table.h"
 
 #include <algorithm>
@@ -50,15 +50,6 @@ std::vector<Cell> cells_of(std::string_view line, const Place& place) {
   }
 }
 
-void set_place(Node& node, const Place& place) {
-  node.place = place;
-  for (Node& item : node.items) set_place(item, place);
-  for (Member& member : node.members) {
-    member.place = place;
-    set_place(member.value, place);
-  }
-}
-
 Node value_of(const std::string& text, const std::string& unit, const Place& place) {
   Node node;
   const auto number = whole_number(text);
@@ -82,10 +73,9 @@ Node value_of(const std::string& text, const std::string& unit, const Place& pla
   return node;
 }
 
-// Results hold a copy of each file beside the table, where the table must still find it.
+// A result contains the table with its files beside it, so the table must not name other folders.
 void refuse_folders(const std::string& key, const Node& value) {
-  const std::string last = key.substr(key.rfind('.') + 1);
-  if (value.kind != Node::Kind::text || (last != "material" && last != "file")) return;
+  if (value.kind != Node::Kind::text || !names_file(key)) return;
   if (value.text.substr(0, value.text.find('#')).find('/') != std::string::npos)
     throw InputError(value.place, "`" + value.text +
                                       "` lies in another folder, where a copy of this table among "
@@ -95,14 +85,18 @@ void refuse_folders(const std::string& key, const Node& value) {
 
 }  // namespace
 
+bool names_file(std::string_view key) {
+  const std::string_view last = key.substr(key.rfind('.') + 1);
+  return last == "material" || last == "file";
+}
+
 std::string value_word(const std::string& key, const Node& value, std::size_t index) {
-  const std::string last = key.substr(key.rfind('.') + 1);
   const auto holds_more = [](const Node& node) {
     return node.kind == Node::Kind::table || node.kind == Node::Kind::array;
   };
   if (value.kind == Node::Kind::table ||
       std::any_of(value.items.begin(), value.items.end(), holds_more))
-    return last + std::to_string(index + 1);
+    return key.substr(key.rfind('.') + 1) + std::to_string(index + 1);
   if (value.kind == Node::Kind::array && !value.items.empty()) {
     std::vector<std::string> words;
     for (const Node& item : value.items) words.push_back(item.shown());
@@ -110,8 +104,7 @@ std::string value_word(const std::string& key, const Node& value, std::size_t in
     return different.size() == 1 ? words.front() : joined(words, " x ");
   }
   const std::string shown = value.shown();
-  const bool file = last == "material" || last == "file";
-  return file ? std::filesystem::path(shown).filename().string() : shown;
+  return names_file(key) ? std::filesystem::path(shown).filename().string() : shown;
 }
 
 void CommonUnit::add(const Node& value) {
@@ -134,7 +127,7 @@ CaseTable::CaseTable(std::string text, std::string path)
     : text_(std::move(text)), path_(std::move(path)) {
   refuse_no_text(text_, path_, "give a CSV file");
   int line = 0;
-  std::size_t at = text_.starts_with("\xef\xbb\xbf") ? 3 : 0;  // a mark that spreadsheets write
+  std::size_t at = text_.starts_with("\xef\xbb\xbf") ? 3 : 0;  // a byte order mark of spreadsheets
   while (at < text_.size()) {
     const std::size_t end = std::min(text_.find('\n', at), text_.size());
     ++line;

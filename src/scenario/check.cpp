@@ -1,6 +1,7 @@
-// Checks that look at several keys at once.
+// Checks that involve several keys at once.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -8,6 +9,7 @@
 #include "base/units.h"
 #include "scenario/family.h"
 #include "scenario/integrators.h"
+#include "scenario/programme.h"
 
 namespace palpate::scenario {
 namespace {
@@ -16,8 +18,11 @@ using Integrator = Solver::Integrator;
 
 class Checker {
  public:
-  Checker(const Scenario& scenario, const Node& document, std::vector<Problem>& problems)
-      : scenario_(scenario), document_(document), problems_(problems) {}
+  Checker(const Case& one, const Node& document, std::vector<Problem>& problems)
+      : scenario_(one.scenario),
+        poisson_ratio_(poisson_ratio(one)),
+        document_(document),
+        problems_(problems) {}
 
   void all() {
     const std::size_t before = problems_.size();
@@ -25,7 +30,7 @@ class Checker {
     shapes();
     methods();
     time_step();
-    if (problems_.size() == before) rows();  // a wrong step is a wrong duration too
+    if (problems_.size() == before) rows();  // a wrong step also has a wrong duration
   }
 
  private:
@@ -70,11 +75,11 @@ class Checker {
     }
   }
 
-  // How far the steps so far have pressed.
+  // The state that the previous steps have reached.
   struct Reached {
-    double travel = 0.0;   // m; after a step to a force the most that it can be
-    double force = 0.0;    // N, of a step to a force; 0 after others
-    bool in_order = true;  // one step in the wrong direction is reported, not those after it
+    double travel = 0.0;   // m; after a step to a force, the largest that is possible
+    double force = 0.0;    // N, after a step to a force; 0 after other steps
+    bool in_order = true;  // false after a step in the wrong direction, so that only it is reported
   };
 
   Reached indented(const std::string& path, const Indent& indent, Reached before) {
@@ -134,7 +139,7 @@ class Checker {
                          "wider specimen");
   }
 
-  // What kinds of shape, mesh and model go together.
+  // Which kinds of shape, mesh and model may be combined.
   void shapes() {
     const Tissue& tissue = scenario_.tissue;
     const bool lattice =
@@ -148,7 +153,7 @@ class Checker {
       problem("tissue.shape",
               "`as_meshed` needs a ready mesh; set `tissue.mesh = { file = ..., "
               "unit = \"mm\" }`");
-    if (scenario_.solver.model == Solver::Model::mass_spring && half_space)
+    if (meshed && half_space)
       problem("tissue.shape",
               "a `half_space` has no mesh; set `solver.model = \"hertz\"` or another shape");
     if (half_space && !scenario_.regions.empty())
@@ -164,7 +169,7 @@ class Checker {
               "\"tetgen\", nodes = 728 }`");
     const bool lumps =
         std::any_of(scenario_.regions.begin(), scenario_.regions.end(),
-                    [](const Region& region) { return std::holds_alternative<Lump>(region); });
+                    [](const Region& region) { return std::holds_alternative<Lump>(region.part); });
     if (meshed && lumps && !std::holds_alternative<Tetgen>(tissue.mesh))
       problem("tissue.mesh",
               "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
@@ -174,17 +179,17 @@ class Checker {
     if (tetgen != nullptr && tetgen->tetrahedra &&
         (box || tetgen->edge || std::holds_alternative<SurfaceFile>(tissue.shape)))
       problem("tissue.mesh.tetrahedra",
-              "`tetrahedra` can be aimed at besides `nodes`, on shapes other than `cuboid` and "
-              "files; remove it");
+              "`tetrahedra` is a target besides `nodes`, for shapes other than `cuboid` and "
+              "surface files; remove it");
     tags();
   }
 
-  // Hertz knows one sphere on the top of a curved half-space.
+  // The closed form is that of a single sphere on the top of a curved half-space.
   void curved_half_space(const HalfSpace& shape) {
     if (shape.curvature == 0.0 && shape.curvature_2.value_or(0.0) == 0.0) return;
     const auto wrong = [&](const std::string& path, const std::string& what,
                            const std::string& remedy) {
-      problem(path, "no formula knows " + what + " a curved `half_space`; " + remedy +
+      problem(path, "there is no formula for " + what + " a curved `half_space`; " + remedy +
                         ", or use another `tissue.shape`, such as `ellipsoid`");
     };
     const Finger& finger = scenario_.finger;
@@ -196,14 +201,14 @@ class Checker {
         wrong("step." + std::to_string(i + 1), "a `slide` over", "remove it");
   }
 
-  // Layers lie in a box, below its top, beside each other.
+  // Slabs must lie in a cuboid, below its top, and must not overlap.
   void slabs() {
     const auto* box = std::get_if<Cuboid>(&scenario_.tissue.shape);
     const bool lattice = std::holds_alternative<Kuhn>(scenario_.tissue.mesh) ||
                          std::holds_alternative<Mirrored>(scenario_.tissue.mesh);
     std::map<double, double> taken;  // bottoms and tops
     for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
-      const auto* slab = std::get_if<Slab>(&scenario_.regions[i]);
+      const auto* slab = std::get_if<Slab>(&scenario_.regions[i].part);
       if (slab == nullptr) continue;
       const std::string path = "region." + std::to_string(i + 1);
       if (box == nullptr || !lattice) {
@@ -230,7 +235,7 @@ class Checker {
   void tags() {
     std::set<int> known;
     for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
-      const auto* tagged = std::get_if<TaggedRegion>(&scenario_.regions[i]);
+      const auto* tagged = std::get_if<TaggedRegion>(&scenario_.regions[i].part);
       if (tagged != nullptr && !known.insert(tagged->tag).second)
         problem("region." + std::to_string(i + 1) + ".tag", "another `[[region]]` has `tag` " +
                                                                 std::to_string(tagged->tag) +
@@ -240,53 +245,31 @@ class Checker {
 
   void methods() {
     const Solver& solver = scenario_.solver;
-    const bool closed_form =
-        solver.model == Solver::Model::hertz || solver.model == Solver::Model::layer;
-    if (closed_form && scenario_.uniform())
-      problem("solver.model", std::string("`") +
-                                  (solver.model == Solver::Model::hertz ? "hertz" : "layer") +
-                                  "` has no specimen to creep or relax; set `solver.model = "
-                                  "\"mass_spring\"` or `\"coupled_springs\"`");
+    const Rung* const given = solver.model ? &rung(*solver.model) : nullptr;
+    if (given != nullptr && !given->uniform && scenario_.uniform())
+      problem("solver.model", "`" + std::string(given->word) +
+                                  "` has no specimen to creep or relax; set " +
+                                  models_that(std::mem_fn(&Rung::uniform)));
     viscosity();
-    if (scenario_.contact.depth == Contact::Depth::neo_hookean &&
-        solver.model != Solver::Model::hertz && !scenario_.uniform())
-      problem("contact.depth",
-              "`neo_hookean` is the factor of a half-space; set `solver.model = \"hertz\"`, or "
-              "`depth = \"auto\"`");
+    if (scenario_.contact.depth == Contact::Depth::neo_hookean && !scenario_.uniform() &&
+        (given == nullptr || !given->deep_factor))
+      problem("contact.depth", "`neo_hookean` is the factor of a half-space; set " +
+                                   models_that(std::mem_fn(&Rung::deep_factor)) +
+                                   ", or `depth = \"auto\"`");
     if (!scenario_.meshed()) return;
-    const bool volume =
-        solver.volume == Solver::Volume::nodal || solver.volume == Solver::Volume::tetrahedron;
-    if (solver.model == Solver::Model::mass_spring && volume &&
-        *scenario_.tissue.poisson_ratio < 0.2)
-      problem("solver.volume",
-              "below a Poisson's ratio of 0.2 independent springs, which have 1/4, would need a "
-              "volume that pushes outwards; set `volume = \"none\"` or `model = "
-              "\"coupled_springs\"`");
-    if (solver.model == Solver::Model::mass_spring && !volume)
-      for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
-        const std::string path = "region." + std::to_string(i + 1) + ".poisson_ratio";
-        if (given(path))
-          problem(path,
-                  "independent springs have a Poisson's ratio of their own; set `solver.volume = "
-                  "\"nodal\"` or `solver.model = \"coupled_springs\"`, or leave it out");
-      }
-    if (solver.model == Solver::Model::coupled_springs && solver.volume == Solver::Volume::none)
-      problem("solver.volume",
-              "`coupled_springs` always resist a change of volume; set `solver.volume = "
-              "\"nodal\"`, or `solver.model = \"mass_spring\"`");
-    if (scenario_.contact.coupling == contact::Coupling::resolved &&
-        (explicit_steps(solver.integrator) || solver.integrator == Integrator::modal))
+    if (given != nullptr) springs(*given);
+    if (scenario_.contact.coupling == contact::Coupling::resolved && solver.integrator &&
+        (about(*solver.integrator).explicit_steps || solver.integrator == Integrator::modal))
       problem("solver.integrator",
-              "`resolved` finds its forces and the motion together, which an explicit method "
-              "cannot, and in `modal` steps they ring; set `integrator` to `quasi_static`, "
+              "`resolved` solves for forces and motion together, which an explicit method "
+              "cannot do, and in `modal` steps they oscillate; set `integrator` to `quasi_static`, "
               "`backward_difference` or `tr_bdf2`");
     if (scenario_.contact.spread == Contact::Spread::nearest_node && !scenario_.uniform() &&
-        scenario_.contact.coupling != contact::Coupling::one_way &&
-        scenario_.contact.coupling != contact::Coupling::series)
+        !contact::presses_one_node(scenario_.contact.coupling))
       problem("contact.spread",
               "`nearest_node` is for `one_way` and `series`; write `spread = \"pressure\"`");
     if (solver.integrator == Integrator::modal &&
-        solver.kinematics == tissue::Kinematics::nonlinear)
+        solver.kinematics == Solver::Kinematics::nonlinear)
       problem("solver.kinematics",
               "`modal` solves linear bodies only; set "
               "`solver.kinematics = \"linear\"` or another integrator");
@@ -298,7 +281,33 @@ class Checker {
               "viscosity");
   }
 
-  // Whether the scenario itself says what stands at a dotted path.
+  // Checks a model with a mesh that the scenario names.
+  void springs(const Rung& model) {
+    const Solver& solver = scenario_.solver;
+    const bool volume = solver.volume.value_or(Solver::Volume::none) != Solver::Volume::none;
+    const std::string coupled = models_that(std::mem_fn(&Rung::coupled));
+    const std::string independent = models_that(std::mem_fn(&Rung::independent));
+    if (model.independent() && volume && poisson_ratio_ < 0.2)
+      problem("solver.volume",
+              "below a Poisson's ratio of 0.2 independent springs, which have 1/4, would need a "
+              "volume term of negative stiffness; set `volume = \"none\"` or " +
+                  coupled);
+    for (std::size_t i = 0; model.independent() && !volume && i < scenario_.regions.size(); ++i) {
+      const std::string path = "region." + std::to_string(i + 1) + ".poisson_ratio";
+      if (given(path))
+        problem(path,
+                "independent springs have a Poisson's ratio of their own; set `solver.volume = "
+                "\"nodal\"` or " +
+                    coupled + ", or leave it out");
+    }
+    if (model.coupled() && solver.volume == Solver::Volume::none)
+      problem("solver.volume", "`" + std::string(model.word) +
+                                   "` always resist a change of volume; "
+                                   "set `solver.volume = \"nodal\"`, or " +
+                                   independent);
+  }
+
+  // Whether the scenario itself contains a dotted path.
   [[nodiscard]] bool given(const std::string& path) const {
     const Place here = place_of(document_, path);
     const Place around = place_of(document_, path.substr(0, path.rfind('.')));
@@ -315,12 +324,11 @@ class Checker {
     if (scenario_.contact.viscosity != Contact::Viscosity::tissue || scenario_.uniform()) return;
     if (tissue.viscosity == Viscosity::none || tissue.viscosity == Viscosity::nodal_drag)
       problem("contact.viscosity",
-              std::string("a contact knows the viscosity of a material, and `tissue.viscosity` is "
-                          "`") +
+              std::string("a contact can include the viscosity of a material only, and "
+                          "`tissue.viscosity` is `") +
                   (tissue.viscosity == Viscosity::none ? "none" : "nodal_drag") +
                   "`; set it to `kelvin_voigt`, `standard_linear_solid` or `prony`");
-    if (scenario_.meshed() && (scenario_.contact.coupling == contact::Coupling::series ||
-                               scenario_.contact.coupling == contact::Coupling::resolved))
+    if (scenario_.meshed() && contact::mesh_is_tissue(scenario_.contact.coupling))
       problem("contact.viscosity",
               "with this `coupling` the mesh carries the tissue's viscosity to the contact "
               "already; write `viscosity = \"none\"`");
@@ -334,7 +342,7 @@ class Checker {
   }
 
   void time_step() {
-    if (!scenario_.meshed()) return;  // left unread
+    if (!scenario_.meshed()) return;  // the key is not read
     const Output& output = scenario_.output;
     const double step = scenario_.solver.time_step.value_or(output.interval);
     const double ratio = output.interval / step;
@@ -353,9 +361,7 @@ class Checker {
 
   void rows() {
     const Output& output = scenario_.output;
-    double total = 0.0;
-    double travel = 0.0;
-    for (const Step& one : scenario_.steps) total += duration(one, travel);
+    const double total = programme_time(scenario_);
     if (total / output.interval > 1e6)
       problem("output.interval", "`output.interval` of " +
                                      quantity_text(output.interval, unit::ms) + " would write " +
@@ -363,34 +369,16 @@ class Checker {
                                      " rows a case, and a million is the most; use a longer one");
   }
 
-  static double duration(const Step& step, double& travel) {
-    if (const auto* indent = std::get_if<Indent>(&step)) {
-      if (indent->to.second) return 0.0;
-      const double time = (indent->to.value - travel) / indent->rate;
-      travel = indent->to.value;
-      return time;
-    }
-    if (const auto* retract = std::get_if<Retract>(&step)) {
-      const double time = (travel - retract->to) / retract->rate;
-      travel = retract->to;
-      return time;
-    }
-    if (const auto* hold = std::get_if<Hold>(&step)) return hold->time;
-    if (const auto* slide = std::get_if<Slide>(&step)) return slide->by / slide->rate;
-    if (const auto* creep = std::get_if<Creep>(&step))
-      return creep->load_time + creep->recovery_time;
-    return std::get<Relax>(step).time;
-  }
-
   const Scenario& scenario_;
+  double poisson_ratio_;  // of the tissue
   const Node& document_;
   std::vector<Problem>& problems_;
 };
 
 }  // namespace
 
-void check(const Scenario& scenario, const Node& document, std::vector<Problem>& problems) {
-  Checker(scenario, document, problems).all();
+void check(const Case& one, const Node& document, std::vector<Problem>& problems) {
+  Checker(one, document, problems).all();
 }
 
 }  // namespace palpate::scenario

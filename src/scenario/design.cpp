@@ -1,10 +1,11 @@
-// The settings of a case, from its number.
+// Computes the settings of a case from its number.
 #include "scenario/design.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/document_writer.h"
+#include "base/index.h"
 #include "base/text.h"
 #include "scenario/sample_points.h"
 
@@ -13,16 +14,16 @@ namespace {
 
 using Kind = Design::Kind;
 
-constexpr std::size_t most_words = 1000;  // cases that are still named by their values
+constexpr std::size_t most_words = 1000;  // cases, above which they are not named by their values
 constexpr std::size_t longest_name = 80;
 
 bool is_sampled(Kind kind) {
   return kind == Kind::lhs || kind == Kind::sobol || kind == Kind::saltelli;
 }
 
-// The value at a part of the way from `from` (0) to `to` (1), in the range's own unit and with 12
-// digits: a text that people can read, and the same one on processors whose logarithms differ in
-// their last bit.
+// The value at a fraction of the way from `from` (0) to `to` (1), in the unit of the range and with
+// 12 digits, so that it is short to read and the same on processors whose logarithms differ in the
+// last bit.
 Node value_at(const Interval& interval, double part) {
   if (part <= 0.0) return interval.from;
   if (part >= 1.0) return interval.to;
@@ -52,14 +53,14 @@ Setting with_word(const Varied& varied, Node value, std::size_t level) {
   return setting;
 }
 
-// Of a list or of a range's points, counted from 0.
+// Setting for a level of a list or of the points of a range, counted from 0.
 Setting at_level(const Varied& varied, std::size_t level) {
   if (!varied.interval) return with_word(varied, varied.levels[level], level);
   const auto steps = static_cast<double>(varied.interval->points - 1);
   return with_word(varied, value_at(*varied.interval, static_cast<double>(level) / steps), level);
 }
 
-// At a coordinate in [0, 1): of a range, or of a list whose values have equal shares.
+// Setting for a coordinate in [0, 1) of a range, or of a list whose values have equal shares.
 Setting at_part(const Varied& varied, double part) {
   if (varied.interval) return with_word(varied, value_at(*varied.interval, part), 0);
   const std::size_t count = varied.levels.size();
@@ -69,7 +70,7 @@ Setting at_part(const Varied& varied, double part) {
 
 std::string entry(const Varied& varied) {
   Node given = varied.given;
-  use_copies(given, varied.key.substr(varied.key.rfind('.') + 1));
+  use_copies(given, varied.key);
   return toml_text(varied.key) + " = " + toml_value(given);
 }
 
@@ -83,7 +84,7 @@ const std::vector<std::string>& design_words() {
 void use_copies(Node& node, const std::string& key) {
   for (Member& member : node.members) use_copies(member.value, member.key);
   for (Node& item : node.items) use_copies(item, key);
-  if (node.kind != Node::Kind::text || (key != "material" && key != "file")) return;
+  if (node.kind != Node::Kind::text || !names_file(key)) return;
   const std::size_t slash = node.text.rfind('/', node.text.find('#'));
   if (slash != std::string::npos) node.text.erase(0, slash + 1);
 }
@@ -114,7 +115,8 @@ Design::Design(Kind kind, std::vector<Factor> factors, Sampling sampling)
       count_ = sampling_.samples * (d + 2);
       break;
     case Kind::list: count_ = factors_.front().levels(); break;
-    default:
+    case Kind::grid:
+    case Kind::csv:
       for (const Factor& factor : factors_) count_ *= factor.levels();
   }
   named_by_words_ = !is_sampled(kind_) && count_ <= most_words;
@@ -138,7 +140,7 @@ Design::Design(CaseTable table)
 double Design::coordinate(std::size_t i, std::size_t factor) const {
   const std::size_t d = factors_.size();
   if (kind_ != Kind::saltelli) return points_[i * d + factor];
-  const std::size_t part = i % (d + 2);  // A, B, then A with one column of B
+  const std::size_t part = i % (d + 2);  // 0: A, 1: B, then A with one column of B
   const bool from_b = part == 1 || part == factor + 2;
   return points_[i / (d + 2) * 2 * d + (from_b ? d : 0) + factor];
 }
@@ -208,8 +210,7 @@ Design Design::only(std::size_t i) const {
 
 std::string Design::toml() const {
   if (empty()) return "";
-  std::string text =
-      "\n[sweep]\ndesign = \"" + design_words()[static_cast<std::size_t>(kind_)] + "\"\n";
+  std::string text = "\n[sweep]\ndesign = \"" + design_words()[as_index(kind_)] + "\"\n";
   if (kind_ == Kind::csv) {
     Node file;
     file.kind = Node::Kind::text;
@@ -219,7 +220,7 @@ std::string Design::toml() const {
   }
   if (is_sampled(kind_)) text += "samples = " + std::to_string(sampling_.samples) + "\n";
   if (kind_ == Kind::lhs) text += "seed = " + std::to_string(sampling_.seed) + "\n";
-  // Rows stand beside each other; inline, they keep their place among the other factors.
+  // Consecutive rows are written as one inline list, which keeps their order among the factors.
   for (std::size_t f = 0; f < factors_.size(); ++f) {
     if (!factors_[f].row) {
       text += entry(factors_[f].keys.front()) + "\n";

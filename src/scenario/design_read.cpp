@@ -1,4 +1,4 @@
-// Reading [sweep]: what is no design is refused at its place.
+// Reads [sweep] into a design, and refuses what is not valid, with its place.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -16,8 +16,6 @@ namespace {
 using Kind = Design::Kind;
 
 bool from_command_line(const Place& place) { return place.line == 0; }
-
-std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 class DesignReader {
  public:
@@ -48,7 +46,7 @@ class DesignReader {
     return kind_ == Kind::lhs || kind_ == Kind::sobol || kind_ == Kind::saltelli;
   }
   [[nodiscard]] std::string written() const {
-    return "`design = \"" + design_words()[static_cast<std::size_t>(kind_)] + "\"`";
+    return "`design = \"" + design_words()[as_index(kind_)] + "\"`";
   }
   [[nodiscard]] const Place& design_place() const {
     const Member* design = table_.find("design");
@@ -75,7 +73,7 @@ class DesignReader {
     return static_cast<Kind>(word - words.begin());
   }
 
-  // A key that only some designs have.
+  // The value of a key that only some designs use, or null.
   const Node* refuse_unless(const char* key, bool used, const std::string& when) {
     const Member* member = table_.find(key);
     if (member != nullptr && !used)
@@ -127,7 +125,7 @@ class DesignReader {
     return Design(CaseTable(std::move(text), path));
   }
 
-  // [[sweep.rows]]: a factor each.
+  // [[sweep.rows]], each of which is one factor.
   void add_rows(const Member& rows) {
     const Node& list = rows.value;
     if (list.kind != Node::Kind::array)
@@ -196,7 +194,7 @@ class DesignReader {
     factors.push_back({key, {varied}, false});
   }
 
-  // A table that is set after one of its keys would take that key's value away.
+  // A table set after one of its keys would replace the value of that key.
   void check_order() const {
     std::vector<const Varied*> before;
     for (const Factor& factor : factors_)
@@ -270,7 +268,7 @@ class DesignReader {
   std::vector<Factor> factors_;
 };
 
-// One value of a key that is swept.
+// Refuses a `--set` of a key that is swept.
 void refuse_settings(const Design& design, const Node& document) {
   for (const Factor& factor : design.factors()) {
     for (const Varied& varied : factor.keys) {
@@ -296,7 +294,7 @@ Design take_design(Node& document, const std::string& folder) {
   if (table.kind != Node::Kind::table)
     throw InputError(table.place, "`sweep` wants a table of keys and lists, got " +
                                       table.kind_name() + "; write `[sweep]`");
-  const Design design = DesignReader(table, folder).read();
+  Design design = DesignReader(table, folder).read();
   refuse_settings(design, document);
   return design;
 }

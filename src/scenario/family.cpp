@@ -1,4 +1,4 @@
-// From a TOML text to cases.
+// Makes a family of cases from a TOML text.
 #include "scenario/family.h"
 
 #include <filesystem>
@@ -10,11 +10,11 @@
 namespace palpate::scenario {
 namespace {
 
-// A family with its design and no cases yet, and where its [sweep] stands.
+// A family with its design and without cases, and the place of its [sweep].
 struct Opened {
   Family family;
   Place sweep;
-  std::vector<Sources::ReadFile> read;  // the table of its cases
+  std::vector<Sources::ReadFile> read;  // the CSV file of the design, if there is one
 };
 
 Opened open(const std::string& text, const std::string& path,
@@ -41,25 +41,6 @@ Opened open(const std::string& text, const std::string& path,
 }
 
 }  // namespace
-
-Place place_of(const Node& document, const std::string& path) {
-  const Node* node = &document;
-  Place place = document.place;
-  for (const std::string& word : split(path, '.')) {
-    const Node* next = nullptr;
-    if (node->kind == Node::Kind::array) {
-      const auto number = whole_number(word);
-      if (number && *number >= 1 && *number <= static_cast<double>(node->items.size()))
-        next = &node->items[static_cast<std::size_t>(*number) - 1];
-    } else if (const Member* member = node->find(word)) {
-      next = &member->value;
-    }
-    if (next == nullptr) return place;
-    node = next;
-    place = node->place;
-  }
-  return place;
-}
 
 Family parse(const std::string& text, const std::string& path,
              const std::vector<std::string>& settings) {

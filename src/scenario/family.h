@@ -14,84 +14,96 @@
 
 namespace palpate::scenario {
 
-// One case: every property filled in from its material.
+// The materials that a scenario names.
+struct Materials {
+  material::Tissue tissue;
+  std::vector<material::Tissue> regions;   // in the order of the scenario
+  std::optional<material::Tissue> finger;  // if it matters; of a rigid finger only the density does
+};
+
 struct Case {
   std::string name;  // the swept values, without folders, joined by `_`, or a number (Design);
                      // without a sweep the scenario's name
   Scenario scenario;
+  Materials materials;
   std::vector<std::pair<std::string, std::string>>
       swept;                       // key and value, as written, without folders
-  std::vector<std::string> files;  // names of the inputs that it reads, besides the scenario
+  std::vector<std::string> files;  // names of the input files besides the scenario
 };
 
-// A file that a run read, to be hashed, and copied beside the echo so that it finds it.
+// Poisson's ratio of the tissue.
+[[nodiscard]] inline double poisson_ratio(const Case& one) {
+  return one.scenario.tissue.poisson_ratio.value_or(one.materials.tissue.poisson_ratio.value);
+}
+
+// A file that a run has read. It is hashed, and copied beside the echo, which refers to the copy.
 struct InputFile {
-  std::string name;  // as it is called in the echo
+  std::string name;  // in the echo
   std::string content;
 };
 
-// What was read for a family, once for all of its cases.
+// Files read for a family, once for all of its cases.
 struct Library {
-  std::map<std::string, material::Tissue> tissues;  // by their name in the scenario
+  std::map<std::string, material::Tissue> tissues;  // by their names in the scenario
   std::set<std::string> geometry;                   // paths of meshes and surfaces
 };
 
 struct Family {
-  std::string name;    // the file's name without `.toml`: the result folder
-  std::string folder;  // that relative paths start from
+  std::string name;    // the file's name without `.toml`: the name of the result folder
+  std::string folder;  // of relative paths
   std::string title;
   Node document;  // with the settings applied, without [sweep]
-  Scenario base;  // as read, properties filled in only where they are given
-  Design design;  // of its [sweep]
+  Scenario base;  // the first case, as read
+  Design design;  // of [sweep]
   std::vector<Case> cases;
   std::vector<Problem> notes;
   std::vector<InputFile> inputs;
   Library library;
 };
 
-inline constexpr std::size_t most_cases = 1000;  // that are made at once
+inline constexpr std::size_t most_cases = 1000;  // of a family whose cases are all made
 
-// Reads and checks a scenario and makes every case. `settings` are `key=value` texts that go
-// through the same checks. Throws InputError with every problem found.
+// Reads and checks a scenario and makes all cases. `settings` are `key=value` texts, checked in the
+// same way. Throws InputError with all problems found.
 [[nodiscard]] Family read(const std::string& path, const std::vector<std::string>& settings);
 
-// The same from a text; `path` names it in messages, and its folder is where files are looked for.
+// The same for a text; `path` names it in messages, and its folder is that of relative paths.
 [[nodiscard]] Family parse(const std::string& text, const std::string& path,
                            const std::vector<std::string>& settings);
 
-// The same checks without the cases, of which there may be any number: `cases` stays empty. Tried
-// are all cases of a small family; of a large one every value of every list, the ends of every
-// range and a few hundred cases between, so that values that fail only together come up when
-// make_case meets them.
+// The same checks for any number of cases, which are not kept: `cases` stays empty. Of a small
+// family all cases are checked; of a large one every value of every list, both ends of every range
+// and a few hundred cases in between. Values that are only wrong together may thus be found by
+// make_case only.
 [[nodiscard]] Family outline(const std::string& path, const std::vector<std::string>& settings);
 [[nodiscard]] Family outline_text(const std::string& text, const std::string& path,
                                   const std::vector<std::string>& settings);
 
-// Case i < design.count(). Reads no file that the family has read. Safe from several threads.
-// Throws InputError with every problem of this case.
+// Makes case i < design.count(). Reads no file that the family has read already. Thread-safe.
+// Throws InputError with all problems of this case.
 [[nodiscard]] Case make_case(const Family& family, std::size_t i);
 
-// The swept keys of case i that have no effect once `model = "auto"` has become `chosen`.
+// The swept keys of case i that have no effect if `model = "auto"` has chosen `chosen`.
 [[nodiscard]] std::vector<std::string> unread_keys(const Family& family, std::size_t i,
                                                    Solver::Model chosen);
 
-// The family with its case i alone; the others are not looked at.
+// The family with case i as its only case; the other cases are not checked.
 [[nodiscard]] Family parse_case(const std::string& text, const std::string& path,
                                 const std::vector<std::string>& settings, std::size_t i);
 
-// Every value of a case that counts, as TOML: two cases with the same text are the same run, if the
-// files that they read are the same.
+// All values of a case that have an effect, those of its materials included, as TOML: cases with
+// the same text (and the same input files) are the same run.
 [[nodiscard]] std::string spelled_out(const Case& one);
 
-// The resolved echo: TOML with every default spelled out, that reads back to the same run. `chosen`
-// says for the cases that were run, by name, what stood for every `auto`.
+// The resolved echo: TOML with all defaults written out, which reads back as the same run. `chosen`
+// gives for cases that were run, by name, the values that replaced `auto`.
 using Chosen = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::string echo(const Family& family, const Chosen& chosen = {});
 
 // The reference manual of all keys in markdown: docs/scenario.md.
 [[nodiscard]] std::string manual();
 
-// What fill_in reads from.
+// The files for find_materials().
 struct Sources {
   struct ReadFile {
     InputFile file;
@@ -99,22 +111,23 @@ struct Sources {
   };
   const std::string& folder;
   const Library& known;                // read before
-  Library found = {};                  // read now
+  Library found = {};                  // read by this call
   std::vector<ReadFile> read = {};     // the files of `found`
-  std::vector<std::string> used = {};  // names of all files that were asked for
+  std::vector<std::string> used = {};  // names of all files that the scenario needs
 };
 
-// Fills in the properties that the scenario leaves to its materials. Adds to `problems`, at the
-// document's places. Where there are problems already, materials are looked up and no more, so
-// that a mistake is told once.
-void fill_in(Scenario& scenario, const Node& document, Sources& sources,
-             std::vector<Problem>& problems);
+// Sets values that depend on which keys the document contains: the regions of a limb, the shape and
+// mesh of specimens that are not cuboids, the viscosity of the contact.
+void complete(Scenario& scenario, const Node& document);
 
-// What single keys cannot know: steps that follow each other, methods that exclude each other,
-// depths beyond the specimen. Adds to `problems`.
-void check(const Scenario& scenario, const Node& document, std::vector<Problem>& problems);
+// Looks up the materials, and reads the geometry files of the scenario. Adds to `problems`, with
+// places in the document. If there are problems already, only the materials are looked up, so that
+// no mistake is reported twice.
+[[nodiscard]] Materials find_materials(const Scenario& scenario, const Node& document,
+                                       Sources& sources, std::vector<Problem>& problems);
 
-// The place of the value at a dotted path, or of the nearest table around it.
-[[nodiscard]] Place place_of(const Node& document, const std::string& path);
+// Checks that involve several keys: the order of steps, incompatible methods, depths beyond the
+// specimen. Adds to `problems`.
+void check(const Case& one, const Node& document, std::vector<Problem>& problems);
 
 }  // namespace palpate::scenario

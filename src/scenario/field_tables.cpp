@@ -1,4 +1,4 @@
-// The keys of what presses, of the contact, the solver and the output.
+// The keys of the finger, the contact, the device, the solver and the output.
 #include "scenario/field_tables.h"
 
 #include <algorithm>
@@ -12,16 +12,17 @@ using namespace words;
 
 Conditions::Conditions(const Scenario& scenario) {
   const bool meshed = scenario.meshed();
-  const char* const when = !meshed && scenario.solver.model == Solver::Model::automatic
-                               ? "on another `tissue.shape` than `half_space`"
-                               : "with `solver.model = \"mass_spring\"` or `\"coupled_springs\"`";
+  const std::optional<Model>& model = scenario.solver.model;
+  const std::string when = !meshed && !model ? "on another `tissue.shape` than `half_space`"
+                                             : "with " + models_that(std::mem_fn(&Rung::meshed));
   mesh = {meshed, when, Use::Otherwise::note};
   mesh_physics = {meshed, when};
-  springs = meshed ? Use{scenario.solver.model != Solver::Model::coupled_springs,
-                         "with `solver.model = \"mass_spring\"`", Use::Otherwise::note}
-                   : mesh;
-  based = scenario.solver.model == Solver::Model::layer ? Use{} : mesh;
-  // Of steps of both kinds, the mixture is the mistake, not the finger.
+  springs = meshed
+                ? Use{!model || rung(*model).independent(),
+                      "with " + models_that(std::mem_fn(&Rung::independent)), Use::Otherwise::note}
+                : mesh;
+  based = model && rung(*model).thickness ? Use{} : mesh;
+  // If steps of both kinds are mixed, the mixture is reported instead of the keys of the finger.
   const bool presses = std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& s) {
     return !std::holds_alternative<Creep>(s) && !std::holds_alternative<Relax>(s);
   });
@@ -33,23 +34,23 @@ Conditions::Conditions(const Scenario& scenario) {
 void finger_fields(FieldVisitor& visitor, Finger& finger) {
   visitor.text({"material", "`finger` (the paper's silicone rubber), any tissue, or `rigid`."},
                finger.material);
-  visitor.quantity({"radius", "Of the one sphere that has the finger's mass."}, finger.radius,
-                   unit::mm, above(0));
+  visitor.quantity({"radius", "Radius of the single sphere that has the finger's mass."},
+                   finger.radius, unit::mm, above(0));
   visitor.count({"spheres", "Sphere bodies of equal mass that make up the finger, eq. (5)."},
                 finger.spheres, between(1, 64));
   visitor.choice({"calibration",
-                  "What several spheres keep of the one that they replace.",
+                  "Which property several spheres share with the single sphere that they replace.",
                   {finger.spheres > 1, "with more than one of `spheres`", Use::Otherwise::note}},
                  finger.calibration, calibrations);
   visitor.quantity_or("auto", {"x", "Where it presses; `auto`: the middle of the specimen."},
                       finger.x, unit::mm, {});
   visitor.quantity_or("auto", {"y", "Likewise."}, finger.y, unit::mm, {});
-  const Use elastic{finger.material != "rigid", "where the finger is not `rigid`"};
+  const Use elastic{!finger.rigid(), "where the finger is not `rigid`"};
   visitor.quantity({"young_modulus", "Default: the material's.", elastic}, finger.young_modulus,
                    unit::kPa, above(0));
   visitor.number({"poisson_ratio", "Default: the material's.", elastic}, finger.poisson_ratio,
                  {.low = -1, .high = 0.5, .low_allowed = false});
-  visitor.choice({"weight", "Where the finger's own weight counts."}, finger.weight, weights);
+  visitor.choice({"weight", "How the finger's weight is counted."}, finger.weight, weights);
   visitor.quantity({"density",
                     "Default: the material's.",
                     {finger.weight == Finger::Weight::apart, "with `weight = \"apart\"`"}},
@@ -57,25 +58,28 @@ void finger_fields(FieldVisitor& visitor, Finger& finger) {
 }
 
 void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& use) {
-  visitor.choice({"coupling", "How the contact sits on the mesh.", use.mesh}, contact.coupling,
-                 couplings);
-  visitor.choice({"law", "How the tissue's curvature enters."}, contact.law, laws);
-  visitor.choice({"curvature", "How curvature is read from a mesh.", use.mesh}, contact.curvature,
+  visitor.choice({"coupling", "How contact law and mesh share the tissue's compliance.", use.mesh},
+                 contact.coupling, couplings);
+  visitor.choice({"law", "How the tissue's curvature enters the contact law."}, contact.law, laws);
+  visitor.choice({"curvature", "How curvature is computed on a mesh.", use.mesh}, contact.curvature,
                  curvature_methods);
-  visitor.choice({"curvature_on", "Whose curvature.", use.mesh}, contact.curvature_on,
-                 curvature_surfaces);
-  visitor.count(
-      {"curvature_rings", "Rings of vertices around the contact that it is read from.", use.mesh},
-      contact.curvature_rings, between(1, 8));
-  visitor.choice({"viscosity", "Whether the force knows the tissue's viscosity."},
-                 contact.viscosity, contact_viscosities);
-  visitor.choice({"depth", "How the force grows when the press is deep."}, contact.depth, depths);
-  visitor.choice({"direction",
-                  "Along what `resolved` measures gaps and presses.",
-                  {contact.coupling == contact::Coupling::resolved,
-                   "with `coupling = \"resolved\"`", Use::Otherwise::note}},
-                 contact.direction, directions);
-  visitor.choice({"spread", "How a contact's force is shared by the mesh's nodes.", use.mesh},
+  visitor.choice({"curvature_on", "The surface whose curvature is used.", use.mesh},
+                 contact.curvature_on, curvature_surfaces);
+  visitor.count({"curvature_rings",
+                 "Rings of vertices around the contact that curvature depends on.", use.mesh},
+                contact.curvature_rings, between(1, 8));
+  visitor.choice_or(auto_contact_viscosities,
+                    {"viscosity", "Whether the contact force includes the tissue's viscosity."},
+                    contact.viscosity, contact_viscosities);
+  visitor.choice_or(auto_depths, {"depth", "How the force grows in a deep press."}, contact.depth,
+                    depths);
+  visitor.choice_or(auto_directions,
+                    {"direction",
+                     "The direction in which `resolved` measures gaps and applies forces.",
+                     {contact.coupling == contact::Coupling::resolved,
+                      "with `coupling = \"resolved\"`", Use::Otherwise::note}},
+                    contact.direction, directions);
+  visitor.choice({"spread", "How a contact force is distributed over nodes.", use.mesh},
                  contact.spread, loaded);
   visitor.number({"friction", "Coulomb's coefficient mu."}, contact.friction, at_least(0));
   visitor.choice({"slip",
@@ -88,54 +92,55 @@ void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& u
 
 void device_fields(FieldVisitor& visitor, Device& device) {
   visitor.quantity(
-      {"damping", "Its own; where given, the findings say what it can show passively."},
+      {"damping", "The device's own; if given, findings say what it displays passively."},
       device.damping, unit::N_s_per_m, at_least(0));
   visitor.quantity({"frame",
-                    "From one force to the next.",
+                    "Time from one force to the next.",
                     {device.damping.has_value(), "with `device.damping`", Use::Otherwise::note}},
                    device.frame, unit::ms, above(0));
 }
 
 void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
-  visitor.choice({"model", "The rung of the ladder."}, solver.model, models);
-  visitor.number({"tolerance", "Relative error of the force that `auto` may leave."},
+  visitor.choice_or(auto_models, {"model", "A rung of the ladder of models."}, solver.model,
+                    models);
+  visitor.number({"tolerance", "Relative error of the force that `auto` accepts."},
                  solver.tolerance,
                  {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false});
   visitor.choice({"stiffness", "Spring stiffness from Young's modulus.", use.springs},
                  solver.stiffness, stiffnesses);
-  visitor.choice({"volume", "How a change of volume is resisted.", use.mesh}, solver.volume,
-                 volumes);
-  visitor.choice({"kinematics", "Springs about their rest directions, or truly turning.", use.mesh},
+  visitor.choice_or(auto_volumes, {"volume", "How a change of volume is resisted.", use.mesh},
+                    solver.volume, volumes);
+  visitor.choice({"kinematics", "Whether springs keep their directions or rotate.", use.mesh},
                  solver.kinematics, kinematics_words);
-  visitor.choice({"integrator", "How time is stepped.", use.mesh}, solver.integrator, integrators);
-  const bool automatic = solver.integrator == Solver::Integrator::automatic;
-  const bool central = automatic || solver.integrator == Solver::Integrator::central_difference;
+  visitor.choice_or(auto_integrators, {"integrator", "The time integrator.", use.mesh},
+                    solver.integrator, integrators);
+  using Integrator = Solver::Integrator;
+  const Integrator integrator = solver.integrator.value_or(Integrator::central_difference);
+  const bool central = integrator == Integrator::central_difference;
   const auto of_steps = [&](bool used, const char* when) {
     return use.mesh.used ? Use{used, when, Use::Otherwise::note} : use.mesh;
   };
   const Use centred = of_steps(central, "with `integrator = \"central_difference\"`");
-  const Use stepped = of_steps(automatic || explicit_steps(solver.integrator),
+  const Use stepped = of_steps(about(integrator).explicit_steps,
                                "with an explicit `integrator`, as \"central_difference\"");
-  visitor.choice({"start", "The step before the first.", centred}, solver.start, starts);
-  visitor.choice({"damping", "The velocity that drag and dashpots take in a step.", centred},
+  visitor.choice({"start", "How the first time step is made.", centred}, solver.start, starts);
+  visitor.choice({"damping", "The velocity with which drag and dashpots act in a step.", centred},
                  solver.damping, damping_velocities);
   visitor.quantity_or("auto", {"time_step", "`auto`: the output interval.", use.mesh},
                       solver.time_step, unit::ms, above(0));
   visitor.count_or("auto",
                    {"substeps",
-                    "Each time step is cut into; `auto`: as many as stability, or for "
-                    "implicit methods accuracy, asks for.",
+                    "Equal parts of a time step; `auto`: as many as stability, or the accuracy "
+                    "of implicit methods, requires.",
                     use.mesh},
                    solver.substeps, between(1, 1e8));
-  visitor.flag({"allow_unstable",
-                "Run an explicit step above the limit all the same, to see it "
-                "fail.",
+  visitor.flag({"allow_unstable", "Run an explicit step above the stability limit, to see it fail.",
                 stepped},
                solver.allow_unstable);
-  visitor.count_or(
-      "all",
-      {"rings", "Rings of nodes around the contact that move; the others stand.", use.pressed_mesh},
-      solver.rings, between(1, 1000));
+  visitor.count_or("all",
+                   {"rings", "Rings of nodes around the contact that move; other nodes are fixed.",
+                    use.pressed_mesh},
+                   solver.rings, between(1, 1000));
 }
 
 void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use) {

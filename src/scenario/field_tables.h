@@ -1,4 +1,4 @@
-// The tables of a scenario that have no alternatives, and when their keys count.
+// The keys of tables without alternatives, and the conditions under which keys have an effect.
 #pragma once
 
 #include "scenario/scenario.h"
@@ -6,12 +6,12 @@
 namespace palpate::scenario {
 
 struct Conditions {
-  Use mesh;          // machinery of a mesh: left unread without one
+  Use mesh;          // keys of a mesh, which are ignored without one
   Use finger;        // physics of a finger
-  Use mesh_physics;  // physics that only a mesh can honour
-  Use pressed_mesh;  // machinery of a mesh under a finger
+  Use mesh_physics;  // physics that only a mesh can represent
+  Use pressed_mesh;  // keys of a mesh under a finger, ignored without one
   Use springs;       // of independent springs
-  Use based;         // what stands on something: a mesh or a layer
+  Use based;         // of specimens with a base: a mesh or a layer
 
   explicit Conditions(const Scenario& scenario);
 };

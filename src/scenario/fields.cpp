@@ -1,4 +1,4 @@
-// Every key of a scenario, named once.
+// All keys of a scenario, each listed once.
 #include <algorithm>
 #include <array>
 
@@ -8,12 +8,11 @@
 namespace palpate::scenario {
 namespace {
 
-using Model = Solver::Model;
 using namespace words;
 
 }  // namespace
 
-// Found through their argument's namespace by FieldVisitor::alternatives.
+// FieldVisitor::alternatives finds these functions by argument-dependent lookup.
 static void fields(FieldVisitor& visitor, Cuboid& cuboid) {
   visitor.quantities({"size", "Length, width and height."}, cuboid.size, unit::mm, above(0));
 }
@@ -22,7 +21,7 @@ static void fields(FieldVisitor& visitor, Cylinder& shape) {
   visitor.quantity({"length", "Along y."}, shape.length, unit::mm, above(0));
 }
 static void fields(FieldVisitor& visitor, Ellipsoid& shape) {
-  visitor.quantities({"size", "Its three axes in full."}, {shape.size.data(), 3}, unit::mm,
+  visitor.quantities({"size", "Full lengths of its three axes."}, {shape.size.data(), 3}, unit::mm,
                      above(0));
 }
 static void fields(FieldVisitor& visitor, Ligament& shape) {
@@ -56,8 +55,8 @@ static void fields(FieldVisitor&, AsMeshed&) {}
 
 static void grading(FieldVisitor& visitor, double& ratio) {
   visitor.number({"grading",
-                  "Cells grow from under the finger to this many times their size at the farther "
-                  "ends; 1: all alike."},
+                  "Size of the largest cells, at the far ends, over that of the smallest, "
+                  "under the finger; 1: all equal."},
                  ratio, between(1, 1000));
 }
 static void fields(FieldVisitor& visitor, Kuhn& mesh) {
@@ -73,7 +72,7 @@ static void fields(FieldVisitor& visitor, Tetgen& mesh) {
       {"nodes", "How many nodes to aim at.", {!mesh.edge, "without `edge`", Use::Otherwise::note}},
       mesh.nodes, between(8, 1e6));
   visitor.count_or(
-      "auto", {"tetrahedra", "How many tetrahedra to aim at besides; not for cuboids and files."},
+      "auto", {"tetrahedra", "How many tetrahedra to aim at as well; not for cuboids and files."},
       mesh.tetrahedra, between(1, 1e7));
   visitor.quantity_or("auto", {"edge", "A length of edges to aim at instead of a count."},
                       mesh.edge, unit::mm, above(0));
@@ -106,8 +105,8 @@ static void fields(FieldVisitor& visitor, Creep& step) {
   visitor.quantity({"stress", "On the end faces, compression positive."}, step.stress, unit::kPa,
                    above(0));
   visitor.quantity({"load_time", "How long the stress stays."}, step.load_time, unit::s, above(0));
-  visitor.quantity({"recovery_time", "How long to watch after it is withdrawn."},
-                   step.recovery_time, unit::s, at_least(0));
+  visitor.quantity({"recovery_time", "How long to record after it is removed."}, step.recovery_time,
+                   unit::s, at_least(0));
 }
 static void fields(FieldVisitor& visitor, Relax& step) {
   visitor.number({"strain", "Shortening over height."}, step.strain,
@@ -115,43 +114,37 @@ static void fields(FieldVisitor& visitor, Relax& step) {
   visitor.quantity({"time", "How long it is held."}, step.time, unit::s, above(0));
 }
 
-namespace {
-
-void fields(FieldVisitor& visitor, Substance& substance) {
-  visitor.text({"material", "As `tissue.material`."}, substance.material);
-  visitor.quantity({"young_modulus", "Default: the material's."}, substance.young_modulus,
-                   unit::kPa, above(0));
-  visitor.number({"poisson_ratio",
-                  "Default: the material's. Independent springs without a volume term have a ratio "
-                  "of their own."},
-                 substance.poisson_ratio,
-                 {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = true});
-  visitor.quantity({"density", "Default: the material's."}, substance.density, unit::density,
-                   above(0));
-}
-
-}  // namespace
-
 static void fields(FieldVisitor& visitor, TaggedRegion& region) {
-  visitor.count({"tag", "The region's number: of the shape, or the mesh file's own."}, region.tag,
+  visitor.count({"tag", "The number of the region in the shape or in the mesh file."}, region.tag,
                 between(0, 1e9));
-  fields(visitor, region.substance);
 }
 static void fields(FieldVisitor& visitor, Lump& region) {
   visitor.quantities(
       {"centre", "In the specimen's coordinates, from the lowest corner of its bounding box."},
       region.centre, unit::mm, {});
   visitor.quantity({"radius", "Of the lump."}, region.radius, unit::mm, above(0));
-  fields(visitor, region.substance);
 }
 static void fields(FieldVisitor& visitor, Slab& region) {
   visitor.quantity({"bottom", "Height where it begins."}, region.bottom, unit::mm, at_least(0));
   visitor.quantity({"top", "Height where it ends, below the cuboid's top: that is `tissue`."},
                    region.top, unit::mm, above(0));
-  fields(visitor, region.substance);
 }
 
 namespace {
+
+// The keys of a region that follow those of its part.
+void substance_fields(FieldVisitor& visitor, Region& region) {
+  visitor.text({"material", "As `tissue.material`."}, region.material);
+  visitor.quantity({"young_modulus", "Default: the material's."}, region.young_modulus, unit::kPa,
+                   above(0));
+  visitor.number({"poisson_ratio",
+                  "Default: the material's. Independent springs without a volume term have a ratio "
+                  "of their own."},
+                 region.poisson_ratio,
+                 {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = true});
+  visitor.quantity({"density", "Default: the material's."}, region.density, unit::density,
+                   above(0));
+}
 
 void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.text({"material",
@@ -166,12 +159,12 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                    tissue.young_modulus, unit::kPa, above(0));
   visitor.number(
       {"poisson_ratio",
-       "Default: the material's. With `mass_spring` it reaches the contact and the volume "
+       "Default: the material's. With `mass_spring` it affects the contact and the volume "
        "term only: independent springs have a ratio of their own, near 1/4."},
       tissue.poisson_ratio, {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false});
   visitor.quantity({"density", "Default: the material's.", use.mesh_physics}, tissue.density,
                    unit::density, above(0));
-  visitor.choice({"viscosity", "How the tissue takes time."}, tissue.viscosity, viscosities);
+  visitor.choice({"viscosity", "The viscous law of the tissue."}, tissue.viscosity, viscosities);
   const auto with = [&](tissue::Viscosity law, const char* when) {
     return Use{tissue.viscosity == law, when};
   };
@@ -182,18 +175,17 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                          "with `viscosity = \"standard_linear_solid\"`");
   visitor.quantity({"relaxation_time", "tau at constant strain. Default: the material's.", solid},
                    tissue.relaxation_time, unit::s, above(0));
-  visitor.number({"instantaneous_ratio",
-                  "E_0 / E_inf, at once over relaxed. Default: the "
-                  "material's.",
-                  solid},
-                 tissue.instantaneous_ratio, at_least(1));
+  visitor.number(
+      {"instantaneous_ratio",
+       "E_0 / E_inf, instantaneous over relaxed modulus. Default: the material's.", solid},
+      tissue.instantaneous_ratio, at_least(1));
   visitor.tables(
-      {"branch", "A branch of the Prony series, as often as wanted.",
+      {"branch", "A branch of the Prony series; may be repeated.",
        with(tissue::Viscosity::prony, "with `viscosity = \"prony\"`")},
       static_cast<int>(tissue.branches.size()),
-      [&](int size) { tissue.branches.resize(static_cast<std::size_t>(size)); },
+      [&](int size) { tissue.branches.resize(as_index(size)); },
       [&](FieldVisitor& inner, int i) {
-        Branch& branch = tissue.branches[static_cast<std::size_t>(i)];
+        Branch& branch = tissue.branches[as_index(i)];
         inner.quantity({"relaxation_time", "At constant strain."}, branch.relaxation_time, unit::s,
                        above(0));
         inner.number({"ratio", "Its modulus over that of the relaxed tissue."}, branch.ratio,
@@ -202,7 +194,8 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.quantity({"drag", "d / m of eq. (10). Default: the material's.",
                     with(tissue::Viscosity::nodal_drag, "with `viscosity = \"nodal_drag\"`")},
                    tissue.drag, unit::per_second, at_least(0));
-  visitor.choice({"base", "What the specimen stands on.", use.based}, tissue.base, bases);
+  visitor.choice_or(auto_bases, {"base", "How the base of the specimen is supported.", use.based},
+                    tissue.base, bases);
   visitor.quantity_or("auto",
                       {"base_height",
                        "The skin up to this height is its base; `auto`: the underside where it is "
@@ -213,22 +206,15 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
 
 }  // namespace
 
-bool Scenario::uniform() const {
+bool PlainScenario::uniform() const {
   for (const Step& step : steps)
     if (std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step)) return true;
   return false;
 }
 
 bool Scenario::meshed() const {
-  return solver.model == Model::mass_spring || solver.model == Model::coupled_springs ||
-         (solver.model == Model::automatic && !std::holds_alternative<HalfSpace>(tissue.shape));
-}
-
-bool Scenario::viscous_contact() const {
-  return contact.viscosity == Contact::Viscosity::tissue &&
-         contact.coupling != contact::Coupling::one_way &&
-         tissue.viscosity != tissue::Viscosity::none &&
-         tissue.viscosity != tissue::Viscosity::nodal_drag;
+  return solver.model ? rung(*solver.model).meshed()
+                      : !std::holds_alternative<HalfSpace>(tissue.shape);
 }
 
 void fields(FieldVisitor& visitor, Scenario& scenario) {
@@ -238,26 +224,26 @@ void fields(FieldVisitor& visitor, Scenario& scenario) {
   visitor.table({"tissue", "The specimen."},
                 [&](FieldVisitor& inner) { fields(inner, scenario.tissue, use); });
   visitor.tables(
-      {"region", "Parts of the specimen that are made of something else."},
+      {"region", "Parts of the specimen with another material."},
       static_cast<int>(scenario.regions.size()),
-      [&](int size) { scenario.regions.resize(static_cast<std::size_t>(size)); },
+      [&](int size) { scenario.regions.resize(as_index(size)); },
       [&](FieldVisitor& inner, int i) {
-        inner.alternatives(scenario.regions[static_cast<std::size_t>(i)]);
+        Region& region = scenario.regions[as_index(i)];
+        inner.alternatives(region.part,
+                           [&](FieldVisitor& part) { substance_fields(part, region); });
       });
   visitor.table({"finger", "The spheres that press.", use.finger},
                 [&](FieldVisitor& inner) { finger_fields(inner, scenario.finger); });
   visitor.table({"contact", "The contact law.", use.finger},
                 [&](FieldVisitor& inner) { contact_fields(inner, scenario.contact, use); });
-  visitor.table({"device", "A haptic device that would show the force.", use.finger},
+  visitor.table({"device", "A haptic device that would display the force.", use.finger},
                 [&](FieldVisitor& inner) { device_fields(inner, scenario.device); });
   visitor.table({"solver", "Model, integrator and time step."},
                 [&](FieldVisitor& inner) { solver_fields(inner, scenario.solver, use); });
   visitor.tables(
       {"step", "The loading programme, in order."}, static_cast<int>(scenario.steps.size()),
-      [&](int size) { scenario.steps.resize(static_cast<std::size_t>(size)); },
-      [&](FieldVisitor& inner, int i) {
-        inner.alternatives(scenario.steps[static_cast<std::size_t>(i)]);
-      });
+      [&](int size) { scenario.steps.resize(as_index(size)); },
+      [&](FieldVisitor& inner, int i) { inner.alternatives(scenario.steps[as_index(i)]); });
   visitor.table({"output", "What is written."},
                 [&](FieldVisitor& inner) { output_fields(inner, scenario.output, use); });
 }

@@ -1,4 +1,4 @@
-// Properties from materials, where the scenario does not override them.
+// Fills in what a scenario leaves open to its materials and to its other keys.
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -29,18 +29,7 @@ const material::Tissue& find_material(const std::string& name, const Place& plac
   return sources.found.tissues.emplace(name, found.tissue).first->second;
 }
 
-// A viscous property from the material; an error where neither has it.
-void fill_viscous(std::optional<double>& value, const std::optional<material::Sourced>& from,
-                  const char* key, const Tissue& tissue, const Node& document) {
-  if (value) return;
-  if (!from)
-    throw InputError(place_of(document, "tissue.material"),
-                     "`" + tissue.material + "` has no `" + key + "`; give `tissue." + key +
-                         "`, or set another `tissue.viscosity`");
-  value = from->value;
-}
-
-// The geometry in files that a key of [tissue] names, as inputs of the run.
+// A geometry file that a key of [tissue] names; it becomes an input of the run.
 struct NamedFile {
   const char* key;      // "mesh"
   const char* example;  // "box.node"
@@ -86,42 +75,36 @@ void read_named_file(const NamedFile& named, const Node& document, Sources& sour
   }
 }
 
-void fill_in_tissue(Scenario& scenario, const material::Tissue& material, const Node& document) {
-  Tissue& tissue = scenario.tissue;
-  if (!tissue.density) tissue.density = material.density.value;
-  if (!tissue.young_modulus) tissue.young_modulus = material.young_modulus.value;
-  if (!tissue.poisson_ratio) tissue.poisson_ratio = material.poisson_ratio.value;
-  if (*tissue.poisson_ratio >= 0.5)
+// Throws InputError if neither the scenario nor its material has a property that is required.
+void require_tissue(const Scenario& scenario, const material::Tissue& material,
+                    const Node& document) {
+  const Tissue& tissue = scenario.tissue;
+  if (tissue.poisson_ratio.value_or(material.poisson_ratio.value) >= 0.5)
     throw InputError(place_of(document, "tissue.material"),
                      "`" + tissue.material +
                          "` has a Poisson's ratio of 0.5, and a tissue needs "
                          "less; set `tissue.poisson_ratio = 0.49`");
-  // Where nothing flows, the material's values serve estimates and need not be there.
-  const bool flows = scenario.meshed() || scenario.viscous_contact();
-  const auto fill = [&](std::optional<double>& value, const auto& from, const char* key) {
-    if (flows || from) fill_viscous(value, from, key, tissue, document);
+  // If viscosity is not computed, viscous properties only serve estimates and may be missing.
+  if (!scenario.meshed() && !viscous_contact(scenario)) return;
+  const auto require = [&](tissue::Viscosity law, const std::optional<double>& given,
+                           const std::optional<material::Sourced>& from, const char* key) {
+    if (tissue.viscosity == law && !given && !from)
+      throw InputError(place_of(document, "tissue.material"),
+                       "`" + tissue.material + "` has no `" + key + "`; give `tissue." + key +
+                           "`, or set another `tissue.viscosity`");
   };
-  if (tissue.viscosity == tissue::Viscosity::kelvin_voigt)
-    fill(tissue.retardation_time, material.retardation_time, "retardation_time");
-  if (tissue.viscosity == tissue::Viscosity::standard_linear_solid) {
-    fill(tissue.relaxation_time, material.relaxation_time, "relaxation_time");
-    fill(tissue.instantaneous_ratio, material.instantaneous_ratio, "instantaneous_ratio");
-  }
-  if (tissue.viscosity == tissue::Viscosity::nodal_drag) fill(tissue.drag, material.drag, "drag");
+  using tissue::Viscosity;
+  require(Viscosity::kelvin_voigt, tissue.retardation_time, material.retardation_time,
+          "retardation_time");
+  require(Viscosity::standard_linear_solid, tissue.relaxation_time, material.relaxation_time,
+          "relaxation_time");
+  require(Viscosity::standard_linear_solid, tissue.instantaneous_ratio,
+          material.instantaneous_ratio, "instantaneous_ratio");
+  require(Viscosity::nodal_drag, tissue.drag, material.drag, "drag");
 }
 
-void fill_in_substance(Substance& substance, const material::Tissue& material,
-                       const Solver& solver) {
-  if (!substance.density) substance.density = material.density.value;
-  if (!substance.young_modulus) substance.young_modulus = material.young_modulus.value;
-  const bool honoured = solver.model != Solver::Model::mass_spring ||
-                        solver.volume == Solver::Volume::nodal ||
-                        solver.volume == Solver::Volume::tetrahedron;
-  if (honoured && !substance.poisson_ratio) substance.poisson_ratio = material.poisson_ratio.value;
-}
-
-// A limb's muscle and bone, unless the scenario says what its regions are; the mesh of shapes that
-// are no boxes, unless it says how.
+// Sets muscle and bone of a limb unless the scenario has regions, and the mesh of shapes other than
+// cuboids unless the scenario has one.
 void complete_shape(Scenario& scenario, const Node& document) {
   const Member* tissue = document.find("tissue");
   const auto given = [&](const char* key) {
@@ -134,17 +117,15 @@ void complete_shape(Scenario& scenario, const Node& document) {
   const auto* limb = std::get_if<LayeredLimb>(&scenario.tissue.shape);
   if (limb == nullptr || document.find("region") != nullptr) return;
   scenario.regions.clear();
-  if (limb->skin_thickness > 0.0)
-    scenario.regions.emplace_back(TaggedRegion{.tag = 1, .substance = {.material = "muscle"}});
-  if (limb->bone_radius > 0.0)
-    scenario.regions.emplace_back(TaggedRegion{.tag = 2, .substance = {.material = "bone"}});
+  if (limb->skin_thickness > 0.0) scenario.regions.push_back({{TaggedRegion{1}, "muscle"}});
+  if (limb->bone_radius > 0.0) scenario.regions.push_back({{TaggedRegion{2}, "bone"}});
 }
 
-// The viscosity of the contact, where the scenario leaves it open: most materials' viscosity is
-// assumed, and a force does not take part in an assumption that nobody made in the scenario.
+// Sets the viscosity of the contact if the scenario leaves it open. It is included only if the
+// scenario gives `tissue.viscosity`, because the viscosity of most materials is an assumption.
 void complete_contact(Scenario& scenario, const Node& document) {
   using Viscosity = Contact::Viscosity;
-  if (scenario.contact.viscosity != Viscosity::automatic) return;
+  if (scenario.contact.viscosity) return;
   const Member* tissue = document.find("tissue");
   const bool given = tissue != nullptr && tissue->value.find("viscosity") != nullptr;
   const bool hertz_knows = scenario.contact.coupling == contact::Coupling::consistent;
@@ -153,19 +134,17 @@ void complete_contact(Scenario& scenario, const Node& document) {
   scenario.contact.viscosity = given && hertz_knows && flows ? Viscosity::tissue : Viscosity::none;
 }
 
-void fill_in_finger(Finger& finger, const material::Tissue& rubber) {
-  if (!finger.density) finger.density = rubber.density.value;
-  if (finger.material == "rigid") return;
-  if (!finger.young_modulus) finger.young_modulus = rubber.young_modulus.value;
-  if (!finger.poisson_ratio) finger.poisson_ratio = rubber.poisson_ratio.value;
-}
-
 }  // namespace
 
-void fill_in(Scenario& scenario, const Node& document, Sources& sources,
-             std::vector<Problem>& problems) {
-  const bool readable = problems.empty();
+void complete(Scenario& scenario, const Node& document) {
   complete_contact(scenario, document);
+  complete_shape(scenario, document);
+}
+
+Materials find_materials(const Scenario& scenario, const Node& document, Sources& sources,
+                         std::vector<Problem>& problems) {
+  const bool readable = problems.empty();
+  Materials materials;
   const auto attempt = [&](const auto& part) {
     try {
       part();
@@ -173,21 +152,18 @@ void fill_in(Scenario& scenario, const Node& document, Sources& sources,
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   };
+  const auto find = [&](const std::string& name, const std::string& path) {
+    return find_material(name, place_of(document, path), sources);
+  };
   attempt([&] {
-    const material::Tissue& material =
-        find_material(scenario.tissue.material, place_of(document, "tissue.material"), sources);
-    if (readable) fill_in_tissue(scenario, material, document);
+    materials.tissue = find(scenario.tissue.material, "tissue.material");
+    if (readable) require_tissue(scenario, materials.tissue, document);
   });
-  complete_shape(scenario, document);
-  for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
-    Substance& substance =
-        std::visit([](auto& one) -> Substance& { return one.substance; }, scenario.regions[i]);
-    const Place place = place_of(document, "region." + std::to_string(i + 1) + ".material");
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i)
     attempt([&] {
-      const material::Tissue& material = find_material(substance.material, place, sources);
-      if (readable) fill_in_substance(substance, material, scenario.solver);
+      const std::string path = "region." + std::to_string(i + 1) + ".material";
+      materials.regions.push_back(find(scenario.regions[i].material, path));
     });
-  }
   const bool meshed = scenario.meshed();
   const auto* mesh = std::get_if<MeshFile>(&scenario.tissue.mesh);
   if (mesh != nullptr && readable && meshed)
@@ -200,16 +176,14 @@ void fill_in(Scenario& scenario, const Node& document, Sources& sources,
       read_named_file({"shape", "leg.stl", surface->file, surface->unit}, document, sources);
     });
 
-  Finger& finger = scenario.finger;
-  const bool rigid = finger.material == "rigid";
+  const Finger& finger = scenario.finger;
   if (scenario.uniform() ||
-      (rigid && finger.spheres == 1 && finger.weight == Finger::Weight::in_contact))
-    return;
+      (finger.rigid() && finger.spheres == 1 && finger.weight == Finger::Weight::in_contact))
+    return materials;
   attempt([&] {
-    const material::Tissue& rubber = find_material(rigid ? "finger" : finger.material,
-                                                   place_of(document, "finger.material"), sources);
-    if (readable) fill_in_finger(finger, rubber);
+    materials.finger = find(finger.rigid() ? "finger" : finger.material, "finger.material");
   });
+  return materials;
 }
 
 }  // namespace palpate::scenario

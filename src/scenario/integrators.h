@@ -1,45 +1,72 @@
-// What each integrator promises: in one place, for whoever plans steps, refuses, or tests.
+// Names and properties of all integrators in one table, for plans, checks, `explain` and tests.
 #pragma once
 
 #include <optional>
 
-#include "scenario/scenario.h"
+#include "scenario/resolved.h"
 
 namespace palpate::scenario {
 
-// Whether it is stable below a limit only.
-[[nodiscard]] inline bool explicit_steps(Solver::Integrator integrator) {
-  return integrator == Solver::Integrator::central_difference ||
-         integrator == Solver::Integrator::semi_implicit_euler;
+struct IntegratorRow {
+  const char* word;  // in scenarios
+  const char* meaning;
+  const char* told;               // in the output of `explain`
+  std::optional<int> order = {};  // in time; none for an exact method
+  bool explicit_steps = false;    // only stable below a limit
+  bool inertia = true;
+};
+inline constexpr auto integrator_table = std::to_array<IntegratorRow>({
+    {.word = "central_difference",
+     .meaning = "explicit, eq. (12)",
+     .told = "central differences",
+     .order = 2,
+     .explicit_steps = true},
+    {.word = "semi_implicit_euler",
+     .meaning = "explicit, the new velocity first; first order",
+     .told = "semi-implicit Euler, the new velocity first",
+     .order = 1,
+     .explicit_steps = true},
+    {.word = "backward_difference",
+     .meaning = "implicit Euler, first order",
+     .told = "backward differences (implicit Euler)",
+     .order = 1},
+    {.word = "tr_bdf2",
+     .meaning = "implicit, second order, L-stable; two solves per step",
+     .told = "TR-BDF2, two implicit stages per step",
+     .order = 2},
+    {.word = "quasi_static",
+     .meaning = "no inertia",
+     .told = "quasi-static steps, without inertia",
+     .order = 2,
+     .inertia = false},
+    {.word = "modal",
+     .meaning = "exact in time, linear only, up to 1000 nodes",
+     .told = "modal coordinates, exact in time"},
+});
+static_assert(is_complete<Solver::Integrator>(integrator_table), "every integrator has its row");
+
+[[nodiscard]] constexpr const IntegratorRow& about(Solver::Integrator integrator) {
+  return integrator_table[as_index(integrator)];
 }
 
-// The velocity that damping takes; of explicit steps.
-[[nodiscard]] inline integrate::DampingVelocity damping_velocity(const Solver& solver) {
-  return solver.integrator == Solver::Integrator::semi_implicit_euler
-             ? integrate::DampingVelocity::ahead
-             : solver.damping;
+// The velocity with which damping acts in explicit steps.
+[[nodiscard]] inline integrate::DampingVelocity damping_velocity(const Resolved::Solver& solver) {
+  if (solver.integrator == Solver::Integrator::semi_implicit_euler)
+    return integrate::DampingVelocity::ahead;
+  return solver.damping == Solver::Damping::lagged ? integrate::DampingVelocity::lagged
+                                                   : integrate::DampingVelocity::centred;
 }
 
-// The power of the step that the error of the displacement falls with, while loads are constant or
-// smooth; nothing where those that go evenly leave none.
-[[nodiscard]] inline std::optional<int> order_in_time(const Solver& solver,
+// The order of convergence of the displacement in the time step, for loads that are constant or
+// smooth in time; nothing for methods that are exact for loads linear in time.
+[[nodiscard]] inline std::optional<int> order_in_time(const Resolved::Solver& solver,
                                                       tissue::Viscosity viscosity) {
-  using Integrator = Solver::Integrator;
   const bool damped =
       viscosity == tissue::Viscosity::nodal_drag || viscosity == tissue::Viscosity::kelvin_voigt;
-  switch (solver.integrator) {
-    case Integrator::automatic:  // central differences, or no inertia
-    case Integrator::central_difference: {
-      const bool lags = damped && solver.damping == integrate::DampingVelocity::lagged;
-      return lags || solver.start == integrate::Start::paper ? 1 : 2;
-    }
-    case Integrator::semi_implicit_euler: return 1;
-    case Integrator::backward_difference: return 1;
-    case Integrator::tr_bdf2: return 2;
-    case Integrator::quasi_static: return 2;
-    case Integrator::modal: break;
-  }
-  return std::nullopt;
+  const bool late = (damped && solver.damping == Solver::Damping::lagged) ||
+                    solver.start == integrate::Start::paper;
+  if (solver.integrator == Solver::Integrator::central_difference && late) return 1;
+  return about(solver.integrator).order;
 }
 
 }  // namespace palpate::scenario

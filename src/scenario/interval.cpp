@@ -1,17 +1,16 @@
-// Reading the ranges of a sweep.
+// Reads the ranges of a sweep.
 #include "scenario/interval.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "base/text.h"
 
 namespace palpate::scenario {
 namespace {
 
 constexpr double most_points = 1e6;
-
-std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 struct End {
   double number = 0.0;
@@ -53,7 +52,7 @@ void refuse_unknown_keys(const Node& table) {
   }
 }
 
-// Values are written with 12 digits, which neighbours must not share.
+// Values are written with 12 digits, so neighbours must differ within these.
 void refuse_crowded(const std::string& key, const Interval& interval, const Place& place) {
   const auto steps = static_cast<double>(interval.points - 1);
   const double step = interval.scale == Interval::Scale::logarithmic
@@ -62,8 +61,8 @@ void refuse_crowded(const std::string& key, const Interval& interval, const Plac
                                 std::max(std::abs(interval.low), std::abs(interval.high));
   if (std::abs(step) < 1e-11)
     throw InputError(place, "`points` of " + ticked(key) +
-                                " lie closer than 12 digits tell apart; take fewer, or a wider "
-                                "range");
+                                " are closer than 12 digits can distinguish; take fewer, or a "
+                                "wider range");
 }
 
 }  // namespace
@@ -72,7 +71,7 @@ bool is_interval(const std::string& key, const Node& value) {
   if (value.kind != Node::Kind::table) return false;
   for (const char* own : {"from", "points", "scale"})
     if (value.find(own) != nullptr) return true;
-  // `step.1.to = ...` without quotes is a table with a `to` as well.
+  // `step.1.to = ...` without quotes gives a table with a `to`, too, but it is not a range.
   const Member* to = value.find("to");
   const std::string last = key.substr(key.rfind('.') + 1);
   return to != nullptr && !whole_number(last) &&

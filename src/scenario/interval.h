@@ -7,12 +7,12 @@
 
 namespace palpate::scenario {
 
-// Whether what stands at `key` is meant as a range, and not as a table with keys of its own.
+// Whether `value`, found at `key`, is a range and not a table with keys of a scenario.
 [[nodiscard]] bool is_interval(const std::string& key, const Node& value);
 
-// Throws InputError, at its place, for ends that are no finite numbers of one unit, equal ends, a
-// logarithmic scale with an end that is not positive, fewer than two points or so many that 12
-// digits do not tell them apart, and unknown keys.
+// Reads a range. Throws InputError, with its place, for ends that are not finite numbers in one
+// unit, equal ends, a logarithmic scale with an end that is not positive, fewer than two points,
+// points so many that 12 digits do not distinguish them, and unknown keys.
 [[nodiscard]] Interval read_interval(const std::string& key, const Node& table);
 
 }  // namespace palpate::scenario

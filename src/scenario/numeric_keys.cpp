@@ -1,4 +1,4 @@
-// A visitor that lists the numbers, and one of them set.
+// A visitor that lists all numbers of a scenario, or sets one of them.
 #include "scenario/numeric_keys.h"
 
 #include <functional>
@@ -8,39 +8,25 @@ namespace {
 
 class Numbers final : public FieldVisitor {
  public:
-  // `each` is given the key and what sets it.
+  // Called with each key and a function that sets its value.
   using Each = std::function<void(NumericKey&&, const std::function<void(double)>&)>;
   explicit Numbers(Each each) : each_(std::move(each)) {}
 
-  void number(const Key& key, double& value, const Range& range) override {
-    put(key, key.name, {value, std::nullopt, range}, [&](double si) { value = si; });
-  }
-  void number(const Key& key, std::optional<double>& value, const Range& range) override {
-    put(key, key.name, {value, std::nullopt, range}, [&](double si) { value = si; });
-  }
-  void quantity(const Key& key, double& si, const Unit& unit, const Range& range) override {
-    put(key, key.name, {si, unit, range}, [&](double given) { si = given; });
-  }
-  void quantity(const Key& key, std::optional<double>& si, const Unit& unit,
-                const Range& range) override {
-    put(key, key.name, {si, unit, range}, [&](double given) { si = given; });
-  }
-  void quantity_or(const char*, const Key& key, std::optional<double>& si, const Unit& unit,
-                   const Range& range) override {
-    quantity(key, si, unit, range);
+  void real(const Key& key, std::optional<double>& value, const Real& kind) override {
+    put(key, key.name, kind, [&](double si) { value = si; });
   }
   void either(const Key& key, Target& target, const Unit& first, const Unit& second,
               const Range& range) override {
-    quantity(key, target.value, target.second ? second : first, range);
+    put(key, key.name, {target.second ? &second : &first, range},
+        [&](double si) { target.value = si; });
   }
   void quantities(const Key& key, std::span<double> si, const Unit& unit,
                   const Range& range) override {
     for (std::size_t i = 0; i < si.size(); ++i)
-      put(key, std::string(key.name) + "." + std::to_string(i + 1), {si[i], unit, range},
+      put(key, std::string(key.name) + "." + std::to_string(i + 1), {&unit, range},
           [&](double given) { si[i] = given; });
   }
-  void count_or(const char*, const Key&, std::optional<int>&, const Range&) override {}
-  void count(const Key&, int&, const Range&) override {}
+  void whole(const Key&, std::optional<int>&, const Whole&) override {}
   void text(const Key&, std::string&) override {}
   void flag(const Key&, bool&) override {}
   void counts(const Key&, std::span<int>, const Range&) override {}
@@ -61,16 +47,11 @@ class Numbers final : public FieldVisitor {
   }
 
  private:
-  struct Value {
-    std::optional<double> value;
-    std::optional<Unit> unit;
-    Range range;
-  };
-
-  void put(const Key& key, const std::string& name, const Value& value,
+  void put(const Key& key, const std::string& name, const Real& kind,
            const std::function<void(double)>& set) {
-    const Use& use = outer_.used ? key.use : outer_;
-    each_({prefix_ + name, value.value, value.unit, value.range, use}, set);
+    const std::optional<Unit> unit =
+        kind.unit != nullptr ? std::optional(*kind.unit) : std::nullopt;
+    each_({prefix_ + name, unit, kind.range, outer_.used ? key.use : outer_}, set);
   }
 
   void inside(const std::string& name, const Use& use, const std::function<void()>& visit) {

@@ -1,4 +1,4 @@
-// The numbers of a scenario by the names of their keys: what a search may vary.
+// The numbers of a scenario by the names of their keys: the possible unknowns of a search.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,17 @@
 namespace palpate::scenario {
 
 struct NumericKey {
-  std::string path;             // as `--set` writes it: `tissue.shape.size.3`, `region.1.top`
-  std::optional<double> value;  // SI; nothing where the scenario leaves it open
-  std::optional<Unit> unit;     // nothing: a pure number
-  Range range;                  // SI
-  Use use;                      // where it counts, its table's included
+  std::string path;          // as in `--set`: `tissue.shape.size.3`, `region.1.top`
+  std::optional<Unit> unit;  // nothing for a pure number
+  Range range;               // in SI units
+  Use use;                   // when the key has an effect, with the condition of its table
 };
 
-// Every key that holds a real number or a quantity, in the order of fields(); entries of lists one
-// by one, counted from 1. Whole numbers are none.
+// All keys of real numbers and quantities, in the order of fields(); entries of lists are separate
+// keys, counted from 1. Whole numbers are not included.
 [[nodiscard]] std::vector<NumericKey> numeric_keys(const Scenario& scenario);
 
-// Sets the number of that path, SI, without any check. False where there is none.
+// Sets the number at `path` to `si`, in SI units and unchecked. Returns false if there is none.
 bool set_number(Scenario& scenario, std::string_view path, double si);
 
 }  // namespace palpate::scenario

@@ -1,32 +1,38 @@
-// Travels over their rates, and times that are given.
+// Durations of steps from travels and rates, and positions of the finger after slides.
 #include "scenario/programme.h"
 
 #include <cmath>
 #include <numbers>
-#include <variant>
+#include <utility>
 
 namespace palpate::scenario {
 
-double programme_time(const Scenario& scenario) {
+namespace {
+
+// The duration of a step, s. `travel` (m) is that at the start of the step, and is updated.
+double duration(const Step& step, double& travel) {
+  if (const auto* indent = std::get_if<Indent>(&step)) {
+    if (indent->to.second) return 0.0;
+    return (indent->to.value - std::exchange(travel, indent->to.value)) / indent->rate;
+  }
+  if (const auto* retract = std::get_if<Retract>(&step))
+    return (std::exchange(travel, retract->to) - retract->to) / retract->rate;
+  if (const auto* hold = std::get_if<Hold>(&step)) return hold->time;
+  if (const auto* slide = std::get_if<Slide>(&step)) return slide->by / slide->rate;
+  if (const auto* creep = std::get_if<Creep>(&step)) return creep->load_time + creep->recovery_time;
+  return std::get<Relax>(step).time;
+}
+
+}  // namespace
+
+double programme_time(const PlainScenario& scenario) {
   double total = 0.0;
   double travel = 0.0;
-  for (const Step& step : scenario.steps) {
-    if (const auto* indent = std::get_if<Indent>(&step)) {
-      total += (indent->to.value - travel) / indent->rate;
-      travel = indent->to.value;
-    } else if (const auto* retract = std::get_if<Retract>(&step)) {
-      total += (travel - retract->to) / retract->rate;
-      travel = retract->to;
-    } else if (const auto* slide = std::get_if<Slide>(&step)) {
-      total += slide->by / slide->rate;
-    } else if (const auto* hold = std::get_if<Hold>(&step)) {
-      total += hold->time;
-    }
-  }
+  for (const Step& step : scenario.steps) total += duration(step, travel);
   return total;
 }
 
-std::vector<std::array<double, 2>> finger_places(const Scenario& scenario, const Cuboid& box) {
+std::vector<std::array<double, 2>> finger_places(const Resolved& scenario, const Cuboid& box) {
   double x = scenario.finger.x.value_or(0.5 * box.size[0]);
   double y = scenario.finger.y.value_or(0.5 * box.size[1]);
   std::vector<std::array<double, 2>> places{{x, y}};

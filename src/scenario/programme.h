@@ -1,19 +1,19 @@
-// How long the programme of a press is, and where it leads.
+// The duration of a loading programme, and the places to which it moves the finger.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "scenario/scenario.h"
+#include "scenario/resolved.h"
 
 namespace palpate::scenario {
 
-// All steps together, s; none of them ends at a force, nor is a uniform test.
-[[nodiscard]] double programme_time(const Scenario& scenario);
+// The duration of all steps, s; a step to a force counts as zero.
+[[nodiscard]] double programme_time(const PlainScenario& scenario);
 
-// Where the finger stands over a cuboid at the start and after every slide: x and y, m, from its
-// corner.
-[[nodiscard]] std::vector<std::array<double, 2>> finger_places(const Scenario& scenario,
+// The positions of the finger above a cuboid at the start and after every slide: x and y, m, from
+// the cuboid's corner.
+[[nodiscard]] std::vector<std::array<double, 2>> finger_places(const Resolved& scenario,
                                                                const Cuboid& box);
 
 }  // namespace palpate::scenario

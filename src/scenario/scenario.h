@@ -1,4 +1,4 @@
-// What was asked: a scenario as plain values in SI units, complete with its defaults.
+// The scenario as the user wrote it: SI units, defaults, and empty values for keys left open.
 #pragma once
 
 #include <array>
@@ -15,8 +15,10 @@
 #include "geometry/curvature.h"
 #include "geometry/shapes.h"
 #include "integrate/central_difference.h"
-#include "tissue/springs.h"
+#include "scenario/rungs.h"
+#include "tissue/coupled.h"
 #include "tissue/stiffness.h"
+#include "tissue/supports.h"
 #include "tissue/viscous.h"
 
 namespace palpate::scenario {
@@ -44,18 +46,18 @@ struct LayeredLimb : geometry::LayeredLimb {
       "A tapered limb along y: region 0 is its skin, 1 the muscle inside, 2 the bone."};
 };
 struct HalfSpace {
-  static constexpr Word word{"half_space",
-                             "Endless tissue under a flat, a dome or a bowl: for `hertz` only."};
+  static constexpr Word word{
+      "half_space", "Infinite tissue with a flat, convex or concave surface; for `hertz` only."};
   double curvature = 0.0;             // 1/m, convex positive
-  std::optional<double> curvature_2;  // 1/m, across; empty: the same
+  std::optional<double> curvature_2;  // 1/m, across the first; empty: the same
 };
 struct SurfaceFile {
   static constexpr Word word{"file", "A closed surface from an STL, OBJ, PLY or OFF file."};
   std::string file;
-  std::string unit;  // a length unit's symbol
+  std::string unit;  // symbol of a length unit
 };
 struct AsMeshed {
-  static constexpr Word word{"as_meshed", "Whatever `tissue.mesh`, a ready mesh, holds."};
+  static constexpr Word word{"as_meshed", "The shape of the ready mesh that `tissue.mesh` names."};
 };
 using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb, HalfSpace,
                            SurfaceFile, AsMeshed>;
@@ -63,7 +65,7 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, Lay
 struct Kuhn {
   static constexpr Word word{"kuhn", "Cells of six tetrahedra, all alike (the paper's cube)."};
   std::array<int, 3> cells{3, 4, 6};
-  double grading = 1.0;  // of the longest cells over the shortest, which lie under the finger
+  double grading = 1.0;  // longest cell over the shortest, which is under the finger
 };
 struct Mirrored {
   static constexpr Word word{"mirrored", "Kuhn cells, every second one reflected."};
@@ -73,87 +75,94 @@ struct Mirrored {
 struct Tetgen {
   static constexpr Word word{"tetgen", "An unstructured mesh by TetGen."};
   int nodes = 728;
-  std::optional<int> tetrahedra;  // empty: as the nodes give
-  std::optional<double> edge;     // m; where given, `nodes` does not count
+  std::optional<int> tetrahedra;  // empty: follows from `nodes`
+  std::optional<double> edge;     // m; if given, `nodes` is not used
 };
 struct MeshFile {
   static constexpr Word word{"file", "A ready mesh: TetGen's .node and .ele, or Gmsh's .msh."};
   std::string file;
-  std::string unit;  // a length unit's symbol
+  std::string unit;  // symbol of a length unit
 };
 using Mesh = std::variant<Kuhn, Mirrored, Tetgen, MeshFile>;
 
-// A spring behind a dashpot, of a Prony series.
+// A branch of a Prony series: a spring in series with a dashpot.
 struct Branch {
   double relaxation_time = 1.0;  // s
-  double ratio = 1.0;            // its modulus over that of the relaxed tissue
+  double ratio = 1.0;            // its modulus over the modulus of the relaxed tissue
 };
 
-struct Tissue {
-  enum class Base { automatic, bonded, frictionless };
+// Where a scenario may leave keys of a table open, to a material or to `auto`, the other keys are
+// members of a base `Plain...`. The structs derived here add the open keys as optionals; those of
+// scenario/resolved.h add them as plain values.
+struct PlainTissue {
   std::string material = "skin";
   Shape shape = Cuboid{};
   Mesh mesh = Mirrored{};
-  std::optional<double> density;        // kg/m^3; empty properties come from the material
+  tissue::Viscosity viscosity = tissue::Viscosity::kelvin_voigt;
+  std::vector<Branch> branches;       // for `prony`
+  std::optional<double> base_height;  // m; empty: 0 if the underside is flat, else height / 10
+};
+struct Tissue : PlainTissue {
+  std::optional<double> density;        // kg/m^3; empty properties are those of the material
   std::optional<double> young_modulus;  // Pa
   std::optional<double> poisson_ratio;
-  tissue::Viscosity viscosity = tissue::Viscosity::kelvin_voigt;
   std::optional<double> retardation_time;     // s
   std::optional<double> relaxation_time;      // s
   std::optional<double> instantaneous_ratio;  // E_0 / E_inf
-  std::vector<Branch> branches;               // of `prony`
   std::optional<double> drag;                 // 1/s
-  Base base = Base::automatic;
-  std::optional<double> base_height;  // m; empty: 0 on a flat underside, else a tenth of the height
+  std::optional<tissue::Base> base;
 };
 
-// What a part of the specimen is made of, where that is not `tissue.material`.
-struct Substance {
-  std::string material = "muscle";
-  std::optional<double> density = {};        // kg/m^3; empty properties come from the material
-  std::optional<double> young_modulus = {};  // Pa
-  std::optional<double> poisson_ratio = {};  // independent springs have one of their own
-};
 struct TaggedRegion {
   static constexpr Word word{"tagged", "A region of the shape or of the mesh file, by its number."};
   int tag = 1;
-  Substance substance;
 };
 struct Lump {
   static constexpr Word word{"sphere", "A lump inside the specimen."};
   std::array<double, 3> centre{0.030, 0.030, 0.022};  // m
   double radius = 0.005;                              // m
-  Substance substance;
 };
 struct Slab {
   static constexpr Word word{"slab", "A flat layer of a cuboid, from side to side."};
-  double bottom = 0.0;  // m, of its two heights
+  double bottom = 0.0;  // m, like `top` a height
   double top = 0.010;
-  Substance substance;
 };
-using Region = std::variant<TaggedRegion, Lump, Slab>;
-[[nodiscard]] inline const Substance& substance(const Region& region) {
-  return std::visit([](const auto& one) -> const Substance& { return one.substance; }, region);
-}
+using Part = std::variant<TaggedRegion, Lump, Slab>;
 
-struct Finger {
+// A part of the specimen with another material than `tissue.material`.
+struct PlainRegion {
+  Part part;
+  std::string material = "muscle";
+};
+struct Region : PlainRegion {
+  std::optional<double> density = {};        // kg/m^3; empty properties are those of the material
+  std::optional<double> young_modulus = {};  // Pa
+  std::optional<double> poisson_ratio =
+      {};  // not used by independent springs without a volume term
+};
+
+struct PlainFinger {
   enum class Weight { in_contact, apart };
-  std::string material = "finger";  // or `rigid`
+  std::string material = "finger";  // a tissue, or `rigid`
   double radius = 0.011;            // m
   int spheres = 1;
   finger::Calibration calibration = finger::Calibration::force;
-  std::optional<double> x, y;  // m, where it presses; empty: the middle of the specimen
+  std::optional<double> x, y;  // m, position; empty: the middle of the specimen
+  Weight weight = Weight::in_contact;
+
+  [[nodiscard]] bool rigid() const { return material == "rigid"; }
+};
+struct Finger : PlainFinger {
   std::optional<double> density;
   std::optional<double> young_modulus;
   std::optional<double> poisson_ratio;
-  Weight weight = Weight::in_contact;
 };
 
-struct Contact {
+struct PlainContact {
   enum class CurvatureOn { rest, deformed };
-  enum class Viscosity { automatic, none, tissue };
-  enum class Depth { automatic, hertz, neo_hookean };
-  enum class Direction { automatic, skin, sphere };
+  enum class Viscosity { none, tissue };
+  enum class Depth { hertz, neo_hookean };
+  enum class Direction { skin, sphere };
   enum class Spread { pressure, nearest_node };
   enum class Slip { mindlin, coulomb };
   contact::CurvatureLaw law = contact::CurvatureLaw::elliptic;
@@ -161,19 +170,21 @@ struct Contact {
   CurvatureOn curvature_on = CurvatureOn::rest;
   int curvature_rings = 2;
   contact::Coupling coupling = contact::Coupling::consistent;
-  Viscosity viscosity = Viscosity::automatic;
-  Depth depth = Depth::automatic;
-  Direction direction = Direction::automatic;
   Spread spread = Spread::pressure;
   double friction = 0.0;
   Slip slip = Slip::mindlin;
   double ambient_force = 0.0;  // N, F_a of eq. (1)
 };
+struct Contact : PlainContact {
+  std::optional<Viscosity> viscosity;
+  std::optional<Depth> depth;
+  std::optional<Direction> direction;
+};
 
-struct Solver {
-  enum class Model { automatic, hertz, layer, mass_spring, coupled_springs };
+struct PlainSolver {
+  using Model = scenario::Model;
+  using Volume = tissue::Volume;
   enum class Integrator {
-    automatic,
     central_difference,
     semi_implicit_euler,
     backward_difference,
@@ -181,24 +192,27 @@ struct Solver {
     quasi_static,
     modal
   };
-  enum class Volume { automatic, none, tetrahedron, nodal };
-  Model model = Model::automatic;
+  enum class Kinematics { linear, nonlinear };
+  enum class Damping { centred, lagged };
   double tolerance = 0.05;
   tissue::StiffnessRule stiffness = tissue::StiffnessRule::fitted;
-  Volume volume = Volume::automatic;
-  tissue::Kinematics kinematics = tissue::Kinematics::linear;
-  Integrator integrator = Integrator::automatic;
+  Kinematics kinematics = Kinematics::linear;
   integrate::Start start = integrate::Start::consistent;
-  integrate::DampingVelocity damping = integrate::DampingVelocity::centred;
+  Damping damping = Damping::centred;
   std::optional<double> time_step;  // s
-  std::optional<int> substeps;      // a time step is cut into; empty: as many as are stable
+  std::optional<int> substeps;      // of a time step; empty: as many as are needed
   bool allow_unstable = false;
-  std::optional<int> rings;  // empty: all
+  std::optional<int> rings;  // of moving nodes; empty: all nodes move
+};
+struct Solver : PlainSolver {
+  std::optional<Model> model;
+  std::optional<Volume> volume;
+  std::optional<Integrator> integrator;
 };
 
-// The haptic device that would show the force: for what is found about it.
+// The haptic device that would display the force, for findings about it.
 struct Device {
-  std::optional<double> damping;  // N s/m; empty: there is none
+  std::optional<double> damping;  // N s/m; empty: no device
   double frame = 1e-3;            // s
 };
 
@@ -226,14 +240,14 @@ struct Slide {
 };
 struct Creep {
   static constexpr Word word{
-      "creep", "Stress on the specimen's end faces at once, held, withdrawn: strain over time."};
+      "creep", "A stress on the end faces, applied at once, held, then removed: strain over time."};
   double stress = 1e3;         // Pa, compression positive
   double load_time = 1.0;      // s
   double recovery_time = 1.0;  // s
 };
 struct Relax {
-  static constexpr Word word{"relax",
-                             "Strain of the whole specimen at once, held: stress over time."};
+  static constexpr Word word{
+      "relax", "A strain of the whole specimen, applied at once and held: stress over time."};
   double strain = 0.05;  // shortening over height
   double time = 1.0;     // s
 };
@@ -241,39 +255,50 @@ using Step = std::variant<Indent, Hold, Retract, Slide, Creep, Relax>;
 
 struct Output {
   double interval = 1e-3;        // s
-  std::vector<double> force_at;  // m, indentations whose force is a finding
+  std::vector<double> force_at;  // m, indentations at which the force is a finding
   bool pressure_maps = true;
   bool fits = true;
   bool figures = true;
   bool pdf = false;
   bool tissue = false;                          // deformed meshes for ParaView
   bool picture = false;                         // of the scene
-  std::map<std::string, double> display_scale;  // by case, for figures and fits only
+  std::map<std::string, double> display_scale;  // by case, only for figures and fits
+
+  // Leaves rows as the only result of a run: no maps, no deformed meshes and no picture.
+  void keep_rows_only() { pressure_maps = tissue = picture = false; }
 };
 
-struct Scenario {
+struct PlainScenario {
   int schema = 1;
   std::string title;
-  Tissue tissue;
-  std::vector<Region> regions;
-  Finger finger;
-  Contact contact;
   Device device;
-  Solver solver;
   std::vector<Step> steps;
   Output output;
 
   // Whether the steps load the end faces of the specimen, without a finger.
   [[nodiscard]] bool uniform() const;
+};
+struct Scenario : PlainScenario {
+  Tissue tissue;
+  std::vector<Region> regions;
+  Finger finger;
+  Contact contact;
+  Solver solver;
 
-  // False where it is plain that no mesh will be made; `auto` may still do without one.
+  // False if no mesh can be made; while the model is open, true means that one may be made.
   [[nodiscard]] bool meshed() const;
-
-  // Whether the contact force knows the tissue's viscosity, once that has been filled in.
-  [[nodiscard]] bool viscous_contact() const;
 };
 
-// The one list of a scenario's keys, with their units, ranges, defaults and where they count.
+// Whether the contact force includes the tissue's viscosity, in a Scenario or a Resolved.
+template <class AnyScenario>
+[[nodiscard]] bool viscous_contact(const AnyScenario& scenario) {
+  return scenario.contact.viscosity == Contact::Viscosity::tissue &&
+         scenario.contact.coupling != contact::Coupling::one_way &&
+         scenario.tissue.viscosity != tissue::Viscosity::none &&
+         scenario.tissue.viscosity != tissue::Viscosity::nodal_drag;
+}
+
+// The only list of a scenario's keys, with units, ranges, defaults and conditions of their effect.
 void fields(FieldVisitor& visitor, Scenario& scenario);
 
 }  // namespace palpate::scenario

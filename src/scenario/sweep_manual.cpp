@@ -1,4 +1,4 @@
-// What [sweep] can say, for docs/scenario.md.
+// The section on [sweep] of docs/scenario.md.
 #include "scenario/sweep_manual.h"
 
 namespace palpate::scenario {
@@ -7,7 +7,7 @@ std::string sweep_manual() {
   return R"(
 ## `[sweep]`
 
-Makes a family of cases. Any key of this manual can be swept, by its dotted path: `"finger.radius"`, `"step.1.to"`, whole tables such as `"tissue.shape"` too. `palpate run` takes up to 1000 cases, `palpate sweep` any number.
+Makes a family of cases. Any key of this manual can be swept by its dotted path: `"finger.radius"`, `"step.1.to"`, and whole tables such as `"tissue.shape"`; an entry of a list (`"tissue.shape.size.3"`) if the file gives the list. `palpate run` takes up to 1000 cases, `palpate sweep` any number.
 
 ```toml
 [sweep]                     # every value with every other
@@ -15,7 +15,7 @@ Makes a family of cases. Any key of this manual can be swept, by its dotted path
 "tissue.young_modulus" = { from = "1 kPa", to = "100 kPa", points = 20, scale = "log" }
 ```
 
-A key has a list of values, or a range. Both ends of a range belong to it and are written in one unit; `points` (a grid's, 2 at least) lie evenly between them, or evenly in their logarithms with `scale = "log"`. Values between the ends are written in the range's unit with 12 digits, and that text is the value: `3.16227766017 kPa`. Whole numbers want a list, unless the points of a range are whole.
+A key has a list of values, or a range. A range includes both ends, which are written in the same unit. In a grid it has `points` values (at least 2), spaced evenly, or with `scale = "log"` evenly in their logarithms. Values between the ends are rounded to 12 digits in the unit of the range: `3.16227766017 kPa`. Keys with whole numbers need a list, unless all points of a range are whole.
 
 | key | value | default | meaning |
 | --- | --- | --- | --- |
@@ -28,12 +28,12 @@ A key has a list of values, or a range. Both ends of a range belong to it and ar
 | --- | --- |
 | `grid` | Every value with every other; the last key varies fastest. |
 | `list` | The first values of all keys, then the second ones, and so on: lists of one length. |
-| `csv` | A row of a table each. |
-| `lhs` | A Latin hypercube: of as many equal parts of each range as there are `samples`, each holds one case, at a place drawn inside it. |
+| `csv` | One case per row of a table. |
+| `lhs` | A Latin hypercube: each range is divided into `samples` equal parts, each of which contains one case, at a random place. |
 | `sobol` | The Sobol sequence, which fills the space more evenly; its first point, the origin, is left out, and nothing is scrambled. Most even with 2^k - 1 `samples`. |
 | `saltelli` | For first-order and total Sobol indices: of `d` keys, `samples` times d + 2 cases. Two independent points A and B of a Sobol sequence in 2 d dimensions, then A with one key of B after the other: A, B, A_B^1 ... A_B^d. |
 
-In the last three a key has a range without `points`, or a list from which the sample chooses evenly. A Latin hypercube is drawn by the 64-bit Mersenne twister of the C++ standard, the same on every machine: for one key after the other, first the order of its parts, by exchanging the last with one drawn before it or itself and so on down to the second, then a place in each from the upper 29 bits of a number.
+In the last three designs a key has a range without `points`, or a list whose values get equal shares of the cases. A Latin hypercube is drawn by the 64-bit Mersenne twister of the C++ standard, the same on every machine: for one key after the other, first the order of its parts, by exchanging the last with one drawn before it or itself and so on down to the second, then a place in each from the upper 29 bits of a number.
 
 ```toml
 [sweep]
@@ -45,7 +45,7 @@ seed    = 1
 "finger.material"      = ["finger", "rigid"]
 ```
 
-Keys that change together, such as tissues with all that belongs to them, stand in a `[[sweep.rows]]`: lists of one length, which count as one key in every design. There may be several.
+Keys that change together, such as a tissue and its properties, are written in a `[[sweep.rows]]` table, as lists of the same length. They count as one key in every design. There may be several such tables.
 
 ```toml
 [sweep]
@@ -55,7 +55,7 @@ Keys that change together, such as tissues with all that belongs to them, stand 
 "tissue.young_modulus" = ["60 kPa", "20 kPa"]
 ```
 
-A table has a column a key and a row a case. Its header names keys, with a unit where numbers need one; cells are separated by commas and quoted where they hold one.
+A table has one column per key and one row per case. Its header names the keys, with a unit if the numbers need one. Cells are separated by commas, and quoted if they contain a comma.
 
 ```csv
 tissue.young_modulus [kPa],tissue.poisson_ratio,tissue.material,step.1.to
@@ -63,9 +63,9 @@ tissue.young_modulus [kPa],tissue.poisson_ratio,tissue.material,step.1.to
 80,0.45,muscle,2 mm
 ```
 
-Cases are named by their values, joined by `_`; where there are more than 1000, where names would be longer than 80 letters, and in samples and tables, by their number, `0001`.
+Cases are named by their values, joined by `_`. If there are more than 1000 cases, if a name would be longer than 80 letters, and in samples and tables, they are named by their number, `0001`.
 
-Refused before the first case runs: ends of a range that leave a key's limits, a key that no case reads because the chosen model has no use for it, two values of one key that make the same case, and everything that is refused in a scenario.
+These are refused before the first case runs: ends of a range outside a key's limits, a key that no case reads because the chosen model does not use it, two values of one key that make the same case, and everything that is refused in a scenario.
 )";
 }
 

@@ -1,4 +1,4 @@
-// A case from its settings, and what only several cases show.
+// Makes a case from its settings, and checks what only several cases together show.
 #include "scenario/trial.h"
 
 #include <algorithm>
@@ -6,16 +6,13 @@
 
 #include "base/field_writer.h"
 #include "base/text.h"
-#include "scenario/words.h"
 
 namespace palpate::scenario {
 namespace {
 
 constexpr std::size_t tried_cases = 256;
 
-std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
-
-// Keeps the first of problems that every case repeats.
+// Adds the problems that are new, because every case may repeat the same ones.
 void add_new(std::vector<Problem>& all, const std::vector<Problem>& more) {
   for (const Problem& problem : more) {
     const bool known = std::any_of(all.begin(), all.end(), [&](const Problem& other) {
@@ -25,7 +22,7 @@ void add_new(std::vector<Problem>& all, const std::vector<Problem>& more) {
   }
 }
 
-// Every value that was read, whether or not it counts.
+// All values that were read, with those that have no effect, as TOML.
 std::string all_values(const Scenario& scenario) {
   Scenario copy = scenario;
   return fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, copy); }, Written::all);
@@ -40,14 +37,12 @@ std::string words_of(const std::vector<Setting>& settings) {
 // The files that a row of a table names.
 std::string files_of(const std::vector<Setting>& row) {
   std::string files;
-  for (const Setting& setting : row) {
-    const std::string last = setting.key.substr(setting.key.rfind('.') + 1);
-    if (last == "material" || last == "file") files += setting.value.text + "\n";
-  }
+  for (const Setting& setting : row)
+    if (names_file(setting.key)) files += setting.value.text + "\n";
   return files;
 }
 
-// The key's, or that of a table around it.
+// The entry of an ignored key, or of an ignored table that contains it; null if the key is read.
 const Unread* find_unread(const std::string& key, const Reading& reading) {
   for (const Unread& one : reading.unread)
     if (key == one.path || key.starts_with(one.path + ".")) return &one;
@@ -60,9 +55,9 @@ const char* const poisson_in_contact_only_text =
     "reaches the contact only: independent springs have a ratio of their own (findings.csv)";
 
 bool poisson_in_contact_only(const Scenario& scenario) {
-  return scenario.solver.model == Solver::Model::mass_spring &&
-         (scenario.solver.volume == Solver::Volume::automatic ||
-          scenario.solver.volume == Solver::Volume::none);
+  const Solver& solver = scenario.solver;
+  return solver.model && rung(*solver.model).independent() &&
+         solver.volume.value_or(Solver::Volume::none) == Solver::Volume::none;
 }
 
 Made make(const Family& family, const std::vector<Setting>& settings, Sources& sources) {
@@ -76,8 +71,9 @@ Made make(const Family& family, const std::vector<Setting>& settings, Sources& s
   made.reading = read_fields(document, [&](FieldVisitor& visitor) { fields(visitor, scenario); });
   made.as_read = scenario;
   std::vector<Problem>& problems = made.reading.problems;
-  fill_in(scenario, document, sources, problems);
-  if (problems.empty()) check(scenario, document, made.together);
+  complete(scenario, document);
+  made.one.materials = find_materials(scenario, document, sources, problems);
+  if (problems.empty()) check(made.one, document, made.together);
   made.one.files = sources.used;
   return made;
 }
@@ -91,7 +87,7 @@ std::vector<std::string> unread_keys(const Family& family, std::size_t i, Solver
   std::vector<Setting> settings = family.design.settings(i);
   Node model;
   model.kind = Node::Kind::text;
-  model.text = words::word(words::models, chosen);
+  model.text = rung(chosen).word;
   settings.push_back({"solver.model", {}, model, {}});
   Sources sources{family.folder, family.library};
   const Made made = make(family, settings, sources);
@@ -104,7 +100,7 @@ std::vector<std::string> unread_keys(const Family& family, std::size_t i, Solver
 
 void Trial::add_problems(const std::vector<Problem>& problems) {
   for (Problem problem : problems) {
-    // A range of a whole number has no remedy of its own.
+    // The remedy for a range with values that are not whole is a list.
     for (const Factor& factor : family_.design.factors())
       for (const Varied& varied : factor.keys)
         if (varied.interval && problem.place == varied.interval->from.place &&
@@ -116,13 +112,13 @@ void Trial::add_problems(const std::vector<Problem>& problems) {
   }
 }
 
-// The first input is the scenario itself, of which the results hold the echo, `scenario.toml`.
+// The first input is the scenario itself; results contain its echo, `scenario.toml`, instead.
 void Trial::remember(const std::vector<Sources::ReadFile>& read) {
   for (const auto& [added, place] : read) {
     std::vector<InputFile>& inputs = family_.inputs;
-    const auto known = std::find_if(inputs.begin() + 1, inputs.end(), [&](const InputFile& other) {
-      return other.name == added.name;
-    });
+    const auto known =
+        std::find_if(inputs.begin() + 1, inputs.end(),
+                     [&name = added.name](const InputFile& other) { return other.name == name; });
     if (added.name == "scenario.toml")
       add_problems({{place, ticked(added.name) +
                                 " is the name of the echo among the results; rename the file"}});
@@ -152,7 +148,7 @@ Made Trial::take(const std::vector<Setting>& settings) {
   return made;
 }
 
-// What no case has had yet; `of` says what the values belong to.
+// Refuses values that make the same case as earlier ones; `of` names what the values belong to.
 void Trial::refuse_equal(std::map<std::string, std::string>& seen, const Made& made,
                          const std::vector<Setting>& values, const std::string& of) {
   const auto [known, added] = seen.emplace(all_values(made.as_read), words_of(values));
@@ -209,14 +205,14 @@ void Trial::check_names(const Place& sweep) {
 
 void Trial::check_values(std::size_t factor) {
   std::vector<Setting> settings = family_.design.settings(0);
-  std::map<std::string, std::string> seen;  // words by everything that was read
+  std::map<std::string, std::string> seen;  // words, by all values read
   for (const std::vector<Setting>& values : family_.design.extremes(factor)) {
     for (const Setting& value : values)
       *std::find_if(settings.begin(), settings.end(),
                     [&](const Setting& other) { return other.key == value.key; }) = value;
     const Made made = take(settings);
     add_problems(made.reading.problems);
-    // In a grid this is one of the cases; in a sample what fails together need not meet.
+    // A combination in a grid is a case; one in a sample may be no case, so it is not refused.
     if (family_.design.kind() == Design::Kind::grid) add_problems(made.together);
     if (made.reading.problems.empty())
       refuse_equal(seen, made, values, " of " + ticked(family_.design.factors()[factor].name));

@@ -1,4 +1,4 @@
-// Makes cases one after the other, and gathers what they read and what is wrong with them.
+// Makes cases one after the other, and collects the files that they read and their problems.
 #pragma once
 
 #include <map>
@@ -10,15 +10,15 @@
 
 namespace palpate::scenario {
 
-// A case as far as it could be made.
+// A case, as far as it could be made.
 struct Made {
   Case one;          // without a name
-  Scenario as_read;  // before materials filled it in
+  Scenario as_read;  // without the values that follow from other keys
   Reading reading;
-  std::vector<Problem> together;  // of keys that do not go together, where each reads well
+  std::vector<Problem> together;  // of several keys together, each of which is valid
 };
 
-// The document with these settings, read, filled in and checked.
+// Reads, completes and checks the document with these settings.
 [[nodiscard]] Made make(const Family& family, const std::vector<Setting>& settings,
                         Sources& sources);
 
@@ -26,7 +26,7 @@ struct Made {
 [[nodiscard]] std::string case_name(const Family& family, std::size_t i,
                                     const std::vector<std::pair<std::string, std::string>>& swept);
 
-// Whether Poisson's ratio reaches the contact and nothing else, and that as a sentence.
+// Whether Poisson's ratio affects the contact only, and the text that says so.
 [[nodiscard]] bool poisson_in_contact_only(const Scenario& scenario);
 extern const char* const poisson_in_contact_only_text;
 
@@ -34,24 +34,25 @@ class Trial {
  public:
   explicit Trial(Family& family) : family_(family) {}
 
-  // Files among the family's inputs; two of one name are a problem.
+  // Adds files to the family's inputs; two different files with one name are a problem.
   void remember(const std::vector<Sources::ReadFile>& read);
 
-  // Case i; the first one made is the family's base.
+  // Makes case i; the first case made becomes the family's base.
   Case make(std::size_t i);
 
-  // All cases of a small family, of a large one 256 between the first and the last, and of a table
-  // each row that names another file.
+  // Makes all cases of a small family; of a large one 256 from the first to the last, and each row
+  // of a table that names other files.
   void try_cases();
 
-  // Names that figures and results look cases up by.
+  // Checks that case names are different, and that `display_scale` uses existing names.
   void check_names(const Place& sweep);
 
-  // Every value of a list and both ends of a range, the other factors as in the first case: within
-  // the key's limits, and different from each other; and each key is read by one case at least.
+  // Checks every value of a list and both ends of a range, with the other factors as in the first
+  // case: they must be within the key's limits and different from each other. Checks also that
+  // every swept key is read by at least one case.
   void check_factors();
 
-  // Throws InputError with all problems.
+  // Throws InputError with all problems, if there are any.
   void finish();
 
  private:
@@ -64,12 +65,12 @@ class Trial {
 
   Family& family_;
   bool begun_ = false;
-  std::map<std::string, std::string> rows_;  // of lists and tables: words by what was read
+  std::map<std::string, std::string> rows_;  // of lists and tables: their words, by the values read
   std::vector<Problem> problems_;
-  std::map<std::string, std::string> unread_;  // swept keys that no case has read, and where they
-                                               // would be
+  std::map<std::string, std::string> unread_;  // swept keys that some case ignores, with the
+                                               // condition under which they would be read
   std::map<std::string, bool> read_;           // swept keys that some case has read
-  bool contact_only_ = false;                  // some case has springs with a ratio of their own
+  bool contact_only_ = false;                  // poisson_in_contact_only() holds for some case
 };
 
 }  // namespace palpate::scenario

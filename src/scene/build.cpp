@@ -1,4 +1,4 @@
-// Case to scene: mesh, springs, supports, time steps.
+// Builds a scene from a case: mesh, springs, supports, time steps.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,10 +20,10 @@
 namespace palpate::scene {
 namespace {
 
-constexpr int most_modal_nodes = 1000;  // an eigen-decomposition grows with the cube
+constexpr int most_modal_nodes = 1000;  // the eigenvalue problem takes time with the cube of nodes
 
-// k sum_j w_j^2 / m_j of the contact at a depth (m), as if one sphere pressed with all of the
-// finger's force; and sum_j w_j^2 / m_j alone, 1/kg.
+// k sum_j w_j^2 / m_j (1/s^2) of the contact at a depth (m), as if one sphere pressed with the
+// whole force, and sum_j w_j^2 / m_j (1/kg); of the wide patch if `widest_spacing` (m) is above 0.
 struct PressedNodes {
   double frequency_squared, looseness;
 };
@@ -42,16 +42,14 @@ PressedNodes contact_frequency_squared(const Scene& scene, double depth, double 
   double sum = 0.0;
   for (std::size_t j = 0; j < load.vertices.size(); ++j)
     sum += load.shares[j] * load.shares[j] /
-           specimen.network.node_mass[static_cast<std::size_t>(
-               specimen.skin[static_cast<std::size_t>(load.vertices[j])])];
+           specimen.network.node_mass[as_index(specimen.skin[as_index(load.vertices[j])])];
   return {sum * scene.finger.force_factor *
               contact::hertz::stiffness(depth, scene.law().radius, scene.law().modulus),
           sum};
 }
 
-// Where the mesh is read back: at the deepest contact of the programme; with inertia the most on
-// the way there, because the wide patch narrows as fast as the contact softens.  docs/theory.md
-// (76)
+// The rate at the deepest contact of the programme for `series`. With inertia, the largest rate on
+// the way there, because the wide patch becomes narrower as the contact becomes softer (76).
 ContactRate contact_rate(const Scene& scene) {
   if (scene.scenario.uniform()) return {};
   const double deepest = deepest_travel(scene.scenario, scene.law());
@@ -59,9 +57,9 @@ ContactRate contact_rate(const Scene& scene) {
     if (scene.scenario.contact.coupling != contact::Coupling::series) return {};
     return {.squared = contact_frequency_squared(scene, deepest, 0.0).frequency_squared};
   }
-  // The mesh softens the contact by up to 0.47 of its compliance at the travel, and where the mesh
-  // lags by half the travel the contact itself has 1 / sqrt(1.5) of it: 1 / (0.82 - 0.47). Of the
-  // dashpot C = D k^2 the mesh knows a sixth: 0.4^2 by the wide patch's three radii.
+  // The mesh reduces the compliance of the contact by up to 0.47 of its value at the travel, and a
+  // contact whose surface lags by half the travel has 1 / sqrt(1.5) (0.82) of that value (76). A
+  // sixth of the dashpot C = D k^2 acts on the mesh: 0.4^2 from the wide patch's three radii.
   constexpr double stiffened = 3.0;
   constexpr double damped = 1.2;
   const double spacing = contact::RingReader(*scene.specimen->surface)
@@ -77,12 +75,11 @@ ContactRate contact_rate(const Scene& scene) {
 }
 
 void refuse_unstable(const Scene& scene, const scenario::Family& family) {
-  const scenario::Solver& solver = scene.scenario.solver;
+  const scenario::Resolved::Solver& solver = scene.scenario.solver;
   const TimePlan& plan = scene.specimen->plan;
-  if (!scenario::explicit_steps(solver.integrator) || plan.stable() || solver.allow_unstable)
-    return;
+  if (!about(solver.integrator).explicit_steps || plan.stable() || solver.allow_unstable) return;
   const double needed = std::ceil(plan.time_step / (0.9 * plan.limit));
-  throw InputError(scenario::place_of(family.document, "solver.substeps"),
+  throw InputError(place_of(family.document, "solver.substeps"),
                    "`substeps` of " + std::to_string(plan.substeps) + " makes steps of " +
                        rounded_text(1e3 * plan.substep) + " ms, above the stability limit of " +
                        rounded_text(1e3 * plan.limit) + " ms (case " + scene.name +
@@ -95,33 +92,30 @@ void refuse_large_modal(const Scene& scene, const scenario::Family& family) {
   if (scene.scenario.solver.integrator != scenario::Solver::Integrator::modal ||
       nodes <= most_modal_nodes)
     return;
-  throw InputError(scenario::place_of(family.document, "solver.integrator"),
+  throw InputError(place_of(family.document, "solver.integrator"),
                    "`modal` takes meshes of up to " + std::to_string(most_modal_nodes) +
                        " nodes, this one has " + std::to_string(nodes) +
                        "; use fewer cells or another integrator");
 }
 
-// The properties of the tissue and of the scenario's regions, in the order of the mesh's numbers.
-std::vector<double> by_region(const scenario::Scenario& scenario,
-                              std::optional<double> scenario::Tissue::*of_tissue,
-                              std::optional<double> scenario::Substance::*of_region) {
-  std::vector<double> values{*(scenario.tissue.*of_tissue)};
-  for (const scenario::Region& region : scenario.regions)
-    values.push_back(*(scenario::substance(region).*of_region));
-  return values;
+// The substances of the tissue and of the scenario's regions, in the order of the mesh's numbers.
+std::vector<scenario::Resolved::Substance> substances_of(const scenario::Resolved& scenario) {
+  std::vector<scenario::Resolved::Substance> all{scenario.tissue};
+  all.insert(all.end(), scenario.regions.begin(), scenario.regions.end());
+  return all;
 }
 
-// Elastic, of the tissue and of the regions. Near nu = 1/2 a mesh would have no answer: it takes
-// 0.4995 there.
-std::vector<tissue::Isotropic> tissues_of(const scenario::Scenario& scenario) {
-  const auto moduli =
-      by_region(scenario, &scenario::Tissue::young_modulus, &scenario::Substance::young_modulus);
-  std::vector<double> ratios{*scenario.tissue.poisson_ratio};
-  for (const scenario::Region& region : scenario.regions)
-    ratios.push_back(scenario::substance(region).poisson_ratio.value_or(ratios.front()));
+std::vector<double> densities_of(const scenario::Resolved& scenario) {
+  std::vector<double> densities;
+  for (const auto& one : substances_of(scenario)) densities.push_back(one.density);
+  return densities;
+}
+
+// The tissues' elastic properties. A mesh has no solution at nu = 1/2, so nu is at most 0.4995.
+std::vector<tissue::Isotropic> tissues_of(const scenario::Resolved& scenario) {
   std::vector<tissue::Isotropic> tissues;
-  for (std::size_t i = 0; i < moduli.size(); ++i)
-    tissues.push_back({moduli[i], std::min(ratios[i], most_poisson_ratio)});
+  for (const auto& one : substances_of(scenario))
+    tissues.push_back({one.young_modulus, std::min(one.poisson_ratio, most_poisson_ratio)});
   return tissues;
 }
 
@@ -133,29 +127,17 @@ void measure_size(Specimen& specimen) {
   }
 }
 
-// What a network of springs makes of one or several tissues.
+// Makes the network of springs for one or several tissues.
 struct SpringMaker {
-  const scenario::Solver* solver;
+  const scenario::Resolved* scenario;
   const geometry::TetMesh* mesh;
-  const tissue::SpringFit* fit;  // where the solver wants it
+  const tissue::SpringFit* fit;  // null for `van_gelder` and coupled springs
   std::vector<double> densities;
-  bool slabs;  // all regions are layers from side to side
 
-  [[nodiscard]] bool coupled() const {
-    return solver->model == scenario::Solver::Model::coupled_springs;
-  }
-  [[nodiscard]] tissue::Volume volume() const {
-    using Volume = scenario::Solver::Volume;
-    switch (solver->volume) {
-      case Volume::none: return tissue::Volume::none;
-      case Volume::tetrahedron: return tissue::Volume::tetrahedron;
-      case Volume::nodal: return tissue::Volume::nodal;
-      case Volume::automatic: break;
-    }
-    return coupled() ? tissue::Volume::nodal : tissue::Volume::none;
-  }
+  [[nodiscard]] bool coupled() const { return scenario::rung(scenario->solver.model).coupled(); }
+  [[nodiscard]] tissue::Volume volume() const { return scenario->solver.volume; }
 
-  // Independent springs first; `factor` is what they are multiplied with before the volume term.
+  // Independent springs. finish() then multiplies them by `factor` and adds the volume term.
   [[nodiscard]] tissue::Network springs(const std::vector<tissue::Isotropic>& tissues) const {
     std::vector<double> moduli;
     for (const tissue::Isotropic& one : tissues)
@@ -178,7 +160,7 @@ struct SpringMaker {
   }
 };
 
-// Gives the specimen its springs, and says what E and nu they have, were all of it the tissue.
+// Sets the specimen's springs and their measured E and nu, those with the tissue everywhere.
 void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>& tissues,
                   const std::function<tissue::Uniaxial(const tissue::Network&)>& measure,
                   Specimen& specimen) {
@@ -187,12 +169,12 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
     return one.young_modulus != tissues.front().young_modulus ||
            one.poisson_ratio != tissues.front().poisson_ratio;
   });
-  // Layers from side to side are in the contact's own law.
-  const bool beside_law = several && !maker.slabs;
+  // Slabs are part of the contact's law.
+  const bool beside_law = several && !all_slabs(*maker.scenario);
   if (maker.coupled()) {
     specimen.network = maker.elements(tissues);
     if (beside_law) specimen.one_tissue = maker.elements(alike);
-    // The linear finite element passes the patch test: its E and nu are the tissue's.
+    // Linear finite elements pass the patch test: the network's E and nu are those of the tissue.
     specimen.measured.young_modulus = tissues.front().young_modulus;
     specimen.measured.poisson_ratio = tissues.front().poisson_ratio;
     return;
@@ -200,9 +182,9 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
   specimen.network = maker.springs(tissues);
   tissue::Network alone = several ? maker.springs(alike) : specimen.network;
   double factor = 1.0;
-  if (maker.solver->stiffness == tissue::StiffnessRule::fitted) {
-    // The fit makes the neighbourhoods isotropic; one factor more gives the specimen as a whole the
-    // modulus that the springs should have under uniaxial load.
+  if (maker.scenario->solver.stiffness == tissue::StiffnessRule::fitted) {
+    // The fit makes neighbourhoods isotropic; the factor gives the specimen as a whole the modulus
+    // that its springs should have in uniaxial compression (31).
     const double wanted = maker.volume() == tissue::Volume::none
                               ? tissues.front().young_modulus
                               : tissue::spring_modulus(tissues.front());
@@ -211,10 +193,10 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
   const tissue::Network bare = alone;
   maker.finish(alone, alike, factor);
   specimen.measured = measure(alone);
-  if (maker.solver->stiffness == tissue::StiffnessRule::fitted &&
+  if (maker.scenario->solver.stiffness == tissue::StiffnessRule::fitted &&
       maker.volume() != tissue::Volume::none) {
-    // With the volume term beside them the springs' factor is found again: the modulus nearly
-    // follows it.
+    // The volume term changes the modulus, so the factor is corrected; the modulus is nearly
+    // proportional to it.
     constexpr int rounds = 3;
     for (int i = 0; i < rounds; ++i) {
       factor *= tissues.front().young_modulus / specimen.measured.young_modulus;
@@ -227,17 +209,17 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
   if (beside_law) specimen.one_tissue = std::move(alone);
 }
 
-std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
+std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
                                         const std::string& folder, SpecimenShapes& shapes) {
   auto specimen = std::make_unique<Specimen>();
   const SpecimenShape& shape = shapes.shape(scenario, folder);
   specimen->mesh = shape.mesh;
-  specimen->law = viscous_law(scenario.tissue);
-  specimen->kinematics = scenario.solver.kinematics;
-  if (scenario.solver.model == scenario::Solver::Model::coupled_springs &&
-      specimen->kinematics == tissue::Kinematics::nonlinear)
-    specimen->kinematics = tissue::Kinematics::squared;
-  specimen->base = base_of(scenario);
+  specimen->law = scenario.tissue.law;
+  const scenario::Rung& rung = scenario::rung(scenario.solver.model);
+  if (scenario.solver.kinematics == scenario::Solver::Kinematics::nonlinear)
+    specimen->kinematics =
+        rung.coupled() ? tissue::Kinematics::squared : tissue::Kinematics::nonlinear;
+  specimen->base = scenario.tissue.base;
   measure_size(*specimen);
   const double top = specimen->high.z();
   const double top_area = shape.top_area;
@@ -249,12 +231,11 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Scenario& scenario,
         "flat ends, such as `cuboid` or `ligament`");
   const bool platens =
       scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
-  const bool fitted = scenario.solver.model == scenario::Solver::Model::mass_spring &&
-                      scenario.solver.stiffness == tissue::StiffnessRule::fitted;
+  const bool fitted =
+      rung.independent() && scenario.solver.stiffness == tissue::StiffnessRule::fitted;
   make_springs(
-      {&scenario.solver, &specimen->mesh, fitted ? &shapes.fit(scenario, folder) : nullptr,
-       by_region(scenario, &scenario::Tissue::density, &scenario::Substance::density),
-       all_slabs(scenario)},
+      {&scenario, &specimen->mesh, fitted ? &shapes.fit(scenario, folder) : nullptr,
+       densities_of(scenario)},
       tissues_of(scenario),
       [&](const tissue::Network& network) {
         return platens ? tissue::uniaxial_test(network, specimen->mesh, tissue::Base::frictionless,
@@ -287,55 +268,23 @@ namespace {
 void set_layer(Scene& scene, SpecimenShapes& shapes) {
   const contact::Layer layer = layers_of(scene.scenario, 1.0 - scene.finger.compliance_share);
   scene.layer = make_layer(scene.scenario, scene.finger, shapes.layer_law(layer));
-  // Pressure maps alone look around the contact.
+  // The displacement around the contact is needed for pressure maps only.
   if (scene.scenario.output.pressure_maps) scene.layer_sinking = shapes.layer_sinking(layer);
 }
 
-}  // namespace
-
-Scene build(const scenario::Case& one, const scenario::Family& family) {
-  SpecimenShapes shapes;
-  return build(one, family, shapes);
+void set_deep_factor(Scene& scene, const scenario::Family& family) {
+  if (scene.scenario.contact.depth != scenario::Contact::Depth::neo_hookean) return;
+  const double ratio = scene.scenario.tissue.poisson_ratio;
+  scene.deep = contact::deep_law(ratio);
+  if (!scene.deep)
+    throw InputError(place_of(family.document, "contact.depth"),
+                     "`neo_hookean` is known for a Poisson's ratio of 0.27 to 0.5, and the "
+                     "tissue's is " +
+                         rounded_text(ratio) + "; write `depth = \"hertz\"`");
 }
 
-Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes) {
-  return build(one, family, shapes, choose(one.scenario));
-}
-
-Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes,
-            Choice choice) {
-  using Model = scenario::Solver::Model;
-  Scene scene;
-  scene.name = one.name;
-  scene.choice = std::move(choice);
-  scene.scenario = scene.choice.chosen;
-  const scenario::Scenario& scenario = scene.scenario;
-  if (!scenario.uniform()) scene.finger = make_finger(scenario);
-  const auto refuse = [&](const char* model, const std::optional<std::string>& reason) {
-    if (reason)
-      throw InputError(scenario::place_of(family.document, "solver.model"),
-                       std::string("`") + model + "` does not know this scene: " + *reason +
-                           "; set `solver.model = \"coupled_springs\"`");
-  };
-  scene.relaxation = contact_relaxation(scenario, scene.finger);
-  if (scenario.solver.model == Model::hertz) {
-    refuse("hertz", beyond_hertz(scenario));
-    if (scenario.contact.depth == scenario::Contact::Depth::neo_hookean) {
-      scene.deep = contact::deep_law(*scenario.tissue.poisson_ratio);
-      if (!scene.deep)
-        throw InputError(scenario::place_of(family.document, "contact.depth"),
-                         "`neo_hookean` is known for a Poisson's ratio of 0.27 to 0.5, and the "
-                         "tissue's is " +
-                             rounded_text(*scenario.tissue.poisson_ratio) +
-                             "; write `depth = \"hertz\"`");
-    }
-    return scene;
-  }
-  if (scenario.solver.model == Model::layer) {
-    refuse("layer", beyond_layer(scenario));
-    set_layer(scene, shapes);
-    return scene;
-  }
+void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
+  const scenario::Resolved& scenario = scene.scenario;
   scene.specimen = make_specimen(scenario, family.folder, shapes);
   if (!scenario.uniform() && scenario.contact.coupling == contact::Coupling::consistent &&
       std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) {
@@ -346,9 +295,52 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_rate(scene));
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);
-  // A finger that passes beside its specimen is found before the first case runs.
+  // Finds a finger that passes beside its specimen before the first case runs.
   if (!scenario.uniform()) (void)first_touch(scene);
   refuse_unresolved(scene);
+}
+
+// Refuses a model that cannot compute the scene, and names the most complete model that can.
+void refuse_beyond(const scenario::Resolved& scenario, const scenario::Family& family) {
+  const auto reason = beyond(scenario.solver.model, scenario);
+  if (scenario.uniform() || !reason) return;
+  const scenario::Rung* remedy = &scenario::strongest;
+  for (const scenario::Rung& other : scenario::ladder)
+    if (!beyond(other.of, scenario)) remedy = &other;
+  throw InputError(place_of(family.document, "solver.model"),
+                   "`" + std::string(scenario::rung(scenario.solver.model).word) +
+                       "` cannot compute this scene: " + *reason + "; set `solver.model = \"" +
+                       remedy->word + "\"`");
+}
+
+}  // namespace
+
+Scene build(const scenario::Case& one, const scenario::Family& family) {
+  SpecimenShapes shapes;
+  return build(one, family, shapes);
+}
+
+Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes) {
+  return build(one, family, shapes, choose(one));
+}
+
+Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes,
+            Choice choice) {
+  using scenario::Model;
+  Scene scene;
+  scene.name = one.name;
+  scene.choice = std::move(choice);
+  scene.scenario = scene.choice.chosen;
+  const scenario::Resolved& scenario = scene.scenario;
+  if (!scenario.uniform()) scene.finger = make_finger(scenario);
+  scene.relaxation = contact_relaxation(scenario, scene.finger);
+  refuse_beyond(scenario, family);
+  switch (scenario.solver.model) {
+    case Model::hertz: set_deep_factor(scene, family); break;
+    case Model::layer: set_layer(scene, shapes); break;
+    case Model::mass_spring:
+    case Model::coupled_springs: set_specimen(scene, family, shapes); break;
+  }
   return scene;
 }
 

@@ -1,10 +1,8 @@
-// The questions of the ladder, in order, and the cheapest rung that their answers leave.
+// Evaluates the questions in order, and chooses the cheapest model within the tolerance.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/text.h"
-#include "scenario/words.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
@@ -13,36 +11,58 @@
 namespace palpate::scene {
 namespace {
 
-using Model = scenario::Solver::Model;
+using scenario::Model;
+using scenario::Rung;
 using Integrator = scenario::Solver::Integrator;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-// A rung's own error on a mesh, measured against converged elasticity: docs/accuracy.md.
-struct MeshError {
-  double flat;    // of the force on a flat cuboid
-  double sides;   // part of the sides' effect that it misses
-  double curved;  // of the force on a curved body, besides
-  double size;    // part of such a body's effect that it misses
-  double waves;   // part of what inertia adds that it misses
+// The texts of a question, with its answers below and above the threshold; answers that contain
+// numbers are made where the question is evaluated.
+struct QuestionRow {
+  const char* word;  // the name of the enumerator
+  const char* text;
+  const char* measure;
+  const char* below;
+  const char* above;
 };
-constexpr MeshError mass_spring_error{
-    .flat = 0.02, .sides = 0.3, .curved = 0.03, .size = 0.3, .waves = 0.15};
-constexpr MeshError coupled_error{
-    .flat = 0.02, .sides = 0.1, .curved = 0.03, .size = 0.1, .waves = 0.06};
+constexpr auto question_table = std::to_array<QuestionRow>({
+    {"uniform", "a uniform test?", "steps that load the end faces", "",
+     "yes: only a specimen can creep or relax"},
+    {"ratio_matters", "does nu matter?", "ends slide on their platens",
+     "no: springs have the right Young's modulus",
+     "yes: springs have a Poisson's ratio of their own"},
+    {"force_knows_mesh", "does the mesh affect the force?", "coupling is one_way",
+     "no: the force is eq. (2) alone, as with hertz", ""},
+    {"rigid_tissue", "rigid tissue?", "lambda_2 / (lambda_1 + lambda_2)",
+     "yes: only the finger deforms", "no: the tissue deforms"},
+    {"half_space", "half-space?", "change of the force by thickness and sides",
+     "yes: the specimen's size does not matter", ""},
+    {"layer", "layer?", "decrease of the force by the sides",
+     "yes: flat tissue of known thickness, exactly known", ""},
+    {"deep", "deep?", "|F / F_Hertz - 1| of neo-Hookean tissue", "no: h^(3/2) holds",
+     "yes: `hertz` times the factor of a deep press"},
+    {"curved", "curved?", "(1/R + kappa_1) / (1/R + kappa_2) - 1", "no: one curvature is enough",
+     "yes: both curvatures matter, the contact is elliptic"},
+    {"time_dependent", "time dependent?", "increase of the force by viscosity",
+     "no: the press is slow against the tissue's time constant", ""},
+    {"inertia", "inertia?", "increase of the force by waves", "no: the press is slow against them",
+     ""},
+    {"shape_or_inclusion", "shape or inclusion?", "reasons for a mesh",
+     "no: there is a formula for this shape", ""},
+});
+static_assert(is_complete<Asked>(question_table), "every question has its text");
 
-// Of a / (w/2), what a narrow body takes of the force: measured on cylinders and an ellipsoid.
+// A narrow body reduces the force by this times a / (w/2): measured on cylinders and an ellipsoid.
 constexpr double width_of_body = 0.5;
 
-constexpr double doubt = 0.4;  // of the sides' effect, which is a fit
+constexpr double doubt = 0.4;  // relative uncertainty of the effect of the sides, which is a fit
 
-// What cells of a curved body cost that see its thickness only coarsely: 0.4 (cell / thickness)^2,
-// measured on the ligament's strap from 300 to 2400 nodes.
-double coarseness(const scenario::Scenario& scenario) {
+// The error of cells that are coarse compared with the thickness of a curved body,
+// 0.4 (cell / thickness)^2: measured on the ligament from 300 to 2400 nodes.   docs/theory.md (69)
+double coarseness(const scenario::Resolved& scenario) {
   const auto shape = parametric(scenario.tissue.shape);
   if (!shape || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) return 0.0;
   const Vec3 size = geometry::extent(*shape);
-  const double cell = std::cbrt(size.prod() / expected_nodes(scenario));
+  const double cell = std::cbrt(size.prod() / expected_nodes(scenario.tissue.mesh));
   double thickness = size.z();
   if (const auto* limb = std::get_if<scenario::LayeredLimb>(&scenario.tissue.shape))
     thickness = limb->skin_thickness;
@@ -50,217 +70,187 @@ double coarseness(const scenario::Scenario& scenario) {
   return 0.4 * ratio * ratio;
 }
 
-bool coarse_mesh(const scenario::Scenario& scenario) {
+bool coarse_mesh(const scenario::Resolved& scenario) {
   return scenario.meshed() && coarseness(scenario) > 0.0;
 }
 
 class Chooser {
  public:
-  explicit Chooser(const scenario::Scenario& scenario) : asked_(scenario) {
-    choice_.chosen = scenario;
-  }
+  explicit Chooser(const scenario::Case& one)
+      : case_(one),
+        asked_(scenario::resolve(one, scenario::strongest.of)),
+        model_(one.scenario.solver.model.value_or(asked_.solver.model)) {}
 
   Choice choose() {
-    choice_.given = asked_.solver.model != Model::automatic;
+    choice_.given = case_.scenario.solver.model.has_value();
     if (asked_.uniform())
       uniform();
     else
       pressed();
-    complete();
+    if (choice_.given) choice_.found = {};
+    choice_.chosen = scenario::resolve(case_, model_, choice_.found);
     return choice_;
   }
 
  private:
-  void ask(const char* asked, const char* measure, double number, double threshold,
-           const std::string& below, const std::string& above) {
-    choice_.questions.push_back(
-        {asked, measure, number, threshold, number < threshold ? below : above});
+  // Adds a question. `above` and `measure` replace the texts of the table unless they are empty.
+  void ask(Asked of, double number, double threshold, const std::string& above = "",
+           const std::string& measure = "") {
+    const QuestionRow& row = question_table[as_index(of)];
+    choice_.questions.push_back({row.text, measure.empty() ? row.measure : measure, number,
+                                 threshold,
+                                 number < threshold ? row.below
+                                 : above.empty()    ? row.above
+                                                    : above});
   }
 
   [[nodiscard]] double tolerance() const { return asked_.solver.tolerance; }
 
-  // Strain or stress of a specimen between platens.
+  // Questions for a test of a specimen between platens.
   void uniform() {
-    const double nu = *asked_.tissue.poisson_ratio;
-    const bool bonded = base_of(asked_) == tissue::Base::bonded;
-    const bool several = !asked_.regions.empty();
-    // A bonded end, or a second tissue, makes the strain uneven, and nu matters: springs have 1/4.
-    const double error = bonded || several ? 0.5 * std::abs(nu - 0.25) : 0.001;
-    ask("a uniform test?", "steps that load the end faces", 1.0, 0.5, "",
-        "yes: only a specimen can creep or relax");
-    ask("does nu matter?",
-        bonded || several ? "|nu - 1/4| / 2, ends held or tissues mixed"
-                          : "ends slide on their platens",
-        error, tolerance(), "no: springs have the right Young's modulus",
-        "yes: springs have a Poisson's ratio of their own");
-    add_mesh(Model::mass_spring, error);
-    add_mesh(Model::coupled_springs, 0.001 + (bonded || several ? 0.02 : 0.0));
+    const double nu = asked_.tissue.poisson_ratio;
+    const bool bonded = asked_.tissue.base == tissue::Base::bonded;
+    // With a bonded end or several tissues the strain is uneven and nu matters; springs have 1/4.
+    const bool uneven = bonded || !asked_.regions.empty();
+    constexpr double even_error = 0.001;
+    const double ratio_error = uneven ? 0.5 * std::abs(nu - 0.25) : even_error;
+    ask(Asked::uniform, 1.0, 0.5);
+    ask(Asked::ratio_matters, ratio_error, tolerance(), "",
+        uneven ? "|nu - 1/4| / 2, ends held or tissues mixed" : "");
+    for (const Rung& rung : scenario::ladder)
+      if (rung.uniform)
+        add(rung, rung.own_ratio ? even_error + (uneven ? rung.error.uneven : 0.0) : ratio_error);
     take_cheapest();
   }
 
   void pressed() {
     const Estimates e = estimate(asked_);
     const double limit = tolerance();
-    const auto percent = [](double part) { return rounded_text(100.0 * part, 2) + " %"; };
-    const auto beyond = beyond_hertz(asked_);
-    const auto beyond_flat = beyond_layer(asked_);
-    const bool endless = std::holds_alternative<scenario::HalfSpace>(asked_.tissue.shape);
+    // The reason why no formula is applicable, if none is.
+    std::optional<std::string> reason = beyond(Model::hertz, asked_);
     const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
-    if (asked_.contact.coupling == contact::Coupling::one_way && !beyond) {
-      choice_.questions.push_back({"does the force know the mesh?", "coupling is one_way", 0, 1,
-                                   "no: it is eq. (2) alone, hertz says the same"});
-      if (!choice_.given) choice_.chosen.solver.model = Model::hertz;
+    if (asked_.contact.coupling == contact::Coupling::one_way && !reason) {
+      ask(Asked::force_knows_mesh, 0.0, 1.0);
+      if (!choice_.given) model_ = Model::hertz;
       return;
     }
-    ask("rigid tissue?", "lambda_2 / (lambda_1 + lambda_2)", e.tissue_share, std::min(limit, 0.02),
-        "yes: only the finger deforms", "no: the tissue deforms");
-    // A curved body that is narrow gives way as free sides do, against the thickness.
-    const double narrow = std::min(0.99, e.sides + width_of_body * e.curved_body);
-    const double size = std::abs((1.0 + e.thickness) * (1.0 - narrow) - 1.0);
-    ask("half-space?", "what thickness and sides change of the force", size, limit,
-        "yes: the specimen's size does not matter",
-        "no: the thickness adds " + percent(e.thickness) +
-            (box ? ", the sides take " + percent(e.sides)
-                 : ", the body's width changes up to " + percent(e.curved_body)));
-    ask("layer?", "what the sides take of the force", box ? e.sides : 1.0, limit,
-        "yes: flat tissue of known thickness, exactly known",
+    for (const Rung& rung : scenario::ladder)
+      if (!rung.meshed() && !beyond(rung.of, asked_)) reason.reset();
+    ask(Asked::rigid_tissue, e.tissue_share, std::min(limit, 0.02));
+    // A narrow curved body reduces the force as free sides do, while the thickness increases it.
+    narrow_ = std::min(0.99, e.sides + width_of_body * e.curved_body);
+    const double size = std::abs((1.0 + e.thickness) * (1.0 - narrow_) - 1.0);
+    ask(Asked::half_space, size, limit,
+        "no: the thickness adds " + percent_text(e.thickness) +
+            (box ? ", the sides take " + percent_text(e.sides)
+                 : ", the body's width changes up to " + percent_text(e.curved_body)));
+    ask(Asked::layer, box ? e.sides : 1.0, limit,
         box ? "no: the sides matter" : "no: the tissue is not flat");
-    ask("deep?", "|F / F_Hertz - 1| of neo-Hookean tissue", e.deep, limit, "no: h^(3/2) holds",
-        "yes: times the factor of a deep press on `hertz`");
-    ask("curved?", "(1/R + kappa_1) / (1/R + kappa_2) - 1", e.curvature_ratio - 1.0, 0.1,
-        "no: one curvature says it all", "yes: both curvatures count, an elliptic contact");
-    // A fifth of the tolerance: what is left out here adds to what a rung leaves out.
-    ask("time dependent?", "what viscosity adds to the force", e.viscous, 0.2 * limit,
-        "no: slow against the tissue's own time", viscous_answer());
-    ask("inertia?", "what waves add to the force", e.inertia, limit,
-        "no: the press is slow against them", inertia_answer());
-    ask("shape or inclusion?", "reasons that only a mesh knows", beyond && beyond_flat ? 1.0 : 0.0,
-        1.0, "no: a formula knows this shape", beyond ? "yes: " + *beyond : "");
+    ask(Asked::deep, e.deep, limit);
+    ask(Asked::curved, e.curvature_ratio - 1.0, 0.1);
+    // A fifth of the tolerance, because viscosity that is left out adds to the model's error.
+    ask(Asked::time_dependent, e.viscous, 0.2 * limit, viscous_answer());
+    ask(Asked::inertia, e.inertia, limit, inertia_answer());
+    ask(Asked::shape_or_inclusion, reason ? 1.0 : 0.0, 1.0, reason ? "yes: " + *reason : "");
 
-    drop_viscosity_ = e.viscous < 0.2 * limit;
-    quasi_static_ = e.inertia < limit;
-    deepen_ = e.deep >= limit;
-    const double still = quasi_static_ ? 0.0 : e.inertia;
-    const double deep = deepen_ ? contact::DeepLaw::error : e.deep;
-    add({.model = Model::hertz,
-         .error = std::abs(1.0 / ((1.0 + e.thickness) * (1.0 - narrow)) - 1.0) + doubt * narrow +
-                  still + deep,
-         .seconds = 1e-6,
-         .cannot = beyond.value_or("")});
-    add({.model = Model::layer,
-         .error = 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt * e.sides + still,
-         .seconds = asked_.regions.empty() ? 0.02 : 0.5,
-         .cannot = beyond_flat.value_or("")});
-    if (endless) {
-      for (const Model model : {Model::mass_spring, Model::coupled_springs})
-        add({.model = model, .cannot = "a `half_space` has no end to be meshed to"});
-    } else {
-      scenario::Scenario moving = asked_;
-      moving.solver.model = Model::coupled_springs;
-      const bool moves = inertia_reaches_force(moving);
-      const auto error = [&](const MeshError& of) {
-        const double waves = quasi_static_ ? 0.0 : (moves ? of.waves : 1.0) * e.inertia;
-        return waves + coarseness(asked_) + of.flat + of.sides * e.sides +
-               (box ? 0.0 : of.curved + of.size * e.curved_body);
-      };
-      // A network's own nu blurs what another tissue changes.
-      const double mixed = all_slabs(asked_) ? 0.0 : 0.05;
-      add_mesh(Model::mass_spring, error(mass_spring_error) + mixed);
-      add_mesh(Model::coupled_springs, error(coupled_error) + (mixed > 0.0 ? 0.03 : 0.0));
-    }
+    choice_.found = {.viscosity_matters = e.viscous >= 0.2 * limit,
+                     .inertia_matters = e.inertia >= limit,
+                     .depth_matters = e.deep >= limit};
+    for (const Rung& rung : scenario::ladder) add(rung, error_of(rung, e));
     take_cheapest();
   }
 
+  // The error of a model in a press, as a fraction of the force.                docs/theory.md (69)
+  [[nodiscard]] double error_of(const Rung& rung, const Estimates& e) const {
+    const scenario::Found& found = choice_.found;
+    const double still = found.inertia_matters ? e.inertia : 0.0;
+    switch (rung.of) {
+      case Model::hertz:
+        return std::abs(1.0 / ((1.0 + e.thickness) * (1.0 - narrow_)) - 1.0) + doubt * narrow_ +
+               still + (found.depth_matters ? contact::DeepLaw::error : e.deep);
+      case Model::layer:
+        return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt * e.sides + still;
+      case Model::mass_spring:
+      case Model::coupled_springs: break;
+    }
+    const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
+    const double waves =
+        found.inertia_matters ? (moves() ? rung.error.waves : 1.0) * e.inertia : 0.0;
+    return waves + coarseness(asked_) + rung.error.flat + rung.error.sides * e.sides +
+           (box ? 0.0 : rung.error.curved + rung.error.size * e.curved_body) +
+           (all_slabs(asked_) ? 0.0 : rung.error.mixed);
+  }
+
+  // Whether the tissue's inertia affects the force on a mesh.
+  [[nodiscard]] bool moves() const { return inertia_reaches_force(asked_); }
+
   [[nodiscard]] std::string viscous_answer() const {
     if (asked_.contact.viscosity == scenario::Contact::Viscosity::tissue)
-      return "yes: Lee and Radok's force while it grows, Ting's while it shrinks";
+      return "yes: Lee and Radok's force while the contact grows, Ting's while it shrinks";
     return "yes, but the scenario leaves it out of the contact (`contact.viscosity`): the force is "
            "that of the relaxed tissue";
   }
 
   [[nodiscard]] std::string inertia_answer() const {
-    scenario::Scenario moving = asked_;
-    moving.solver.model = Model::coupled_springs;
-    if (inertia_reaches_force(moving))
-      return "yes: the tissue's mass takes part, on a mesh that moves";
-    return "yes, but not in the force of this scenario: `consistent` knows it with `viscosity` "
-           "none, "
-           "nodal_drag, or a solid that relaxes in the contact too; else take `resolved`";
+    if (moves()) return "yes: the mesh has the mass of the tissue";
+    return "yes, but the force of this scenario leaves it out: `consistent` includes it with "
+           "`viscosity` none, nodal_drag, or a solid that relaxes in the contact too; else use "
+           "`resolved`";
   }
 
-  void add(Rung rung) { choice_.rungs.push_back(std::move(rung)); }
-
-  // Seconds of a sparse Cholesky of so many nodes; coupled springs carry a pressure a node besides.
-  void add_mesh(Model model, double error) {
-    const double nodes = expected_nodes(asked_);
-    const double once = 0.4 * std::pow(nodes / 2200.0, 2.27) + 1e-4 * nodes;
-    add({.model = model,
-         .error = error,
-         .seconds = model == Model::coupled_springs ? 2.8 * once : once});
+  void add(const Rung& rung, double error) {
+    if (!asked_.uniform())
+      if (auto cannot = beyond(rung.of, asked_)) {
+        choice_.rungs.push_back({.model = rung.of, .cannot = *cannot});
+        return;
+      }
+    // The time of a sparse Cholesky factorisation with this number of nodes.
+    const double nodes = expected_nodes(asked_.tissue.mesh);
+    const double factorisation = 0.4 * std::pow(nodes / 2200.0, 2.27) + 1e-4 * nodes;
+    choice_.rungs.push_back({.model = rung.of,
+                             .error = error,
+                             .seconds = rung.cost.once +
+                                        (asked_.regions.empty() ? 0.0 : rung.cost.layered) +
+                                        rung.cost.factorisations * factorisation});
   }
 
   void take_cheapest() {
     if (choice_.given) return;
-    const Rung* best = nullptr;
-    for (const Rung& rung : choice_.rungs) {
+    const Forecast* best = nullptr;
+    for (const Forecast& rung : choice_.rungs) {
       if (!rung.cannot.empty()) continue;
       if (best == nullptr || rung.error < best->error) best = &rung;
       if (rung.error > tolerance()) continue;
       best = &rung;
       break;
     }
-    choice_.chosen.solver.model = best->model;
+    model_ = best->model;
   }
 
-  // The other keys that were left to `auto`.
-  void complete() {
-    scenario::Scenario& chosen = choice_.chosen;
-    const bool free = !choice_.given;
-    const bool closed_form =
-        chosen.solver.model == Model::hertz || chosen.solver.model == Model::layer;
-    if (chosen.contact.depth == scenario::Contact::Depth::automatic)
-      chosen.contact.depth = free && deepen_ && chosen.solver.model == Model::hertz
-                                 ? scenario::Contact::Depth::neo_hookean
-                                 : scenario::Contact::Depth::hertz;
-    if (free && drop_viscosity_) chosen.contact.viscosity = scenario::Contact::Viscosity::none;
-    if (chosen.solver.integrator == Integrator::automatic) {
-      const bool drag = chosen.tissue.viscosity == tissue::Viscosity::nodal_drag;
-      const bool still = chosen.contact.coupling == contact::Coupling::resolved ||
-                         (free && quasi_static_ && !drag);
-      chosen.solver.integrator =
-          still && !closed_form ? Integrator::quasi_static : Integrator::central_difference;
-    }
-    if (chosen.solver.volume == scenario::Solver::Volume::automatic)
-      chosen.solver.volume = chosen.solver.model == Model::coupled_springs
-                                 ? scenario::Solver::Volume::nodal
-                                 : scenario::Solver::Volume::none;
-  }
-
-  const scenario::Scenario& asked_;
+  const scenario::Case& case_;
+  scenario::Resolved asked_;  // resolved with the most complete model, whatever the scenario names
+  Model model_;               // the choice
   Choice choice_;
-  bool drop_viscosity_ = false;
-  bool quasi_static_ = false;
-  bool deepen_ = false;
+  double narrow_ = 0.0;  // reduction of the force by sides, or by the width of a curved body
 };
 
 }  // namespace
 
-const Rung* Choice::taken() const {
-  for (const Rung& rung : rungs)
-    if (rung.model == chosen.solver.model && rung.cannot.empty()) return &rung;
+const Forecast* Choice::forecast(Model model) const {
+  for (const Forecast& rung : rungs)
+    if (rung.model == model && rung.cannot.empty()) return &rung;
   return nullptr;
 }
 
 std::string Choice::shortfall() const {
-  const Rung* rung = taken();
+  const Forecast* rung = taken();
   if (given || rung == nullptr || !(rung->error > chosen.solver.tolerance)) return "";
   return "no rung is predicted to be within the tolerance of " +
-         rounded_text(100.0 * chosen.solver.tolerance, 2) + " %: `" +
-         scenario::words::word(scenario::words::models, rung->model) +
-         "` comes nearest with about " + rounded_text(100.0 * rung->error, 2) + " %" +
+         percent_text(chosen.solver.tolerance) + ": `" + scenario::rung(rung->model).word +
+         "` comes nearest with about " + percent_text(rung->error) +
          (coarse_mesh(chosen) ? "; a finer `tissue.mesh` may help" : "");
 }
 
-Choice choose(const scenario::Scenario& scenario) { return Chooser(scenario).choose(); }
+Choice choose(const scenario::Case& one) { return Chooser(one).choose(); }
 
 }  // namespace palpate::scene

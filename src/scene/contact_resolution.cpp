@@ -1,4 +1,4 @@
-// The skin's triangles under the finger, from place to place of the loading programme.
+// Measures the skin's triangles under the finger along the loading programme.
 #include "scene/contact_resolution.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double least_cells = 3.0;
 
-// Where the finger is pressed in, at most `apart` (m) from each other along slides.
+// The places where the finger presses, at most `apart` (m) from each other along slides.
 std::vector<Vec3> places(const Scene& scene, double apart) {
   std::vector<Vec3> all{pressed_place(scene)};
   for (const scenario::Step& step : scene.scenario.steps) {
@@ -32,7 +32,7 @@ std::vector<Vec3> places(const Scene& scene, double apart) {
   return all;
 }
 
-// The side of a cell within `radius` (m) of a place, seen from above, or of the nearest one.
+// The side of a cell within `radius` (m) of a place, seen from above, or else of the nearest cell.
 double cell_at(const geometry::Surface& skin, const Vec3& place, double radius) {
   double sum = 0.0;
   int count = 0;
@@ -42,8 +42,7 @@ double cell_at(const geometry::Surface& skin, const Vec3& place, double radius) 
     const Vec3 twice = geometry::twice_area(skin, static_cast<int>(t));
     if (twice.z() <= 0.0) continue;
     Vec3 centre = Vec3::Zero();
-    for (const int v : skin.triangles[t])
-      centre += skin.vertices[static_cast<std::size_t>(v)] / 3.0;
+    for (const int v : skin.triangles[t]) centre += skin.vertices[as_index(v)] / 3.0;
     const double distance = (centre - place).head<2>().norm();
     if (distance < nearest) {
       nearest = distance;

@@ -1,4 +1,4 @@
-// Closed forms, and fits to our own converged answers where there is none.
+// Estimates by closed forms, or by fits to converged results where there is none.
 #include "scene/estimates.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Distances from the finger to the four sides of a cuboid, the least on its way, m.
-std::array<double, 4> sides(const scenario::Scenario& scenario, const scenario::Cuboid& box) {
+// The smallest distances of the finger from the four sides of a cuboid on its path, m.
+std::array<double, 4> sides(const scenario::Resolved& scenario, const scenario::Cuboid& box) {
   std::array<double, 4> least{infinite, infinite, infinite, infinite};
   for (const auto& [x, y] : scenario::finger_places(scenario, box)) {
     const std::array<double, 4> now{x, box.size[0] - x, y, box.size[1] - y};
@@ -26,17 +26,17 @@ std::array<double, 4> sides(const scenario::Scenario& scenario, const scenario::
   return least;
 }
 
-// A free side at the distance b takes 0.4 a/b exp(-k b/H) of the force, k = 2.4 - 3.4 (nu - 0.33):
-// fitted to coupled springs on blocks of b/H from 0.25 to 3, nu 0.33 and 0.49.
-double side_effect(const scenario::Scenario& scenario, const scenario::Cuboid& box, double a) {
-  const double k = 2.4 - 3.4 * (*scenario.tissue.poisson_ratio - 0.33);
+// A free side at the distance b reduces the force by the fraction 0.4 a/b exp(-k b/H), with
+// k = 2.4 - 3.4 (nu - 0.33): fitted to coupled springs on blocks, b/H 0.25 to 3, nu 0.33 and 0.49.
+double side_effect(const scenario::Resolved& scenario, const scenario::Cuboid& box, double a) {
+  const double k = 2.4 - 3.4 * (scenario.tissue.poisson_ratio - 0.33);
   double sum = 0.0;
   for (const double b : sides(scenario, box))
     sum += b <= a ? 1.0 : 0.4 * a / b * std::exp(-k * b / box.size[2]);
   return std::min(sum, 1.0);
 }
 
-double fastest_rate(const scenario::Scenario& scenario) {
+double fastest_rate(const scenario::Resolved& scenario) {
   double rate = 0.0;
   for (const scenario::Step& step : scenario.steps) {
     if (const auto* indent = std::get_if<scenario::Indent>(&step))
@@ -47,11 +47,11 @@ double fastest_rate(const scenario::Scenario& scenario) {
   return rate;
 }
 
-// Over a ramp of the duration T, Kelvin-Voigt adds tau F'/F = 3/2 tau/T, a branch b about
-// b x (1 - exp(-1/x)), x = tau/T.
-double viscous_effect(const scenario::Tissue& tissue, double duration) {
+// In a ramp of duration T, Kelvin-Voigt increases the force by tau F'/F = 3/2 tau/T, and a branch
+// of ratio b by about b x (1 - exp(-1/x)), x = tau/T.
+double viscous_effect(const scenario::Resolved::Tissue& tissue, double duration) {
   if (duration <= 0.0) return 0.0;
-  const tissue::ViscousLaw law = viscous_law(tissue);
+  const tissue::ViscousLaw& law = tissue.law;
   double sum = 1.5 * law.time / duration;
   for (const tissue::Branch& branch : law.branches) {
     const double x = branch.time / duration;
@@ -60,30 +60,26 @@ double viscous_effect(const scenario::Tissue& tissue, double duration) {
   return sum;
 }
 
-// What a vibrating footing radiates: pi a^2 rho c v, c = 3.4 v_s / (pi (1 - nu)) (Lysmer's
-// analogue), over Hertz's force.
-double inertia_effect(const scenario::Tissue& tissue, const contact::SphereLaw& law, double travel,
-                      double rate) {
-  const double nu = *tissue.poisson_ratio;
-  const double shear_speed =
-      std::sqrt(*tissue.young_modulus / (2.0 * (1.0 + nu) * *tissue.density));
+// The radiation of a vibrating footing (Lysmer's analogue), pi a^2 rho c v with
+// c = 3.4 v_s / (pi (1 - nu)), over Hertz's force.
+double inertia_effect(const scenario::Resolved::Tissue& tissue, const contact::SphereLaw& law,
+                      double travel, double rate) {
+  const double nu = tissue.poisson_ratio;
+  const double shear_speed = std::sqrt(tissue.young_modulus / (2.0 * (1.0 + nu) * tissue.density));
   const double speed = 3.4 * shear_speed / (std::numbers::pi * (1.0 - nu));
   const double force = contact::hertz::force(travel, law.radius, law.modulus);
   if (force <= 0.0) return 0.0;
-  return std::numbers::pi * law.radius * travel * *tissue.density * speed * rate / force;
+  return std::numbers::pi * law.radius * travel * tissue.density * speed * rate / force;
 }
 
 }  // namespace
 
-Estimates estimate(const scenario::Scenario& scenario) {
+Estimates estimate(const scenario::Resolved& scenario) {
   Estimates found;
-  const scenario::Tissue& tissue = scenario.tissue;
-  const contact::Elastic body{*tissue.young_modulus, *tissue.poisson_ratio};
-  const double lambda_1 =
-      scenario.finger.material == "rigid"
-          ? 0.0
-          : contact::Elastic{*scenario.finger.young_modulus, *scenario.finger.poisson_ratio}
-                .compliance();
+  const scenario::Resolved::Tissue& tissue = scenario.tissue;
+  const contact::Elastic body{tissue.young_modulus, tissue.poisson_ratio};
+  const auto& rubber = scenario.finger.elastic;
+  const double lambda_1 = rubber ? rubber->compliance() : 0.0;
   found.tissue_share = body.compliance() / (lambda_1 + body.compliance());
   const auto top = top_curvature(tissue.shape);
   contact::SphereLaw law{scenario.finger.radius,
@@ -115,19 +111,18 @@ Estimates estimate(const scenario::Scenario& scenario) {
             : infinite;
   }
   if (box != nullptr) {
-    // What sides take comes from depth: from the softest layer.
-    double softest = *tissue.young_modulus;
-    for (const scenario::Region& region : scenario.regions)
-      softest = std::min(softest, *scenario::substance(region).young_modulus);
-    found.sides = found.tissue_share * *tissue.young_modulus / softest *
+    // The effect of the sides comes from the depth, that is from the softest layer.
+    double softest = tissue.young_modulus;
+    for (const auto& region : scenario.regions) softest = std::min(softest, region.young_modulus);
+    found.sides = found.tissue_share * tissue.young_modulus / softest *
                   side_effect(scenario, *box, found.contact_radius);
   } else if (shape) {
-    // A curved body of the width w gives way as a whole: to the order of a / (w/2).
+    // A curved body of width w is compressed as a whole, with an effect of the order a / (w/2).
     const Vec3 size = geometry::extent(*shape);
     found.curved_body = found.tissue_share * found.contact_radius / (0.5 * size.minCoeff());
   }
   const double x = found.travel / law.radius;
-  if (const auto deep = contact::deep_law(*tissue.poisson_ratio))
+  if (const auto deep = contact::deep_law(tissue.poisson_ratio))
     found.deep = std::abs(deep->force_factor(std::min(x, 0.5)).value_or(1.0) - 1.0);
   found.viscous = found.tissue_share *
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
@@ -135,16 +130,14 @@ Estimates estimate(const scenario::Scenario& scenario) {
   return found;
 }
 
-double expected_nodes(const scenario::Scenario& scenario) {
+double expected_nodes(const scenario::Mesh& mesh) {
   const auto of_cells = [](const std::array<int, 3>& cells) {
     return (cells[0] + 1.0) * (cells[1] + 1.0) * (cells[2] + 1.0);
   };
-  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh))
-    return of_cells(kuhn->cells);
-  if (const auto* mirrored = std::get_if<scenario::Mirrored>(&scenario.tissue.mesh))
+  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&mesh)) return of_cells(kuhn->cells);
+  if (const auto* mirrored = std::get_if<scenario::Mirrored>(&mesh))
     return of_cells(mirrored->cells);
-  if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh))
-    return tetgen->nodes;
+  if (const auto* tetgen = std::get_if<scenario::Tetgen>(&mesh)) return tetgen->nodes;
   return 1000.0;  // a ready mesh is read later
 }
 

@@ -1,4 +1,4 @@
-// The finger of a case: spheres, moduli, weight.
+// Makes the finger of a case: spheres, moduli, weight.
 #include <numbers>
 
 #include "contact/hertz.h"
@@ -10,20 +10,17 @@ namespace {
 
 constexpr double gravity = 9.80665;  // m/s^2, standard
 
-// (2 - nu) / G, 1/Pa, of one body.
+// (2 - nu) / G of one body, 1/Pa.                                            docs/theory.md (54)
 double shear_term(const contact::Elastic& body) {
   return (2.0 - body.poisson_ratio) * 2.0 * (1.0 + body.poisson_ratio) / body.young_modulus;
 }
 
 }  // namespace
 
-Finger make_finger(const scenario::Scenario& scenario) {
-  const scenario::Finger& asked = scenario.finger;
-  const bool rigid = asked.material == "rigid";
-  const contact::Elastic tissue{*scenario.tissue.young_modulus, *scenario.tissue.poisson_ratio};
-  const contact::Elastic rubber =
-      rigid ? contact::Elastic{} : contact::Elastic{*asked.young_modulus, *asked.poisson_ratio};
-  const double lambda_1 = rigid ? 0.0 : rubber.compliance();
+Finger make_finger(const scenario::Resolved& scenario) {
+  const scenario::Resolved::Finger& asked = scenario.finger;
+  const contact::Elastic tissue{scenario.tissue.young_modulus, scenario.tissue.poisson_ratio};
+  const double lambda_1 = asked.elastic ? asked.elastic->compliance() : 0.0;
   const double lambda_2 = tissue.compliance();
   const double modulus = contact::hertz::effective_modulus(lambda_1, lambda_2);
 
@@ -34,7 +31,7 @@ Finger make_finger(const scenario::Scenario& scenario) {
     finger.centres = {Vec3::Zero()};
   } else {
     const finger::Layer layer =
-        finger::pack(geometry::fingertip(volume), asked.density.value_or(1000.0), asked.spheres);
+        finger::pack(geometry::fingertip(volume), asked.density, asked.spheres);
     finger.sphere_radius = layer.radius;
     finger.centres = layer.centres;
   }
@@ -43,11 +40,11 @@ Finger make_finger(const scenario::Scenario& scenario) {
   finger.force_factor = factor / finger::modulus_factor(finger::Calibration::force, asked.spheres);
   finger.whole = {asked.radius, modulus};
   finger.compliance_share = lambda_1 / (lambda_1 + lambda_2);
-  finger.shear_compliance = shear_term(tissue) + (rigid ? 0.0 : shear_term(rubber));
-  // What keeps the finger's normal force keeps its tangential stiffness too.
+  finger.shear_compliance = shear_term(tissue) + (asked.elastic ? shear_term(*asked.elastic) : 0.0);
+  // The calibration scales the tangential stiffness of a sphere like its normal force.
   finger.shear_compliance /= factor;
-  if (asked.weight == scenario::Finger::Weight::apart)
-    finger.weight = asked.density.value_or(0.0) * volume * gravity;
+  if (asked.weight == scenario::PlainFinger::Weight::apart)
+    finger.weight = asked.density * volume * gravity;
   return finger;
 }
 

@@ -1,4 +1,4 @@
-// Down by halves of the interval between clear and touching.
+// Finds the first touch by bisection between a height without contact and one with contact.
 #include "scene/first_touch.h"
 
 #include <limits>
@@ -11,7 +11,7 @@
 namespace palpate::scene {
 
 Vec3 pressed_place(const Scene& scene) {
-  const scenario::Finger& finger = scene.scenario.finger;
+  const scenario::PlainFinger& finger = scene.scenario.finger;
   Vec3 low = Vec3::Zero();
   Vec3 high = Vec3::Zero();
   if (scene.specimen) {
@@ -32,7 +32,7 @@ FirstTouch first_touch(const Scene& scene) {
   FirstTouch touch;
   touch.finger = pressed_place(scene);
   const double radius = finger.sphere_radius;
-  // Whether any sphere touches with the finger's point at height z; remembers which.
+  // Whether a sphere touches if the finger's point is at height z; stores the deepest touch.
   const auto touches = [&](double z) {
     double deepest = 0.0;
     for (std::size_t i = 0; i < finger.centres.size(); ++i) {
@@ -59,12 +59,12 @@ FirstTouch first_touch(const Scene& scene) {
     clear = touching;
     touching -= 0.25 * radius;
   }
-  // To the last bit: the sum of two neighbours has no number between them.
+  // To the last bit: two neighbouring numbers have no number between them.
   for (double middle = 0.5 * (clear + touching); middle > touching && middle < clear;
        middle = 0.5 * (clear + touching))
     (touches(middle) ? touching : clear) = middle;
-  [[maybe_unused]] const bool reached = touches(touching);  // leaves in `touch` where it does
-  touch.finger.z() = clear;                                 // at a travel of 0 nothing is pressed
+  [[maybe_unused]] const bool reached = touches(touching);  // stores the touch at this height
+  touch.finger.z() = clear;                                 // without contact force at zero travel
   return touch;
 }
 

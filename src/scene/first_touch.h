@@ -1,4 +1,4 @@
-// Where the finger first meets the specimen on its way down: there its travel is 0.
+// The position at which the finger first meets the specimen; travel is zero there.
 #pragma once
 
 #include "geometry/smooth_surface.h"
@@ -7,16 +7,16 @@
 namespace palpate::scene {
 
 struct FirstTouch {
-  Vec3 finger = Vec3::Zero();  // m, the finger's point at that moment
-  int sphere = 0;              // that touches
-  geometry::SurfacePoint at;   // where it does
+  Vec3 finger = Vec3::Zero();  // m, the finger's reference point at that moment
+  int sphere = 0;              // the sphere that touches
+  geometry::SurfacePoint at;   // the point of the surface where it touches
 };
 
-// The finger comes straight down over its x and y onto the specimen at rest.
-// Throws MeshError where it passes beside the specimen.
+// Lowers the finger vertically at its x and y onto the undeformed specimen. Throws MeshError if the
+// finger passes beside the specimen.
 [[nodiscard]] FirstTouch first_touch(const Scene& scene);
 
-// Above the middle of the specimen, or of its shape, or where the scenario says; at its top, m.
+// The place (m) of the press: the scenario's x and y, or the specimen's middle, at its top.
 [[nodiscard]] Vec3 pressed_place(const Scene& scene);
 
 }  // namespace palpate::scene

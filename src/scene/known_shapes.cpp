@@ -1,4 +1,4 @@
-// What the closed forms know of a scenario's shape and programme.
+// The shapes and programmes to which closed forms apply.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,36 +11,14 @@
 namespace palpate::scene {
 namespace {
 
-// Whether the finger's way leads over a cuboid's rim.
-bool leaves(const scenario::Scenario& scenario, const scenario::Cuboid& box) {
+// Whether the finger's path leaves the top of a cuboid.
+bool leaves(const scenario::Resolved& scenario, const scenario::Cuboid& box) {
   for (const auto& [x, y] : scenario::finger_places(scenario, box))
     if (std::min({x, box.size[0] - x, y, box.size[1] - y}) < 0.0) return true;
   return false;
 }
 
-}  // namespace
-
-std::optional<TopCurvature> top_curvature(const scenario::Shape& shape) {
-  if (std::holds_alternative<scenario::Cuboid>(shape)) return TopCurvature{};
-  if (const auto* half = std::get_if<scenario::HalfSpace>(&shape)) {
-    const double across = half->curvature_2.value_or(half->curvature);
-    if (half->curvature >= across) return TopCurvature{half->curvature, across};
-    return TopCurvature{across, half->curvature, Vec3::UnitY()};
-  }
-  if (const auto* cylinder = std::get_if<scenario::Cylinder>(&shape))
-    return TopCurvature{1.0 / cylinder->radius, 0.0};
-  if (const auto* ellipsoid = std::get_if<scenario::Ellipsoid>(&shape)) {
-    // z = c sqrt(1 - x^2/a^2 - y^2/b^2) curves with c/a^2 and c/b^2 at its top.
-    const Vec3 half = 0.5 * ellipsoid->size;
-    const double x = half.z() / (half.x() * half.x());
-    const double y = half.z() / (half.y() * half.y());
-    return x >= y ? TopCurvature{x, y} : TopCurvature{y, x, Vec3::UnitY()};
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> beyond_hertz(const scenario::Scenario& scenario) {
-  if (!scenario.regions.empty()) return "it has regions of other tissues";
+std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario) {
   const auto top = top_curvature(scenario.tissue.shape);
   if (!top) return "no formula gives the curvature of its shape";
   const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
@@ -54,17 +32,49 @@ std::optional<std::string> beyond_hertz(const scenario::Scenario& scenario) {
   return std::nullopt;
 }
 
-std::optional<std::string> beyond_layer(const scenario::Scenario& scenario) {
-  if (!std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape))
-    return "a layer is a `cuboid` pressed on its flat top";
-  if (scenario.finger.spheres > 1) return "several spheres press into one layer";
-  if (!all_slabs(scenario)) return beyond_hertz(scenario);
-  scenario::Scenario without = scenario;
-  without.regions.clear();
-  return beyond_hertz(without);
+constexpr const char* has_regions = "it has regions of other tissues";
+
+}  // namespace
+
+std::optional<TopCurvature> top_curvature(const scenario::Shape& shape) {
+  if (std::holds_alternative<scenario::Cuboid>(shape)) return TopCurvature{};
+  if (const auto* half = std::get_if<scenario::HalfSpace>(&shape)) {
+    const double across = half->curvature_2.value_or(half->curvature);
+    if (half->curvature >= across) return TopCurvature{half->curvature, across};
+    return TopCurvature{across, half->curvature, Vec3::UnitY()};
+  }
+  if (const auto* cylinder = std::get_if<scenario::Cylinder>(&shape))
+    return TopCurvature{1.0 / cylinder->radius, 0.0};
+  if (const auto* ellipsoid = std::get_if<scenario::Ellipsoid>(&shape)) {
+    // The top of z = c sqrt(1 - x^2/a^2 - y^2/b^2) has the curvatures c/a^2 and c/b^2.
+    const Vec3 half = 0.5 * ellipsoid->size;
+    const double x = half.z() / (half.x() * half.x());
+    const double y = half.z() / (half.y() * half.y());
+    return x >= y ? TopCurvature{x, y} : TopCurvature{y, x, Vec3::UnitY()};
+  }
+  return std::nullopt;
 }
 
-double deepest_travel(const scenario::Scenario& scenario, const contact::SphereLaw& law) {
+std::optional<std::string> beyond(scenario::Model model, const scenario::Resolved& scenario) {
+  switch (model) {
+    case scenario::Model::hertz:
+      if (!scenario.regions.empty()) return has_regions;
+      return beyond_half_space(scenario);
+    case scenario::Model::layer:
+      if (!std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape))
+        return "a layer is a `cuboid` pressed on its flat top";
+      if (scenario.finger.spheres > 1) return "several spheres press into one layer";
+      if (!all_slabs(scenario)) return has_regions;
+      return beyond_half_space(scenario);
+    case scenario::Model::mass_spring:
+    case scenario::Model::coupled_springs:
+      if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
+        return "a `half_space` is infinite and cannot be meshed";
+  }
+  return std::nullopt;
+}
+
+double deepest_travel(const scenario::Resolved& scenario, const contact::SphereLaw& law) {
   double travel = 0.0;
   for (const scenario::Step& step : scenario.steps)
     if (const auto* indent = std::get_if<scenario::Indent>(&step))

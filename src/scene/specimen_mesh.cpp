@@ -1,4 +1,4 @@
-// Lattices, TetGen and files behind one door.
+// Makes meshes from lattices, by TetGen, or from files.
 #include "scene/specimen_mesh.h"
 
 #include <algorithm>
@@ -8,52 +8,51 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/cuboid.h"
-#include "geometry/mesh_check.h"
-#include "geometry/mesh_files.h"
-#include "geometry/surface_check.h"
-#include "geometry/surface_files.h"
-#include "geometry/tetgen.h"
-#include "geometry/tetgen_body.h"
+#include "meshing/mesh_check.h"
+#include "meshing/mesh_files.h"
+#include "meshing/surface_check.h"
+#include "meshing/surface_files.h"
+#include "meshing/tetgen.h"
+#include "meshing/tetgen_body.h"
 
 namespace palpate::scene {
 namespace {
 
-using scenario::Scenario;
+using Scenario = scenario::Resolved;
 
-constexpr double meshing_time = 120.0;  // s, that TetGen may take
+constexpr double meshing_time = 120.0;  // s, time limit for TetGen
 
-// Lumps and slabs get numbers that no shape or file uses, in the order of the scenario.
+// Lumps and slabs have region numbers from here on, which no shape or file uses.
 constexpr int first_own = 1'000'000'000;
 
 std::vector<geometry::Lump> lumps(const Scenario& scenario) {
   std::vector<geometry::Lump> found;
   for (std::size_t i = 0; i < scenario.regions.size(); ++i)
-    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i]))
+    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
       found.push_back({Vec3(lump->centre[0], lump->centre[1], lump->centre[2]), lump->radius,
                        first_own + static_cast<int>(i)});
   return found;
 }
 
-// The heights between slabs and tissue, m, rising.
+// The heights (m) of the interfaces between slabs and tissue, ascending.
 std::vector<double> levels(const Scenario& scenario) {
   std::set<double> heights;
-  for (const scenario::Region& region : scenario.regions)
-    if (const auto* slab = std::get_if<scenario::Slab>(&region))
+  for (const auto& region : scenario.regions)
+    if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
       heights.insert({slab->bottom, slab->top});
   heights.erase(0.0);
   return {heights.begin(), heights.end()};
 }
 
-// Cells end where slabs do: a centre tells on which side a tetrahedron lies.
+// Assigns tetrahedra to slabs by their centres; no cell crosses the face of a slab.
 void number_slabs(geometry::TetMesh& mesh, const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
-    const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i]);
+    const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part);
     if (slab == nullptr) continue;
     mesh.regions.resize(mesh.tetrahedra.size(), 0);
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
       double height = 0.0;
-      for (const int node : mesh.tetrahedra[t])
-        height += 0.25 * mesh.nodes[static_cast<std::size_t>(node)].z();
+      for (const int node : mesh.tetrahedra[t]) height += 0.25 * mesh.nodes[as_index(node)].z();
       if (slab->bottom < height && height < slab->top)
         mesh.regions[t] = first_own + static_cast<int>(i);
     }
@@ -66,8 +65,8 @@ std::string path_in(const std::string& folder, const std::string& file) {
 
 double metres_per(const std::string& symbol) { return parse_quantity("1 " + symbol, unit::mm); }
 
-geometry::Target target(const scenario::Tetgen& mesh) {
-  geometry::Target target{.nodes = mesh.nodes, .tetrahedra = mesh.tetrahedra.value_or(0)};
+meshing::Target target(const scenario::Tetgen& mesh) {
+  meshing::Target target{.nodes = mesh.nodes, .tetrahedra = mesh.tetrahedra.value_or(0)};
   if (mesh.edge) target = {.edge_length = *mesh.edge};
   return target;
 }
@@ -78,22 +77,22 @@ geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& 
   if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
     geometry::Body body;
     body.parts.push_back(
-        {geometry::read_surface(path_in(folder, file->file), metres_per(file->unit)), 0});
-    geometry::check_closed(body.parts[0].surface, file->file);
+        {meshing::read_surface(path_in(folder, file->file), metres_per(file->unit)), 0});
+    meshing::check_closed(body.parts[0].surface, file->file);
     const double spacing =
         std::sqrt(geometry::area(body.parts[0].surface) /
                   (0.433 * static_cast<double>(body.parts[0].surface.triangles.size())));
     for (const geometry::Lump& lump : inside) geometry::add_lump(body, lump, spacing);
-    return geometry::tetgen_body(body, target(mesh), meshing_time);
+    return meshing::tetgen_body(body, target(mesh), meshing_time);
   }
   const geometry::Shape shape = *parametric(scenario.tissue.shape);
   const auto* box = std::get_if<geometry::Cuboid>(&shape);
   if (box != nullptr && inside.empty() && !mesh.edge)
-    return geometry::tetgen_cuboid(box->size, mesh.nodes, meshing_time);
-  return geometry::tetgen_shape(shape, inside, target(mesh), meshing_time);
+    return meshing::tetgen_cuboid(box->size, mesh.nodes, meshing_time);
+  return meshing::tetgen_shape(shape, inside, target(mesh), meshing_time);
 }
 
-// Cells are small where the finger presses the top.
+// Cells are small where the finger presses.
 geometry::Grading grading(const Scenario& scenario, const Vec3& size, double ratio) {
   return {ratio, Vec3(scenario.finger.x.value_or(0.5 * size.x()),
                       scenario.finger.y.value_or(0.5 * size.y()), size.z())};
@@ -122,19 +121,19 @@ geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) 
     name = "TetGen's mesh";
   } else {
     const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
-    mesh = geometry::read_mesh(path_in(folder, file.file), metres_per(file.unit));
+    mesh = meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
     name = "the mesh of " + file.file;
   }
-  geometry::check(mesh, name, volume);
+  meshing::check(mesh, name, volume);
   return mesh;
 }
 
-// From the numbers of shapes and files to 0 for the tissue and 1... for the scenario's regions.
+// Replaces the numbers of shapes and files by 0 for the tissue and 1... for the scenario's regions.
 void number_regions(geometry::TetMesh& mesh, const Scenario& scenario) {
   std::vector<char> used(scenario.regions.size(), 0);
   const auto substance = [&](int number) {
     for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
-      const auto* tagged = std::get_if<scenario::TaggedRegion>(&scenario.regions[i]);
+      const auto* tagged = std::get_if<scenario::TaggedRegion>(&scenario.regions[i].part);
       if (tagged != nullptr ? tagged->tag != number : first_own + static_cast<int>(i) != number)
         continue;
       used[i] = 1;
@@ -153,7 +152,7 @@ void number_regions(geometry::TetMesh& mesh, const Scenario& scenario) {
     mesh.regions.clear();
 }
 
-// What lies along y is stood up on its end at y = 0.
+// Turns a mesh that lies along y to stand on its end at y = 0.
 void stand_up(geometry::TetMesh& mesh) {
   double low = 0.0;
   for (Vec3& node : mesh.nodes) {

@@ -1,4 +1,4 @@
-// The specimen's tetrahedra from what the scenario says of its shape, mesh and regions.
+// The tetrahedra of a specimen from the shape, mesh and regions of a scenario.
 #pragma once
 
 #include <optional>
@@ -7,18 +7,18 @@
 
 #include "geometry/shapes.h"
 #include "geometry/tet_mesh.h"
-#include "scenario/scenario.h"
+#include "scenario/resolved.h"
 
 namespace palpate::scene {
 
-// The parametric shape, where it is one.
+// The shape as a parametric one; nothing for half-spaces and shapes from files.
 [[nodiscard]] std::optional<geometry::Shape> parametric(const scenario::Shape& shape);
 
-// The mesh and the substances that its regions name: TetMesh::regions counts from 0 for
-// `tissue.material`, then the scenario's regions in order. A uniform test stands a shape that lies
-// along y up on its end. Files are looked for in `folder`.
-// Throws MeshError for what cannot be meshed, InputError for a region that the mesh does not have.
-[[nodiscard]] geometry::TetMesh specimen_mesh(const scenario::Scenario& scenario,
+// The mesh with the numbers of its substances: TetMesh::regions are 0 for `tissue.material`, then
+// the scenario's regions in order. For a uniform test, a shape that lies along y is turned to stand
+// on its end. Relative files are looked for in `folder`. Throws MeshError if the shape cannot be
+// meshed, or if the mesh has no tetrahedron of a region; InputError for a file that cannot be read.
+[[nodiscard]] geometry::TetMesh specimen_mesh(const scenario::Resolved& scenario,
                                               const std::string& folder);
 
 }  // namespace palpate::scene

@@ -1,4 +1,4 @@
-// Meshes, skins and fits behind the text that says what they depend on.
+// A cache of meshes, skins and fits, with the text of the keys on which they depend as its key.
 #include "scene/specimen_shape.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace palpate::scene {
 namespace {
 
-using scenario::Scenario;
+using Scenario = scenario::Resolved;
 
 // The area of the skin's triangles that lie in the plane at height `z`, m^2.
 double flat_area(const geometry::Skin& skin, double z, double tolerance) {
@@ -19,8 +19,7 @@ double flat_area(const geometry::Skin& skin, double z, double tolerance) {
   for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
     bool inside = true;
     for (const int v : skin.surface.triangles[t])
-      inside = inside &&
-               std::abs(skin.surface.vertices[static_cast<std::size_t>(v)].z() - z) <= tolerance;
+      inside = inside && std::abs(skin.surface.vertices[as_index(v)].z() - z) <= tolerance;
     if (inside) sum += 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t)).norm();
   }
   return sum;
@@ -42,7 +41,7 @@ SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
           top_area, bottom_area};
 }
 
-// Lattices are finer under the finger where they are graded; other meshes do not know it.
+// Whether the mesh depends on the finger's position: graded lattices are finer under the finger.
 bool knows_finger(const scenario::Mesh& mesh) {
   if (const auto* kuhn = std::get_if<scenario::Kuhn>(&mesh)) return kuhn->grading != 1.0;
   if (const auto* mirrored = std::get_if<scenario::Mirrored>(&mesh))
@@ -53,25 +52,16 @@ bool knows_finger(const scenario::Mesh& mesh) {
 }  // namespace
 
 std::string shape_key(const Scenario& scenario) {
-  Scenario only = scenario;
-  const scenario::Tissue& tissue = scenario.tissue;
-  only.title.clear();
-  only.tissue = {};
-  only.tissue.shape = tissue.shape;
-  only.tissue.mesh = tissue.mesh;
-  for (scenario::Region& region : only.regions)
-    std::visit([](auto& one) { one.substance = {}; }, region);
-  only.finger = {};
-  if (knows_finger(tissue.mesh)) {
+  scenario::Scenario only;
+  only.tissue.shape = scenario.tissue.shape;
+  only.tissue.mesh = scenario.tissue.mesh;
+  for (const auto& region : scenario.regions) only.regions.push_back({{region.part, ""}});
+  if (knows_finger(scenario.tissue.mesh)) {
     only.finger.x = scenario.finger.x;
     only.finger.y = scenario.finger.y;
   }
-  only.contact = {};
-  only.solver = {};
-  only.solver.model = scenario::Solver::Model::coupled_springs;  // it takes all that has a mesh
-  only.output = {};
-  // A uniform test stands shapes on their ends.
-  only.steps.clear();
+  only.solver.model = scenario::strongest.of;  // has a mesh, and reads all keys of shape and mesh
+  // A uniform test turns shapes to stand on their ends.
   if (scenario.uniform())
     only.steps.emplace_back(scenario::Creep{});
   else
@@ -115,7 +105,7 @@ std::vector<double> numbers_of(const contact::Layer& layer) {
   return numbers;
 }
 
-// A search that varies nu asks for a new layer every time: the oldest tables are not kept for it.
+// A search that varies nu needs a new layer every time; at this number all tables are removed.
 constexpr std::size_t most_layers = 100;
 
 template <class Table>
@@ -126,7 +116,7 @@ Table cached(std::map<std::vector<double>, Table>& tables, std::mutex& mutex,
     const std::lock_guard lock(mutex);
     if (const auto known = tables.find(key); known != tables.end()) return known->second;
   }
-  Table table(layer);  // two threads may build the same one: it has the same bits
+  Table table(layer);  // two threads may build the same table; both have the same bits
   const std::lock_guard lock(mutex);
   if (tables.size() >= most_layers) tables.clear();
   tables.emplace(key, table);

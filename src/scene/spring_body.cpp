@@ -1,4 +1,4 @@
-// Spring loops behind the integrators' interface.
+// Implements the integrators' body with the loops over springs.
 #include "scene/spring_body.h"
 
 #include <algorithm>
@@ -35,11 +35,11 @@ SpringBody::SpringBody(const tissue::Network& network, tissue::Kinematics kinema
 integrate::Vector SpringBody::spread_mass(double factor) const {
   Vector vector(3 * network_->nodes());
   for (Eigen::Index d = 0; d < vector.size(); ++d)
-    vector[d] = factor * network_->node_mass[static_cast<std::size_t>(d / 3)];
+    vector[d] = factor * network_->node_mass[as_index(d / 3)];
   return vector;
 }
 
-// The passage of every branch's memory through such a step.
+// Sets the memory coefficients of every branch (or of Kelvin-Voigt) for such a step.
 void SpringBody::prepare(const integrate::TimeStep& step) const {
   if (prepared_ && *prepared_ == step) return;
   prepared_ = step;
@@ -70,14 +70,14 @@ SplitMatrix SpringBody::stiffness() const { return tissue::stiffness_matrix(*net
 bool SpringBody::has_dashpots() const { return law_.kind == Viscosity::kelvin_voigt; }
 
 SplitMatrix SpringBody::dashpots(const Vector& displacement) const {
-  // tau times the springs as they stand: at rest D = tau K
+  // tau times the stiffness in the present directions; at rest D = tau K.
   std::fill(tension_.begin(), tension_.end(), 0.0);
   return tissue::tangent(*network_, kinematics_, displacement, law_.time, tension_, held_);
 }
 
 void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocity,
                                Vector& force) const {
-  // tau times the forces of the elongations that the velocity would give in a second
+  // tau times the forces of the elongations per second that the velocity gives.
   if (!dashpots_) dashpots_.emplace(*network_, tissue::Kinematics::linear, tissue::ViscousLaw{});
   if (!linear() && (turned_at_.size() != displacement.size() || turned_at_ != displacement)) {
     if (!fast_.stands_at(displacement)) {
@@ -142,15 +142,14 @@ double SpringBody::stored(const integrate::State& state) const {
 }
 
 double SpringBody::kinetic(const integrate::State& state) const {
-  return tissue::sum_of_squares(static_cast<std::size_t>(mass_.size()), mass_.data(),
-                                state.velocity.data());
+  return tissue::sum_of_squares(as_index(mass_.size()), mass_.data(), state.velocity.data());
 }
 
 double SpringBody::dissipated(const integrate::State& before, const integrate::State& after) const {
   const double time_step = after.time - before.time;
   if (time_step <= 0.0 || law_.kind == Viscosity::none) return 0.0;
   if (law_.kind == Viscosity::nodal_drag)  // d (du)^2 / dt
-    return tissue::sum_of_moved_squares(static_cast<std::size_t>(drag_.size()), drag_.data(),
+    return tissue::sum_of_moved_squares(as_index(drag_.size()), drag_.data(),
                                         before.displacement.data(), after.displacement.data()) /
            time_step;
   if (const auto* energies = fast_.energies(); energies != nullptr &&

@@ -1,4 +1,4 @@
-// A network of springs with its viscous law and supports, as integrators see it.
+// A network of springs with its viscous law and supports, as a body for integrators.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ class SpringBody final : public integrate::Body {
  public:
   using Vector = integrate::Vector;
 
-  // The network must outlive the body. `held` has one flag a degree of freedom. One body serves
-  // one thread: its methods share scratch space.
+  // The network must outlive the body. `held` has one flag per degree of freedom. Use a body in one
+  // thread only: its methods share buffers.
   SpringBody(const tissue::Network& network, tissue::Kinematics kinematics,
              const tissue::ViscousLaw& law, std::vector<char> held);
 
@@ -49,13 +49,13 @@ class SpringBody final : public integrate::Body {
                                            std::span<const double> memory,
                                            const integrate::TimeStep& step) const override;
 
-  // Spring `to` of `memory` takes over what spring `from` of another body remembers beyond its
-  // elongation.
+  // Copies the branches' memory of spring `from` in `other`, the memory of another body, to spring
+  // `to` in `memory`; the elongation there does not change.
   void inherit(std::span<const double> other, std::size_t from, std::size_t to,
                std::vector<double>& memory) const;
 
-  // Energies of a state, J, and what was lost on the way from one state to the next: at hand, and
-  // cheap, where the body's last call was remember() from the one displacement to the other.
+  // Energies of a state, J, and the energy dissipated between two states. They are fast if the
+  // body's last call was remember() to that state, from `before`.
   [[nodiscard]] double stored(const integrate::State& state) const;
   [[nodiscard]] double kinetic(const integrate::State& state) const;
   [[nodiscard]] double dissipated(const integrate::State& before,
@@ -72,13 +72,13 @@ class SpringBody final : public integrate::Body {
   Vector mass_;
   Vector drag_;
   integrate::Proportional proportional_;
-  mutable tissue::FastSprings fast_;  // of the last displacement that was asked for
-  mutable std::optional<tissue::FastSprings> dashpots_;  // of Kelvin-Voigt, by velocities
-  mutable Vector turned_at_;                             // displacement of their directions, m
+  mutable tissue::FastSprings fast_;  // at the displacement that was requested last
+  mutable std::optional<tissue::FastSprings> dashpots_;  // of Kelvin-Voigt, applied to velocities
+  mutable Vector turned_at_;                             // m, displacement of their directions
   mutable std::vector<double> elongation_;
   mutable std::vector<double> tension_;
   mutable std::vector<double> effective_;
-  mutable std::vector<double> memory_at_;  // the displacement of dashpots that turn
+  mutable std::vector<double> memory_at_;  // a buffer of dashpot_force()
   mutable tissue::EnergyScratch scratch_;
   mutable std::optional<integrate::TimeStep> prepared_;
   mutable std::vector<tissue::MemoryStep> steps_;  // of `prepared_`

@@ -1,4 +1,4 @@
-// Strain from elongations in closed form, and with it stiffness matrices and volumes.
+// Coupled springs: strain from elongations in closed form, and from it stiffness matrices.
 #include "tissue/coupled.h"
 
 #include <Eigen/LU>
@@ -10,36 +10,33 @@
 namespace palpate::tissue {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+using geometry::corner_edges;
 
-constexpr std::array<std::array<int, 2>, 6> edges_of_corners{
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-// A tetrahedron as its springs see it. With g_i the gradient of the function that is 1 at corner i
-// and 0 at the others, the strain of the elongations is
+// A tetrahedron in terms of its springs. With g_i the gradient of the function that is 1 at corner
+// i and 0 at the others, the strain of the elongations is
 //   eps = -sum_s e_s l_s (g_i g_j^T + g_j g_i^T) / 2,  s from i to j
-// because x.eps x less its linear interpolation is -sum_s x_i x_j l_s e_s in barycentric x.
+// because x.eps x minus its linear interpolation is -sum_s x_i x_j l_s e_s in barycentric x.
 struct Element {
   double volume = 0.0;                 // m^3
-  std::array<int, 6> springs{};        // in the order of edges_of_corners
+  std::array<int, 6> springs{};        // in the order of corner_edges
   Eigen::Matrix<double, 6, 1> length;  // m, at rest
   Eigen::Matrix4d products;            // g_i . g_j, 1/m^2
 
   // tr eps = sum_s dilation_s e_s,  dilation_s = -l_s g_i . g_j                             1/m
   [[nodiscard]] double dilation(int s) const {
-    const auto& [i, j] = edges_of_corners[index(s)];
+    const auto& [i, j] = corner_edges[as_index(s)];
     return -length[s] * products(i, j);
   }
 
   // eps : eps = sum_st e_s e_t l_s l_t ((g_i.g_k)(g_j.g_m) + (g_i.g_m)(g_j.g_k)) / 2       1/m^2
   [[nodiscard]] double square(int s, int t) const {
-    const auto& [i, j] = edges_of_corners[index(s)];
-    const auto& [k, m] = edges_of_corners[index(t)];
+    const auto& [i, j] = corner_edges[as_index(s)];
+    const auto& [k, m] = corner_edges[as_index(t)];
     return 0.5 * length[s] * length[t] *
            (products(i, k) * products(j, m) + products(i, m) * products(j, k));
   }
 
-  // S with e.S e / 2 the energy V (mu (eps : eps - (tr eps)^2 / 3) + K (tr eps)^2 / 2),     N/m
+  // S such that e.S e / 2 is V (mu (eps : eps - (tr eps)^2 / 3) + K (tr eps)^2 / 2),        N/m
   [[nodiscard]] CoupledSprings stiffness(double shear, double bulk) const {
     CoupledSprings six;
     six.springs = springs;
@@ -58,25 +55,25 @@ Element element(const Network& network, const geometry::TetMesh& mesh, std::size
   const auto& corners = mesh.tetrahedra[tetrahedron];
   Element result;
   result.volume = geometry::signed_volume(mesh, static_cast<int>(tetrahedron));
-  // The columns of `edges` are the corners 1 to 3 seen from corner 0: the rows of its inverse are
-  // their gradients, and all four gradients sum to zero.
+  // The columns of `edges` are the corners 1 to 3 relative to corner 0. The rows of its inverse are
+  // the gradients of these corners; all four gradients sum to zero.
   Eigen::Matrix3d edges;
   for (int i = 0; i < 3; ++i)
-    edges.col(i) = mesh.nodes[index(corners[index(i) + 1])] - mesh.nodes[index(corners[0])];
+    edges.col(i) =
+        mesh.nodes[as_index(corners[as_index(i) + 1])] - mesh.nodes[as_index(corners[0])];
   Eigen::Matrix<double, 4, 3> gradients;
   gradients.bottomRows<3>() = edges.inverse();
   gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
   result.products = gradients * gradients.transpose();
   for (std::size_t s = 0; s < 6; ++s) {
-    const int a = corners[index(edges_of_corners[s][0])];
-    const int b = corners[index(edges_of_corners[s][1])];
+    const int a = corners[as_index(corner_edges[s][0])];
+    const int b = corners[as_index(corner_edges[s][1])];
     const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
     const auto found = std::lower_bound(network.ends.begin(), network.ends.end(), ends);
     assert(found != network.ends.end() && *found == ends);
     const auto spring = found - network.ends.begin();
     result.springs[s] = static_cast<int>(spring);
-    result.length[static_cast<Eigen::Index>(s)] =
-        network.rest_length[static_cast<std::size_t>(spring)];
+    result.length[static_cast<Eigen::Index>(s)] = network.rest_length[as_index(spring)];
   }
   return result;
 }
@@ -88,16 +85,16 @@ std::vector<Element> elements(const Network& network, const geometry::TetMesh& m
   return all;
 }
 
-// The volume around a node in one region: theta = sum_t V_t theta_t / sum_t V_t over the tetrahedra
-// there, at a quarter of their volume.
+// The averaged volume of a node in one region: theta = sum_t V_t theta_t / sum_t V_t over the
+// tetrahedra `around` it, with a quarter of their volume.
 SharedVolume average(const std::vector<Element>& all, std::span<const int> around, double modulus) {
   std::vector<std::pair<int, double>> terms;  // spring, V_t dilation
   double sum = 0.0;
   for (const int t : around) {
-    const Element& one = all[index(t)];
+    const Element& one = all[as_index(t)];
     sum += one.volume;
     for (int s = 0; s < 6; ++s)
-      terms.emplace_back(one.springs[index(s)], one.volume * one.dilation(s));
+      terms.emplace_back(one.springs[as_index(s)], one.volume * one.dilation(s));
   }
   std::stable_sort(terms.begin(), terms.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -113,7 +110,7 @@ SharedVolume average(const std::vector<Element>& all, std::span<const int> aroun
   return shared;
 }
 
-// One volume for every node and region that meets there and has a `modulus`, Pa one a region.
+// Adds a volume for every node and every region at it. `modulus` (Pa) has one entry per region.
 void add_averages(Network& network, const geometry::TetMesh& mesh, const std::vector<Element>& all,
                   std::span<const double> modulus) {
   struct Use {
@@ -126,7 +123,7 @@ void add_averages(Network& network, const geometry::TetMesh& mesh, const std::ve
   std::vector<Use> uses;
   uses.reserve(4 * all.size());
   for (int t = 0; t < static_cast<int>(all.size()); ++t)
-    for (const int node : mesh.tetrahedra[index(t)]) uses.push_back({node, mesh.region(t), t});
+    for (const int node : mesh.tetrahedra[as_index(t)]) uses.push_back({node, mesh.region(t), t});
   std::sort(uses.begin(), uses.end());
   std::vector<int> around;
   for (std::size_t i = 0; i < uses.size(); ++i) {
@@ -134,7 +131,7 @@ void add_averages(Network& network, const geometry::TetMesh& mesh, const std::ve
     const bool last = i + 1 == uses.size() || uses[i + 1].node != uses[i].node ||
                       uses[i + 1].region != uses[i].region;
     if (!last) continue;
-    const double own = modulus[index(uses[i].region)];
+    const double own = modulus[as_index(uses[i].region)];
     if (own != 0.0) network.volumes.push_back(average(all, around, own));
     around.clear();
   }
@@ -164,8 +161,8 @@ void couple(Network& network, const geometry::TetMesh& mesh, std::span<const Iso
   network.stiffness.assign(network.ends.size(), 0.0);
   network.coupled.clear();
   network.volumes.clear();
-  std::vector<double> own;     // of each region's bulk modulus what its tetrahedra resist with, Pa
-  std::vector<double> shared;  // and what is averaged
+  std::vector<double> own;     // Pa, one per region: bulk modulus of single tetrahedra
+  std::vector<double> shared;  // Pa, and of the averaged volumes
   for (const Isotropic& tissue : tissues) {
     const double bulk = volume == Volume::none ? 0.0 : bulk_modulus(tissue);
     own.push_back(volume == Volume::nodal ? std::min(bulk, own_share * shear_modulus(tissue))
@@ -175,7 +172,7 @@ void couple(Network& network, const geometry::TetMesh& mesh, std::span<const Iso
   const std::vector<Element> all = elements(network, mesh);
   network.coupled.reserve(all.size());
   for (std::size_t t = 0; t < all.size(); ++t) {
-    const auto region = index(mesh.region(static_cast<int>(t)));
+    const auto region = as_index(mesh.region(static_cast<int>(t)));
     network.coupled.push_back(all[t].stiffness(shear_modulus(tissues[region]), own[region]));
   }
   add_averages(network, mesh, all, shared);
@@ -189,7 +186,7 @@ void add_volume(Network& network, const geometry::TetMesh& mesh, std::span<const
   const std::vector<Element> all = elements(network, mesh);
   if (volume == Volume::nodal) return add_averages(network, mesh, all, modulus);
   for (std::size_t t = 0; t < all.size(); ++t) {
-    const double own = modulus[index(mesh.region(static_cast<int>(t)))];
+    const double own = modulus[as_index(mesh.region(static_cast<int>(t)))];
     if (own != 0.0) network.coupled.push_back(all[t].stiffness(0.0, own));
   }
 }

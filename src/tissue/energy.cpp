@@ -1,10 +1,10 @@
-// Sums over springs in index order.
+// Energies as sums over springs in index order.
 #include "tissue/energy.h"
 
 namespace palpate::tissue {
 namespace {
 
-// One number of every spring's memory.
+// Gets one number of the memory of every spring.
 void column(const ViscousLaw& law, std::span<const double> memory, std::size_t which,
             std::vector<double>& values) {
   const std::size_t size = memory_size(law);
@@ -12,7 +12,7 @@ void column(const ViscousLaw& law, std::span<const double> memory, std::size_t w
   for (std::size_t s = 0; s < values.size(); ++s) values[s] = memory[size * s + which];
 }
 
-// How much one number of every spring's memory is above another of the same or of another memory.
+// One number of every spring's memory; difference() subtracts such numbers, a - b.
 struct Number {
   std::span<const double> memory;
   std::size_t which = 0;
@@ -73,8 +73,7 @@ double dissipated_energy(const Network& network, const ViscousLaw& law,
   double sum = dissipated_energy(network, law, before, after, time_step, scratch);
   if (law.kind == Viscosity::nodal_drag)
     for (Eigen::Index d = 0; d < moved.size(); ++d)
-      sum += network.node_mass[static_cast<std::size_t>(d / 3)] * law.drag * moved[d] * moved[d] /
-             time_step;
+      sum += network.node_mass[as_index(d / 3)] * law.drag * moved[d] * moved[d] / time_step;
   return sum;
 }
 

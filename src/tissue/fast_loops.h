@@ -1,16 +1,17 @@
-// The loops of springs.cpp and viscous.cpp over four springs at a time. Included by one .cpp, once
-// for each kind of processor, which names the namespace (PALPATE_LOOPS), what the compiler may use
-// there (PALPATE_TARGET) and a square root of four numbers (PALPATE_ROOT): never fused
-// multiply-add, so that the bits are everywhere the same. No `#pragma once`: it comes twice.
+// The loops of springs.cpp and viscous.cpp over four springs at a time. One .cpp includes this file
+// once per instruction set and defines the namespace (PALPATE_LOOPS), the target attribute
+// (PALPATE_TARGET) and a square root of four numbers (PALPATE_ROOT). Fused multiply-add is never
+// used, so that all give the same bits. No `#pragma once`, because the file is included twice.
 #if !defined(PALPATE_LOOPS) || !defined(PALPATE_TARGET) || !defined(PALPATE_ROOT)
 #error "fast_springs.cpp includes this"
 #endif
 
 namespace palpate::tissue::PALPATE_LOOPS {
 
-// The arithmetic of one lane is that of the plain loop: x + (y + z) is the order of Vec3::dot.
+// Each lane computes as the plain loop does: x + (y + z) is the order of summation of Vec3::dot.
 
 using Wide = Four;
+#include "base/index.h"
 #include "base/wide_loads.h"
 
 PALPATE_INLINE Four all(double value) { return Four{value, value, value, value}; }
@@ -19,7 +20,7 @@ PALPATE_INLINE double sum_of(const Four& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-// The sums of the first three lanes of each.
+// For each argument the sum of its first three lanes.
 PALPATE_INLINE Four sums(const Four& a, const Four& b, const Four& c, const Four& d) {
   const Four xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
   const Four y_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
@@ -35,11 +36,11 @@ PALPATE_INLINE Four root(const Four& x) { return PALPATE_ROOT(x); }
 
 PALPATE_INLINE Four displacement(const Node& node) { return load(node.displacement); }
 
-// Four springs as they are stretched.
+// Elongations and directions of four springs at the present displacement.
 struct Stretch {
   Four elongation;  // m
-  Four per_pull;    // tension times it times `along` is the pull; 1 of linear springs
-  Four along[4];    // of each spring, lanes x, y, z and one that nobody reads
+  Four per_pull;    // the pull is tension times per_pull times along; not set for linear springs
+  Four along[4];    // of each spring, lanes x, y, z and an unused one
 };
 
 template <Kinematics kinematics>
@@ -80,8 +81,8 @@ PALPATE_INLINE Stretch stretch(const FastSpringData& data, const Node* nodes, st
 
 PALPATE_INLINE void pull(const FastSpringData& data, Node* nodes, std::size_t first,
                          const Four& scale, const Four* along) {
-  // Both ends through memory, in the order of the springs: what a node sums is in the order of the
-  // plain loop. A node that stays in a register costs a branch that is mispredicted.
+  // Forces are added to both nodes in memory, spring by spring, so that a node sums them in the
+  // order of the plain loop. Keeping a node in a register would cost a branch that is mispredicted.
 #pragma GCC unroll 4
   for (std::size_t j = 0; j < 4; ++j) {
     const std::size_t s = first + j;
@@ -93,21 +94,22 @@ PALPATE_INLINE void pull(const FastSpringData& data, Node* nodes, std::size_t fi
   }
 }
 
-// What four springs remember: through the step, and the elongation whose tension they have now.
+// Sums over groups of four springs, one lane each, J: twice the stored energy, and the lost one.
 struct Energy {
   Four stored = {};
   Four lost = {};
 };
 
-// One number of every spring's memory, `size` apart.
+// One number of the memory of each of four springs; the springs' memories are `size` numbers apart.
 PALPATE_INLINE Four column(const double* from, std::size_t size) {
   return Four{from[0], from[size], from[2 * size], from[3 * size]};
 }
 
 PALPATE_INLINE void put_column(double* to, std::size_t size, const Four& values) {
-  for (int j = 0; j < 4; ++j) to[static_cast<std::size_t>(j) * size] = values[j];
+  for (int j = 0; j < 4; ++j) to[as_index(j) * size] = values[j];
 }
 
+// Advances the memory by a step (or only reads it) and returns the effective elongations.
 template <Viscosity viscosity, Passage passage>
 PALPATE_INLINE Four remember(const FastSpringData& data, const Four& stiffness,
                              const Four& elongation, double* memory, Energy& energy) {
@@ -133,7 +135,7 @@ PALPATE_INLINE Four remember(const FastSpringData& data, const Four& stiffness,
     energy.lost += (stiffness * (e - before)) * (e - before);
     return e;
   }
-  // Branches, one or more: `size` numbers a spring.
+  // One or more branches: `size` numbers per spring.
   const std::size_t size = data.memory_size;
   Four sum = e;
   Four stored = (stiffness * e) * e;
@@ -159,7 +161,7 @@ PALPATE_INLINE Four remember(const FastSpringData& data, const Four& stiffness,
   return sum;
 }
 
-// Elongations, memory, tensions and pulls of springs `first` to `first + 3`.
+// Computes elongations, memory, tensions and pulls of the springs `first` to `first + 3`.
 template <Kinematics kinematics, Viscosity viscosity, Passage passage>
 PALPATE_INLINE void four_springs(const FastSpringData& data, Node* nodes, std::size_t first,
                                  double* memory, Energy& energy) {
@@ -186,7 +188,7 @@ PALPATE_TARGET void springs(const FastSpringData& data, Node* nodes, double* mem
   for (; s + 4 <= data.springs; s += 4)
     four_springs<kinematics, viscosity, passage>(data, nodes, s, memory + size * s, energy);
   if (s < data.springs) {
-    // The last few, with springs beside them that have no stiffness.
+    // The last one to three springs, in a group filled up with springs that have no stiffness.
     double* const few = data.few;
     const std::size_t numbers = size * (data.springs - s);
     if (passage == Passage::remember || viscosity == Viscosity::prony)
@@ -199,19 +201,19 @@ PALPATE_TARGET void springs(const FastSpringData& data, Node* nodes, double* mem
   energies[1] = sum_of(energy.lost);
 }
 
-// Directions as they stand, three numbers a spring, each overwriting what the one before wrote too
-// far.
+// The directions of the springs in the last pass, three numbers per spring. A store writes four
+// numbers; the store of the next spring overwrites the fourth.
 template <Kinematics kinematics>
 PALPATE_TARGET void turn(const FastSpringData& data, const Node* nodes, double* direction) {
   for (std::size_t s = 0; s < data.springs; s += 4) {
     const Stretch now = stretch<kinematics>(data, nodes, s);
 #pragma GCC unroll 4
     for (int j = 0; j < 4; ++j)
-      store(direction + 3 * (s + static_cast<std::size_t>(j)), all(now.per_pull[j]) * now.along[j]);
+      store(direction + 3 * (s + as_index(j)), all(now.per_pull[j]) * now.along[j]);
   }
 }
 
-// The pulls of tensions that tetrahedra and volumes have had their part in.
+// Adds to the nodes the pulls of the tensions of coupled springs.
 template <Kinematics kinematics>
 PALPATE_TARGET void pulls(const FastSpringData& data, Node* nodes) {
   for (std::size_t s = 0; s < data.springs; s += 4) {
@@ -227,8 +229,8 @@ PALPATE_TARGET void pulls(const FastSpringData& data, Node* nodes) {
   }
 }
 
-// Tensions of the effective elongations: of springs by themselves, then of tetrahedra, then of
-// shared volumes, each in their order.
+// Tensions of the effective elongations: the contributions of single springs, then of tetrahedra,
+// then of shared volumes, each in index order.
 PALPATE_TARGET inline void tensions(const FastSpringData& data) {
   for (std::size_t s = 0; s < data.springs; s += 4)
     store(&data.tension[s], load(&data.stiffness[s]) * load(&data.effective[s]));
@@ -268,7 +270,7 @@ PALPATE_TARGET inline void tensions(const FastSpringData& data) {
   }
 }
 
-// Energies of coupled springs without branches: sums over T e, and over (T - T0) (e - e0).
+// Energies of coupled springs without branches: 1/2 sum T e, and sum (T - T0) (e - e0).
 PALPATE_TARGET inline void coupled_energies(const FastSpringData& data,
                                             const double* tension_before,
                                             const double* elongation_before, double* energies) {
@@ -283,8 +285,8 @@ PALPATE_TARGET inline void coupled_energies(const FastSpringData& data,
   energies[1] = sum_of(energy.lost);
 }
 
-// Displacements (three numbers a node) to the nodes, whose forces begin anew. The fourth lane takes
-// the next node's x: what springs make of it ends in the fourth lane of forces, which nobody reads.
+// Copies displacements (three numbers per node) to the nodes and clears their forces. The fourth
+// lane takes the next node's x; what it leads to ends in the unused fourth lane of the forces.
 PALPATE_TARGET inline void place(const double* from, Node* nodes, std::size_t count) {
   for (std::size_t i = 0; i + 1 < count; ++i) {
     store(nodes[i].displacement, load(from + 3 * i));
@@ -296,7 +298,7 @@ PALPATE_TARGET inline void place(const double* from, Node* nodes, std::size_t co
   store(last.force, all(0.0));
 }
 
-// And forces back, each overwriting what the one before wrote too far.
+// Copies the forces back; the next node's store overwrites the fourth number of each store.
 PALPATE_TARGET inline void collect(const Node* nodes, double* to, std::size_t count) {
   for (std::size_t i = 0; i + 1 < count; ++i) store(to + 3 * i, load(nodes[i].force));
   for (std::size_t axis = 0; axis < 3; ++axis)

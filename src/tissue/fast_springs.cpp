@@ -1,4 +1,4 @@
-// A network laid out for one pass, and the choice of instructions.
+// The layout of a network for one pass, and the choice of instructions.
 #include "tissue/fast_springs.h"
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <immintrin.h>
 #endif
 
-// Vectors of four pass between functions that are always inlined: no call sees their registers.
+// Vectors of four are only passed to inlined functions, so that the ABI warning does not apply.
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
@@ -20,20 +20,20 @@ namespace {
 using Four = double __attribute__((vector_size(32)));
 
 struct alignas(64) Node {
-  double displacement[4] = {};  // m; the last of four is padding
-  double force[4] = {};         // N; padding takes what belongs to nobody
+  double displacement[4] = {};  // m; the fourth is padding
+  double force[4] = {};         // N; the fourth is unused
 };
 
 enum class Passage { look, remember };
 
-// Springs in groups of four: the last group is filled up with ones that have no stiffness, between
-// a node that is no node.
+// Springs in groups of four. The last group is filled up with springs without stiffness, whose two
+// ends are an additional node that is in no network.
 struct FastSpringData {
   std::size_t springs = 0;
-  std::size_t memory_size = 0;  // numbers a spring
+  std::size_t memory_size = 0;  // numbers per spring
   bool coupled = false;
-  const std::int32_t* ends = nullptr;   // two a spring
-  const double* along = nullptr;        // three a spring: direction, or unless linear span at rest
+  const std::int32_t* ends = nullptr;   // 2 per spring
+  const double* along = nullptr;        // 3 per spring: direction, or if not linear, span at rest
   const double* rest_length = nullptr;  // m
   const double* stiffness = nullptr;    // N/m
   const double* ratios = nullptr;       // of the branches
@@ -43,8 +43,8 @@ struct FastSpringData {
   double* effective = nullptr;          // m, where coupled
   double* tension = nullptr;            // N, where coupled
   std::size_t tetrahedra = 0;           // in groups of four
-  const std::int32_t* six_springs = nullptr;  // 24 a group: four of each spring
-  const double* six_stiffness = nullptr;      // 84 a group: four of each of the lower triangle
+  const std::int32_t* six_springs = nullptr;  // 24 per group: 6 springs of 4 tetrahedra
+  const double* six_stiffness = nullptr;      // 84 per group: 21 entries of 4 lower triangles
   std::size_t volumes = 0;
   const std::int32_t* volume_start = nullptr;
   const std::int32_t* volume_springs = nullptr;
@@ -63,8 +63,8 @@ using CoupledEnergies = void (*)(const FastSpringData&, const double*, const dou
 }  // namespace
 }  // namespace palpate::tissue
 
-// What every processor has: two of four lanes at a time on x86, whatever the compiler makes of it
-// elsewhere.
+// Instructions that every processor has: on x86 two numbers at a time, elsewhere whatever the
+// compiler makes of them.
 #define PALPATE_LOOPS portable
 #define PALPATE_TARGET
 #if defined(__x86_64__)
@@ -105,7 +105,7 @@ struct FastSprings::Layout {
   bool dashpots = false;  // of Kelvin-Voigt
   bool branches = false;
 
-  std::vector<Node> nodes;  // and one that is no node
+  std::vector<Node> nodes;  // and the additional node of the last group
   std::vector<std::int32_t> ends;
   std::vector<double> along;
   std::vector<double> rest_length;
@@ -124,9 +124,9 @@ struct FastSprings::Layout {
   std::vector<double> dilation;
   std::vector<double> volume_stiffness;
 
-  std::vector<double> at;      // displacement of the last pass, 3 a node
-  std::vector<double> from;    // and of the one before
-  std::vector<double> memory;  // after the last pass, where there are branches
+  std::vector<double> at;      // displacement of the last pass, 3 per node
+  std::vector<double> from;    // and of the pass before
+  std::vector<double> memory;  // after the last pass, if there are branches
   bool passed = false;
   bool passed_before = false;
   bool has_energies = false;
@@ -145,17 +145,16 @@ void FastSprings::Layout::lay_springs(const Network& network, Kinematics kinemat
   const std::size_t padded = (count + 3) / 4 * 4;
   nodes.resize(network.rest.size() + 1);
   ends.assign(2 * padded, nobody);
-  along.assign(3 * padded + 4, 0.0);  // the last load of four reads one more
+  along.assign(3 * padded + 4, 0.0);  // loads read four numbers, so the last one reads beyond
   rest_length.assign(padded, 1.0);
   stiffness.assign(padded, 0.0);
   for (std::size_t s = 0; s < count; ++s) {
     const auto [a, b] = network.ends[s];
     ends[2 * s] = a;
     ends[2 * s + 1] = b;
-    const Vec3 rest =
-        network.rest[static_cast<std::size_t>(b)] - network.rest[static_cast<std::size_t>(a)];
+    const Vec3 rest = network.rest[as_index(b)] - network.rest[as_index(a)];
     for (int axis = 0; axis < 3; ++axis)
-      along[3 * s + static_cast<std::size_t>(axis)] =
+      along[3 * s + as_index(axis)] =
           kinematics == Kinematics::linear ? network.direction[s][axis] : rest[axis];
     rest_length[s] = network.rest_length[s];
     stiffness[s] = network.stiffness[s];
@@ -170,7 +169,7 @@ void FastSprings::Layout::lay_springs(const Network& network, Kinematics kinemat
 void FastSprings::Layout::lay_couplings(const Network& network) {
   data.coupled = !network.coupled.empty() || !network.volumes.empty();
   if (!data.coupled) return;
-  // One group beyond the springs, for tetrahedra that fill up a group.
+  // One group beyond the springs, for the tetrahedra that fill up the last group.
   const std::size_t room = (data.springs + 3) / 4 * 4 + 4;
   for (auto* values : {&elongation, &effective, &tension, &elongation_before, &tension_before})
     values->assign(room, 0.0);
@@ -230,7 +229,7 @@ void FastSprings::Layout::choose(Kinematics kinematics, Viscosity viscosity, Lan
 #endif
 }
 
-// Displacements to the nodes, whose forces begin anew.
+// Copies displacements to the nodes and clears their forces.
 void FastSprings::Layout::place(const Vector& displacement) {
   at.swap(from);
   passed_before = passed;
@@ -295,7 +294,7 @@ void FastSprings::remember(const Vector& displacement, std::span<const MemorySte
 void FastSprings::look(const Vector& displacement, std::span<const double> memory) {
   Layout& layout = *layout_;
   layout.place(displacement);
-  // A look changes no memory: the loops of both passages have one signature.
+  // A look changes no memory; the cast is there because both passes have the same signature.
   double energies[2];
   layout.looking(layout.data, layout.nodes.data(), const_cast<double*>(memory.data()), energies);
   layout.finish();
@@ -310,7 +309,7 @@ bool same(std::span<const double> a, std::span<const double> b) {
 }
 
 std::span<const double> numbers(const Vector& vector) {
-  return {vector.data(), static_cast<std::size_t>(vector.size())};
+  return {vector.data(), as_index(vector.size())};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Loops over degrees of freedom, four at a time: each a few operations that wait for memory.
+// Loops over degrees of freedom, four at a time; their run time is that of memory access.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@ namespace palpate::tissue {
 
 namespace fast_vectors {
 
-// Two numbers in one register, as every x86-64 and every 64-bit ARM has them.
+// Two numbers in one register, which every x86-64 and every 64-bit ARM processor has.
 using Two = double __attribute__((vector_size(16)));
 
 inline Two load(const double* from) {
@@ -17,8 +17,8 @@ inline Two load(const double* from) {
 }
 inline void store(double* to, Two values) { __builtin_memcpy(to, &values, sizeof values); }
 
-// sum_i term(i), i below `count`: terms whose index is alike modulo 4 in rising order, then
-// (0 + 1) + (2 + 3). `term` is given a place and how to load from there, one number or two.
+// sum_i term(i) for i < count: terms with equal index modulo 4 in ascending order, then these sums
+// as (0 + 1) + (2 + 3). `term` gets an index and a function to load one or two numbers from there.
 template <class Term>
 double sum_in_four(std::size_t count, const Term& term) {
   const auto pair = [](const double* from) { return load(from); };
@@ -42,7 +42,7 @@ inline double sum_of_products(std::size_t count, const double* a, const double* 
       count, [=](std::size_t d, const auto& at) { return at(a + d) * at(b + d); });
 }
 
-// sum of 1/2 a v^2: of masses (kg) and velocities (m/s) the kinetic energy, J.
+// sum of 1/2 a v^2: for masses a (kg) and velocities v (m/s) the kinetic energy, J.
 inline double sum_of_squares(std::size_t count, const double* a, const double* v) {
   return fast_vectors::sum_in_four(count, [=](std::size_t d, const auto& at) {
     return 0.5 * at(a + d) * at(v + d) * at(v + d);
@@ -58,7 +58,7 @@ inline double sum_of_moved_squares(std::size_t count, const double* a, const dou
   });
 }
 
-// sum of 1/2 (f0 + f1) (u1 - u0): the work of forces (N) on the way (m), J.
+// sum of 1/2 (f0 + f1) (u1 - u0): the work of forces (N) along a displacement (m), J.
 inline double work_of_forces(std::size_t count, const double* f0, const double* f1,
                              const double* u0, const double* u1) {
   return fast_vectors::sum_in_four(count, [=](std::size_t d, const auto& at) {
@@ -66,7 +66,7 @@ inline double work_of_forces(std::size_t count, const double* f0, const double* 
   });
 }
 
-// What a central difference does at every degree of freedom:
+// One step of central differences at every degree of freedom:                docs/theory.md (38)
 //   w = inverse (square (external - internal) + keep w),  u = u + w,  v = rate w
 struct Advance {
   double square = 0.0;               // s^2
@@ -83,7 +83,7 @@ struct Advance {
 inline void advance(std::size_t count, const Advance& step) {
   using fast_vectors::load;
   using fast_vectors::store;
-  // A copy, which no store below can change.
+  // A copy, so that the compiler can see that no store below changes it.
   const Advance a = step;
   std::size_t d = 0;
   for (; d + 2 <= count; d += 2) {

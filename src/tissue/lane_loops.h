@@ -1,21 +1,19 @@
-// The loops of LaneSprings, PALPATE_WIDTH of eight lanes at a time. Included by one .cpp, once for
-// each kind of processor, as fast_loops.h is: never fused multiply-add. No `#pragma once`.
-#if !defined(PALPATE_LOOPS) || !defined(PALPATE_TARGET) || !defined(PALPATE_WIDTH) || \
-    !defined(PALPATE_ROOT)
+// The loops of LaneSprings over PALPATE_WIDTH of the eight lanes at a time. One .cpp includes this
+// file once per instruction set, like fast_loops.h, without fused multiply-add. No `#pragma once`.
+#if !defined(PALPATE_LOOPS) || !defined(PALPATE_TARGET) || !defined(PALPATE_WIDTH)
 #error "lane_springs.cpp includes this"
 #endif
 
 namespace palpate::tissue::PALPATE_LOOPS {
 
-// The arithmetic of one lane is that of fast_loops.h: x + (y + z) is the order of Vec3::dot.
+// Each lane computes as fast_loops.h does: x + (y + z) is the order of summation of Vec3::dot.
 
 using Piece = double __attribute__((vector_size(8 * PALPATE_WIDTH)));
 constexpr std::size_t piece_width = PALPATE_WIDTH;
 
 using Wide = Piece;
+#include "base/index.h"
 #include "base/wide_loads.h"
-
-PALPATE_INLINE Piece root(const Piece& x) { return PALPATE_ROOT(x); }
 
 struct Three {
   Piece x, y, z;
@@ -35,7 +33,7 @@ PALPATE_INLINE Three minus(const Three& a, const Three& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-// Adds to one of four sums, for each lane apart.
+// Adds to one of four sums, separately for each lane.
 PALPATE_INLINE void add(double* sums, std::size_t which, std::size_t lane, const Piece& value) {
   double* const sum = sums + 8 * (which % 4) + lane;
   store(sum, load(sum) + value);
@@ -46,45 +44,12 @@ PALPATE_INLINE void add_four(const double* sums, double factor, double* to) {
     to[lane] = factor * ((sums[lane] + sums[8 + lane]) + (sums[16 + lane] + sums[24 + lane]));
 }
 
-// A spring as it is stretched; `along` is its direction, or unless linear its span.
-struct LaneStretch {
-  Piece elongation;  // m
-  Piece per_pull;    // unless linear: tension times it times the span is the pull
-};
-
-template <Kinematics kinematics>
-PALPATE_INLINE LaneStretch stretch(const double* along, double rest, const Three& change) {
-  LaneStretch now;
-  if constexpr (kinematics == Kinematics::linear) {
-    now.elongation = along[0] * change.x + (along[1] * change.y + along[2] * change.z);
-  } else {
-    const Piece scalar = change.x * ((along[0] + along[0]) + change.x) +
-                         (change.y * ((along[1] + along[1]) + change.y) +
-                          change.z * ((along[2] + along[2]) + change.z));
-    if constexpr (kinematics == Kinematics::nonlinear) {
-      const Piece length = root(rest * rest + scalar);
-      const Piece inverse = 1.0 / ((length + rest) * length);
-      now.elongation = scalar * (length * inverse);
-      now.per_pull = (length + rest) * inverse;
-    } else {
-      const double per_pull = 1.0 / rest;
-      now.per_pull = per_pull - Piece{};
-      now.elongation = (0.5 * scalar) * per_pull;
-    }
-  }
-  return now;
+// Elongation of a spring, m, with linear kinematics.
+PALPATE_INLINE Piece elongation(const double* along, const Three& change) {
+  return along[0] * change.x + (along[1] * change.y + along[2] * change.z);
 }
 
-template <Kinematics kinematics>
-PALPATE_INLINE Three pull(const double* along, const Three& change, const Piece& scale) {
-  if constexpr (kinematics == Kinematics::linear)
-    return {scale * along[0], scale * along[1], scale * along[2]};
-  else
-    return {scale * (along[0] + change.x), scale * (along[1] + change.y),
-            scale * (along[2] + change.z)};
-}
-
-// Memory through the step; the elongation whose tension there is now.
+// Advances the memory by a step and returns the effective elongation.
 template <bool branches>
 PALPATE_INLINE Piece remember(const LaneData& data, std::size_t s, std::size_t lane,
                               const Piece& stiffness, const Piece& e, double* stored_sums,
@@ -116,74 +81,63 @@ PALPATE_INLINE Piece remember(const LaneData& data, std::size_t s, std::size_t l
 
 enum class Stage { all, tensions_known };
 
-// Node by node, so that a node's force stays where it is summed: first the springs that end there,
-// which the nodes before have stretched, then those that begin there. That is the order of springs.
-template <Kinematics kinematics, bool branches, Stage stage>
+// Node by node, so that a node's force stays in a register while it is summed: first the springs
+// that end at the node, whose tensions earlier nodes have computed, then those that begin there.
+// Each node thus sums in the order of the springs.
+template <bool branches, Stage stage>
 PALPATE_TARGET void pull_nodes(const LaneData& data, double* stored_sums, double* lost_sums) {
   for (std::size_t n = 0; n < data.nodes; ++n)
     for (std::size_t lane = 0; lane < 8; lane += piece_width) {
       const Three u = load_three(data.displacement + 24 * n + lane);
       Three force{};
       for (std::int32_t q = data.ending_start[n]; q < data.ending_start[n + 1]; ++q) {
-        const auto s = static_cast<std::size_t>(data.ending[q]);
-        Three change{};
-        if constexpr (kinematics != Kinematics::linear)
-          change = minus(u, load_three(data.displacement +
-                                       24 * static_cast<std::size_t>(data.first[s]) + lane));
-        const Three pulls =
-            pull<kinematics>(data.along + 3 * s, change, load(data.scale + 8 * s + lane));
-        force = {force.x + pulls.x, force.y + pulls.y, force.z + pulls.z};
-      }
-      const auto last = static_cast<std::size_t>(data.beginning[n + 1]);
-      for (auto s = static_cast<std::size_t>(data.beginning[n]); s < last; ++s) {
+        const auto s = as_index(data.ending[q]);
         const double* const along = data.along + 3 * s;
-        const Three change = minus(
-            load_three(data.displacement + 24 * static_cast<std::size_t>(data.second[s]) + lane),
-            u);
-        Piece scale;
+        const Piece tension = load(data.tension + 8 * s + lane);
+        force = {force.x + tension * along[0], force.y + tension * along[1],
+                 force.z + tension * along[2]};
+      }
+      const auto last = as_index(data.beginning[n + 1]);
+      for (auto s = as_index(data.beginning[n]); s < last; ++s) {
+        const double* const along = data.along + 3 * s;
+        Piece tension;
         if constexpr (stage == Stage::all) {
-          const LaneStretch now = stretch<kinematics>(along, data.rest_length[s], change);
+          const Three change =
+              minus(load_three(data.displacement + 24 * as_index(data.second[s]) + lane), u);
           const Piece stiffness = load(data.stiffness + 8 * s + lane);
-          scale = stiffness * remember<branches>(data, s, lane, stiffness, now.elongation,
-                                                 stored_sums, lost_sums);
-          if constexpr (kinematics != Kinematics::linear) scale *= now.per_pull;
-          store(data.scale + 8 * s + lane, scale);
+          tension =
+              stiffness * remember<branches>(data, s, lane, stiffness, elongation(along, change),
+                                             stored_sums, lost_sums);
+          store(data.tension + 8 * s + lane, tension);
         } else {
-          scale = load(data.scale + 8 * s + lane);
-          if constexpr (kinematics != Kinematics::linear) {
-            scale *= stretch<kinematics>(along, data.rest_length[s], change).per_pull;
-            store(data.scale + 8 * s + lane, scale);
-          }
+          tension = load(data.tension + 8 * s + lane);
         }
-        const Three pulls = pull<kinematics>(along, change, scale);
-        force = minus(force, pulls);
+        force = minus(force, {tension * along[0], tension * along[1], tension * along[2]});
       }
       store_three(data.force + 24 * n + lane, force);
     }
 }
 
-template <Kinematics kinematics, bool branches>
+template <bool branches>
 PALPATE_TARGET void springs(const LaneData& data) {
   double stored[32] = {};
   double lost[32] = {};
-  pull_nodes<kinematics, branches, Stage::all>(data, stored, lost);
+  pull_nodes<branches, Stage::all>(data, stored, lost);
   add_four(stored, 0.5, data.stored);
   add_four(lost, 1.0, data.lost);
 }
 
-// Springs that pull on each other, without branches: elongations, then tensions as `tensions` of
-// fast_loops.h makes them, then pulls.
-template <Kinematics kinematics>
-PALPATE_TARGET void coupled_springs(const LaneData& data) {
+// Coupled springs without branches: elongations, then tensions in the order of `tensions` in
+// fast_loops.h, then pulls.
+inline PALPATE_TARGET void coupled_springs(const LaneData& data) {
   double stored[32] = {};
-  double* const tension = data.scale;
+  double* const tension = data.tension;
   for (std::size_t s = 0; s < data.springs; ++s)
     for (std::size_t lane = 0; lane < 8; lane += piece_width) {
-      const Three change = minus(
-          load_three(data.displacement + 24 * static_cast<std::size_t>(data.second[s]) + lane),
-          load_three(data.displacement + 24 * static_cast<std::size_t>(data.first[s]) + lane));
-      const Piece e =
-          stretch<kinematics>(data.along + 3 * s, data.rest_length[s], change).elongation;
+      const Three change =
+          minus(load_three(data.displacement + 24 * as_index(data.second[s]) + lane),
+                load_three(data.displacement + 24 * as_index(data.first[s]) + lane));
+      const Piece e = elongation(data.along + 3 * s, change);
       store(data.elongation + 8 * s + lane, e);
       store(tension + 8 * s + lane, load(data.stiffness + 8 * s + lane) * e);
     }
@@ -193,8 +147,7 @@ PALPATE_TARGET void coupled_springs(const LaneData& data) {
       const double* const stiffness = data.six_stiffness + 8 * 21 * t + lane;
       Piece e[6];
 #pragma GCC unroll 6
-      for (int i = 0; i < 6; ++i)
-        e[i] = load(data.elongation + 8 * static_cast<std::size_t>(spring[i]) + lane);
+      for (int i = 0; i < 6; ++i) e[i] = load(data.elongation + 8 * as_index(spring[i]) + lane);
 #pragma GCC unroll 6
       for (int i = 0; i < 6; ++i) {
         Piece row{};
@@ -203,7 +156,7 @@ PALPATE_TARGET void coupled_springs(const LaneData& data) {
           const int entry = i > j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
           row += load(stiffness + 8 * entry) * e[j];
         }
-        double* const sum = tension + 8 * static_cast<std::size_t>(spring[i]) + lane;
+        double* const sum = tension + 8 * as_index(spring[i]) + lane;
         store(sum, load(sum) + row);
       }
     }
@@ -211,9 +164,7 @@ PALPATE_TARGET void coupled_springs(const LaneData& data) {
     for (std::size_t lane = 0; lane < 8; lane += piece_width) {
       const std::int32_t begin = data.volume_start[v];
       const std::int32_t end = data.volume_start[v + 1];
-      const auto at = [&](std::int32_t k) {
-        return 8 * static_cast<std::size_t>(data.volume_springs[k]) + lane;
-      };
+      const auto at = [&](std::int32_t k) { return 8 * as_index(data.volume_springs[k]) + lane; };
       Piece dilation{};
       for (std::int32_t k = begin; k < end; ++k)
         dilation += data.dilation[k] * load(data.elongation + at(k));
@@ -224,11 +175,11 @@ PALPATE_TARGET void coupled_springs(const LaneData& data) {
   for (std::size_t s = 0; s < data.springs; ++s)
     for (std::size_t lane = 0; lane < 8; lane += piece_width)
       add(stored, s, lane, load(tension + 8 * s + lane) * load(data.elongation + 8 * s + lane));
-  pull_nodes<kinematics, false, Stage::tensions_known>(data, nullptr, nullptr);
+  pull_nodes<false, Stage::tensions_known>(data, nullptr, nullptr);
   add_four(stored, 0.5, data.stored);
 }
 
-// What advance() and the sums of fast_vectors.h do, in one pass.
+// advance() and the sums of fast_vectors.h in one pass.
 template <bool drag>
 PALPATE_TARGET void advance(const LaneData& data) {
   double kinetic[32] = {};
@@ -273,25 +224,13 @@ PALPATE_TARGET void advance(const LaneData& data) {
   add_four(moved_squares, 1.0, data.moved_squares);
 }
 
-template <bool branches>
-LanePass springs_of(Kinematics kinematics) {
-  if (kinematics == Kinematics::linear) return &springs<Kinematics::linear, branches>;
-  if (kinematics == Kinematics::nonlinear) return &springs<Kinematics::nonlinear, branches>;
-  return &springs<Kinematics::squared, branches>;
-}
-
-inline LanePasses choose(const LaneData& data, Kinematics kinematics, Viscosity viscosity) {
+inline LanePasses choose(const LaneData& data, Viscosity viscosity) {
   LanePasses passes;
   passes.advance = viscosity == Viscosity::nodal_drag ? &advance<true> : &advance<false>;
-  if (!data.coupled)
-    passes.springs =
-        data.branches > 0 ? springs_of<true>(kinematics) : springs_of<false>(kinematics);
-  else if (kinematics == Kinematics::linear)
-    passes.springs = &coupled_springs<Kinematics::linear>;
-  else if (kinematics == Kinematics::nonlinear)
-    passes.springs = &coupled_springs<Kinematics::nonlinear>;
+  if (data.coupled)
+    passes.springs = &coupled_springs;
   else
-    passes.springs = &coupled_springs<Kinematics::squared>;
+    passes.springs = data.branches > 0 ? &springs<true> : &springs<false>;
   return passes;
 }
 

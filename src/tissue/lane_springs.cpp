@@ -1,4 +1,4 @@
-// Eight bodies laid out lane beside lane, and the choice of instructions.
+// The layout of eight bodies in lanes, and the choice of instructions.
 #include "tissue/lane_springs.h"
 
 #include <algorithm>
@@ -7,59 +7,38 @@
 
 #include "tissue/lane_data.h"
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 #if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // all calls with vectors are inlined
-#if !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // in the header of _mm512_sqrt_pd
-#endif
+#pragma GCC diagnostic ignored "-Wpsabi"  // all functions that take vectors are inlined
 #endif
 
 #define PALPATE_LOOPS lanes_portable
 #define PALPATE_TARGET
 #define PALPATE_WIDTH 2
-#if defined(__x86_64__)
-#define PALPATE_ROOT(x) _mm_sqrt_pd(x)
-#else
-#define PALPATE_ROOT(x) (Piece{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])})
-#endif
 #include "tissue/lane_loops.h"
 #undef PALPATE_LOOPS
 #undef PALPATE_TARGET
 #undef PALPATE_WIDTH
-#undef PALPATE_ROOT
 
 #if defined(__x86_64__)
 #define PALPATE_LOOPS lanes_avx2
 #define PALPATE_TARGET __attribute__((target("avx2")))
 #define PALPATE_WIDTH 4
-#define PALPATE_ROOT(x) _mm256_sqrt_pd(x)
 #include "tissue/lane_loops.h"
 #undef PALPATE_LOOPS
 #undef PALPATE_TARGET
 #undef PALPATE_WIDTH
-#undef PALPATE_ROOT
 
 #define PALPATE_LOOPS lanes_avx512
 #define PALPATE_TARGET __attribute__((target("avx512f")))
 #define PALPATE_WIDTH 8
-#define PALPATE_ROOT(x) _mm512_sqrt_pd(x)
 #include "tissue/lane_loops.h"
 #undef PALPATE_LOOPS
 #undef PALPATE_TARGET
 #undef PALPATE_WIDTH
-#undef PALPATE_ROOT
 #endif
 
 namespace palpate::tissue {
-namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 SparseLoad sparse(const Vector& load) {
   SparseLoad few;
@@ -75,8 +54,8 @@ struct LaneSprings::Layout {
   LaneData data;
   LanePasses passes;
   std::vector<std::int32_t> first, second, beginning, ending_start, ending, loaded;
-  std::vector<double> along, rest_length;
-  std::vector<Eight> stiffness, displacement, moved, force, scale, memory, elongation;
+  std::vector<double> along;
+  std::vector<Eight> stiffness, displacement, moved, force, tension, memory, elongation;
   std::vector<Eight> keep, begin, end, ratio;
   std::vector<Eight> mass, inverse, load_before, load_after;
   Eight square, rate, drag, drag_step, jumped;
@@ -90,7 +69,7 @@ struct LaneSprings::Layout {
     std::vector<char> held;
     std::vector<double> branch_times;                 // s
     std::array<std::vector<std::int32_t>, 2> loaded;  // freedoms, before and after
-    bool first = false;                               // the next step is
+    bool first = false;                               // the next step is the first of a series
     LaneEnergies energies;
   };
   std::array<Lane, width> lanes;
@@ -111,8 +90,8 @@ void LaneSprings::Layout::lay(const Network& network) {
   for (const auto& [a, b] : network.ends) {
     first.push_back(a);
     second.push_back(b);
-    ++beginning[index(a) + 1];
-    ++ending_start[index(b) + 1];
+    ++beginning[as_index(a) + 1];
+    ++ending_start[as_index(b) + 1];
   }
   for (std::size_t n = 0; n < nodes; ++n) {
     beginning[n + 1] += beginning[n];
@@ -120,14 +99,13 @@ void LaneSprings::Layout::lay(const Network& network) {
   }
   std::vector<std::int32_t> next(ending_start);
   for (std::size_t s = 0; s < springs; ++s)
-    ending[index(next[index(second[s])]++)] = static_cast<std::int32_t>(s);
-  rest_length = network.rest_length;
+    ending[as_index(next[as_index(second[s])]++)] = static_cast<std::int32_t>(s);
   for (auto* values : {&displacement, &moved, &force, &load_before, &load_after, &inverse})
     values->resize(3 * nodes);
   mass.resize(nodes);
   loaded.assign(nodes, 0);
   stiffness.resize(springs);
-  scale.resize(springs);
+  tension.resize(springs);
 }
 
 void LaneSprings::Layout::lay_couplings(const Network& network) {
@@ -161,12 +139,11 @@ void LaneSprings::Layout::connect() {
           .ending_start = ending_start.data(),
           .ending = ending.data(),
           .along = along.data(),
-          .rest_length = rest_length.data(),
           .stiffness = numbers(stiffness),
           .displacement = numbers(displacement),
           .moved = numbers(moved),
           .force = numbers(force),
-          .scale = numbers(scale),
+          .tension = numbers(tension),
           .memory = numbers(memory),
           .elongation = numbers(elongation),
           .keep = numbers(keep),
@@ -200,15 +177,14 @@ void LaneSprings::Layout::connect() {
 
 bool LaneSprings::can(const Network& network, const ViscousLaw& law) {
   if (law.kind == Viscosity::kelvin_voigt) return false;
-  // A node's forces are summed in the order of springs only where those are sorted.
+  // A node's forces are summed in the order of the springs only if the springs are sorted.
   if (!std::is_sorted(network.ends.begin(), network.ends.end())) return false;
   return law.branches.empty() || (network.coupled.empty() && network.volumes.empty());
 }
 
 bool LaneSprings::alike(const Network& a, const Network& b) {
-  if (a.ends != b.ends || a.rest != b.rest || a.rest_length != b.rest_length ||
-      a.direction != b.direction || a.coupled.size() != b.coupled.size() ||
-      a.volumes.size() != b.volumes.size())
+  if (a.ends != b.ends || a.rest != b.rest || a.direction != b.direction ||
+      a.coupled.size() != b.coupled.size() || a.volumes.size() != b.volumes.size())
     return false;
   for (std::size_t t = 0; t < a.coupled.size(); ++t)
     if (a.coupled[t].springs != b.coupled[t].springs) return false;
@@ -219,30 +195,24 @@ bool LaneSprings::alike(const Network& a, const Network& b) {
   return true;
 }
 
-LaneSprings::LaneSprings(const Network& network, Kinematics kinematics, const ViscousLaw& law,
-                         Lanes lanes)
+LaneSprings::LaneSprings(const Network& network, const ViscousLaw& law, Lanes lanes)
     : layout_(std::make_unique<Layout>()) {
   Layout& layout = *layout_;
   layout.lay(network);
-  for (std::size_t s = 0; s < network.ends.size(); ++s) {
-    const auto [a, b] = network.ends[s];
-    const Vec3 along = kinematics == Kinematics::linear
-                           ? network.direction[s]
-                           : Vec3(network.rest[index(b)] - network.rest[index(a)]);
+  for (const Vec3& along : network.direction)
     layout.along.insert(layout.along.end(), along.begin(), along.end());
-  }
   layout.lay_couplings(network);
   for (auto* values : {&layout.keep, &layout.begin, &layout.end, &layout.ratio})
     values->resize(law.branches.size());
   if (!law.branches.empty()) layout.memory.resize((1 + law.branches.size()) * network.ends.size());
   layout.connect();
-  layout.passes = lanes_portable::choose(layout.data, kinematics, law.kind);
+  layout.passes = lanes_portable::choose(layout.data, law.kind);
 #if defined(__x86_64__)
   if (lanes == Lanes::portable) return;
   if (__builtin_cpu_supports("avx512f"))
-    layout.passes = lanes_avx512::choose(layout.data, kinematics, law.kind);
+    layout.passes = lanes_avx512::choose(layout.data, law.kind);
   else if (__builtin_cpu_supports("avx2"))
-    layout.passes = lanes_avx2::choose(layout.data, kinematics, law.kind);
+    layout.passes = lanes_avx2::choose(layout.data, law.kind);
 #endif
 }
 
@@ -283,7 +253,7 @@ void LaneSprings::place(std::size_t lane, const Standing& standing) {
     layout.moved[d].lane[lane] = (*standing.velocity)[i];
     layout.force[d].lane[lane] = (*standing.force)[i];
   }
-  layout.rate.lane[lane] = 1.0;  // `moved` is the velocity, until begin()
+  layout.rate.lane[lane] = 1.0;  // until begin(), `moved` contains the velocity
   for (std::size_t i = 0; i < layout.memory.size(); ++i)
     layout.memory[i].lane[lane] = standing.memory[i];
 }
@@ -323,8 +293,8 @@ void LaneSprings::begin(std::size_t lane, const LaneStep& step) {
 void LaneSprings::Layout::take_load_off(std::size_t lane) {
   for (std::size_t i = 0; i < 2; ++i) {
     for (const std::int32_t d : lanes[lane].loaded[i]) {
-      (i == 0 ? load_before : load_after)[index(d)].lane[lane] = 0.0;
-      --loaded[index(d) / 3];
+      (i == 0 ? load_before : load_after)[as_index(d)].lane[lane] = 0.0;
+      --loaded[as_index(d) / 3];
     }
     lanes[lane].loaded[i].clear();
   }
@@ -337,8 +307,8 @@ void LaneSprings::load(std::size_t lane, const SparseLoad& before, const SparseL
                        std::vector<std::int32_t>& own) {
     own = load.freedoms;
     for (std::size_t k = 0; k < load.freedoms.size(); ++k) {
-      to[index(load.freedoms[k])].lane[lane] = load.forces[k];
-      ++layout.loaded[index(load.freedoms[k]) / 3];
+      to[as_index(load.freedoms[k])].lane[lane] = load.forces[k];
+      ++layout.loaded[as_index(load.freedoms[k]) / 3];
     }
   };
   auto& own = layout.lanes[lane].loaded;

@@ -1,4 +1,4 @@
-// Springs of up to eight bodies on one mesh, moved together: lanes are bodies.
+// Springs of up to eight bodies with the same mesh, advanced together: each lane is one body.
 #pragma once
 
 #include <cstdint>
@@ -12,52 +12,51 @@
 
 namespace palpate::tissue {
 
-// A load on few degrees of freedom, N: ascending, each once.
+// A load on a few degrees of freedom, N: ascending, each freedom once.
 struct SparseLoad {
   std::vector<std::int32_t> freedoms;
   std::vector<double> forces;
 };
 [[nodiscard]] SparseLoad sparse(const Vector& load);  // of every entry but +0
 
-// How a lane steps: as integrate::CentralDifference does, eq. (12) of Chen 2007.
+// The time step of a lane, as of integrate::CentralDifference, eq. (12) of Chen 2007.
 struct LaneStep {
   double time_step = 0.0;  // s
-  bool consistent = true;  // its first step is of second order; docs/theory.md (39)
+  bool consistent = true;  // the first step is of second order; docs/theory.md (39)
 };
 
-// What a lane did in the last step, J: each as its function in fast_vectors.h or FastSprings says.
+// Energies of a lane's last step, J, each computed as in fast_vectors.h or FastSprings.
 struct LaneEnergies {
   double work = 0.0;  // of its loads
   double kinetic = 0.0;
   double stored = 0.0;
-  double lost = 0.0;  // by branches; of nodal drag times the time step, J s
+  double lost = 0.0;  // by branches; for nodal drag, multiplied by the time step, J s
 };
 
-// Central differences without dashpots between nodes. A lane does, to the bit, what its body does
-// by itself with FastSprings and fast_vectors.h, whatever its neighbours do; lanes that nobody has
-// entered stand still.
+// Advances bodies with linear kinematics by central differences, without dashpots between nodes. A
+// lane gives the same bits as its body alone with FastSprings and fast_vectors.h, independent of
+// the other lanes; empty lanes do not move.
 class LaneSprings {
  public:
   static constexpr std::size_t width = 8;
 
-  // The mesh is that of `network`, and so are the directions; branches are as many as `law` has.
-  // Copies: about 40 bytes a spring and lane, uncoupled.
-  LaneSprings(const Network& network, Kinematics kinematics, const ViscousLaw& law,
-              Lanes lanes = Lanes::widest);
+  // Takes the mesh and the spring directions from `network` and the number of branches from `law`.
+  // Memory: about 40 bytes per spring and lane for independent springs, nodes included.
+  LaneSprings(const Network& network, const ViscousLaw& law, Lanes lanes = Lanes::widest);
   ~LaneSprings();
   LaneSprings(LaneSprings&&) noexcept;
   LaneSprings& operator=(LaneSprings&&) noexcept;
 
-  // Whether bodies of this law can be moved so at all: no dashpots between nodes, and branches
-  // only where springs do not pull on each other.
+  // Whether bodies with this law can be advanced in lanes: not with dashpots between nodes, nor
+  // with branches on coupled springs.
   [[nodiscard]] static bool can(const Network& network, const ViscousLaw& law);
-  // Whether two networks may stand in lanes side by side: all but stiffnesses and masses is equal.
+  // Whether two networks can be lanes of one LaneSprings: all but stiffnesses and masses is equal.
   [[nodiscard]] static bool alike(const Network& a, const Network& b);
 
-  // `network` and `law` enter the lane, with a flag a degree of freedom for what is held.
+  // Puts a body into the lane; `held` has one flag per degree of freedom.
   void enter(std::size_t lane, const Network& network, const ViscousLaw& law,
              std::span<const char> held);
-  // Where it stands: m, m/s, and N of its springs there; memory as in viscous.h.
+  // The state of a body: m, m/s, and the force of its springs, N; memory as in viscous.h.
   struct Standing {
     const Vector* displacement;
     const Vector* velocity;
@@ -65,14 +64,14 @@ class LaneSprings {
     std::span<const double> memory;
   };
   void place(std::size_t lane, const Standing& standing);
-  // The next step is a first one, and so long.
+  // Starts a series of steps; the next step is its first.                    docs/theory.md (39)
   void begin(std::size_t lane, const LaneStep& step);
-  // The loads at the start and the end of the next steps, until others are given.
+  // Sets the loads at the start and at the end of the following steps, until the next load().
   void load(std::size_t lane, const SparseLoad& before, const SparseLoad& after);
-  // The load that acts at the start of the next steps is not the one that they begin with, having
-  // jumped: their work is that of the load at the end. Until others are given.
+  // Declares that the load jumped at the start of the following steps, so that the load at their
+  // end alone does the work. Valid until the next load().
   void jump(std::size_t lane);
-  // The lane stands still from now on.
+  // Empties the lane, which does not move any more.
   void leave(std::size_t lane);
 
   // One step of every lane. Allocates nothing.

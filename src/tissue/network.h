@@ -1,4 +1,4 @@
-// A body of mass points joined by springs along the edges of tetrahedra.
+// A body of point masses joined by springs along the edges of tetrahedra.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,31 +11,31 @@
 
 namespace palpate::tissue {
 
-// The six springs of a tetrahedron where they pull on each other: their tensions are this matrix
-// times their elongations.                                                docs/theory.md (65)
+// The six springs of a tetrahedron if they are coupled: their tensions are this matrix times their
+// elongations.                                                            docs/theory.md (65)
 struct CoupledSprings {
   std::array<int, 6> springs{};
   Eigen::Matrix<double, 6, 6> stiffness;  // N/m, symmetric
 };
 
-// A pressure against the change of a volume, which is averaged over the tetrahedra around a node:
+// A pressure against the change of a volume that is averaged over the tetrahedra around a node:
 // the energy is 1/2 stiffness (sum of dilation * elongation over its springs)^2.
 //                                                                         docs/theory.md (66)
 struct SharedVolume {
   std::vector<int> springs;
-  std::vector<double> dilation;  // 1/m, one a spring
+  std::vector<double> dilation;  // 1/m, one per spring
   double stiffness = 0.0;        // N m: modulus (Pa) times volume (m^3)
 };
 
-// Built once and constant. Springs are numbered as the mesh's sorted edges. A spring's tension is
-// its own stiffness times its elongation, and what its tetrahedra and volumes add.
+// Built once and constant. Springs are numbered like the sorted edges of the mesh. The tension of a
+// spring is its stiffness times its elongation plus the terms of its tetrahedra and volumes.
 struct Network {
-  std::vector<Vec3> rest;                // m, one a node
-  std::vector<double> node_mass;         // kg, a quarter of each tetrahedron at its corners
-  std::vector<std::array<int, 2>> ends;  // nodes of a spring, the lower first
+  std::vector<Vec3> rest;                // m, one per node
+  std::vector<double> node_mass;         // kg; docs/theory.md (32)
+  std::vector<std::array<int, 2>> ends;  // nodes of a spring, the lower number first
   std::vector<double> rest_length;       // m
   std::vector<Vec3> direction;           // unit vector from the first end to the second, at rest
-  std::vector<double> stiffness;         // N/m, of each by itself
+  std::vector<double> stiffness;         // N/m, of each spring alone
   std::vector<CoupledSprings> coupled;
   std::vector<SharedVolume> volumes;
 
@@ -43,13 +43,13 @@ struct Network {
   [[nodiscard]] int springs() const { return static_cast<int>(ends.size()); }
 };
 
-// Nodes, masses and springs of a mesh; `density` in kg/m^3, one a region of the mesh; `stiffness`
-// one a sorted edge, N/m.
+// Makes nodes, masses and springs of a mesh. `density` (kg/m^3) has one entry per region of the
+// mesh, `stiffness` (N/m) one per sorted edge.
 [[nodiscard]] Network make_network(const geometry::TetMesh& mesh, std::span<const double> density,
                                    std::vector<double> stiffness);
 
-// At each node a quarter of the volume (m^3) of each tetrahedron that it is a corner of, times the
-// weight of the tetrahedron's region.
+// For each node a quarter of the volume (m^3) of every tetrahedron at it, each multiplied by the
+// weight of the tetrahedron's region.                                      docs/theory.md (32)
 [[nodiscard]] std::vector<double> node_volumes(const geometry::TetMesh& mesh,
                                                std::span<const double> weight);
 

@@ -1,4 +1,4 @@
-// Rings by sweeping over the springs.
+// Finds the rings of a part by passes over all springs.
 #include "tissue/part.h"
 
 #include <algorithm>
@@ -8,21 +8,18 @@
 namespace palpate::tissue {
 namespace {
 
-// What couples the springs, as far as it can pull at a node of the part that moves. What is left
-// out cannot stretch: both its ends are held or outside.
-//   A tetrahedron reaches a moving node only if all its corners are neighbours of that node, so
-//   that
-// all its springs are in the part. A volume is averaged around a node that may be in the edge or
-// just outside of it; then some of its springs are missing, and these keep their length.
+// Copies the couplings that can load a moving node of the part. Those left out cannot be strained:
+// both ends of their springs are held or outside. If a tetrahedron has a moving corner, all its
+// springs are in the part. A volume may be averaged around a node that is in the edge or just
+// outside it; some of its springs are then missing, and these do not change their length.
 void restrict_couplings(const Network& whole, Part& part) {
   std::vector<int> number(whole.ends.size(), -1);
   for (std::size_t s = 0; s < part.springs.size(); ++s)
-    number[static_cast<std::size_t>(part.springs[s])] = static_cast<int>(s);
-  const auto in_part = [&](int spring) { return number[static_cast<std::size_t>(spring)]; };
+    number[as_index(part.springs[s])] = static_cast<int>(s);
+  const auto in_part = [&](int spring) { return number[as_index(spring)]; };
   const auto moves = [&](int spring) {
-    const auto& [a, b] = part.network.ends[static_cast<std::size_t>(spring)];
-    return part.edge[static_cast<std::size_t>(a)] == 0 ||
-           part.edge[static_cast<std::size_t>(b)] == 0;
+    const auto& [a, b] = part.network.ends[as_index(spring)];
+    return part.edge[as_index(a)] == 0 || part.edge[as_index(b)] == 0;
   };
   for (const CoupledSprings& six : whole.coupled) {
     CoupledSprings kept{.springs = {}, .stiffness = six.stiffness};
@@ -48,12 +45,12 @@ void restrict_couplings(const Network& whole, Part& part) {
 void reach_around(const Network& whole, std::span<const int> start, int rings, Reach& reach) {
   auto& [inside, moving] = reach;
   inside.assign(whole.rest.size(), 0);
-  for (const int node : start) inside[static_cast<std::size_t>(node)] = 1;
+  for (const int node : start) inside[as_index(node)] = 1;
   for (int ring = 0; ring <= rings; ++ring) {
     moving = inside;
     for (const auto& [a, b] : whole.ends) {
-      if (moving[static_cast<std::size_t>(a)] != 0) inside[static_cast<std::size_t>(b)] = 1;
-      if (moving[static_cast<std::size_t>(b)] != 0) inside[static_cast<std::size_t>(a)] = 1;
+      if (moving[as_index(a)] != 0) inside[as_index(b)] = 1;
+      if (moving[as_index(b)] != 0) inside[as_index(a)] = 1;
     }
   }
 }
@@ -84,8 +81,8 @@ Part part_around(const Network& whole, std::span<const int> start, int rings) {
   }
   for (std::size_t s = 0; s < whole.ends.size(); ++s) {
     const auto& [a, b] = whole.ends[s];
-    const int first = number[static_cast<std::size_t>(a)];
-    const int second = number[static_cast<std::size_t>(b)];
+    const int first = number[as_index(a)];
+    const int second = number[as_index(b)];
     if (first < 0 || second < 0) continue;
     part.springs.push_back(static_cast<int>(s));
     part.network.ends.push_back({first, second});

@@ -9,25 +9,25 @@
 namespace palpate::tissue {
 
 struct Part {
-  std::vector<int> nodes;    // of the whole, ascending: node i of the part is nodes[i]
-  std::vector<int> springs;  // of the whole, ascending
-  std::vector<char> edge;    // one a node: 1 in the outermost ring, which is held
+  std::vector<int> nodes;    // numbers in the whole network, ascending: node i is nodes[i]
+  std::vector<int> springs;  // numbers in the whole network, ascending
+  std::vector<char> edge;    // one per node: 1 in the outermost ring, which is fixed
   Network network;
 };
 
-// The nodes within `rings` springs of any of `start`, and one ring more: its nodes are the edge.
+// The nodes at most `rings` springs away from `start`, and one more ring, which is the edge.
 [[nodiscard]] Part part_around(const Network& whole, std::span<const int> start, int rings);
 
-// Which nodes those are, one flag a node of the whole. Allocates nothing when it is filled again.
+// The nodes of such a part, one flag per node of the whole network. Refilling allocates no memory.
 struct Reach {
-  std::vector<char> inside;  // the part's
-  std::vector<char> moving;  // and not its edge
+  std::vector<char> inside;  // in the part
+  std::vector<char> moving;  // in the part and not in its edge
 };
 void reach_around(const Network& whole, std::span<const int> start, int rings, Reach& reach);
-// Whether a part is of just those nodes.
+// Whether `part` has exactly these nodes and this edge.
 [[nodiscard]] bool spans(const Part& part, const Reach& reach);
 
-// All of it.
+// The whole network as a part without an edge.
 [[nodiscard]] Part whole_part(const Network& whole);
 
 }  // namespace palpate::tissue

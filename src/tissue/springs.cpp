@@ -1,5 +1,5 @@
-// Loops over springs in index order: the sums that reach files have one order. FastSprings does the
-// same in lanes, and must give the same bits: what changes here changes there.
+// Loops over springs in index order, because sums that reach files need a fixed order. FastSprings
+// does the same in lanes and must give the same bits: change both together.
 #include "tissue/springs.h"
 
 #include <algorithm>
@@ -8,27 +8,25 @@
 namespace palpate::tissue {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 Vec3 at(const Vector& vector, int node) { return vector.segment<3>(3 * node); }
 
-// A spring as it stands, unless kinematics are linear.
+// The present span of a spring, for kinematics other than linear.
 struct Stretched {
   Vec3 span;          // m, from the first end to the second
   double elongation;  // m
-  double per_length;  // 1/m: times `span` is the direction
+  double per_length;  // 1/m: direction = per_length * span
 };
 
-// |r|^2 - l^2 = d . (2 r_0 + d) does not cancel for small displacements, d the change of the span r
-// and r_0 its rest. Then, with one division, 1 / ((|r| + l) |r|):
+// |r|^2 - l^2 = d . (2 r_0 + d) does not cancel for a small change d of the span r, which is r_0 at
+// rest. With one division, 1 / ((|r| + l) |r|):                               docs/theory.md (33)
 //   nonlinear  e = (|r|^2 - l^2) / (|r| + l),  n = r / |r|
 //   squared    e = (|r|^2 - l^2) / (2 l),      n = r / l
-// Inlined, because vectors that are returned through memory took five times as long.
+// Inlined, because returning vectors through memory took five times as long.
 [[gnu::always_inline]] inline Stretched stretched(const Network& network, Kinematics kinematics,
                                                   const Vector& displacement, std::size_t s) {
   const auto [a, b] = network.ends[s];
   const Vec3 change = at(displacement, b) - at(displacement, a);
-  const Vec3 at_rest = network.rest[index(b)] - network.rest[index(a)];
+  const Vec3 at_rest = network.rest[as_index(b)] - network.rest[as_index(a)];
   const double rest = network.rest_length[s];
   const double squares = change.dot(2.0 * at_rest + change);
   if (kinematics == Kinematics::squared) {
@@ -69,15 +67,15 @@ void tensions(const Network& network, std::span<const double> elongation,
     for (int i = 0; i < 6; ++i) {
       double sum = 0.0;
       for (int j = 0; j < 6; ++j)
-        sum += six.stiffness(i, j) * elongation[index(six.springs[index(j)])];
-      tension[index(six.springs[index(i)])] += sum;
+        sum += six.stiffness(i, j) * elongation[as_index(six.springs[as_index(j)])];
+      tension[as_index(six.springs[as_index(i)])] += sum;
     }
   for (const SharedVolume& volume : network.volumes) {
     double dilation = 0.0;
     for (std::size_t k = 0; k < volume.springs.size(); ++k)
-      dilation += volume.dilation[k] * elongation[index(volume.springs[k])];
+      dilation += volume.dilation[k] * elongation[as_index(volume.springs[k])];
     for (std::size_t k = 0; k < volume.springs.size(); ++k)
-      tension[index(volume.springs[k])] += volume.stiffness * dilation * volume.dilation[k];
+      tension[as_index(volume.springs[k])] += volume.stiffness * dilation * volume.dilation[k];
   }
 }
 
@@ -119,25 +117,16 @@ void directions(const Network& network, Kinematics kinematics, const Vector& dis
     direction[s] = direction_of(network, kinematics, displacement, s);
 }
 
-void elongation_rates(const Network& network, Kinematics kinematics, const Vector& displacement,
-                      const Vector& velocity, std::span<double> rate) {
-  for (std::size_t s = 0; s < network.ends.size(); ++s) {
-    const auto [a, b] = network.ends[s];
-    rate[s] =
-        direction_of(network, kinematics, displacement, s).dot(at(velocity, b) - at(velocity, a));
-  }
-}
-
 namespace {
 
-// Gathers a matrix's entries between free degrees of freedom.
+// Collects the entries of a matrix between free degrees of freedom.
 class Entries {
  public:
   Entries(std::span<const char> held, std::size_t expected) : held_(held) {
     entries_.reserve(expected + held.size());
   }
 
-  // The 3 x 3 block of two springs: how the first one's ends are pulled as the second stretches.
+  // The 3 x 3 block of two springs: the forces on the first one's ends as the second one stretches.
   void add_springs(const std::array<int, 2>& ends, const std::array<int, 2>& others,
                    const Eigen::Matrix3d& block) {
     for (std::size_t p = 0; p < 2; ++p)
@@ -159,7 +148,7 @@ class Entries {
       for (int j = 0; j < 3; ++j) {
         const int row = 3 * row_node + i;
         const int column = 3 * column_node + j;
-        if (held_[index(row)] == 0 && held_[index(column)] == 0)
+        if (held_[as_index(row)] == 0 && held_[as_index(column)] == 0)
           entries_.emplace_back(row, column, sign * block(i, j));
       }
   }
@@ -168,7 +157,7 @@ class Entries {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-// Rows of the volumes' change per displacement, and their stiffness.
+// Sets `shared`, one row per volume with its change per displacement, and `weights`, its stiffness.
 void add_volumes(const Network& network, Kinematics kinematics, const Vector& displacement,
                  double factor, std::span<const char> held, SplitMatrix& matrix) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -177,12 +166,12 @@ void add_volumes(const Network& network, Kinematics kinematics, const Vector& di
     const SharedVolume& volume = network.volumes[v];
     matrix.weights[static_cast<Eigen::Index>(v)] = factor * volume.stiffness;
     for (std::size_t k = 0; k < volume.springs.size(); ++k) {
-      const std::size_t s = index(volume.springs[k]);
+      const std::size_t s = as_index(volume.springs[k]);
       const Vec3 pull = volume.dilation[k] * direction_of(network, kinematics, displacement, s);
       for (int i = 0; i < 3; ++i)
         for (std::size_t end = 0; end < 2; ++end) {
           const int freedom = 3 * network.ends[s][end] + i;
-          if (held[index(freedom)] == 0)
+          if (held[as_index(freedom)] == 0)
             entries.emplace_back(static_cast<int>(v), freedom, end == 0 ? -pull[i] : pull[i]);
         }
     }
@@ -198,7 +187,7 @@ SplitMatrix tangent(const Network& network, Kinematics kinematics, const Vector&
   Entries entries(held, 36 * network.ends.size() + 324 * network.coupled.size());
   for (std::size_t s = 0; s < network.ends.size(); ++s) {
     const Vec3 n = direction_of(network, kinematics, displacement, s);
-    // d(tension n)/dr = k n n^T + tension / |r| (I - n n^T), and with n = r / l of squared lengths
+    // d(tension n)/dr = k n n^T + tension / |r| (I - n n^T), or, with n = r / l of squared lengths,
     // k n n^T + tension / l I
     double across = 0.0;
     double along = factor * network.stiffness[s];
@@ -218,8 +207,8 @@ SplitMatrix tangent(const Network& network, Kinematics kinematics, const Vector&
   for (const CoupledSprings& six : network.coupled)
     for (std::size_t p = 0; p < 6; ++p)
       for (std::size_t q = 0; q < 6; ++q) {
-        const std::size_t first = index(six.springs[p]);
-        const std::size_t second = index(six.springs[q]);
+        const std::size_t first = as_index(six.springs[p]);
+        const std::size_t second = as_index(six.springs[q]);
         const double k = factor * six.stiffness(static_cast<int>(p), static_cast<int>(q));
         entries.add_springs(
             network.ends[first], network.ends[second],
@@ -239,15 +228,15 @@ SplitMatrix stiffness_matrix(const Network& network, std::span<const char> held)
 }
 
 bool inverted(const geometry::TetMesh& mesh, const Vector& displacement) {
-  // A node is a corner of about two dozen tetrahedra.
+  // The displaced nodes once: a node is a corner of about two dozen tetrahedra.
   std::vector<Vec3> places(mesh.nodes);
   for (std::size_t n = 0; n < places.size(); ++n)
     places[n] += displacement.segment<3>(3 * static_cast<Eigen::Index>(n));
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    const Vec3& origin = places[index(a)];
-    const Vec3 first = places[index(b)] - origin;
-    const Vec3 second = places[index(c)] - origin;
-    if (first.cross(second).dot(places[index(d)] - origin) <= 0.0) return true;
+    const Vec3& origin = places[as_index(a)];
+    const Vec3 first = places[as_index(b)] - origin;
+    const Vec3 second = places[as_index(c)] - origin;
+    if (first.cross(second).dot(places[as_index(d)] - origin) <= 0.0) return true;
   }
   return false;
 }

@@ -1,4 +1,4 @@
-// What springs do: elongations from displacements, forces and stiffness from tensions.
+// Spring mechanics: elongations from displacements, forces and stiffness from tensions.
 #pragma once
 
 #include <span>
@@ -9,47 +9,43 @@
 
 namespace palpate::tissue {
 
-// linear: elongations by the rest directions, forces along them (eq. 11-12).
-// nonlinear: lengths and directions of the moment (eq. 10).
-// squared: e = (|r|^2 - l^2) / (2 l), which six springs of a tetrahedron turn into Green's strain.
+// linear: elongations and forces along the directions at rest (Chen 2007 eq. 11-12).
+// nonlinear: with current lengths and directions (eq. 10).                   docs/theory.md (33)
+// squared: e = (|r|^2 - l^2) / (2 l), of which a tetrahedron's six make up Green's strain (65).
 enum class Kinematics { linear, nonlinear, squared };
 
 using Vector = Eigen::VectorXd;
 
-// Displacements and forces are vectors of three times the nodes, x, y, z of a node together.
+// Displacements and forces are vectors with three entries (x, y, z) per node.
 
-// e_s in m for displacements u (m).
+// The elongations e_s (m) under a displacement u (m).                        docs/theory.md (33)
 void elongations(const Network& network, Kinematics kinematics, const Vector& displacement,
                  std::span<double> elongation);
 
-// Tensions (N) of springs with these elongations (m). Overwrites `tension`.
+// The tensions (N) of springs with these elongations (m). Overwrites `tension`.
 void tensions(const Network& network, std::span<const double> elongation,
               std::span<double> tension);
 
-// What the tensions of some elongations do along other elongations, J; symmetric in both.
+// The sum over springs of tension(elongation) times `along`, J; symmetric in both arguments.
 [[nodiscard]] double work(const Network& network, std::span<const double> elongation,
                           std::span<const double> along);
-// The same with room for the tensions.
+// The same with a buffer for the tensions.
 [[nodiscard]] double work(const Network& network, std::span<const double> elongation,
                           std::span<const double> along, std::vector<double>& tension);
 
-// f = sum over springs of tension (N) along the spring's direction, the gradient of the elastic
-// energy: what holds the displacement in balance is +f. Overwrites `force`.
+// f = sum over springs of tension (N) times the spring's direction, the gradient of the elastic
+// energy: an external load of +f is in equilibrium with it. Overwrites `force`.
 void gather_forces(const Network& network, Kinematics kinematics, const Vector& displacement,
                    std::span<const double> tension, Vector& force);
 
-// Unit vectors along which springs pull (of squared lengths: the span over the rest length).
+// The directions of the spring forces: unit vectors; with squared lengths, span over rest length.
 void directions(const Network& network, Kinematics kinematics, const Vector& displacement,
                 std::span<Vec3> direction);
 
-// The rate of elongation by the velocity, m/s, along the directions of the moment.
-void elongation_rates(const Network& network, Kinematics kinematics, const Vector& displacement,
-                      const Vector& velocity, std::span<double> rate);
-
-// The tangent matrix where tensions change by `factor` times tensions() of a change of elongations
-// and, unless linear, the springs have these tensions (N); compressed springs give no geometric
-// term, so that the matrix stays positive definite. Rows and columns of `held` degrees of freedom
-// are those of the identity.
+// The tangent matrix (34), N/m: a change of elongations changes the tensions by `factor` times its
+// tensions(). Unless kinematics are linear, `tension` (N) adds the geometric term of stretched
+// springs; compressed springs add none, so that the matrix stays positive definite. Rows and
+// columns of `held` degrees of freedom are those of the identity.
 [[nodiscard]] SplitMatrix tangent(const Network& network, Kinematics kinematics,
                                   const Vector& displacement, double factor,
                                   std::span<const double> tension, std::span<const char> held);
@@ -57,7 +53,7 @@ void elongation_rates(const Network& network, Kinematics kinematics, const Vecto
 // The stiffness at rest, N/m.
 [[nodiscard]] SplitMatrix stiffness_matrix(const Network& network, std::span<const char> held);
 
-// Whether any tetrahedron has turned inside out under the displacement.
+// Whether a tetrahedron is turned inside out by the displacement.
 [[nodiscard]] bool inverted(const geometry::TetMesh& mesh, const Vector& displacement);
 
 }  // namespace palpate::tissue

@@ -1,4 +1,4 @@
-// Lanczos on the mass-scaled stiffness, matrix-free.
+// Lanczos iterations for the mass-scaled stiffness without an assembled matrix.
 #include "tissue/stable_step.h"
 
 #include <Eigen/Eigenvalues>
@@ -17,17 +17,17 @@ using Springs = std::span<const int>;
 std::vector<int> nodes_of(const Network& network, Springs springs) {
   std::vector<int> nodes;
   for (const int spring : springs)
-    for (const int node : network.ends[static_cast<std::size_t>(spring)]) nodes.push_back(node);
+    for (const int node : network.ends[as_index(spring)]) nodes.push_back(node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
-// How springs lengthen as a node moves: one column a spring, 3 x springs.
+// The elongation of each spring per displacement of a node: 3 x springs, one column per spring.
 Eigen::Matrix3Xd lengthening(const Network& network, Springs springs, int node) {
   Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(springs.size()));
   for (std::size_t k = 0; k < springs.size(); ++k) {
-    const auto spring = static_cast<std::size_t>(springs[k]);
+    const auto spring = as_index(springs[k]);
     const auto& [a, b] = network.ends[spring];
     if (node == b) columns.col(static_cast<Eigen::Index>(k)) = network.direction[spring];
     if (node == a) columns.col(static_cast<Eigen::Index>(k)) = -network.direction[spring];
@@ -38,10 +38,10 @@ Eigen::Matrix3Xd lengthening(const Network& network, Springs springs, int node) 
 }  // namespace
 
 double safe_frequency_squared(const Network& network) {
-  // u.K u <= sum_i |u_i|^2 sum_j |K_ij| for the 3 x 3 blocks K_ij of each symmetric part of K. Not
-  // in elongations: those of a flat tetrahedron have a stiffness far above that of its nodes.
+  // u.K u <= sum_i |u_i|^2 sum_j |K_ij| for the 3 x 3 blocks K_ij of each symmetric part of K. With
+  // elongations the bound would be poor: in flat tetrahedra their stiffness is far above the K_ij.
   std::vector<double> sum(network.rest.size(), 0.0);
-  const auto add = [&](int node, double sizes) { sum[static_cast<std::size_t>(node)] += sizes; };
+  const auto add = [&](int node, double sizes) { sum[as_index(node)] += sizes; };
   for (std::size_t s = 0; s < network.ends.size(); ++s)
     for (const int node : network.ends[s]) add(node, 2.0 * network.stiffness[s]);
   for (const CoupledSprings& six : network.coupled) {
@@ -73,7 +73,7 @@ double safe_frequency_squared(const Network& network) {
 
 namespace {
 
-// A vector without preferred directions, the same on every machine (a linear congruence).
+// A vector without preferred directions (a linear congruence), the same on every machine.
 Vector scattered(Eigen::Index size) {
   Vector vector(size);
   std::uint64_t state = 1;
@@ -90,9 +90,7 @@ double largest_frequency_squared(const Network& network, std::span<const char> h
   const Eigen::Index size = 3 * network.nodes();
   Vector scale(size);  // 1 / sqrt(m), 0 where held
   for (Eigen::Index d = 0; d < size; ++d)
-    scale[d] = held[static_cast<std::size_t>(d)] != 0
-                   ? 0.0
-                   : 1.0 / std::sqrt(network.node_mass[static_cast<std::size_t>(d / 3)]);
+    scale[d] = held[as_index(d)] != 0 ? 0.0 : 1.0 / std::sqrt(network.node_mass[as_index(d / 3)]);
 
   std::vector<double> elongation(network.ends.size());
   std::vector<double> tension(network.ends.size());
@@ -108,8 +106,8 @@ double largest_frequency_squared(const Network& network, std::span<const char> h
   const double safe = safe_frequency_squared(network);
   constexpr Eigen::Index most_steps = 300;
   const Eigen::Index steps = std::min(size, most_steps);
-  // A step is made orthogonal to all before it: large bodies stop sooner, and what the residual
-  // adds makes their time step shorter by at most a half of this.
+  // Every step is made orthogonal to all earlier ones, so large bodies stop sooner; the residual,
+  // which is added, shortens their time step by at most half of `enough`.
   constexpr Eigen::Index large = 30000;
   const double enough = size < large ? 1e-10 : 1e-4;
   std::vector<Vector> basis;

@@ -1,4 +1,4 @@
-// The highest frequency of a network, which bounds the explicit step.
+// The highest frequency of a network, which limits the explicit time step.
 #pragma once
 
 #include <span>
@@ -7,14 +7,14 @@
 
 namespace palpate::tissue {
 
-// omega^2 <= max over nodes of sum_j |K_ij| / m_i, in 1/s^2, K_ij the 3 x 3 blocks of each spring,
-// tetrahedron and volume by itself; of independent springs 2 sum_j k_ij / m_i. No matrix, never too
-// low.
+// An upper bound of omega_max^2, 1/s^2: max over nodes of sum_j |K_ij| / m_i, with K_ij the 3 x 3
+// blocks of each spring, tetrahedron and volume taken separately; 2 sum_j k_ij / m_i for
+// independent springs. Needs no assembled matrix. docs/theory.md (42)
 [[nodiscard]] double safe_frequency_squared(const Network& network);
 
-// omega_max^2 in 1/s^2 of M^-1 K with the held degrees of freedom taken out, by Lanczos with full
-// reorthogonalisation; the residual is added, so that the answer is an upper bound of the
-// eigenvalue found, and never above the safe one.                         docs/theory.md (42)
+// The largest eigenvalue omega_max^2 (1/s^2) of M^-1 K without the held degrees of freedom, by
+// Lanczos with full reorthogonalisation. The residual is added, so that the result is at least the
+// eigenvalue found; it never exceeds safe_frequency_squared().            docs/theory.md (42)
 [[nodiscard]] double largest_frequency_squared(const Network& network, std::span<const char> held);
 
 }  // namespace palpate::tissue

@@ -10,8 +10,8 @@
 namespace palpate::tissue {
 namespace {
 
-// A fully symmetric tensor of fourth order: 15 components, each times the root of how often it
-// stands in the full tensor, so that the plain dot product is the tensors' own.
+// A fully symmetric tensor of fourth order: 15 components, each times the square root of its number
+// of occurrences in the full tensor, so that the dot product is that of the full tensors.
 using SymmetricTensor = std::array<double, 15>;
 
 // n n n n for a unit vector; its length is 1.
@@ -34,7 +34,7 @@ SymmetricTensor isotropic() {
   return {1.2, 1.2, 1.2, 0, 0, 0, 0, 0, 0, 0.4 * r6, 0.4 * r6, 0.4 * r6, 0, 0, 0};
 }
 
-// The moduli over the first one: all sums are volumes, weighted with these.
+// The moduli divided by the first one; they weight the volumes in all sums.
 std::vector<double> relative(std::span<const double> young_modulus) {
   std::vector<double> weights(young_modulus.begin(), young_modulus.end());
   for (double& weight : weights) weight /= young_modulus[0];
@@ -45,26 +45,23 @@ std::vector<double> relative(std::span<const double> young_modulus) {
 std::vector<double> edge_volumes(const geometry::TetMesh& mesh,
                                  const std::vector<std::array<int, 2>>& edges,
                                  const std::vector<double>& weight) {
-  constexpr std::array<std::array<std::size_t, 2>, 6> corners{
-      {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
   std::vector<double> volumes(edges.size(), 0.0);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const double volume = geometry::signed_volume(mesh, static_cast<int>(t)) *
-                          weight[static_cast<std::size_t>(mesh.region(static_cast<int>(t)))];
-    for (const auto& [i, j] : corners) {
-      const int a = mesh.tetrahedra[t][i];
-      const int b = mesh.tetrahedra[t][j];
+                          weight[as_index(mesh.region(static_cast<int>(t)))];
+    for (const auto& [i, j] : geometry::corner_edges) {
+      const int a = mesh.tetrahedra[t][as_index(i)];
+      const int b = mesh.tetrahedra[t][as_index(j)];
       const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
       const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
-      volumes[static_cast<std::size_t>(found - edges.begin())] += volume;
+      volumes[as_index(found - edges.begin())] += volume;
     }
   }
   return volumes;
 }
 
 Vec3 span_of(const geometry::TetMesh& mesh, const std::array<int, 2>& edge) {
-  return mesh.nodes[static_cast<std::size_t>(edge[1])] -
-         mesh.nodes[static_cast<std::size_t>(edge[0])];
+  return mesh.nodes[as_index(edge[1])] - mesh.nodes[as_index(edge[0])];
 }
 
 }  // namespace
@@ -80,9 +77,8 @@ std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh,
 
 SpringFit fit_springs(const geometry::TetMesh& mesh) {
   const auto edges = geometry::edges(mesh);
-  const auto regions = mesh.regions.empty()
-                           ? std::size_t{1}
-                           : static_cast<std::size_t>(*std::ranges::max_element(mesh.regions)) + 1;
+  const auto regions =
+      mesh.regions.empty() ? std::size_t{1} : as_index(*std::ranges::max_element(mesh.regions)) + 1;
   const std::vector<double> alike(regions, 1.0);
   const std::vector<double> start = edge_volumes(mesh, edges, alike);
   const std::vector<double> volumes = node_volumes(mesh, alike);
@@ -90,7 +86,7 @@ SpringFit fit_springs(const geometry::TetMesh& mesh) {
   powers.reserve(edges.size());
   for (const auto& edge : edges) powers.push_back(fourth_power(span_of(mesh, edge).normalized()));
 
-  // The unknowns are y_e = k_e l_e^2 / E, volumes; `missing` is V_v C/E - sum 1/2 y_e nnnn.
+  // The unknowns are y_e = k_e l_e^2 / E, in m^3; `missing` is V_v C/E - sum 1/2 y_e nnnn.
   std::vector<double> y = start;
   std::vector<SymmetricTensor> missing(volumes.size());
   const SymmetricTensor target = isotropic();
@@ -99,12 +95,12 @@ SpringFit fit_springs(const geometry::TetMesh& mesh) {
   const auto add = [&](std::size_t e, double change) {
     for (const int node : edges[e])
       for (std::size_t c = 0; c < target.size(); ++c)
-        missing[static_cast<std::size_t>(node)][c] -= 0.5 * change * powers[e][c];
+        missing[as_index(node)][c] -= 0.5 * change * powers[e][c];
   };
   for (std::size_t e = 0; e < edges.size(); ++e) add(e, y[e]);
 
-  // Projected coordinate descent: each y_e in turn goes to its own best value. The
-  // weak pull makes the problem strictly convex, so the sweeps settle on its one solution.
+  // Projected coordinate descent: each y_e in turn is set to its best value. The weak second term
+  // of (31) makes the problem strictly convex, so that the sweeps converge to its only solution.
   constexpr double pull = 1e-3;
   constexpr double least = 0.1;  // of Van Gelder's: without it flat cells lose springs and rigidity
   constexpr int most_sweeps = 2000;
@@ -114,7 +110,7 @@ SpringFit fit_springs(const geometry::TetMesh& mesh) {
       double slope = pull * (start[e] - y[e]);
       for (const int node : edges[e])
         for (std::size_t c = 0; c < target.size(); ++c)
-          slope += 0.5 * missing[static_cast<std::size_t>(node)][c] * powers[e][c];
+          slope += 0.5 * missing[as_index(node)][c] * powers[e][c];
       const double change = std::max(least * start[e], y[e] + slope / (0.5 + pull)) - y[e];
       if (change == 0.0) continue;
       y[e] += change;
@@ -140,12 +136,6 @@ std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, const Spring
 std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
                                      std::span<const double> young_modulus) {
   return fitted_stiffness(mesh, fit_springs(mesh), young_modulus);
-}
-
-std::vector<double> spring_stiffness(StiffnessRule rule, const geometry::TetMesh& mesh,
-                                     std::span<const double> young_modulus) {
-  return rule == StiffnessRule::van_gelder ? van_gelder_stiffness(mesh, young_modulus)
-                                           : fitted_stiffness(mesh, young_modulus);
 }
 
 }  // namespace palpate::tissue

@@ -1,4 +1,4 @@
-// The strain of every tetrahedron, from where its nodes have gone.
+// The strain of every tetrahedron from the displacements of its nodes.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace palpate::tissue {
 
-// xx, yy, zz, xy, yz, xz of a symmetric tensor; the shears are the tensor's, half of the
-// engineer's. Lengthening is positive.
+// xx, yy, zz, xy, yz, xz of a symmetric tensor; shears are tensor components, half of the
+// engineering shear strain. Extension is positive.
 using Strain = std::array<double, 6>;
 
-// Small strain, constant in each tetrahedron: e = (H + H^T) / 2, H the gradient of the displacement
-// (m, one a node) over the rest shape. A rotation by the angle r adds strains of about r^2 / 2 that
-// are none. Needs tetrahedra of positive volume. One a tetrahedron, in the mesh's order.
+// Small strain, constant in each tetrahedron: e = (H + H^T) / 2, where H is the gradient of the
+// displacement (m, one per node) over the rest shape. A rotation by the angle r appears as a strain
+// of about r^2 / 2. The tetrahedra must have positive volume. One entry per tetrahedron.
 [[nodiscard]] std::vector<Strain> small_strain(const geometry::TetMesh& mesh,
                                                std::span<const Vec3> displacement);
 

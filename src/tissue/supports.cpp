@@ -1,4 +1,4 @@
-// Held degrees of freedom from the nodes on the base and the top.
+// Finds the held degrees of freedom from the nodes at the base and at the top.
 #include "tissue/supports.h"
 
 #include <algorithm>
@@ -16,12 +16,9 @@ std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double 
   if (base_height > 0.0) {
     nodes.clear();
     for (const int node : geometry::skin(mesh).nodes)
-      if (height(mesh.nodes[static_cast<std::size_t>(node)]) <= low + base_height)
-        nodes.push_back(node);
+      if (height(mesh.nodes[as_index(node)]) <= low + base_height) nodes.push_back(node);
   }
-  const auto hold = [&](int node, int axis) {
-    held[static_cast<std::size_t>(3 * node + axis)] = 1;
-  };
+  const auto hold = [&](int node, int axis) { held[as_index(3 * node + axis)] = 1; };
   for (const int node : nodes) {
     hold(node, 2);
     if (base == Base::bonded) {
@@ -30,8 +27,8 @@ std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double 
     }
   }
   if (base == Base::frictionless) {
-    // The node with the least x + y is pinned; the one farthest from it along x keeps its y.
-    const auto place = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+    // The node with the smallest x + y is pinned; the one with the largest x - y keeps its y.
+    const auto place = [&](int node) { return mesh.nodes[as_index(node)]; };
     const int pin = *std::min_element(nodes.begin(), nodes.end(), [&](int a, int b) {
       return place(a).x() + place(a).y() < place(b).x() + place(b).y();
     });
@@ -47,8 +44,7 @@ std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double 
 
 std::vector<char> held_between_platens(const geometry::TetMesh& mesh, Base base, double top) {
   std::vector<char> held = held_by_base(mesh, base);
-  for (const int node : geometry::nodes_at_height(mesh, top))
-    held[static_cast<std::size_t>(3 * node + 2)] = 1;
+  for (const int node : geometry::nodes_at_height(mesh, top)) held[as_index(3 * node + 2)] = 1;
   return held;
 }
 

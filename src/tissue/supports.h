@@ -1,4 +1,4 @@
-// Which degrees of freedom of a specimen are held, and how its ends are pressed.
+// The held degrees of freedom of a specimen: at its base, and between platens.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace palpate::tissue {
 
-// bonded: the base does not move. frictionless: it slides on the table, but does not lift.
+// bonded: the base does not move. frictionless: the base slides on the table but does not lift off.
 enum class Base { bonded, frictionless };
 
-// One flag a degree of freedom, 1 where it is held. The base is the lowest plane, or, for a
-// `base_height` above 0 (m), all of the skin up to so far above it. A frictionless base keeps one
-// node from sliding and a second one from turning the body about it.
+// One flag per degree of freedom, 1 where it is held. The base is the lowest plane or, if
+// `base_height` (m) is positive, the skin up to this height above it. With a frictionless base one
+// node is kept from sliding and a second one from turning the body about the first.
 [[nodiscard]] std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base,
                                              double base_height = 0.0);
 
-// The same, and the top at height `top` moves only sideways: its height is prescribed.
+// The same, and the height of the nodes at `top` (m) is prescribed: they move only sideways.
 [[nodiscard]] std::vector<char> held_between_platens(const geometry::TetMesh& mesh, Base base,
                                                      double top);
 

@@ -1,4 +1,4 @@
-// One linear solve with the top pressed down by its own height.
+// Each test is one linear solve: with the top lowered by the height, or under tractions.
 #include "tissue/uniaxial.h"
 
 #include "base/cholesky.h"
@@ -8,7 +8,7 @@
 namespace palpate::tissue {
 namespace {
 
-// The mean widening of the body along an axis per its width: outer faces apart, over the distance.
+// The mean increase of the distance between the two outer faces along an axis, over that distance.
 double widening(const geometry::TetMesh& mesh, const Vector& displacement, int axis) {
   double low = mesh.nodes.front()[axis];
   double high = low;
@@ -35,11 +35,11 @@ constexpr const char* not_rigid =
     "the spring network is not rigid: some nodes can move without stretching a spring; use more "
     "cells or another mesh kind";
 
-// Six degrees of freedom that keep a body from moving as a whole, and no more.
+// Six degrees of freedom that prevent exactly the rigid motions of a body.
 std::vector<char> held_lightly(const geometry::TetMesh& mesh) {
   std::vector<char> held(3 * mesh.nodes.size(), 0);
   const auto hold = [&](std::size_t node, Eigen::Index axis) {
-    held[3 * node + static_cast<std::size_t>(axis)] = 1;
+    held[3 * node + as_index(axis)] = 1;
   };
   const auto farthest = [&](const auto& measure) {
     std::size_t best = 0;
@@ -68,18 +68,18 @@ std::vector<char> held_lightly(const geometry::TetMesh& mesh) {
 Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh) {
   const std::vector<char> held = held_lightly(mesh);
   const geometry::Skin skin = geometry::skin(mesh);
-  const auto node = [&](int vertex) { return skin.nodes[static_cast<std::size_t>(vertex)]; };
+  const auto node = [&](int vertex) { return skin.nodes[as_index(vertex)]; };
   Vector load = Vector::Zero(3 * network.nodes());
   for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
     const Vec3 face = 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t));
     for (const int vertex : skin.surface.triangles[t]) load[3 * node(vertex) + 2] += face.z() / 3.0;
   }
-  for (std::size_t d = 0; d < held.size(); ++d)  // the tractions balance: nothing is held back here
+  for (std::size_t d = 0; d < held.size(); ++d)  // the tractions balance: no reaction is lost here
     if (held[d] != 0) load[static_cast<Eigen::Index>(d)] = 0.0;
   Cholesky factors;
   if (!factors.factor(stiffness_matrix(network, held))) throw MeshError(not_rigid);
   const Vector displacement = factors.solve(load);
-  // mean strain = 1/V sum over the skin of (mean displacement) x (area vector)
+  // mean strain = 1/V sum over the skin of (mean displacement) x (area vector)  docs/theory.md (46)
   Vec3 stretch = Vec3::Zero();
   for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
     const Vec3 face = 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t));
@@ -106,7 +106,7 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
   Vector prescribed = Vector::Zero(3 * network.nodes());
   for (const int node : result.top) prescribed[3 * node + 2] = -result.height;
 
-  // K u = 0 on the free degrees of freedom: u = prescribed - K_ff^-1 (K prescribed)_f
+  // K u = 0 at the free degrees of freedom: u = prescribed - K_ff^-1 (K prescribed)_f
   Cholesky factors;
   if (!factors.factor(stiffness_matrix(network, held))) throw MeshError(not_rigid);
   std::vector<double> elongation(network.ends.size());

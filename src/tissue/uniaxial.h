@@ -1,4 +1,4 @@
-// The modulus and the Poisson's ratio that a network really has, measured on the specimen.
+// Young's modulus and Poisson's ratio of a spring network, measured on the specimen.
 #pragma once
 
 #include <vector>
@@ -7,25 +7,25 @@
 
 namespace palpate::tissue {
 
-// A small uniaxial compression between platens, solved in statics.
+// Result of a small static uniaxial compression between platens.
 struct Uniaxial {
   double young_modulus = 0.0;  // Pa: stress over strain
-  double poisson_ratio = 0.0;  // mean widening of the sides over the shortening
+  double poisson_ratio = 0.0;  // mean widening of the sides over the axial strain
   double height = 0.0;         // m
   double area = 0.0;           // m^2, of the top face
-  Vector displacement;         // m, for a shortening of 1 (strain 1, linear)
+  Vector displacement;         // m, for a shortening by the whole height (strain 1, linear)
   std::vector<int> top;        // the nodes under the upper platen
-  std::vector<double> shares;  // of the platen's force on each of them; sum 1
+  std::vector<double> shares;  // of the platen's force, one per node of `top`; sum 1
 };
 
-// `area` in m^2 of the flat top at height `top` (m). The upper platen is frictionless, the lower
-// one as `base` says. Throws MeshError where the network has a mechanism (is not rigid).
+// `area` (m^2) is that of the flat top at height `top` (m). The upper platen is frictionless, the
+// lower one as `base` says. Throws MeshError if the network is not rigid.   docs/theory.md (45)
 [[nodiscard]] Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh,
                                      Base base, double top, double area);
 
-// The same of a body of any shape, under the tractions on its whole skin that stretch it evenly
-// along z; modulus and ratio follow from the mean strain, the rest of the answer is left empty.
-// Throws as above.                                                          docs/theory.md (46)
+// The same for a body of any shape, under tractions on its whole skin that stretch it uniformly
+// along z. Modulus and ratio follow from the mean strain; the other members are left empty. Throws
+// MeshError if the network is not rigid.                                    docs/theory.md (46)
 [[nodiscard]] Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh);
 
 }  // namespace palpate::tissue

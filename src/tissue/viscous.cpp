@@ -1,4 +1,4 @@
-// Kelvin-Voigt, the standard linear solid and Prony series in one recurrence.
+// Kelvin-Voigt, the standard linear solid and Prony series by one recurrence.
 #include "tissue/viscous.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double ViscousLaw::longest_time() const {
   return longest;
 }
 
-// exp here is evaluated when the step changes, outside the step.
+// Called when the step size changes, not in every step, so exp is allowed here.
 MemoryStep MemoryStep::exact(double time_step, double time) {
   const double x = time_step / time;
   const double keep = std::exp(-x);
@@ -55,7 +55,7 @@ namespace {
 
 // Kelvin-Voigt: e_1 = keep e_0 + begin s_0/k + end s_1/k, solved for s_1/k   docs/theory.md (36)
 double kelvin_voigt(const MemoryStep& step, const double* memory, double elongation) {
-  // A dashpot that is stretched at once gives an impulse and is then as slack as before.
+  // A dashpot stretched in no time only transmits an impulse; afterwards it carries no force.
   if (step.end == 0.0) return elongation;
   const double past = step.keep * memory[0] + step.begin * memory[1];
   return (elongation - past) / step.end;

@@ -1,4 +1,4 @@
-// The viscous law of springs, and the memory that steps it through time.
+// The viscous law of springs, and the memory with which it is integrated over time.
 #pragma once
 
 #include <span>
@@ -6,13 +6,13 @@
 
 namespace palpate::tissue {
 
-// none: k e. nodal_drag: k e, and d v on each node against the ground (eq. 10).
-// kelvin_voigt: k (e + tau e'), the damper of Fig. 4 along each edge.
+// none: k e. nodal_drag: k e, and a drag d v of each node against the ground (Chen 2007 eq. 10).
+// kelvin_voigt: k (e + tau e'), a damper along each edge (Chen 2007 Fig. 4).
 // standard_linear_solid: k e + k_1 (e - q), q' = (e - q) / tau.  prony: several such branches.
 enum class Viscosity { none, nodal_drag, kelvin_voigt, standard_linear_solid, prony };
 
 struct Branch {
-  double time = 0.0;   // s, tau of its relaxation
+  double time = 0.0;   // s, relaxation time tau
   double ratio = 0.0;  // k_1 / k
 };
 
@@ -23,16 +23,15 @@ struct ViscousLaw {
   double drag = 0.0;                  // 1/s: d_i / m_i of nodal drag
 
   [[nodiscard]] double instantaneous_ratio() const;  // E_0 / E_inf = 1 + sum of ratios
-  [[nodiscard]] double shortest_time() const;        // s, 0 without any
-  [[nodiscard]] double longest_time() const;         // s, 0 without any
+  [[nodiscard]] double shortest_time() const;        // s, 0 if there is none
+  [[nodiscard]] double longest_time() const;         // s, 0 if there is none
 };
 
-// One step of  tau q' = e - q  or, read backwards, of  tau e' = s/k - e:
-//   q_1 = keep q_0 + begin e_0 + end e_1.
-// Exact for e that changes linearly in the step (`exact`), for e that has its end value all along
-// (`held`), implicit Euler (`first_order`), or explicit Euler of q (`forward`, from an elongation
-// that stays: e_0 = e_1). `at_once` is no time at all: q stays,
-// and a Kelvin-Voigt spring is elastic.
+// Coefficients of one step of  tau q' = e - q  or, solved for its input, of  tau e' = s/k - e:
+//   q_1 = keep q_0 + begin e_0 + end e_1.                                  docs/theory.md (35)
+// exact: exact if e is linear in the step. held: exact if e has its final value during the whole
+// step. first_order: implicit Euler. forward: explicit Euler of q at a constant e. at_once: a step
+// that takes no time, in which q stays and a Kelvin-Voigt spring is elastic.
 struct MemoryStep {
   double keep = 1.0;
   double begin = 0.0;
@@ -45,26 +44,26 @@ struct MemoryStep {
   [[nodiscard]] static MemoryStep at_once() { return {}; }
 };
 
-// What springs remember lies in one array, memory_size() numbers a spring: the elongation at the
-// last step (m), and the internal elongation q of every branch, or of Kelvin-Voigt the effective
-// elongation (m). `steps` has one entry a branch; of Kelvin-Voigt one.
+// The memory of the springs is one array with memory_size() numbers per spring: the elongation at
+// the last step (m), then the internal elongation q of every branch or, for Kelvin-Voigt, the
+// effective elongation s/k (m). `steps` has one entry per branch, and one for Kelvin-Voigt.
 [[nodiscard]] std::size_t memory_size(const ViscousLaw& law);
 
-// Springs pull as elastic ones of the effective elongation would: tensions() of it, whether they
-// are coupled or not, because all have the same times.                docs/theory.md (36), (37)
-// At the end of a step to `elongation`:
+// The effective elongations (m) at the end of a step to `elongation`. A spring has the tension that
+// an elastic spring with its effective elongation would have. This holds for coupled springs too,
+// because all springs have the same times.                            docs/theory.md (36), (37)
 void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> steps,
                            std::span<const double> memory, std::span<const double> elongation,
                            std::span<double> effective);
 
-// d(effective) / d(elongation) of that.
+// The derivative d(effective) / d(elongation) of effective_elongations().
 [[nodiscard]] double effective_slope(const ViscousLaw& law, std::span<const MemoryStep> steps);
 
-// At this very moment, without dashpots: e + sum of ratio (e - q).
+// The effective elongations at this moment without dashpots: e + sum of ratio (e - q).
 void elastic_elongations(const ViscousLaw& law, std::span<const double> memory,
                          std::span<const double> elongation, std::span<double> effective);
 
-// The memory after the step.
+// Advances the memory by a step to `elongation`.
 void remember(const ViscousLaw& law, std::span<const MemoryStep> steps,
               std::span<const double> elongation, std::span<double> memory);
 

@@ -12,21 +12,16 @@
 #include "base/text.h"
 #include "blocks.h"
 #include "run/family.h"
+#include "run_text.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
 
 namespace palpate {
 namespace {
 
-using Model = scenario::Solver::Model;
+using scenario::Model;
 
-const std::atomic<bool> never = false;
-
-record::CaseRecord run_text(const std::string& text, const std::vector<std::string>& settings) {
-  const auto family = scenario::parse(text, "scene.toml", settings);
-  const auto scene = scene::build(family.cases.front(), family);
-  return run::run_case(scene, never);
-}
+using test::run_text;
 
 std::string percent(std::optional<double> part) {
   if (!part) return "-";
@@ -57,11 +52,11 @@ void blocks_table() {
                          {"TetGen 1500", "{kind=\"tetgen\",nodes=1500}"}};
   std::printf(
       "## Blocks under a rigid sphere\n\n"
-      "Greatest error over all depths of the block, in percent of the nearer edge of the band "
-      "between the two ways\nto read linear elasticity; 0 is inside it. `hertz` and `layer` have "
-      "no mesh. The band is an independent\nprogram's: "
-      "[tests/elasticity](../tests/elasticity/README.md) "
-      "has the blocks, the depths and the forces.\n\n"
+      "The largest error over all depths of the block, in percent of the nearer edge of the band "
+      "between the two readings of\nlinear elasticity; 0 means inside the band. `hertz` and "
+      "`layer` have no mesh. The band was computed by an independent\nprogram: "
+      "[tests/elasticity](../tests/elasticity/README.md) describes the blocks, the depths and the "
+      "forces.\n\n"
       "| block | hertz | layer | rung |");
   for (const Mesh& mesh : meshes) std::printf(" %s |", mesh.name);
   std::printf("\n|---|---|---|---|");
@@ -139,9 +134,9 @@ void figure(const std::string& path) {
 // Strain of creep under a stress, stress of relaxation under a strain, over the closed form.
 void uniform_table() {
   std::printf(
-      "\n## Uniform tests\n\nGreatest error of creep, recovery (over the strain that it begins "
-      "with) and relaxation of a block between\nslippery platens against the closed form, in "
-      "percent; TetGen 300 nodes, quasi-static rows of 10 ms.\n\n"
+      "\n## Uniform tests\n\nThe largest error of creep, recovery (relative to the strain at its "
+      "beginning) and relaxation of a block between\nfrictionless platens, compared with the "
+      "closed form, in percent; 300 nodes from TetGen, quasi-static rows of 10 ms.\n\n"
       "| nu | rung | Kelvin-Voigt creep and recovery | standard linear solid relaxation |\n"
       "|---|---|---|---|\n");
   for (const double nu : {0.0, 0.25, 0.33, 0.45, 0.49}) {
@@ -203,19 +198,18 @@ struct Reference {
 Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
   const auto& scenario = chosen.scenario;
   if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
-    return {measure(run::run_case(chosen, never)), 0.0, "closed form"};
-  if (!scenario.uniform() && !scene::beyond_layer(scenario) &&
+    return {measure(test::run_scene(chosen)), 0.0, "closed form"};
+  if (!scenario.uniform() && !scene::beyond(Model::layer, scenario) &&
       scene::estimate(scenario).sides < 0.002 && scene::estimate(scenario).inertia < 0.002)
     return {measure(run_text(scene.text, {"solver.model=layer"})), 0.0, "exact layer"};
   std::vector<double> values;
   const bool fast = scenario.solver.integrator == scenario::Solver::Integrator::central_difference;
   for (const int nodes : {300, 600, 1200}) {
-    const auto family = scenario::parse(
-        scene.text, "scene.toml",
+    values.push_back(measure(run_text(
+        scene.text,
         {"solver.model=coupled_springs",
          "tissue.mesh={kind=\"tetgen\",nodes=" + std::to_string(nodes) + "}",
-         std::string("solver.integrator=") + (fast ? "central_difference" : "quasi_static")});
-    values.push_back(measure(run::run_case(scene::build(family.cases.front(), family), never)));
+         std::string("solver.integrator=") + (fast ? "central_difference" : "quasi_static")})));
   }
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return {values.back(), (*high - *low) / values.back(), "coupled springs, refined"};
@@ -223,43 +217,38 @@ Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
 
 void auto_table() {
   std::printf(
-      "\n## What `auto` takes\n\nTwenty-one scenes "
-      "([tests/auto_scenes.h](../tests/auto_scenes.h)), "
-      "tolerance 5 %%. Errors against the reference, in percent: of the greatest\nforce, or of the "
-      "greatest strain of a uniform test. In brackets what was predicted.\n\n"
-      "| scene | reference | its error | hertz | layer | mass_spring | coupled_springs | taken |\n"
-      "|---|---|---|---|---|---|---|---|\n");
+      "\n## Models that `auto` picks\n\nTwenty-one scenes "
+      "([tests/auto_scenes.h](../tests/auto_scenes.h)) with a tolerance of 5 %%. Errors against "
+      "the reference are\nin percent of the largest force, or of the largest strain of a uniform "
+      "test. Predicted errors are in brackets.\n\n"
+      "| scene | reference | its error |");
+  for (const scenario::Rung& rung : scenario::ladder) std::printf(" %s |", rung.word);
+  std::printf(" taken |\n|---|---|---|");
+  for (std::size_t i = 0; i < scenario::ladder.size(); ++i) std::printf("---|");
+  std::printf("---|\n");
   for (const test::AutoScene& one : test::auto_scenes()) {
     const auto family = scenario::parse(one.text, "scene.toml", {});
-    const auto chosen = scene::build(family.cases.front(), family);
+    const auto chosen = test::first_scene(family);
     const Reference truth = reference(one, chosen);
     std::printf("| %s | %s | %s |", one.name, truth.kind, percent(truth.error).c_str());
-    for (const Model model :
-         {Model::hertz, Model::layer, Model::mass_spring, Model::coupled_springs}) {
-      const scene::Rung* rung = nullptr;
-      for (const scene::Rung& candidate : chosen.choice.rungs)
-        if (candidate.model == model && candidate.cannot.empty()) rung = &candidate;
+    for (const scenario::Rung& each : scenario::ladder) {
+      const scene::Forecast* rung = chosen.choice.forecast(each.of);
       std::optional<double> error;
       if (rung != nullptr) {
         try {
           auto as_taken = family;
-          as_taken.cases.front().scenario = chosen.scenario;
-          as_taken.cases.front().scenario.solver.model = model;
-          as_taken.cases.front().scenario.solver.volume = scenario::Solver::Volume::automatic;
-          as_taken.cases.front().scenario.contact.depth = model == Model::hertz
-                                                              ? chosen.scenario.contact.depth
-                                                              : scenario::Contact::Depth::hertz;
-          const auto built = scene::build(as_taken.cases.front(), as_taken);
-          error = measure(run::run_case(built, never)) / truth.value - 1.0;
+          scenario::Scenario& asked = as_taken.cases.front().scenario;
+          asked = scenario::answered(as_taken.cases.front(), chosen.scenario);
+          asked.solver.model = each.of;
+          if (!each.deep_factor) asked.contact.depth = scenario::Contact::Depth::hertz;
+          error = measure(test::run_scene(test::first_scene(as_taken))) / truth.value - 1.0;
         } catch (const std::exception&) {
         }
       }
       std::printf(" %s%s |", percent(error).c_str(),
                   rung != nullptr ? (" (" + percent(rung->error) + ")").c_str() : "");
-      if (model == Model::coupled_springs)
-        std::printf(" %s |\n",
-                    scenario::words::word(scenario::words::models, chosen.scenario.solver.model));
     }
+    std::printf(" %s |\n", scenario::rung(chosen.scenario.solver.model).word);
     std::fflush(stdout);
   }
 }
@@ -274,15 +263,15 @@ int main(int count, char** arguments) {
   const auto wanted = [&](const char* table) { return only.empty() || only == table; };
   if (only.empty())
     std::printf(
-        "# How accurate each rung is\n\nWritten by `./dev accuracy`, which runs every number on "
-        "this page anew.\n\n");
+        "# Accuracy of each model\n\n`./dev accuracy` computes every number on this page and "
+        "writes the page.\n\n");
   if (wanted("blocks")) {
     palpate::blocks_table();
     if (count > 1) palpate::figure(arguments[1]);
     std::printf(
-        "\n![Force against nodes](accuracy.svg)\n\nThe same at 1 mm on TetGen's meshes; the grey "
-        "band is the truth. The paper's own springs, which know nothing\nof the tissue's nu, stay "
-        "near it.\n");
+        "\n![Force against nodes](accuracy.svg)\n\nThe same at 1 mm on TetGen's meshes. The grey "
+        "band is that of linear elasticity. The paper's springs, whose Poisson's\nratio is not the "
+        "tissue's, stay near it.\n");
   }
   if (wanted("uniform")) palpate::uniform_table();
   if (wanted("auto")) palpate::auto_table();

@@ -9,10 +9,10 @@
 #include "bench/plain_step.h"
 #include "contact/hertz.h"
 #include "integrate/central_difference.h"
-#include "run/pressed_mesh.h"
-#include "scenario/family.h"
+#include "mechanics/pressed_mesh.h"
 #include "scene/first_touch.h"
 #include "scene/spring_body.h"
+#include "scene_text.h"
 
 namespace palpate {
 namespace {
@@ -51,12 +51,11 @@ Kernel frame(const char* coupling, const char* integrator, const char* viscosity
         "\"\nmesh = { kind = \"kuhn\", cells = [2, 3, 4] }\n[contact]\ncoupling = \"" + coupling +
         "\"\n[solver]\nmodel = \"mass_spring\"\nintegrator = \"" + integrator +
         "\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
-    const scenario::Family family = scenario::parse(text, "block.toml", {});
-    const scene::Scene scene = scene::build(family.cases.front(), family);
+    const scene::Scene scene = test::scene_of(text);
     const scene::TimePlan& plan = scene.specimen->plan;
-    run::PressedMesh mesh(scene);
-    run::ContactHistory history(scene);
-    run::Touch touch;
+    mechanics::PressedMesh mesh(scene);
+    mechanics::ContactHistory history(scene);
+    mechanics::Touch touch;
     const Vec3 first = scene::first_touch(scene).finger;
     mesh.set_step(plan.substep);
     touch.finger = first;

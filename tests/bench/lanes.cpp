@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "geometry/cuboid.h"
-#include "geometry/tetgen.h"
 #include "integrate/central_difference.h"
+#include "mechanics/monitor.h"
+#include "meshing/tetgen.h"
 #include "run/family.h"
-#include "run/monitor.h"
 #include "scenario/family.h"
 #include "scene/spring_body.h"
 #include "tissue/coupled.h"
@@ -39,7 +39,6 @@ double seconds_since(Clock::time_point from) {
 struct Form {
   std::string name;
   const tissue::Network* network;
-  Kinematics kinematics;
   tissue::ViscousLaw law;
 };
 
@@ -55,16 +54,16 @@ void report(const geometry::TetMesh& mesh, const Form& form) {
   for (int node = network.nodes() - 20; node < network.nodes(); ++node) load[3 * node + 2] = -0.01;
   const tissue::SparseLoad few = tissue::sparse(load);
 
-  const scene::SpringBody body(network, form.kinematics, form.law, held);
+  const scene::SpringBody body(network, Kinematics::linear, form.law, held);
   integrate::CentralDifference method(body, dt, integrate::Start::consistent);
-  run::EnergyMonitor monitor(body);
+  mechanics::EnergyMonitor monitor(body);
   integrate::State state;
   state.displacement = Vector::Zero(load.size());
   state.velocity = state.displacement;
   state.memory = body.memory_at(state.displacement);
   integrate::State before = state;
 
-  LaneSprings lanes(network, form.kinematics, form.law);
+  LaneSprings lanes(network, form.law);
   Vector force;
   body.force(state.displacement, state.memory, force);
   for (std::size_t lane = 0; lane < LaneSprings::width; ++lane) {
@@ -108,7 +107,7 @@ void report_mesh(int nodes) {
   const Vec3 size(0.06, 0.06, 0.03);  // m
   const geometry::TetMesh mesh =
       nodes == 140 ? geometry::cuboid(size, {3, 4, 6}, geometry::CellPattern::kuhn)
-                   : geometry::tetgen_cuboid(size, nodes, 600.0);
+                   : meshing::tetgen_cuboid(size, nodes, 600.0);
   const tissue::Network springs = tissue::make_network(
       mesh, std::array{1060.0}, tissue::van_gelder_stiffness(mesh, std::array{15e3}));
   tissue::Network coupled = springs;
@@ -117,10 +116,9 @@ void report_mesh(int nodes) {
   const tissue::ViscousLaw none;
   const tissue::ViscousLaw solid{.kind = Viscosity::standard_linear_solid,
                                  .branches = {{0.1, 0.5}}};
-  report(mesh, {"linear", &springs, Kinematics::linear, none});
-  report(mesh, {"non-linear", &springs, Kinematics::nonlinear, none});
-  report(mesh, {"linear, standard linear solid", &springs, Kinematics::linear, solid});
-  report(mesh, {"coupled, nodal volumes", &coupled, Kinematics::linear, none});
+  report(mesh, {"elastic", &springs, none});
+  report(mesh, {"standard linear solid", &springs, solid});
+  report(mesh, {"coupled, nodal volumes", &coupled, none});
 }
 
 // Processor time, s: what other programs take does not count, though they take from the caches.

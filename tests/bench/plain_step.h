@@ -7,8 +7,8 @@
 #include <string>
 
 #include "geometry/cuboid.h"
-#include "geometry/tetgen.h"
 #include "integrate/body.h"
+#include "meshing/tetgen.h"
 #include "tissue/coupled.h"
 #include "tissue/springs.h"
 #include "tissue/stiffness.h"

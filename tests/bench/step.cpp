@@ -11,7 +11,7 @@
 
 #include "bench/plain_step.h"
 #include "integrate/central_difference.h"
-#include "run/monitor.h"
+#include "mechanics/monitor.h"
 #include "scene/spring_body.h"
 #include "tissue/energy.h"
 #include "tissue/stable_step.h"
@@ -51,7 +51,7 @@ void report(const geometry::TetMesh& mesh, const Case& form, bool skip_plain) {
   const scene::SpringBody body(network, form.kinematics, form.law, held);
   integrate::CentralDifference method(body, dt, integrate::Start::consistent);
   const double step = least([&] { method.step(state, load); });
-  run::EnergyMonitor monitor(body);
+  mechanics::EnergyMonitor monitor(body);
   integrate::State before = state;
   method.step(state, load);
   const double watched = least([&] { (void)monitor.step(before, state, load, load); });
@@ -73,7 +73,7 @@ void report(const geometry::TetMesh& mesh, const Case& form, bool skip_plain) {
 void report_mesh(int which) {
   const geometry::TetMesh mesh =
       which == 0 ? geometry::cuboid(block_size(), {3, 4, 6}, geometry::CellPattern::kuhn)
-                 : geometry::tetgen_cuboid(block_size(), which == 1 ? 728 : 20000, 600.0);
+                 : meshing::tetgen_cuboid(block_size(), which == 1 ? 728 : 20000, 600.0);
   const auto [springs, coupled] = make_networks(mesh);
   const tissue::ViscousLaw none;
   const tissue::ViscousLaw solid{.kind = Viscosity::standard_linear_solid,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "run/family.h"
+#include "run_text.h"
 #include "scenario/integrators.h"
 #include "scenario/words.h"
 
@@ -43,10 +44,8 @@ std::vector<double> answers(const Programme& run, const std::string& integrator,
   std::vector<std::string> settings = run.settings;
   settings.push_back("solver.integrator=" + integrator);
   settings.push_back("solver.substeps=" + std::to_string(substeps));
-  const auto family = scenario::parse(body + run.steps, "test.toml", settings);
-  const auto scene = scene::build(family.cases.front(), family);
-  const std::atomic<bool> stop = false;
-  const record::CaseRecord record = run::run_case(scene, stop);
+  const auto scene = test::scene_of(body + run.steps, settings);
+  const record::CaseRecord record = test::run_scene(scene);
   EXPECT_EQ(record.outcome, record::Outcome::completed) << integrator << ": " << record.reason;
   std::vector<double> values;
   for (const auto& row : record.strain) values.push_back(row.strain);
@@ -70,14 +69,13 @@ std::optional<int> declared(const Programme& run, const std::string& integrator)
   std::vector<std::string> settings = run.settings;
   settings.push_back("solver.integrator=" + integrator);
   const auto family = scenario::parse(body + run.steps, "test.toml", settings);
-  const scenario::Scenario& scenario = family.cases.front().scenario;
+  const scenario::Resolved scenario = scene::choose(family.cases.front()).chosen;
   return scenario::order_in_time(scenario.solver, scenario.tissue.viscosity);
 }
 
-// A word of the list, but for `auto`, which is one of the others, and for what cannot be combined.
+// Not what cannot be combined.
 bool counts(const std::string& integrator, const std::string& damping) {
-  return integrator != "auto" &&
-         !(integrator == "quasi_static" && damping == "tissue.viscosity=nodal_drag");
+  return !(integrator == "quasi_static" && damping == "tissue.viscosity=nodal_drag");
 }
 
 struct Measured {

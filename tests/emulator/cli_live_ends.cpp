@@ -45,27 +45,21 @@ TEST(LiveRun, RefusesAProgrammeBeyondTheCeiling) {
   EXPECT_FALSE(test::fs::exists(live.result("device_stand")));
 }
 
-// Ctrl-C: the stand is told to stop at once, what was measured is kept. By the machine's clock: one
-// that stands still for a quarter of a second ends the run by another rule, and it is tried again.
+// Ctrl-C: the stand is told to stop at once, what was measured is kept.
 class LiveInterrupt : public testing::TestWithParam<int> {};
 
 TEST_P(LiveInterrupt, StopsTheStandAndKeepsTheRows) {
-  constexpr int tries = 10;
-  for (int i = 0; i < tries; ++i) {
+  for (int i = 0; i < test::runs_by_the_clock; ++i) {
     test::TemporaryFolder folder;
     test::LiveEmulator emulator({"mark10", "--log", (folder / "log.csv").string(), "--tissue",
                                  test::project_file("scenarios/emulator/stand_tissue.toml")});
     test::Running running(test::stand_run(folder.path(), emulator));
-    // "d" the second time: the programme's press.
-    const bool pressed = running.until([&] {
-      const std::string log = test::read_file(folder / "log.csv");
-      const std::size_t first = log.find(",in,\"d\"");
-      return first != std::string::npos && log.find(",in,\"d\"", first + 1) != std::string::npos;
-    });
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const bool presses = running.until(
+        [&] { return test::last_in_log(folder / "log.csv", "position_m") < -2.5e-3; });
     running.send(GetParam());
     const test::Ended ended = running.wait();
-    if (!pressed || has(ended.err, "the link is lost")) continue;
+    if (test::link_was_lost(ended)) continue;
+    EXPECT_TRUE(presses) << ended.err;
     EXPECT_EQ(ended.code, 130) << ended.err;
     const auto summary = emulator.end();
     EXPECT_EQ(summary.at("summary").at("moving"), false);
@@ -77,7 +71,7 @@ TEST_P(LiveInterrupt, StopsTheStandAndKeepsTheRows) {
     EXPECT_TRUE(has(ended.err, "rows are kept")) << ended.err;
     return;
   }
-  FAIL() << "the machine stood still in each of " << tries << " runs";
+  FAIL() << "the machine stood still in each of " << test::runs_by_the_clock << " runs";
 }
 INSTANTIATE_TEST_SUITE_P(Signals, LiveInterrupt, testing::Values(SIGINT, SIGTERM));
 

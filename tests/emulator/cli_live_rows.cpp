@@ -103,7 +103,8 @@ TEST_F(LiveRows, AKilledRunLeavesItsRowsAndTraffic) {
     EXPECT_EQ(running.wait().signal, SIGKILL);
     (void)emulator.end();
   }
-  EXPECT_EQ(test::names_in(left), (std::set<std::string>{"force_indentation.csv", "traffic.csv"}));
+  EXPECT_EQ(test::names_in(left),
+            (std::set<std::string>{"contents.sha256", "force_indentation.csv", "traffic.csv"}));
   const test::Rows rows(record::read_csv((left / "force_indentation.csv").string()));
   EXPECT_GT(rows.size(), 200U);
   EXPECT_EQ(rows.word(0, "case"), "device_arm");
@@ -172,7 +173,7 @@ TEST_F(LiveRows, ADiskThatStaysFullStopsNoLoop) {
   EXPECT_EQ(running.wait().code, 1);
   (void)emulator.end();
   const std::string err = test::read_file(said);
-  EXPECT_TRUE(has(err, "cannot be written: File too large; the rows that it took are in out/" +
+  EXPECT_TRUE(has(err, "cannot be written: File too large; the rows written before are in out/" +
                            left.filename().string() + "/force_indentation.csv"))
       << err;
   EXPECT_EQ(count(err, "traffic.csv cannot be written"), 1U) << err;

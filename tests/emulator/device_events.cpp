@@ -56,7 +56,7 @@ Heard heard_with(const std::string& script_text, int frames = 300) {
   ArmSafety safety{ArmRules{}};
   Heard heard;
   for (int i = 0; i < frames && !heard.lost; ++i) {
-    const Sample sample = link.sample(0.2);
+    const Sample sample = link.sample(test::wire_patience);
     const double now = clock.now();
     if (sample.arrival == Arrival::fresh) ++heard.fresh;
     heard.lost = sample.arrival == Arrival::lost;
@@ -128,7 +128,7 @@ TEST(ArmEventsPort, KeepsABrakeTillItsRelease) {
   Inverse3 arm(std::get<ArmAddress>(parse_link(emulator.arm_link())), Purpose::look, clock);
   int braked = 0;
   for (int i = 0; i < 300; ++i)
-    if (arm.sample(0.2).fault == Fault::brake) ++braked;
+    if (arm.sample(test::wire_patience).fault == Fault::brake) ++braked;
   EXPECT_GE(braked, 49);  // frames of 1 ms, give or take its ends
   EXPECT_LE(braked, 51);
 }
@@ -201,7 +201,7 @@ TEST(ArmEventsPort, ThatIsNotThereIsANoteAndNoError) {
     Inverse3 arm(std::get<ArmAddress>(parse_link(link)), Purpose::look, clock);
     const auto& notes = arm.identity().notes;
     EXPECT_TRUE(any_has(notes, events == "none" ? "are not listened to" : "are not heard"));
-    for (int i = 0; i < 200; ++i) EXPECT_EQ(arm.sample(0.2).fault, Fault::none);
+    for (int i = 0; i < 200; ++i) EXPECT_EQ(arm.sample(test::wire_patience).fault, Fault::none);
     EXPECT_EQ(arm.traffic().events.port, Events::Port::unheard);
     EXPECT_EQ(count(arm, Event::stall), 0u);
   }

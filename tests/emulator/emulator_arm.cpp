@@ -158,7 +158,7 @@ TEST(EmulatorArm, SettlesWhereSpringAndForceBalance) {
 TEST(EmulatorArm, IsIdleAfterSilenceAndWhenLeft) {
   ArmSettings settings = lockstep();
   settings.clock = Clock::real;
-  settings.idle_after = 50'000'000;
+  settings.idle_after = 50e-3;  // s
   Client client(settings);
   client.greet();
   EXPECT_EQ(client.arm.pass(10'000'000), Act::none);

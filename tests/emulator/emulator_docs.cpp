@@ -1,17 +1,22 @@
-// docs/emulator.md against the program: the faults it lists, the values it says stand.
+// docs/emulator.md against the program: the faults it lists, its lists of settings.
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <string_view>
 
+#include "base/document.h"
+#include "base/field_writer.h"
+#include "base/files.h"
 #include "emulator/arm.h"
 #include "emulator/mark10.h"
-#include "emulator_program.h"
+#include "emulator/settings.h"
+#include "temporary_folder.h"
 
 namespace emulator {
 namespace {
 
-std::string manual() { return test::read_file(PALPATE_SOURCE_DIR "/docs/emulator.md"); }
+std::string manual() { return palpate::read_text(PALPATE_SOURCE_DIR "/docs/emulator.md"); }
 
 std::string fault_rows(std::span<const FaultKind> kinds) {
   std::string rows;
@@ -43,57 +48,122 @@ std::string block(const std::string& first) {
   return text.substr(from, text.find("```", from) - from);
 }
 
-TEST(EmulatorDocs, ShowTheValuesThatStandWithoutAFile) {
-  const test::TemporaryFolder folder;
+// `table.key` of every key in a file.
+std::set<std::string> keys_of(const palpate::Node& file) {
+  std::set<std::string> keys;
+  for (const palpate::Member& member : file.members) {
+    const palpate::Node& value = member.value.kind == palpate::Node::Kind::array &&
+                                         !member.value.items.empty() &&
+                                         member.value.items[0].kind == palpate::Node::Kind::table
+                                     ? member.value.items[0]
+                                     : member.value;
+    if (value.kind != palpate::Node::Kind::table) keys.insert(member.key);
+    for (const palpate::Member& inside : value.members) keys.insert(member.key + "." + inside.key);
+  }
+  return keys;
+}
+
+// The settings as their fields write them, all keys.
+template <class Settings>
+std::string written(Settings settings) {
+  return palpate::fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, settings); },
+                                 palpate::Written::all);
+}
+
+// The manual's file has every key of the settings, and each has the value that it has without one.
+template <class Settings>
+void expect_shown(const std::string& text, const Settings& usual, const Settings& read) {
+  EXPECT_EQ(keys_of(palpate::parse_toml(text, "manual")),
+            keys_of(palpate::parse_toml(written(usual), "fields")));
+  EXPECT_EQ(written(read), written(usual));
+}
+
+TEST(EmulatorDocs, ShowEveryKeyWithTheValueThatStandsWithoutIt) {
+  const palpate::test::TemporaryFolder folder;
+  const std::string stand_file = block("# S.toml");
   StandSettings stand;
-  // Each is another than what stands, so that a key which the manual forgets is found.
-  stand.crosshead = {.acceleration = 1, .slowest = 1, .fastest = 1, .lower_end = 1, .upper_end = 1};
-  stand.gauge = {
-      .capacity = 1, .resolution = 1, .noise = 1, .unit = 3, .filter = 9, .peak_filter = 9};
-  stand.speed = stand.travel_resolution = 1;
-  read_stand(folder.file("S.toml", block("# S.toml")), stand);
-  const StandSettings usual;
-  EXPECT_DOUBLE_EQ(stand.crosshead.acceleration, usual.crosshead.acceleration);
-  EXPECT_DOUBLE_EQ(stand.crosshead.slowest, usual.crosshead.slowest);
-  EXPECT_DOUBLE_EQ(stand.crosshead.fastest, usual.crosshead.fastest);
-  EXPECT_DOUBLE_EQ(stand.crosshead.lower_end, usual.crosshead.lower_end);
-  EXPECT_DOUBLE_EQ(stand.crosshead.upper_end, usual.crosshead.upper_end);
-  EXPECT_DOUBLE_EQ(stand.gauge.capacity, usual.gauge.capacity);
-  EXPECT_DOUBLE_EQ(stand.gauge.resolution, usual.gauge.resolution);
-  EXPECT_DOUBLE_EQ(stand.gauge.noise, usual.gauge.noise);
-  EXPECT_EQ(stand.gauge.unit, usual.gauge.unit);
-  EXPECT_EQ(stand.gauge.filter, usual.gauge.filter);
-  EXPECT_EQ(stand.gauge.peak_filter, usual.gauge.peak_filter);
-  EXPECT_DOUBLE_EQ(stand.speed, usual.speed);
-  EXPECT_DOUBLE_EQ(stand.travel_resolution, usual.travel_resolution);
+  read_stand(folder.file("S.toml", stand_file), stand);
+  expect_shown(stand_file, StandSettings{}, stand);
 
-  const TissueSettings tissue = read_tissue(folder.file("T.toml", block("# T.toml")));
-  const TissueSettings soft;
-  EXPECT_DOUBLE_EQ(tissue.E0, soft.E0);
-  EXPECT_DOUBLE_EQ(tissue.E_inf, soft.E_inf);
-  EXPECT_DOUBLE_EQ(tissue.tau, soft.tau);
-  EXPECT_DOUBLE_EQ(tissue.nu, soft.nu);
-  EXPECT_DOUBLE_EQ(tissue.R, soft.R);
-  EXPECT_DOUBLE_EQ(tissue.surface, soft.surface);
+  const std::string tissue_file = block("# T.toml");
+  expect_shown(tissue_file, TissueSettings{}, read_tissue(folder.file("T.toml", tissue_file)));
 
-  ArmSettings arm{.idle_after = 1,
-                  .force_limit = 1,
-                  .device_id = "",
-                  .hand = {.mass = 1, .stiffness = 1, .damping = 1, .start = {}}};
-  read_hand(folder.file("H.toml", block("# H.toml")), arm);
-  const ArmSettings quiet;
-  EXPECT_DOUBLE_EQ(arm.hand.mass, quiet.hand.mass);
-  EXPECT_DOUBLE_EQ(arm.hand.stiffness, quiet.hand.stiffness);
-  EXPECT_DOUBLE_EQ(arm.hand.damping, quiet.hand.damping);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(arm.hand.start[i], quiet.hand.start[i]);
-  EXPECT_EQ(arm.device_id, quiet.device_id);
-  EXPECT_DOUBLE_EQ(arm.force_limit, quiet.force_limit);
-  EXPECT_EQ(arm.idle_after, quiet.idle_after);
-  EXPECT_EQ(arm.hand.waypoints.size(), 1U);
+  const std::string hand_file = block("# H.toml");
+  ArmSettings arm;
+  read_hand(folder.file("H.toml", hand_file), arm);
+  ASSERT_EQ(arm.hand.waypoints.size(), 1U);
+  ArmSettings usual;
+  usual.hand.waypoints = arm.hand.waypoints;  // none without the file
+  expect_shown(hand_file, usual, arm);
+}
+
+TEST(EmulatorSettings, AreRefusedAtTheirPlace) {
+  const palpate::test::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text, const auto& read) {
+    const std::string path = folder.file("f.toml", text);
+    try {
+      read(path);
+      return std::string("accepted");
+    } catch (const InputError& refused) {
+      return std::string(refused.what()).substr(path.size());
+    }
+  };
+  const auto stand = [&](const std::string& text) {
+    StandSettings settings;
+    return refusal(text, [&](const std::string& path) { read_stand(path, settings); });
+  };
+  EXPECT_EQ(
+      stand("[gauge]\nfilter = 11\n"),
+      ":2:10: `filter` must be at least 0 and at most 10, got `11`; give a value in that range");
+  EXPECT_EQ(stand("[gauge]\nunit = \"kN\"\nlist = \"poll\"\n"),
+            ":3:8: `list` does not know `poll`; did you mean `pol`? It is one of ipol, pol");
+  EXPECT_EQ(stand("[stand]\nlower_end = \"1 mm\"\n"),
+            ":2:13: `lower_end` must be below 0 mm, got `1 mm`; give a value in that range");
+  EXPECT_EQ(stand("[stand]\nslowest = \"2 m/s\"\nfastest = \"1 m/s\"\n"),
+            ":3:11: `fastest` is below `slowest`; give a greater speed");
+  EXPECT_EQ(stand("[stand]\npc_control = 1\n"),
+            ":2:14: `pc_control` wants `true` or `false`, got an integer `1`; write it as "
+            "`pc_control = true`");
+  EXPECT_EQ(stand(""), "accepted");
+  const auto hand = [&](const std::string& text) {
+    ArmSettings settings;
+    return refusal(text, [&](const std::string& path) { read_hand(path, settings); });
+  };
+  EXPECT_EQ(hand("[hand]\nmass = \"1 kPa\"\n"),
+            ":2:8: `mass` wants a mass, got `1 kPa`, a pressure; write it as `1 g`");
+  EXPECT_EQ(hand("[hand]\nstart = [\"1 mm\", \"2 mm\"]\n"),
+            ":2:9: `start` wants a list of 3, got a list of 2; write it as `[..., ..., ...]`");
+  EXPECT_EQ(hand("[[waypoint]]\nat = \"1 s\"\n[[waypoint]]\nat = \"1 s\"\n"),
+            ":4:6: `at` must be later than that of the waypoint before; give a later time");
+}
+
+// A waypoint without a place is where the hand starts; units are those of the whole program.
+TEST(EmulatorSettings, AreReadInAnyUnit) {
+  const palpate::test::TemporaryFolder folder;
+  ArmSettings arm;
+  read_hand(
+      folder.file("H.toml",
+                  "[[waypoint]]\nat = \"100 ms\"\n[hand]\nmass = \"0.2 kg\"\nstiffness = \"0.25 "
+                  "N/mm\"\nstart = [\"1 cm\", \"0 um\", \"-2 mm\"]\n"),
+      arm);
+  EXPECT_EQ(arm.hand.mass, 0.2);
+  EXPECT_EQ(arm.hand.stiffness, 250.0);
+  ASSERT_EQ(arm.hand.waypoints.size(), 1U);
+  EXPECT_EQ(arm.hand.waypoints[0].at, 0.1);
+  EXPECT_EQ(arm.hand.waypoints[0].position, (Vec3{0.01, 0.0, -2e-3}));
+  StandSettings stand;
+  read_stand(folder.file("S.toml",
+                         "[stand]\nspeed = \"2 mm/s\"\nfastest = \"0.6 m/min\"\n[gauge]\nunit = "
+                         "\"lbF\"\nlist = \"pol\"\n"),
+             stand);
+  EXPECT_EQ(stand.speed, 2e-3);
+  EXPECT_EQ(stand.crosshead.fastest, 0.01);
+  EXPECT_EQ(force_units[stand.gauge.unit].symbol, "lbF");
+  EXPECT_EQ(stand.list, ListStyle::pol);
 }
 
 TEST(EmulatorDocs, ShowAFaultScriptThatIsRead) {
-  const test::TemporaryFolder folder;
+  const palpate::test::TemporaryFolder folder;
   const auto faults = read_faults(folder.file("F.toml", block("[[fault]]")), stand_faults());
   ASSERT_EQ(faults.size(), 2U);
   EXPECT_EQ(faults[0].at, 1'500'000'000);

@@ -21,7 +21,7 @@ TEST(EmulatorPort, SpeaksOnThePortItNames) {
   const Port again(said["port"]);  // a client may come and go
   again.say("/LIST\r");
   EXPECT_EQ(again.lines(1), "V1.00;N;CUR;FLTC3;FLTP1;AOUT0;AOFF5;FULL;IPOL0;OPOL0;B0\r\n");
-  ::kill(program.pid(), SIGTERM);
+  program.send(SIGTERM);
   EXPECT_EQ(program.line()["summary"]["requests"], 2);
   EXPECT_EQ(program.wait(), 0);
   EXPECT_FALSE(fs::exists(fs::symlink_status(folder / "stand"))) << "the link goes with the port";
@@ -70,11 +70,23 @@ TEST(EmulatorPort, PacesBytesAtTheLinesRate) {
 }
 
 TEST(EmulatorPort, AWrongRateIsNoise) {
-  Program program({"mark10", "--clock", "virtual"});
+  const TemporaryFolder folder;
+  const std::string log = folder / "log.csv";
+  Program program({"mark10", "--clock", "virtual", "--log", log});
   const auto said = program.line();
   const Port port(said["port"], B9600);
   port.say("nxn");
-  EXPECT_EQ(port.lines(1, std::chrono::milliseconds(50)), "") << "nothing is understood";
+  ASSERT_TRUE(seen([&] {
+    const std::string rows = read_file(log);
+    return std::count(rows.begin(), rows.end(), '\n') >= 4 && rows.ends_with('\n');
+  })) << "three bytes have arrived";
+  // Nothing was understood: what comes next is the reply to this.
+  port.set_rate(B115200);
+  port.say("x");
+  EXPECT_EQ(port.lines(1), "0.00 mm\r\n");
+  EXPECT_EQ(program.end(), 0);
+  const std::string rows = read_file(log);
+  EXPECT_EQ(rows.find(",in,\"n\""), std::string::npos) << rows;
 }
 
 TEST(EmulatorPort, IsUnpluggedAndComesBack) {
@@ -91,7 +103,7 @@ TEST(EmulatorPort, IsUnpluggedAndComesBack) {
     EXPECT_EQ(port.lines(1), "0.00 mm\r\n");
     port.say("x");
     pollfd ready{port.descriptor(), POLLIN, 0};
-    ASSERT_EQ(::poll(&ready, 1, 20000), 1);
+    ASSERT_EQ(::poll(&ready, 1, static_cast<int>(patience / std::chrono::milliseconds(1))), 1);
     EXPECT_NE(ready.revents & POLLHUP, 0);
     EXPECT_LT(::write(port.descriptor(), "x", 1), 0);
   }
@@ -115,31 +127,34 @@ TEST(EmulatorPort, RefusesInOneSentence) {
     std::string message;
   } rows[] = {
       {{"mark10", "--tissue", bad},
-       bad + ":2:1: there is no key `surfaces` here; there are `E0`, `Einf`, `R`, `nu`, `surface`, "
-             "`tau`"},
+       bad + ":2:1: `surfaces` is not a key here; did you mean `surface`?"},
       {{"mark10", "--tissue", soft},
-       soft + ":1:1: `E0` is below `Einf`; a solid relaxes downwards"},
+       soft + ":1:6: `E0` is below `Einf`, and a modulus relaxes to less; give a larger `E0`"},
       {{"mark10", "--tissue", folder / "none.toml"},
-       (folder / "none.toml") + ": cannot be read; give the path of a TOML file"},
+       (folder / "none.toml").string() +
+           ": cannot be read: No such file or directory; check the path"},
       {{"mark10", "--clock", "slow"},
        "--clock: there is no clock `slow`; write `real` or `virtual`"},
       {{"mark10", "--baud", "1234"}, "--baud: there is no rate of 1234; write 115200"},
       {{"mark10", "--link", taken},
-       "--link: `" + taken + "` is there already and no link; name another path"},
-      {{"mark10", "--tick", "20"}, "--tick: wants a time, got `20`; write it as `1.5 s`"},
-      {{"inverse3", "--service", "2.0"}, "--service: there is no `2.0` here; write `3.1` or `3.5`"},
+       "--link: `" + taken + "` exists and is not a symbolic link; name another path"},
+      {{"mark10", "--tick", "20"},
+       "--tick: wants a time with its unit, got `20`; write it as `20 s`"},
+      {{"mark10", "--tick", "0 s"}, "--tick: the time must be above 0 s; write `1 ms`"},
+      {{"inverse3", "--service", "2.0"},
+       "--service: there is no service `2.0`; write `3.1` or `3.5`"},
       {{"inverse3", "--port", "1", "--hand", bad},
-       bad + ":1:1: there is no key `E0` here; there are `device`, `hand`, `waypoint`"},
+       bad + ":1:1: `E0` is not a key here; known keys: device, hand, waypoint"},
   };
   for (const auto& row : rows) {
-    Program program = Program::plain(row.arguments);
+    Program program(row.arguments);
     EXPECT_EQ(program.error_line(), "palpate-emulator: " + row.message);
     EXPECT_EQ(program.wait(), 2) << row.message;
   }
-  Program program = Program::plain({"mark10", "--tissue", broken});
+  Program program({"mark10", "--tissue", broken});
   EXPECT_EQ(program.error_line().find("palpate-emulator: " + broken + ":1:"), 0U);
   EXPECT_EQ(program.wait(), 2);
-  Program nothing = Program::plain({});
+  Program nothing({});
   EXPECT_EQ(nothing.wait(), 2);
 }
 

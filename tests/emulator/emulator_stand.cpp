@@ -4,39 +4,13 @@
 #include <cmath>
 #include <string>
 
-#include "emulator/mark10.h"
+#include "stand_conversation.h"
 
 namespace emulator {
 namespace {
 
-// A stand whose tissue is out of reach and whose gauge has no noise.
-Mark10Settings quiet() {
-  Mark10Settings settings;
-  settings.clock = Clock::lockstep;
-  settings.stand.gauge.noise = 0.0;
-  settings.stand.tissue.surface = -1.0;
-  return settings;
-}
-
-class Conversation {
- public:
-  explicit Conversation(const Mark10Settings& settings) : mark10_(settings, log_) {}
-
-  std::string say(const std::string& bytes) {
-    std::string reply;
-    for (const char byte : bytes) {
-      mark10_.take(byte, Mark10::Rate::same);
-      reply += mark10_.give();
-    }
-    return reply;
-  }
-  [[nodiscard]] const Stand& stand() const { return mark10_.stand(); }
-  [[nodiscard]] Nanoseconds now() const { return mark10_.now(); }
-
- private:
-  Log log_{"", ""};
-  Mark10 mark10_;
-};
+using test::Conversation;
+using test::quiet;
 
 // ESM301/ESM303 guides, 6.2: e0200.3 = 200.3 mm/min, g-007.52 = -7.52 mm, g010.70 = 10.7 mm, h the
 // same, f0500 = 500 cycles; e02.85 = 2.85 in/min, g-00.550 = -0.55 in, g01.258 = 1.258 in.
@@ -49,10 +23,10 @@ TEST(EmulatorStand, TakesNumbersAsTheGuideWritesThem) {
   EXPECT_EQ(stand.say("w"), "-7.52 mm\r\n");  // w: lower travel limit
   EXPECT_EQ(stand.say("f0500r"), "500\r\n");
   EXPECT_EQ(stand.say("be02.85a"), "2.85 in/min\r\n");
-  EXPECT_NEAR(stand.stand().crosshead.speed, 2.85 * 25.4e-3 / 60.0, 1e-15);  // rounding
+  EXPECT_NEAR(stand->stand().crosshead.speed, 2.85 * 25.4e-3 / 60.0, 1e-15);  // rounding
   EXPECT_EQ(stand.say("g-00.550h01.258"), "");
-  EXPECT_NEAR(stand.stand().crosshead.lower_limit, -0.55 * 25.4e-3, 1e-15);
-  EXPECT_NEAR(stand.stand().crosshead.upper_limit, 1.258 * 25.4e-3, 1e-15);
+  EXPECT_NEAR(stand->stand().crosshead.lower_limit, -0.55 * 25.4e-3, 1e-15);
+  EXPECT_NEAR(stand->stand().crosshead.upper_limit, 1.258 * 25.4e-3, 1e-15);
   EXPECT_EQ(stand.say("x"), "0.000 in\r\n");
   EXPECT_EQ(stand.say("ix"), "0.00 mm\r\n");
 }
@@ -69,15 +43,15 @@ TEST(EmulatorStand, AnswersForceThenTravel) {
   Conversation stand(settings);
   EXPECT_EQ(stand.say("n"), "0.000 N\r\n0.00 mm\r\n");
   EXPECT_EQ(stand.say("e0060.0d"), "");
-  while (stand.now() < 1'000'000'000) stand.say("p");
+  while (stand->now() < 1'000'000'000) stand.say("p");
   stand.say("s");
   while (stand.say("p") != "SM\r\n") {
   }
   const std::string reply = stand.say("n");
   // 60 mm/min for a second and the braking way, in steps of 0.02 mm.
-  const double steps = std::round(stand.stand().crosshead.position / 0.02e-3);
+  const double steps = std::round(stand->stand().crosshead.position / 0.02e-3);
   EXPECT_EQ(reply, "0.000 N\r\n" + in_steps(steps * 0.02, 0.01) + " mm\r\n");
-  EXPECT_NEAR(stand.stand().crosshead.position, -1e-3, 0.03e-3);  // sent off within the 20 ms tick
+  EXPECT_NEAR(stand->stand().crosshead.position, -1e-3, 0.03e-3);  // sent off within the 20 ms tick
   EXPECT_EQ(stand.say("zx"), "0.00 mm\r\n");
 }
 
@@ -90,7 +64,7 @@ TEST(EmulatorStand, SaysItsStatus) {
   EXPECT_EQ(stand.say("dp"), "DL\r\n");
   for (int i = 0; i < 20; ++i) stand.say("p");
   EXPECT_EQ(stand.say("p"), "SLDL\r\n");
-  EXPECT_EQ(stand.stand().crosshead.position, -0.5e-3);
+  EXPECT_EQ(stand->stand().crosshead.position, -0.5e-3);
   EXPECT_EQ(stand.say("up"), "UL\r\n");
   for (int i = 0; i < 20; ++i) stand.say("p");
   EXPECT_EQ(stand.say("p"), "SLUL\r\n");
@@ -108,7 +82,7 @@ TEST(EmulatorStand, StopsEvenInsideABrokenNumber) {
   Conversation stand(quiet());
   stand.say("d");
   EXPECT_EQ(stand.say("e02s"), "");
-  EXPECT_EQ(stand.stand().crosshead.direction, 0);
+  EXPECT_EQ(stand->stand().crosshead.direction, 0);
   EXPECT_EQ(stand.say("g-0p").substr(0, 1), "S");
   EXPECT_EQ(stand.say("a"), "60.0 mm/min\r\n") << "the broken number set nothing";
 }
@@ -116,7 +90,7 @@ TEST(EmulatorStand, StopsEvenInsideABrokenNumber) {
 TEST(EmulatorStand, LimitsMoveWithTheZero) {
   Conversation stand(quiet());
   stand.say("e0600.0d");
-  while (stand.now() < 500'000'000) stand.say("p");
+  while (stand->now() < 500'000'000) stand.say("p");
   stand.say("s");
   for (int i = 0; i < 10; ++i) stand.say("p");
   stand.say("g-002.00z");
@@ -136,7 +110,7 @@ TEST(EmulatorStand, PassesLinesToTheGauge) {
   EXPECT_EQ(stand.say("LIS"), "");
   EXPECT_EQ(stand.say("\\"), "");
   EXPECT_EQ(stand.say("n"), "0.0000 lbF\r\n0.00 mm\r\n");
-  EXPECT_EQ(stand.stand().crosshead.direction, 0);
+  EXPECT_EQ(stand->stand().crosshead.direction, 0);
   EXPECT_EQ(stand.say("/RN\r"), "Series 5\r\n");
   EXPECT_EQ(stand.say("AOUT50\rLIST\r").find("AOUT50") != std::string::npos, true);
   EXPECT_EQ(stand.say("\\"), "");
@@ -147,11 +121,11 @@ TEST(EmulatorStand, PassesLinesToTheGauge) {
 
 TEST(EmulatorStand, WithoutItsOptionItOnlyReads) {
   Mark10Settings settings = quiet();
-  settings.stand.control = Control::off;
+  settings.stand.pc_control = false;
   Conversation stand(settings);
   EXPECT_EQ(stand.say("le0100.0dp"), "SM\r\n");
   EXPECT_EQ(stand.say("n"), "0.000 N\r\n0.00 mm\r\n");
-  EXPECT_EQ(stand.stand().crosshead.direction, 0);
+  EXPECT_EQ(stand->stand().crosshead.direction, 0);
 }
 
 TEST(EmulatorStand, ReadsWhatItsTissueGives) {
@@ -175,7 +149,7 @@ TEST(EmulatorStand, StopsWhenItsGaugeIsOverloaded) {
   EXPECT_EQ(stand.say("p"), "SM\r\n");
   EXPECT_EQ(stand.say("n").substr(0, 10), "OVERLOAD\r\n");
   // 110 % of 10 N, and what one step and the braking way of 2.5 um add.
-  EXPECT_NEAR(stand.stand().greatest_force, 11.0, 0.1);
+  EXPECT_NEAR(stand->stand().greatest_force, 11.0, 0.1);
   EXPECT_EQ(stand.say("dp"), "SM\r\n") << "no further";
   stand.say("u");
   for (int i = 0; i < 20; ++i) stand.say("p");
@@ -187,11 +161,11 @@ TEST(EmulatorStand, AnswersAtTheTicksOfTheVirtualClock) {
   Conversation stand(settings);
   // Ten bits a byte at 115200 a second; `n` is answered at 20 ms, its reply is 18 bytes long.
   stand.say("i");
-  EXPECT_EQ(stand.now(), 86806);
+  EXPECT_EQ(stand->now(), 86806);
   const auto length = static_cast<Nanoseconds>(stand.say("n").size());
-  EXPECT_EQ(stand.now(), 20'000'000 + 86806 * length);
+  EXPECT_EQ(stand->now(), 20'000'000 + 86806 * length);
   stand.say("n");
-  EXPECT_EQ(stand.now(), 40'000'000 + 86806 * length);
+  EXPECT_EQ(stand->now(), 40'000'000 + 86806 * length);
 }
 
 TEST(EmulatorStand, SameBytesInSameBytesOut) {

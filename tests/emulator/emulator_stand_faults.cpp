@@ -1,29 +1,22 @@
 // Every fault of the stand does what its line in the list says.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string>
 
-#include "emulator/mark10.h"
-#include "emulator/settings.h"
+#include "base/error.h"
+#include "stand_conversation.h"
+#include "temporary_folder.h"
 
 namespace emulator {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
 
-Mark10Settings quiet(std::vector<Fault> faults) {
-  Mark10Settings settings;
-  settings.clock = Clock::lockstep;
-  settings.stand.gauge.noise = 0.0;
-  settings.stand.tissue.surface = -1.0;
-  settings.faults = std::move(faults);
-  return settings;
-}
+using test::Conversation;
+using test::quiet;
 
 Fault fault(const std::string& kind, std::int64_t after, std::optional<Nanoseconds> duration = {}) {
   for (const FaultKind& known : stand_faults())
@@ -32,25 +25,6 @@ Fault fault(const std::string& kind, std::int64_t after, std::optional<Nanosecon
   ADD_FAILURE() << "no fault " << kind;
   return {};
 }
-
-class Conversation {
- public:
-  explicit Conversation(const Mark10Settings& settings) : mark10_(settings, log_) {}
-  std::string say(const std::string& bytes) {
-    std::string reply;
-    for (const char byte : bytes) {
-      mark10_.take(byte, Mark10::Rate::same);
-      reply += mark10_.give();
-    }
-    return reply;
-  }
-  Mark10& operator*() { return mark10_; }
-  Mark10* operator->() { return &mark10_; }
-
- private:
-  Log log_{"", ""};
-  Mark10 mark10_;
-};
 
 const std::string sound = "0.000 N\r\n0.00 mm\r\n";
 
@@ -243,20 +217,14 @@ TEST(EmulatorStandFaults, BeginAtTheirTime) {
 // --- the script as a file ---
 
 std::string refusal(const std::string& text) {
-  const auto path =
-      std::filesystem::temp_directory_path() /
-      ("palpate-faults-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-       std::to_string(::getpid()) + ".toml");
+  const palpate::test::TemporaryFolder folder;
+  const std::string path = (folder / "faults.toml").string();
   std::ofstream(path) << text;
-  std::string message;
   try {
-    const auto faults = read_faults(path.string(), stand_faults());
-    message = "read " + std::to_string(faults.size());
-  } catch (const Refused& refused) {
-    message = std::string(refused.what()).substr(path.string().size());
+    return "read " + std::to_string(read_faults(path, stand_faults()).size());
+  } catch (const palpate::InputError& refused) {
+    return std::string(refused.what()).substr(path.size());
   }
-  std::filesystem::remove(path);
-  return message;
 }
 
 TEST(EmulatorStandFaults, ScriptsAreReadAndRefusedWithTheirPlace) {
@@ -264,15 +232,45 @@ TEST(EmulatorStandFaults, ScriptsAreReadAndRefusedWithTheirPlace) {
                     "[[fault]]\nafter_messages = 3\nkind = \"garbage\"\nreplies = 2\n"),
             "read 2");
   EXPECT_EQ(refusal("[[fault]]\nat = \"3 mm\"\nkind = \"stall\"\n"),
-            ":2:1: `at` wants a time, got `3 mm`; write it as `1.5 s`");
-  EXPECT_EQ(refusal("[[fault]]\nkind = \"stall\"\n"),
-            ":2:1: `kind` wants either `at` or `after_messages`");
-  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"drop\"\nduration = \"1 s\"\n"),
-            ":4:1: `duration` means nothing to a `drop`; leave it away");
-  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"drop\"\nwhen = 3\n").substr(0, 38),
-            ":4:1: there is no key `when` here; the");
-  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"rst\"\n").substr(0, 42),
-            ":3:1: `kind` knows no `rst`; choose one of");
+            ":2:6: `at` wants a time, got `3 mm`, a length; write it as `3 s`");
+  const std::string one_of_two =
+      "a fault begins either `at` a time or `after_messages`; give one of the two";
+  EXPECT_EQ(refusal("[[fault]]\nkind = \"stall\"\n"), ":2:8: " + one_of_two);
+  EXPECT_EQ(refusal("[[fault]]\nkind = \"stall\"\nat = \"1 s\"\nafter_messages = 0\n"),
+            ":2:8: " + one_of_two);
+  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"stall\"\n[[fault]]\nat = \"2 s\"\n"),
+            ":4:1: `kind` is missing; say what goes wrong, as `kind = \"unplug\"`");
+  EXPECT_EQ(
+      refusal("[[fault]]\nat = \"1 s\"\nkind = \"drop\"\nduration = \"1 s\"\n"),
+      ":4:1: `duration` has no effect here: it is used only with a kind that lasts; remove it "
+      "or change that");
+  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"stall\"\nreplies = 2\n"),
+            ":4:1: `replies` has no effect here: it is used only with a kind that spoils replies; "
+            "remove it or change that");
+  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"stall\"\nvalue = \"2 N\"\n"),
+            ":4:1: `value` has no effect here: it is used only with `spike`, `jump` or `late`; "
+            "remove it or change that");
+  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"spike\"\nvalue = \"2 mm\"\n"),
+            ":4:9: `value` wants a force, got `2 mm`, a length; write it as `2 N`");
+  EXPECT_EQ(refusal("[[fault]]\nat = \"-1 s\"\nkind = \"drop\"\n"),
+            ":2:6: `at` must be at least 0 s, got `-1 s`; give a value in that range");
+  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"drop\"\nwhen = 3\n"),
+            ":4:1: `when` is not a key here; known keys: after_messages, at, duration, kind, "
+            "replies, value");
+  EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"rst\"\n").substr(0, 62),
+            ":3:8: `kind` does not know `rst`; did you mean `reset`? It is ");
+}
+
+TEST(EmulatorStandFaults, AValueStandsWithoutOneAndIsReadWithOne) {
+  const palpate::test::TemporaryFolder folder;
+  const std::string path = (folder / "faults.toml").string();
+  std::ofstream(path) << "[[fault]]\nat = \"1 s\"\nkind = \"spike\"\n"
+                         "[[fault]]\nat = \"2 s\"\nkind = \"spike\"\nvalue = \"-250 mN\"\n";
+  const auto faults = read_faults(path, stand_faults());
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(faults[0].value, 5.0);
+  EXPECT_EQ(faults[1].value, -0.25);
+  EXPECT_EQ(faults[1].at, 2000 * ms);
 }
 
 TEST(EmulatorStandFaults, ThereAreTwentyAndEachNameIsTakenOnce) {

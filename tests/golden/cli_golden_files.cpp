@@ -3,9 +3,9 @@
 
 #include "base/document.h"
 #include "base/text.h"
+#include "compare/tolerances.h"
 #include "program.h"
 #include "record/csv.h"
-#include "report/tolerances.h"
 
 namespace palpate::test {
 namespace {
@@ -42,7 +42,7 @@ TEST_P(Golden, says_why_it_is_there_and_what_it_allows) {
   const Node blessed = read_toml(file("blessed.toml"));
   EXPECT_FALSE(trimmed(blessed.find("reason")->value.text).empty());
   EXPECT_EQ(blessed.find("commit")->value.text.size(), 40U);
-  const report::Tolerances tolerances = report::read_tolerances(file("tolerances.toml"));
+  const compare::Tolerances tolerances = compare::read_tolerances(file("tolerances.toml"));
   EXPECT_FALSE(tolerances.standard.reason.empty()) << "the default lacks a reason";
   EXPECT_LE(tolerances.standard.rel, 1e-6) << "what is wider names its column";
   for (const auto& [column, tolerance] : tolerances.columns) {

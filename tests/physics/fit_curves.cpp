@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fit/regression.h"
+#include "fitted_value.h"
 
 namespace palpate::fit {
 namespace {
@@ -32,7 +33,7 @@ TEST(HertzCurve, LogarithmicRegressionOfSkin) {
   EXPECT_NEAR(fit.parameters[0].estimate, 0.64930904, 1e-6 * 0.64930904);  // log-01, its rel_tol
   EXPECT_EQ(fit.parameters[0].unit, "N");
   double lowest = std::numeric_limits<double>::infinity();
-  for (const double x : curve.x) lowest = std::min(lowest, value(fit, x));
+  for (const double x : curve.x) lowest = std::min(lowest, test::value(fit, x));
   EXPECT_NEAR(lowest, -0.66730649, 1e-6 * 0.66730649);  // log-04, its rel_tol
   // The curve is concave, Hertz convex: the published figures 0.5718 N and 0.746 in their digits.
   EXPECT_NEAR(fit.parameters[1].estimate, 0.5718, 5e-5);
@@ -73,7 +74,7 @@ TEST(VoigtCurve, CreepAndRecoveryShareTheirTime) {
   EXPECT_NEAR(up.parameters[1].estimate, tau, 1e-9);    // exact data, condition below 1e3
   EXPECT_NEAR(down.parameters[1].estimate, tau, 1e-9);  // likewise
   EXPECT_EQ(up.parameters[1].unit, "s");
-  EXPECT_NEAR(value(up, tau), strain * 0.6321205588285577, 1e-10);  // 1 - 1/e
+  EXPECT_NEAR(test::value(up, tau), strain * 0.6321205588285577, 1e-10);  // 1 - 1/e
 }
 
 }  // namespace

@@ -8,18 +8,13 @@
 #include "contact/deep.h"
 #include "contact/hertz.h"
 #include "run/family.h"
+#include "run_text.h"
 
 namespace palpate {
 namespace {
 
 using test::find_case;
-
-record::CaseRecord run_text(const std::string& text, const std::vector<std::string>& settings) {
-  const auto family = scenario::parse(text, "test.toml", settings);
-  const auto scene = scene::build(family.cases.front(), family);
-  const std::atomic<bool> stop = false;
-  return run::run_case(scene, stop);
-}
+using test::run_text;
 
 double force_at(const record::CaseRecord& record, double time) {
   for (const auto& row : record.contact)
@@ -42,8 +37,9 @@ TEST(ClosedForms, LayersOfThreeTissues) {
     const auto one =
         scenario::parse(layer, "test.toml", {std::string("tissue.material=") + material})
             .cases.front()
-            .scenario.tissue;
-    const double modulus = *one.young_modulus / (1.0 - *one.poisson_ratio * *one.poisson_ratio);
+            .materials.tissue;
+    const double modulus =
+        one.young_modulus.value / (1.0 - one.poisson_ratio.value * one.poisson_ratio.value);
     const auto expected = find_case(id);
     EXPECT_NEAR(last.force / contact::hertz::force(1e-3, 0.011, modulus), expected.value,
                 (expected.rel_tol + 1e-7) * expected.value)  // the table's own 1e-7

@@ -7,15 +7,18 @@
 
 #include "contact/elliptic.h"
 #include "contact/hertz.h"
+#include "every.h"
+#include "mechanics/pressed_mesh.h"
 #include "run/family.h"
-#include "run/pressed_mesh.h"
 #include "run/pressure_map.h"
+#include "run_text.h"
+#include "scenario/words.h"
 #include "scene/first_touch.h"
 
 namespace palpate {
 namespace {
 
-using Settings = std::vector<std::string>;
+using test::Settings;
 
 const std::string press =
     "schema = 1\n[tissue]\nmaterial = \"skin\"\nviscosity = \"none\"\n[solver]\n"
@@ -36,27 +39,29 @@ std::string tetgen(int nodes) {
   return "tissue.mesh={ kind = \"tetgen\", nodes = " + std::to_string(nodes) + " }";
 }
 
+// Couplings whose forces follow from the finger alone.
+const std::vector<std::string> couplings =
+    test::every(scenario::words::couplings, {"series", "resolved"});
+
 scene::Scene build(const Settings& settings, const std::string& text = press) {
-  const auto family = scenario::parse(text, "test.toml", settings);
-  return scene::build(family.cases.front(), family);
+  return test::scene_of(text, settings);
 }
 
-record::CaseRecord run_text(const Settings& settings, const std::string& text = press) {
-  const std::atomic<bool> stop = false;
-  return run::run_case(build(settings, text), stop);
+record::CaseRecord run_press(const Settings& settings, const std::string& text = press) {
+  return test::run_text(text, settings);
 }
 
 // The contacts at a finger's place, the mesh answering in statics.
 struct Pressing {
   scene::Scene scene;
-  run::PressedMesh mesh;
+  mechanics::PressedMesh mesh;
   Vec3 first;
 
   explicit Pressing(const Settings& settings)
       : scene(build(settings)), mesh(scene), first(scene::first_touch(scene).finger) {}
 
-  [[nodiscard]] run::Touch at(const Vec3& from_first) {
-    run::Touch touch;
+  [[nodiscard]] mechanics::Touch at(const Vec3& from_first) {
+    mechanics::Touch touch;
     touch.finger = first;
     const auto wrong = mesh.try_out(first + from_first, touch);
     EXPECT_FALSE(wrong.has_value()) << *wrong;
@@ -67,15 +72,15 @@ struct Pressing {
 // Pressed off the top, where nothing is symmetric.
 TEST(Contacts, NodalForcesHaveTheContactsForceAndMoment) {
   for (const std::string& shape : {ellipsoid, cylinder}) {
-    for (const char* coupling : {"one_way", "consistent"}) {
-      Pressing pressing({shape, tetgen(600), "finger.x=24 mm", "finger.y=37 mm",
-                         std::string("contact.coupling=") + coupling});
-      const run::Touch touch = pressing.at({0.0, 0.0, -1.5e-3});
+    for (const std::string& coupling : couplings) {
+      Pressing pressing(
+          {shape, tetgen(600), "finger.x=24 mm", "finger.y=37 mm", "contact.coupling=" + coupling});
+      const mechanics::Touch touch = pressing.at({0.0, 0.0, -1.5e-3});
       ASSERT_EQ(touch.contacts.size(), 1U);
       const auto& contact = touch.contacts[0];
       EXPECT_GT(contact.force, 0.1);
       EXPECT_LT(contact.patch.normal.z(), 0.99);
-      const auto load = run::Contacts::load(touch, pressing.mesh.answer());
+      const auto load = mechanics::Contacts::load(touch, pressing.mesh.answer());
       Vec3 force = Vec3::Zero();
       Vec3 moment = Vec3::Zero();
       const auto& rest = pressing.scene.specimen->network.rest;
@@ -95,11 +100,11 @@ TEST(Contacts, NodalForcesHaveTheContactsForceAndMoment) {
 // With drag the nodes carry it too; its moment follows the roundness of the skin, its sum does not.
 TEST(Contacts, NodalForcesCarryTheDrag) {
   Pressing pressing({ellipsoid, tetgen(600), "contact.friction=0.4"});
-  run::Touch touch = pressing.at({0.0, 0.0, -1e-3});
+  mechanics::Touch touch = pressing.at({0.0, 0.0, -1e-3});
   const auto wrong = pressing.mesh.try_out(pressing.first + Vec3(2e-5, 3e-5, -1e-3), touch);
   ASSERT_FALSE(wrong.has_value());
   EXPECT_GT(touch.drag().norm(), 0.01 * touch.pressed());
-  const auto load = run::Contacts::load(touch, pressing.mesh.answer());
+  const auto load = mechanics::Contacts::load(touch, pressing.mesh.answer());
   Vec3 sum = Vec3::Zero();
   for (Eigen::Index n = 0; n < load.size() / 3; ++n) sum += load.segment<3>(3 * n);
   Vec3 expected = touch.drag();
@@ -123,7 +128,7 @@ TEST(Contacts, TravelBeginsAtTheFirstTouchOnEveryShape) {
     settings.emplace_back("contact.coupling=one_way");
     Pressing pressing(settings);
     EXPECT_TRUE(pressing.at({0.0, 0.0, 1e-9}).contacts.empty()) << shape[0];
-    const run::Touch touch = pressing.at({0.0, 0.0, -1e-6});
+    const mechanics::Touch touch = pressing.at({0.0, 0.0, -1e-6});
     ASSERT_FALSE(touch.contacts.empty()) << shape[0];
     // On a slope the sphere comes in by less than its travel, by the normal's z.
     const auto& deepest = *touch.deepest();
@@ -148,14 +153,14 @@ double closed_form(const scene::Scene& scene, const Top& top, double depth) {
 
 TEST(Contacts, HertzIsTheEllipticClosedForm) {
   for (const Top& top : tops) {
-    const double force = run_text({top.shape}, press_closed_form).contact.back().force;
+    const double force = run_press({top.shape}, press_closed_form).contact.back().force;
     EXPECT_NEAR(force / closed_form(build({top.shape}, press_closed_form), top, 1e-3), 1.0, 1e-14);
   }
   const Top dome{
       "tissue.shape={ kind = \"half_space\", curvature = \"20 1/m\", curvature_2 = "
       "\"5 1/m\" }",
       20.0, 5.0};
-  const double force = run_text({dome.shape}, press_closed_form).contact.back().force;
+  const double force = run_press({dome.shape}, press_closed_form).contact.back().force;
   EXPECT_NEAR(force / closed_form(build({dome.shape}, press_closed_form), dome, 1e-3), 1.0, 1e-14);
 }
 
@@ -163,8 +168,8 @@ TEST(Contacts, HertzIsTheEllipticClosedForm) {
 TEST(Contacts, NearlyConformingTissueIsSaid) {
   const auto said = [](const std::string& curvature) {
     const auto record =
-        run_text({"tissue.shape={ kind = \"half_space\", curvature = \"" + curvature + "\" }"},
-                 press_closed_form);
+        run_press({"tissue.shape={ kind = \"half_space\", curvature = \"" + curvature + "\" }"},
+                  press_closed_form);
     return std::any_of(record.remarks.begin(), record.remarks.end(), [](const std::string& remark) {
       return remark.find("hollow beyond half") != std::string::npos;
     });
@@ -189,12 +194,12 @@ TEST(Contacts, OneWayOnAMeshApproachesTheClosedForm) {
 }
 
 double normal_force(const Settings& settings, const std::string& text = press) {
-  return run_text(settings, text).contact.back().contact_force;
+  return run_press(settings, text).contact.back().contact_force;
 }
 
 TEST(EightSpheres, PressAFlatLikeTheOneTheyReplace) {
-  for (const char* coupling : {"one_way", "consistent"}) {
-    const std::string coupled = std::string("contact.coupling=") + coupling;
+  for (const std::string& coupling : couplings) {
+    const std::string coupled = "contact.coupling=" + coupling;
     const std::string mesh = "tissue.mesh={ kind = \"mirrored\", cells = [10, 10, 5] }";
     const double one = normal_force({mesh, coupled});
     const double eight = normal_force({mesh, coupled, "finger.spheres=8"});
@@ -244,7 +249,7 @@ TEST(PressureMap, IntegratesToTheForces) {
     settings.emplace_back("contact.friction=0.4");
     settings.emplace_back("contact.coupling=one_way");
     Pressing pressing(settings);
-    run::Touch touch = pressing.at({0.0, 0.0, -1e-3});
+    mechanics::Touch touch = pressing.at({0.0, 0.0, -1e-3});
     const auto wrong = pressing.mesh.try_out(pressing.first + Vec3(5e-5, 2e-5, -1e-3), touch);
     ASSERT_FALSE(wrong.has_value());
     const auto sums = integrals(run::draw_map(pressing.scene, touch));
@@ -257,7 +262,7 @@ TEST(PressureMap, IntegratesToTheForces) {
 
 TEST(PressureMap, GapOpensAtTheRimAndOnlyThere) {
   Pressing pressing({"contact.coupling=one_way"});
-  const run::Touch touch = pressing.at({0.0, 0.0, -1e-3});
+  const mechanics::Touch touch = pressing.at({0.0, 0.0, -1e-3});
   const auto map = run::draw_map(pressing.scene, touch);
   const auto& patch = touch.contacts[0].patch;
   for (int row = 0; row < map.height; ++row)
@@ -278,7 +283,7 @@ TEST(PressureMap, GapOpensAtTheRimAndOnlyThere) {
 // (3.42)
 TEST(PressureMap, GapIsHertzs) {
   Pressing pressing({"contact.coupling=one_way", "finger.material=rigid"});
-  const run::Touch touch = pressing.at({0.0, 0.0, -1e-3});
+  const mechanics::Touch touch = pressing.at({0.0, 0.0, -1e-3});
   const auto map = run::draw_map(pressing.scene, touch);
   const auto& contact = touch.contacts[0];
   const double a = contact.patch.a;
@@ -307,14 +312,14 @@ TEST(Rings, ManyAreTheWholeAndFewHoldMore) {
   const Settings block{
       "tissue.shape={ kind = \"cuboid\", size = [\"90 mm\", \"90 mm\", \"15 mm\"] }",
       "tissue.mesh={ kind = \"mirrored\", cells = [18, 18, 3] }"};
-  const double all = run_text(block).contact.back().force;
+  const double all = run_press(block).contact.back().force;
   double edge_before = 1.0 + 1e-9;
   double force_before = 2.0 * all;
   // Parts that do not reach the base hang on their edge alone; 5 rings and more stand on it too.
   for (const int rings : {2, 5, 7, 40}) {
     Settings settings = block;
     settings.push_back("solver.rings=" + std::to_string(rings));
-    const auto part = run_text(settings);
+    const auto part = run_press(settings);
     const double edge = edge_share(part);
     const double force = part.contact.back().force;
     EXPECT_LT(edge, edge_before) << rings;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "run/family.h"
+#include "run_text.h"
 
 namespace palpate {
 namespace {
@@ -22,10 +23,8 @@ TEST(Inertia, AFastPressMeetsWhatItsWavesTakeAway) {
       "\"central_difference\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"100 mm/s\"\n"
       "[[step]]\nkind = \"hold\"\ntime = \"6 ms\"\n[output]\ninterval = \"1 ms\"\npressure_maps = "
       "false\n";
-  const auto family = scenario::parse(text, "press.toml", {});
-  const auto scene = scene::build(family.cases.front(), family);
-  const std::atomic<bool> stop = false;
-  const record::CaseRecord record = run::run_case(scene, stop);
+  const auto scene = test::scene_of(text);
+  const record::CaseRecord record = test::run_scene(scene);
   ASSERT_EQ(record.outcome, record::Outcome::completed);
   ASSERT_EQ(record.contact.size(), std::size(resolved));
   // From 3 ms on; before, the contact is a cell or less wide on either mesh.

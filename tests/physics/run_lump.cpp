@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "run/family.h"
+#include "run_text.h"
 #include "tissue/stiffness.h"
 
 namespace palpate {
@@ -24,9 +25,7 @@ const std::string press_over_lump =
 double force(const std::string& lump_modulus, const std::vector<std::string>& more) {
   std::vector<std::string> settings = more;
   settings.push_back("region.1.young_modulus=" + lump_modulus);
-  const auto family = scenario::parse(press_over_lump, "test.toml", settings);
-  const std::atomic<bool> stop = false;
-  const auto record = run::run_case(scene::build(family.cases.front(), family), stop);
+  const auto record = test::run_text(press_over_lump, settings);
   EXPECT_EQ(record.outcome, record::Outcome::completed) << record.reason;
   return record.contact.back().contact_force;
 }
@@ -57,12 +56,15 @@ TEST(Lump, OfTheSameStiffnessIsNone) {
 // Springs with tetrahedra of one tissue alone around them do not know of the others; those between
 // get the mean.
 TEST(Lump, SpringsTakeTheModulusAroundThem) {
-  const auto family = scenario::parse(press_over_lump, "test.toml", {"tissue.mesh.nodes=500"});
-  const scene::Scene scene = scene::build(family.cases.front(), family);
+  const scene::Scene scene = test::scene_of(press_over_lump, {"tissue.mesh.nodes=500"});
   const geometry::TetMesh& mesh = scene.specimen->mesh;
   for (const auto rule : {tissue::StiffnessRule::van_gelder, tissue::StiffnessRule::fitted}) {
-    const auto soft = tissue::spring_stiffness(rule, mesh, std::array{1.0, 1.0});
-    const auto mixed = tissue::spring_stiffness(rule, mesh, std::array{1.0, 50.0});
+    const auto stiffness = [&](const std::array<double, 2>& moduli) {
+      return rule == tissue::StiffnessRule::van_gelder ? tissue::van_gelder_stiffness(mesh, moduli)
+                                                       : tissue::fitted_stiffness(mesh, moduli);
+    };
+    const auto soft = stiffness({1.0, 1.0});
+    const auto mixed = stiffness({1.0, 50.0});
     int alike = 0;
     int between = 0;
     int stiff = 0;

@@ -5,29 +5,28 @@
 
 #include "cases.h"
 #include "contact/hertz.h"
+#include "every.h"
 #include "geometry/cuboid.h"
 #include "run/family.h"
+#include "run_text.h"
+#include "scenario/words.h"
 
 namespace palpate {
 namespace {
 
 using test::expect_case;
+using test::run_text;
 
-const char* const integrators[] = {"central_difference",  "semi_implicit_euler",
-                                   "backward_difference", "tr_bdf2",
-                                   "quasi_static",        "modal"};
-const char* const couplings[] = {"one_way", "series", "consistent"};
+const std::vector<std::string> integrators = test::every(scenario::words::integrators);
+// Modes are those of a linear body.
+const std::vector<std::string> turning_integrators =
+    test::every(scenario::words::integrators, {"modal"});
+// `resolved` wants finer meshes: run_resolved.cpp.
+const std::vector<std::string> couplings = test::every(scenario::words::couplings, {"resolved"});
 
 const std::string press =
     "schema = 1\n[tissue]\nmaterial = \"skin\"\n[solver]\nmodel = \"mass_spring\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"5 mm/s\"\n";
-
-record::CaseRecord run_text(const std::string& text, const std::vector<std::string>& settings) {
-  const auto family = scenario::parse(text, "test.toml", settings);
-  const auto scene = scene::build(family.cases.front(), family);
-  const std::atomic<bool> stop = false;
-  return run::run_case(scene, stop);
-}
 
 double force_at(const record::CaseRecord& record, double travel) {
   for (const auto& row : record.contact)
@@ -37,10 +36,7 @@ double force_at(const record::CaseRecord& record, double travel) {
 }
 
 double found(const record::CaseRecord& record, const std::string& name) {
-  for (const auto& finding : record.findings)
-    if (finding.name == name) return std::get<double>(finding.value);
-  ADD_FAILURE() << "no finding " << name;
-  return 0.0;
+  return std::get<double>(test::finding(record, name));
 }
 
 // The travel at which the force is this, between two rows.
@@ -56,9 +52,9 @@ double travel_at_force(const record::CaseRecord& record, double force) {
 }
 
 TEST(Press, FigureSixForcesInEveryIntegrator) {
-  for (const char* integrator : integrators) {
-    const auto skin = run_text(press, {"contact.coupling=one_way", "step.1.to=2 mm",
-                                       std::string("solver.integrator=") + integrator});
+  for (const std::string& integrator : integrators) {
+    const auto skin = run_text(
+        press, {"contact.coupling=one_way", "step.1.to=2 mm", "solver.integrator=" + integrator});
     expect_case("hertz-02", force_at(skin, 0.5e-3));
     expect_case("hertz-07", force_at(skin, 2e-3));
   }
@@ -73,12 +69,11 @@ TEST(Press, HertzModelNeedsNoMesh) {
 }
 
 TEST(Press, IntegratorsAgree) {
-  for (const char* coupling : couplings) {
-    const auto exact =
-        run_text(press, {std::string("contact.coupling=") + coupling, "solver.integrator=modal"});
-    for (const char* integrator : integrators) {
-      const auto record = run_text(press, {std::string("contact.coupling=") + coupling,
-                                           std::string("solver.integrator=") + integrator});
+  for (const std::string& coupling : couplings) {
+    const auto exact = run_text(press, {"contact.coupling=" + coupling, "solver.integrator=modal"});
+    for (const std::string& integrator : integrators) {
+      const auto record =
+          run_text(press, {"contact.coupling=" + coupling, "solver.integrator=" + integrator});
       for (const double travel : {0.5e-3, 1e-3})
         // Implicit Euler at tau / 50 is the coarsest: its lag moves u by a part in a hundred of
         // what u takes part in h.
@@ -90,10 +85,9 @@ TEST(Press, IntegratorsAgree) {
 }
 
 TEST(Press, NonlinearAgreesWithLinearForShallowPresses) {
-  for (const char* integrator : {"central_difference", "semi_implicit_euler", "backward_difference",
-                                 "tr_bdf2", "quasi_static"}) {
-    const std::vector<std::string> common{std::string("solver.integrator=") + integrator,
-                                          "step.1.to=0.05 mm", "contact.coupling=series"};
+  for (const std::string& integrator : turning_integrators) {
+    const std::vector<std::string> common{"solver.integrator=" + integrator, "step.1.to=0.05 mm",
+                                          "contact.coupling=series"};
     auto turned = common;
     turned.emplace_back("solver.kinematics=nonlinear");
     const double linear = run_text(press, common).contact.back().force;
@@ -140,10 +134,10 @@ TEST(Press, ForceIsMonotoneAndContinuous) {
   for (const char* mesh :
        {"{ kind = \"mirrored\", cells = [3, 4, 6] }",
         "{ kind = \"mirrored\", cells = [12, 12, 6] }", "{ kind = \"tetgen\", nodes = 400 }"}) {
-    for (const char* coupling : couplings) {
+    for (const std::string& coupling : couplings) {
       const auto record =
           run_text(press + "[[step]]\nkind = \"retract\"\nto = \"-0.2 mm\"\nrate = \"5 mm/s\"\n",
-                   {std::string("tissue.mesh=") + mesh, std::string("contact.coupling=") + coupling,
+                   {std::string("tissue.mesh=") + mesh, "contact.coupling=" + coupling,
                     "tissue.viscosity=none", "solver.integrator=quasi_static", "step.1.to=2 mm"});
       ASSERT_EQ(record.outcome, record::Outcome::completed);
       for (std::size_t i = 1; i < record.contact.size(); ++i) {
@@ -190,9 +184,9 @@ TEST(Press, ConsistentIsStableWithoutDamping) {
   const double still = run_text(press, {"tissue.viscosity=none", "solver.integrator=quasi_static"})
                            .contact.back()
                            .force;
-  for (const char* integrator : {"central_difference", "modal"}) {
-    const auto record = run_text(held, {"tissue.viscosity=none", "step.1.rate=100 mm/s",
-                                        std::string("solver.integrator=") + integrator});
+  for (const std::string integrator : {"central_difference", "modal"}) {
+    const auto record = run_text(
+        held, {"tissue.viscosity=none", "step.1.rate=100 mm/s", "solver.integrator=" + integrator});
     ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator;
     for (const auto& row : record.contact)
       if (row.time > 0.5) {
@@ -221,10 +215,9 @@ TEST(Press, RelaxesUnderAHold) {
   // The tissue gives way behind the contact while the travel is held: the force falls and settles
   // at what statics gives.
   const std::string held = press + "[[step]]\nkind = \"hold\"\ntime = \"1 s\"\n";
-  for (const char* integrator : integrators) {
-    const auto record =
-        run_text(held, {std::string("solver.integrator=") + integrator, "step.1.rate=100 mm/s",
-                        "contact.coupling=series", "output.interval=2 ms"});
+  for (const std::string& integrator : integrators) {
+    const auto record = run_text(held, {"solver.integrator=" + integrator, "step.1.rate=100 mm/s",
+                                        "contact.coupling=series", "output.interval=2 ms"});
     const auto still = run_text(press, {"tissue.viscosity=none", "contact.coupling=series",
                                         "solver.integrator=quasi_static"});
     EXPECT_GT(force_at(record, 1e-3), 1.01 * record.contact.back().force) << integrator;
@@ -246,9 +239,8 @@ TEST(Press, UnstableStepIsDetectedAndTheRestKept) {
 
 TEST(Press, StableJustBelowTheLimitAndNotAbove) {
   // 0.95 and 1.05 of 2 / omega_max by the output interval, one substep.
-  const auto family =
-      scenario::parse(press, "test.toml", {"tissue.viscosity=none", "contact.coupling=one_way"});
-  const double limit = scene::build(family.cases.front(), family).specimen->plan.limit;
+  const double limit = test::scene_of(press, {"tissue.viscosity=none", "contact.coupling=one_way"})
+                           .specimen->plan.limit;
   for (const double part : {0.95, 1.05}) {
     const auto record =
         run_text(press, {"tissue.viscosity=none", "contact.coupling=one_way", "solver.substeps=1",

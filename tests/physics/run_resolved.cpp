@@ -7,9 +7,10 @@
 
 #include "base/error.h"
 #include "contact/hertz.h"
+#include "mechanics/pressed_mesh.h"
+#include "mechanics/pressed_nodes.h"
 #include "run/family.h"
-#include "run/pressed_mesh.h"
-#include "run/pressed_nodes.h"
+#include "run_text.h"
 #include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
 
@@ -30,14 +31,12 @@ const std::string block =
 
 // `steps` come after the press.
 scene::Scene build(const std::vector<std::string>& settings, const std::string& steps = "") {
-  const auto family = scenario::parse(block + steps, "test.toml", settings);
-  return scene::build(family.cases.front(), family);
+  return test::scene_of(block + steps, settings);
 }
 
 record::CaseRecord run_block(const std::vector<std::string>& settings,
                              const std::string& steps = "") {
-  const std::atomic<bool> stop = false;
-  return run::run_case(build(settings, steps), stop);
+  return test::run_text(block + steps, settings);
 }
 
 double last_force(const std::vector<std::string>& settings) {
@@ -47,12 +46,12 @@ double last_force(const std::vector<std::string>& settings) {
 // A scene pressed to a travel in one quasi-static step.
 struct Pressed {
   scene::Scene scene;
-  run::PressedMesh mesh;
-  run::Touch touch;
+  mechanics::PressedMesh mesh;
+  mechanics::Touch touch;
 
   Pressed(const std::vector<std::string>& settings, double travel)
       : scene(build(settings)), mesh(scene) {
-    run::ContactHistory history(scene);
+    mechanics::ContactHistory history(scene);
     mesh.set_step(1.0);
     touch.finger = scene::first_touch(scene).finger;
     touch.travel = travel;
@@ -83,8 +82,8 @@ struct Pressed {
 TEST(Resolved, nodes_touch_or_are_free_and_none_pulls_or_overlaps) {
   Pressed pressed({}, 1.5e-3);
   ASSERT_EQ(pressed.touch.contacts.size(), 1u);
-  const run::SphereContact& contact = pressed.touch.contacts.front();
-  const run::SkinNodes nodes(*pressed.scene.specimen->surface);
+  const mechanics::SphereContact& contact = pressed.touch.contacts.front();
+  const mechanics::SkinNodes nodes(*pressed.scene.specimen->surface);
   std::map<int, double> share;
   for (std::size_t k = 0; k < contact.load.vertices.size(); ++k)
     share[contact.load.vertices[k]] = contact.load.shares[k];
@@ -139,8 +138,7 @@ TEST(Resolved, a_soft_finger_on_bone_is_hertz) {
                             "tissue.shape.size=[\"8 mm\",\"8 mm\",\"5 mm\"]",
                             "tissue.mesh={kind=\"mirrored\",cells=[16,16,2]}", "step.1.to=0.36 mm",
                             "output.interval=90 ms"});
-  const std::atomic<bool> stop = false;
-  const auto record = run::run_case(scene, stop);
+  const auto record = test::run_scene(scene);
   const double depth = record.contact.back().travel;
   const double hertz = contact::hertz::force(depth, 0.011, scene.law().modulus);
   // Facets of 4 cells a radius, and neighbours as point loads.
@@ -308,8 +306,8 @@ TEST(Resolved, a_mesh_that_cannot_carry_the_contact_is_refused) {
       FAIL() << integrator;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what())
-                    .find("an explicit method cannot, and in `modal` steps "
-                          "they ring"),
+                    .find("an explicit method cannot do, and in `modal` steps "
+                          "they oscillate"),
                 std::string::npos)
           << error.what();
     }
@@ -321,7 +319,7 @@ TEST(Resolved, a_mesh_that_cannot_carry_the_contact_is_refused) {
 TEST(Resolved, nodes_that_stand_are_not_pressed) {
   const auto jump = run_block({"solver.rings=1", "output.interval=1500 ms"});
   EXPECT_EQ(jump.outcome, record::Outcome::diverged);
-  EXPECT_NE(jump.reason.find("presses nodes that stand still"), std::string::npos) << jump.reason;
+  EXPECT_NE(jump.reason.find("presses nodes that cannot move"), std::string::npos) << jump.reason;
   EXPECT_EQ(run_block({"solver.rings=3", "output.interval=50 ms"}).outcome,
             record::Outcome::completed);
 }

@@ -7,14 +7,17 @@
 #include "cases.h"
 #include "contact/friction.h"
 #include "contact/hertz.h"
+#include "every.h"
+#include "mechanics/pressed_mesh.h"
 #include "run/family.h"
-#include "run/pressed_mesh.h"
+#include "run_text.h"
+#include "scenario/words.h"
 #include "scene/first_touch.h"
 
 namespace palpate {
 namespace {
 
-using Settings = std::vector<std::string>;
+using test::Settings;
 
 const std::string slide =
     "schema = 1\n[tissue]\nmaterial = \"skin\"\nviscosity = \"none\"\n[solver]\n"
@@ -35,14 +38,16 @@ const std::string slide_closed_form =
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"20 mm/s\"\n"
     "[[step]]\nkind = \"slide\"\nby = \"1 mm\"\nrate = \"5 mm/s\"\n";
 
+// Couplings whose forces follow from the finger alone.
+const std::vector<std::string> couplings =
+    test::every(scenario::words::couplings, {"series", "resolved"});
+
 scene::Scene build(const Settings& settings, const std::string& text = slide) {
-  const auto family = scenario::parse(text, "test.toml", settings);
-  return scene::build(family.cases.front(), family);
+  return test::scene_of(text, settings);
 }
 
 record::CaseRecord run_slide(const Settings& settings, const std::string& text = slide) {
-  const std::atomic<bool> stop = false;
-  return run::run_case(build(settings, text), stop);
+  return test::run_text(text, settings);
 }
 
 // Along a straight way of the finger, from one offset of the first touch to another, m.
@@ -67,17 +72,17 @@ const Way ways[] = {
 
 // A jump stays as large when the step is cut; what is continuous and has slopes shrinks with it.
 TEST(Slide, ForceHasNoJumps) {
-  for (const char* coupling : {"one_way", "consistent"}) {
+  for (const std::string& coupling : couplings) {
     for (const Way& way : ways) {
       Settings settings = way.settings;
-      settings.push_back(std::string("contact.coupling=") + coupling);
+      settings.push_back("contact.coupling=" + coupling);
       const scene::Scene scene = build(settings);
-      run::PressedMesh mesh(scene);
+      mechanics::PressedMesh mesh(scene);
       const Vec3 first = scene::first_touch(scene).finger;
       constexpr int steps = 4096;
       constexpr std::size_t coarse = 8;
       std::vector<double> forces;
-      run::Touch touch;
+      mechanics::Touch touch;
       touch.finger = first;
       for (int i = 0; i <= steps; ++i) {
         const Vec3 offset = way.from + (way.to - way.from) * (static_cast<double>(i) / steps);
@@ -159,9 +164,9 @@ TEST(Slide, StickHasTheIndependentNumbers) {
 TEST(Slide, SlipsAtMuTimesTheNormalForceOnACurvedShape) {
   Settings settings{ellipsoid, tetgen, "contact.friction=0.3", "contact.coupling=one_way"};
   const scene::Scene scene = build(settings);
-  run::PressedMesh mesh(scene);
+  mechanics::PressedMesh mesh(scene);
   const Vec3 first = scene::first_touch(scene).finger;
-  run::Touch touch;
+  mechanics::Touch touch;
   touch.finger = first;
   for (int i = 0; i <= 400; ++i) {
     const auto wrong = mesh.try_out(first + Vec3(2e-5 * i, 1e-5 * i, -1e-3), touch);
@@ -179,10 +184,10 @@ TEST(Slide, SlipsAtMuTimesTheNormalForceOnACurvedShape) {
 }
 
 TEST(Slide, KeepsTheForce) {
-  for (const char* coupling : {"one_way", "consistent"}) {
-    const auto record = run_slide({ellipsoid, tetgen, "contact.friction=0.2", "step.2.by=6 mm",
-                                   "step.2.direction=30", "step.2.keep=force",
-                                   std::string("contact.coupling=") + coupling});
+  for (const std::string& coupling : couplings) {
+    const auto record =
+        run_slide({ellipsoid, tetgen, "contact.friction=0.2", "step.2.by=6 mm",
+                   "step.2.direction=30", "step.2.keep=force", "contact.coupling=" + coupling});
     ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
     double kept = 0.0;
     double lowest = 1.0;

@@ -5,16 +5,20 @@
 #include <numbers>
 
 #include "cases.h"
+#include "every.h"
 #include "run/family.h"
+#include "run_text.h"
+#include "scenario/words.h"
 
 namespace palpate {
 namespace {
 
 using test::expect_case;
 
-const char* const integrators[] = {"central_difference",  "semi_implicit_euler",
-                                   "backward_difference", "tr_bdf2",
-                                   "quasi_static",        "modal"};
+const std::vector<std::string> integrators = test::every(scenario::words::integrators);
+// Modes are those of a linear body.
+const std::vector<std::string> turning_integrators =
+    test::every(scenario::words::integrators, {"modal"});
 const char* const meshes[] = {"{ kind = \"kuhn\", cells = [3, 4, 6] }",
                               "{ kind = \"mirrored\", cells = [2, 2, 4] }",
                               "{ kind = \"tetgen\", nodes = 160 }"};
@@ -25,12 +29,8 @@ struct Result {
 };
 
 Result run_text(const std::string& text, const std::vector<std::string>& settings) {
-  const auto family = scenario::parse(text, "test.toml", settings);
-  Result result;
-  result.scene = scene::build(family.cases.front(), family);
-  const std::atomic<bool> stop = false;
-  result.record = run::run_case(result.scene, stop);
-  return result;
+  scene::Scene scene = test::scene_of(text, settings);
+  return {test::run_scene(scene), std::move(scene)};
 }
 
 const std::string specimen =
@@ -51,12 +51,11 @@ double strain_at(const record::CaseRecord& record, double time) {
 
 TEST(KelvinVoigtSpecimen, CreepsAndRecoversLikeTheClosedForm) {
   const double tau = 0.5;
-  for (const char* integrator : integrators) {
+  for (const std::string& integrator : integrators) {
     for (const char* mesh : meshes) {
       const auto [record, scene] =
           run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-                           std::string("solver.integrator=") + integrator,
-                           std::string("tissue.mesh=") + mesh});
+                           "solver.integrator=" + integrator, std::string("tissue.mesh=") + mesh});
       ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator << mesh;
       const double settled = 100.0 / scene.specimen->measured.young_modulus;
       for (const auto& row : record.strain) {
@@ -93,12 +92,12 @@ TEST(KelvinVoigtSpecimen, EarlyAndLate) {
 TEST(StandardLinearSolidSpecimen, Relaxes) {
   const double tau = 0.4;
   const double ratio = 2.5;
-  for (const char* integrator : integrators) {
+  for (const std::string& integrator : integrators) {
     for (const char* mesh : meshes) {
-      const auto [record, scene] = run_text(
-          relax, {"tissue.viscosity=standard_linear_solid", "tissue.relaxation_time=0.4 s",
-                  "tissue.instantaneous_ratio=2.5", std::string("solver.integrator=") + integrator,
-                  std::string("tissue.mesh=") + mesh});
+      const auto [record, scene] =
+          run_text(relax, {"tissue.viscosity=standard_linear_solid", "tissue.relaxation_time=0.4 s",
+                           "tissue.instantaneous_ratio=2.5", "solver.integrator=" + integrator,
+                           std::string("tissue.mesh=") + mesh});
       ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator << mesh;
       const double modulus = scene.specimen->measured.young_modulus;
       for (const auto& row : record.strain) {
@@ -188,11 +187,10 @@ TEST(KelvinVoigtSpecimen, DoesNotRelaxAndSaysSo) {
 }
 
 TEST(UniformSpecimen, NonlinearAgreesWithLinearForSmallLoads) {
-  for (const char* integrator : {"central_difference", "semi_implicit_euler", "backward_difference",
-                                 "tr_bdf2", "quasi_static"}) {
-    const std::vector<std::string> common{
-        "tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-        std::string("solver.integrator=") + integrator, "step.1.stress=1 Pa"};
+  for (const std::string& integrator : turning_integrators) {
+    const std::vector<std::string> common{"tissue.viscosity=kelvin_voigt",
+                                          "tissue.retardation_time=0.5 s",
+                                          "solver.integrator=" + integrator, "step.1.stress=1 Pa"};
     auto turned = common;
     turned.emplace_back("solver.kinematics=nonlinear");
     const auto linear = run_text(creep, common);
@@ -209,11 +207,11 @@ TEST(UniformSpecimen, NonlinearAgreesWithLinearForSmallLoads) {
 // Dashpots that turn with the springs, under a load where they turn by some hundredths: the
 // explicit step, whose damping is tens of times its mass, against the implicit one.
 TEST(UniformSpecimen, TurnedDashpotsKeepTheExplicitStepStable) {
-  const auto settings = [](const char* integrator) {
+  const auto settings = [](const std::string& integrator) {
     return std::vector<std::string>{
         "tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
         "solver.kinematics=nonlinear",   "tissue.mesh={ kind = \"tetgen\", nodes = 160 }",
-        "step.1.stress=500 Pa",          std::string("solver.integrator=") + integrator};
+        "step.1.stress=500 Pa",          "solver.integrator=" + integrator};
   };
   const auto explicit_one = run_text(creep, settings("central_difference")).record;
   const auto implicit_one = run_text(creep, settings("backward_difference")).record;
@@ -229,10 +227,10 @@ TEST(UniformSpecimen, TurnedDashpotsKeepTheExplicitStepStable) {
 }
 
 TEST(UniformSpecimen, EnergyIsAccountedFor) {
-  for (const char* integrator : integrators) {
+  for (const std::string& integrator : integrators) {
     const auto [record, scene] =
         run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-                         std::string("solver.integrator=") + integrator, "output.interval=5 ms"});
+                         "solver.integrator=" + integrator, "output.interval=5 ms"});
     double imbalance = 1.0;
     for (const auto& finding : record.findings)
       if (finding.name == "energy_imbalance") imbalance = std::get<double>(finding.value);

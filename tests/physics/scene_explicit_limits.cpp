@@ -3,11 +3,13 @@
 
 #include <cmath>
 
+#include "every.h"
 #include "integrate/semi_implicit_euler.h"
 #include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/words.h"
 #include "scene/scene.h"
+#include "scene_text.h"
 
 namespace palpate {
 namespace {
@@ -47,19 +49,19 @@ double growth(Method method, const scene::SpringBody& body) {
 }
 
 void expect_limit(const std::vector<std::string>& settings, const std::string& what) {
-  const auto family = scenario::parse(specimen_of_skin, "test.toml", settings);
-  const auto scene = scene::build(family.cases.front(), family);
+  const auto scene = test::scene_of(specimen_of_skin, settings);
   const scene::Specimen& specimen = *scene.specimen;
   const scene::SpringBody springs(specimen.network, specimen.kinematics, specimen.law,
                                   specimen.held);
-  const scenario::Solver& solver = scene.scenario.solver;
+  const scenario::Resolved::Solver& solver = scene.scenario.solver;
   // Within 2 % on both sides: there is no more to choose than where in the bracket the limit is.
   for (const double part : {0.98, 1.02}) {
     const double dt = part * specimen.plan.limit;
     const double grown =
         solver.integrator == scenario::Solver::Integrator::semi_implicit_euler
             ? growth(integrate::SemiImplicitEuler(springs, dt), springs)
-            : growth(integrate::CentralDifference(springs, dt, solver.start, solver.damping),
+            : growth(integrate::CentralDifference(springs, dt, solver.start,
+                                                  scenario::damping_velocity(solver)),
                      springs);
     if (part < 1.0)
       EXPECT_LT(grown, 100.0) << what;  // the highest mode swings by 1 / (1 - 0.98^2) = 25
@@ -70,12 +72,11 @@ void expect_limit(const std::vector<std::string>& settings, const std::string& w
 
 TEST(ExplicitLimits, AreWhatIsDeclared) {
   for (const auto& damping : dampings)
-    for (const std::string model : {"mass_spring", "coupled_springs"}) {
+    for (const std::string& model : test::every(scenario::words::models, {"hertz", "layer"})) {
       std::vector<std::string> settings = damping;
       settings.push_back("solver.model=" + model);
-      for (const auto& word : scenario::words::integrators) {
-        const auto index = static_cast<std::size_t>(&word - scenario::words::integrators.data());
-        if (!scenario::explicit_steps(static_cast<scenario::Solver::Integrator>(index))) continue;
+      for (const auto& word : scenario::integrator_table) {
+        if (!word.explicit_steps) continue;
         auto one = settings;
         one.push_back(std::string("solver.integrator=") + word.word);
         expect_limit(one, std::string(word.word) + ", " + damping[0] + ", " + model);
@@ -94,8 +95,7 @@ TEST(ExplicitLimits, KnowTheContactsSpring) {
       "schema = 1\n[tissue]\nmaterial = \"skin\"\n[contact]\ncoupling = \"series\"\n[solver]\n"
       "model = \"mass_spring\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
   const auto limit = [&](const std::vector<std::string>& settings) {
-    const auto family = scenario::parse(press, "test.toml", settings);
-    return scene::build(family.cases.front(), family).specimen->plan.limit;
+    return test::scene_of(press, settings).specimen->plan.limit;
   };
   const double alone = limit({"contact.coupling=one_way", "tissue.viscosity=none"});
   const double both = limit({"tissue.viscosity=none"});

@@ -6,17 +6,13 @@
 
 #include "base/document.h"
 #include "base/document_writer.h"
+#include "refusal.h"
 
 namespace palpate {
 namespace {
 
 std::string refusal(const std::string& text) {
-  try {
-    (void)parse_toml(text, "f.toml");
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return test::refusal([&] { return parse_toml(text, "f.toml"); });
 }
 
 // The member at a path of keys.
@@ -94,7 +90,7 @@ TEST(Document, WhatIsNoTomlIsRefusedAtItsPlace) {
       {"depth = 5 mm\n",
        "f.toml:1:11: a value is followed by more on its line; put quantities in double quotes, as "
        "`\"5 mm\"`, and each key on a line of its own"},
-      {"kind = kuhn\n", "f.toml:1:8: a value is none that TOML knows; put words in double quotes"},
+      {"kind = kuhn\n", "f.toml:1:8: this is not a TOML value; put words in double quotes"},
       {"a = 1\nb = \"\xff\"\n", "f.toml:2:6: this is not UTF-8 text; save the file as UTF-8"},
       {"\xc3", "f.toml:1:1: this is not UTF-8 text; save the file as UTF-8"},
       {"# \xc3\xa9 \xe9t\xe9\n", "f.toml:1:5: this is not UTF-8 text; save the file as UTF-8"},
@@ -145,12 +141,7 @@ Node with(const std::string& text, const std::string& assignment) {
 }
 
 std::string setting_refusal(const std::string& text, const std::string& assignment) {
-  try {
-    (void)with(text, assignment);
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return test::refusal([&] { return with(text, assignment); });
 }
 
 TEST(Setting, ReplacesValuesWhereverTheyStand) {

@@ -66,5 +66,29 @@ TEST(Sha256, PartsAreTheWhole) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
+TEST_F(Files, AFilesHashIsThatOfItsContent) {
+  for (const std::string content : {"", "abc", "abc\n", "\n\nabc"}) {
+    write_atomically(path_, content);
+    EXPECT_EQ(file_sha256(path_), sha256(content));
+  }
+  EXPECT_THROW((void)file_sha256(path_ + "x"), InputError);
+}
+
+TEST_F(Files, AHeldFileIsHeldUntilItIsReleased) {
+  HeldFile other;
+  EXPECT_FALSE(other.take(path_)) << "not there";
+  HeldFile held;
+  held.write(path_, "one");
+  EXPECT_FALSE(other.take(path_));
+  held.write(path_, "two");
+  EXPECT_FALSE(other.take(path_)) << "the new file is held, too";
+  EXPECT_EQ(read_text(path_), "two");
+  held.release();
+  EXPECT_TRUE(other.take(path_));
+  EXPECT_FALSE(held.take(path_));
+  write_atomically(path_, "three");
+  EXPECT_TRUE(held.take(path_)) << "it is another file by now";
+}
+
 }  // namespace
 }  // namespace palpate

@@ -3,6 +3,7 @@
 
 #include "program.h"
 #include "record/csv.h"
+#include "record/journal.h"
 
 namespace palpate::test {
 namespace {
@@ -24,9 +25,7 @@ class ChartVerb : public testing::Test {
  protected:
   Ended chart(const std::string& scenario, const Words& more = {}) const {
     write_file(folder_ / "small.toml", scenario);
-    Words arguments{"chart", "small.toml", "--repeats", "1"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return palpate(folder_.path(), arguments);
+    return palpate(folder_.path(), {"chart", "small.toml", "--repeats", "1"}, more);
   }
   [[nodiscard]] record::Table table() const {
     return record::read_csv((folder_ / "out/small_chart/chart.csv").string());
@@ -96,47 +95,57 @@ TEST_F(ChartVerb, AFinishedChartIsNotOverwritten) {
   ASSERT_EQ(chart(half_space).code, 0);
   const Ended again = chart(half_space);
   EXPECT_EQ(again.code, 2);
-  EXPECT_EQ(
-      again.err,
-      "out/small_chart: is there already; give another `--out`, or `--force` to replace it\n");
+  EXPECT_EQ(again.err,
+            "out/small_chart: holds a finished chart; give `--force` to replace it, or another "
+            "`--out`\n");
   EXPECT_EQ(chart(half_space, {"--force"}).code, 0);
 }
 
 TEST_F(ChartVerb, InterruptedItGoesOn) {
   write_file(folder_ / "small.toml", creep);
-  const fs::path journal = folder_ / "out/small_chart.partial/journal.csv";
+  const std::string folder = (folder_ / "out/small_chart.partial").string();
+  const auto journal = [&] {
+    const std::vector<std::string> files = record::journal_files(folder);
+    return files.empty() ? "" : read_file(files.front());
+  };
   const auto lines = [&] {
-    if (!fs::exists(journal)) return std::ptrdiff_t{0};
-    const std::string text = read_file(journal);
+    const std::string text = journal();
     return std::count(text.begin(), text.end(), '\n');
   };
   // So many repeats that it does not end by itself.
   Running running(
       {.arguments = {"chart", "small.toml", "--repeats", "1000"}, .folder = folder_.path()});
-  ASSERT_TRUE(running.until([&] { return lines() >= 3; }));
+  ASSERT_TRUE(running.until([&] { return lines() >= 4; }));
   running.send(SIGINT);
   const Ended ended = running.wait();
   EXPECT_EQ(ended.code, 75);
   EXPECT_EQ(ended.err,
-            "palpate: interrupted; out/small_chart.partial keeps what was measured, and the same "
-            "call goes on from there\n");
+            "palpate: interrupted; out/small_chart.partial keeps the measurements, and the same "
+            "call continues from there\n");
   EXPECT_FALSE(fs::exists(folder_ / "out/small_chart"));
-  const std::string kept = read_file(journal);
+  const std::string kept = journal();
 
   // Other settings are another chart.
   const Ended other = chart(creep, {"--set", "tissue.young_modulus=5 kPa"});
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.err.find("holds the beginning of a chart of another scenario"),
             std::string::npos);
-  EXPECT_EQ(read_file(journal), kept);
+  EXPECT_EQ(journal(), kept);
 
   const Ended rest = chart(creep);
   EXPECT_EQ(rest.code, 0) << rest.err;
-  EXPECT_NE(rest.err.find("goes on with what out/small_chart.partial holds"), std::string::npos);
+  EXPECT_NE(rest.err.find("continues with the measurements in out/small_chart.partial"),
+            std::string::npos);
   // The first measurement is the one that was kept: its total time is in the table.
-  const record::Table before = record::parse_csv(kept, "journal");
+  // A line is a seal, a tab, and a table of one row whose line feeds are written as `\n`.
+  const std::size_t column_name = kept.find("whole_s");
+  ASSERT_NE(column_name, std::string::npos);
+  const std::size_t start = kept.rfind('\t', column_name) + 1;
+  std::string first = kept.substr(start, kept.find('\n', start) - start);
+  for (std::size_t at; (at = first.find("\\n")) != std::string::npos;) first.replace(at, 2, "\n");
+  const record::Table before = record::parse_csv(first, "journal");
   const auto seconds = [&](const char* name) {
-    return std::get<double>(before.rows[0][static_cast<std::size_t>(before.find(name))]);
+    return std::get<double>(before.rows.at(0).at(static_cast<std::size_t>(before.find(name))));
   };
   const double total = seconds("build_s") + seconds("whole_s");
   EXPECT_NEAR(std::get<double>(column(table(), "total_min_s").front()), total,

@@ -7,9 +7,9 @@
 #include <map>
 #include <sstream>
 
+#include "measured/measured.h"
 #include "program.h"
 #include "record/csv.h"
-#include "record/measured.h"
 
 namespace palpate::test {
 namespace {
@@ -152,19 +152,17 @@ class ExportVerb : public testing::Test {
 
   Ended run(const std::string& result, const std::string& format,
             const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{"export", result, "--to", format, "--out", "out"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return palpate(folder_.path(), arguments);
+    return palpate(folder_.path(), {"export", result, "--to", format, "--out", "out"}, more);
   }
 
   // A column of one case as the result has it, in SI.
   [[nodiscard]] Numbers expected(const std::string& x, const std::string& name) const {
-    return record::read_measured((result() / "force_indentation.csv").string(),
-                                 {.x = x, .y = "force_N", .case_name = name})
+    return measured::read_measured((result() / "force_indentation.csv").string(),
+                                   {.x = x, .y = "force_N", .case_name = name})
         .x;
   }
-  record::MeasuredCurve back(const std::string& file, record::DataLayout layout) {
-    return record::read_measured((folder_ / "out" / file).string(), layout);
+  measured::MeasuredCurve back(const std::string& file, measured::DataLayout layout) {
+    return measured::read_measured((folder_ / "out" / file).string(), layout);
   }
 
   TemporaryFolder folder_;
@@ -185,7 +183,7 @@ TEST_F(ExportVerb, afm_tab_by_the_rules_of_afmformats) {
     EXPECT_EQ(tab.segment[i], i > 25) << i;
   }
   EXPECT_EQ(tab.data.at("time"), expected("time_s", "soft"));
-  const record::MeasuredCurve curve = back("soft.tab", {});
+  const measured::MeasuredCurve curve = back("soft.tab", {});
   EXPECT_EQ(curve.x, depth);
   EXPECT_EQ(curve.y, tab.data.at("force"));
   EXPECT_EQ(back("soft.tab", {.segment = "approach"}).x.size(), 26U);
@@ -203,11 +201,12 @@ TEST_F(ExportVerb, chiaro_by_the_rules_of_afmformats) {
               1e-9);  // rounding
   ASSERT_EQ(loaded.columns.size(), 5U);
   ASSERT_EQ(loaded.rows.size(), 41U);
-  const record::MeasuredCurve curve = back("soft.txt", {});
+  const measured::MeasuredCurve curve = back("soft.txt", {});
   const Numbers depth = expected("indentation_mm", "soft");
-  const Numbers force = record::read_measured((result() / "force_indentation.csv").string(),
-                                              {.x = "time_s", .y = "force_N", .case_name = "soft"})
-                            .y;
+  const Numbers force =
+      measured::read_measured((result() / "force_indentation.csv").string(),
+                              {.x = "time_s", .y = "force_N", .case_name = "soft"})
+          .y;
   ASSERT_EQ(curve.x.size(), depth.size());
   for (std::size_t i = 0; i < depth.size(); ++i) {
     // nm and uN have no digits for some doubles of m and N, and then for their neighbours.
@@ -233,10 +232,10 @@ TEST_F(ExportVerb, rheos_has_no_header) {
   ASSERT_EQ(run("uniform", "rheos").code, 0);
   const std::string text = read_file(folder_ / "out" / "relax.csv");
   EXPECT_TRUE(text.starts_with("8000,0.03333333333333333,0\n")) << text;
-  const record::DataLayout first{.x = "time_s", .y = "stress_kPa"};
-  const record::MeasuredCurve was =
-      record::read_measured((folder_ / "uniform" / "strain_time.csv").string(), first);
-  const record::MeasuredCurve now =
+  const measured::DataLayout first{.x = "time_s", .y = "stress_kPa"};
+  const measured::MeasuredCurve was =
+      measured::read_measured((folder_ / "uniform" / "strain_time.csv").string(), first);
+  const measured::MeasuredCurve now =
       back("relax.csv", {.x = "3", .y = "1", .x_unit = "s", .y_unit = "Pa"});
   EXPECT_EQ(now.x, was.x);
   EXPECT_EQ(now.y, was.y);
@@ -246,7 +245,7 @@ TEST_F(ExportVerb, febio_log_and_csv_si_come_back_bit_by_bit) {
   for (const char* format : {"febio-log", "csv-si"}) {
     ASSERT_EQ(run("press", format, {"--force"}).code, 0);
     const std::string file = std::string(format) == "csv-si" ? "soft.csv" : "soft.txt";
-    const record::MeasuredCurve now = back(file, {.x = "indentation_m", .y = "force_N"});
+    const measured::MeasuredCurve now = back(file, {.x = "indentation_m", .y = "force_N"});
     EXPECT_EQ(now.x, expected("indentation_mm", "soft")) << format;
     EXPECT_EQ(back(file, {.x = "time", .y = "travel"}).x, expected("time_s", "soft")) << format;
   }
@@ -272,13 +271,13 @@ TEST_F(ExportVerb, refusals_leave_nothing_behind) {
             "palpate: `--to` does not know `zzzzzzzzzz`; it is one of afm-tab, rheos, chiaro, "
             "febio-log, csv-si\n");
   EXPECT_EQ(refusal("uniform", "afm-tab"),
-            "uniform/strain_time.csv: `afm-tab` holds indentation and force, and the curve `relax` "
-            "has no `indentation`, only step, time, stress, strain; take another format, as `--to "
-            "csv-si`\n");
+            "uniform/strain_time.csv: `afm-tab` needs indentation and force, and the curve `relax` "
+            "has no `indentation`, only step, time, stress, strain; choose another format, such as "
+            "`--to csv-si`\n");
   EXPECT_EQ(refusal("press", "rheos"),
-            "press/force_indentation.csv: `rheos` holds stress, strain and time, and the curve "
-            "`soft` has no `stress`, only step, time, travel, indentation, force; take another "
-            "format, as `--to csv-si`\n");
+            "press/force_indentation.csv: `rheos` needs stress, strain and time, and the curve "
+            "`soft` has no `stress`, only step, time, travel, indentation, force; choose another "
+            "format, such as `--to csv-si`\n");
   EXPECT_EQ(refusal("press", "csv-si", {"--case", "sofd"}),
             "press/force_indentation.csv: has no case `sofd`; did you mean `soft`?\n");
   EXPECT_EQ(refusal("nowhere", "csv-si"),

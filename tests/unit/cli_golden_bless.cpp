@@ -8,10 +8,6 @@
 namespace palpate::test {
 namespace {
 
-bool says(const Ended& ended, const std::string& words) {
-  return ended.err.find(words) != std::string::npos;
-}
-
 class Bless : public testing::Test {
  protected:
   Bless() {

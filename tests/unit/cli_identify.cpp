@@ -34,9 +34,7 @@ class IdentifyVerb : public testing::Test {
     write_file(folder_ / "measured.csv", measurement());
   }
   [[nodiscard]] Ended identify(const std::vector<std::string>& more) const {
-    std::vector<std::string> words{"identify", "measured.csv", "press.toml"};
-    words.insert(words.end(), more.begin(), more.end());
-    return palpate(folder_.path(), words);
+    return palpate(folder_.path(), {"identify", "measured.csv", "press.toml"}, more);
   }
   TemporaryFolder folder_;
 };

@@ -37,11 +37,7 @@ class MeshVerb : public testing::Test {
     for (const char* name : {"box.node", "box.ele"})
       fs::copy_file(project_file(std::string("golden/meshes/") + name), folder_ / name);
   }
-  Ended mesh(const Words& more) const {
-    Words arguments{"mesh"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return palpate(folder_.path(), arguments);
-  }
+  Ended mesh(const Words& more) const { return palpate(folder_.path(), {"mesh"}, more); }
   // What is said of a sound subject.
   std::map<std::string, double> quality(const Words& more) const {
     const Ended ended = mesh(more);
@@ -184,10 +180,11 @@ TEST_F(MeshVerb, ReplacesFilesOnlyWhereTold) {
   EXPECT_NE(read_file(folder_ / "mine.ele"), "precious");
   const std::string before = read_file(folder_ / "box.node");
   expect_refused(2, {"box.ele", "--unit", "mm", "--out", "box.node", "--force"},
-                 "box.node: is what is read");
+                 "box.node: is the input file");
   EXPECT_EQ(read_file(folder_ / "box.node"), before);
   expect_refused(2, {"cube.off", "--unit", "mm", "--out", "a.stl"}, "wants the ending");
-  expect_refused(2, {"cube.off", "--unit", "mm", "--out", "nowhere/a.vtu"}, "has no folder");
+  expect_refused(2, {"cube.off", "--unit", "mm", "--out", "nowhere/a.vtu"},
+                 "is in a folder that does not exist");
 }
 
 }  // namespace

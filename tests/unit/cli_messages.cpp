@@ -1,54 +1,37 @@
 // Through the real program: the sentence on stderr, nothing on stdout, exit code 2, no result.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
-#include "base/files.h"
-#include "report/process.h"
+#include "program.h"
 
 namespace palpate {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Said {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
-
 class Messages : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("palpate_messages_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& text) const {
-    write_atomically((folder_ / name).string(), text);
+    test::write_file(folder_ / name, text);
   }
 
-  // What the program says in the test's own folder; each stream goes to a file of its own.
-  [[nodiscard]] Said palpate(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" PALPATE_PROGRAM "' " + arguments + " >stdout 2>stderr";
-    const auto result = report::run_process({.argv = {"sh", "-c", command}});
-    Said said{result.code, read_text((folder_ / "stdout").string()),
-              read_text((folder_ / "stderr").string())};
-    return said;
+  // What the program says in the test's own folder; the arguments are words of a shell.
+  [[nodiscard]] test::Ended palpate(const std::string& arguments) const {
+    return test::run_program({.arguments = {"-c", "'" PALPATE_PROGRAM "' " + arguments},
+                              .folder = folder_.path(),
+                              .program = "sh"});
   }
 
   void expect_refused(const std::string& arguments, const std::string& sentence) const {
-    const Said said = palpate(arguments);
+    const test::Ended said = palpate(arguments);
     EXPECT_EQ(said.code, 2) << arguments;
     EXPECT_EQ(said.out, "") << arguments;
     EXPECT_EQ(said.err, sentence + "\n") << arguments;
     EXPECT_FALSE(fs::exists(folder_ / "out")) << arguments;
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
@@ -120,7 +103,7 @@ TEST_F(Messages, SettingsAndArguments) {
 }
 
 TEST_F(Messages, ExplainKnowsKeysAndTables) {
-  const Said friction = palpate("explain contact.friction");
+  const test::Ended friction = palpate("explain contact.friction");
   EXPECT_EQ(friction.code, 0);
   EXPECT_EQ(friction.err, "");
   EXPECT_EQ(friction.out,
@@ -145,7 +128,7 @@ TEST_F(Messages, AnswersGoToStdout) {
   for (const char* asked :
        {"--help", "run --help", "explain --help", "fit --help", "compare --help",
         "golden bless --help", "manual --help", "--version", "manual"}) {
-    const Said said = palpate(asked);
+    const test::Ended said = palpate(asked);
     EXPECT_EQ(said.code, 0) << asked;
     EXPECT_EQ(said.err, "") << asked;
     EXPECT_NE(said.out, "") << asked;

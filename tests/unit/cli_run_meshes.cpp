@@ -10,6 +10,7 @@
 #include "program.h"
 #include "record/csv.h"
 #include "scene/first_touch.h"
+#include "scene_text.h"
 
 namespace palpate::test {
 namespace {
@@ -74,9 +75,7 @@ class RunMeshes : public testing::Test {
  protected:
   Ended run(const std::string& text, const std::vector<std::string>& more = {}) const {
     write_file(folder_ / "press.toml", text);
-    std::vector<std::string> arguments{"run", "press.toml", "--force"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return palpate(folder_.path(), arguments);
+    return palpate(folder_.path(), {"run", "press.toml", "--force"}, more);
   }
   [[nodiscard]] fs::path result() const { return folder_ / "out/press"; }
   [[nodiscard]] double last_force(const fs::path& folder = {}) const {
@@ -273,7 +272,7 @@ TEST_F(RunMeshes, hertz_refuses_what_only_a_mesh_knows) {
   const std::string hertz =
       "[[step]]\nkind = \"indent\"\n[output]\nfigures = false\n[solver]\nmodel = \"hertz\"\n";
   const auto sentence = [](const std::string& reason) {
-    return "press.toml:6:9: `hertz` does not know this scene: " + reason +
+    return "press.toml:6:9: `hertz` cannot compute this scene: " + reason +
            "; set `solver.model = \"coupled_springs\"`";
   };
   expect_refused(hertz + "[tissue]\nshape = { kind = \"ligament\" }\n", 2,
@@ -358,7 +357,7 @@ class OurScenario : public testing::TestWithParam<std::string> {};
 TEST_P(OurScenario, builds_its_first_case) {
   const scenario::Family family =
       scenario::read(project_file("scenarios/" + GetParam() + ".toml"), {});
-  const scene::Scene scene = scene::build(family.cases.at(0), family);
+  const scene::Scene scene = first_scene(family);
   const bool noted = GetParam() == "eight_spheres" || GetParam() == "sweep_modulus_ratio";
   EXPECT_NE(family.notes.empty(), noted);
   if (!scene.specimen) return;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "base/files.h"
 #include "program.h"
 #include "record/csv.h"
 
@@ -16,22 +17,22 @@ const std::string hertz_given =
     "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\n"
     "[output]\ninterval = \"10 ms\"\nfigures = false\n";
 
-bool says(const Ended& ended, const std::string& words) {
-  return ended.err.find(words) != std::string::npos;
-}
-
 class RunRefusals : public testing::Test {
  protected:
   RunRefusals() { write_file(folder_ / "press.toml", hertz_given); }
 
-  // A finished result, and a mark in it by which it is known again.
+  // A finished result, by the hash of whose manifest it is known again.
   void finish_one() {
     ASSERT_EQ(palpate(folder_.path(), {"run", "press.toml"}).code, 0);
-    write_file(folder_ / "out/press/mark", "old");
+    old_ = manifest();
   }
-  [[nodiscard]] bool old_is_there() const { return fs::exists(folder_ / "out/press/mark"); }
+  [[nodiscard]] std::string manifest() const {
+    return sha256(read_file(folder_ / "out/press/run.json"));
+  }
+  [[nodiscard]] bool old_is_there() const { return manifest() == old_; }
 
   TemporaryFolder folder_;
+  std::string old_;
 };
 
 TEST_F(RunRefusals, a_finished_result_stays) {
@@ -45,12 +46,13 @@ TEST_F(RunRefusals, a_finished_result_stays) {
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"press"});
 }
 
-TEST_F(RunRefusals, force_replaces_all_of_it) {
+TEST_F(RunRefusals, force_replaces_what_palpate_wrote_and_nothing_else) {
   finish_one();
+  write_file(folder_ / "out/press/notes.txt", "mine");
   const Ended ended = palpate(folder_.path(), {"run", "press.toml", "--force"});
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_FALSE(old_is_there());
-  EXPECT_TRUE(fs::exists(folder_ / "out/press/run.json"));
+  EXPECT_EQ(read_file(folder_ / "out/press/notes.txt"), "mine");
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"press"});
 }
 
@@ -59,7 +61,7 @@ TEST_F(RunRefusals, a_folder_that_is_no_result_is_never_replaced) {
   for (const char* force : {"--quiet", "--force"}) {
     const Ended ended = palpate(folder_.path(), {"run", "press.toml", "--out", ".", force});
     EXPECT_EQ(ended.code, 2);
-    EXPECT_TRUE(says(ended, "press: is there and is no result")) << ended.err;
+    EXPECT_TRUE(says(ended, "press: is there already and is not a result")) << ended.err;
     EXPECT_EQ(read_file(folder_ / "press/thesis.txt"), "mine");
   }
 }

@@ -59,11 +59,11 @@ class OfAPress : public testing::Test {
 
 TEST_F(OfAPress, has_all_its_files) {
   ASSERT_EQ(ended_.code, 0) << ended_.err;
-  EXPECT_EQ(
-      names_in(result()),
-      (std::set<std::string>{"figure_force_indentation.gp", "figure_force_indentation.svg",
-                             "findings.csv", "fits.csv", "force_indentation.csv",
-                             "pressure_001.exr", "pressure_002.exr", "run.json", "scenario.toml"}));
+  EXPECT_EQ(names_in(result()),
+            (std::set<std::string>{"contents.sha256", "figure_force_indentation.gp",
+                                   "figure_force_indentation.svg", "findings.csv", "fits.csv",
+                                   "force_indentation.csv", "pressure_001.exr", "pressure_002.exr",
+                                   "run.json", "scenario.toml"}));
   EXPECT_EQ(names_in(*folder_ / "out"), std::set<std::string>{"press"}) << "nothing is left beside";
 }
 
@@ -84,7 +84,7 @@ TEST_F(OfAPress, has_a_manifest_that_fits) {
   const auto manifest = nlohmann::json::parse(read_file(result() / "run.json"));
   EXPECT_EQ(manifest["complete"], true);
   EXPECT_FALSE(manifest["outputs"].empty());
-  std::set<std::string> named{"run.json"};
+  std::set<std::string> named{"run.json", "contents.sha256"};
   for (const auto& output : manifest["outputs"]) {
     named.insert(output["path"]);
     EXPECT_EQ(output["sha256"], sha256(read_file(result() / std::string(output["path"]))))
@@ -116,10 +116,10 @@ TEST(RunResults, a_uniform_test_has_a_strain_curve) {
              "[output]\ninterval = \"50 ms\"\n");
   const Ended ended = palpate(folder.path(), {"run", "creep.toml"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  EXPECT_EQ(
-      names_in(folder / "out/creep"),
-      (std::set<std::string>{"figure_strain_time.gp", "figure_strain_time.svg", "findings.csv",
-                             "fits.csv", "run.json", "scenario.toml", "strain_time.csv"}));
+  EXPECT_EQ(names_in(folder / "out/creep"),
+            (std::set<std::string>{"contents.sha256", "figure_strain_time.gp",
+                                   "figure_strain_time.svg", "findings.csv", "fits.csv", "run.json",
+                                   "scenario.toml", "strain_time.csv"}));
   EXPECT_EQ(record::read_csv(folder / "out/creep/strain_time.csv").columns,
             (Strings{"case", "step", "time_s", "stress_kPa", "strain"}));
 }

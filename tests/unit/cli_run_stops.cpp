@@ -56,8 +56,8 @@ TEST_F(RunStops, an_interrupted_run_keeps_its_finished_cases) {
   EXPECT_NE(ended.err.find("palpate: interrupted; finished cases are kept"), std::string::npos);
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"slow"}) << "no leftovers";
   EXPECT_EQ(names_in(folder_ / "out/slow"),
-            (std::set<std::string>{"findings.csv", "force_indentation.csv", "pressure_001.exr",
-                                   "run.json", "scenario.toml"}))
+            (std::set<std::string>{"contents.sha256", "findings.csv", "force_indentation.csv",
+                                   "pressure_001.exr", "run.json", "scenario.toml"}))
       << "no half files";
   const record::Table findings = record::read_csv(folder_ / "out/slow/findings.csv");
   ASSERT_EQ(findings.rows.size(), 1U);
@@ -81,7 +81,9 @@ TEST_F(RunStops, an_interrupted_run_without_a_finished_case_leaves_nothing) {
   Running running(call({"--set", "sweep.step.1.to=[\"5 mm\"]"}));
   ASSERT_TRUE(running.until([&] { return fs::exists(partial(running)); }));
   running.send(SIGINT);
-  EXPECT_EQ(running.wait().code, 130);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_TRUE(says(ended, "palpate: interrupted; nothing was written")) << ended.err;
   EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out"));
 }
 
@@ -104,14 +106,16 @@ TEST_F(RunStops, a_result_that_another_run_finished_meanwhile_stays) {
   Running running(call({"--set", "sweep.step.1.to=[\"0.005 mm\", \"0.006 mm\", \"0.02 mm\"]"}));
   wait_for_first_case(running);
   const fs::path beside = partial(running);
-  write_file(folder_ / "out/slow/run.json", "{\n  \"complete\": true\n}\n");
+  finish_an_old_one();
   const Ended ended = running.wait();
   EXPECT_EQ(ended.code, 0);
-  EXPECT_NE(ended.err.find("out/slow is a finished result and is not replaced; this run's is in " +
-                           std::string("out/") + beside.filename().string()),
+  EXPECT_NE(ended.err.find(
+                "out/slow is a finished result and is not replaced; the result of this run is in " +
+                std::string("out/") + beside.filename().string()),
             std::string::npos)
       << ended.err;
-  EXPECT_EQ(names_in(folder_ / "out/slow"), std::set<std::string>{"run.json"});
+  EXPECT_TRUE(fs::exists(folder_ / "out/slow/mark"));
+  EXPECT_EQ(record::read_csv(folder_ / "out/slow/findings.csv").rows.size(), 1U);
   EXPECT_EQ(record::read_csv(beside / "findings.csv").rows.size(), 3U);
 }
 

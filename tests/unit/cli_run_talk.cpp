@@ -18,9 +18,7 @@ class RunTalk : public testing::Test {
  protected:
   RunTalk() { write_file(folder_ / "press.toml", sweep_given); }
   Ended run(const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"run", "press.toml", "--jobs", "1"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return palpate(folder_.path(), arguments);
+    return palpate(folder_.path(), {"run", "press.toml", "--jobs", "1"}, more);
   }
   TemporaryFolder folder_;
 };

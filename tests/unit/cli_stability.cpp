@@ -17,9 +17,7 @@ class StabilityVerb : public testing::Test {
  protected:
   StabilityVerb() { write_file(folder_ / "small.toml", small); }
   [[nodiscard]] Ended map(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"stability", "small.toml"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return palpate(folder_.path(), arguments);
+    return palpate(folder_.path(), {"stability", "small.toml"}, more);
   }
   TemporaryFolder folder_;
 };
@@ -49,14 +47,15 @@ TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
   // A finished map is not replaced unless that is asked for.
   const Ended again = map({});
   EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.err.find("holds a finished map; give `--force`"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("holds a finished stability map; give `--force`"), std::string::npos)
+      << again.err;
   write_file(result / "mark", "old");
   const std::string rows = read_file(result / "stability.csv");
   const std::string failed = read_file(result / "failures.csv");
   EXPECT_EQ(map({"--force"}).code, 0);
   EXPECT_EQ(read_file(result / "stability.csv"), rows) << "the same bits twice";
   EXPECT_EQ(read_file(result / "failures.csv"), failed);
-  EXPECT_FALSE(fs::exists(result / "mark"));
+  EXPECT_EQ(read_file(result / "mark"), "old") << "a file that palpate did not write stays";
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"small_stability"}) << "no leftovers";
 }
 
@@ -68,7 +67,7 @@ TEST_F(StabilityVerb, refuses_what_has_no_mesh_and_what_is_no_map) {
   write_file(folder_ / "out/small_stability/notes.txt", "mine");
   const Ended foreign = map({"--force"});
   EXPECT_EQ(foreign.code, 2);
-  EXPECT_NE(foreign.err.find("is no stability map"), std::string::npos) << foreign.err;
+  EXPECT_NE(foreign.err.find("is not a stability map"), std::string::npos) << foreign.err;
   EXPECT_EQ(read_file(folder_ / "out/small_stability/notes.txt"), "mine");
 }
 

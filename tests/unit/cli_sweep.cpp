@@ -24,15 +24,15 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
   EXPECT_EQ(merge.code, 0);
   EXPECT_EQ(merge.err, "out/s_sweep/merged: 6 of 6 cases completed\n");
   EXPECT_EQ(names_in(folder_ / "out/s_sweep/merged"),
-            (std::set<std::string>{"merged.json", "response_force_indentation_logarithmic_a.csv",
-                                   "response_force_indentation_logarithmic_a.gp",
-                                   "response_force_indentation_logarithmic_a.svg",
-                                   "response_force_indentation_logarithmic_b.csv",
-                                   "response_force_indentation_logarithmic_b.gp",
-                                   "response_force_indentation_logarithmic_b.svg",
-                                   "response_peak_force_N.csv", "response_peak_force_N.gp",
-                                   "response_peak_force_N.svg", "results.csv", "sensitivity.csv",
-                                   "sensitivity.gp", "sensitivity.svg"}));
+            (std::set<std::string>{
+                "contents.sha256", "merged.json", "response_force_indentation_logarithmic_a.csv",
+                "response_force_indentation_logarithmic_a.gp",
+                "response_force_indentation_logarithmic_a.svg",
+                "response_force_indentation_logarithmic_b.csv",
+                "response_force_indentation_logarithmic_b.gp",
+                "response_force_indentation_logarithmic_b.svg", "response_peak_force_N.csv",
+                "response_peak_force_N.gp", "response_peak_force_N.svg", "results.csv",
+                "sensitivity.csv", "sensitivity.gp", "sensitivity.svg"}));
   const record::Table table =
       record::read_csv((folder_ / "out/s_sweep/merged/results.csv").string());
   EXPECT_EQ(table.rows.size(), 6U);
@@ -79,8 +79,8 @@ TEST_F(SweepVerb, MissingCasesAreRows) {
   EXPECT_EQ(merge.code, 7);
   EXPECT_EQ(merge.err,
             "warning: sensitivity of `peak_force_N`, `force_indentation_logarithmic_a`, "
-            "`force_indentation_logarithmic_b`: 4 of 6 cases have no value, and the shares of a "
-            "grid want every one; run what is missing, narrow the ranges to where cases complete, "
+            "`force_indentation_logarithmic_b`: 4 of 6 cases have no value, and the indices of a "
+            "grid need all; run what is missing, narrow the ranges to where cases complete, "
             "or take `design = \"saltelli\"`\n"
             "out/s_sweep/merged: 2 of 6 cases completed, 4 missing (numbers 1,3-4,6); "
             "`palpate sweep run` runs them\n");
@@ -164,7 +164,7 @@ TEST_F(SweepVerb, SlurmPrintsTheLine) {
   ASSERT_EQ(sweep({"run", "out/s_sweep"}).code, 0);
   const Ended none = sweep({"slurm", "out/s_sweep", "--chunk", "2"});
   EXPECT_EQ(none.out, "");
-  EXPECT_EQ(none.err, "out/s_sweep: every case has its row; there is nothing to send\n");
+  EXPECT_EQ(none.err, "out/s_sweep: every case has a row; there is nothing to submit\n");
   EXPECT_EQ(sweep({"slurm", "out/s_sweep", "--time", "1;rm"}).code, 2);
 }
 

@@ -19,6 +19,7 @@
 #include "device/clock.h"
 #include "device/host.h"
 #include "device/websocket.h"
+#include "refusal.h"
 
 namespace {
 
@@ -43,14 +44,7 @@ namespace {
 
 constexpr double short_time = 0.05;  // s: all of these would wait for ever
 
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const LinkError& error) {
-    return error.what();
-  }
-  return "none";
-}
+std::string refusal(const std::function<void()>& act) { return test::refusal<LinkError>(act); }
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

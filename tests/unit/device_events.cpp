@@ -93,7 +93,7 @@ TEST(ArmEvents, AreSaidInSentencesAndInTheHealthOfALink) {
   const auto sentences = event_sentences(traffic.events);
   ASSERT_EQ(sentences.size(), 3u);
   EXPECT_NE(sentences[0].find("port closed"), std::string::npos);
-  EXPECT_EQ(sentences[1], "the service told `stall_detected`, 2 times");
+  EXPECT_EQ(sentences[1], "the service reported `stall_detected`, 2 times");
   EXPECT_NE(sentences[2].find("another session"), std::string::npos);
   const std::string json = health_json({}, {}, traffic, {});
   EXPECT_NE(json.find(R"("port": "lost")"), std::string::npos) << json;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/error.h"
+#include "refusal.h"
 
 namespace palpate::device {
 namespace {
@@ -36,12 +37,7 @@ TEST(LinkText, ReadsAPortOfEvents) {
 }
 
 std::string refusal(std::string_view text) {
-  try {
-    static_cast<void>(parse_link(text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::refusal([&] { return parse_link(text); });
 }
 
 TEST(LinkText, RefusesEverythingElseAndShowsTheForms) {

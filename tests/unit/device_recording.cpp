@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "refusal.h"
 #include "temporary_folder.h"
 
 namespace palpate::device {
@@ -28,12 +29,7 @@ TEST(RecordingFile, ReadsATravelOrAPosition) {
 }
 
 std::string refusal(const char* text) {
-  try {
-    static_cast<void>(parse_recording(text, "run.csv"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::refusal([&] { return parse_recording(text, "run.csv"); });
 }
 
 TEST(RecordingFile, IsRefusedWithItsLine) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "contact/layer.h"
+#include "refusal.h"
 
 namespace palpate::fit {
 namespace {
@@ -46,12 +47,7 @@ Curve layer_curve(double thickness, contact::LayerBase base) {
 }
 
 std::string refusal(const Curve& curve, const ContactTest& test) {
-  try {
-    static_cast<void>(fit_contact(curve.depth, curve.force, test));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return test::refusal([&] { return fit_contact(curve.depth, curve.force, test); });
 }
 
 TEST(ContactModel, HertzExactly) {
@@ -109,14 +105,14 @@ TEST(ContactModel, Refusals) {
   EXPECT_EQ(refusal({{0, 1e-3, 2e-3}, {0, 1, 2}}, {radius, poisson}),
             "the model `hertz` needs at least 4 points, and 3 are usable; record more points");
   EXPECT_EQ(refusal({{1, 1, 1, 1}, {0, 1, 2, 3}}, {radius, poisson}),
-            "all points stand at one depth; give a curve over depth");
+            "all points have the same depth; give a curve over depth");
   EXPECT_EQ(refusal(curve, {radius, poisson, 1e-4}),
-            "the sphere goes deeper than the law of so thin a layer reaches, 0.008182 mm here; "
-            "give the part of the curve up to there");
+            "the curve is deeper than 0.008182 mm, up to which the law of so thin a layer is "
+            "valid; give the part of the curve up to that depth");
   for (double& force : curve.force) force = -force;
   EXPECT_EQ(refusal(curve, {radius, poisson}),
-            "the load falls with depth; give `--compression negative` where the load cell reads "
-            "compression so, or another `--x`");
+            "the load falls with depth; give `--compression negative` if the load cell reports "
+            "compression as negative, or another `--x`");
 }
 
 }  // namespace

@@ -129,8 +129,8 @@ TEST(Prony, TooFewPoints) {
     ADD_FAILURE() << "nothing was refused";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "the model `prony` needs at least 6 points for as many terms, and 5 are usable; "
-                 "record more points, or give fewer `--terms`");
+                 "the model `prony` needs at least 6 points for this number of terms, and 5 are "
+                 "usable; record more points, or give fewer `--terms`");
   }
 }
 

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "fitted_value.h"
 
 namespace palpate::fit {
 namespace {
@@ -129,13 +130,13 @@ TEST(Regression, NonLinearFitIsAMinimumWithTheRightCovariance) {
       }
     double sse = 0;
     for (std::size_t i = 0; i < curve.x.size(); ++i)
-      sse += std::pow(curve.y[i] - value(fit, curve.x[i]), 2);
+      sse += std::pow(curve.y[i] - test::value(fit, curve.x[i]), 2);
     EXPECT_NEAR(fit.rmse, std::sqrt(sse / fit.n), 1e-12 * fit.rmse) << row.name;  // rounding
     const double s2 = sse / (fit.n - static_cast<double>(count));
     for (std::size_t k = 0; k < count; ++k) {
       double dot = 0, size = 0;
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
-        dot += slope[k][i] * (curve.y[i] - value(fit, curve.x[i]));
+        dot += slope[k][i] * (curve.y[i] - test::value(fit, curve.x[i]));
         size += slope[k][i] * slope[k][i];
       }
       // central differences are exact to 1e-10 of the slope
@@ -240,7 +241,7 @@ TEST(Regression, TimeCountsFromTheLoad) {
   const Fit fit = regress(curve.x, curve.y, Model::kelvin_voigt, {.x_unit = "s", .x_origin = 10.0});
   EXPECT_NEAR(fit.parameters[1].estimate, 0.62, 1e-9);  // 10 + x is rounded to 1e-15
   EXPECT_EQ(fit.range_high, 13.0);
-  EXPECT_NEAR(value(fit, 10.62), 0.14 * (1 - std::exp(-1.0)), 1e-9);  // at t = tau
+  EXPECT_NEAR(test::value(fit, 10.62), 0.14 * (1 - std::exp(-1.0)), 1e-9);  // at t = tau
 }
 
 TEST(Regression, RefusesTooFewPoints) {

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "refusal.h"
 
 namespace palpate::record {
 namespace {
@@ -36,12 +37,7 @@ bool same(const Table& a, const Table& b) {
 }
 
 std::string refusal(std::string_view text) {
-  try {
-    static_cast<void>(parse_csv(text, "data.csv"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return test::refusal([&] { return parse_csv(text, "data.csv"); });
 }
 
 TEST(Csv, WritesWhatTheManualSays) {
@@ -77,12 +73,12 @@ TEST(Csv, RefusesWithPlaceAndRemedy) {
   EXPECT_EQ(refusal(""), "data.csv:1: the file is empty; its first row names the columns");
   EXPECT_EQ(refusal(" \n\r\n"), "data.csv:1: the file is empty; its first row names the columns");
   EXPECT_EQ(refusal("a,b\n1,2\n3\n"),
-            "data.csv:3: this row has 1 fields, the header names 2; give every row one field a "
+            "data.csv:3: this row has 1 fields, the header names 2; give every row one field per "
             "column");
   EXPECT_EQ(refusal("a,b\n\"x\ny\",2\n1,2,3\n"),
-            "data.csv:4: this row has 3 fields, the header names 2; give every row one field a "
+            "data.csv:4: this row has 3 fields, the header names 2; give every row one field per "
             "column");
-  EXPECT_EQ(refusal("a,b,a\n"), "data.csv:1: the column `a` stands there twice; rename one");
+  EXPECT_EQ(refusal("a,b,a\n"), "data.csv:1: the column name `a` occurs twice; rename one");
   EXPECT_EQ(refusal("a,,b\n"),
             "data.csv:1: column 2 has no name; the first row names every column");
   EXPECT_EQ(refusal("a,b\n1,\"x\n2,3\n"),
@@ -96,7 +92,8 @@ TEST(Csv, RefusesWithPlaceAndRemedy) {
   EXPECT_EQ(refusal("a;b\n1;2\n"),
             "data.csv:1: the columns are not separated by commas; save the table with commas");
   EXPECT_EQ(refusal("a,b\n1,1e400\n"),
-            "data.csv:2: no double holds `1e400`; write a number between 1e-300 and 1e300 in size");
+            "data.csv:2: `1e400` is too large or too small; write a number between 1e-300 and "
+            "1e300 in size");
 }
 
 TEST(Csv, MissingFileIsNamed) {

@@ -6,7 +6,7 @@
 namespace palpate {
 namespace {
 
-report::Figure only_figure(const std::string& text) {
+plot::Figure only_figure(const std::string& text) {
   const auto family = scenario::parse(text, "test.toml", {});
   record::CaseRecord record;
   record.name = "test";

@@ -84,13 +84,6 @@ TEST(Manifest, LibrariesKnowTheirVersions) {
   }
 }
 
-TEST(Manifest, HashesAFile) {
-  const HashedFile file = hashed_file("CMakeLists.txt", PALPATE_SOURCE_DIR);
-  EXPECT_EQ(file.path, "CMakeLists.txt");
-  EXPECT_EQ(file.sha256.size(), 64U);
-  EXPECT_THROW(static_cast<void>(hashed_file("nothing.csv", PALPATE_SOURCE_DIR)), InputError);
-}
-
 TEST(Machine, Clock) {
   EXPECT_EQ(utc_text(0), "1970-01-01T00:00:00Z");
   EXPECT_EQ(utc_text(1700000000), "2023-11-14T22:13:20Z");

@@ -6,25 +6,15 @@
 #include <cmath>
 
 #include "run/family.h"
+#include "run_text.h"
 #include "scenario_text.h"
 #include "scene/scene.h"
 
 namespace palpate::run {
 namespace {
 
-record::CaseRecord run_text(const std::string& text) {
-  const auto family = scenario::parse(text, "test.toml", {});
-  const auto scene = scene::build(family.cases.front(), family);
-  const std::atomic<bool> stop = false;
-  return run_case(scene, stop);
-}
-
-record::Cell found(const record::CaseRecord& record, const std::string& name) {
-  for (const auto& finding : record.findings)
-    if (finding.name == name) return finding.value;
-  ADD_FAILURE() << "no finding " << name;
-  return {};
-}
+using test::finding;
+using test::run_text;
 
 record::CaseRecord press_rows(const std::vector<std::array<double, 3>>& rows) {
   record::CaseRecord record;
@@ -79,9 +69,9 @@ TEST(Readings, FindingsHaveTheForceOfHertzAtEveryIndentationThatIsAskedFor) {
        {std::pair{"force_at_0.5_mm_N", 0.5e-3}, std::pair{"force_at_1.5033_mm_N", 1.5033e-3}}) {
     const double hertz = 4.0 / 3.0 * 20e3 / (1.0 - 0.16) * std::sqrt(0.011 * depth) * depth;
     // Rows are 5 um apart: 3/32 (dh / h)^2 at 0.5 mm, and the fingertip's rounding.
-    EXPECT_NEAR(std::get<double>(found(record, name)), hertz, 1e-5 * hertz) << name;
+    EXPECT_NEAR(std::get<double>(finding(record, name)), hertz, 1e-5 * hertz) << name;
   }
-  EXPECT_TRUE(std::holds_alternative<std::monostate>(found(record, "force_at_3_mm_N")));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(finding(record, "force_at_3_mm_N")));
   std::string remarks;
   for (const std::string& remark : record.remarks) remarks += remark + "\n";
   EXPECT_NE(remarks.find("did not reach the indentation of 3 mm that `output.force_at` asks for"),
@@ -96,7 +86,7 @@ TEST(Readings, AKelvinVoigtSolidHasHalfOfItsCreepAtTauLnTwo) {
       "[solver]\nmodel = \"coupled_springs\"\nintegrator = \"quasi_static\"\n"
       "[output]\ninterval = \"2 ms\"\n");
   // The way of the step's error: order 1 or 2 at 2 ms of 200 ms.
-  EXPECT_NEAR(std::get<double>(found(record, "creep_half_time_s")), 0.2 * std::log(2.0), 1e-3);
+  EXPECT_NEAR(std::get<double>(finding(record, "creep_half_time_s")), 0.2 * std::log(2.0), 1e-3);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/files.h"
-#include "scenario/family.h"
+#include "scenario/resolved.h"
 
 namespace palpate::scenario {
 namespace {
@@ -96,7 +96,7 @@ TEST_F(Tables, TakeUnitsInCellsQuotesAndListsToo) {
 TEST_F(Tables, NameFilesBesideTheScenario) {
   write("my.toml", gel);
   const Family family = of("tissue.material,tissue.viscosity\nskin,none\nmy.toml#gel,none\n");
-  EXPECT_EQ(family.cases[1].scenario.tissue.young_modulus, 12000.0);
+  EXPECT_EQ(filled(family.cases[1]).tissue.young_modulus, 12000.0);
   EXPECT_EQ(family.cases[1].files, Words{"my.toml"});
   EXPECT_EQ(family.cases[0].files, Words{});
   EXPECT_EQ(said("tissue.material\nskin\ndata/my.toml#gel\n"),

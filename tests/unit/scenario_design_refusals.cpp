@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "base/text.h"
+#include "refusal.h"
 #include "scenario/family.h"
 
 namespace palpate::scenario {
@@ -10,15 +11,7 @@ namespace {
 
 const std::string press = "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n";
 
-template <class Read>
-std::string refusal(const Read& read) {
-  try {
-    (void)read();
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
+using test::refusal;
 
 // A whole family and an outline refuse the same.
 std::string said(const std::string& sweep, const std::string& scenario = press) {
@@ -129,8 +122,8 @@ TEST(Refused, Ranges) {
       {"{ from = \"1 kPa\", to = \"1e400 kPa\", points = 3 }",
        "press.toml:5:49: `to` wants a finite number, got `1e400 kPa`; write one as `0.5`"},
       {"{ from = \"1 kPa\", to = \"1.00000000001 kPa\", points = 9 }",
-       "press.toml:5:79: `points` of `tissue.young_modulus` lie closer than 12 digits tell apart; "
-       "take fewer, or a wider range"},
+       "press.toml:5:79: `points` of `tissue.young_modulus` are closer than 12 digits can "
+       "distinguish; take fewer, or a wider range"},
   };
   for (const auto& [range, sentence] : cases) {
     const std::string sweep = young + std::string(range) + "\n";

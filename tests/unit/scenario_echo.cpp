@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "base/files.h"
-#include "scenario/family.h"
+#include "scenario/resolved.h"
 
 namespace palpate::scenario {
 namespace {
@@ -21,27 +21,15 @@ class Dump final : public FieldVisitor {
  public:
   std::string dumped;
 
-  void number(const Key& key, double& value, const Range&) override { put(key, bits(value)); }
-  void number(const Key& key, std::optional<double>& value, const Range&) override {
+  void real(const Key& key, std::optional<double>& value, const Real&) override {
     put(key, value ? bits(*value) : "empty");
   }
-  void quantity(const Key& key, double& si, const Unit&, const Range&) override {
-    put(key, bits(si));
-  }
-  void quantity(const Key& key, std::optional<double>& si, const Unit&, const Range&) override {
-    put(key, si ? bits(*si) : "empty");
-  }
-  void quantity_or(const char*, const Key& key, std::optional<double>& si, const Unit&,
-                   const Range&) override {
-    put(key, si ? bits(*si) : "empty");
-  }
-  void count_or(const char*, const Key& key, std::optional<int>& value, const Range&) override {
+  void whole(const Key& key, std::optional<int>& value, const Whole&) override {
     put(key, value ? std::to_string(*value) : "empty");
   }
   void either(const Key& key, Target& target, const Unit&, const Unit&, const Range&) override {
     put(key, bits(target.value) + (target.second ? " second" : " first"));
   }
-  void count(const Key& key, int& value, const Range&) override { put(key, std::to_string(value)); }
   void text(const Key& key, std::string& value) override { put(key, value); }
   void flag(const Key& key, bool& value) override { put(key, value ? "true" : "false"); }
   void quantities(const Key& key, std::span<double> si, const Unit&, const Range&) override {
@@ -89,7 +77,7 @@ class Dump final : public FieldVisitor {
 std::string values_of(const Family& family) {
   std::string all;
   for (const Case& one : family.cases) {
-    Scenario scenario = one.scenario;
+    Scenario scenario = filled(one);
     Dump dump;
     fields(dump, scenario);
     all += "case " + one.name + "\n" + dump.dumped;
@@ -272,8 +260,8 @@ TEST(Echo, RefersToCopiesByTheirBareName) {
   EXPECT_EQ(echo(again), written);
   ASSERT_EQ(again.cases.size(), 2U);
   EXPECT_EQ(again.cases[0].name, "my.toml#gel");
-  EXPECT_EQ(again.cases[0].scenario.tissue.young_modulus, 12300.0);
-  EXPECT_EQ(again.cases[1].scenario.tissue.young_modulus, 72400.0);
+  EXPECT_EQ(filled(again.cases[0]).tissue.young_modulus, 12300.0);
+  EXPECT_EQ(filled(again.cases[1]).tissue.young_modulus, 72400.0);
   fs::remove_all(folder);
 }
 

@@ -5,24 +5,13 @@
 #include <filesystem>
 
 #include "base/files.h"
-#include "scenario/family.h"
+#include "scenario/resolved.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
-
-std::string refusal(const std::string& text, const std::vector<std::string>& settings = {},
-                    const std::string& path = "press.toml") {
-  try {
-    (void)parse(text, path, settings);
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
 
 std::vector<std::string> case_names(const Family& family) {
   std::vector<std::string> names;
@@ -39,7 +28,7 @@ TEST(Sweep, RunsEveryValueWithEveryOther) {
                               "press.toml", {});
   EXPECT_EQ(case_names(family),
             (Names{"skin_0.0", "skin_0.3", "skin_1", "bone_0.0", "bone_0.3", "bone_1"}));
-  EXPECT_EQ(family.cases[4].scenario.tissue.young_modulus, 1.7e10);
+  EXPECT_EQ(filled(family.cases[4]).tissue.young_modulus, 1.7e10);
   EXPECT_EQ(family.cases[4].scenario.contact.friction, 0.3);
   EXPECT_EQ(family.cases[4].swept[1],
             (std::pair<std::string, std::string>{"contact.friction", "0.3"}));
@@ -208,8 +197,8 @@ TEST_F(Files, TablesOfTheUserWorkWhereOursDo) {
                                   "[tissue]\nmaterial = \"tables/my.toml#gel\"\nviscosity = "
                                   "\"none\"\n[finger]\nmaterial = \"tables/my.toml#gel\"\n",
                               scenario(), {});
-  EXPECT_EQ(family.cases[0].scenario.tissue.young_modulus, 12300.0);
-  EXPECT_EQ(family.cases[0].scenario.finger.poisson_ratio, 0.45);
+  EXPECT_EQ(filled(family.cases[0]).tissue.young_modulus, 12300.0);
+  EXPECT_EQ(filled(family.cases[0]).finger.poisson_ratio, 0.45);
   ASSERT_EQ(family.inputs.size(), 2U);
   EXPECT_EQ(family.inputs[1].name, "my.toml");
   EXPECT_EQ(family.inputs[1].content, gel);

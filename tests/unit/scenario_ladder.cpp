@@ -46,10 +46,10 @@ TEST(LadderKeys, ARegionsPoissonRatioReachesModelsThatHonourIt) {
       "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = \"sphere\"\nmaterial = "
       "\"muscle\"\npoisson_ratio = 0.45\n";
   const Scenario coupled = read_one(press + "[solver]\nmodel = \"coupled_springs\"\n" + region);
-  EXPECT_EQ(substance(coupled.regions[0]).poisson_ratio, 0.45);
-  EXPECT_EQ(substance(read_one(press + "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = "
-                                       "\"sphere\"\nmaterial = \"muscle\"\n")
-                          .regions[0])
+  EXPECT_EQ(coupled.regions[0].poisson_ratio, 0.45);
+  EXPECT_EQ(read_one(press + "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = "
+                             "\"sphere\"\nmaterial = \"muscle\"\n")
+                .regions[0]
                 .poisson_ratio,
             0.4);  // the material's
 }
@@ -63,7 +63,8 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "press.toml:4:10: `branch` has no effect here: it is used only with `viscosity = "
        "\"prony\"`; remove it or change that"},
       {"[contact]\nviscosity = \"tissue\"\n[tissue]\nviscosity = \"none\"\n",
-       "press.toml:5:13: a contact knows the viscosity of a material, and `tissue.viscosity` is "
+       "press.toml:5:13: a contact can include the viscosity of a material only, and "
+       "`tissue.viscosity` is "
        "`none`; set it to `kelvin_voigt`, `standard_linear_solid` or `prony`"},
       {"[contact]\nviscosity = \"tissue\"\ncoupling = \"series\"\n[solver]\nmodel = "
        "\"mass_spring\"\n",
@@ -77,13 +78,13 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "\"nodal\"`, or `solver.model = \"mass_spring\"`"},
       {"[contact]\ncoupling = \"resolved\"\n[solver]\nmodel = \"coupled_springs\"\nintegrator = "
        "\"central_difference\"\n",
-       "press.toml:8:14: `resolved` finds its forces and the motion together, which an explicit "
-       "method cannot, and in `modal` steps they ring; set `integrator` to "
+       "press.toml:8:14: `resolved` solves for forces and motion together, which an explicit "
+       "method cannot do, and in `modal` steps they oscillate; set `integrator` to "
        "`quasi_static`, `backward_difference` or `tr_bdf2`"},
       {"[contact]\ncoupling = \"resolved\"\n[solver]\nmodel = \"coupled_springs\"\nintegrator = "
        "\"semi_implicit_euler\"\n",
-       "press.toml:8:14: `resolved` finds its forces and the motion together, which an explicit "
-       "method cannot, and in `modal` steps they ring; set `integrator` to "
+       "press.toml:8:14: `resolved` solves for forces and motion together, which an explicit "
+       "method cannot do, and in `modal` steps they oscillate; set `integrator` to "
        "`quasi_static`, `backward_difference` or `tr_bdf2`"},
       {"[contact]\nspread = \"nearest_node\"\n[solver]\nmodel = \"mass_spring\"\n",
        "press.toml:5:10: `nearest_node` is for `one_way` and `series`; write `spread = "

@@ -1,31 +1,8 @@
 // Every way a scenario can be wrong, with the sentence and the place that it deserves.
-#include <gtest/gtest.h>
-
-#include "scenario/family.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
-
-// Three lines that make a scenario; what is tested starts on line 4.
-const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
-
-std::string refusal(const std::string& text, const std::vector<std::string>& settings = {}) {
-  try {
-    (void)parse(text, "press.toml", settings);
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-
-struct Refused {
-  std::string text;
-  std::string sentence;
-};
-
-void expect_refused(const std::vector<Refused>& cases) {
-  for (const Refused& one : cases) EXPECT_EQ(refusal(press + one.text), one.sentence) << one.text;
-}
 
 TEST(Refusals, ThePlainScenarioIsAccepted) { EXPECT_EQ(refusal(press), "accepted"); }
 

@@ -90,12 +90,12 @@ TEST(Shapes, GoWithTheirMeshes) {
        "press.toml:6:8: `kuhn` and `mirrored` cells fill a `cuboid` only; set `tissue.mesh = { "
        "kind = \"tetgen\", nodes = 728 }`"},
       {"[tissue]\nmesh = { kind = \"tetgen\", tetrahedra = 500 }\n",
-       "press.toml:5:40: `tetrahedra` can be aimed at besides `nodes`, on shapes other than "
-       "`cuboid` and files; remove it"},
+       "press.toml:5:40: `tetrahedra` is a target besides `nodes`, for shapes other than "
+       "`cuboid` and surface files; remove it"},
       {shape("kind = \"cylinder\"") +
            "mesh = { kind = \"tetgen\", edge = \"5 mm\", tetrahedra = 500 }\n",
-       "press.toml:6:55: `tetrahedra` can be aimed at besides `nodes`, on shapes other than "
-       "`cuboid` and files; remove it"},
+       "press.toml:6:55: `tetrahedra` is a target besides `nodes`, for shapes other than "
+       "`cuboid` and surface files; remove it"},
       {shape("kind = \"as_meshed\""),
        "press.toml:5:9: `as_meshed` needs a ready mesh; set `tissue.mesh = { file = ..., unit = "
        "\"mm\" }`"},
@@ -139,15 +139,17 @@ TEST(Shapes, HalfSpaceHasNoMesh) {
   const std::string or_else = ", or use another `tissue.shape`, such as `ellipsoid`";
   expect_refused({
       {curved + "[finger]\nspheres = 2\n",
-       "press.toml:7:11: no formula knows several spheres on a curved `half_space`; set `spheres = "
+       "press.toml:7:11: there is no formula for several spheres on a curved `half_space`; set "
+       "`spheres = "
        "1`" +
            or_else},
       {curved + "[finger]\nx = \"1 mm\"\n",
-       "press.toml:7:5: no formula knows a finger beside the top of a curved `half_space`; remove "
+       "press.toml:7:5: there is no formula for a finger beside the top of a curved `half_space`; "
+       "remove "
        "`x` and `y`" +
            or_else},
       {curved + "[[step]]\nkind = \"slide\"\n",
-       "press.toml:6:1: no formula knows a `slide` over a curved `half_space`; remove it" +
+       "press.toml:6:1: there is no formula for a `slide` over a curved `half_space`; remove it" +
            or_else},
   });
   EXPECT_EQ(refusal(press + half +
@@ -175,27 +177,27 @@ TEST(Regions, TakeTheirSubstanceFromMaterialsUnlessTheySay) {
       "mm\"\nmaterial = \"bone\"\nyoung_modulus = \"5 kPa\"\n"
       "[[region]]\ntag = 7\nkind = \"tagged\"\ndensity = \"900 kg/m^3\"\n");
   ASSERT_EQ(scenario.regions.size(), 2U);
-  const auto& lump = std::get<Lump>(scenario.regions[0]);
+  const auto& lump = std::get<Lump>(scenario.regions[0].part);
   EXPECT_EQ(lump.centre, (std::array<double, 3>{0.01, 0.02, -0.001}));
   EXPECT_EQ(lump.radius, 0.003);
-  EXPECT_EQ(lump.substance.young_modulus, 5000.0);
+  EXPECT_EQ(scenario.regions[0].young_modulus, 5000.0);
   const Scenario bone = read_one(press + "[tissue]\nmaterial = \"bone\"\n");
-  EXPECT_EQ(lump.substance.density, bone.tissue.density);
-  const auto& tagged = std::get<TaggedRegion>(scenario.regions[1]);
-  EXPECT_EQ(tagged.tag, 7);
-  EXPECT_EQ(tagged.substance.material, "muscle");
-  EXPECT_EQ(tagged.substance.density, 900.0);
+  EXPECT_EQ(scenario.regions[0].density, bone.tissue.density);
+  const Region& tagged = scenario.regions[1];
+  EXPECT_EQ(std::get<TaggedRegion>(tagged.part).tag, 7);
+  EXPECT_EQ(tagged.material, "muscle");
+  EXPECT_EQ(tagged.density, 900.0);
   const Scenario muscle = read_one(press + "[tissue]\nmaterial = \"muscle\"\n");
-  EXPECT_EQ(tagged.substance.young_modulus, muscle.tissue.young_modulus);
+  EXPECT_EQ(tagged.young_modulus, muscle.tissue.young_modulus);
 }
 
 TEST(Regions, OfALimbAreMuscleAndBoneUnlessTheScenarioHasItsOwn) {
   const std::string limb = shape("kind = \"layered_limb\"");
   const Scenario plain = read_one(press + limb);
   ASSERT_EQ(plain.regions.size(), 2U);
-  EXPECT_EQ(substance(plain.regions[0]).material, "muscle");
-  EXPECT_EQ(std::get<TaggedRegion>(plain.regions[1]).tag, 2);
-  EXPECT_EQ(substance(plain.regions[1]).material, "bone");
+  EXPECT_EQ(plain.regions[0].material, "muscle");
+  EXPECT_EQ(std::get<TaggedRegion>(plain.regions[1].part).tag, 2);
+  EXPECT_EQ(plain.regions[1].material, "bone");
   EXPECT_EQ(read_one(press + limb + "[[region]]\ntag = 2\n").regions.size(), 1U);
 }
 
@@ -256,7 +258,7 @@ TEST(Families, SweepRegionsShapesAndSpheres) {
           "kPa\"]\n",
       "press.toml", {});
   ASSERT_EQ(lumps.cases.size(), 2U);
-  EXPECT_EQ(substance(lumps.cases[1].scenario.regions[0]).young_modulus, 9000.0);
+  EXPECT_EQ(lumps.cases[1].scenario.regions[0].young_modulus, 9000.0);
   EXPECT_EQ(echo(parse(echo(lumps), "press.toml", {})), echo(lumps));
 
   const Family curved = parse(press + shape("kind = \"half_space\"") +

@@ -1,19 +1,8 @@
 // Steps that follow each other, and times that fit each other.
-#include <gtest/gtest.h>
-
-#include "scenario/family.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)parse(text, "press.toml", {});
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
 
 std::string step(const std::string& kind, const std::string& to) {
   return "[[step]]\nkind = \"" + kind + "\"\nto = \"" + to + "\"\n";

@@ -5,18 +5,17 @@
 
 #include "auto_scenes.h"
 #include "scenario/family.h"
-#include "scenario/words.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
 
 namespace palpate::scene {
 namespace {
 
-using Model = scenario::Solver::Model;
+using scenario::Model;
 using Integrator = scenario::Solver::Integrator;
 
-scenario::Scenario read(const std::string& text) {
-  return scenario::parse(text, "scene.toml", {}).cases.front().scenario;
+scenario::Case read(const std::string& text) {
+  return scenario::parse(text, "scene.toml", {}).cases.front();
 }
 
 const std::string press = "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
@@ -48,14 +47,14 @@ TEST(Choose, TwentySceneEachItsRung) {
     EXPECT_FALSE(choice.given) << scene.name;
     const auto found = expected.find(scene.name);
     if (found != expected.end()) {
-      EXPECT_STREQ(scenario::words::word(scenario::words::models, choice.chosen.solver.model),
-                   scenario::words::word(scenario::words::models, found->second))
+      EXPECT_STREQ(scenario::rung(choice.chosen.solver.model).word,
+                   scenario::rung(found->second).word)
           << scene.name;
     }
     // What is taken is predicted to serve, or nothing is.
     double least = 1.0;
     double taken = 1.0;
-    for (const Rung& rung : choice.rungs) {
+    for (const Forecast& rung : choice.rungs) {
       if (!rung.cannot.empty()) continue;
       least = std::min(least, rung.error);
       if (rung.model == choice.chosen.solver.model) taken = rung.error;
@@ -64,30 +63,20 @@ TEST(Choose, TwentySceneEachItsRung) {
   }
 }
 
-TEST(Choose, AnswersEveryAuto) {
-  for (const test::AutoScene& scene : test::auto_scenes()) {
-    const scenario::Scenario chosen = choose(read(scene.text)).chosen;
-    EXPECT_NE(chosen.solver.model, Model::automatic) << scene.name;
-    EXPECT_NE(chosen.solver.integrator, Integrator::automatic) << scene.name;
-    EXPECT_NE(chosen.contact.viscosity, scenario::Contact::Viscosity::automatic) << scene.name;
-    EXPECT_NE(chosen.contact.depth, scenario::Contact::Depth::automatic) << scene.name;
-  }
-}
-
 TEST(Choose, TheToleranceDecides) {
   const auto model = [](double tolerance) {
-    scenario::Scenario scenario = read(press);
-    scenario.solver.tolerance = tolerance;
-    return choose(scenario).chosen.solver.model;
+    scenario::Case one = read(press);
+    one.scenario.solver.tolerance = tolerance;
+    return choose(one).chosen.solver.model;
   };
   EXPECT_EQ(model(0.2), Model::hertz);   // the thickness and the sides make 9 %
   EXPECT_EQ(model(0.05), Model::layer);  // the sides take 1.6 %
   // Nothing is that good: the least error is that of the strongest rung, and that is said.
   EXPECT_EQ(model(0.001), Model::coupled_springs);
-  scenario::Scenario scenario = read(press);
-  EXPECT_EQ(choose(scenario).shortfall(), "");
-  scenario.solver.tolerance = 0.001;
-  EXPECT_EQ(choose(scenario).shortfall().substr(0, 62),
+  scenario::Case one = read(press);
+  EXPECT_EQ(choose(one).shortfall(), "");
+  one.scenario.solver.tolerance = 0.001;
+  EXPECT_EQ(choose(one).shortfall().substr(0, 62),
             "no rung is predicted to be within the tolerance of 0.1 %: `cou");
 }
 
@@ -123,7 +112,7 @@ TEST(Choose, ViscosityBelowAFifthOfTheToleranceIsDropped) {
 // 60 x 60 x 30 mm, R 11 mm, 1 mm, rigid finger, nu 0.33: the layer's own factor, and the sides by
 // the fit: 4 x 0.4 a/b exp(-2.4 b/H) with a = sqrt(R h) = 3.317 mm, b = H = 30 mm.
 TEST(Estimates, OfTheDefaultBlock) {
-  const Estimates found = estimate(read(press + "[finger]\nmaterial = \"rigid\"\n"));
+  const Estimates found = estimate(choose(read(press + "[finger]\nmaterial = \"rigid\"\n")).chosen);
   EXPECT_NEAR(found.chi, 3.3166248e-3 / 0.030, 1e-9);
   EXPECT_NEAR(found.sides, 1.6 * found.chi * std::exp(-2.4), 1e-12);
   const contact::LayerLaw law({.poisson_ratio = 0.33});

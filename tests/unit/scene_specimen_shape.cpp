@@ -57,16 +57,20 @@ TEST(SpecimenShapes, build_the_same_scene_to_the_bit) {
   }
 }
 
+scenario::Resolved resolved(const scenario::Case& one) {
+  return scenario::resolve(one, scenario::Model::mass_spring);
+}
+
 TEST(SpecimenShapes, are_built_once_for_all_that_differ_in_substance) {
   const auto family = family_of(
       "\"tissue.young_modulus\" = [\"10 kPa\", \"14 kPa\"]\n\"finger.radius\" = [\"9 mm\", "
       "\"11 mm\"]\n\"contact.coupling\" = [\"one_way\", \"consistent\"]\n");
   scene::SpecimenShapes shapes;
-  const scene::SpecimenShape* first = &shapes.shape(family.cases.front().scenario, "");
-  const tissue::SpringFit* fit = &shapes.fit(family.cases.front().scenario, "");
+  const scene::SpecimenShape* first = &shapes.shape(resolved(family.cases.front()), "");
+  const tissue::SpringFit* fit = &shapes.fit(resolved(family.cases.front()), "");
   for (const scenario::Case& one : family.cases) {
-    EXPECT_EQ(&shapes.shape(one.scenario, ""), first) << one.name;
-    EXPECT_EQ(&shapes.fit(one.scenario, ""), fit) << one.name;
+    EXPECT_EQ(&shapes.shape(resolved(one), ""), first) << one.name;
+    EXPECT_EQ(&shapes.fit(resolved(one), ""), fit) << one.name;
   }
 }
 
@@ -74,7 +78,7 @@ TEST(SpecimenShapes, are_built_once_for_all_that_differ_in_substance) {
 TEST(SpecimenShapes, are_apart_where_the_mesh_differs) {
   const auto key = [](const std::vector<std::string>& settings, const std::string& more = "") {
     return scene::shape_key(
-        scenario::parse(press + more, "press.toml", settings).cases.front().scenario);
+        resolved(scenario::parse(press + more, "press.toml", settings).cases.front()));
   };
   const std::string lump = "[[region]]\nkind = \"sphere\"\n";
   const std::string plain = key({});
@@ -96,13 +100,13 @@ TEST(SpecimenShapes, are_apart_where_the_mesh_differs) {
   const std::string pressed =
       "[tissue]\nshape = { kind = \"ligament\" }\n[[step]]\nkind = \"indent\"\n";
   const auto only = [](const std::string& text) {
-    return scene::shape_key(scenario::parse(text, "a.toml", {}).cases.front().scenario);
+    return scene::shape_key(resolved(scenario::parse(text, "a.toml", {}).cases.front()));
   };
   EXPECT_NE(only(creep), only(pressed));  // a uniform test stands it on its end
 }
 
 TEST(SpecimenShapes, refuse_each_time_they_are_asked) {
-  scenario::Scenario lost = family_of("").cases.front().scenario;
+  scenario::Resolved lost = resolved(family_of("").cases.front());
   lost.tissue.shape = scenario::AsMeshed{};
   lost.tissue.mesh = scenario::MeshFile{"none.msh", "mm"};
   scene::SpecimenShapes shapes;

@@ -1,0 +1,338 @@
+// Builds, runs, times and compares the variants of a chart, round after round.
+#include "chart/chart.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "chart/journal.h"
+#include "run/family.h"
+
+namespace palpate::chart {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A flag that a second thread sets when `outer` is set or after `limit` seconds.
+class Watch {
+ public:
+  Watch(const std::atomic<bool>& outer, double limit)
+      : thread_([this, &outer, limit] {
+          const auto end = Clock::now() + std::chrono::duration<double>(limit);
+          std::unique_lock lock(mutex_);
+          while (!over_ && !flag_) {
+            wake_.wait_for(lock, std::chrono::milliseconds(20));
+            if (outer.load() || Clock::now() >= end) flag_ = true;
+          }
+        }) {}
+  ~Watch() {
+    {
+      const std::lock_guard lock(mutex_);
+      over_ = true;
+    }
+    wake_.notify_all();
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  [[nodiscard]] const std::atomic<bool>& flag() const { return flag_; }
+
+ private:
+  std::atomic<bool> flag_ = false;
+  bool over_ = false;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::jthread thread_;
+};
+
+// A programme that ends after the first row.
+std::vector<scenario::Step> first_row(const scene::Scene& scene) {
+  const double interval = scene.scenario.output.interval;
+  scenario::Step step = scene.scenario.steps.front();
+  if (auto* indent = std::get_if<scenario::Indent>(&step))
+    indent->to = {std::min(indent->to.value, indent->rate * interval), false};
+  else if (auto* slide = std::get_if<scenario::Slide>(&step))
+    slide->by = std::min(slide->by, slide->rate * interval);
+  else if (auto* hold = std::get_if<scenario::Hold>(&step))
+    hold->time = std::min(hold->time, interval);
+  else if (auto* relax = std::get_if<scenario::Relax>(&step))
+    relax->time = std::min(relax->time, interval);
+  else if (auto* creep = std::get_if<scenario::Creep>(&step))
+    *creep = {creep->stress, std::min(creep->load_time, interval), 0.0};
+  return {step};
+}
+
+double end_time(const record::CaseRecord& record) {
+  if (!record.contact.empty()) return record.contact.back().time;
+  return record.strain.empty() ? 0.0 : record.strain.back().time;
+}
+
+// Runs the programme without its findings; returns the run time, s.
+double run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
+                record::CaseRecord& record) {
+  record = {};
+  const Clock::time_point start = Clock::now();
+  run::run_programme(scene, stop, record);
+  return since(start);
+}
+
+// The least time of several runs, s, because disturbances only slow a run down; once if it is long.
+double timed(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
+  constexpr double enough = 5e-3;  // s, of all runs together
+  constexpr int most = 1000;
+  double least = run_once(scene, stop, record);
+  double all = least;
+  for (int i = 1; i < most && all < enough; ++i) {
+    if (record.outcome != record::Outcome::completed) break;
+    const double time = run_once(scene, stop, record);
+    least = std::min(least, time);
+    all += time;
+  }
+  return least;
+}
+
+std::string reason_of(const std::exception& error) {
+  const auto* input = dynamic_cast<const InputError*>(&error);
+  return input != nullptr ? input->problems().front().message : error.what();
+}
+
+class Measurer {
+ public:
+  Measurer(const Asked& asked, const ChartOptions& options, Journal& journal,
+           const std::atomic<bool>& stop, const std::function<void(const ChartProgress&)>& told)
+      : asked_(asked), options_(options), journal_(journal), stop_(stop), told_(told) {}
+
+  std::optional<std::vector<CaseChart>> all() {
+    for (std::size_t i = 0; i < asked_.family.cases.size(); ++i)
+      if (!begin(i)) return std::nullopt;
+    start_ = Clock::now();
+    for (int round = 0; round < options_.repeats; ++round)
+      for (CaseChart& chart : charts_)
+        for (Measurement& one : chart.rows)
+          if (!visit(chart, one, round)) return std::nullopt;
+    return charts_;
+  }
+
+ private:
+  bool begin(std::size_t i) {
+    const scenario::Case& one = asked_.family.cases[i];
+    CaseChart chart{one.name, one.scenario.solver.tolerance, {}, 0.0, {}};
+    told_({one.name + ": reference"});
+    const std::string name = "truth_" + std::to_string(i);
+    const auto known = journal_.references().find(name);
+    if (known != journal_.references().end()) {
+      chart.truth = truth_of(known->second);
+    } else {
+      const auto found = find_truth(asked_, i, stop_, [&](const std::string& level) {
+        told_({one.name + ": reference, " + level});
+      });
+      if (!found) return false;
+      chart.truth = *found;
+      journal_.add_reference(name, history_table(chart.truth));
+    }
+    chart.reference_error = own_error(one.scenario, chart.truth.moments).greatest;
+    for (const Variant& variant : design(asked_, i)) {
+      if (stop_.load()) return false;
+      Measurement fresh;
+      fresh.variant = variant;
+      chart.rows.push_back(journal_.find(variant).value_or(fresh));
+    }
+    all_ += static_cast<int>(chart.rows.size()) * options_.repeats;
+    charts_.push_back(std::move(chart));
+    return true;
+  }
+
+  // Measures one timing if it is wanted; false if `stop` was set.
+  bool visit(const CaseChart& chart, Measurement& one, int round) {
+    if (stop_.load()) return false;
+    ChartProgress progress{(charts_.size() > 1 ? chart.name + ": " : "") + one.variant.name, done_,
+                           all_};
+    if (made_ > 0 && since(start_) > 1.0) progress.left = since(start_) / made_ * (all_ - done_);
+    ++done_;
+    if (!wanted(one, round)) return true;
+    told_(progress);
+    const std::size_t timings = one.timings.size();
+    if (!take(chart, one)) return false;
+    ++made_;
+    if (timings == 0 || one.timings.size() > timings) journal_.add(one);
+    return true;
+  }
+
+  [[nodiscard]] bool wanted(const Measurement& one, int round) const {
+    const bool kept = journal_.find(one.variant).has_value();
+    if (!kept) return true;
+    if (one.status != Status::measured) return false;
+    if (static_cast<int>(one.timings.size()) > round) return false;
+    double spent = 0.0;
+    for (const Timing& timing : one.timings)
+      spent += timing.build + timing.first_row + timing.whole;
+    return spent + spent / static_cast<double>(one.timings.size()) <= options_.budget;
+  }
+
+  bool take(const CaseChart& chart, Measurement& one) {
+    const bool first = one.timings.empty();
+    try {
+      const auto family = with_settings(asked_, one.variant.of_case, one.variant.settings);
+      const double setup = predicted_setup(family.cases.front());
+      if (setup > options_.longest) return not_run(one, setup);
+      const Clock::time_point start = Clock::now();
+      scene::Scene scene = scene::build(family.cases.front(), family);
+      Timing timing{.build = since(start)};
+      scene.scenario.output.keep_rows_only();
+      settle(scene, one);
+      const Watch watch(stop_, options_.longest);
+      record::CaseRecord record;
+      const std::vector<scenario::Step> steps = scene.scenario.steps;
+      scene.scenario.steps = first_row(scene);
+      timing.first_row = timed(scene, watch.flag(), record);
+      one.first_simulated = end_time(record);
+      scene.scenario.steps = steps;
+      timing.whole = timed(scene, watch.flag(), record);
+      if (stop_.load()) return false;
+      if (record.outcome == record::Outcome::interrupted && first)
+        return not_run(one, timing.whole * scene_time(chart) /
+                                std::max(end_time(record), scene.scenario.output.interval));
+      if (record.outcome == record::Outcome::interrupted) return true;  // the machine was slow
+      one.timings.push_back(timing);
+      if (first) compare(chart, scene, record, one);
+    } catch (const InputError& error) {
+      one.note = reason_of(error);
+    } catch (const MeshError& error) {
+      one.note = reason_of(error);
+    }
+    return true;
+  }
+
+  // s; the estimate made when the model is chosen.
+  static double predicted_setup(const scenario::Case& one) {
+    const scene::Choice choice = scene::choose(one);
+    return choice.taken() != nullptr ? choice.taken()->seconds : 0.0;
+  }
+
+  static double scene_time(const CaseChart& chart) {
+    return chart.truth.moments.empty() ? 0.0 : chart.truth.moments.back().time;
+  }
+
+  static bool not_run(Measurement& one, double seconds) {
+    one.status = Status::not_run;
+    one.note = "not run: predicted " + number_text(*whole_number(rounded_text(seconds, 2))) + " s";
+    return true;
+  }
+
+  static void settle(const scene::Scene& scene, Measurement& one) {
+    const scenario::Resolved& scenario = scene.scenario;
+    one.model = word_of(scenario.solver.model);
+    if (!scene.specimen) return;
+    if (!scenario.uniform()) one.coupling = word_of(scenario.contact.coupling);
+    one.integrator = word_of(scenario.solver.integrator);
+    if (!scenario.uniform())
+      one.rings = scenario.solver.rings ? std::to_string(*scenario.solver.rings) : "all";
+    one.substep = scene.specimen->plan.substep;
+    one.substeps = scene.specimen->plan.substeps;
+    one.nodes = scene.specimen->network.nodes();
+    one.tetrahedra = static_cast<int>(scene.specimen->mesh.tetrahedra.size());
+  }
+
+  void compare(const CaseChart& chart, const scene::Scene& scene, const record::CaseRecord& record,
+               Measurement& one) {
+    one.simulated = end_time(record);
+    if (record.outcome == record::Outcome::diverged) {
+      one.status = Status::diverged;
+      one.note = record.reason + " after " + rounded_text(record.last_stable_time, 3) + " s";
+      one.timings.clear();
+      return;
+    }
+    one.status = Status::measured;
+    const History got = history(scene.scenario, record);
+    one.error = deviation(scene.scenario, got, chart.truth.moments);
+    if (one.variant.group != "integrator x time step") return;
+    const History& exact = in_time(one);
+    if (exact.empty()) return;
+    one.time_error = deviation(scene.scenario, got, exact);
+    one.time_floor = own_error(scene.scenario, exact).greatest;
+  }
+
+  // Reference in time of the model whose integrators are compared; empty without `modal`.
+  const History& in_time(const Measurement& one) {
+    const std::string name = "in_time_" + std::to_string(one.variant.of_case);
+    const auto known = in_time_.find(name);
+    if (known != in_time_.end()) return known->second;
+    Truth found;
+    const auto kept = journal_.references().find(name);
+    if (kept != journal_.references().end()) {
+      found = truth_of(kept->second);
+    } else {
+      Variant rung = one.variant;
+      rung.settings = {"solver.model=" + one.model};
+      if (const auto exact = exact_in_time(asked_, rung, stop_))
+        found = {"modal", "exact in time", *exact};
+      if (!stop_.load()) journal_.add_reference(name, history_table(found));
+    }
+    return in_time_[name] = found.moments;
+  }
+
+  const Asked& asked_;
+  const ChartOptions& options_;
+  Journal& journal_;
+  const std::atomic<bool>& stop_;
+  const std::function<void(const ChartProgress&)>& told_;
+  std::vector<CaseChart> charts_;
+  std::map<std::string, History> in_time_;
+  Clock::time_point start_;
+  int done_ = 0, all_ = 0, made_ = 0;
+};
+
+// Cost from the difference of two programmes, us per ms; at least 1 % of the whole run, the
+// accuracy of the clock.
+double cost_of(const Measurement& one, const Timing& timing) {
+  const double longer = one.simulated - one.first_simulated;
+  if (longer <= 0.0) return 1e3 * timing.whole / std::max(one.simulated, 1e-12);
+  return 1e3 * std::max(timing.whole - timing.first_row, 0.01 * timing.whole) / longer;
+}
+
+template <class Of>
+std::vector<double> each(const Measurement& one, const Of& of) {
+  std::vector<double> values;
+  for (const Timing& timing : one.timings) values.push_back(of(timing));
+  return values;
+}
+
+}  // namespace
+
+const char* status_word(Status status) {
+  switch (status) {
+    case Status::measured: return "measured";
+    case Status::diverged: return "diverged";
+    case Status::cannot: return "cannot";
+    case Status::not_run: break;
+  }
+  return "not_run";
+}
+
+std::vector<double> Measurement::costs() const {
+  return each(*this, [&](const Timing& timing) { return cost_of(*this, timing); });
+}
+std::vector<double> Measurement::setups() const {
+  return each(*this, [](const Timing& timing) { return timing.build + timing.first_row; });
+}
+std::vector<double> Measurement::totals() const {
+  return each(*this, [](const Timing& timing) { return timing.build + timing.whole; });
+}
+
+std::optional<std::vector<CaseChart>> measure(
+    const Asked& asked, const ChartOptions& options, Journal& journal,
+    const std::atomic<bool>& stop, const std::function<void(const ChartProgress&)>& told) {
+  return Measurer(asked, options, journal, stop, told).all();
+}
+
+}  // namespace palpate::chart

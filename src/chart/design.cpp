@@ -1,0 +1,316 @@
+// Makes variants as texts of settings, so that they pass the same checks as `--set`.
+#include "chart/design.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "base/field_writer.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "scenario/words.h"
+#include "scene/estimates.h"
+#include "scene/scene.h"
+
+namespace palpate::chart {
+namespace {
+
+using scenario::Model;
+using Integrator = scenario::Solver::Integrator;
+using Settings = std::vector<std::string>;
+using scenario::Scenario;
+namespace words = scenario::words;
+
+constexpr std::size_t most_cases = 8;
+constexpr double mesh_factors[] = {0.25, 4.0};        // times the scenario's number of nodes
+constexpr double time_steps_ms[] = {0.25, 1.0, 4.0};  // a haptic frame is 1 ms
+constexpr int ring_counts[] = {2, 3, 5};
+constexpr double cells_a_contact_radius = 3.5;  // `resolved` requires 3
+
+// The keys that a chart varies.
+constexpr const char* own_keys[] = {"solver.model",    "solver.integrator", "solver.time_step",
+                                    "solver.substeps", "solver.rings",      "contact.coupling",
+                                    "tissue.mesh",     "output.interval"};
+
+std::string text_of_cells(const char* kind, const std::array<int, 3>& cells, double grading) {
+  std::string text = std::string("tissue.mesh={kind='") + kind + "',cells=[";
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    text += (axis > 0 ? "," : "") + std::to_string(cells[axis]);
+  text += "]";
+  if (grading != 1.0) text += ",grading=" + number_text(grading);
+  return text + "}";
+}
+
+std::array<int, 3> scaled(std::array<int, 3> cells, double factor) {
+  for (int& cell : cells)
+    cell = std::max(1, static_cast<int>(std::lround(cell * std::cbrt(factor))));
+  return cells;
+}
+
+// The setting for a mesh with about `factor` times as many nodes; empty for a ready mesh.
+std::string finer(const Scenario& scenario, double factor) {
+  const scenario::Mesh& mesh = scenario.tissue.mesh;
+  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&mesh))
+    return text_of_cells("kuhn", scaled(kuhn->cells, factor), kuhn->grading);
+  if (const auto* mirrored = std::get_if<scenario::Mirrored>(&mesh))
+    return text_of_cells("mirrored", scaled(mirrored->cells, factor), mirrored->grading);
+  const auto* tetgen = std::get_if<scenario::Tetgen>(&mesh);
+  if (tetgen == nullptr) return "";
+  if (tetgen->edge)
+    return "tissue.mesh={kind='tetgen',edge='" +
+           number_text(1e3 * *tetgen->edge / std::cbrt(factor)) + " mm'}";
+  return "tissue.mesh={kind='tetgen',nodes=" +
+         std::to_string(std::max(8L, std::lround(factor * tetgen->nodes))) + "}";
+}
+
+// The setting for cells that are small enough for `resolved` under the finger and grow with the
+// distance from it; empty unless one sphere presses a cuboid of one tissue without a ready mesh.
+std::string graded(const Scenario& scenario, const scene::Estimates& found) {
+  const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
+  if (box == nullptr || !scenario.regions.empty() || scenario.finger.spheres != 1 ||
+      std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh))
+    return "";
+  const double radius = found.contact_radius;
+  const double place[] = {scenario.finger.x.value_or(0.5 * box->size[0]),
+                          scenario.finger.y.value_or(0.5 * box->size[1]), box->size[2]};
+  std::array<int, 3> cells{};
+  double farthest = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double units = 0.0;  // a cell at distance d is sqrt(1 + (d/a)^2) times the smallest one
+    for (const double length : {place[axis], box->size[axis] - place[axis]}) {
+      units += std::asinh(length / radius);
+      farthest = std::max(farthest, length);
+    }
+    cells[axis] = static_cast<int>(std::ceil(units * cells_a_contact_radius));
+  }
+  const double grading = std::sqrt(1.0 + farthest * farthest / (radius * radius));
+  return text_of_cells("mirrored", cells, std::round(10.0 * grading) / 10.0);
+}
+
+// The smallest common multiple of output interval and step, both in ms, below ten intervals; if
+// there is none, the multiple of the step that is nearest to the interval.
+double rows_of(double step_ms, double interval_ms) {
+  for (int times = 1; times < 10; ++times) {
+    const double pieces = times * interval_ms / step_ms;
+    if (pieces > 0.5 && std::abs(pieces - std::round(pieces)) < 1e-9 * pieces)
+      return times * interval_ms;
+  }
+  return std::max(1.0, std::round(interval_ms / step_ms)) * step_ms;
+}
+
+// Settings for time steps of this length (ms) without substeps; `interval` in s.
+Settings one_step(double step_ms, double interval) {
+  const double rows_ms = rows_of(step_ms, 1e3 * interval);
+  Settings settings{"solver.time_step=" + number_text(step_ms) + " ms", "solver.substeps=1"};
+  if (std::abs(rows_ms - 1e3 * interval) > 1e-9 * rows_ms)
+    settings.push_back("output.interval=" + rounded_text(rows_ms, 12) + " ms");
+  return settings;
+}
+
+class Designer {
+ public:
+  Designer(const Asked& asked, std::size_t of_case)
+      : asked_(asked), case_(of_case), one_(asked.family.cases[of_case]), base_(one_.scenario) {
+    scenario::Case open = one_;
+    open.scenario.solver.model.reset();
+    open.scenario.solver.integrator.reset();
+    rung_ = scene::choose(open).chosen.solver.model;
+    if (!scenario::rung(rung_).meshed())
+      rung_ = std::find_if(scenario::ladder.begin(), scenario::ladder.end(),
+                           std::mem_fn(&scenario::Rung::meshed))
+                  ->of;
+    integrator_ = word_of(base_integrator(one_));
+  }
+
+  std::vector<Variant> all() {
+    const Settings open = base_.solver.model ? Settings{"solver.model=auto"} : Settings{};
+    add("base", "auto", open);
+    if (!open.empty()) add("base", "as it stands", {});
+    for (const scenario::Rung& rung : scenario::ladder)
+      if (rung.meshed())
+        meshes(rung.of);
+      else
+        add("rung x mesh", rung.word, {model_setting(rung.of)});
+    for (const scenario::Rung& rung : scenario::ladder)
+      if (rung.meshed() && !base_.uniform()) couplings(rung.of);
+    integrators();
+    if (!base_.uniform())
+      for (const int rings : ring_counts)
+        add("rings", word_of(rung_) + ", " + std::to_string(rings) + " rings",
+            joined_to(rung(rung_), {"solver.rings=" + std::to_string(rings)}));
+    return variants_;
+  }
+
+ private:
+  static Settings joined_to(Settings settings, const Settings& more) {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+
+  [[nodiscard]] Settings rung(Model model) const {
+    return {model_setting(model), "solver.integrator=" + integrator_};
+  }
+
+  // The resolved scenario of a variant as text; the settings themselves if they are invalid.
+  [[nodiscard]] std::string settled(const Settings& settings) const {
+    try {
+      const auto family = with_settings(asked_, case_, settings);
+      const scenario::Case& one = family.cases.front();
+      Scenario chosen = scenario::answered(one, scene::choose(one).chosen);
+      return fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, chosen); });
+    } catch (const InputError&) {
+      return joined(settings, "\n");
+    }
+  }
+
+  void add(const std::string& group, const std::string& name, const Settings& settings) {
+    if (seen_.insert(settled(settings)).second) variants_.push_back({case_, group, name, settings});
+  }
+
+  void meshes(Model model) {
+    add("rung x mesh", word_of(model), rung(model));
+    for (const double factor : mesh_factors)
+      if (const std::string mesh = finer(base_, factor); !mesh.empty())
+        add("rung x mesh", word_of(model) + ", nodes x " + number_text(factor),
+            joined_to(rung(model), {mesh}));
+  }
+
+  void couplings(Model model) {
+    using contact::Coupling;
+    for (const Word& word : words::couplings) {
+      const std::string coupling = word.word;
+      add("rung x coupling", word_of(model) + ", " + coupling,
+          joined_to(rung(model), {"contact.coupling=" + coupling}));
+    }
+    const std::string mesh = graded(base_, scene::estimate(scene::choose(one_).chosen));
+    if (!mesh.empty())
+      add("rung x coupling", word_of(model) + ", resolved on graded cells",
+          joined_to(rung(model), {"contact.coupling=resolved", mesh}));
+  }
+
+  void integrators() {
+    const std::string model = word_of(rung_);
+    for (const Word& word : words::integrators) {
+      const std::string method = word.word;
+      const std::string name = model + ", " + method;
+      const Settings settings{model_setting(rung_), "solver.integrator=" + method};
+      add("integrator x time step", name, settings);
+      const std::optional<scene::TimePlan> plan = plan_of(settings);
+      if (plan && cut_by_limit(settings, *plan))
+        add("integrator x time step", name + ", half the limit",
+            joined_to(settings, {"solver.substeps=" +
+                                 number_text(std::ceil(plan->time_step / (0.5 * plan->limit)))}));
+      for (const double step : time_steps_ms) {
+        const bool own = plan && std::abs(1e3 * plan->substep - step) < 1e-9 * step;
+        if (!own)
+          add("integrator x time step", name + ", " + number_text(step) + " ms",
+              joined_to(settings, one_step(step, base_.output.interval)));
+      }
+    }
+  }
+
+  // The time plan of a variant; nothing if it is invalid or has no mesh.
+  [[nodiscard]] std::optional<scene::TimePlan> plan_of(const Settings& settings) const {
+    try {
+      const auto family = with_settings(asked_, case_, settings);
+      const scene::Scene scene = scene::build(family.cases.front(), family);
+      if (scene.specimen) return scene.specimen->plan;
+    } catch (const InputError&) {
+    } catch (const MeshError&) {
+    }
+    return std::nullopt;
+  }
+
+  // Whether the stability limit determines the default substeps: a step well above it is refused.
+  [[nodiscard]] bool cut_by_limit(const Settings& settings, const scene::TimePlan& plan) const {
+    if (plan.substeps != static_cast<int>(std::ceil(plan.time_step / (0.9 * plan.limit))))
+      return false;
+    const std::string bold = number_text(4e3 * plan.limit) + " ms";
+    return !plan_of(joined_to(
+        settings, {"solver.time_step=" + bold, "solver.substeps=1", "output.interval=" + bold}));
+  }
+
+  const Asked& asked_;
+  std::size_t case_;
+  const scenario::Case& one_;
+  const Scenario& base_;                 // of one_
+  Model rung_ = scenario::strongest.of;  // the model of the groups integrator x time step and rings
+  std::string integrator_;
+  std::vector<Variant> variants_;
+  std::set<std::string> seen_;
+};
+
+void refuse_own_keys(const scenario::Family& family) {
+  for (const scenario::Setting& swept : family.design.settings(0))
+    for (const char* own : own_keys)
+      if (swept.key == own || swept.key.starts_with(std::string(own) + "."))
+        throw InputError(swept.value.place,
+                         "`" + swept.key + "` is swept, and `palpate chart` varies `" + own +
+                             "` itself; set it to one value, with `[sweep]` without it");
+}
+
+}  // namespace
+
+void refuse_forces(const scenario::Family& family, std::span<const scenario::Step> steps,
+                   const std::string& sentence) {
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (const auto* indent = std::get_if<scenario::Indent>(&steps[i]);
+        indent != nullptr && indent->to.second)
+      throw InputError(place_of(family.document, "step." + std::to_string(i + 1) + ".to"),
+                       sentence);
+}
+
+std::string model_setting(Model model) { return "solver.model=" + word_of(model); }
+std::string word_of(Model model) { return scenario::rung(model).word; }
+std::string word_of(Integrator integrator) { return words::word(words::integrators, integrator); }
+std::string word_of(contact::Coupling coupling) { return words::word(words::couplings, coupling); }
+
+std::vector<Variant> design(const Asked& asked, std::size_t of_case) {
+  return Designer(asked, of_case).all();
+}
+
+double coarsest_interval(const scenario::PlainScenario& scenario) {
+  double interval = scenario.output.interval;
+  for (const double step : time_steps_ms)
+    interval = std::max(interval, 1e-3 * rows_of(step, 1e3 * scenario.output.interval));
+  return interval;
+}
+
+Integrator base_integrator(const scenario::Case& one) {
+  const Scenario& scenario = one.scenario;
+  const scenario::Solver& solver = scenario.solver;
+  if (solver.integrator) return *solver.integrator;
+  const bool drag = scenario.tissue.viscosity == tissue::Viscosity::nodal_drag;
+  if (scenario.uniform() || drag) return Integrator::central_difference;
+  return scene::estimate(scene::choose(one).chosen).inertia < solver.tolerance
+             ? Integrator::quasi_static
+             : Integrator::central_difference;
+}
+
+Asked read_for_chart(const std::string& path, const Settings& settings) {
+  Asked asked{path, read_text(path), settings, {}};
+  asked.family = scenario::parse(asked.text, path, settings);
+  const scenario::Family& family = asked.family;
+  if (family.cases.size() > most_cases)
+    throw InputError(place_of(family.document, "sweep"),
+                     "`palpate chart` measures up to " + std::to_string(most_cases) +
+                         " cases, and `sweep` makes " + std::to_string(family.cases.size()) +
+                         "; give shorter lists");
+  refuse_own_keys(family);
+  refuse_forces(
+      family, family.base.steps,
+      "a step to a force ends elsewhere in every variant, and `palpate chart` compares forces at "
+      "equal travels; give a travel");
+  return asked;
+}
+
+scenario::Family with_settings(const Asked& asked, std::size_t of_case, const Settings& settings) {
+  Settings all = asked.settings;
+  all.insert(all.end(), settings.begin(), settings.end());
+  scenario::Family family = scenario::parse_case(asked.text, asked.path, all, of_case);
+  family.cases.front().name = asked.family.cases[of_case].name;
+  return family;
+}
+
+}  // namespace palpate::chart

@@ -1,0 +1,324 @@
+// Refines a scenario, runs the levels, and extrapolates row by row.
+#include "chart/reference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "chart/design.h"
+#include "chart/extrapolation.h"
+#include "run/family.h"
+#include "scenario/integrators.h"
+#include "scenario/programme.h"
+#include "scene/estimates.h"
+#include "scene/specimen_mesh.h"
+
+namespace palpate::chart {
+namespace {
+
+using Coupling = contact::Coupling;
+using Integrator = scenario::Solver::Integrator;
+using scenario::Scenario;
+
+constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
+constexpr double first_nodes = 700.0;  // first level if contact is not resolved
+constexpr double most_rows = 40.0;     // of a programme without memory
+
+// The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
+enum class Part { whole, half, quarter };
+
+int copies(Part part) { return part == Part::quarter ? 4 : part == Part::half ? 2 : 1; }
+
+bool in_the_middle(const std::optional<double>& place, double size) {
+  return !place || std::abs(*place - 0.5 * size) <= 1e-9 * size;
+}
+
+// Slides along x keep the symmetry about the plane y = 0 only.
+Part part_of(const Scenario& scenario, const scenario::Cuboid& box) {
+  bool slides = false;
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
+      slides = true;
+      if (std::remainder(slide->direction, 180.0) != 0.0) return Part::whole;
+    }
+  if (!in_the_middle(scenario.finger.y, box.size[1])) return Part::whole;
+  return slides || !in_the_middle(scenario.finger.x, box.size[0]) ? Part::half : Part::quarter;
+}
+
+class Refinement {
+ public:
+  Refinement(const scenario::Case& one, const scenario::Family& family)
+      : family_(family),
+        case_(one),
+        given_(scene::choose(one).chosen),
+        found_(scene::estimate(given_)) {
+    refuse();
+    const auto* box = std::get_if<scenario::Cuboid>(&case_.scenario.tissue.shape);
+    resolved_ =
+        box != nullptr && case_.scenario.regions.empty() && case_.scenario.finger.spheres == 1;
+    strengthen();
+    if (resolved_) cut(std::get<scenario::Cuboid>(case_.scenario.tissue.shape));
+  }
+
+  // The scene of a level, counted from 0. `direction`: normals of resolved contact.
+  scene::Scene build(int level, scenario::Contact::Direction direction) {
+    scenario::Case one = case_;
+    one.scenario.contact.direction = direction;
+    mesh(one.scenario, level);
+    if (dynamic_) shorten_steps(one.scenario, level);
+    scene::Scene scene = scene::build(one, family_);
+    if (part_ != Part::whole) hold_mirrors(*scene.specimen);
+    return scene;
+  }
+
+  // The cells' size over the deepest contact radius or, without `resolved`, over the first level's.
+  [[nodiscard]] double spacing(int level) const {
+    return resolved_ ? 1.0 / (coarsest + level)
+                     : static_cast<double>(coarsest) / (coarsest + level);
+  }
+  [[nodiscard]] bool resolved() const { return resolved_; }
+  [[nodiscard]] Part part() const { return part_; }
+  [[nodiscard]] bool dynamic() const { return dynamic_; }
+  [[nodiscard]] const Scenario& scenario() const { return case_.scenario; }
+  [[nodiscard]] const scene::Estimates& estimates() const { return found_; }
+
+ private:
+  [[noreturn]] void refuse_at(const std::string& key, const std::string& sentence) const {
+    throw InputError(place_of(family_.document, key), sentence);
+  }
+
+  void refuse() const {
+    const Scenario& scenario = case_.scenario;
+    if (scenario.uniform())
+      refuse_at("step", "`palpate reference` refines a press; uniform tests have closed forms");
+    if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
+      refuse_at("tissue.shape",
+                "a `half_space` has no mesh to refine; on it `hertz` is exact for small depths");
+    if (std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh))
+      refuse_at("tissue.mesh",
+                "a ready mesh cannot be refined; give the shape, and let `palpate` mesh it");
+    refuse_forces(family_, scenario.steps,
+                  "a step to a force ends elsewhere on every mesh; give a travel");
+  }
+
+  void strengthen() {
+    Scenario& scenario = case_.scenario;
+    scenario::Solver& solver = scenario.solver;
+    dynamic_ =
+        solver.integrator ? about(*solver.integrator).inertia : found_.inertia >= solver.tolerance;
+    // A contact without viscosity gives the force of the relaxed tissue. In the couplings of the
+    // reference the mesh's viscosity would change it.
+    if (scenario.contact.viscosity == scenario::Contact::Viscosity::none &&
+        !contact::mesh_is_tissue(scenario.contact.coupling))
+      scenario.tissue.viscosity = tissue::Viscosity::none;
+    solver.model = scenario::strongest.of;
+    solver.volume = scenario::Solver::Volume::nodal;
+    solver.integrator = dynamic_ ? Integrator::backward_difference : Integrator::quasi_static;
+    solver.time_step.reset();
+    solver.substeps.reset();
+    solver.rings.reset();
+    scenario.contact.coupling = resolved_ ? Coupling::resolved : Coupling::consistent;
+    if (resolved_) scenario.contact.viscosity = scenario::Contact::Viscosity::none;
+    scenario.output.keep_rows_only();
+    if (!dynamic_ && scenario.tissue.viscosity == tissue::Viscosity::none) thin_out();
+  }
+
+  // The rows of an elastic, quasi-static run do not depend on the rows between them.
+  void thin_out() {
+    const double total = scenario::programme_time(case_.scenario);
+    double& interval = case_.scenario.output.interval;
+    interval *= std::max(1.0, std::ceil(total / (most_rows * interval)));
+  }
+
+  void cut(scenario::Cuboid& box) {
+    part_ = part_of(case_.scenario, box);
+    scenario::Finger& finger = case_.scenario.finger;
+    if (part_ == Part::whole) return;
+    box.size[1] *= 0.5;
+    finger.y = 0.0;
+    if (part_ == Part::half) return;
+    box.size[0] *= 0.5;
+    finger.x = 0.0;
+  }
+
+  void mesh(Scenario& scenario, int level) const {
+    const double finer = static_cast<double>(coarsest + level) / coarsest;
+    const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
+    if (resolved_) {
+      scenario.tissue.mesh = graded(*box, level);
+    } else if (box != nullptr && scenario.regions.empty()) {
+      const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / first_nodes);
+      scenario::Mirrored cells;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        cells.cells[axis] =
+            std::max(2, static_cast<int>(std::lround(box->size[axis] / cell * finer)));
+      scenario.tissue.mesh = cells;
+    } else {
+      scenario::Tetgen cells;
+      cells.nodes = static_cast<int>(first_nodes * finer * finer * finer);
+      scenario.tissue.mesh = cells;
+    }
+  }
+
+  // Cells of at most 1 / (coarsest + level) contact radii a under the finger, growing with the
+  // distance d as sqrt(1 + (d/a)^2): a length L takes asinh(L/a) (coarsest + level) cells.
+  [[nodiscard]] scenario::Mirrored graded(const scenario::Cuboid& box, int level) const {
+    const Vec3 size(box.size[0], box.size[1], box.size[2]);
+    const Vec3 place(case_.scenario.finger.x.value_or(0.5 * size.x()),
+                     case_.scenario.finger.y.value_or(0.5 * size.y()), size.z());
+    const double radius = found_.contact_radius;
+    scenario::Mirrored mesh;
+    double farthest = 0.0;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      int units = 0;
+      for (const double length : {place[axis], size[axis] - place[axis]}) {
+        units += static_cast<int>(std::ceil(std::asinh(length / radius)));
+        farthest = std::max(farthest, length);
+      }
+      mesh.cells[as_index(axis)] = units * (coarsest + level);
+    }
+    mesh.grading = std::sqrt(1.0 + farthest * farthest / (radius * radius));
+    return mesh;
+  }
+
+  // Substeps in which a pressure wave crosses at most half a cell under the finger.
+  void shorten_steps(Scenario& scenario, int level) const {
+    const scenario::Resolved::Tissue& tissue = given_.tissue;
+    const double nu = tissue.poisson_ratio;
+    const double speed = std::sqrt(tissue.young_modulus * (1.0 - nu) /
+                                   ((1.0 + nu) * (1.0 - 2.0 * nu) * tissue.density));
+    const double cell = found_.contact_radius / (coarsest + level);
+    scenario.solver.substeps =
+        static_cast<int>(std::max(1.0, std::ceil(2.0 * scenario.output.interval * speed / cell)));
+  }
+
+  void hold_mirrors(scene::Specimen& specimen) const {
+    for (std::size_t n = 0; n < specimen.mesh.nodes.size(); ++n) {
+      if (specimen.mesh.nodes[n].y() == 0.0) specimen.held[3 * n + 1] = 1;
+      if (part_ == Part::quarter && specimen.mesh.nodes[n].x() == 0.0) specimen.held[3 * n] = 1;
+    }
+  }
+
+  const scenario::Family& family_;
+  scenario::Case case_;       // changed for the refinement
+  scenario::Resolved given_;  // the original scenario
+  scene::Estimates found_;
+  bool resolved_ = false;
+  bool dynamic_ = false;
+  Part part_ = Part::whole;
+};
+
+void remark(const Refinement& refinement, Reference& reference) {
+  const Scenario& scenario = refinement.scenario();
+  std::string how = refinement.resolved()
+                        ? "coupled springs, contact resolved node by node"
+                        : "coupled springs with `consistent` contact, because this is not one "
+                          "sphere on a cuboid of one tissue";
+  if (refinement.part() != Part::whole)
+    how += refinement.part() == Part::quarter ? ", on a quarter of the body, by symmetry"
+                                              : ", on half of the body, by symmetry";
+  how += refinement.dynamic() ? ", backward differences with steps proportional to the cells"
+                              : ", without inertia";
+  reference.remarks.push_back(how);
+  if (!reference.rows.empty()) {
+    const auto worst = std::max_element(
+        reference.rows.begin(), reference.rows.end(),
+        [](const ReferenceRow& a, const ReferenceRow& b) { return a.force < b.force; });
+    reference.remarks.push_back("further refinement may change the greatest force, " +
+                                rounded_text(worst->force) + " N, by " +
+                                percent_text(worst->error / worst->force));
+  }
+  const double depth = refinement.estimates().travel / scenario.finger.radius;
+  if (!refinement.resolved()) return;
+  double turned = 0.0;
+  for (const ReferenceRow& row : reference.rows)
+    turned = std::max(turned, std::abs(row.by_sphere - 1.0));
+  reference.remarks.push_back(
+      "linear elasticity does not determine the direction of the pressure in a deep contact: it is "
+      "taken along the normals of the undeformed skin, and along those of the sphere the force "
+      "differs by up to " +
+      percent_text(turned) +
+      " (column sphere_over_skin; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");
+}
+
+}  // namespace
+
+Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
+                const std::atomic<bool>& stop,
+                const std::function<void(const std::string&)>& told) {
+  using Direction = scenario::Contact::Direction;
+  Refinement refinement(one, family);
+  Reference reference;
+  std::vector<double> spacings;
+  const auto run_level = [&](int level, Direction direction) {
+    const scene::Scene scene = refinement.build(level, direction);
+    told("level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
+         std::to_string(scene.specimen->network.nodes()) + " nodes");
+    record::CaseRecord record = run::run_case(scene, stop);
+    if (record.outcome != record::Outcome::completed)
+      reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;
+    return record;
+  };
+  const Direction direction = one.scenario.contact.direction.value_or(Direction::skin);
+  const double factor = copies(refinement.part());
+  for (int level = 0; level < levels && !reference.diverged; ++level) {
+    const record::CaseRecord record = run_level(level, direction);
+    spacings.push_back(refinement.spacing(level));
+    if (level == 0)
+      for (const record::ContactRow& row : record.contact)
+        reference.rows.push_back(
+            {.step = row.step, .time = row.time, .travel = row.travel, .slide = row.slide});
+    for (std::size_t i = 0; i < std::min(record.contact.size(), reference.rows.size()); ++i)
+      reference.rows[i].forces.push_back(factor * record.contact[i].contact_force);
+  }
+  if (reference.diverged) return reference;
+  for (ReferenceRow& row : reference.rows) {
+    const Extrapolated found = extrapolate(spacings, row.forces);
+    row.force = found.value;
+    row.error = found.error;
+    row.order = found.order;
+  }
+  if (refinement.resolved()) {
+    const record::CaseRecord turned =
+        run_level(0, direction == Direction::skin ? Direction::sphere : Direction::skin);
+    for (std::size_t i = 0; i < std::min(turned.contact.size(), reference.rows.size()); ++i) {
+      ReferenceRow& row = reference.rows[i];
+      const double other = factor * turned.contact[i].contact_force;
+      if (row.forces.front() <= 0.0 || other <= 0.0) continue;
+      row.by_sphere =
+          direction == Direction::skin ? other / row.forces.front() : row.forces.front() / other;
+    }
+  }
+  remark(refinement, reference);
+  return reference;
+}
+
+record::Table reference_table(const std::vector<std::pair<std::string, Reference>>& cases) {
+  std::size_t levels = 0;
+  for (const auto& [name, reference] : cases)
+    for (const ReferenceRow& row : reference.rows) levels = std::max(levels, row.forces.size());
+  record::Table table{{"case", "step", "time_s", "travel_mm", "slide_mm", "contact_force_N",
+                       "error_N", "order", "sphere_over_skin"},
+                      {}};
+  for (std::size_t i = 1; i <= levels; ++i)
+    table.columns.push_back("level_" + std::to_string(i) + "_N");
+  for (const auto& [name, reference] : cases)
+    for (const ReferenceRow& row : reference.rows) {
+      std::vector<record::Cell> cells;
+      cells.emplace_back(name);
+      for (const double number :
+           {static_cast<double>(row.step), row.time, unit::mm.from_si(row.travel),
+            unit::mm.from_si(row.slide), row.force, row.error, row.order, row.by_sphere})
+        cells.emplace_back(number);
+      for (std::size_t i = 0; i < levels; ++i)
+        cells.push_back(i < row.forces.size() ? record::Cell(row.forces[i])
+                                              : record::Cell(std::monostate{}));
+      table.rows.push_back(std::move(cells));
+    }
+  return table;
+}
+
+}  // namespace palpate::chart

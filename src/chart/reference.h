@@ -1,0 +1,50 @@
+// A reference solution of a press: the strongest model on refined meshes, extrapolated.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/table.h"
+#include "scenario/family.h"
+
+namespace palpate::chart {
+
+struct ReferenceRow {
+  int step = 0;                     // counted from 1
+  double time = 0.0;                // s
+  double travel = 0.0;              // m
+  double slide = 0.0;               // m
+  std::vector<double> forces = {};  // N, contact force of every level
+  double force = 0.0;               // N, extrapolated
+  double error = 0.0;               // N, bound of the change by further refinement
+  double order = 0.0;               // observed order of convergence; 0: none
+  double by_sphere = 1.0;           // force along the sphere's normals over that along the skin's
+};
+
+struct Reference {
+  std::vector<ReferenceRow> rows;
+  std::vector<std::string> remarks;     // sentences on the method and the remaining error
+  std::optional<std::string> diverged;  // the reason why a level could not be completed
+};
+
+// Computes the reference with coupled springs and volumes averaged at nodes, on `levels` (2 or
+// more) meshes: with `resolved` contact on graded cells if one sphere presses a cuboid of one
+// tissue (only a half or a quarter of it if the scene is symmetric), otherwise with `consistent`
+// contact. Quasi-static, unless the scenario names an integrator with inertia or inertia reaches
+// the tolerance; then by backward differences whose steps shrink with the cells. `told` is called
+// with a sentence before every level. Throws InputError if there is nothing to refine (uniform
+// tests, half-spaces, ready meshes, steps to a force), and like scene::build().
+//                                                                         docs/theory.md (77), (78)
+[[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
+                              const std::atomic<bool>& stop,
+                              const std::function<void(const std::string&)>& told);
+
+// One row per moment: case, step, time_s, travel_mm, slide_mm, contact_force_N, error_N, order,
+// sphere_over_skin (1 if contact is not resolved), and the forces of the levels, level_1_N...
+[[nodiscard]] record::Table reference_table(
+    const std::vector<std::pair<std::string, Reference>>& cases);
+
+}  // namespace palpate::chart

@@ -1,0 +1,329 @@
+// The verdict on a chart, its table and its sentences.
+#include "chart/table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "chart/pareto.h"
+
+namespace palpate::chart {
+namespace {
+
+using record::Cell;
+
+struct Spread {
+  double least, median, most;
+};
+
+// For at least one value; the median of an even number of values is the lower middle one.
+Spread spread(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {values.front(), values[(values.size() - 1) / 2], values.back()};
+}
+
+double median(const std::vector<double>& values) { return spread(values).median; }
+
+Cell ratio(const std::optional<Deviation>& deviation, double Deviation::*part) {
+  return deviation ? Cell((*deviation).*part) : Cell();
+}
+
+Cell count(int number) { return number > 0 ? Cell(static_cast<double>(number)) : Cell(); }
+
+Cell word(const std::string& text) { return text.empty() ? Cell() : Cell(text); }
+
+Cell rings(const Measurement& one) {
+  const auto number = whole_number(one.rings);
+  return number ? Cell(*number) : word(one.rings);
+}
+
+// Rounded to four digits, the accuracy of the clock.
+Cell clocked(double value) { return Cell(*whole_number(rounded_text(value, 4))); }
+
+const std::vector<std::string> columns{"case",
+                                       "group",
+                                       "variant",
+                                       "model",
+                                       "coupling",
+                                       "integrator",
+                                       "rings",
+                                       "time_step_ms",
+                                       "substeps",
+                                       "nodes",
+                                       "tetrahedra",
+                                       "status",
+                                       "greatest_error",
+                                       "end_error",
+                                       "rms_error",
+                                       "reference",
+                                       "reference_error",
+                                       "claimed_error",
+                                       "greatest_time_error",
+                                       "rms_time_error",
+                                       "time_reference_error",
+                                       "cost_us_per_ms",
+                                       "cost_min_us_per_ms",
+                                       "cost_max_us_per_ms",
+                                       "setup_s",
+                                       "total_s",
+                                       "total_min_s",
+                                       "total_max_s",
+                                       "timings",
+                                       "within_tolerance",
+                                       "pareto",
+                                       "knee",
+                                       "auto",
+                                       "settings",
+                                       "note"};
+
+std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::size_t i) {
+  const Measurement& one = chart.rows[i];
+  const bool measured = one.status == Status::measured && !one.timings.empty();
+  std::vector<Cell> row{chart.name,
+                        one.variant.group,
+                        one.variant.name,
+                        word(one.model),
+                        word(one.coupling),
+                        word(one.integrator),
+                        rings(one),
+                        one.substep > 0.0 ? Cell(1e3 * one.substep) : Cell(),
+                        count(one.substeps),
+                        count(one.nodes),
+                        count(one.tetrahedra),
+                        std::string(status_word(one.status)),
+                        ratio(one.error, &Deviation::greatest),
+                        ratio(one.error, &Deviation::at_end),
+                        ratio(one.error, &Deviation::rms),
+                        chart.truth.kind,
+                        verdict.floor,
+                        verdict.error[i] > 0.0 ? Cell(verdict.error[i]) : Cell(),
+                        ratio(one.time_error, &Deviation::greatest),
+                        ratio(one.time_error, &Deviation::rms),
+                        one.time_error ? Cell(one.time_floor) : Cell()};
+  if (measured) {
+    const Spread cost = spread(one.costs());
+    const Spread total = spread(one.totals());
+    for (const double number : {cost.median, cost.least, cost.most, median(one.setups()),
+                                total.median, total.least, total.most})
+      row.push_back(clocked(number));
+  } else {
+    row.resize(row.size() + 7);
+  }
+  const auto flag = [&](bool is) { row.emplace_back(is ? 1.0 : 0.0); };
+  row.emplace_back(static_cast<double>(one.timings.size()));
+  flag(verdict.error[i] > 0.0 && verdict.error[i] <= chart.tolerance);
+  flag(std::find(verdict.front.begin(), verdict.front.end(), i) != verdict.front.end());
+  flag(verdict.knee == i);
+  flag(verdict.taken == i);
+  row.push_back(word(joined(one.variant.settings, "; ")));
+  row.push_back(word(one.note));
+  return row;
+}
+
+// Rounded to two digits.
+std::string rounded(double value) { return number_text(*whole_number(rounded_text(value, 2))); }
+
+// Makes the sentences of one case.
+class Speaker {
+ public:
+  explicit Speaker(const CaseChart& chart) : chart_(chart), verdict_(judge(chart)) {}
+
+  std::string text() const {
+    std::string text = "## " + chart_.name + "\n\nReference: " + chart_.truth.sentence + ".\n\n" +
+                       within() + "\n\n" + at_knee() + "\n\n" + real_time() + in_time() + front() +
+                       "\n" + rest();
+    return text;
+  }
+
+ private:
+  static std::string percent(double part) { return rounded(100.0 * part) + " %"; }
+
+  [[nodiscard]] std::string error(std::size_t i) const {
+    return (verdict_.error[i] <= verdict_.floor ? "at most " : "") + percent(verdict_.error[i]);
+  }
+  [[nodiscard]] std::string cost(std::size_t i) const {
+    return rounded(verdict_.cost[i]) + " us per ms";
+  }
+  [[nodiscard]] std::string named(std::size_t i) const {
+    return "`" + name(i) + "` (" + error(i) + ", " + cost(i) + ")";
+  }
+  [[nodiscard]] std::string name(std::size_t i) const {
+    const Measurement& one = chart_.rows[i];
+    return one.variant.group == "base" && !one.model.empty() ? one.variant.name + " = " + one.model
+                                                             : one.variant.name;
+  }
+  [[nodiscard]] std::string how(std::size_t i) const {
+    return set_line(chart_.rows[i].variant.settings);
+  }
+  [[nodiscard]] std::string times(std::size_t dear, std::size_t cheap) const {
+    return rounded(verdict_.cost[dear] / verdict_.cost[cheap]) + " times";
+  }
+
+  [[nodiscard]] std::string within() const {
+    const std::string tolerance = percent(chart_.tolerance);
+    if (!verdict_.nearest) return "No variant could be compared with the reference.";
+    if (!verdict_.cheapest_within)
+      return (verdict_.floor > chart_.tolerance
+                  ? "The error of the reference is " + percent(verdict_.floor) +
+                        ", so that no variant can be shown to be within the tolerance of "
+                  : "No variant is within the tolerance of ") +
+             tolerance + "; nearest is " + named(*verdict_.nearest) + ": " +
+             how(*verdict_.nearest) + ".";
+    const std::size_t best = *verdict_.cheapest_within;
+    std::string text = "Within the tolerance of " + tolerance + ", the cheapest is " + named(best) +
+                       ": " + how(best);
+    if (!verdict_.taken) return text + "; what `auto` takes was not measured.";
+    const std::size_t taken = *verdict_.taken;
+    if (taken == best) return text + "; `auto` took it.";
+    text += "; `auto` took " + named(taken);
+    if (verdict_.error[taken] > chart_.tolerance) return text + ", which is outside.";
+    return text + ", at " + times(taken, best) + " the cost.";
+  }
+
+  [[nodiscard]] std::string at_knee() const {
+    if (!verdict_.knee)
+      return "The front has no knee: " + std::string(verdict_.front.size() < 3
+                                                         ? "fewer than three variants are on it."
+                                                         : "every step along it costs alike.");
+    const std::size_t knee = *verdict_.knee;
+    std::string text = "The knee is " + named(knee) + ": " + how(knee) + "; ";
+    for (const std::size_t i : verdict_.front)
+      if (verdict_.error[i] <= 0.5 * verdict_.error[knee])
+        return text + "to halve its error costs " + times(i, knee) + " as much: `" + name(i) +
+               "`, " + how(i) + ".";
+    return text + (verdict_.error[knee] < 2.0 * verdict_.floor
+                       ? "the reference is not accurate enough to show that a variant halves it."
+                       : "no variant halves its error.");
+  }
+
+  // The most accurate variant that is fast enough for a haptic device.
+  [[nodiscard]] std::string real_time() const {
+    std::optional<std::size_t> best;
+    for (const std::size_t i : verdict_.front)
+      if (verdict_.cost[i] <= real_time_cost) best = i;
+    if (!best) return "No variant runs in real time: each takes more than 1000 us per ms.\n\n";
+    return "In real time (1000 us per ms) the most accurate is " + named(*best) + ": " +
+           how(*best) + ".\n\n";
+  }
+
+  // The errors of integrators and time steps alone.
+  [[nodiscard]] std::string in_time() const {
+    double most = 0.0;
+    double floor = comparison_error;
+    std::vector<Tradeoff> tradeoffs(chart_.rows.size());
+    for (std::size_t i = 0; i < chart_.rows.size(); ++i) {
+      const Measurement& one = chart_.rows[i];
+      if (!one.time_error || verdict_.cost[i] <= 0.0) continue;
+      most = std::max(most, one.time_error->greatest);
+      floor = std::max(floor, one.time_floor);
+    }
+    for (std::size_t i = 0; i < chart_.rows.size(); ++i)
+      if (const auto& off = chart_.rows[i].time_error; off && verdict_.cost[i] > 0.0)
+        tradeoffs[i] = {verdict_.cost[i], std::max(off->greatest, floor)};
+    const std::vector<std::size_t> best = pareto_front(tradeoffs);
+    if (best.empty()) return "";
+    if (most <= floor)
+      return "Time integration alone (compared with `modal`, " + percent(floor) +
+             "): all integrators and steps give the same, because the force does not depend on the "
+             "motion of the mesh.\n\n";
+    std::string text = "Time integration alone, compared with `modal` (" + percent(floor) + "):";
+    for (const std::size_t i : best)
+      text += "\n- `" + chart_.rows[i].variant.name + "`, " + percent(tradeoffs[i].error) + ", " +
+              cost(i);
+    return text + "\n\n";
+  }
+
+  [[nodiscard]] std::string front() const {
+    std::string text =
+        "The front, from cheap to accurate:\n\n| variant | error | us per ms | set-up |\n"
+        "|---|---|---|---|\n";
+    for (const std::size_t i : verdict_.front)
+      text += "| `" + name(i) + "`" + (verdict_.knee == i ? " (knee)" : "") + " | " + error(i) +
+              " | " + rounded(verdict_.cost[i]) + " | " + rounded(median(chart_.rows[i].setups())) +
+              " s |\n";
+    return text;
+  }
+
+  [[nodiscard]] std::string rest() const {
+    std::string text;
+    for (const Status status : {Status::diverged, Status::not_run, Status::cannot}) {
+      std::string list;
+      int number = 0;
+      for (const Measurement& one : chart_.rows) {
+        if (one.status != status) continue;
+        ++number;
+        list += "- `" + one.variant.name + "`: " + one.note + "\n";
+      }
+      if (number > 0)
+        text += std::to_string(number) +
+                (status == Status::diverged  ? " diverged:\n\n"
+                 : status == Status::not_run ? " would take too long:\n\n"
+                                             : " cannot be computed:\n\n") +
+                list + "\n";
+    }
+    return text;
+  }
+
+  const CaseChart& chart_;
+  Verdict verdict_;
+};
+
+}  // namespace
+
+Verdict judge(const CaseChart& chart) {
+  Verdict verdict;
+  verdict.floor = std::max(chart.reference_error, comparison_error);
+  std::vector<Tradeoff> tradeoffs;
+  for (std::size_t i = 0; i < chart.rows.size(); ++i) {
+    const Measurement& one = chart.rows[i];
+    const bool known =
+        one.status == Status::measured && one.error.has_value() && !one.timings.empty();
+    verdict.cost.push_back(known ? median(one.costs()) : 0.0);
+    verdict.error.push_back(known ? std::max(one.error->greatest, verdict.floor) : 0.0);
+    tradeoffs.push_back({verdict.cost[i], verdict.error[i]});
+    if (known && one.variant.name == "auto") verdict.taken = i;
+    if (!known) continue;
+    const auto better = [&](const std::optional<std::size_t>& than, bool by_cost) {
+      if (!than) return true;
+      if (!by_cost && verdict.error[i] != verdict.error[*than])
+        return verdict.error[i] < verdict.error[*than];
+      return verdict.cost[i] < verdict.cost[*than];
+    };
+    if (verdict.error[i] <= chart.tolerance && better(verdict.cheapest_within, true))
+      verdict.cheapest_within = i;
+    if (better(verdict.nearest, false)) verdict.nearest = i;
+  }
+  verdict.front = pareto_front(tradeoffs);
+  std::vector<Tradeoff> front;
+  for (const std::size_t i : verdict.front) front.push_back(tradeoffs[i]);
+  if (const auto at = knee(front)) verdict.knee = verdict.front[*at];
+  return verdict;
+}
+
+record::Table chart_table(const std::vector<CaseChart>& charts) {
+  record::Table table{columns, {}};
+  for (const CaseChart& chart : charts) {
+    const Verdict verdict = judge(chart);
+    for (std::size_t i = 0; i < chart.rows.size(); ++i)
+      table.rows.push_back(row_of(chart, verdict, i));
+  }
+  return table;
+}
+
+std::string chart_text(const std::vector<CaseChart>& charts) {
+  std::string text;
+  for (const CaseChart& chart : charts) text += (text.empty() ? "" : "\n") + Speaker(chart).text();
+  return text;
+}
+
+std::string set_line(const std::vector<std::string>& settings) {
+  if (settings.empty()) return "as the scenario stands";
+  std::string text = "`";
+  for (const std::string& setting : settings) {
+    const bool plain = setting.find_first_of(" '\"[]{}*") == std::string::npos;
+    text += (text.size() > 1 ? " --set " : "--set ") + (plain ? setting : "\"" + setting + "\"");
+  }
+  return text + "`";
+}
+
+}  // namespace palpate::chart

@@ -1,0 +1,302 @@
+// Chooses and computes the reference solution of a case.
+#include "chart/truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "chart/extrapolation.h"
+#include "chart/reference.h"
+#include "contact/relaxation.h"
+#include "run/family.h"
+#include "scenario/programme.h"
+#include "scene/estimates.h"
+#include "scene/specimen_mesh.h"
+
+namespace palpate::chart {
+namespace {
+
+using Settings = std::vector<std::string>;
+using scenario::Model;
+
+// Refined meshes are not more accurate than this, in a thousand times the time: docs/accuracy.md.
+constexpr double refined_error = 0.03;
+constexpr double most_moments = 20.0;          // of a press without memory
+constexpr double most_moments_in_time = 50.0;  // of a press with viscosity or inertia
+
+class Finder {
+ public:
+  Finder(const Asked& asked, std::size_t of_case, const std::atomic<bool>& stop,
+         const std::function<void(const std::string&)>& told)
+      : asked_(asked),
+        case_(of_case),
+        one_(asked.family.cases[of_case]),
+        scenario_(scene::choose(one_).chosen),
+        stop_(stop),
+        told_(told) {}
+
+  std::optional<Truth> find() {
+    if (scenario_.uniform()) return uniform();
+    const scene::Estimates found = scene::estimate(scenario_);
+    if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
+      return half_space(found);
+    const double left_out = found.sides + found.inertia;
+    if (!scene::beyond(Model::layer, scenario_) && left_out <= refined_error) return layer(found);
+    if (!std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh)) return refined(found);
+    return on_the_mesh();
+  }
+
+ private:
+  // Runs the case with further settings; nothing if it was interrupted.
+  [[nodiscard]] std::optional<History> run(const Settings& settings) const {
+    const auto family = with_settings(asked_, case_, settings);
+    scene::Scene scene = scene::build(family.cases.front(), family);
+    nodes_ = scene.specimen ? scene.specimen->network.nodes() : 0;
+    scene.scenario.output.keep_rows_only();
+    const record::CaseRecord record = run::run_case(scene, stop_);
+    if (record.outcome == record::Outcome::interrupted) return std::nullopt;
+    if (record.outcome == record::Outcome::diverged)
+      throw MeshError("the reference of case " + asked_.family.cases[case_].name +
+                      " diverged: " + record.reason);
+    return history(scenario_, record);
+  }
+
+  std::optional<Truth> vouched(const char* kind, const std::string& sentence,
+                               const Settings& settings, double error) const {
+    auto moments = run(settings);
+    if (!moments) return std::nullopt;
+    for (Moment& moment : *moments) moment.error = error * std::abs(moment.value);
+    return Truth{kind, sentence + "; its own error is about " + percent_text(error), *moments};
+  }
+
+  std::optional<Truth> half_space(const scene::Estimates& found) const {
+    const bool deep = found.deep >= scenario_.solver.tolerance;
+    return vouched(
+        "closed form", deep ? "Hertz, times the factor of a deep press" : "Hertz",
+        {model_setting(Model::hertz), deep ? "contact.depth=neo_hookean" : "contact.depth=hertz"},
+        (deep ? contact::DeepLaw::error : found.deep) + found.inertia);
+  }
+
+  std::optional<Truth> layer(const scene::Estimates& found) const {
+    return vouched("closed form",
+                   "an infinite flat layer; the estimated effect of the sides is " +
+                       percent_text(found.sides) + ", that of inertia " +
+                       percent_text(found.inertia),
+                   {model_setting(Model::layer)}, found.sides + found.inertia);
+  }
+
+  // The estimated error of the strongest model, relative.
+  [[nodiscard]] double strongest_error() const {
+    const scene::Choice choice = scene::choose(one_);
+    const scene::Forecast* forecast = choice.forecast(scenario::strongest.of);
+    return forecast != nullptr ? forecast->error : 1.0;
+  }
+
+  std::optional<Truth> on_the_mesh() const {
+    return vouched("own mesh",
+                   "`coupled_springs` on the ready mesh, which cannot be refined, with the "
+                   "estimated error of this model",
+                   {model_setting(scenario::strongest.of),
+                    "solver.integrator=" + word_of(base_integrator(one_))},
+                   strongest_error());
+  }
+
+  std::optional<Truth> refined(const scene::Estimates& found) const {
+    // If the scenario's contact law is elastic, the mesh must be elastic too. This is decided with
+    // `consistent`, because with `resolved` the viscosity belongs to the mesh.
+    auto family = with_settings(asked_, case_, {"contact.coupling=consistent"});
+    scenario::Scenario& scenario = family.cases.front().scenario;
+    const bool flows = scenario::viscous_contact(scenario);
+    if (!flows) scenario.tissue.viscosity = tissue::Viscosity::none;
+    const bool in_time = flows || found.inertia >= scenario.solver.tolerance;
+    double& interval = scenario.output.interval;
+    const double wanted =
+        scenario::programme_time(scenario) / (in_time ? most_moments_in_time : most_moments);
+    interval *= std::max(1.0, std::ceil(wanted / interval));
+    const chart::Reference reference = chart::refer(family.cases.front(), family, 3, stop_, told_);
+    if (stop_.load()) return std::nullopt;
+    if (reference.diverged) throw MeshError("the reference diverged: " + *reference.diverged);
+    Truth truth{"refined", "", {}};
+    double turned = 0.0;
+    double peak = 0.0;
+    for (const chart::ReferenceRow& row : reference.rows) {
+      truth.moments.push_back({row.step, row.time, row.force, row.error});
+      peak = std::max(peak, row.force);
+      turned = std::max(turned, std::abs(row.by_sphere - 1.0) * row.force);
+    }
+    truth.sentence = "coupled springs on three meshes, extrapolated (`palpate reference`)";
+    const double own = own_error(scenario_, truth.moments).greatest;
+    truth.sentence += "; further refinement may change " + percent_text(own);
+    if (turned > 0.0 && peak > 0.0)
+      truth.sentence += ", and the choice of the pressure's direction at this depth " +
+                        percent_text(turned / peak) + ", which is not included";
+    return truth;
+  }
+
+  // Whether the strain is uniform in the whole specimen for every Poisson's ratio.
+  [[nodiscard]] bool even() const {
+    const auto& shape = scenario_.tissue.shape;
+    return (std::holds_alternative<scenario::Cuboid>(shape) ||
+            std::holds_alternative<scenario::Cylinder>(shape)) &&
+           !std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh) &&
+           scenario_.regions.empty() && scenario_.tissue.base == tissue::Base::frictionless &&
+           scenario_.tissue.viscosity != tissue::Viscosity::nodal_drag &&
+           scenario_.solver.kinematics == scenario::Solver::Kinematics::linear;
+  }
+
+  // Settings for coupled springs on a mesh of about `nodes` nodes, at least 8 (or on a ready mesh).
+  [[nodiscard]] Settings coupled(double nodes, const char* integrator) const {
+    Settings settings{model_setting(scenario::strongest.of),
+                      std::string("solver.integrator=") + integrator, "solver.volume=auto",
+                      "solver.substeps=auto", "solver.time_step=auto"};
+    if (std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh)) return settings;
+    const auto* box = std::get_if<scenario::Cuboid>(&scenario_.tissue.shape);
+    if (box == nullptr || !scene::all_slabs(scenario_)) {
+      settings.push_back("tissue.mesh={kind='tetgen',nodes=" + rounded_text(nodes, 6) + "}");
+      return settings;
+    }
+    // n cells have n + 1 nodes along a side.
+    const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / nodes);
+    std::string cells;
+    for (const double length : box->size)
+      cells +=
+          (cells.empty() ? "" : ",") + std::to_string(std::max(1L, std::lround(length / cell) - 1));
+    settings.push_back("tissue.mesh={kind='mirrored',cells=[" + cells + "]}");
+    return settings;
+  }
+
+  std::optional<Truth> uniform() const {
+    constexpr double few = 60.0;  // nodes; the modes of so small a mesh take no time
+    const bool drag = scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag;
+    double inertia = 1.0;
+    if (!drag) {
+      told_("effect of inertia");
+      const auto moving = run(coupled(few, "modal"));
+      const auto still = moving ? run(coupled(few, "quasi_static")) : std::nullopt;
+      if (!still) return std::nullopt;
+      const auto off = deviation(scenario_, *moving, without_starts(scenario_, *still));
+      inertia = off ? off->greatest : 1.0;
+    }
+    const bool moves = inertia > 0.5 * scenario_.solver.tolerance;
+    if (even() && !moves) return material(inertia);
+    return extrapolated(moves ? "modal" : "quasi_static", moves ? 0.0 : inertia);
+  }
+
+  // strain = s/E (J(t) - J(t - t_1)), J: creep compliance times E; stress = e E(t).
+  [[nodiscard]] Truth material(double inertia) const {
+    const double modulus = scenario_.tissue.young_modulus;
+    const tissue::ViscousLaw& law = scenario_.tissue.law;
+    contact::Relaxation relaxation;
+    relaxation.retardation_time = law.time;
+    for (const tissue::Branch& branch : law.branches)
+      relaxation.branches.push_back({branch.time, branch.ratio});
+    const contact::Creep creep = contact::creep(relaxation);
+    Truth truth{"closed form",
+                "the material's law between frictionless platens; its error is the effect of "
+                "inertia, " +
+                    percent_text(inertia),
+                {}};
+    constexpr int moments = 100;  // per step
+    for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
+      const int step = static_cast<int>(i) + 1;
+      const auto* creeps = std::get_if<scenario::Creep>(&scenario_.steps[i]);
+      const auto* relaxes = std::get_if<scenario::Relax>(&scenario_.steps[i]);
+      const double time =
+          creeps != nullptr ? creeps->load_time + creeps->recovery_time : relaxes->time;
+      for (int k = 1; k <= moments; ++k) {
+        const double t = time * k / moments;
+        double value = 0.0;
+        if (creeps != nullptr) {
+          value = creep.compliance_ratio(t);
+          if (t > creeps->load_time) value -= creep.compliance_ratio(t - creeps->load_time);
+          value *= creeps->stress / modulus;
+        } else {
+          value = relaxes->strain * modulus * relaxation.modulus_ratio(t);
+        }
+        truth.moments.push_back({step, start_of(scenario_, step) + t, value, 0.0});
+      }
+    }
+    for (Moment& moment : truth.moments) moment.error = inertia * std::abs(moment.value);
+    return truth;
+  }
+
+  std::optional<Truth> extrapolated(const char* integrator, double more) const {
+    const bool ready = std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh);
+    if (ready) return vouched_uniform(integrator, more);
+    std::vector<History> levels;
+    std::vector<double> spacings;
+    const double coarsest = integrator == std::string("modal") ? 40.0 : 150.0;
+    for (const double times : {1.0, 2.0, 4.0}) {
+      told_("level " + std::to_string(levels.size() + 1) + " of 3");
+      auto level = run(coupled(times * coarsest, integrator));
+      if (!level) return std::nullopt;
+      levels.push_back(without_starts(scenario_, *level));
+      spacings.push_back(1.0 / std::cbrt(static_cast<double>(nodes_)));
+    }
+    Truth truth{"refined", "", {}};
+    for (std::size_t i = 0; i < levels.back().size(); ++i) {
+      std::vector<double> values;
+      for (const History& level : levels) values.push_back(level[i].value);
+      const chart::Extrapolated found = chart::extrapolate(spacings, values);
+      const Moment& at = levels.back()[i];
+      truth.moments.push_back(
+          {at.step, at.time, found.value, found.error + more * std::abs(found.value)});
+    }
+    truth.sentence = std::string("coupled springs on three meshes by `") + integrator +
+                     "`, extrapolated; further refinement may change " +
+                     percent_text(own_error(scenario_, truth.moments).greatest);
+    return truth;
+  }
+
+  std::optional<Truth> vouched_uniform(const char* integrator, double more) const {
+    auto truth = vouched("own mesh", "`coupled_springs` on the ready mesh",
+                         coupled(0.0, integrator), strongest_error() + more);
+    if (truth) truth->moments = without_starts(scenario_, truth->moments);
+    return truth;
+  }
+
+  const Asked& asked_;
+  std::size_t case_;
+  const scenario::Case& one_;
+  const scenario::Resolved scenario_;
+  const std::atomic<bool>& stop_;
+  const std::function<void(const std::string&)>& told_;
+  mutable int nodes_ = 0;  // of the last run
+};
+
+}  // namespace
+
+std::optional<Truth> find_truth(const Asked& asked, std::size_t of_case,
+                                const std::atomic<bool>& stop,
+                                const std::function<void(const std::string&)>& told) {
+  return Finder(asked, of_case, stop, told).find();
+}
+
+std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
+                                     const std::atomic<bool>& stop) {
+  const double interval = coarsest_interval(asked.family.cases[variant.of_case].scenario);
+  std::vector<History> finer;
+  try {
+    for (const double step : {0.5e-3, 0.25e-3}) {
+      Settings settings = variant.settings;
+      settings.emplace_back("solver.integrator=modal");
+      settings.push_back("output.interval=" + number_text(1e3 * interval) + " ms");
+      settings.push_back("solver.substeps=" +
+                         number_text(std::max(1.0, std::round(interval / step))));
+      const auto family = with_settings(asked, variant.of_case, settings);
+      scene::Scene scene = scene::build(family.cases.front(), family);
+      scene.scenario.output.keep_rows_only();
+      const record::CaseRecord record = run::run_case(scene, stop);
+      if (record.outcome != record::Outcome::completed) return std::nullopt;
+      finer.push_back(without_starts(scene.scenario, history(scene.scenario, record)));
+    }
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  History best = finer.back();
+  for (std::size_t i = 0; i < best.size(); ++i)
+    best[i].error = std::abs(best[i].value - finer.front()[i].value);
+  return best;
+}
+
+}  // namespace palpate::chart

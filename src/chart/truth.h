@@ -1,0 +1,43 @@
+// The reference solution from which the errors of a chart are computed, with its own error.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "chart/design.h"
+#include "chart/history.h"
+
+namespace palpate::chart {
+
+struct Truth {
+  std::string kind;      // "closed form", "refined", "own mesh" or "modal", for the table
+  std::string sentence;  // description
+  History moments;       // with their errors
+};
+
+// Computes the best reference available for a case:
+//   a half-space            `hertz`, with the factor of deep presses if that matters
+//   a flat whose sides and  `layer`; its error is the estimated effect of sides and inertia
+//   inertia change less     (refined meshes are not more accurate)
+//   than 3 % of the force
+//   a uniform test between  the material's creep or relaxation; its error is the effect of inertia,
+//   slippery platens        computed by `modal` on a mesh of about 60 nodes
+//   any other press         chart::refer() with at most 20 moments (50 if viscosity or inertia
+//                           matters), on elastic tissue if the scenario's contact is elastic
+//   any other uniform test  coupled springs on three meshes, extrapolated, with inertia if needed
+//   a ready mesh            coupled springs on it; its error is the estimated error of the model
+// `told` is called with the stage. Nothing if `stop` was set before the end. Throws like
+// with_settings(), scene::build() and chart::refer(), and MeshError if a run diverges.
+[[nodiscard]] std::optional<Truth> find_truth(const Asked& asked, std::size_t of_case,
+                                              const std::atomic<bool>& stop,
+                                              const std::function<void(const std::string&)>& told);
+
+// The reference for errors of time integration: the variant's scenario by `modal` with substeps of
+// 1/4 ms, at the rows of coarsest_interval(); its error is the difference from substeps of 1/2 ms.
+// Nothing if `modal` cannot compute the scenario or `stop` was set.
+[[nodiscard]] std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
+                                                   const std::atomic<bool>& stop);
+
+}  // namespace palpate::chart

@@ -1,0 +1,53 @@
+// Comparison of two tables: which columns differ, and in which row most.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/tolerances.h"
+#include "record/table.h"
+
+namespace palpate::compare {
+
+// The row with the largest difference relative to the tolerance.
+struct WorstRow {
+  std::size_t row = 0;  // in GOT, counted from 1 below the header
+  record::Cell got = {};
+  record::Cell want = {};
+  double relative =
+      0.0;               // |got - want| / |want|; infinite unless both are finite and want is not 0
+  double allowed = 0.0;  // tolerance, abs + rel |want|
+};
+
+struct ColumnComparison {
+  enum class State { compared, ignored, missing, extra };
+
+  std::string name = {};
+  State state = State::compared;
+  std::size_t differing = 0;           // rows beyond the tolerance
+  std::optional<WorstRow> worst = {};  // empty if no row differs at all
+
+  [[nodiscard]] bool equal() const;
+};
+
+struct Comparison {
+  std::vector<ColumnComparison> columns = {};  // in WANT's order, then those only in GOT
+  std::size_t rows_got = 0;
+  std::size_t rows_want = 0;
+  bool rows_compared = true;  // row by row; false in a tube
+
+  [[nodiscard]] bool equal() const;
+};
+
+// Compares row by row, with columns identified by name, in any order. NaN equals NaN, an infinity
+// one of the same sign, a missing value a missing one; words must be identical. Missing and extra
+// rows and columns are differences, unless the column is ignored. With a tube, see tube.h.
+[[nodiscard]] Comparison compare(const record::Table& got, const record::Table& want,
+                                 const Tolerances& tolerances);
+
+// One line per column with its worst row; each line ends with `\n`.
+[[nodiscard]] std::string comparison_text(const Comparison& comparison);
+
+}  // namespace palpate::compare

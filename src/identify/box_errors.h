@@ -1,0 +1,34 @@
+// Standard errors and correlations of the unknowns at a minimum, and which of them are tied.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "identify/identify.h"
+
+namespace palpate::identify {
+
+// A direction of the box is loose, that is, not determined, if its interval at 95 % (Student's t)
+// extends by more than half the box to either side. An unknown is tied if a loose direction changes
+// it by more than its error. The covariance is that of the directions which are determined.
+struct BoxErrors {
+  std::vector<double> covariance;          // of u, row by row
+  std::vector<char> tied;                  // one per unknown
+  std::vector<std::vector<double>> loose;  // unit vectors
+  int determined = 0;                      // number of directions that are not loose
+
+  [[nodiscard]] double variance(std::size_t i, std::size_t j) const {
+    return covariance[i * tied.size() + j];
+  }
+};
+// `jacobian`: derivatives of the weighted residuals with respect to u, one row per point. `sigma`:
+// standard deviation of these residuals. `t`: Student's quantile.    docs/theory.md (89), (90)
+[[nodiscard]] BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
+                                   double sigma, double t);
+
+// The combination of the tied unknowns that the data determine; nothing unless there is just one.
+[[nodiscard]] std::optional<Combination> combination(const BoxErrors& errors,
+                                                     std::span<const Unknown> unknowns,
+                                                     std::span<const double> u, double t);
+
+}  // namespace palpate::identify

@@ -1,0 +1,120 @@
+// Chooses the model by its estimated errors at the corners of the box.
+#include "identify/fixed_rung.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "contact/deep.h"
+#include "scene/scene.h"
+
+namespace palpate::identify {
+namespace {
+
+// The middle of the box, then its corners; for more than 5 unknowns the ends of each one alone.
+std::vector<std::vector<double>> places(std::size_t unknowns) {
+  std::vector<std::vector<double>> all{std::vector<double>(unknowns, 0.5)};
+  constexpr std::size_t most_for_corners = 5;
+  if (unknowns > most_for_corners) {
+    for (std::size_t i = 0; i < unknowns; ++i)
+      for (const double end : {0.0, 1.0}) {
+        all.push_back(all.front());
+        all.back()[i] = end;
+      }
+    return all;
+  }
+  for (std::size_t corner = 0; corner < (std::size_t{1} << unknowns); ++corner) {
+    all.emplace_back(unknowns);
+    for (std::size_t i = 0; i < unknowns; ++i) all.back()[i] = (corner >> i & 1U) != 0 ? 1.0 : 0.0;
+  }
+  return all;
+}
+
+double error_of(const scene::Choice& choice, scenario::Model model) {
+  const scene::Forecast* forecast = choice.forecast(model);
+  return forecast != nullptr ? forecast->error : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+scenario::Case FixedRung::at(std::span<const Unknown> unknowns,
+                             std::span<const double> values) const {
+  scenario::Case other = one;
+  set_unknowns(other.scenario, unknowns, values);
+  return other;
+}
+
+FixedRung fix_rung(const scenario::Case& one, const Node& document,
+                   std::span<const Unknown> unknowns) {
+  const scenario::Scenario& scenario = one.scenario;
+  FixedRung fixed{.one = one};
+  std::vector<scene::Choice> choices;
+  std::vector<Problem> wrong;
+  // Creep and relaxation tests measure the flow of a specimen, so that its waves are left out; the
+  // caller checks this afterwards with inertia_of_flow().
+  const bool still_flow = scenario.uniform() &&
+                          scenario.tissue.viscosity != tissue::Viscosity::nodal_drag &&
+                          scenario.tissue.viscosity != tissue::Viscosity::none;
+  bool deep_known = true;  // the factor of deep presses exists for every Poisson's ratio tried
+  for (const std::vector<double>& u : places(unknowns.size())) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < u.size(); ++i) values.push_back(unknowns[i].value(u[i]));
+    const scenario::Case at = fixed.at(unknowns, values);
+    std::vector<Problem> problems;
+    scenario::check(at, document, problems);
+    deep_known = deep_known && contact::deep_law(scenario::poisson_ratio(at)).has_value();
+    if (problems.empty())
+      choices.push_back(scene::choose(at));
+    else if (wrong.empty())
+      wrong = problems;
+  }
+  if (choices.empty()) throw InputError(wrong);
+
+  fixed.given = choices.front().given;
+  fixed.model = choices.front().chosen.solver.model;
+  double best = std::numeric_limits<double>::infinity();
+  for (const scene::Forecast& rung : choices.front().rungs) {  // cheapest first
+    if (fixed.given || best <= scenario.solver.tolerance) break;
+    double worst = 0.0;
+    for (const scene::Choice& choice : choices)
+      worst = std::max(worst, error_of(choice, rung.model));
+    if (worst >= best) continue;
+    best = worst;
+    fixed.model = rung.model;
+  }
+  scenario::Found found{.viscosity_matters = false, .inertia_matters = false};
+  for (const scene::Choice& choice : choices) {
+    if (!choice.rungs.empty())
+      fixed.worst_error = std::max(fixed.worst_error, error_of(choice, fixed.model));
+    found.viscosity_matters |= choice.found.viscosity_matters;
+    found.inertia_matters |= choice.found.inertia_matters;
+    found.depth_matters |= choice.found.depth_matters;
+  }
+  if (!fixed.given && still_flow) found.inertia_matters = false;
+  found.depth_matters = found.depth_matters && deep_known;
+  fixed.one.scenario = scenario::answered(one, scenario::resolve(one, fixed.model, found));
+  return fixed;
+}
+
+// 1 / (omega_1 tau)^2, omega_1 = pi sqrt(E / rho) / (2 H)                     docs/theory.md (55)
+std::optional<double> inertia_of_flow(const scenario::Resolved& scenario) {
+  const scenario::Resolved::Tissue& tissue = scenario.tissue;
+  const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
+  const bool voigt = tissue.viscosity == tissue::Viscosity::kelvin_voigt;
+  const bool solid = tissue.viscosity == tissue::Viscosity::standard_linear_solid;
+  if (box == nullptr || (!voigt && !solid) || !scenario.uniform()) return std::nullopt;
+  const double time = voigt ? tissue.law.time : tissue.law.longest_time();
+  const double speed = std::sqrt(tissue.young_modulus / tissue.density);
+  const double turns = std::numbers::pi * speed / (2.0 * box->size[2]) * time;
+  return 1.0 / (turns * turns);
+}
+
+std::optional<double> predicted_error(const scenario::Case& fixed) {
+  const scene::Choice choice = scene::choose(fixed);
+  const scene::Forecast* rung = choice.taken();
+  return rung == nullptr ? std::nullopt : std::optional(rung->error);
+}
+
+}  // namespace palpate::identify

@@ -1,0 +1,390 @@
+// Search, errors, profiles and warnings for a prepared measurement.
+#include "identify/identify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "fit/student.h"
+#include "identify/box_errors.h"
+#include "identify/box_profile.h"
+#include "identify/fixed_rung.h"
+#include "identify/prepare_curve.h"
+#include "identify/residual_tests.h"
+#include "identify/search_starts.h"
+#include "scenario/integrators.h"
+
+namespace palpate::identify {
+namespace {
+
+constexpr double edge = 1e-6;  // of the box; a best fit this close to a bound counts as on it
+constexpr double high_correlation = 0.95;
+constexpr double disagreement = 0.2;  // of an interval's half width
+
+double median_spacing(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (x[i] > x[i - 1]) steps.push_back(x[i] - x[i - 1]);
+  if (steps.empty()) return 0.0;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                   steps.end());
+  return steps[steps.size() / 2];
+}
+
+class Search {
+ public:
+  Search(const Measurement& measured, const scenario::Family& family,
+         const std::vector<Unknown>& unknowns, const std::atomic<bool>& stop,
+         const IdentifyOptions& options)
+      : measured_(measured), family_(family), unknowns_(unknowns), stop_(stop), options_(options) {}
+
+  Identification all() {
+    const scenario::Case& asked = family_.cases.front();
+    PreparedCurve prepared = prepare_curve(measured_, family_, unknowns_, stop_, options_.noise);
+    found_.kind = prepared.curve->kind();
+    found_.given = prepared.given;
+    found_.rung = prepared.curve->fixed().solver.model;
+    found_.worst_error = prepared.worst_error;
+    found_.x = std::move(prepared.x);
+    found_.measured = std::move(prepared.measured);
+    found_.left_out = prepared.left_out;
+    found_.notes = std::move(prepared.notes);
+    weights_ = std::move(prepared.weights);
+    curve_ = std::move(prepared.curve);
+    make_problem();
+    refuse_what_changes_nothing();
+    find_best();
+    judge();
+    if (options_.profiles) {
+      profiles();
+      sensitivity();
+    }
+    conclude(asked);
+    return found_;
+  }
+
+ private:
+  void make_problem() {
+    problem_.unknowns = unknowns_.size();
+    problem_.curve = [this](std::span<const double> u, std::span<double> values) {
+      if (stop_.load()) return false;
+      if (closed_) {
+        closed::values(*closed_, u.data(), values.data());
+        return true;
+      }
+      return curve_->evaluate(u, values);
+    };
+    // A model that the scenario names is run: the formula of a uniform test only approximates it.
+    closed_ = curve_->closed();
+    if (closed_ && found_.given && found_.kind != CurveKind::force_travel) closed_.reset();
+    if (closed_) problem_.closed = &*closed_;
+    problem_.slopes = options_.slopes;
+    problem_.measured = found_.measured;
+    problem_.weights = weights_;
+    found_.closed_form = closed_.has_value();
+  }
+
+  bool values_at(std::span<const double> u, std::vector<double>& values) {
+    values.resize(found_.x.size());
+    ++found_.evaluations;
+    return problem_.curve(u, values);
+  }
+
+  void refuse_what_changes_nothing() {
+    std::vector<double> low, high;
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      for (const double from : {0.5, 0.25, 0.75}) {
+        std::vector<double> u(unknowns_.size(), from);
+        u[i] = 0.1;
+        if (!values_at(u, low)) continue;
+        u[i] = 0.9;
+        if (!values_at(u, high)) continue;
+        double most = 0.0;
+        for (std::size_t k = 0; k < low.size(); ++k)
+          most = std::max(most, std::abs(high[k] - low[k]) * weights_[k]);
+        if (most > 1e-9) break;
+        refuse("`--unknown " + unknowns_[i].key + "` changes nothing in what `" + model_word() +
+               "` computes of " + words_of(found_.kind).sentence +
+               "; leave it out, or set what makes it count (`palpate explain " + unknowns_[i].key +
+               "`)");
+      }
+    }
+  }
+
+  [[nodiscard]] std::string model_word() const { return scenario::rung(found_.rung).word; }
+
+  void find_best() {
+    const SearchResult result = search_from_several(problem_, options_.searches);
+    found_.evaluations += result.evaluations;
+    refuse_if_interrupted();
+    if (!result.best.found)
+      refuse("the search found no fit: " + (curve_->failure().empty()
+                                                ? "the curve cannot be evaluated in the ranges"
+                                                : curve_->failure()));
+    best_ = result.best;
+    found_.model.resize(found_.x.size());
+    (void)values_at(best_.u, found_.model);
+    refuse_if_interrupted();
+  }
+
+  // After an interrupt the curve cannot be evaluated, and what was computed since is wrong.
+  void refuse_if_interrupted() const {
+    if (stop_.load()) refuse("interrupted");
+  }
+
+  void judge() {
+    const std::size_t n = unknowns_.size();
+    const double degrees = static_cast<double>(found_.x.size() - n);
+    sigma_ = std::max(std::sqrt(best_.squares / degrees), 1e-12);
+    t_ = fit::student_t_quantile(0.975, degrees);
+    errors_ = box_errors(best_.jacobian, n, sigma_, t_);
+    std::vector<char> moving(n, 1);
+    for (std::size_t i = 0; i < n; ++i) {
+      Identified one;
+      one.unknown = unknowns_[i];
+      one.u = best_.u[i];
+      one.estimate = unknowns_[i].value(best_.u[i]);
+      const bool on_edge = best_.u[i] < edge || best_.u[i] > 1.0 - edge;
+      one.tied = errors_.tied[i] != 0 && !(n == 1 && on_edge);
+      one.at_bound = !one.tied && on_edge;
+      moving[i] = one.at_bound ? 0 : 1;
+      found_.unknowns.push_back(one);
+    }
+    // Unknowns at a bound are held there for the errors of the others.
+    if (std::count(moving.begin(), moving.end(), 0) > 0) errors_ = errors_of(moving);
+    for (std::size_t i = 0; i < n; ++i) set_interval(i);
+    if (const auto combined = combination(errors_, unknowns_, best_.u, t_))
+      found_.combinations.push_back(*combined);
+    set_correlation();
+    refuse_the_undetermined();
+  }
+
+  // Errors of the `moving` unknowns alone; the others get no variance.
+  [[nodiscard]] BoxErrors errors_of(const std::vector<char>& moving) const {
+    const std::size_t n = moving.size();
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < n; ++i)
+      if (moving[i] != 0) places.push_back(i);
+    BoxErrors all;
+    all.covariance.assign(n * n, 0.0);
+    all.tied.assign(n, 0);
+    if (places.empty()) return all;
+    std::vector<double> slopes;
+    for (std::size_t row = 0; row < found_.x.size(); ++row)
+      for (const std::size_t i : places) slopes.push_back(best_.jacobian[row * n + i]);
+    const BoxErrors some = box_errors(slopes, places.size(), sigma_, t_);
+    for (std::size_t a = 0; a < places.size(); ++a) {
+      all.tied[places[a]] = some.tied[a];
+      for (std::size_t b = 0; b < places.size(); ++b)
+        all.covariance[places[a] * n + places[b]] = some.covariance[a * places.size() + b];
+    }
+    for (const std::vector<double>& direction : some.loose) {
+      all.loose.emplace_back(n, 0.0);
+      for (std::size_t a = 0; a < places.size(); ++a) all.loose.back()[places[a]] = direction[a];
+    }
+    all.determined = some.determined;
+    return all;
+  }
+
+  void set_interval(std::size_t i) {
+    Identified& one = found_.unknowns[i];
+    one.tied = one.tied || errors_.tied[i] != 0;
+    if (one.tied || one.at_bound) return;
+    const double error = std::sqrt(errors_.variance(i, i));
+    one.std_error = error * unknowns_[i].slope(one.u);
+    // The interval is symmetric in u: on a logarithmic scale it is a factor up and down.
+    one.ci95_low = unknowns_[i].value(one.u - t_ * error);
+    one.ci95_high = unknowns_[i].value(one.u + t_ * error);
+  }
+
+  void set_correlation() {
+    const std::size_t n = unknowns_.size();
+    found_.correlation.assign(n * n, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        const double product = errors_.variance(i, i) * errors_.variance(j, j);
+        if (!found_.unknowns[i].tied && !found_.unknowns[j].tied && product > 0.0)
+          found_.correlation[i * n + j] = errors_.variance(i, j) / std::sqrt(product);
+      }
+  }
+
+  void refuse_the_undetermined() const {
+    const auto& all = found_.unknowns;
+    if (std::all_of(all.begin(), all.end(), [](const auto& one) { return one.at_bound; }))
+      refuse("the best fit lies at the edge of the range of " +
+             std::string(all.size() == 1 ? ticked(all.front().unknown.key) : "every `--unknown`") +
+             ", so that the answer is outside; widen the range, or mend the scenario");
+    const bool some = std::any_of(all.begin(), all.end(),
+                                  [](const auto& one) { return !one.tied && !one.at_bound; });
+    if (!some && found_.combinations.empty())
+      refuse(
+          "these data cannot tell " +
+          std::string(all.size() == 1 ? ticked(all.front().unknown.key) : "any of the unknowns") +
+          " to better than half of the range; record a longer or less noisy curve, or leave out "
+          "an `--unknown`");
+  }
+
+  void profiles() {
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      Identified& one = found_.unknowns[i];
+      const Profile got = one.tied ? profile_over_box(problem_, best_, i)
+                                   : profile(problem_, best_, i, errors_.covariance, sigma_, t_);
+      refuse_if_interrupted();
+      found_.evaluations += got.evaluations;
+      for (const Profile::Point& point : got.points)
+        found_.profile.push_back({i, unknowns_[i].value(point.u), point.squares,
+                                  (point.squares - best_.squares) / (sigma_ * sigma_)});
+      if (one.tied) continue;
+      if (got.low) one.profile_low = unknowns_[i].value(*got.low);
+      if (got.high) one.profile_high = unknowns_[i].value(*got.high);
+      one.by_profile = trusts_profile(i, got);
+      if (!got.low && !got.high) {
+        one.tied = true;  // every value in its range fits
+        one.std_error = one.ci95_low = one.ci95_high = std::nullopt;
+      }
+    }
+    set_correlation();
+    refuse_the_undetermined();
+  }
+
+  [[nodiscard]] bool trusts_profile(std::size_t i, const Profile& got) const {
+    const Identified& one = found_.unknowns[i];
+    if (one.at_bound || !got.low || !got.high) return true;
+    const double half = t_ * std::sqrt(errors_.variance(i, i));
+    const bool differ = std::abs(one.u - *got.low - half) > disagreement * half ||
+                        std::abs(*got.high - one.u - half) > disagreement * half;
+    for (std::size_t j = 0; j < unknowns_.size(); ++j) {
+      const double with = found_.correlation[i * unknowns_.size() + j];
+      if (j != i && std::abs(with) > high_correlation) return true;
+    }
+    return differ;
+  }
+
+  // Repeats the fit with the contact point moved a little earlier and later.
+  void sensitivity() {
+    const std::size_t n = unknowns_.size();
+    std::vector<char> held(n, 0);
+    std::size_t contact = n;
+    for (std::size_t i = 0; i < n; ++i)
+      if (unknowns_[i].what == Unknown::What::contact_point) contact = i;
+    found_.contact_shift = median_spacing(found_.x);
+    if (contact < n) {
+      if (!found_.unknowns[contact].std_error || n == 1) return;
+      held[contact] = 1;
+      found_.contact_shift = *found_.unknowns[contact].std_error;
+    }
+    for (const double sign : {-1.0, 1.0}) {
+      std::vector<double> start = best_.u;
+      const double shift = sign * found_.contact_shift;
+      if (contact < n)
+        start[contact] = std::clamp(
+            unknowns_[contact].inverse(found_.unknowns[contact].estimate + shift), 0.0, 1.0);
+      else
+        shift_points(shift);
+      const BoxMinimum moved = minimise_in_box(problem_, start, held, Want::squares);
+      refuse_if_interrupted();
+      if (contact == n) shift_points(0.0);
+      found_.evaluations += moved.evaluations;
+      if (!moved.found) continue;
+      for (std::size_t i = 0; i < n; ++i) {
+        Identified& one = found_.unknowns[i];
+        if (one.tied || i == contact) continue;
+        (sign < 0.0 ? one.moved_down : one.moved_up) =
+            unknowns_[i].value(moved.u[i]) - one.estimate;
+      }
+    }
+  }
+
+  void shift_points(double shift) {
+    curve_->set_shift(shift);
+    if (closed_)
+      for (std::size_t i = 0; i < found_.x.size(); ++i) closed_->x[i] = found_.x[i] - shift;
+  }
+
+  void conclude(const scenario::Case& asked) {
+    const std::size_t n = found_.x.size();
+    double mean = 0.0;
+    for (const double y : found_.measured) mean += y;
+    mean /= static_cast<double>(n);
+    double squares = 0.0;
+    double total = 0.0;
+    std::vector<double> weighted;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double residual = found_.measured[i] - found_.model[i];
+      weighted.push_back(residual * weights_[i]);
+      squares += residual * residual;
+      total += (found_.measured[i] - mean) * (found_.measured[i] - mean);
+    }
+    found_.rmse = std::sqrt(squares / static_cast<double>(n));
+    found_.r2 = 1.0 - squares / total;
+    const double range = 1.0 / weights_.front();
+    found_.noise = options_.noise == Noise::constant ? sigma_ * range : sigma_;
+    found_.durbin_watson = durbin_watson(weighted);
+    found_.runs_z = runs_z(weighted);
+
+    std::vector<double> values;
+    for (const Identified& one : found_.unknowns) values.push_back(one.estimate);
+    const scenario::Case at = curve_->at(values);
+    found_.predicted_error =
+        found_.closed_form && asked.scenario.uniform() ? std::nullopt : predicted_error(at);
+    found_.scenario = scenario::answered(asked, curve_->fixed());
+    set_unknowns(found_.scenario, unknowns_, values);
+    for (const Identified& one : found_.unknowns)
+      if (one.unknown.what == Unknown::What::force_offset)
+        found_.scenario.contact.ambient_force += one.estimate;
+    warn(weighted, scenario::resolve(at, found_.rung));
+  }
+
+  void warn(const std::vector<double>& weighted, const scenario::Resolved& with) {
+    // Systematic residuals below a thousandth of the curve come from interpolation.
+    if (systematic(weighted) && sigma_ > 1e-3)
+      found_.warnings.push_back(
+          "the model does not describe the data: neighbouring residuals are correlated "
+          "(Durbin-Watson " +
+          rounded_text(found_.durbin_watson, 3) +
+          ", noise gives 2), so that the estimates are biased and their intervals too narrow");
+    for (const Identified& one : found_.unknowns)
+      if (one.at_bound)
+        found_.warnings.push_back("the best `" + one.unknown.key +
+                                  "` is on the edge of its "
+                                  "range; widen the range, or hold it there with `--set`");
+    if (found_.predicted_error && *found_.predicted_error > with.solver.tolerance)
+      found_.warnings.push_back("the estimated error of `" + model_word() + "` is " +
+                                percent_text(*found_.predicted_error) +
+                                " here, and the estimates are wrong by about as much" +
+                                (found_.given ? "; leave `solver.model` to `auto`" : ""));
+    const auto waves = inertia_of_flow(with);
+    if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
+      found_.warnings.push_back(
+          "waves in the specimen change its deformation by about " + percent_text(*waves) +
+          " and are left out; set `solver.integrator = \"central_difference\"`");
+  }
+
+  const Measurement& measured_;
+  const scenario::Family& family_;
+  const std::vector<Unknown>& unknowns_;
+  const std::atomic<bool>& stop_;
+  const IdentifyOptions& options_;
+  std::unique_ptr<ScenarioCurve> curve_;
+  std::optional<ClosedCurve> closed_;
+  std::vector<double> weights_;
+  BoxProblem problem_;
+  BoxMinimum best_;
+  BoxErrors errors_;
+  double sigma_ = 0.0;  // of the weighted residuals
+  double t_ = 0.0;
+  Identification found_;
+};
+
+}  // namespace
+
+Identification identify(const Measurement& measured, const scenario::Family& family,
+                        const std::vector<Unknown>& unknowns, const std::atomic<bool>& stop,
+                        const IdentifyOptions& options) {
+  return Search(measured, family, unknowns, stop, options).all();
+}
+
+}  // namespace palpate::identify

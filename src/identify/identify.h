@@ -1,0 +1,92 @@
+// Tissue properties from a measured curve: estimates, intervals, and unknowns that are tied.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identify/box_search.h"
+#include "identify/scenario_curve.h"
+
+namespace palpate::identify {
+
+enum class Noise {
+  constant,  // the same standard deviation at all points
+  relative,  // proportional to the value, but at least that of a hundredth of the largest value
+};
+
+struct IdentifyOptions {
+  Noise noise = Noise::constant;
+  Slopes slopes = Slopes::automatic;
+  int searches = 3;      // from different starts
+  bool profiles = true;  // computes profile likelihoods and the sensitivity to the contact point
+};
+
+// The result for one unknown, SI. An empty optional means that the value was not determined.
+struct Identified {
+  Unknown unknown;
+  double u = 0.0;         // at the best fit
+  bool tied = false;      // the data do not determine this unknown by itself
+  bool at_bound = false;  // the best fit is on the edge of its range
+  double estimate = 0.0;  // the best fit; needed for tied unknowns too, to repeat the curve
+  std::optional<double> std_error;
+  std::optional<double> ci95_low, ci95_high;        // Student's t, docs/theory.md (89)
+  std::optional<double> profile_low, profile_high;  // nothing: the interval is open on this side
+  bool by_profile = false;                          // trusted() returns the profile's interval
+  std::optional<double> moved_down, moved_up;  // change if x = 0 moves down, up by contact_shift
+};
+
+// A combination of tied unknowns that the data determine: E / (1 - nu^2), a product of powers or,
+// if a lower bound is not positive, a weighted sum.
+struct Combination {
+  std::string text;             // formula in the keys' names
+  std::vector<std::size_t> of;  // indices of the unknowns
+  std::string unit;             // of the numbers below
+  double estimate = 0.0;
+  double std_error = 0.0;
+  double ci95_low = 0.0, ci95_high = 0.0;
+};
+
+struct ProfilePoint {
+  std::size_t unknown = 0;  // index
+  double value = 0.0;       // SI
+  double squares = 0.0;     // least sum of squared weighted residuals at this value
+  double delta = 0.0;       // its excess over that of the best fit, in variances of the noise
+};
+
+struct Identification {
+  CurveKind kind = CurveKind::force_travel;
+  scenario::Scenario scenario;  // whole programme, every `auto` resolved, with the estimates
+  scenario::Model rung = scenario::Model::hertz;
+  bool given = false;                     // the scenario names the model
+  std::optional<double> predicted_error;  // estimated relative error of the model at the estimates
+  double worst_error = 0.0;               // the largest estimate over the ranges
+  bool closed_form = false;
+  std::vector<Identified> unknowns;
+  std::vector<Combination> combinations;
+  std::vector<double> correlation;  // row by row; NaN for unknowns that are tied or at a bound
+  std::vector<double> x, measured, model;  // SI, of the points used
+  std::vector<ProfilePoint> profile;
+  double rmse = 0.0;   // SI
+  double r2 = 0.0;     // docs/theory.md (53)
+  double noise = 0.0;  // standard deviation, SI; relative noise: a ratio
+  double durbin_watson = 2.0;
+  double runs_z = 0.0;
+  double contact_shift = 0.0;         // SI of x; moves the contact point for moved_down, moved_up
+  int left_out = 0;                   // measured points that were not used
+  int evaluations = 0;                // of the model
+  std::vector<std::string> notes;     // sentences
+  std::vector<std::string> warnings;  // sentences
+};
+
+// Fits the family's first case to the measurement, on one thread and deterministically. Throws
+// InputError for fewer points than unknowns plus one, a constant curve, an unknown that changes
+// nothing in the chosen model, ranges in which the scenario cannot be run, a best fit at the edge
+// of all ranges, data that determine nothing, and `stop` set before the end.
+[[nodiscard]] Identification identify(const Measurement& measured, const scenario::Family& family,
+                                      const std::vector<Unknown>& unknowns,
+                                      const std::atomic<bool>& stop,
+                                      const IdentifyOptions& options = {});
+
+}  // namespace palpate::identify

@@ -1,0 +1,154 @@
+// Chooses the points that are used, the model, and the weights of the residuals.
+#include "identify/prepare_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "identify/fixed_rung.h"
+#include "identify/search_starts.h"
+
+namespace palpate::identify {
+namespace {
+
+class Preparation {
+ public:
+  Preparation(const Measurement& measured, const scenario::Family& family,
+              const std::vector<Unknown>& unknowns)
+      : measured_(measured), family_(family), unknowns_(unknowns) {}
+
+  PreparedCurve all(const std::atomic<bool>& stop, Noise noise) {
+    const scenario::Case& asked = family_.cases.front();
+    kind_ = curve_of(measured_, asked.scenario, unknowns_);
+    check_pseudo_keys();
+    choose_rung(asked, stop);
+    choose_points();
+    weigh(noise);
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] const Unknown* unknown_of(Unknown::What what) const {
+    for (const Unknown& one : unknowns_)
+      if (one.what == what) return &one;
+    return nullptr;
+  }
+
+  void check_pseudo_keys() {
+    if (unknown_of(Unknown::What::contact_point) != nullptr && kind_ != CurveKind::force_travel)
+      refuse("`--unknown contact_point` shifts a travel, and this curve is " +
+             std::string(words_of(kind_).sentence) + "; give force over travel, or leave it out");
+    if (unknown_of(Unknown::What::force_offset) != nullptr &&
+        (kind_ == CurveKind::strain_time || kind_ == CurveKind::stress_time))
+      refuse("`--unknown force_offset` is added to a force, and this curve is " +
+             std::string(words_of(kind_).sentence) + "; leave it out");
+  }
+
+  void choose_rung(scenario::Case asked, const std::atomic<bool>& stop) {
+    const Unknown* contact = unknown_of(Unknown::What::contact_point);
+    double farthest = 0.0;
+    for (const double x : measured_.x) farthest = std::max(farthest, x);
+    farthest -= contact != nullptr ? contact->low : 0.0;
+    asked.scenario = part_for(kind_, asked.scenario, farthest);
+    const FixedRung rung = fix_rung(asked, family_.document, unknowns_);
+    found_.given = rung.given;
+    found_.worst_error = rung.worst_error;
+    found_.curve = std::make_unique<ScenarioCurve>(kind_, rung, family_, unknowns_, stop);
+  }
+
+  void note_left_out(int points, const std::string& why) {
+    if (points == 0) return;
+    found_.left_out += points;
+    found_.notes.push_back(std::to_string(points) + (points == 1 ? " point is" : " points are") +
+                           " left out: " + why);
+  }
+
+  // Takes the points up to the end of the programme, which is run at the first of the search's
+  // starts where it can be (the middle of the box, if possible).
+  void choose_points() {
+    std::optional<ScenarioCurve::Rows> rows;
+    std::string failure;
+    for (const std::vector<double>& u : search_starts(unknowns_.size())) {
+      std::vector<double> values;
+      for (std::size_t i = 0; i < u.size(); ++i) values.push_back(unknowns_[i].value(u[i]));
+      rows = found_.curve->rows(values);
+      if (rows) break;
+      if (failure.empty()) failure = found_.curve->failure();
+    }
+    if (!rows)
+      refuse("the scenario cannot be run anywhere in the ranges of `--unknown`: " + failure);
+    const Unknown* contact = unknown_of(Unknown::What::contact_point);
+    const double end = rows->x.back() * (1.0 + 1e-9) + (contact != nullptr ? contact->low : 0.0);
+    const bool travel = kind_ == CurveKind::force_travel;
+    // If the finger withdraws, only the points up to the deepest travel are used.
+    std::size_t count = measured_.x.size();
+    if (travel && count > 0) {
+      const auto [least, most] = std::minmax_element(measured_.x.begin(), measured_.x.end());
+      const double back = *most - 0.1 * (*most - *least);
+      if (std::any_of(most, measured_.x.end(), [&](double x) { return x < back; }))
+        count = as_index(most - measured_.x.begin()) + 1;
+      note_left_out(static_cast<int>(measured_.x.size() - count),
+                    "the way back from the deepest travel");
+    }
+    int beyond = 0;
+    int before = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = measured_.x[i];
+      if (x > end)
+        ++beyond;
+      else if (!travel && x < 0.0)
+        ++before;
+      else {
+        found_.x.push_back(x);
+        found_.measured.push_back(measured_.y[i]);
+      }
+    }
+    const CurveWords& words = words_of(kind_);
+    note_left_out(beyond, "beyond the programme, which ends at " +
+                              rounded_text(words.x.from_si(rows->x.back())) + " " + words.x.symbol +
+                              " (lengthen it, for example with `--set step.1.to=...`)");
+    note_left_out(before, "before the programme begins, at 0 " + std::string(words.x.symbol));
+    refuse_poor_data();
+    found_.curve->set_points(found_.x);
+  }
+
+  void refuse_poor_data() const {
+    const std::size_t points = found_.x.size();
+    if (points <= unknowns_.size())
+      refuse(std::to_string(points) + (points == 1 ? " usable point" : " usable points") +
+             " cannot determine " + std::to_string(unknowns_.size()) +
+             (unknowns_.size() == 1 ? " unknown" : " unknowns") +
+             " and the noise; record more points, or leave out an `--unknown`");
+    const auto [least, most] = std::minmax_element(found_.measured.begin(), found_.measured.end());
+    if (*least == *most)
+      refuse("`" + measured_.y_name +
+             "` is the same at every point, which determines no property; name another column with "
+             "`--y`");
+  }
+
+  void weigh(Noise noise) {
+    const auto [least, most] = std::minmax_element(found_.measured.begin(), found_.measured.end());
+    const double range = *most - *least;
+    const double largest = std::max(std::abs(*least), std::abs(*most));
+    for (const double y : found_.measured)
+      found_.weights.push_back(
+          noise == Noise::constant ? 1.0 / range : 1.0 / std::max(std::abs(y), 0.01 * largest));
+  }
+
+  const Measurement& measured_;
+  const scenario::Family& family_;
+  const std::vector<Unknown>& unknowns_;
+  CurveKind kind_ = CurveKind::force_travel;
+  PreparedCurve found_;
+};
+
+}  // namespace
+
+PreparedCurve prepare_curve(const Measurement& measured, const scenario::Family& family,
+                            const std::vector<Unknown>& unknowns, const std::atomic<bool>& stop,
+                            Noise noise) {
+  return Preparation(measured, family, unknowns).all(stop, noise);
+}
+
+}  // namespace palpate::identify

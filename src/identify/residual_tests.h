@@ -1,0 +1,19 @@
+// Tests of whether residuals are independent noise or follow a pattern.
+#pragma once
+
+#include <span>
+
+namespace palpate::identify {
+
+// sum (e_i - e_(i-1))^2 / sum e_i^2: about 2 for independent residuals, near 0 if neighbours are
+// correlated.                                              Durbin and Watson 1950, Biometrika 37
+[[nodiscard]] double durbin_watson(std::span<const double> residuals);
+
+// (number of runs of equal sign - its mean) / its standard deviation, both for independent signs;
+// far below 0 if residuals keep their sign for long.                        Wald and Wolfowitz 1940
+[[nodiscard]] double runs_z(std::span<const double> residuals);
+
+// Whether both tests, each at a level of 1 in 1000, find neighbours correlated; false below 10.
+[[nodiscard]] bool systematic(std::span<const double> residuals);
+
+}  // namespace palpate::identify

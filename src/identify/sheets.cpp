@@ -1,0 +1,88 @@
+// gnuplot scripts of the data, model, residuals and profiles.
+#include <algorithm>
+
+#include "base/text.h"
+#include "identify/folder.h"
+#include "identify/tables.h"
+#include "plot/gnuplot_text.h"
+
+namespace palpate::identify {
+namespace {
+
+const std::string style =
+    "set datafile separator comma\nset datafile columnheaders\nset datafile missing NaN\n"
+    "set border 3 linewidth 1.1 linecolor rgb '#404040'\n"
+    "set tics nomirror out scale 0.6 textcolor rgb '#202020' font ',9'\n"
+    "set grid linetype 1 linewidth 0.5 linecolor rgb '#dcdcdc'\n"
+    "set format x '%g'\nset format y '%g'\n";
+
+std::string label(const char* name, const Unit& unit) {
+  return *unit.symbol == '\0' ? name : std::string(name) + " (" + unit.symbol + ")";
+}
+
+std::pair<const char*, const char*> axes(identify::CurveKind kind) {
+  switch (kind) {
+    case identify::CurveKind::force_travel: return {"Travel", "Force"};
+    case identify::CurveKind::force_time: return {"Time", "Force"};
+    case identify::CurveKind::tangential_slide: return {"Slide", "Tangential force"};
+    case identify::CurveKind::strain_time: return {"Time", "Strain"};
+    case identify::CurveKind::stress_time: return {"Time", "Stress"};
+  }
+  return {"", ""};
+}
+
+}  // namespace
+
+plot::Sheet identified_sheet(const std::string& title, const identify::Identification& found) {
+  const identify::CurveWords& words = identify::words_of(found.kind);
+  const auto [x, y] = axes(found.kind);
+  const std::string file = "'residuals.csv' using 1";
+  std::string text = plot::gnuplot_head("curve", 640) + style +
+                     "set multiplot\nset lmargin at screen 0.12\nset rmargin at screen 0.97\n";
+  text += "set title " + plot::gnuplot_quoted(title + ": measured and fitted") +
+          "\nset tmargin at screen 0.93\nset bmargin at screen 0.42\n"
+          "set format x ''\nset ylabel " +
+          plot::gnuplot_quoted(label(y, words.y)) +
+          "\nset key top left Left reverse samplen 2 spacing 1.2\nplot \\\n  " + file +
+          ":2 with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2' title 'measured', \\\n"
+          "  " +
+          file +
+          ":3 smooth unique with lines linewidth 1.6 linecolor rgb '#D55E00' title 'model'\n";
+  text +=
+      "unset title\nunset key\nset tmargin at screen 0.36\nset bmargin at screen 0.11\n"
+      "set format x '%g'\nset xlabel " +
+      plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
+      plot::gnuplot_quoted(label("Residual", words.y)) +
+      "\nplot \\\n  0 with lines linewidth 1 linecolor rgb '#909090', \\\n  " + file +
+      ":4 with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'\nunset multiplot\n";
+  return {.name = "curve", .script = text, .reads = {"residuals.csv"}};
+}
+
+plot::Sheet profile_sheet(const std::string& title, const identify::Identification& found) {
+  const std::size_t panels = found.unknowns.size();
+  const std::size_t columns = std::min<std::size_t>(panels, 2);
+  const std::size_t rows = (panels + columns - 1) / columns;
+  std::string text = plot::gnuplot_head("profile", static_cast<int>(120 + 300 * rows)) + style;
+  text += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) +
+          " title " + plot::gnuplot_quoted(title + ": profile likelihood, 95 % below the line") +
+          "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset xtics autofreq rotate by -30\n"
+          "set yrange [0:*]\n";
+  for (const identify::Identified& one : found.unknowns) {
+    const std::string unit = one.unknown.unit_text();
+    const std::string pick = "(strcol('unknown') eq '" + one.unknown.key +
+                             "' ? column('value') : "
+                             "NaN)";
+    text += "set xlabel " +
+            plot::gnuplot_quoted(one.unknown.key + (unit.empty() ? "" : " (" + unit + ")")) +
+            " noenhanced\nplot \\\n  'profile.csv' using " + pick +
+            ":(column('threshold')) with lines linewidth 1 linecolor rgb '#909090', \\\n"
+            "  'profile.csv' using " +
+            pick +
+            ":(column('delta')) with linespoints pointtype 7 pointsize 0.5 linewidth 1.4 linecolor "
+            "rgb '#0072B2'\n";
+  }
+  text += "unset multiplot\n";
+  return {.name = "profile", .script = text, .reads = {"profile.csv"}};
+}
+
+}  // namespace palpate::identify

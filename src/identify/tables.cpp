@@ -1,0 +1,176 @@
+// Tables and sentences, with numbers in the units of the keys.
+#include "identify/tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "fit/student.h"
+
+namespace palpate::identify {
+namespace {
+
+using record::Cell;
+
+Cell cell(const std::optional<double>& si, const Unknown& unknown) {
+  return si ? Cell(unknown.shown(*si)) : Cell();
+}
+
+Cell word(bool yes) { return std::string(yes ? "yes" : "no"); }
+
+// `57.2 kPa`, `0.45`
+std::string with_unit(double value, const std::string& unit) {
+  return rounded_text(value, 4) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string interval_text(const Interval& interval, const Unknown& unknown) {
+  const std::string unit = unknown.unit_text();
+  if (interval.low && interval.high)
+    return rounded_text(*interval.low, 4) + " to " + with_unit(*interval.high, unit);
+  if (interval.high) return "at most " + with_unit(*interval.high, unit);
+  if (interval.low) return "at least " + with_unit(*interval.low, unit);
+  return "open";
+}
+
+// `+3.1 %` for unknowns on a logarithmic scale, otherwise a difference in the unknown's unit.
+std::string change(double moved, const Identified& one) {
+  const bool relative = one.unknown.scale == Unknown::Scale::logarithmic;
+  const double number = relative ? 100.0 * moved / one.estimate : one.unknown.shown(moved);
+  const std::string unit = relative ? "%" : one.unknown.unit_text();
+  return (number > 0.0 ? "+" : "") + with_unit(number, unit);
+}
+
+std::string combination_sentence(const Identification& found, const Combination& one) {
+  std::vector<std::string> names;
+  for (const std::size_t i : one.of) names.push_back("`" + found.unknowns[i].unknown.key + "`");
+  return joined(names, " and ") + " are tied: these data cannot tell them apart. Determined is " +
+         one.text + " = " + with_unit(one.estimate, one.unit) + ", 95 % " +
+         rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4) +
+         "; set one of them by `--set`";
+}
+
+std::string model_sentence(const Identification& found) {
+  const std::string model = scenario::rung(found.rung).word;
+  const CurveWords& words = words_of(found.kind);
+  std::string text = std::string(words.sentence) + ", by `" + model + "`";
+  if (found.closed_form && found.scenario.uniform())
+    text = std::string(words.sentence) + ", by the formula of a uniform specimen";
+  else if (found.predicted_error)
+    text += ", predicted to be within " + percent_text(*found.predicted_error);
+  return text;
+}
+
+}  // namespace
+
+Interval trusted(const Identified& one) {
+  Interval interval;
+  const auto& low = one.by_profile ? one.profile_low : one.ci95_low;
+  const auto& high = one.by_profile ? one.profile_high : one.ci95_high;
+  if (low) interval.low = one.unknown.shown(*low);
+  if (high) interval.high = one.unknown.shown(*high);
+  return interval;
+}
+
+record::Table identified_table(const Identification& found) {
+  record::Table table;
+  table.columns = {"unknown",   "unit",       "estimate", "std_error",   "ci95_low",
+                   "ci95_high", "at_bound",   "tied",     "profile_low", "profile_high",
+                   "interval",  "moved_down", "moved_up"};
+  for (const Identified& one : found.unknowns) {
+    const Unknown& unknown = one.unknown;
+    const std::optional<double> estimate = one.tied ? std::nullopt : std::optional(one.estimate);
+    table.rows.push_back(
+        {unknown.key, unknown.unit_text(), cell(estimate, unknown), cell(one.std_error, unknown),
+         cell(one.ci95_low, unknown), cell(one.ci95_high, unknown), word(one.at_bound),
+         word(one.tied), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
+         one.tied ? Cell() : Cell(std::string(one.by_profile ? "profile" : "student")),
+         cell(one.moved_down, unknown), cell(one.moved_up, unknown)});
+    if (unknown.unit_text().empty()) table.rows.back()[1] = Cell();
+  }
+  for (const Combination& one : found.combinations) {
+    table.rows.push_back({one.text, one.unit, one.estimate, one.std_error, one.ci95_low,
+                          one.ci95_high, word(false), word(false), Cell(), Cell(),
+                          std::string("student"), Cell(), Cell()});
+    if (one.unit.empty()) table.rows.back()[1] = Cell();
+  }
+  return table;
+}
+
+record::Table correlation_table(const Identification& found) {
+  record::Table table;
+  table.columns = {"unknown"};
+  const std::size_t n = found.unknowns.size();
+  for (const Identified& one : found.unknowns) table.columns.push_back(one.unknown.key);
+  for (std::size_t i = 0; i < n; ++i) {
+    table.rows.push_back({found.unknowns[i].unknown.key});
+    for (std::size_t j = 0; j < n; ++j) {
+      const double value = found.correlation[i * n + j];
+      table.rows.back().push_back(std::isnan(value) ? Cell() : Cell(value));
+    }
+  }
+  return table;
+}
+
+record::Table residual_table(const Identification& found) {
+  const CurveWords& words = words_of(found.kind);
+  const std::string y = words.y_column;
+  const std::string unit = *words.y.symbol == '\0' ? "" : std::string("_") + words.y.symbol;
+  record::Table table;
+  table.columns = {words.x_column, "measured" + unit, "model" + unit, "residual" + unit};
+  for (std::size_t i = 0; i < found.x.size(); ++i)
+    table.rows.push_back({words.x.from_si(found.x[i]), words.y.from_si(found.measured[i]),
+                          words.y.from_si(found.model[i]),
+                          words.y.from_si(found.measured[i] - found.model[i])});
+  return table;
+}
+
+record::Table profile_table(const Identification& found) {
+  record::Table table;
+  table.columns = {"unknown", "unit", "value", "delta", "threshold"};
+  const double t =
+      fit::student_t_quantile(0.975, static_cast<double>(found.x.size() - found.unknowns.size()));
+  for (const ProfilePoint& point : found.profile) {
+    const Unknown& unknown = found.unknowns[point.unknown].unknown;
+    const std::string unit = unknown.unit_text();
+    table.rows.push_back({unknown.key, unit.empty() ? Cell() : Cell(unit),
+                          unknown.shown(point.value), point.delta, t * t});
+  }
+  return table;
+}
+
+std::vector<std::string> identified_sentences(const Identification& found) {
+  std::vector<std::string> lines;
+  std::size_t width = 0;
+  for (const Identified& one : found.unknowns) width = std::max(width, one.unknown.key.size());
+  for (const Identified& one : found.unknowns) {
+    std::string line = one.unknown.key + std::string(width - one.unknown.key.size() + 2, ' ');
+    if (one.tied)
+      line += "not determined by itself";
+    else
+      line += with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()) +
+              "  (95 %: " + interval_text(trusted(one), one.unknown) +
+              (one.by_profile ? ", by profile)" : ")") +
+              (one.at_bound ? "  on the edge of its range" : "");
+    lines.push_back(line);
+  }
+  for (const Combination& one : found.combinations)
+    lines.push_back(combination_sentence(found, one));
+  lines.push_back(model_sentence(found));
+  const CurveWords& words = words_of(found.kind);
+  lines.push_back(std::to_string(found.x.size()) + " points, RMSE " +
+                  with_unit(words.y.from_si(found.rmse), words.y.symbol) + ", R2 " +
+                  rounded_text(found.r2, 6) + ", Durbin-Watson " +
+                  rounded_text(found.durbin_watson, 3));
+  for (const Identified& one : found.unknowns)
+    if (one.moved_down && one.moved_up)
+      lines.push_back(std::string(found.kind == CurveKind::force_travel ||
+                                          found.kind == CurveKind::tangential_slide
+                                      ? "a contact point "
+                                      : "a start ") +
+                      with_unit(words.x.from_si(found.contact_shift), words.x.symbol) +
+                      " earlier or later changes `" + one.unknown.key + "` by " +
+                      change(*one.moved_down, one) + " or " + change(*one.moved_up, one));
+  return lines;
+}
+
+}  // namespace palpate::identify

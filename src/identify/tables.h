@@ -1,0 +1,36 @@
+// The results of identify() as tables and as sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "identify/identify.h"
+#include "record/table.h"
+
+namespace palpate::identify {
+
+// unknown, unit, estimate, std_error, ci95_low, ci95_high, at_bound, tied, profile_low,
+// profile_high, interval, moved_down, moved_up: one row per unknown, then one per combination. Tied
+// unknowns have no numbers; `interval` names the interval to trust, `student` or `profile`.
+[[nodiscard]] record::Table identified_table(const Identification& found);
+
+// unknown, then one column per unknown; empty if one of the two is tied or at a bound.
+[[nodiscard]] record::Table correlation_table(const Identification& found);
+
+// x, measured, model, residual, in the units of the curve.
+[[nodiscard]] record::Table residual_table(const Identification& found);
+
+// unknown, unit, value, delta, threshold: the profile likelihood, delta = (SSE - least SSE) / s^2,
+// threshold = t^2.                                                            docs/theory.md (91)
+[[nodiscard]] record::Table profile_table(const Identification& found);
+
+// The 95 % interval to trust, in the unknown's unit; nothing: open on that side.
+struct Interval {
+  std::optional<double> low, high;
+};
+[[nodiscard]] Interval trusted(const Identified& one);
+
+// Lines for stdout: estimates, tied unknowns, model, residuals and effect of the contact point.
+[[nodiscard]] std::vector<std::string> identified_sentences(const Identification& found);
+
+}  // namespace palpate::identify

@@ -1,0 +1,46 @@
+// The unknowns of an identification, with their ranges and scales.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/units.h"
+#include "scenario/scenario.h"
+
+namespace palpate::identify {
+
+struct Unknown {
+  enum class What { key, contact_point, force_offset };
+  enum class Scale { linear, logarithmic };
+
+  std::string key;  // of the scenario, or `contact_point` or `force_offset`
+  What what = What::key;
+  Scale scale = Scale::linear;
+  std::optional<Unit> unit;  // for input and output; nothing: a pure number
+  double low = 0.0;          // SI
+  double high = 0.0;
+
+  // Maps u in [0, 1] to the value (SI): low + u (high - low), or low (high / low)^u.
+  [[nodiscard]] double value(double u) const;
+  [[nodiscard]] double inverse(double value) const;
+  [[nodiscard]] double slope(double u) const;  // d value / du
+  // The value in `unit`.
+  [[nodiscard]] double shown(double si) const { return unit ? unit->from_si(si) : si; }
+  [[nodiscard]] std::string unit_text() const { return unit ? unit->symbol : ""; }
+};
+
+// Reads `KEY=LOW..HIGH`, such as `tissue.young_modulus=1 kPa..200 kPa` or `...=1..200 kPa`, with
+// the scenario's list of keys. Quantities that are positive by nature get a logarithmic scale.
+// Throws InputError with a sentence that names `--unknown` for an unknown key (with the nearest
+// one), a key that the scenario does not use, a bound of another dimension or beyond the key's
+// limits, bounds in the wrong order, and a key given twice.
+[[nodiscard]] std::vector<Unknown> read_unknowns(const std::vector<std::string>& texts,
+                                                 const scenario::Scenario& scenario);
+
+// Sets those unknowns that are keys of the scenario; `values` in SI, in the order of `unknowns`.
+void set_unknowns(scenario::Scenario& scenario, std::span<const Unknown> unknowns,
+                  std::span<const double> values);
+
+}  // namespace palpate::identify

@@ -1,0 +1,63 @@
+// Runs a scenario with a live device, after describing the device and the plan.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "live/loop.h"
+
+namespace palpate::live {
+
+// Refuses scenarios that the device cannot carry out: uniform tests and, on a stand, slides. Throws
+// InputError with the place `file`.
+void refuse_beyond_device(const scene::Scene& scene, const std::string& file,
+                          const LiveOptions& options);
+
+class Live {
+ public:
+  // Opens the link. Throws LinkError with a diagnosis, and InputError if the link's text is wrong.
+  // `scene` and `options` outlive the object.
+  Live(const scene::Scene& scene, const LiveOptions& options);
+  ~Live();
+  Live(const Live&) = delete;
+  Live& operator=(const Live&) = delete;
+
+  // Sentences that describe the device, its limits, the steps and the model's cost per frame, which
+  // is measured on this machine. Throws InputError with the place `file` if the model cannot keep
+  // the pace of the device or the force predicted for a stand exceeds the ceiling, and LinkError if
+  // an arm is to be commanded while the hand is inside the tissue.
+  [[nodiscard]] std::vector<std::string> plan(const std::string& file);
+
+  // Callbacks and files of a run, which another thread calls and writes.
+  struct Output {
+    std::function<void(int step)> on_step;                        // a step of the programme begins
+    std::function<void(const std::string& sentence)> on_warning;  // errors of files, lost rows
+    std::string rows_file;     // force_indentation.csv, written during the run; empty: none
+    std::string traffic_file;  // likewise, for LiveOptions::Traffic::kept
+  };
+  // Carries out the run. The record has the rows and device_health.json however the run ends.
+  struct Result {
+    record::CaseRecord record;
+    LiveEnd end;
+    std::vector<std::string> warnings;
+    bool rows_are_written = false;  // all rows are in `rows_file` and on the disk
+  };
+  [[nodiscard]] Result go(const std::atomic<bool>& stop, const Output& output);
+
+ private:
+  void refuse_inside(std::vector<std::string>& lines);
+
+  const scene::Scene* scene_;
+  const LiveOptions* options_;
+  device::Clock clock_;
+  std::unique_ptr<device::Tap> tap_;  // null unless the traffic is kept
+  std::unique_ptr<LiveModel> model_;  // before link_, so that its long preparation precedes it
+  device::Link link_;
+  FrameCost cost_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace palpate::live

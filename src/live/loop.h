@@ -1,0 +1,76 @@
+// Options, context and result shared by the two loops, of a stand and of an arm.
+#pragma once
+
+#include <atomic>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "device/clock.h"
+#include "device/health.h"
+#include "device/link.h"
+#include "device/safety.h"
+#include "live/log.h"
+#include "live/model.h"
+#include "scene/scene.h"
+
+namespace palpate::live {
+
+struct LiveOptions {
+  std::string link;
+  enum class Act { look, command };
+  Act act = Act::look;
+  device::Clock::Kind clock = device::Clock::Kind::monotonic;
+  enum class Priority { ordinary, realtime };
+  Priority priority = Priority::ordinary;
+  // m, position of the undeformed surface along the device's z. If empty, a stand feels for it, for
+  // an arm it is `below_hand` below the first position of the hand, and for a recording it is 0.
+  std::optional<double> surface;
+  enum class Traffic { unheard, kept };
+  Traffic traffic = Traffic::unheard;
+  std::optional<double> most_force;                          // N; empty: the default of the rules
+  double longest = std::numeric_limits<double>::infinity();  // s, for the whole run
+  static constexpr double below_hand = 0.020;                // m
+};
+
+// All objects that a loop uses, created before it starts.
+struct LiveLoop {
+  const scene::Scene& scene;
+  const LiveOptions& options;
+  device::Link& link;
+  device::Clock& clock;
+  LiveModel& model;
+  LiveLog& log;
+  device::Health& health;
+  const std::atomic<bool>& stop;
+  std::uint64_t softened = 0;  // arm: number of frames with a stiffness reduced for passivity
+  double left_out = 0.0;       // arm: s, time of late frames by which the model was not advanced
+};
+
+// How a loop ended.
+struct LiveEnd {
+  enum class Why {
+    done,         // the programme is over
+    too_long,     // LiveOptions::longest, or the end of a recording
+    interrupted,  // by a signal
+    link,         // lost, or stopped for safety
+    model,        // the model diverged or its law does not apply
+  };
+  Why why = Why::done;
+  std::string sentence;  // the reason, without a full stop; may be empty if done
+};
+
+// Runs an arm until its person has carried out the programme: the hand moves, the model follows,
+// and the model's force is sent. A recording is followed likewise, without sending.
+[[nodiscard]] LiveEnd run_arm(LiveLoop& loop);
+
+// Runs a stand: the programme moves it, and the model follows its measured position.
+[[nodiscard]] LiveEnd run_stand(LiveLoop& loop);
+
+// The ceiling of the force, N: LiveOptions::most_force, or the default for this kind of device.
+[[nodiscard]] double most_force(const LiveOptions& options, device::Kind kind);
+
+// The end of a run by its link, with a sentence that explains trip and fault.
+[[nodiscard]] LiveEnd ended_by_link(device::Trip trip, device::Fault fault);
+
+}  // namespace palpate::live

@@ -1,0 +1,354 @@
+// The loop of a stand: sets its limits, then carries out motions; safety rules check every reading.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "device/mark10_protocol.h"
+#include "device/stand_safety.h"
+#include "live/guide.h"
+#include "live/loop.h"
+#include "live/touch.h"
+#include "run/contact_row.h"
+
+namespace palpate::live {
+namespace {
+
+using device::Arrival;
+using device::Fault;
+using device::LinkState;
+using device::Motion;
+using device::Sample;
+using device::Trip;
+using Verdict = device::StandSafety::Verdict;
+
+constexpr double sample_wait = 0.06;   // s of wire time
+constexpr double stepped_wait = 1.0;   // s of wire time, for a reply in lock-step
+constexpr double free_way = 2e-3;      // m above the surface, where motions begin
+constexpr double travel_speed = 5e-3;  // m/s, out of contact
+constexpr double feel_speed = 0.5e-3;  // m/s
+constexpr double feel_way = 20e-3;     // m, largest way down from the first position
+constexpr double feel_from = 5e-3;     // N above the mean out of contact: the finger is in contact
+constexpr double feel_to = 40e-3;      // N above that mean: enough readings to find the surface
+constexpr int quiet_readings = 10;     // out of contact, for that mean
+constexpr double rest_time = 1.0;      // s, for the tissue to recover from feeling
+constexpr double arrived = 0.65 * device::mark10::travel_step;  // m: half a step, in mm or inches
+constexpr double stuck_time = 1.0;  // s without a change of travel during a motion
+constexpr int tries = 3;
+
+// The deepest permitted travel, m: for a step to a force twice the predicted one, up to the radius.
+double deepest_of(const scene::Scene& scene) {
+  double deepest = scene::deepest_travel(scene.scenario, scene.law());
+  for (const scenario::Step& step : scene.scenario.steps)
+    if (const auto* indent = std::get_if<scenario::Indent>(&step); indent && indent->to.second)
+      return std::min(2.0 * deepest, scene.scenario.finger.radius);
+  return deepest;
+}
+
+class StandLoop {
+ public:
+  explicit StandLoop(LiveLoop& loop)
+      : loop_(loop),
+        real_(loop.clock.kind() == device::Clock::Kind::monotonic),
+        period_(loop.link.limits().period),
+        deepest_(deepest_of(loop.scene)),
+        safety_(device::StandRules{}) {}
+
+  LiveEnd run() {
+    start_ = next_ = loop_.clock.now();
+    if (begin() && find_surface() && go_to_start()) (void)carry_out();
+    // The stand is stopped however the run ends, and a stop without confirmation is reported.
+    if (!loop_.link.stop() && end_.why != LiveEnd::Why::link)
+      end_ = ended_by_link(Trip::not_verified, Fault::not_verified);
+    return end_;
+  }
+
+ private:
+  bool ends(LiveEnd end) {
+    if (!over_) end_ = std::move(end);
+    over_ = true;
+    return false;
+  }
+  bool ends(Trip trip, Fault fault) { return ends(ended_by_link(trip, fault)); }
+
+  // Arms the rules for a range of travel (m), which is also set as limits in the stand.
+  bool allow_range(double low, double high) {
+    device::StandRules rules;
+    rules.force = most_force(loop_.options, device::Kind::stand);
+    rules.low = low;
+    rules.high = high;
+    rules.fastest = loop_.link.limits().speed;
+    rules.stale.stale_after = loop_.link.limits().stale_after;
+    rules.stale.lost_after = loop_.link.limits().lost_after;
+    const Fault fault = put_limits(low, high);
+    if (fault != Fault::none)
+      return ends(fault == Fault::hung_up ? Trip::link_lost : Trip::not_verified, fault);
+    safety_ = device::StandSafety(rules);
+    // New rules can only be armed after a reading.
+    for (int i = 0; i < 10 && !over_; ++i) {
+      const Sample sample = read();
+      if (safety_.step(now(), sample) == Verdict::stop)
+        return ends(safety_.tripped(), sample.fault);
+      if (sample.arrival == Arrival::fresh && safety_.arm(fault)) {
+        note(LinkState::armed, Fault::none);
+        return true;
+      }
+    }
+    return ends({LiveEnd::Why::link, "the stand is at " + rounded_text(1e3 * last_.position.z()) +
+                                         " mm, outside of what this run may travel, " +
+                                         rounded_text(1e3 * low) + " to " +
+                                         rounded_text(1e3 * high) + " mm; jog it there"});
+  }
+
+  Fault put_limits(double low, double high) {
+    Fault fault = Fault::not_verified;
+    for (int i = 0; i < tries && fault != Fault::none && fault != Fault::hung_up; ++i)
+      fault = loop_.link.set_travel_limits(low, high);
+    return fault;
+  }
+
+  [[nodiscard]] double now() const { return loop_.clock.now() - start_; }
+
+  void note(LinkState state, Fault fault) {
+    loop_.health.pass({now(), state, safety_.tripped(), fault});
+  }
+
+  Sample read() {
+    if (real_) {
+      next_ = std::max(next_ + period_, loop_.clock.now());
+      loop_.clock.sleep_until(next_);
+      loop_.health.lateness.add(loop_.clock.now() - next_);
+    }
+    const double asked = loop_.clock.now();
+    Sample sample = loop_.link.sample(real_ ? sample_wait : stepped_wait);
+    loop_.health.count(now(), sample);
+    if (sample.arrival == Arrival::fresh) {
+      loop_.health.reply.add(sample.received - asked);
+      last_ = sample;
+    }
+    return sample;
+  }
+
+  bool begin() {
+    note(LinkState::open, Fault::none);
+    Sample sample;
+    for (int i = 0; i < 20 && sample.arrival != Arrival::fresh; ++i) {
+      if (loop_.stop.load()) return ends({LiveEnd::Why::interrupted, "it was interrupted"});
+      sample = read();
+      if (sample.arrival == Arrival::lost) return ends(Trip::link_lost, sample.fault);
+    }
+    if (sample.arrival != Arrival::fresh) return ends(Trip::link_lost, Fault::silent);
+    return true;
+  }
+
+  // Takes one reading and acts on it. Returns false when the run is over.
+  bool poll() {
+    if (over_) return false;
+    if (loop_.stop.load()) return ends({LiveEnd::Why::interrupted, "it was interrupted"});
+    if (now() > loop_.options.longest) return ends({LiveEnd::Why::too_long, "the time is up"});
+    const double before = loop_.clock.now();
+    const Sample sample = read();
+    const double begun = device::wire_time();
+    switch (safety_.step(now(), sample)) {
+      case Verdict::stop:
+        note(sample.arrival == Arrival::lost ? LinkState::lost : LinkState::tripped, sample.fault);
+        return ends(safety_.tripped(), sample.fault);  // run() stops the stand
+      case Verdict::halt:
+        note(LinkState::stale, sample.fault);
+        if (!halted_) (void)loop_.link.stop();
+        halted_ = true;
+        break;
+      case Verdict::go_on:
+        if (halted_ && !send(motion_)) return false;
+        halted_ = false;
+        note(LinkState::armed, Fault::none);
+        break;
+    }
+    if (sample.arrival == Arrival::fresh && programme_) follow(sample);
+    loop_.health.compute.add(device::wire_time() - begun);
+    if (real_ && loop_.clock.now() > before + 2.0 * period_) ++loop_.health.deadline_misses;
+    return !over_;
+  }
+
+  bool send(const Motion& wanted) {
+    const Motion motion = safety_.allow(wanted);
+    if (motion.act == Motion::Act::stop) return true;
+    Fault fault = Fault::not_verified;
+    for (int i = 0; i < tries && fault != Fault::none && fault != Fault::hung_up; ++i)
+      fault = loop_.link.command_motion(motion);
+    if (fault == Fault::none) return true;
+    return ends(fault == Fault::hung_up ? Trip::link_lost : Trip::not_verified, fault);
+  }
+
+  // Moves to the height `target` (m), which is also set as the stand's limit, or until a force (N).
+  bool go(double target, double speed, double until_force) {
+    const double z = last_.position.z();
+    if (std::abs(target - z) <= arrived) return true;
+    const bool down = target < z;
+    const double asked = now();
+    const Fault fault = down ? put_limits(target, high_) : put_limits(low_, target);
+    if (fault != Fault::none)
+      return ends(fault == Fault::hung_up ? Trip::link_lost : Trip::not_verified, fault);
+    motion_ = {down ? Motion::Act::down : Motion::Act::up, speed};
+    if (!send(motion_)) return false;
+    lead_ = now() - asked;
+    if (waiting_) start_programme();
+    const bool there = wait_for(target, until_force);
+    motion_ = {};
+    arrived_at_ = last_.received - start_;
+    return there;
+  }
+
+  bool wait_for(double target, double until_force) {
+    double moved_at = now();
+    double before = last_.position.z();
+    while (poll()) {
+      // The stand is stopped even at its limit: while braking it would continue if the limit moved.
+      if (std::abs(last_.position.z() - target) <= arrived || last_.force >= until_force) {
+        if (loop_.link.stop()) return true;
+        return ends(Trip::not_verified, Fault::not_verified);
+      }
+      if (last_.position.z() != before || halted_) moved_at = now();
+      before = last_.position.z();
+      // At the lowest speed of the stand its reading changes only every 2.4 s.
+      const double patience = stuck_time + 3.0 * device::mark10::travel_step / motion_.speed;
+      if (now() > moved_at + patience)
+        return ends({LiveEnd::Why::link, "the stand stopped on its way, at " +
+                                             rounded_text(1e3 * before) + " mm instead of " +
+                                             rounded_text(1e3 * target) + " mm"});
+    }
+    return false;
+  }
+
+  bool wait(double time) {
+    const double until = now() + time;
+    while (now() < until)
+      if (!poll()) return false;
+    return true;
+  }
+
+  bool find_surface() {
+    if (loop_.options.surface) {
+      surface_ = *loop_.options.surface;
+      return true;
+    }
+    const double from = last_.position.z();
+    low_ = from - feel_way;
+    high_ = from + free_way;
+    if (!allow_range(low_, high_)) return false;
+    double quiet = 0.0;
+    for (int i = 0; i < quiet_readings; ++i) {
+      if (!poll()) return false;
+      quiet += last_.force / quiet_readings;
+    }
+    motion_ = {Motion::Act::down, feel_speed};
+    if (!send(motion_)) return false;
+    TouchLine line;
+    while (last_.force - quiet < feel_to) {
+      if (!poll()) return false;
+      if (last_.force - quiet > feel_from) line.add(last_.position.z(), last_.force - quiet);
+      if (last_.position.z() <= low_ + arrived)
+        return ends({LiveEnd::Why::link, "nothing was felt within " + rounded_text(1e3 * feel_way) +
+                                             " mm; jog the stand nearer, or give `--surface`"});
+    }
+    motion_ = {};
+    if (!loop_.link.stop()) return ends(Trip::not_verified, Fault::not_verified);
+    const auto surface = line.surface();
+    if (!surface)
+      return ends({LiveEnd::Why::link,
+                   "the force does not grow with depth where it was felt; give `--surface`"});
+    surface_ = *surface;
+    felt_ = true;
+    return true;
+  }
+
+  bool go_to_start() {
+    low_ = surface_ - deepest_;
+    high_ = std::max(surface_ + free_way, last_.position.z());
+    if (!allow_range(low_, high_)) return false;
+    if (felt_ && !(go(surface_ + free_way, travel_speed, Limits::none) && wait(rest_time)))
+      return false;
+    return go(surface_, travel_speed, Limits::none);
+  }
+
+  // The time of the programme begins with its first motion.
+  void start_programme() {
+    waiting_ = false;
+    programme_start_ = now();
+    programme_ = true;
+    follow(last_);
+  }
+
+  bool carry_out() {
+    waiting_ = true;
+    if (std::holds_alternative<scenario::Hold>(loop_.scene.scenario.steps.front()))
+      start_programme();
+    double travel = 0.0;  // m, as planned
+    for (const scenario::Step& step : loop_.scene.scenario.steps) {
+      ++step_;
+      bool good = false;
+      if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
+        travel = indent->to.second ? deepest_ : indent->to.value;
+        good = go(surface_ - travel, indent->rate,
+                  indent->to.second ? indent->to.value : Limits::none);
+        if (good && indent->to.second && last_.force < indent->to.value)
+          good = ends({LiveEnd::Why::link, "the force of step " + std::to_string(step_) +
+                                               " was not reached at the deepest travel"});
+      } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
+        good = go(surface_ - retract->to, retract->rate, Limits::none);
+      } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {
+        // The next motion begins lead_ after its command.
+        const double until = arrived_at_ + hold->time - lead_;
+        good = wait(std::max(0.0, until - now()));
+      }
+      if (!good) return false;
+    }
+    return true;
+  }
+
+  // Advances the model to the measured position and writes a row.
+  void follow(const Sample& sample) {
+    const double time = now() - programme_start_;
+    const Vec3 offset(0.0, 0.0, sample.position.z() - surface_);
+    if (auto wrong = loop_.model.follow(offset, time)) {
+      (void)ends({LiveEnd::Why::model, *wrong});
+      return;
+    }
+    LogRow row{run::contact_row(loop_.scene, loop_.model.touch()), {}};
+    row.contact.step = std::max(1, step_);
+    row.contact.time = time;
+    row.measured.place = {0.0, 0.0, offset.z()};
+    row.measured.force = sample.force;
+    loop_.log.push(row);
+  }
+
+  using Limits = device::Limits;
+
+  LiveLoop& loop_;
+  bool real_;
+  double period_;   // s
+  double deepest_;  // m, of travel
+  device::StandSafety safety_;
+  Sample last_;                   // the last fresh one
+  Motion motion_;                 // continues after a halt
+  double start_ = 0.0;            // s, of the clock
+  double next_ = 0.0;             // s, of the clock: time of the next reading
+  double surface_ = 0.0;          // m, along the stand's z
+  double low_ = 0.0;              // m, the stand's range
+  double high_ = 0.0;             // m
+  double programme_start_ = 0.0;  // s
+  double lead_ = 0.0;             // s, from the limits and command of a motion to its start
+  double arrived_at_ = 0.0;       // s, end of the last motion
+  int step_ = 0;
+  bool felt_ = false;
+  bool halted_ = false;
+  bool waiting_ = false;    // for the programme's first motion
+  bool programme_ = false;  // the programme is running
+  bool over_ = false;
+  LiveEnd end_;
+};
+
+}  // namespace
+
+LiveEnd run_stand(LiveLoop& loop) { return StandLoop(loop).run(); }
+
+}  // namespace palpate::live

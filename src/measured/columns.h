@@ -1,0 +1,38 @@
+// Selection of the columns and rows of a measured table.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measured/table.h"
+#include "measured/unit.h"
+
+namespace palpate::measured {
+
+struct Column {
+  std::size_t index = 0;
+  std::string name;                 // as in the file, or its number from 1
+  std::optional<WrittenUnit> unit;  // from the layout or the file; empty if neither has one
+  bool falls = false;               // a height, which decreases as the tip goes in
+};
+
+enum class Role { x, y };
+
+// The column with the name (with or without its unit) or the number (from 1) `wanted`. If `wanted`
+// is empty, the format, the position or the units determine the column for the role. `unit` takes
+// precedence over the file's unit. Throws InputError for an unknown column (with the nearest name),
+// a name that occurs twice, an unknown unit, and if no column can be determined.
+[[nodiscard]] Column find_column(const RawTable& table, const std::string& wanted,
+                                 const std::string& unit, Role role);
+
+struct Rows {
+  std::vector<std::size_t> kept;  // rows of the table, in order
+  std::vector<std::string> notes;
+};
+
+// The rows of the layout's case and segment; InputError if there are none. Without a column of
+// segments the approach ends at the largest change of load (as afmformats divides Chiaro's curves).
+[[nodiscard]] Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Column& y);
+
+}  // namespace palpate::measured

@@ -1,0 +1,93 @@
+// Converts two columns of a measured table to numbers in SI units.
+#include "measured/measured.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "measured/columns.h"
+#include "measured/sign.h"
+#include "measured/table.h"
+#include "measured/unit.h"
+
+namespace palpate::measured {
+namespace {
+
+double number_of(const RawTable& table, const RawRow& row, const Column& column) {
+  const Piece& field = row.fields[column.index];
+  const auto number = measured_number(field.text, table.decimal);
+  const Place place{table.file, row.line, field.column};
+  if (!number)
+    throw InputError(place, "`" + column.name + "` holds `" + field.text +
+                                "`, which is no number; name a column of numbers");
+  // The words `inf` and `nan` mean a row without a number; digits beyond all doubles are an error.
+  if (std::isinf(*number) && field.text.find_first_of("0123456789") != std::string::npos)
+    throw InputError(place, out_of_range_text(field.text));
+  return *number;
+}
+
+MeasuredAxis axis_of(const Column& column) {
+  MeasuredAxis axis;
+  axis.column = column.name;
+  axis.has_unit = column.unit.has_value();
+  if (!column.unit) return axis;
+  axis.unit = column.unit->text;
+  axis.dimension = column.unit->factor.dimension;
+  return axis;
+}
+
+void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout) {
+  const Column x = find_column(table, layout.x, layout.x_unit, Role::x);
+  const Column y = find_column(table, layout.y, layout.y_unit, Role::y);
+  curve.x_axis = axis_of(x);
+  curve.y_axis = axis_of(y);
+  const Rows rows = chosen_rows(table, layout, y);
+  for (const std::size_t i : rows.kept) {
+    const RawRow& row = table.rows[i];
+    double x_value = number_of(table, row, x);
+    const double y_value = number_of(table, row, y);
+    if (x.falls) x_value = 0.0 - x_value;
+    const bool whole = std::isfinite(x_value) && std::isfinite(y_value);
+    if (!whole && layout.blanks == DataLayout::Blanks::leave_out) {
+      ++curve.left_out;
+      continue;
+    }
+    curve.x_written.push_back(x_value);
+    curve.y_written.push_back(y_value);
+    curve.x.push_back(x.unit ? x.unit->factor.to_si(x_value) : x_value);
+    curve.y.push_back(y.unit ? y.unit->factor.to_si(y_value) : y_value);
+    curve.lines.push_back(row.line);
+  }
+  if (x.falls) curve.notes.push_back("`" + x.name + "` falls as the tip goes in; taken as a depth");
+  curve.notes.insert(curve.notes.end(), rows.notes.begin(), rows.notes.end());
+}
+
+}  // namespace
+
+MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
+                             const DataLayout& layout) {
+  const RawTable table = raw_table(bytes, file, layout);
+  MeasuredCurve curve;
+  curve.file = file;
+  curve.notes = table.notes;
+  take(curve, table, layout);
+  if (curve.left_out > 0)
+    curve.notes.push_back(std::to_string(curve.left_out) +
+                          (curve.left_out == 1 ? " row is" : " rows are") +
+                          " left out: a number is missing or not finite");
+  if (curve.x.empty())
+    throw InputError({file, 0, 0}, "no row is left with a number in `" + curve.x_axis.column +
+                                       "` and in `" + curve.y_axis.column +
+                                       "`; name columns that are filled");
+  orient(curve, layout);
+  return curve;
+}
+
+MeasuredCurve read_measured(const std::string& path, const DataLayout& layout) {
+  return parse_measured(read_text(path), path, layout);
+}
+
+}  // namespace palpate::measured

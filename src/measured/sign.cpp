@@ -1,0 +1,94 @@
+// Finds the sign of compression: a test begins unloaded, and the load then changes towards it.
+#include "measured/sign.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "measured/unit.h"
+
+namespace palpate::measured {
+namespace {
+
+constexpr Dimension pressure{-1, 1, -2};
+
+// Least ratio of the larger to the smaller change; adhesion and noise are smaller than a third.
+constexpr double clear = 3.0;
+
+bool is_load(const Dimension& dimension) { return dimension == force || dimension == pressure; }
+
+void turn(std::vector<double>& si, std::vector<double>& written) {
+  for (double& value : si) value = 0.0 - value;  // 0 stays 0 and does not become -0
+  for (double& value : written) value = 0.0 - value;
+}
+
+struct Span {
+  double up = 0.0;    // above the start
+  double down = 0.0;  // below it
+  std::size_t peak = 0;
+};
+
+Span span_of(const std::vector<double>& values, double start) {
+  Span span;
+  double farthest = -1.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double away = values[i] - start;
+    if (!std::isfinite(away)) continue;
+    span.up = std::max(span.up, away);
+    span.down = std::max(span.down, -away);
+    if (std::abs(away) > farthest) span.peak = i;
+    farthest = std::max(farthest, std::abs(away));
+  }
+  return span;
+}
+
+[[noreturn]] void refuse(const MeasuredCurve& curve) {
+  throw InputError({curve.file, 0, 0},
+                   "`" + curve.y_axis.column +
+                       "` both rises and falls from its start, so that "
+                       "its sign in compression is not clear; give `--compression positive` or "
+                       "`--compression negative`");
+}
+
+// Whether the load is negative in compression.
+bool load_is_negative(const MeasuredCurve& curve) {
+  // Over a length the load starts at rest; over time it may start at its peak, so that 0 is used.
+  const bool along = curve.x_axis.dimension == length;
+  const Span span = span_of(curve.y, along ? curve.y.front() : 0.0);
+  if (span.down >= clear * span.up && span.down > 0.0) return true;
+  if (span.up >= clear * span.down && span.up > 0.0) return false;
+  refuse(curve);
+}
+
+// Changes the sign of x if it is a length that decreases while the load grows.
+void turn_length(MeasuredCurve& curve) {
+  if (curve.x_axis.dimension != length || !is_load(curve.y_axis.dimension)) return;
+  const std::size_t peak = span_of(curve.y, curve.y.front()).peak;
+  if (curve.x[peak] >= curve.x.front()) return;
+  turn(curve.x, curve.x_written);
+  curve.notes.push_back("`" + curve.x_axis.column + "` falls as the load grows; sign changed");
+}
+
+}  // namespace
+
+void orient(MeasuredCurve& curve, const DataLayout& layout) {
+  const std::string& said = layout.compression;
+  if (!said.empty() && said != "positive" && said != "negative" && said != "auto")
+    throw InputError({}, "palpate: `--compression " + said +
+                             "` is unknown; give `positive`, `negative` or `auto`");
+  if (said.empty() || said == "positive" || curve.y.empty()) return;
+  if (!is_load(curve.y_axis.dimension)) {
+    if (said == "auto") return;
+    throw InputError({curve.file, 0, 0}, "`" + curve.y_axis.column +
+                                             "` is no load, to which `--compression negative` "
+                                             "could apply; name a column of forces with `--y`");
+  }
+  const bool negative = said == "negative" || load_is_negative(curve);
+  if (negative) {
+    turn(curve.y, curve.y_written);
+    curve.notes.push_back("`" + curve.y_axis.column + "` is negative in compression; sign changed");
+  }
+  turn_length(curve);
+}
+
+}  // namespace palpate::measured

@@ -1,0 +1,30 @@
+// The unit in the name of a column: `Load (uN)`, `force_N`, `Weg in mm`, `Kraft / N`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/unit_factor.h"
+
+namespace palpate::measured {
+
+inline constexpr Dimension length{1, 0, 0};
+inline constexpr Dimension force{1, 1, -2};
+
+struct WrittenUnit {
+  std::string text;  // palpate's spelling: `um` for `µm` and `micron`; empty if dimensionless
+  UnitFactor factor;
+};
+
+// A unit as instruments write it: the units of unit_factor and words such as `sec`, `Newton`,
+// `micron`, `%`, `gF`, `lbF`, `in`, with or without brackets. Nothing if the text is not a unit.
+[[nodiscard]] std::optional<WrittenUnit> written_unit(std::string_view text);
+
+struct NamedColumn {
+  std::string bare;                 // the name without its unit: `Load`, `force`
+  std::optional<WrittenUnit> unit;  // if the name ends with one
+};
+[[nodiscard]] NamedColumn named_column(std::string_view name);
+
+}  // namespace palpate::measured

@@ -1,0 +1,60 @@
+// One contact law, with the same depth for all spheres.
+#include "mechanics/half_space_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/elliptic.h"
+
+namespace palpate::mechanics {
+
+std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec3& top,
+                                            Touch& touch) {
+  const auto shape = *scene::top_curvature(scene.scenario.tissue.shape);
+  geometry::Curvature curvature;
+  curvature.kappa_1 = shape.kappa_1;
+  curvature.kappa_2 = shape.kappa_2;
+  curvature.direction_1 = shape.direction_1;
+  curvature.direction_2 = Vec3::UnitZ().cross(shape.direction_1);
+  auto law = contact::contact_law(scene.scenario.contact.law,
+                                  {scene.finger.sphere_radius, scene.finger.sphere_modulus},
+                                  curvature, scene.layer ? &*scene.layer : nullptr);
+  if (!law) return hollow_text(curvature.kappa_2);
+  if (scene.deep) {
+    const double round =
+        contact::geometric_radius(scene.finger.sphere_radius, curvature.kappa_1, curvature.kappa_2);
+    law->point.deep_root = scene.deep->p / std::sqrt(round);
+    law->point.deep = scene.deep->q / round;
+    law->point.deepest = contact::DeepLaw::deepest * round;
+  }
+  if (touch.travel > law->point.last_depth())
+    return scene.layer
+               ? "the layer is too thin for this depth: its law is known up to sqrt(R h) = 3 H"
+               : "the press is deeper than half the radius, where the factor for deep presses "
+                 "ends; "
+                 "set `contact.depth = \"hertz\"`";
+  const double radius = scene.finger.sphere_radius;
+  const Vec3 before = touch.finger;
+  touch.finger = top + (radius - touch.travel) * Vec3::UnitZ();
+  const Vec3 move = touch.finger - before;
+  // resize() reuses memory: a step in a live run allocates nothing.
+  const bool touches = touch.travel > 0.0;
+  touch.contacts.resize(touches ? scene.finger.centres.size() : 0);
+  for (std::size_t i = 0; i < touch.contacts.size(); ++i) {
+    SphereContact& contact = touch.contacts[i];
+    contact.sphere = static_cast<int>(i);
+    contact.law = *law;
+    contact.patch.position = touch.finger + scene.finger.centres[i];
+    contact.patch.position.z() = top.z();
+    contact.patch.axis = law->axis;
+    contact.approach = contact.depth = touch.travel;
+    contact.force = law->point.force(contact.depth);
+    const auto [a, b] = law->semi_axes(contact.depth);
+    contact.patch.a = a;
+    contact.patch.b = b;
+  }
+  rub(scene, move, touch);
+  return std::nullopt;
+}
+
+}  // namespace palpate::mechanics

@@ -1,0 +1,50 @@
+// The energy balance of a mesh, docs/theory.md (43), which also detects instability.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace palpate::mechanics {
+
+class EnergyMonitor {
+ public:
+  explicit EnergyMonitor(const scene::SpringBody& body) : body_(&body) {}
+
+  // Counts the energy of `state` as given, for example that of a strain applied at once.
+  void begin(const integrate::State& state);
+
+  // Continues with another body, such as another part of the specimen, at `state`; the difference
+  // in energy is counted as given.
+  void go_on(const scene::SpringBody& body, const integrate::State& state);
+
+  // Accounts for a step under the loads (N) at its start and its end. Returns a sentence if the
+  // motion is unstable: a number is not finite, or stored plus kinetic energy exceeds ten times the
+  // largest energy that was ever put in.
+  [[nodiscard]] std::optional<std::string> step(const integrate::State& before,
+                                                const integrate::State& after,
+                                                const integrate::Vector& load_before,
+                                                const integrate::Vector& load_after);
+
+  // The same for a step whose energies (J) are known: work of the loads, dissipated energy, and
+  // stored plus kinetic energy after the step.
+  [[nodiscard]] std::optional<std::string> account(double work, double lost, double held);
+
+  // Replaces the sums by those of a method that adds them up itself (modal steps), J: all work, all
+  // dissipated energy, and stored plus kinetic energy now.
+  void take_over(double work, double lost, double held);
+
+  // The energy imbalance of docs/theory.md (43), a fraction; 0 if no energy was ever put in.
+  [[nodiscard]] double imbalance() const;
+
+ private:
+  const scene::SpringBody* body_;
+  double given_ = 0.0;  // J, as the next ones
+  double work_ = 0.0;
+  double lost_ = 0.0;
+  double held_ = 0.0;      // stored plus kinetic energy now
+  double greatest_ = 0.0;  // largest value of given_ + work_ so far
+};
+
+}  // namespace palpate::mechanics

@@ -1,0 +1,262 @@
+// Solves for the nodes in contact and their forces, docs/theory.md (70)-(72).
+#include "mechanics/resolved_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "contact/complementarity.h"
+
+namespace palpate::mechanics {
+namespace {
+
+using Eigen::Index;
+
+}  // namespace
+
+ResolvedContact::ResolvedContact(const scene::Scene& scene)
+    : scene_(&scene),
+      surface_(&*scene.specimen->surface),
+      skin_(*surface_),
+      tree_(surface_->surface()),
+      stars_(surface_->surface(), surface_->neighbours(), {}),
+      finger_compliance_(scene.finger.compliance_share / scene.finger.whole.modulus) {
+  for (const Vec3& centre : scene.finger.centres)
+    balls_.push_back({centre, scene.finger.sphere_radius});
+}
+
+bool ResolvedContact::sphere_normals() const {
+  return scene_->scenario.contact.direction == scenario::Contact::Direction::sphere;
+}
+
+// Fills candidates_ with the nodes near the spheres, each with the sphere nearest to it.
+void ResolvedContact::look(const Vec3& finger, const MeshAnswer& mesh, const Touch& before) {
+  constexpr double reach = 1.25;  // distance from a centre, in radii
+  for (std::size_t i = 0; i < balls_.size(); ++i)
+    balls_[i].centre = finger + scene_->finger.centres[i];
+  std::set<int> pressed;
+  for (const SphereContact& contact : before.contacts)
+    pressed.insert(contact.load.vertices.begin(), contact.load.vertices.end());
+  candidates_.clear();
+  const auto& vertices = surface_->surface().vertices;
+  for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
+    const int node = mesh.node_of(v);
+    const Vec3 base = node < 0 ? Vec3(Vec3::Zero()) : Vec3(mesh.displacement->segment<3>(3 * node));
+    double nearest = std::numeric_limits<double>::infinity();
+    int sphere = -1;
+    for (int i = 0; i < static_cast<int>(balls_.size()); ++i) {
+      const Ball& ball = balls_[as_index(i)];
+      const double distance = (vertices[as_index(v)] + base - ball.centre).norm();
+      if (distance > reach * ball.radius || distance >= nearest) continue;
+      nearest = distance;
+      sphere = i;
+    }
+    if (sphere < 0) continue;
+    const auto skin = skin_.facing(v, balls_[as_index(sphere)]);
+    if (!skin) continue;
+    Candidate one{.skin = *skin, .node = node, .base = base, .moved = base};
+    one.skin.sphere = sphere;
+    one.sought = pressed.contains(v);
+    candidates_.push_back(one);
+  }
+}
+
+// Sets the gaps without contact forces, and the directions of the forces, for the present `moved`.
+void ResolvedContact::measure_gaps() {
+  const bool by_sphere = sphere_normals();
+  for (Candidate& one : candidates_) {
+    const Ball& ball = balls_[as_index(one.skin.sphere)];
+    const Vec3 to_centre = ball.centre - one.skin.place;
+    if (by_sphere) {
+      // |x - c| - R, linearised at the present position of the node
+      const Vec3 from_centre = one.moved - to_centre;
+      one.push = from_centre.normalized();
+      one.gap = from_centre.norm() - ball.radius + one.push.dot(one.base - one.moved);
+    } else {
+      // Distance to the sphere along the normal at rest, from the node at rest, minus its
+      // displacement; infinite if the normal misses the sphere.
+      one.push = -one.skin.normal;
+      const double height = to_centre.dot(one.skin.normal);
+      const double chord = ball.radius * ball.radius - to_centre.squaredNorm() + height * height;
+      one.gap = chord <= 0.0 ? std::numeric_limits<double>::infinity()
+                             : height - std::sqrt(chord) + one.push.dot(one.base);
+    }
+    one.gap += one.skin.facets;
+  }
+}
+
+// The finger's displacement at a node per newton on another, m/N, as a half-space.
+double ResolvedContact::finger_sinking(const Candidate& at, const Candidate& pressed) const {
+  if (at.skin.sphere != pressed.skin.sphere) return 0.0;
+  const double inverse =
+      &at == &pressed ? at.skin.own : 1.0 / (at.skin.place - pressed.skin.place).norm();
+  return finger_compliance_ * inverse / std::numbers::pi;
+}
+
+// The displacement of every candidate (columns, m) per newton on one of them.
+Eigen::Matrix3Xd ResolvedContact::answer(const MeshAnswer& mesh, const Candidate& loaded) const {
+  Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, static_cast<Index>(candidates_.size()));
+  if (loaded.node < 0) return moved;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double part = loaded.push[axis];
+    if (part == 0.0) continue;
+    const auto& column = mesh.influence->column(3 * loaded.node + axis, mesh.freedoms);
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+      if (candidates_[i].node >= 0)
+        moved.col(static_cast<Index>(i)) += part * column.segment<3>(3 * candidates_[i].node);
+  }
+  return moved;
+}
+
+// Solves (70) for the present gaps and directions. Columns of A are computed only for nodes that
+// overlap, and for those that overlap under the resulting forces, until no further node overlaps.
+std::optional<std::string> ResolvedContact::solve(const MeshAnswer& mesh) {
+  const auto count = static_cast<Index>(candidates_.size());
+  const double closed = 1e-12 * scene_->finger.sphere_radius;
+  double deepest = 0.0;
+  for (Candidate& one : candidates_) {
+    one.left = one.gap;
+    one.moved = one.base;
+    one.force = 0.0;
+    deepest = std::min(deepest, one.gap);
+  }
+  // At the edge of Hertz's contact the overlap is half the depth.
+  const auto overlaps = [&](const Candidate& one) { return one.left < -closed; };
+  for (Candidate& one : candidates_) one.sought = one.sought || one.left < 0.5 * deepest;
+
+  std::vector<Index> sought;
+  std::vector<char> pressed;
+  std::vector<Eigen::Matrix3Xd> answers;
+  Eigen::MatrixXd changes(count, 0);  // m/N, of every gap per newton on each node in `sought`
+  while (true) {
+    for (Index i = 0; i < count; ++i) {
+      const Candidate& one = candidates_[as_index(i)];
+      if (!one.sought || std::find(sought.begin(), sought.end(), i) != sought.end()) continue;
+      sought.push_back(i);
+      pressed.push_back(overlaps(one) ? 1 : 0);
+      answers.push_back(answer(mesh, one));
+      changes.conservativeResize(Eigen::NoChange, changes.cols() + 1);
+      for (Index j = 0; j < count; ++j) {
+        const Candidate& other = candidates_[as_index(j)];
+        changes(j, changes.cols() - 1) =
+            other.push.dot(answers.back().col(j)) + finger_sinking(other, one);
+      }
+      if (changes(i, changes.cols() - 1) <= 0.0)
+        return "the finger presses nodes that cannot move; move the finger, or raise "
+               "`solver.rings`";
+    }
+    if (sought.empty()) return std::nullopt;
+    Eigen::VectorXd gaps(static_cast<Index>(sought.size()));
+    for (std::size_t k = 0; k < sought.size(); ++k)
+      gaps[static_cast<Index>(k)] = candidates_[as_index(sought[k])].gap;
+    Eigen::VectorXd forces;
+    if (!contact::press_apart(changes(sought, Eigen::all), gaps, pressed, forces))
+      return "the mesh does not resist the finger's forces";
+    const Eigen::VectorXd opened = changes * forces;
+    bool settled = true;
+    for (Index i = 0; i < count; ++i) {
+      Candidate& one = candidates_[as_index(i)];
+      one.left = one.gap + opened[i];
+      if (one.sought || !overlaps(one)) continue;
+      one.sought = true;
+      settled = false;
+    }
+    if (!settled) continue;
+    for (std::size_t k = 0; k < sought.size(); ++k) {
+      const double force = forces[static_cast<Index>(k)];
+      candidates_[as_index(sought[k])].force = force;
+      for (Index i = 0; i < count; ++i) candidates_[as_index(i)].moved += force * answers[k].col(i);
+    }
+    return std::nullopt;
+  }
+}
+
+// Solves (70), repeatedly if the directions are the sphere's normals, which turn as the nodes move.
+std::optional<std::string> ResolvedContact::press(const MeshAnswer& mesh) {
+  constexpr int most_turns = 100;
+  const double settled = 1e-12 * scene_->finger.sphere_radius;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    measure_gaps();
+    std::vector<Vec3> before;
+    for (const Candidate& one : candidates_) before.push_back(one.moved);
+    if (auto wrong = solve(mesh)) return wrong;
+    if (!sphere_normals()) return std::nullopt;
+    double change = 0.0;
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+      if (candidates_[i].force > 0.0)
+        change = std::max(change, (candidates_[i].moved - before[i]).norm());
+    if (change <= settled) return std::nullopt;
+  }
+  return "the sphere's normals did not settle in 100 iterations";
+}
+
+// Hertz's law at the pressed place, for estimates; the forces of `resolved` do not use it.
+contact::ContactLaw ResolvedContact::law_for_estimates(const geometry::SurfacePoint& at) const {
+  const contact::SphereLaw sphere{scene_->finger.sphere_radius, scene_->finger.sphere_modulus};
+  const auto corners = stars_.at_corners(surface_->surface(), at.triangle);
+  const auto found = geometry::between(corners, {at.weights[0], at.weights[1], at.weights[2]});
+  if (found.known())
+    if (const auto law =
+            contact::contact_law(scene_->scenario.contact.law, sphere, found.curvature))
+      return *law;
+  return *contact::contact_law(scene_->scenario.contact.law, sphere, {});
+}
+
+// Adds the contact of one sphere, from the forces on its nodes; nothing if all are zero.
+void ResolvedContact::fill(int sphere, const Touch& before, Touch& touch) const {
+  SphereContact& contact = touch.contacts.add();
+  contact.sphere = sphere;
+  Vec3 sum = Vec3::Zero();
+  Vec3 centre = Vec3::Zero();
+  double total = 0.0;
+  double area = 0.0;
+  for (const Candidate& one : candidates_) {
+    if (one.skin.sphere != sphere) continue;
+    contact.nodal.vertices.push_back(one.skin.vertex);
+    contact.nodal.gap.push_back(std::max(0.0, one.left));
+    if (one.force <= 0.0) continue;
+    contact.load.vertices.push_back(one.skin.vertex);
+    contact.load.shares.push_back(one.force);
+    contact.nodal.push.push_back(one.force * one.push);
+    sum += one.force * one.push;
+    centre += one.force * one.skin.place;
+    contact.nodal.peak_pressure = std::max(contact.nodal.peak_pressure, one.force / one.skin.area);
+    total += one.force;
+    area += one.skin.area;
+  }
+  if (total <= 0.0) {
+    touch.contacts.erase(touch.contacts.size() - 1);
+    return;
+  }
+  contact.force = sum.norm();
+  for (double& share : contact.load.shares) share /= total;
+  for (Vec3& push : contact.nodal.push) push /= contact.force;
+  const Ball& ball = balls_[as_index(sphere)];
+  const auto foot = surface_->foot(ball.centre, tree_.nearest(ball.centre));
+  contact.patch.at = foot.at;
+  contact.patch.position = centre / total;
+  contact.patch.normal = -sum / contact.force;
+  contact.patch.axis = contact.patch.normal.unitOrthogonal();
+  contact.patch.a = contact.patch.b = std::sqrt(area / std::numbers::pi);
+  contact.approach = contact.depth = ball.radius - foot.height;
+  contact.law = law_for_estimates(foot.at);
+  for (const SphereContact& old : before.contacts)
+    if (old.sphere == sphere) contact.stretch = old.stretch;
+}
+
+std::optional<std::string> ResolvedContact::find(const Vec3& finger, const MeshAnswer& mesh,
+                                                 Touch& touch) {
+  look(finger, mesh, touch);
+  if (auto wrong = press(mesh)) return wrong;
+  Touch next = touch;
+  next.finger = finger;
+  next.contacts.clear();
+  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) fill(i, touch, next);
+  rub(*scene_, finger - touch.finger, next);
+  touch = std::move(next);
+  return std::nullopt;
+}
+
+}  // namespace palpate::mechanics

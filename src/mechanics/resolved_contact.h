@@ -1,0 +1,61 @@
+// Unilateral contact at the nodes of a fine mesh, for the coupling `resolved`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/box_tree.h"
+#include "geometry/curvature.h"
+#include "mechanics/contacts.h"
+#include "mechanics/pressed_nodes.h"
+
+namespace palpate::mechanics {
+
+// Every node of the skin near a sphere has a gap g_j >= 0 and a force f_j >= 0, one of which is
+// zero, docs/theory.md (70)-(72). They are related by the compliance of the mesh and, for an
+// elastic finger, of a half-space. Friction is not part of this problem; it acts on the resultant.
+class ResolvedContact {
+ public:
+  explicit ResolvedContact(const scene::Scene& scene);
+
+  // As Contacts::find(). `mesh.displacement` (m) is that at the end of the step without the contact
+  // forces, `mesh.influence` the response to them. Gives one contact per sphere that presses.
+  [[nodiscard]] std::optional<std::string> find(const Vec3& finger, const MeshAnswer& mesh,
+                                                Touch& touch);
+
+ private:
+  // A node that may be in contact.
+  struct Candidate {
+    PressedNode skin;
+    int node = -1;              // of the moving mesh; -1: does not move
+    Vec3 base = Vec3::Zero();   // m, displacement without contact forces
+    Vec3 moved = Vec3::Zero();  // m, displacement with contact forces
+    Vec3 push = Vec3::Zero();   // unit, direction of the force on the node
+    double gap = 0.0;           // m, without contact forces
+    double left = 0.0;          // m, gap with contact forces
+    double force = 0.0;         // N
+    bool sought = false;        // the force is an unknown of the current problem
+  };
+
+  void look(const Vec3& finger, const MeshAnswer& mesh, const Touch& before);
+  void measure_gaps();
+  [[nodiscard]] std::optional<std::string> press(const MeshAnswer& mesh);
+  [[nodiscard]] std::optional<std::string> solve(const MeshAnswer& mesh);
+  [[nodiscard]] Eigen::Matrix3Xd answer(const MeshAnswer& mesh, const Candidate& loaded) const;
+  [[nodiscard]] double finger_sinking(const Candidate& at, const Candidate& pressed) const;
+  [[nodiscard]] bool sphere_normals() const;
+  void fill(int sphere, const Touch& before, Touch& touch) const;
+  [[nodiscard]] contact::ContactLaw law_for_estimates(const geometry::SurfacePoint& at) const;
+
+  const scene::Scene* scene_;
+  const geometry::SmoothSurface* surface_;
+  SkinNodes skin_;
+  geometry::BoxTree tree_;
+  geometry::CurvatureStars stars_;
+  double finger_compliance_ = 0.0;  // 1/Pa, lambda_1
+  std::vector<Ball> balls_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace palpate::mechanics

@@ -1,0 +1,89 @@
+// Sums over the contacts of a touch, and their friction.
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "contact/friction.h"
+#include "mechanics/contacts.h"
+
+namespace palpate::mechanics {
+
+void NodalContact::renew() {
+  push.clear();
+  peak_pressure = 0.0;
+  vertices.clear();
+  gap.clear();
+}
+
+void SphereContact::renew() {
+  SphereContact other;
+  for (auto [kept, own] : {std::pair{&other.load, &load}, std::pair{&other.wide, &wide}}) {
+    kept->vertices.swap(own->vertices);
+    kept->shares.swap(own->shares);
+    kept->vertices.clear();
+    kept->shares.clear();
+  }
+  std::swap(other.nodal, nodal);
+  other.nodal.renew();
+  *this = std::move(other);
+}
+
+double peak_pressure(const SphereContact& contact) {
+  if (contact.force <= 0.0) return 0.0;
+  if (!contact.nodal.push.empty()) return contact.nodal.peak_pressure;
+  const double mean = contact.force / (std::numbers::pi * contact.patch.a * contact.patch.b);
+  const contact::LayerContact* layer = contact.law.point.layer;
+  if (layer == nullptr) return 1.5 * mean;
+  return mean *
+         layer->law.pressure(contact::layer_chi(contact.depth, layer->radius, layer->thickness))
+             .at(0.0);
+}
+
+const SphereContact* Touch::deepest() const {
+  const auto found =
+      std::max_element(contacts.begin(), contacts.end(),
+                       [](const auto& a, const auto& b) { return a.depth < b.depth; });
+  return found == contacts.end() ? nullptr : &*found;
+}
+
+double Touch::normal_force() const {
+  double sum = 0.0;
+  for (const SphereContact& contact : contacts) sum += contact.force * contact.patch.normal.z();
+  return sum;
+}
+
+double Touch::force() const { return normal_force() - drag().z(); }
+
+Vec3 Touch::drag() const {
+  Vec3 sum = Vec3::Zero();
+  for (const SphereContact& contact : contacts) sum += contact.drag;
+  return sum;
+}
+
+double Touch::pressed() const {
+  double sum = 0.0;
+  for (const SphereContact& contact : contacts) sum += contact.force;
+  return sum;
+}
+
+void rub(const scene::Scene& scene, const Vec3& move, Touch& touch) {
+  const double friction = scene.scenario.contact.friction;
+  const bool at_once = scene.scenario.contact.slip == scenario::Contact::Slip::coulomb;
+  for (SphereContact& contact : touch.contacts) {
+    const Vec3& normal = contact.patch.normal;
+    if (at_once) {
+      // mu F along the motion; eq. (4) does not define it at rest.
+      const Vec3 slip = move - move.dot(normal) * normal;
+      const double length = slip.norm();
+      const double limit = friction * contact.force;
+      contact.drag = length > 0.0 ? Vec3(limit / length * slip) : Vec3::Zero();
+      continue;
+    }
+    contact.stretch += move;
+    contact.stretch -= contact.stretch.dot(normal) * normal;
+    contact.drag = contact::friction::drag(contact.stretch, friction * contact.force,
+                                           contact.patch.radius(), scene.finger.shear_compliance);
+  }
+}
+
+}  // namespace palpate::mechanics

@@ -1,0 +1,168 @@
+// Reads and writes .node and .ele: a header line, then a numbered line per node or tetrahedron.
+#include "meshing/mesh_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "meshing/gmsh_file.h"
+#include "meshing/table_lines.h"
+
+namespace palpate::meshing {
+namespace {
+
+struct Pair {
+  std::string node;
+  std::string ele;
+};
+
+Pair both_files(const std::string& path) {
+  const std::filesystem::path given(path);
+  if (given.extension() != ".node" && given.extension() != ".ele")
+    throw InputError({path},
+                     "a mesh file wants the ending `.node` or `.ele`; name either of the two");
+  std::filesystem::path node = given;
+  std::filesystem::path ele = given;
+  return {node.replace_extension(".node").string(), ele.replace_extension(".ele").string()};
+}
+
+// Goes to the header; `layout` names its words, of which the first two are required.
+void open_header(TableLines& lines, const std::string& layout) {
+  if (!lines.next()) lines.fail("the file holds no header line; begin it with `" + layout + "`");
+  const auto most = as_index(std::count(layout.begin(), layout.end(), ' ')) + 1;
+  if (lines.words().size() < 2 || lines.words().size() > most)
+    lines.fail("the header has " + std::to_string(lines.words().size()) + " words; write it as `" +
+               layout + "`");
+}
+
+// A count from the header, at least `least`; 0 if it is absent.
+int header_count(const TableLines& lines, std::size_t i, const std::string& what, int least) {
+  if (i >= lines.words().size()) return 0;
+  const int count = lines.whole(i, what);
+  if (count < least)
+    lines.fail_at(i, what + " wants " + std::to_string(least) + " or more, got `" +
+                         std::string(lines.words()[i]) + "`; count the lines that follow");
+  return count;
+}
+
+// Goes to line `i` of `count` and checks that it has `columns` words.
+void item_line(TableLines& lines, const std::string& what, int i, int count, std::size_t columns) {
+  if (!lines.next())
+    lines.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(count) + " " +
+               what + "; write it again from its source");
+  if (lines.words().size() != columns)
+    lines.fail("the line has " + std::to_string(lines.words().size()) +
+               " words, but the header asks for " + std::to_string(columns) +
+               "; mend the line or the header");
+}
+
+void own_number(const TableLines& lines, int expected) {
+  if (lines.whole(0, "the first word") != expected)
+    lines.fail_at(0, "the line wants number " + std::to_string(expected) + ", got `" +
+                         std::string(lines.words()[0]) + "`; number the lines one by one");
+}
+
+void expect_end(TableLines& lines, int count, const std::string& what) {
+  if (lines.next())
+    lines.fail("the header counts " + std::to_string(count) + " " + what +
+               ", but another line follows; mend the count or remove the line");
+}
+
+// Returns the number of the first node: 0 or 1.
+int read_nodes(TableLines lines, double metres_per_unit, geometry::TetMesh& mesh) {
+  open_header(lines, "nodes 3 attributes markers");
+  const int count = header_count(lines, 0, "the number of nodes", 1);
+  if (lines.whole(1, "the dimension") != 3)
+    lines.fail_at(1, "the dimension wants `3`, got `" + std::string(lines.words()[1]) +
+                         "`; a mesh of tetrahedra has three coordinates a node");
+  const int attributes = header_count(lines, 2, "the number of attributes", 0);
+  const int markers = header_count(lines, 3, "the number of markers", 0);
+  const std::size_t columns = 4 + as_index(attributes) + as_index(markers);
+  int first = 0;
+  for (int i = 0; i < count; ++i) {
+    item_line(lines, "nodes", i, count, columns);
+    if (i == 0) first = lines.whole(0, "the first word");
+    if (first != 0 && first != 1)
+      lines.fail_at(0, "the first node wants number 0 or 1, got `" + std::string(lines.words()[0]) +
+                           "`; number the nodes from 0 or 1");
+    own_number(lines, first + i);
+    const double x = lines.number(1, "x");
+    const double y = lines.number(2, "y");
+    const double z = lines.number(3, "z");
+    mesh.nodes.emplace_back(x * metres_per_unit, y * metres_per_unit, z * metres_per_unit);
+  }
+  expect_end(lines, count, "nodes");
+  return first;
+}
+
+void read_tetrahedra(TableLines lines, int first, geometry::TetMesh& mesh) {
+  open_header(lines, "tetrahedra 4 attributes");
+  const int count = header_count(lines, 0, "the number of tetrahedra", 1);
+  if (lines.whole(1, "the number of nodes of a tetrahedron") != 4)
+    lines.fail_at(1, "the number of nodes of a tetrahedron wants `4`, got `" +
+                         std::string(lines.words()[1]) + "`; make the mesh without `-o2`");
+  const int attributes = header_count(lines, 2, "the number of attributes", 0);
+  const std::size_t columns = 5 + as_index(attributes);
+  const int last = first + static_cast<int>(mesh.nodes.size()) - 1;
+  for (int i = 0; i < count; ++i) {
+    item_line(lines, "tetrahedra", i, count, columns);
+    own_number(lines, first + i);
+    std::array<int, 4> corner{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      const int node = lines.whole(c + 1, "a node");
+      if (node < first || node > last)
+        lines.fail_at(c + 1, "there is no node `" + std::string(lines.words()[c + 1]) +
+                                 "`, the nodes run from " + std::to_string(first) + " to " +
+                                 std::to_string(last) + "; check that both files belong together");
+      corner[c] = node - first;
+    }
+    mesh.tetrahedra.push_back(corner);
+    if (attributes == 1) mesh.regions.push_back(lines.whole(5, "the region"));
+    if (geometry::signed_volume(mesh, i) < 0.0)
+      std::swap(mesh.tetrahedra.back()[2], mesh.tetrahedra.back()[3]);
+  }
+  expect_end(lines, count, "tetrahedra");
+}
+
+}  // namespace
+
+geometry::TetMesh read_node_ele(const std::string& path, double metres_per_unit) {
+  const Pair files = both_files(path);
+  geometry::TetMesh mesh;
+  const int first = read_nodes(TableLines(files.node), metres_per_unit, mesh);
+  read_tetrahedra(TableLines(files.ele), first, mesh);
+  return mesh;
+}
+
+void write_node_ele(const std::string& path, const geometry::TetMesh& mesh) {
+  const Pair files = both_files(path);
+  std::string nodes = std::to_string(mesh.nodes.size()) + " 3 0 0\n";
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    nodes += std::to_string(n);
+    for (int axis = 0; axis < 3; ++axis) nodes += " " + number_text(mesh.nodes[n][axis]);
+    nodes += "\n";
+  }
+  std::string tetrahedra =
+      std::to_string(mesh.tetrahedra.size()) + (mesh.regions.empty() ? " 4 0\n" : " 4 1\n");
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    tetrahedra += std::to_string(t);
+    for (const int node : mesh.tetrahedra[t]) tetrahedra += " " + std::to_string(node);
+    if (!mesh.regions.empty()) tetrahedra += " " + std::to_string(mesh.regions[t]);
+    tetrahedra += "\n";
+  }
+  write_atomically(files.node, nodes);
+  write_atomically(files.ele, tetrahedra);
+}
+
+geometry::TetMesh read_mesh(const std::string& path, double metres_per_unit) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".msh") return read_gmsh(path, metres_per_unit);
+  if (ending == ".node" || ending == ".ele") return read_node_ele(path, metres_per_unit);
+  throw InputError(
+      {path}, "a mesh file wants the ending `.node`, `.ele` or `.msh`; save it as one of them");
+}
+
+}  // namespace palpate::meshing

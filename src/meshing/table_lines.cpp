@@ -1,0 +1,64 @@
+// Splits lines into words at blanks or commas, as TetGen does.
+#include "meshing/table_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/files.h"
+#include "base/text.h"
+
+namespace palpate::meshing {
+
+TableLines::TableLines(std::string file) : file_(std::move(file)), text_(read_text(file_)) {}
+
+bool TableLines::next() {
+  constexpr std::string_view gaps = " \t\r,";
+  while (position_ < text_.size()) {
+    const std::size_t end = std::min(text_.find('\n', position_), text_.size());
+    current_ = std::string_view(text_).substr(position_, end - position_);
+    position_ = end + 1;
+    ++line_;
+    words_.clear();
+    const std::string_view content = current_.substr(0, current_.find('#'));
+    std::size_t start = content.find_first_not_of(gaps);
+    while (start != std::string_view::npos) {
+      const std::size_t stop = std::min(content.find_first_of(gaps, start), content.size());
+      words_.push_back(content.substr(start, stop - start));
+      start = content.find_first_not_of(gaps, stop);
+    }
+    if (!words_.empty()) return true;
+  }
+  words_.clear();
+  return false;
+}
+
+double TableLines::number(std::size_t i, const std::string& what) const {
+  const auto value = whole_number(words_[i]);
+  if (!value || !std::isfinite(*value))
+    fail_at(i, what + " wants a finite number, got `" + std::string(words_[i]) +
+                   "`; write it like `12.5` or `1.25e1`");
+  return *value;
+}
+
+int TableLines::whole(std::size_t i, const std::string& what) const {
+  const auto value = whole_number(words_[i]);
+  // Within the range of int, so that the conversion is defined.
+  constexpr double most = std::numeric_limits<int>::max();
+  if (!value || !(std::abs(*value) <= most) || std::trunc(*value) != *value)
+    fail_at(i, what + " wants a whole number, got `" + std::string(words_[i]) +
+                   "`; write it like `12`");
+  return static_cast<int>(*value);
+}
+
+void TableLines::fail(const std::string& message) const {
+  throw InputError({file_, line_}, message);
+}
+
+void TableLines::fail_at(std::size_t i, const std::string& message) const {
+  const auto column = static_cast<int>(words_[i].data() - current_.data()) + 1;
+  throw InputError({file_, line_, column}, message);
+}
+
+}  // namespace palpate::meshing

@@ -1,0 +1,99 @@
+// Runs TetGen in a child process: receives the mesh through a pipe and turns failures into advice.
+#include "meshing/tetgen.h"
+
+#include <csignal>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "meshing/child_bytes.h"
+#include "meshing/child_process.h"
+#include "meshing/tetgen_library.h"
+
+namespace palpate::meshing {
+namespace {
+
+constexpr double most_memory = 8.0 * 1024 * 1024 * 1024;  // bytes: about 20 million tetrahedra
+
+// The child's answer: three counts, then the data.
+struct Counts {
+  std::size_t nodes;
+  std::size_t tetrahedra;
+  std::size_t regions;
+};
+
+std::string packed(const geometry::TetMesh& mesh) {
+  const Counts counts{mesh.nodes.size(), mesh.tetrahedra.size(), mesh.regions.size()};
+  std::string bytes;
+  append(bytes, &counts, 1);
+  for (const Vec3& node : mesh.nodes) append(bytes, node.data(), 3);
+  append(bytes, mesh.tetrahedra.data(), mesh.tetrahedra.size());
+  append(bytes, mesh.regions.data(), mesh.regions.size());
+  return bytes;
+}
+
+geometry::TetMesh unpacked(const std::string& bytes) {
+  ChildBytes from(bytes, "TetGen");
+  Counts counts{};
+  from.take(&counts, 1);
+  geometry::TetMesh mesh;
+  for (std::size_t n = 0; n < counts.nodes; ++n) from.take(mesh.nodes.emplace_back().data(), 3);
+  from.take(mesh.tetrahedra, counts.tetrahedra);
+  from.take(mesh.regions, counts.regions);
+  if (!from.done()) from.refuse();
+  return mesh;
+}
+
+std::string advice(int exit_code) {
+  switch (exit_code) {
+    case tetgen_library::memory: return "TetGen ran out of memory; ask for fewer nodes";
+    case tetgen_library::internal:
+      return "TetGen met an internal error; change the node count or the surface a little";
+    case tetgen_library::self_intersection:
+      return "TetGen found that the surface cuts itself; mend the surface where its facets cross";
+    case tetgen_library::tiny_feature:
+      return "TetGen found a feature too small to mesh; merge vertices that lie almost together";
+    case tetgen_library::close_facets:
+      return "TetGen found two facets almost in one place; remove one or move them apart";
+    case tetgen_library::input:
+      return "TetGen could not read the surface; check its triangles and the switches";
+    default:
+      return "TetGen ended with code " + std::to_string(exit_code) +
+             "; change the node count or the surface a little";
+  }
+}
+
+struct Outcome {
+  double time_limit;
+
+  geometry::TetMesh operator()(const ChildAnswer& answer) const {
+    geometry::TetMesh mesh = unpacked(answer.bytes);
+    if (mesh.tetrahedra.empty())
+      throw MeshError(
+          "TetGen found no inside; close the surface, so that every edge has two faces");
+    return mesh;
+  }
+  geometry::TetMesh operator()(const ChildExit& exit) const { throw MeshError(advice(exit.code)); }
+  geometry::TetMesh operator()(const ChildSignal& signal) const {
+    if (signal.number == SIGXCPU) return (*this)(ChildTimeout{});
+    throw MeshError("TetGen crashed (signal " + std::to_string(signal.number) +
+                    "); look for facets that cross or fold, or change the node count a little");
+  }
+  geometry::TetMesh operator()(const ChildTimeout&) const {
+    throw MeshError("TetGen did not finish within " + rounded_text(time_limit) +
+                    " s; ask for fewer nodes or allow more time");
+  }
+};
+
+}  // namespace
+
+geometry::TetMesh tetgen_surface(const geometry::Surface& surface, const std::string& switches,
+                                 double time_limit) {
+  if (!(time_limit > 0.0)) return Outcome{time_limit}(ChildTimeout{});
+  const auto work = [&] {
+    tetgen_library::install_exit();
+    return packed(tetgen_library::run(surface, switches));
+  };
+  return std::visit(Outcome{time_limit}, run_in_child(work, {time_limit, most_memory}));
+}
+
+}  // namespace palpate::meshing

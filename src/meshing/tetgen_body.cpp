@@ -1,0 +1,265 @@
+// Searches for the surface sampling and the cell volume that give the requested counts.
+#include "meshing/tetgen_body.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "meshing/mesh_check.h"
+#include "meshing/tetgen.h"
+
+namespace palpate::meshing {
+namespace {
+
+constexpr double good_miss = 0.01;   // stop trying
+constexpr double fair_miss = 0.03;   // keep this kind of surface
+constexpr double worst_miss = 0.25;  // refuse beyond
+constexpr int tries_per_body = 8;
+// A maximum volume of 0.127 h^3 gives edges of about h; a regular tetrahedron has 0.118 h^3.
+constexpr double volume_per_cube = 0.127;
+// `A` numbers the regions. The optimisation `o/140O5` halves the number of flat tetrahedra, which
+// makes the shortest altitude, and thus the stable step, about twice as long.
+constexpr const char* switches = "pAq1.414o/140O5";
+
+double volume_at(double edge_length) {
+  return volume_per_cube * edge_length * edge_length * edge_length;
+}
+
+double mean_edge(const geometry::Surface& surface) {
+  double sum = 0.0;
+  for (const auto& triangle : surface.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      sum += (surface.vertices[as_index(triangle[i])] -
+              surface.vertices[as_index(triangle[(i + 1) % 3])])
+                 .norm();
+  return sum / (3.0 * static_cast<double>(surface.triangles.size()));
+}
+
+// Replaces TetGen's region numbers by those of the body, determined at one point per region.
+void name_regions(const geometry::Body& body, geometry::TetMesh& mesh) {
+  struct Sample {
+    double volume = 0.0;
+    std::size_t tetrahedron = 0;
+  };
+  std::map<int, Sample> largest;  // its centre is the least affected by rounding
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    Sample& sample = largest[mesh.regions[t]];
+    const double volume = geometry::signed_volume(mesh, static_cast<int>(t));
+    if (volume > sample.volume) sample = {volume, t};
+  }
+  std::map<int, int> region;
+  for (const auto& [number, sample] : largest) {
+    Vec3 middle = Vec3::Zero();
+    for (const int node : mesh.tetrahedra[sample.tetrahedron])
+      middle += 0.25 * mesh.nodes[as_index(node)];
+    const std::optional<int> found = geometry::region_at(body, middle);
+    if (!found)
+      throw MeshError("a part of the body lies outside its outer surface; move it inwards");
+    region[number] = *found;
+  }
+  for (int& number : mesh.regions) number = region[number];
+  if (std::all_of(mesh.regions.begin(), mesh.regions.end(), [](int r) { return r == 0; }))
+    mesh.regions.clear();
+}
+
+geometry::TetMesh checked(const geometry::Body& body, geometry::TetMesh mesh) {
+  check(mesh, "body by TetGen", geometry::enclosed(body.parts.front().surface).volume);
+  return mesh;
+}
+
+enum class Triangles { kept, split };  // split by TetGen, which adds nodes on the surfaces
+
+// Relative differences of the counts from the requested ones.
+struct Miss {
+  double nodes = HUGE_VAL;
+  double tetrahedra = 0.0;
+
+  [[nodiscard]] double worst() const { return std::max(std::abs(nodes), std::abs(tetrahedra)); }
+};
+
+class Search {
+ public:
+  Search(const Target& target, double time_limit)
+      : target_(target), time_limit_(time_limit), start_(Clock::now()) {
+    assert(target.nodes > 0 || target.edge_length > 0.0);
+  }
+
+  // Meshes the body with tetrahedra of at most `largest` m^3.
+  [[nodiscard]] geometry::TetMesh mesh(const geometry::Body& body, double largest,
+                                       Triangles triangles = Triangles::kept) const {
+    // The time limit decides only whether there is a result, not which.
+    const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (spent >= time_limit_)
+      throw MeshError("no mesh as fine as asked for was found within " + rounded_text(time_limit_) +
+                      " s; ask for fewer nodes or allow more time");
+    geometry::TetMesh mesh = tetgen_surface(geometry::facets(body),
+                                            switches + std::string("a") + number_text(largest) +
+                                                (triangles == Triangles::kept ? "Y" : ""),
+                                            time_limit_ - spent);
+    name_regions(body, mesh);
+    return mesh;
+  }
+
+  // Searches for the requested nodes from the volume `largest` (m^3) on; returns what is missing.
+  Miss tune(const geometry::Body& body, double largest, Triangles triangles = Triangles::kept) {
+    const int fixed = static_cast<int>(geometry::facets(body).vertices.size());
+    Miss nearest{over(fixed, target_.nodes), 0.0};
+    if (nearest.nodes > fair_miss) {  // a mesh never has fewer nodes
+      fewest_ = std::min(fewest_, fixed);
+      return nearest;
+    }
+    nearest = {};
+    const double wanted = std::max(target_.nodes - fixed, 0);
+    double low = 1e-3 * largest;  // gives too many nodes, or was not tried
+    double high = 1e4 * largest;  // gives too few nodes, or was not tried
+    for (int tries = 0; tries < tries_per_body && high > 1.02 * low; ++tries) {
+      geometry::TetMesh found = mesh(body, largest, triangles);
+      const int count = static_cast<int>(found.nodes.size());
+      const Miss miss{over(count, target_.nodes),
+                      target_.tetrahedra == 0
+                          ? 0.0
+                          : over(static_cast<int>(found.tetrahedra.size()), target_.tetrahedra)};
+      if (std::abs(miss.nodes) < std::abs(nearest.nodes)) nearest = miss;
+      if (miss.worst() < miss_) {
+        miss_ = miss.worst();
+        best_ = {body, std::move(found)};
+      }
+      if (std::abs(miss.nodes) <= good_miss) break;
+      const double inside = count - fixed;
+      (inside > wanted ? low : high) = largest;
+      // The nodes inside are about proportional to 1 / volume; the bracket limits the estimate.
+      const double guess = largest * (inside + 0.5) / (wanted + 0.5);
+      largest = guess > low && guess < high ? guess : std::sqrt(low * high);
+    }
+    return nearest;
+  }
+
+  [[nodiscard]] double miss() const { return miss_; }
+
+  // The best of all meshes.
+  [[nodiscard]] geometry::TetMesh taken() const {
+    if (miss_ <= worst_miss) return checked(best_.body, best_.mesh);
+    std::string text = "no mesh near " + std::to_string(target_.nodes) + " nodes";
+    if (target_.tetrahedra > 0)
+      text += " and " + std::to_string(target_.tetrahedra) + " tetrahedra";
+    text += miss_ < HUGE_VAL
+                ? " was found, the nearest has " + std::to_string(best_.mesh.nodes.size()) +
+                      " and " + std::to_string(best_.mesh.tetrahedra.size())
+                : " was found, as the surfaces alone have " + std::to_string(fewest_);
+    throw MeshError(text + "; ask for about as many, or change the surface");
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Found {
+    geometry::Body body;
+    geometry::TetMesh mesh;
+  };
+
+  static double over(int count, int wanted) {
+    return (count - wanted) / static_cast<double>(wanted);
+  }
+
+  Target target_;
+  double time_limit_;  // s
+  Clock::time_point start_;
+  double miss_ = HUGE_VAL;
+  int fewest_ = std::numeric_limits<int>::max();
+  Found best_;
+};
+
+// A shape with lumps, sampled at different spacings.
+struct Sampling {
+  const geometry::Shape& shape;
+  std::span<const geometry::Lump> lumps;
+
+  [[nodiscard]] geometry::Body body(double spacing, double inner) const {
+    geometry::Body body = geometry::sampled(shape, {spacing, inner * spacing});
+    for (const geometry::Lump& lump : lumps) geometry::add_lump(body, lump, spacing);
+    return body;
+  }
+};
+
+// For a fixed number of nodes, a finer surface leaves fewer nodes inside and gives fewer
+// tetrahedra. The counts jump when rows come or go, so the search ends with nearby spacings.
+void tune_both(const Sampling& sampling, double spacing, double inner, Search& search) {
+  double fine = 0.4 * spacing;
+  double coarse = 2.0 * spacing;
+  double best = spacing;
+  const auto attempt = [&](double at) {
+    const double before = search.miss();
+    const Miss miss = search.tune(sampling.body(at, inner), volume_at(at));
+    if (search.miss() < before) best = at;
+    return miss;
+  };
+  while (coarse > 1.03 * fine && search.miss() > good_miss) {
+    const Miss miss = attempt(spacing);
+    const bool too_coarse =
+        miss.nodes < -fair_miss || (miss.nodes <= fair_miss && miss.tetrahedra > 0.0);
+    (too_coarse ? coarse : fine) = spacing;
+    spacing = std::sqrt(fine * coarse);
+  }
+  if (search.miss() > 3.0 * fair_miss) return;
+  const double middle = best;
+  for (const double factor : {0.99, 1.01, 0.98, 1.02, 0.97, 1.03, 0.96, 1.04})
+    if (search.miss() > fair_miss) (void)attempt(factor * middle);
+}
+
+}  // namespace
+
+geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target, double time_limit) {
+  for (const geometry::Part& part : body.parts)
+    if (!(geometry::enclosed(part.surface).volume > 0.0))
+      throw MeshError("a surface of the body is inside out; turn its triangles round");
+  Search search(target, time_limit);
+  const double edge = mean_edge(body.parts.front().surface);
+  if (target.nodes == 0) {
+    // Triangles much coarser than the tetrahedra would keep TetGen from placing nodes near them.
+    const Triangles triangles =
+        edge > 2.0 * target.edge_length ? Triangles::split : Triangles::kept;
+    return checked(body, search.mesh(body, volume_at(target.edge_length), triangles));
+  }
+  const Miss miss = search.tune(body, volume_at(edge));
+  if (miss.nodes < -fair_miss) search.tune(body, volume_at(edge), Triangles::split);
+  return search.taken();
+}
+
+geometry::TetMesh tetgen_shape(const geometry::Shape& shape, std::span<const geometry::Lump> lumps,
+                               const Target& target, double time_limit) {
+  const Sampling sampling{shape, lumps};
+  Search search(target, time_limit);
+  if (target.nodes == 0) {
+    const geometry::Body body = sampling.body(target.edge_length, 1.0);
+    return checked(body, search.mesh(body, volume_at(target.edge_length)));
+  }
+  // The nodes grow as 1 / spacing to a power between 2 (all on the surface) and 3.
+  double spacing = std::cbrt(geometry::extent(shape).prod() / target.nodes);
+  for (int step = 0; step < 6; ++step) {
+    const geometry::TetMesh mesh = search.mesh(sampling.body(spacing, 1.0), volume_at(spacing));
+    const double ratio = static_cast<double>(mesh.nodes.size()) / target.nodes;
+    if (std::abs(ratio - 1.0) < 0.1) break;
+    spacing *= std::pow(ratio, 1.0 / 2.5);
+  }
+  if (target.tetrahedra == 0) {
+    for (const double factor : {1.0, 1.06, 0.95, 1.12, 0.9})
+      if (search.miss() > good_miss)
+        search.tune(sampling.body(factor * spacing, 1.0), volume_at(factor * spacing));
+    return search.taken();
+  }
+  // Inner surfaces also produce tetrahedra; if there are too many, the inner spacing is increased.
+  const bool layered = std::holds_alternative<geometry::LayeredLimb>(shape);
+  for (const double inner : layered ? std::vector{1.0, 2.0, 2.5} : std::vector{1.0})
+    if (search.miss() > fair_miss) tune_both(sampling, spacing, inner, search);
+  return search.taken();
+}
+
+}  // namespace palpate::meshing

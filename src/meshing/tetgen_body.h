@@ -1,0 +1,33 @@
+// Tetrahedral meshes of any body (one surface, or several inside each other) of a requested size.
+#pragma once
+
+#include <span>
+
+#include "geometry/shapes.h"
+
+namespace palpate::meshing {
+
+// Requested size of a mesh: number of nodes, numbers of nodes and tetrahedra, or edge length.
+struct Target {
+  int nodes = 0;             // 0: `edge_length` is used
+  int tetrahedra = 0;        // 0: any number; otherwise `nodes` is needed too
+  double edge_length = 0.0;  // m, used if `nodes` is 0
+};
+
+// The mesh of a body. TetGen keeps every triangle of the surfaces and adds nodes inside only, so
+// the surfaces determine the smallest number of nodes; if that leaves too few nodes or triangles
+// that are too coarse, TetGen may split triangles. TetMesh::regions are the parts' `region`, or
+// empty if all are 0. `time_limit` in s, for all attempts together. The same arguments give the
+// same mesh. check() has accepted it. Throws MeshError as tetgen_surface() does, if a surface is
+// not closed or inside out, and if no mesh within 25 % of the target is found.
+[[nodiscard]] geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target,
+                                            double time_limit);
+
+// The mesh of a shape with lumps. The sampling of the surfaces is also adapted to the target, so
+// that the counts are within 3 % for most targets. Fewer tetrahedra with the same number of nodes
+// mean a finer surface and a coarser interior.
+[[nodiscard]] geometry::TetMesh tetgen_shape(const geometry::Shape& shape,
+                                             std::span<const geometry::Lump> lumps,
+                                             const Target& target, double time_limit);
+
+}  // namespace palpate::meshing

@@ -1,0 +1,112 @@
+// Runs gnuplot, which may be missing, fail, or not end.
+#include "plot/gnuplot.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "plot/process.h"
+
+namespace palpate::plot {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Why no picture was drawn, as the middle of a sentence; empty on success.
+std::string failure(const ProcessResult& result, const DrawOptions& options) {
+  const std::string program = "`" + options.program + "` ";
+  switch (result.end) {
+    case ProcessResult::End::not_found: return program + "is not installed";
+    case ProcessResult::End::timed_out:
+      return program + "took longer than " + rounded_text(options.limit) + " s";
+    case ProcessResult::End::killed:
+      return program + "was ended by signal " + std::to_string(result.code);
+    case ProcessResult::End::exited: break;
+  }
+  if (result.code == 0) return {};
+  return program + "failed (" + trimmed(result.output) + ")";
+}
+
+std::string remedy(const ProcessResult& result, const std::string& script) {
+  if (result.end == ProcessResult::End::not_found)
+    return "; install gnuplot (Debian: gnuplot-nox) and run `gnuplot " + script + "` there";
+  return "; run `gnuplot " + script + "` there to see why";
+}
+
+// The first file that the script reads and that is missing; gnuplot would leave out its curves.
+std::optional<std::string> missing_file(const Sheet& sheet, const fs::path& folder) {
+  for (const std::string& file : sheet.reads)
+    if (!fs::exists(folder / file)) return file;
+  return std::nullopt;
+}
+
+struct Picture {
+  bool drawn = false;
+  std::string warning = {};
+};
+
+// Draws one picture into a temporary file and renames it.
+Picture draw_picture(const Sheet& sheet, const std::string& format, const std::string& folder,
+                     const DrawOptions& options) {
+  const std::string script = sheet.name + ".gp";
+  const std::string picture = sheet.name + "." + format;
+  const std::string beside = picture + ".part" + std::to_string(::getpid());
+  const std::string not_drawn = picture + " was not drawn in " + folder + ": ";
+  if (const auto file = missing_file(sheet, folder))
+    return {false, not_drawn + "`" + *file + "` is missing; run the scenario again"};
+  // -d: without the user's gnuplot settings.
+  const ProcessResult result =
+      run_process({.argv = {options.program, "-d", "-e",
+                            "format='" + format + "'; target='" + beside + "'", script},
+                   .folder = folder,
+                   .limit = options.limit});
+  const fs::path from = fs::path(folder) / beside;
+  std::string why = failure(result, options);
+  std::error_code error;
+  if (why.empty()) fs::rename(from, fs::path(folder) / picture, error);
+  if (error) why = "it cannot be renamed (" + error.message() + ")";
+  if (!why.empty()) {
+    fs::remove(from, error);
+    return {false, not_drawn + why + remedy(result, script)};
+  }
+  const std::string said = trimmed(result.output);
+  if (said.empty()) return {true, {}};
+  return {true, picture + " in " + folder + " may not be complete; gnuplot said: " + said};
+}
+
+}  // namespace
+
+Sheet sheet_of(const Figure& figure) {
+  Sheet sheet{figure.name, gnuplot_script(figure), {}};
+  for (const Series& series : figure.series) sheet.reads.push_back(series.csv_file);
+  return sheet;
+}
+
+Drawing draw(const Sheet& sheet, const std::string& folder, const DrawOptions& options) {
+  Drawing drawing;
+  const std::string script = sheet.name + ".gp";
+  write_atomically((fs::path(folder) / script).string(), sheet.script);
+  drawing.files.push_back(script);
+  std::vector<std::string> formats{"svg"};
+  if (options.format == PictureFormat::svg_and_pdf) formats.push_back("pdf");
+  for (const std::string& format : formats) {
+    const Picture picture = draw_picture(sheet, format, folder, options);
+    if (picture.drawn) drawing.files.push_back(sheet.name + "." + format);
+    if (!drawing.warning.empty() && !picture.warning.empty()) drawing.warning += "\n";
+    drawing.warning += picture.warning;
+  }
+  return drawing;
+}
+
+void draw(const Sheet& sheet, WholeFolder& folder, std::vector<std::string>& warnings,
+          const DrawOptions& options) {
+  const Drawing drawing = draw(sheet, folder.partial(), options);
+  folder.add(drawing.files);
+  if (!drawing.warning.empty()) warnings.push_back(drawing.warning);
+}
+
+}  // namespace palpate::plot

@@ -1,0 +1,33 @@
+// The figures of a result folder, and fitted curves for them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fit/regression.h"
+#include "plot/figure.h"
+
+namespace palpate::report {
+
+// Each figure lists the file and columns that it uses for a series that names none.
+
+// Force against indentation (Figure 6): force_indentation.csv, indentation_mm, force_N.
+[[nodiscard]] plot::Figure figure_force_indentation(std::vector<plot::Series> series);
+
+// Force against the curvature of the tissue at the contact (Figure 6 of the paper, lower graph),
+// one point per case: findings.csv, local_curvature_per_m, peak_force_N.
+[[nodiscard]] plot::Figure figure_force_curvature(std::vector<plot::Series> series);
+
+// Force along a slide: force_indentation.csv, slide_mm, force_N.
+[[nodiscard]] plot::Figure figure_force_slide(std::vector<plot::Series> series);
+
+// Travel along a slide at constant force: force_indentation.csv, slide_mm, travel_mm.
+[[nodiscard]] plot::Figure figure_travel_slide(std::vector<plot::Series> series);
+
+// Strain against time (Figure 7 of the paper): strain_time.csv, time_s, strain.
+[[nodiscard]] plot::Figure figure_strain_time(std::vector<plot::Series> series);
+
+// A fit as a curve over its range of x; nothing if an estimate is not finite.
+[[nodiscard]] std::optional<plot::FittedCurve> fitted_curve(const fit::Fit& fit);
+
+}  // namespace palpate::report

@@ -1,0 +1,124 @@
+// Resolves a scenario and its materials into plain values.
+#include "scenario/resolved.h"
+
+namespace palpate::scenario {
+namespace {
+
+void fill(std::optional<double>& value, const std::optional<material::Sourced>& from) {
+  if (!value && from) value = from->value;
+}
+
+// Whether the model uses the Poisson's ratios of regions; springs without a volume term do not.
+bool honours_ratios(const Solver& solver) {
+  return !solver.model || !rung(*solver.model).independent() ||
+         solver.volume.value_or(Solver::Volume::none) != Solver::Volume::none;
+}
+
+// A value is missing only if viscosity is not computed and the material has none.
+tissue::ViscousLaw viscous_law(const Tissue& tissue) {
+  tissue::ViscousLaw law;
+  law.kind = tissue.viscosity;
+  switch (tissue.viscosity) {
+    case tissue::Viscosity::none: break;
+    case tissue::Viscosity::nodal_drag: law.drag = tissue.drag.value_or(0.0); break;
+    case tissue::Viscosity::kelvin_voigt: law.time = tissue.retardation_time.value_or(0.0); break;
+    case tissue::Viscosity::standard_linear_solid:
+      if (tissue.relaxation_time && tissue.instantaneous_ratio)
+        law.branches.push_back({*tissue.relaxation_time, *tissue.instantaneous_ratio - 1.0});
+      break;
+    case tissue::Viscosity::prony:
+      for (const Branch& branch : tissue.branches)
+        law.branches.push_back({branch.relaxation_time, branch.ratio});
+  }
+  return law;
+}
+
+Resolved::Contact resolve_contact(const Scenario& asked, const Rung& rung, const Found& found) {
+  using Viscosity = Contact::Viscosity;
+  const Contact& contact = asked.contact;
+  const bool deep = found.depth_matters && rung.deep_factor;
+  const bool linear = asked.solver.kinematics == Solver::Kinematics::linear;
+  return {
+      contact,
+      found.viscosity_matters ? contact.viscosity.value_or(Viscosity::none) : Viscosity::none,
+      contact.depth.value_or(deep ? Contact::Depth::neo_hookean : Contact::Depth::hertz),
+      contact.direction.value_or(linear ? Contact::Direction::skin : Contact::Direction::sphere)};
+}
+
+Resolved::Solver resolve_solver(const Scenario& asked, const Rung& rung, const Found& found) {
+  using Integrator = Solver::Integrator;
+  const bool drag = asked.tissue.viscosity == tissue::Viscosity::nodal_drag;
+  const bool still = rung.meshed() && (asked.contact.coupling == contact::Coupling::resolved ||
+                                       (!found.inertia_matters && !drag));
+  return {asked.solver, rung.of, asked.solver.volume.value_or(rung.volume),
+          asked.solver.integrator.value_or(still ? Integrator::quasi_static
+                                                 : Integrator::central_difference)};
+}
+
+}  // namespace
+
+Scenario filled(const Case& one) {
+  Scenario all = one.scenario;
+  const material::Tissue& material = one.materials.tissue;
+  fill(all.tissue.density, material.density);
+  fill(all.tissue.young_modulus, material.young_modulus);
+  fill(all.tissue.poisson_ratio, material.poisson_ratio);
+  switch (all.tissue.viscosity) {
+    case tissue::Viscosity::nodal_drag: fill(all.tissue.drag, material.drag); break;
+    case tissue::Viscosity::kelvin_voigt:
+      fill(all.tissue.retardation_time, material.retardation_time);
+      break;
+    case tissue::Viscosity::standard_linear_solid:
+      fill(all.tissue.relaxation_time, material.relaxation_time);
+      fill(all.tissue.instantaneous_ratio, material.instantaneous_ratio);
+      break;
+    case tissue::Viscosity::none:
+    case tissue::Viscosity::prony: break;
+  }
+  for (std::size_t i = 0; i < all.regions.size(); ++i) {
+    const material::Tissue& other = one.materials.regions[i];
+    fill(all.regions[i].density, other.density);
+    fill(all.regions[i].young_modulus, other.young_modulus);
+    if (honours_ratios(all.solver)) fill(all.regions[i].poisson_ratio, other.poisson_ratio);
+  }
+  if (const auto& rubber = one.materials.finger) {
+    fill(all.finger.density, rubber->density);
+    if (all.finger.rigid()) return all;
+    fill(all.finger.young_modulus, rubber->young_modulus);
+    fill(all.finger.poisson_ratio, rubber->poisson_ratio);
+  }
+  return all;
+}
+
+Resolved resolve(const Case& one, Model model, const Found& found) {
+  const Scenario all = filled(one);
+  const Tissue& tissue = all.tissue;
+  const auto base = all.uniform() ? tissue::Base::frictionless : tissue::Base::bonded;
+  Resolved resolved{all,
+                    {tissue,
+                     {*tissue.density, *tissue.young_modulus, *tissue.poisson_ratio},
+                     viscous_law(tissue),
+                     tissue.base.value_or(base)},
+                    {},
+                    {all.finger, all.finger.density.value_or(0.0), {}},
+                    resolve_contact(all, rung(model), found),
+                    resolve_solver(all, rung(model), found)};
+  for (const Region& region : all.regions)
+    resolved.regions.push_back({region,
+                                {*region.density, *region.young_modulus,
+                                 region.poisson_ratio.value_or(*tissue.poisson_ratio)}});
+  if (all.finger.young_modulus && all.finger.poisson_ratio && !all.finger.rigid())
+    resolved.finger.elastic = {*all.finger.young_modulus, *all.finger.poisson_ratio};
+  return resolved;
+}
+
+Scenario answered(const Case& one, const Resolved& resolved) {
+  Scenario all = filled(one);
+  all.solver.model = resolved.solver.model;
+  all.solver.integrator = resolved.solver.integrator;
+  all.contact.viscosity = resolved.contact.viscosity;
+  all.contact.depth = resolved.contact.depth;
+  return all;
+}
+
+}  // namespace palpate::scenario

@@ -1,0 +1,61 @@
+// A scenario in which open keys have values, from the materials and from the choice of the model;
+// it is what a Scene computes.
+#pragma once
+
+#include "contact/hertz.h"
+#include "scenario/family.h"
+
+namespace palpate::scenario {
+
+struct Resolved : PlainScenario {
+  struct Substance {
+    double density = 0.0;        // kg/m^3
+    double young_modulus = 0.0;  // Pa
+    double poisson_ratio = 0.0;  // of a region: the tissue's, if its springs cannot represent it
+  };
+  struct Tissue : PlainTissue, Substance {
+    tissue::ViscousLaw law;  // elastic if no viscosity is computed and the material has none
+    tissue::Base base = tissue::Base::bonded;
+  };
+  struct Region : PlainRegion, Substance {};
+  struct Finger : PlainFinger {
+    double density = 0.0;                     // kg/m^3
+    std::optional<contact::Elastic> elastic;  // none if rigid, and in a uniform test
+  };
+  struct Contact : PlainContact {
+    Viscosity viscosity = Viscosity::none;
+    Depth depth = Depth::hertz;
+    Direction direction = Direction::skin;
+  };
+  struct Solver : PlainSolver {
+    Model model = Model::hertz;
+    Volume volume = Volume::none;
+    Integrator integrator = Integrator::central_difference;
+  };
+  Tissue tissue;
+  std::vector<Region> regions;
+  Finger finger;
+  Contact contact;
+  Solver solver;
+
+  [[nodiscard]] bool meshed() const { return rung(solver.model).meshed(); }
+};
+
+// Results of the choice of a model on which open keys depend. By default nothing was evaluated.
+struct Found {
+  bool viscosity_matters = true;
+  bool inertia_matters = true;
+  bool depth_matters = false;
+};
+
+// The case with this model. All other open keys follow from the model, the materials and `found`.
+// If viscosity does not matter, the contact has none, even if the scenario requests it.
+[[nodiscard]] Resolved resolve(const Case& one, Model model, const Found& found = {});
+
+// The scenario with the materials' values for all properties that it leaves open.
+[[nodiscard]] Scenario filled(const Case& one);
+
+// The same, with model, integrator, viscosity and depth of the contact as resolved.
+[[nodiscard]] Scenario answered(const Case& one, const Resolved& resolved);
+
+}  // namespace palpate::scenario

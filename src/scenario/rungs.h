@@ -1,0 +1,125 @@
+// The ladder of models: name, requirements, abilities, error and cost of each rung, in one table
+// for the choice, `explain`, checks and the manual.
+#pragma once
+
+#include <string>
+
+#include "base/words.h"
+#include "tissue/coupled.h"
+
+namespace palpate::scenario {
+
+// In the order of cost.
+enum class Model { hertz, layer, mass_spring, coupled_springs };
+
+struct Rung {
+  enum class Springs { none, independent, coupled };
+
+  // The shares of the effects on the force that a mesh misses, measured against converged
+  // elasticity (docs/accuracy.md). docs/theory.md (69)
+  struct MeshError {
+    double flat = 0.0;    // error of the force on a flat cuboid
+    double sides = 0.0;   // share of the effect of the sides
+    double curved = 0.0;  // additional error of the force on a curved body
+    double size = 0.0;    // share of the effect of the size of a curved body
+    double waves = 0.0;   // share of the effect of inertia
+    double mixed = 0.0;   // additional error of the force with lumps of other tissues
+    double uneven = 0.0;  // error of the strain in a uniform test that is not uniform
+  };
+
+  struct Cost {
+    double once = 0.0;            // s, setup
+    double layered = 0.0;         // s, additional setup with several layers
+    double factorisations = 0.0;  // relative to the matrix of independent springs
+  };
+
+  Model of;
+  const char* word;  // in scenarios
+  const char* meaning;
+
+  // What it needs: the springs of a mesh, for any body of finite size. A rung without springs is a
+  // closed form, for the scenarios that scene::beyond() accepts.
+  Springs springs;
+  tissue::Volume volume = tissue::Volume::none;  // the default of `solver.volume`
+
+  // What it represents. Every rung represents both curvatures and the viscosity of the tissue.
+  bool thickness = false;    // of the specimen, and its base
+  bool sides = false;        // of the specimen: any shape
+  bool inertia = false;      // of the tissue
+  bool uniform = false;      // creep and relaxation between platens
+  bool own_ratio = false;    // the tissue's Poisson's ratio, away from the contact too
+  bool deep_factor = false;  // of a deep press into neo-Hookean tissue
+  bool eq_2 = false;         // its elastic force on a flat is exactly eq. (2)
+
+  MeshError error = {};  // of a mesh; for closed forms see scene::choose()
+  Cost cost = {};
+
+  [[nodiscard]] constexpr bool meshed() const { return springs != Springs::none; }
+  [[nodiscard]] constexpr bool independent() const { return springs == Springs::independent; }
+  [[nodiscard]] constexpr bool coupled() const { return springs == Springs::coupled; }
+};
+
+inline constexpr auto ladder = std::to_array<Rung>({
+    {.of = Model::hertz,
+     .word = "hertz",
+     .meaning = "eq. (1)-(4), no mesh",
+     .springs = Rung::Springs::none,
+     .own_ratio = true,
+     .deep_factor = true,
+     .eq_2 = true,
+     .cost = {.once = 1e-6}},
+    {.of = Model::layer,
+     .word = "layer",
+     .meaning = "flat tissue of finite thickness, exact, no mesh",
+     .springs = Rung::Springs::none,
+     .thickness = true,
+     .own_ratio = true,
+     .cost = {.once = 0.02, .layered = 0.48}},
+    {.of = Model::mass_spring,
+     .word = "mass_spring",
+     .meaning = "the paper's springs along tetrahedron edges",
+     .springs = Rung::Springs::independent,
+     .thickness = true,
+     .sides = true,
+     .inertia = true,
+     .uniform = true,
+     .error =
+         {.flat = 0.02, .sides = 0.3, .curved = 0.03, .size = 0.3, .waves = 0.15, .mixed = 0.05},
+     .cost = {.factorisations = 1.0}},
+    {.of = Model::coupled_springs,
+     .word = "coupled_springs",
+     .meaning = "the same springs, coupled so that they have the tissue's E and nu",
+     .springs = Rung::Springs::coupled,
+     .volume = tissue::Volume::nodal,
+     .thickness = true,
+     .sides = true,
+     .inertia = true,
+     .uniform = true,
+     .own_ratio = true,
+     .error = {.flat = 0.02,
+               .sides = 0.1,
+               .curved = 0.03,
+               .size = 0.1,
+               .waves = 0.06,
+               .mixed = 0.03,
+               .uneven = 0.02},
+     .cost = {.factorisations = 2.8}},  // the matrix has a pressure for every node
+});
+static_assert(is_complete<Model>(ladder), "the ladder has a row for every model, in their order");
+
+[[nodiscard]] constexpr const Rung& rung(Model model) { return ladder[as_index(model)]; }
+
+// The most complete rung, with which the others are compared.
+inline constexpr const Rung& strongest = ladder.back();
+
+// The rungs that satisfy `serves`, as part of a sentence: `solver.model = "a"` or `"b"`.
+template <class Serves>
+[[nodiscard]] std::string models_that(const Serves& serves) {
+  std::string text;
+  for (const Rung& rung : ladder)
+    if (serves(rung))
+      text += (text.empty() ? "`solver.model = \"" : " or `\"") + std::string(rung.word) + "\"`";
+  return text;
+}
+
+}  // namespace palpate::scenario

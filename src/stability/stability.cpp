@@ -1,0 +1,132 @@
+// Measures the map in order: models, axes, failures, sentences.
+#include "stability/stability.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "scenario/words.h"
+#include "stability/survey.h"
+
+namespace palpate::stability {
+
+using scenario::Solver;
+using tissue::Viscosity;
+
+bool Survey::go_on(const std::string& what) {
+  if (*stop) {
+    map.interrupted = true;
+    return false;
+  }
+  (*told)(what, std::min(1.0, static_cast<double>(done++) / planned));
+  return true;
+}
+
+std::unique_ptr<ProbedBody> Survey::make_body(
+    const RungOf& on, const std::function<void(scenario::Scenario&)>& change) const {
+  scenario::Case changed = bare(*one, on.model, on.volume);
+  if (change) change(changed.scenario);
+  return make_probed_body(changed, *family);
+}
+
+void add_limit(Survey& survey, ProbedBody& probed, const Method& method,
+               const tissue::ViscousLaw& law, const Setting& setting) {
+  const scenario::Resolved::Solver& solver = probed.scene.scenario.solver;
+  const Measured measured = measure_limit(probed, method, law, setting.contact);
+  LimitRow row;
+  row.rung = scenario::rung(solver.model).word;
+  row.volume = scenario::words::word(scenario::words::volumes, solver.volume);
+  row.integrator = method.name();
+  row.damping = setting.damping.empty()
+                    ? scenario::words::word(scenario::words::viscosities, law.kind)
+                    : setting.damping;
+  row.axis = setting.axis;
+  row.value = setting.value;
+  row.measured = measured.limit;
+  row.theory = measured.theory;
+  row.failure = measured.failure;
+  row.note = measured.note;
+  if (!setting.note.empty()) row.note += (row.note.empty() ? "" : "; ") + setting.note;
+  survey.map.limits.push_back(std::move(row));
+}
+
+namespace {
+
+constexpr std::array forms{Viscosity::none, Viscosity::nodal_drag, Viscosity::kelvin_voigt,
+                           Viscosity::standard_linear_solid};
+constexpr std::array volumes{Solver::Volume::none, Solver::Volume::tetrahedron,
+                             Solver::Volume::nodal};
+
+}  // namespace
+
+void survey_rungs(Survey& survey) {
+  for (const scenario::Rung& model : scenario::ladder) {
+    if (!model.meshed()) continue;
+    for (const Solver::Volume volume : volumes) {
+      const RungOf rung{model.of, volume};
+      const bool own = rung == survey.rung;
+      // Coupled springs without a volume term are refused in scenarios.
+      if (model.coupled() && volume == Solver::Volume::none) continue;
+      if (*survey.stop) return;
+      const auto probed = survey.make_body(rung);
+      for (const Viscosity form : forms) {
+        if (survey.large() && !own && form != Viscosity::none) continue;
+        const Damping damping = damping_of(*survey.one, form);
+        for (const Method& method : methods()) {
+          if (!survey.go_on(model.word + (", " + method.name()))) return;
+          if (method.integrator == Integrator::modal && survey.large() &&
+              !(own && form == Viscosity::none))
+            continue;
+          add_limit(survey, *probed, method, damping.law,
+                    {.axis = "rung", .note = damping.assumed ? "viscosity assumed" : ""});
+        }
+      }
+    }
+  }
+}
+
+namespace {
+
+void refuse(const scenario::Case& one, const scenario::Family& family) {
+  if (std::holds_alternative<scenario::HalfSpace>(one.scenario.tissue.shape))
+    throw InputError(
+        place_of(family.document, "tissue.shape"),
+        "a `half_space` has no mesh and needs no time steps, so that it has no stability "
+        "map; give `tissue.shape` a size, as `{ kind = \"cuboid\" }` has");
+}
+
+void refuse_large(const ProbedBody& own, const scenario::Family& family) {
+  if (own.nodes() <= most_map_nodes) return;
+  throw InputError(place_of(family.document, "tissue.mesh"),
+                   "the stability map accepts meshes of up to " + std::to_string(most_map_nodes) +
+                       " nodes, and this one has " + std::to_string(own.nodes()) +
+                       "; give `tissue.mesh` fewer cells (limits are proportional to the edges)");
+}
+
+}  // namespace
+
+StabilityMap map_stability(const scenario::Case& one, const scenario::Family& family,
+                           const std::atomic<bool>& stop, const Told& told) {
+  refuse(one, family);
+  Survey survey;
+  survey.one = &one;
+  survey.family = &family;
+  survey.stop = &stop;
+  survey.told = &told;
+  survey.rung = rung_of(one.scenario);
+  survey.own = survey.make_body(survey.rung);
+  refuse_large(*survey.own, family);
+  constexpr int beyond_rungs = 110;  // about the number of measurements on axes and of probes
+  const std::size_t on_rungs = survey.large() ? forms.size() + 4 : 5 * forms.size();
+  survey.planned = static_cast<int>(on_rungs * methods().size()) + beyond_rungs;
+  survey_rungs(survey);
+  survey_axes(survey);
+  probe_time(survey);
+  probe_shape(survey);
+  probe_touch(survey);
+  if (!survey.map.interrupted) survey.map.sentences = map_sentences(survey);
+  return std::move(survey.map);
+}
+
+}  // namespace palpate::stability

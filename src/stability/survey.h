@@ -1,0 +1,53 @@
+// The context that the functions of a stability map share while it is measured.
+#pragma once
+
+#include "contact/passivity.h"
+#include "stability/measure.h"
+
+namespace palpate::stability {
+
+struct Survey {
+  const scenario::Case* one = nullptr;
+  const scenario::Family* family = nullptr;
+  const std::atomic<bool>* stop = nullptr;
+  const Told* told = nullptr;
+  RungOf rung;                      // of the scenario
+  std::unique_ptr<ProbedBody> own;  // the scenario's specimen
+  StabilityMap map;
+  int done = 0;     // measurements
+  int planned = 1;  // estimated number of measurements
+
+  // For a large mesh other rungs are measured without damping only, and axes with fewer settings.
+  [[nodiscard]] bool large() const { return own->nodes() > 200; }
+
+  // Call before every measurement: reports `what` to `told`; false if the map is to end.
+  [[nodiscard]] bool go_on(const std::string& what);
+
+  // The body of the scenario with the model and volume term `on`, after `change`.
+  [[nodiscard]] std::unique_ptr<ProbedBody> make_body(
+      const RungOf& on, const std::function<void(scenario::Scenario&)>& change = {}) const;
+};
+
+struct Setting {
+  std::string axis;
+  std::optional<double> value = {};
+  std::string damping = {};
+  std::string note = {};
+  const ContactSpring* contact = nullptr;
+};
+
+// Measures one limit and adds its row to the map.
+void add_limit(Survey& survey, ProbedBody& probed, const Method& method,
+               const tissue::ViscousLaw& law, const Setting& setting);
+
+// The parts of the map; each ends early if go_on() returns false.
+void survey_rungs(Survey& survey);
+void survey_axes(Survey& survey);
+void probe_time(Survey& survey);   // divergence, non_finite, drift
+void probe_shape(Survey& survey);  // inversion, false equilibrium, locking
+void probe_touch(Survey& survey);  // tunnelling, chatter
+
+// The findings of the map as sentences, for stdout.
+[[nodiscard]] std::vector<std::string> map_sentences(const Survey& survey);
+
+}  // namespace palpate::stability

@@ -1,0 +1,29 @@
+// The id of a case: a hash of what it computes, without its name.
+#include <algorithm>
+
+#include "base/files.h"
+#include "sweep/plan.h"
+#include "sweep/row.h"
+
+namespace palpate::sweep {
+
+HashedNames hashed_inputs(const scenario::Family& family) {
+  HashedNames names;
+  for (const scenario::InputFile& input : family.inputs)
+    names.emplace_back(input.name, sha256(input.content));
+  return names;
+}
+
+std::uint64_t case_id(const scenario::Case& one, const HashedNames& files) {
+  std::string text = scenario::spelled_out(one);
+  for (const auto& [name, hash] : files)
+    if (std::find(one.files.begin(), one.files.end(), name) != one.files.end())
+      text += name + " " + hash + "\n";
+  return id_of(sha256(text).substr(0, 16)).value_or(0);
+}
+
+std::uint64_t twin_id(std::uint64_t id, std::size_t number) {
+  return id_of(sha256(id_text(id) + " " + std::to_string(number)).substr(0, 16)).value_or(0);
+}
+
+}  // namespace palpate::sweep

@@ -1,0 +1,34 @@
+// Writes and reads plan.json, and the cells of plan.csv.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "record/table.h"
+#include "sweep/plan.h"
+
+namespace palpate::sweep {
+
+struct PlanFile {
+  std::string program;
+  std::string name;  // of the scenario
+  std::vector<std::string> settings;
+  bool curves = false;
+  std::size_t cases = 0;
+  std::string csv_hash = {};
+  HashedNames inputs;  // the scenario first
+};
+
+[[nodiscard]] std::string plan_text(const PlanFile& file);
+
+// Throws InputError, naming `path`, if the text is not a plan.json of this version.
+[[nodiscard]] PlanFile read_plan_file(const std::string& text, const std::string& path);
+
+// Lists the differences between two plans, such as "`--curves`, `--set`".
+[[nodiscard]] std::string differences(const PlanFile& a, const PlanFile& b);
+
+// A swept word as a cell: a number if the number is written in the same way, otherwise the text.
+[[nodiscard]] record::Cell plan_cell(const std::string& word);
+
+}  // namespace palpate::sweep

@@ -1,0 +1,80 @@
+// Rows as tables: id, attempt, outcome, reason, name, and values, remarks and curve as CSV texts.
+#include "sweep/row.h"
+
+#include <charconv>
+
+#include "record/csv.h"
+
+namespace palpate::sweep {
+namespace {
+
+constexpr std::size_t digits = 16;  // of ids
+
+}  // namespace
+
+const char* outcome_word(SweepOutcome outcome) {
+  switch (outcome) {
+    case SweepOutcome::completed: return "completed";
+    case SweepOutcome::diverged: return "diverged";
+    case SweepOutcome::failed: return "failed";
+  }
+  return "";
+}
+
+std::string id_text(std::uint64_t id) {
+  constexpr std::string_view hex = "0123456789abcdef";
+  std::string text(digits, '0');
+  for (std::size_t i = digits; i-- > 0; id >>= 4) text[i] = hex[id & 15];
+  return text;
+}
+
+std::optional<std::uint64_t> id_of(std::string_view text) {
+  std::uint64_t id = 0;
+  if (text.size() != digits) return std::nullopt;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + digits, id, 16);
+  if (error != std::errc() || end != text.data() + digits) return std::nullopt;
+  return id;
+}
+
+record::Table journal_row(const SweepRow& row) {
+  record::Table values{{"name", "value"}, {}};
+  for (const record::Finding& value : row.values) values.rows.push_back({value.name, value.value});
+  record::Table remarks{{"remark"}, {}};
+  for (const std::string& remark : row.remarks) remarks.rows.push_back({remark});
+  const std::string curve = row.curve.columns.empty() ? "" : record::csv_text(row.curve);
+  return {{"id", "attempt", "outcome", "reason", "name", "values", "remarks", "curve"},
+          {{id_text(row.id), static_cast<double>(row.attempt), outcome_word(row.outcome),
+            row.reason, row.name, record::csv_text(values), record::csv_text(remarks), curve}}};
+}
+
+std::optional<SweepHead> head_of(const record::Table& row) {
+  for (const char* column : {"id", "outcome", "reason", "name", "values", "remarks", "curve"})
+    if (record::value_in<std::string>(row, column) == nullptr) return std::nullopt;
+  const auto id = id_of(*record::value_in<std::string>(row, "id"));
+  const auto* attempt = record::value_in<double>(row, "attempt");
+  if (!id || attempt == nullptr) return std::nullopt;
+  for (const SweepOutcome one :
+       {SweepOutcome::completed, SweepOutcome::diverged, SweepOutcome::failed})
+    if (*record::value_in<std::string>(row, "outcome") == outcome_word(one))
+      return SweepHead{.id = *id, .attempt = static_cast<std::uint32_t>(*attempt), .outcome = one};
+  return std::nullopt;
+}
+
+std::optional<SweepRow> row_of(const record::Table& row) {
+  const auto head = head_of(row);
+  if (!head) return std::nullopt;
+  const auto word = [&](const char* name) { return *record::value_in<std::string>(row, name); };
+  SweepRow read{.id = head->id,
+                .attempt = head->attempt,
+                .outcome = head->outcome,
+                .reason = word("reason"),
+                .name = word("name")};
+  for (auto& value : record::parse_csv(word("values"), "values").rows)
+    read.values.push_back({std::get<std::string>(value[0]), std::move(value[1])});
+  for (const auto& remark : record::parse_csv(word("remarks"), "remarks").rows)
+    read.remarks.push_back(std::get<std::string>(remark[0]));
+  if (!word("curve").empty()) read.curve = record::parse_csv(word("curve"), "curve");
+  return read;
+}
+
+}  // namespace palpate::sweep

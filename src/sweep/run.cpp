@@ -1,0 +1,291 @@
+// Runs cases in blocks, so that memory does not grow with the plan; meshes are kept between blocks.
+#include "sweep/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "fit/case_fits.h"
+#include "run/share_out.h"
+#include "scene/estimates.h"
+#include "scene/specimen_shape.h"
+#include "sweep/journal.h"
+
+namespace palpate::sweep {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t block_cases = 512;
+constexpr double block_nodes = 50000.0;  // about the most in memory, of all scenes together
+constexpr std::size_t most_shapes = 32;  // kept meshes; if there are more, all are discarded
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+record::Cell known(double value) {
+  if (std::isnan(value)) return std::monostate{};
+  return value;
+}
+
+// Replaces the spaces in a curve's name, as in `force_indentation x 0.1`.
+std::string column_word(std::string text) {
+  std::replace(text.begin(), text.end(), ' ', '_');
+  return text;
+}
+
+void add_fits(const std::vector<fit::NamedFit>& fits, SweepRow& row) {
+  for (const fit::NamedFit& named : fits) {
+    const std::string curve =
+        column_word(named.curve) + "_" + std::string(fit::info(named.fit.model).name);
+    for (const fit::Estimate& parameter : named.fit.parameters) {
+      row.values.push_back({curve + "_" + parameter.name, known(parameter.estimate)});
+      row.values.push_back(
+          {curve + "_" + parameter.name + "_std_error", known(parameter.std_error)});
+    }
+    row.values.push_back({curve + "_r2", known(named.fit.r2)});
+  }
+}
+
+// The curve without the column `case`, because the row contains the name.
+record::Table curve_of(const record::CaseRecord& record) {
+  record::Table table =
+      record.strain.empty() ? record::contact_table({record}) : record::strain_table({record});
+  table.columns.erase(table.columns.begin());
+  for (auto& row : table.rows) row.erase(row.begin());
+  return table;
+}
+
+class Runner {
+ public:
+  Runner(const SweepPlan& plan, const SweepTask& task, const std::atomic<bool>& no_more)
+      : plan_(plan), task_(task), stop_{broken_, no_more}, files_(hashed_inputs(plan.family)) {}
+
+  void run(const std::vector<std::uint32_t>& numbers,
+           const std::function<std::uint32_t(std::uint32_t)>& attempt,
+           const std::function<void(const SweepProgress&)>& tick) {
+    if (numbers.empty()) return;
+    attempt_ = attempt;
+    all_ = numbers.size();
+    journal_ = std::make_unique<record::Journal>(
+        plan_.folder + "/results",
+        task_.which == SweepTask::Which::failed ? "retry" : task_.shard.text(), plan_.hash);
+    {
+      const std::jthread ticking([&](const std::stop_token& end) { beat(end, tick); });
+      for (std::size_t at = 0; at < numbers.size() && !stop_.no_more(); at += block_cases)
+        run_block(std::span(numbers).subspan(at, std::min(block_cases, numbers.size() - at)));
+    }
+    if (failure_) std::rethrow_exception(failure_);
+    journal_->sync();
+    tick(progress());
+  }
+
+  [[nodiscard]] std::size_t completed() const { return done_ - failed_; }
+  [[nodiscard]] std::size_t failed() const { return failed_; }
+
+ private:
+  struct Made {
+    std::uint32_t number = 0;
+    std::optional<scenario::Case> one;
+    scene::Scene scene;
+    bool built = false;
+  };
+
+  [[nodiscard]] SweepProgress progress() const {
+    return {all_, done_, failed_, seconds_since(start_)};
+  }
+
+  void beat(const std::stop_token& end, const std::function<void(const SweepProgress&)>& tick) {
+    std::mutex waiting;
+    std::condition_variable_any woken;
+    int beats = 0;
+    while (!end.stop_requested()) {
+      std::unique_lock lock(waiting);
+      woken.wait_for(lock, end, std::chrono::milliseconds(200), [] { return false; });
+      if (end.stop_requested()) return;
+      if (++beats % 4 == 0) guarded([&] { journal_->sync(); });
+      tick(progress());
+    }
+  }
+
+  // Carries out work on the journal; the first failure ends the run.
+  void guarded(const std::function<void()>& work) {
+    const std::lock_guard lock(writing_);
+    if (broken_) return;
+    try {
+      work();
+    } catch (...) {
+      failure_ = std::current_exception();
+      broken_ = true;
+    }
+  }
+
+  // Keeps a row for a failed case; the reason does not contain the plan's folder.
+  void keep_failure(const Made& made, std::string reason) {
+    const std::string folder = plan_.family.folder + "/";
+    for (std::size_t at = reason.find(folder); at != std::string::npos; at = reason.find(folder))
+      reason.erase(at, folder.size());
+    SweepRow row{.outcome = SweepOutcome::failed, .reason = std::move(reason)};
+    if (made.one) row.name = made.one->name;
+    keep(made.number, std::move(row));
+  }
+
+  void keep(std::uint32_t number, SweepRow row) {
+    row.id = plan_.ids[number];
+    row.attempt = attempt_(number);
+    guarded([&] {
+      journal_->add(journal_row(row));
+      ++done_;
+      if (row.outcome != SweepOutcome::completed) ++failed_;
+    });
+  }
+
+  // Calls `work`. An error of the case becomes its row. Returns whether there was none.
+  bool attempt(const Made& made, const std::function<void()>& work) {
+    try {
+      work();
+      return true;
+    } catch (const InputError& error) {
+      std::vector<std::string> sentences;
+      for (const Problem& problem : error.problems()) sentences.push_back(problem.message);
+      keep_failure(made, joined(sentences, "; "));
+    } catch (const MeshError& error) {
+      keep_failure(made, error.what());
+    }
+    return false;
+  }
+
+  void run_block(std::span<const std::uint32_t> numbers) {
+    std::vector<Made> block(numbers.size());
+    run::share_out(block.size(), task_.workers, [&](std::size_t i) {
+      Made& made = block[i];
+      made.number = numbers[i];
+      attempt(made, [&] {
+        scenario::Case one = scenario::make_case(plan_.family, made.number);
+        const std::uint64_t id = case_id(one, files_);
+        const std::uint64_t planned = plan_.ids[made.number];
+        if (id != planned && twin_id(id, made.number + 1) != planned)
+          throw SystemError("case " + std::to_string(made.number + 1) +
+                            " is not what was planned: this machine reads the scenario "
+                            "differently; plan anew on this one");
+        made.one = std::move(one);
+      });
+    });
+    for (std::size_t at = 0; at < block.size() && !stop_.no_more();) {
+      double nodes = 0.0;
+      std::size_t end = at;
+      while (end < block.size() && (end < at + as_index(task_.workers) || nodes < block_nodes)) {
+        const Made& made = block[end++];
+        if (made.one && made.one->scenario.meshed())
+          nodes += scene::expected_nodes(made.one->scenario.tissue.mesh);
+      }
+      run_part(std::span(block).subspan(at, end - at));
+      at = end;
+    }
+  }
+
+  void run_part(std::span<Made> part) {
+    if (shapes_->size() > most_shapes) shapes_ = std::make_unique<scene::SpecimenShapes>();
+    run::share_out(part.size(), task_.workers, [&](std::size_t i) {
+      Made& made = part[i];
+      if (!made.one || stop_.no_more()) return;
+      made.built =
+          attempt(made, [&] { made.scene = scene::build(*made.one, plan_.family, *shapes_); });
+    });
+    std::vector<scene::Scene> scenes;
+    std::vector<const Made*> of_scene;
+    for (Made& made : part) {
+      if (!made.built) continue;
+      scenes.push_back(std::move(made.scene));
+      of_scene.push_back(&made);
+    }
+    std::vector<char> ended(scenes.size(), 0);
+    const auto keep_record = [&](std::size_t i, const record::CaseRecord& record) {
+      if (record.outcome == record::Outcome::interrupted) return;
+      SweepRow row = row_of(scenes[i], record);
+      keep(of_scene[i]->number, std::move(row));
+      ended[i] = 1;
+    };
+    try {
+      run::run_each(scenes, task_.workers, stop_, keep_record, task_.lanes);
+    } catch (const InputError&) {  // the loop below finds the case
+    } catch (const MeshError&) {
+    }
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+      if (ended[i] == 0 && !stop_.no_more())
+        attempt(*of_scene[i], [&] { keep_record(i, run::run_case(scenes[i], stop_.end_now)); });
+    for (Made& made : part) made.one.reset();
+  }
+
+  [[nodiscard]] SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record) const {
+    SweepRow row{.reason = record.reason, .name = record.name, .remarks = record.remarks};
+    if (record.outcome == record::Outcome::diverged) row.outcome = SweepOutcome::diverged;
+    for (const record::Finding& finding : record.findings)
+      if (finding.name != "outcome") row.values.push_back(finding);
+    if (scene.scenario.output.fits) add_fits(fit::case_fits(scene.scenario, record), row);
+    if (plan_.curves) row.curve = curve_of(record);
+    return row;
+  }
+
+  const SweepPlan& plan_;
+  const SweepTask& task_;
+  std::atomic<bool> broken_ = false;  // the journal cannot be written
+  const run::Stop stop_;
+  const HashedNames files_;
+  std::function<std::uint32_t(std::uint32_t)> attempt_;
+  std::unique_ptr<record::Journal> journal_;
+  std::unique_ptr<scene::SpecimenShapes> shapes_ = std::make_unique<scene::SpecimenShapes>();
+  std::mutex writing_;
+  std::exception_ptr failure_;
+  std::size_t all_ = 0;
+  std::atomic<std::size_t> done_ = 0;
+  std::atomic<std::size_t> failed_ = 0;
+  const Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+SweepEnd run_sweep(const SweepPlan& plan, const SweepTask& task, const std::atomic<bool>& no_more,
+                   const std::function<void(const SweepProgress&)>& tick) {
+  const bool again = task.which == SweepTask::Which::failed;
+  const FolderLock lock(plan.folder, again ? "retry" : task.shard.text());
+  const SweepResults results(plan, task.shard);
+  std::vector<std::uint32_t> numbers;
+  SweepEnd end{.warnings = results.warnings()};
+  for (std::size_t i = 0; i < plan.count(); ++i) {
+    if (!task.shard.holds(i)) continue;
+    ++end.all;
+    const bool failed =
+        results.at(i).known() && results.at(i).head.outcome != SweepOutcome::completed;
+    const bool taken = again ? failed : !results.at(i).known();
+    if (taken)
+      numbers.push_back(static_cast<std::uint32_t>(i));
+    else if (failed)
+      ++end.failed;
+    else if (results.at(i).known())
+      ++end.completed;
+    else
+      ++end.missing;
+  }
+  if (task.order == SweepTask::Order::backwards) std::reverse(numbers.begin(), numbers.end());
+  Runner runner(plan, task, no_more);
+  runner.run(
+      numbers, [&](std::uint32_t i) { return again ? results.at(i).head.attempt + 1 : 1; }, tick);
+  end.completed += runner.completed();
+  end.failed += runner.failed();
+  const std::size_t left = numbers.size() - runner.completed() - runner.failed();
+  (again ? end.failed : end.missing) += left;
+  end.interrupted = no_more.load();
+  return end;
+}
+
+}  // namespace palpate::sweep

@@ -1,0 +1,252 @@
+// What a measured curve tells, what it cannot, and when it is told so.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "base/error.h"
+#include "identify_scenes.h"
+#include "record/csv.h"
+#include "refusal.h"
+
+namespace palpate {
+namespace {
+
+using test::IdentifyScene;
+
+IdentifyScene with_unknowns(const char* name, const std::vector<std::string>& unknowns) {
+  IdentifyScene scene = test::identify_scene(name);
+  scene.unknowns = unknowns;
+  return scene;
+}
+
+std::string refusal(const IdentifyScene& scene, const identify::Measurement& curve) {
+  return test::refusal([&] { return test::identified(scene, curve); });
+}
+
+bool warns_of_the_model(const identify::Identification& found) {
+  return std::any_of(found.warnings.begin(), found.warnings.end(), [](const std::string& text) {
+    return text.starts_with("the model does not describe the data");
+  });
+}
+
+// A half-space under a layer's curve: the base's stiffness is taken for the tissue's own.
+TEST(Identify, HertzOnALayerIsBiasedAndTheLayerCuresIt) {
+  const IdentifyScene& scene = test::identify_scene("layer");
+  const auto curve = test::noisy(test::clean_curve(scene), 0.01, 1);
+  const auto wrong = test::identified(scene, curve, {}, {"solver.model=hertz"});
+  const auto right = test::identified(scene, curve);
+  // Force over Hertz's at 1 mm on 10 mm of skin, nu 0.33: 1.423 (PHYSICS 3.4); less on the way.
+  EXPECT_GT(wrong.unknowns[0].estimate, 1.30 * 60e3);
+  EXPECT_LT(wrong.unknowns[0].estimate, 1.43 * 60e3);
+  EXPECT_TRUE(warns_of_the_model(wrong));
+  EXPECT_GT(*wrong.unknowns[0].ci95_low, 60e3);
+  EXPECT_EQ(right.scenario.solver.model, scenario::Solver::Model::layer);
+  EXPECT_FALSE(warns_of_the_model(right));
+  EXPECT_LT(*right.unknowns[0].profile_low, 60e3);
+  EXPECT_GT(*right.unknowns[0].profile_high, 60e3);
+}
+
+TEST(Identify, ModulusAndPoissonsRatioOfOneCurveAreTied) {
+  const auto scene =
+      with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa", "tissue.poisson_ratio=0.2..0.49",
+                              "contact_point=-0.1..0.6 mm"});
+  const auto found = test::identified(scene, test::noisy(test::clean_curve(scene), 0.01, 3));
+  EXPECT_TRUE(found.unknowns[0].tied);
+  EXPECT_TRUE(found.unknowns[1].tied);
+  EXPECT_FALSE(found.unknowns[2].tied);
+  const record::Table table = identify::identified_table(found);
+  const auto estimate = static_cast<std::size_t>(table.find("estimate"));
+  for (const int tied : {0, 1})  // no number stands for them
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(
+        table.rows[static_cast<std::size_t>(tied)][estimate]));
+  ASSERT_EQ(found.combinations.size(), 1U);
+  const identify::Combination& one = found.combinations[0];
+  EXPECT_EQ(one.text, "tissue.young_modulus / (1 - tissue.poisson_ratio^2)");
+  const double truth = 60.0 / (1.0 - 0.45 * 0.45);
+  EXPECT_LT(one.ci95_low, truth);
+  EXPECT_GT(one.ci95_high, truth);
+  EXPECT_LT(one.ci95_high / one.ci95_low, 1.1);  // determined, for all that
+}
+
+TEST(Identify, ModulusAndStressOfACreepAreTiedAsARatio) {
+  const auto scene =
+      with_unknowns("creep", {"tissue.young_modulus=1..500 kPa", "step.1.stress=10..1000 Pa"});
+  const auto found =
+      test::identified(scene, test::noisy(test::clean_curve(scene), 0.01, 3), {.profiles = false},
+                       {"tissue.retardation_time=0.3 s", "solver.model=mass_spring",
+                        "solver.integrator=quasi_static"});
+  ASSERT_EQ(found.combinations.size(), 1U);
+  EXPECT_EQ(found.combinations[0].text, "tissue.young_modulus * step.1.stress^-1");
+  EXPECT_NEAR(found.combinations[0].estimate, 8.0 / 0.1,  // both in kPa
+              4.0 * found.combinations[0].std_error);
+}
+
+// All three kinds of slopes, at a place that is no minimum. Central differences of a step d in u
+// err by d^2 / 6 of the third derivative, of a range of e^6 some 1e-6; Ridders's by far less.
+TEST(Identify, SlopesAgree) {
+  for (const char* name : {"hertz", "creep", "relaxation"}) {
+    const IdentifyScene& scene = test::identify_scene(name);
+    const auto curve = test::clean_curve(scene);
+    const auto family = scenario::parse(scene.text, "test.toml", {});
+    const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
+    const std::atomic<bool> stop = false;
+    identify::FixedRung fixed{.one = family.cases.front()};
+    fixed.one.scenario.output.pressure_maps = false;
+    fixed.one.scenario.contact.depth = scenario::Contact::Depth::hertz;
+    fixed.one.scenario.solver.integrator = scenario::Solver::Integrator::quasi_static;
+    fixed.model = scene.kind == identify::CurveKind::force_travel ? scenario::Model::hertz
+                                                                  : scenario::Model::mass_spring;
+    identify::ScenarioCurve run(scene.kind, fixed, family, unknowns, stop);
+    std::vector<double> x;  // away from the first touch, where the slope has a corner
+    for (const double at : curve.x)
+      if (scene.kind != identify::CurveKind::force_travel || (at > 0.5e-3 && at < 1.8e-3))
+        x.push_back(at);
+    run.set_points(x);
+    const auto closed = run.closed();
+    ASSERT_TRUE(closed) << name;
+    const std::vector<double> zeros(x.size(), 0.0);
+    const std::vector<double> ones(x.size(), 1.0);
+    identify::BoxProblem problem;
+    problem.unknowns = unknowns.size();
+    problem.measured = zeros;
+    problem.weights = ones;
+    problem.closed = &*closed;
+    problem.curve = [&](std::span<const double> u, std::span<double> out) {
+      identify::closed::values(*closed, u.data(), out.data());
+      return true;
+    };
+    const std::vector<double> u(unknowns.size(), 0.4);
+    const auto automatic = identify::evaluate_in_box(problem, u);
+    problem.slopes = identify::Slopes::central;
+    const auto central = identify::evaluate_in_box(problem, u);
+    problem.slopes = identify::Slopes::ridders;
+    const auto ridders = identify::evaluate_in_box(problem, u);
+    problem.curve = [&](std::span<const double> at, std::span<double> out) {
+      return run.evaluate(at, out);
+    };
+    problem.slopes = identify::Slopes::central;
+    const auto scene_slopes = identify::evaluate_in_box(problem, u);
+    ASSERT_TRUE(automatic.found && central.found && ridders.found && scene_slopes.found) << name;
+    double largest = 0.0;
+    for (const double slope : automatic.jacobian) largest = std::max(largest, std::abs(slope));
+    for (std::size_t i = 0; i < automatic.jacobian.size(); ++i) {
+      EXPECT_NEAR(central.jacobian[i], automatic.jacobian[i], 1e-6 * largest) << name;
+      EXPECT_NEAR(ridders.jacobian[i], automatic.jacobian[i], 1e-9 * largest) << name;
+      // The scene: between rows a creep is a line, of (20 ms / tau)^2 / 8 at the tau of u = 0.4.
+      EXPECT_NEAR(scene_slopes.jacobian[i], automatic.jacobian[i], 1e-3 * largest) << name;
+    }
+  }
+}
+
+// Of one linear unknown the profile is a parabola: its ends are Student's.
+TEST(Identify, ProfileOfALinearUnknownIsStudents) {
+  const auto scene = with_unknowns("hertz", {"force_offset=-0.5..0.5 N"});
+  IdentifyScene still = scene;
+  still.contact_point = 0.0;
+  const auto found = test::identified(still, test::noisy(test::clean_curve(still), 0.01, 5), {},
+                                      {"tissue.young_modulus=60 kPa"});
+  const identify::Identified& one = found.unknowns[0];
+  const double width = *one.ci95_high - *one.ci95_low;
+  EXPECT_NEAR(*one.profile_low, *one.ci95_low, 1e-4 * width);  // false position, of a line
+  EXPECT_NEAR(*one.profile_high, *one.ci95_high, 1e-4 * width);
+  EXPECT_FALSE(one.by_profile);
+}
+
+// With F = c h^(3/2) over evenly spaced h up to H, least squares give
+// d ln E = dh0 sum F dF/dh / sum F^2 = 3/2 (H^3 / 3) / (H^4 / 4) dh0 = 2 dh0 / H.
+TEST(Identify, ContactPointMovesTheModulus) {
+  const auto scene = with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa"});
+  IdentifyScene still = scene;
+  still.contact_point = 0.0;
+  const auto found = test::identified(still, test::noisy(test::clean_curve(still), 0.01, 5));
+  EXPECT_NEAR(found.contact_shift, 0.05e-3, 1e-9);  // a row every 10 ms at 5 mm/s
+  const double later = *found.unknowns[0].moved_up / found.unknowns[0].estimate;
+  const double earlier = *found.unknowns[0].moved_down / found.unknowns[0].estimate;
+  // To first order; the integrals stand for sums over 41 points.
+  EXPECT_NEAR(0.5 * (later - earlier), 2.0 * 0.05 / 2.0, 0.03 * 0.05);
+  EXPECT_GT(later, 0.0);
+  EXPECT_LT(earlier, 0.0);
+}
+
+TEST(Identify, RefusesWhatTheDataCannotAnswer) {
+  const IdentifyScene& scene = test::identify_scene("hertz");
+  identify::Measurement curve = test::clean_curve(scene);
+  identify::Measurement few = curve;
+  few.x.resize(2);
+  few.y.resize(2);
+  EXPECT_EQ(
+      refusal(scene, few),
+      "palpate: 2 usable points cannot determine 2 unknowns and the noise; record more points, or "
+      "leave out an `--unknown`");
+  identify::Measurement flat = curve;
+  std::fill(flat.y.begin(), flat.y.end(), 0.5);
+  EXPECT_NE(refusal(scene, flat).find("is the same at every point"), std::string::npos);
+  const auto idle = with_unknowns("hertz", {"contact.friction=0.1..1"});
+  EXPECT_NE(refusal(idle, curve)
+                .find("`--unknown contact.friction` changes nothing in what "
+                      "`hertz` computes"),
+            std::string::npos);
+  const auto outside = with_unknowns("hertz", {"tissue.young_modulus=1..10 kPa"});
+  EXPECT_NE(refusal(outside, curve).find("the best fit lies at the edge"), std::string::npos);
+  const auto noise = test::noisy(curve, 50.0, 4);
+  EXPECT_NE(
+      refusal(with_unknowns("hertz", {"tissue.young_modulus=50..70 kPa"}), noise).find("palpate: "),
+      std::string::npos);
+  identify::Measurement other = curve;
+  other.y_dimension = unit::kPa.dimension;
+  EXPECT_NE(refusal(scene, other).find("is no curve of this scenario"), std::string::npos);
+}
+
+TEST(Identify, SaysWhichPointsAreLeftOut) {
+  const IdentifyScene& scene = test::identify_scene("hertz");
+  identify::Measurement curve = test::clean_curve(scene);
+  const std::size_t points = curve.x.size();
+  for (std::size_t i = points; i-- > 0;) {  // and back
+    curve.x.push_back(curve.x[i]);
+    curve.y.push_back(curve.y[i]);
+  }
+  const auto found = test::identified(scene, curve, {.profiles = false});
+  EXPECT_EQ(found.notes.at(0), std::to_string(points - 1) +
+                                   " points are left out: the way back from the deepest travel");
+  // The programme ends at 2 mm, the lowest contact point is at -0.1 mm, and 2.2 mm were measured.
+  EXPECT_NE(found.notes.at(1).find("beyond the programme, which ends at 2 mm"), std::string::npos);
+  for (const double x : found.x) EXPECT_LE(x, 1.9e-3 * (1.0 + 1e-6));
+}
+
+// A curve that an interrupt leaves out looks like one that the data do not determine. Whenever the
+// interrupt comes, there is the whole result or none.
+TEST(Identify, AnInterruptLeavesTheWholeResultOrNone) {
+  const IdentifyScene& scene = test::identify_scene("creep of springs");
+  const auto curve = test::noisy(test::clean_curve(scene), 0.01, 1);
+  const auto family = scenario::parse(scene.text, "test.toml", {});
+  const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
+  const auto table = [&](const std::atomic<bool>& stop) {
+    const auto found = identify::identify(curve, family, unknowns, stop);
+    return record::csv_text(identify::identified_table(found)) +
+           record::csv_text(identify::profile_table(found));
+  };
+  const auto start = std::chrono::steady_clock::now();
+  const std::string whole = table(false);
+  const auto duration = std::chrono::steady_clock::now() - start;
+  int refused = 0;
+  for (int part = 0; part < 10; ++part) {
+    std::atomic<bool> stop = part == 0;
+    std::thread user([&] {
+      std::this_thread::sleep_for(duration * part / 10);
+      stop = true;
+    });
+    try {
+      EXPECT_EQ(table(stop), whole) << part << "/10 of the time";
+    } catch (const InputError&) {
+      ++refused;
+    }
+    user.join();
+  }
+  EXPECT_GT(refused, 0);  // at least the first
+}
+
+}  // namespace
+}  // namespace palpate

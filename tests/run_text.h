@@ -1,0 +1,31 @@
+// Runs of scenarios that are texts, and what is read off their records.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <string>
+#include <variant>
+
+#include "run/family.h"
+#include "scene_text.h"
+
+namespace palpate::test {
+
+inline record::CaseRecord run_scene(const scene::Scene& scene) {
+  const std::atomic<bool> stop = false;
+  return run::run_case(scene, stop);
+}
+
+inline record::CaseRecord run_text(const std::string& text, const Settings& settings = {}) {
+  return run_scene(scene_of(text, settings));
+}
+
+inline record::Cell finding(const record::CaseRecord& record, const std::string& name) {
+  for (const auto& finding : record.findings)
+    if (finding.name == name) return finding.value;
+  ADD_FAILURE() << "no finding " << name;
+  return {};
+}
+
+}  // namespace palpate::test

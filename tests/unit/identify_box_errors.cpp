@@ -1,0 +1,79 @@
+// Errors, ties and tests of residuals, on slopes that are known.
+#include "identify/box_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "identify/residual_tests.h"
+
+namespace palpate::identify {
+namespace {
+
+Unknown unknown(const std::string& key, double low, double high, Unknown::Scale scale) {
+  return {.key = key, .scale = scale, .unit = std::nullopt, .low = low, .high = high};
+}
+
+// Two columns: sums of squares 4 and 1, orthogonal.
+TEST(BoxErrors, AreThoseOfLinearLeastSquares) {
+  const std::vector<double> slopes{2.0, 0.0, 0.0, 1.0};
+  const BoxErrors errors = box_errors(slopes, 2, 0.1, 2.0);
+  EXPECT_EQ(errors.determined, 2);
+  EXPECT_NEAR(errors.variance(0, 0), 0.01 / 4.0, 1e-15);  // rounding
+  EXPECT_NEAR(errors.variance(1, 1), 0.01, 1e-15);
+  EXPECT_NEAR(errors.variance(0, 1), 0.0, 1e-15);
+  EXPECT_EQ(errors.tied, (std::vector<char>{0, 0}));
+}
+
+TEST(BoxErrors, CorrelatedColumnsShareTheirError) {
+  // J^T J = [[2, 1], [1, 1]], its inverse [[1, -1], [-1, 2]].
+  const std::vector<double> slopes{1.0, 0.0, 1.0, 1.0};
+  const BoxErrors errors = box_errors(slopes, 2, 0.1, 2.0);
+  EXPECT_NEAR(errors.variance(0, 0), 0.01, 1e-15);  // rounding
+  EXPECT_NEAR(errors.variance(0, 1), -0.01, 1e-15);
+  EXPECT_NEAR(errors.variance(1, 1), 0.02, 1e-15);
+}
+
+TEST(BoxErrors, ADirectionWiderThanHalfTheBoxIsATie) {
+  const auto tied = [](double slope) {
+    return box_errors(std::vector<double>{1.0, 0.0, 0.0, slope}, 2, 0.1, 2.0).tied;
+  };
+  // 2 sigma / slope is 0.5 at 0.4
+  EXPECT_EQ(tied(0.41), (std::vector<char>{0, 0}));
+  EXPECT_EQ(tied(0.39), (std::vector<char>{0, 1}));
+}
+
+TEST(BoxErrors, OfAProductOnlyTheProductIsDetermined) {
+  // The model a b^2, both over a factor of e^2 of the box: d ln / du = 2 and 2 * 2.
+  const double range = std::exp(2.0);
+  const std::vector<Unknown> unknowns{unknown("a", 1.0, range, Unknown::Scale::logarithmic),
+                                      unknown("b", 1.0, range, Unknown::Scale::logarithmic)};
+  const std::vector<double> slopes{2.0, 4.0, 4.0, 8.0, 6.0, 12.0};
+  const BoxErrors errors = box_errors(slopes, 2, 0.01, 2.0);
+  EXPECT_EQ(errors.determined, 1);
+  EXPECT_EQ(errors.tied, (std::vector<char>{1, 1}));
+  const auto found = combination(errors, unknowns, std::vector{0.5, 0.25}, 2.0);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->text, "a * b^2");
+  EXPECT_NEAR(found->estimate, std::exp(1.0) * std::exp(1.0), 1e-9);  // rounding
+  // d ln(a b^2) = 2 du_a + 4 du_b, and a row says it with errors of sigma: over 1, 2 and 3 times.
+  EXPECT_NEAR(found->std_error / found->estimate, 0.01 / std::sqrt(14.0), 1e-6);
+}
+
+TEST(ResidualTests, TellNoiseFromBends) {
+  std::vector<double> alternating, bend;
+  for (int i = 0; i < 40; ++i) {
+    alternating.push_back(i % 2 == 0 ? 1.0 : -1.0);
+    bend.push_back(i < 20 ? 1.0 : -1.0);
+  }
+  // 39 steps of 2, and one.
+  EXPECT_DOUBLE_EQ(durbin_watson(alternating), 39.0 * 4.0 / 40.0);
+  EXPECT_DOUBLE_EQ(durbin_watson(bend), 4.0 / 40.0);
+  // 20 of each sign: mean 21, variance 20 * 19 / 39
+  EXPECT_NEAR(runs_z(bend), (2.0 - 21.0) / std::sqrt(20.0 * 19.0 / 39.0), 1e-12);
+  EXPECT_TRUE(systematic(bend));
+  EXPECT_FALSE(systematic(alternating));
+}
+
+}  // namespace
+}  // namespace palpate::identify

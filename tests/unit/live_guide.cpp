@@ -1,0 +1,98 @@
+// The programme as guidance, and the surface that is felt.
+#include "live/guide.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "live/touch.h"
+
+namespace palpate::live {
+namespace {
+
+std::vector<scenario::Step> programme() {
+  scenario::Indent to_travel;
+  to_travel.to = {2e-3, false};
+  scenario::Hold hold;
+  hold.time = 0.5;
+  scenario::Slide slide;
+  slide.by = 3e-3;
+  scenario::Indent to_force;
+  to_force.to = {1.5, true};
+  scenario::Retract retract;
+  retract.to = 0.0;
+  return {to_travel, hold, slide, to_force, retract};
+}
+
+GuidePlace at(double time, double travel, double force = 0.0, double x = 0.0) {
+  return {time, Vec3(x, 0.0, -travel), force};
+}
+
+TEST(Guide, EndsEachStepByWhatWasReached) {
+  const auto steps = programme();
+  Guide guide(steps);
+  guide.pass(at(0.0, -5e-3));
+  guide.pass(at(0.1, 1.999e-3));
+  EXPECT_EQ(guide.step(), 1);
+  guide.pass(at(0.2, 2e-3));
+  EXPECT_EQ(guide.step(), 2) << "a hold from 0.2 s";
+  guide.pass(at(0.69, 2.5e-3));
+  EXPECT_EQ(guide.step(), 2);
+  guide.pass(at(0.71, 2.5e-3, 0.0, 1e-3));
+  EXPECT_EQ(guide.step(), 3) << "a slide from x = 1 mm";
+  guide.pass(at(0.8, 2.5e-3, 0.0, 3.9e-3));
+  EXPECT_EQ(guide.step(), 3);
+  guide.pass(at(0.9, 2.5e-3, 0.0, -2.1e-3));
+  EXPECT_EQ(guide.step(), 4);
+  guide.pass(at(1.0, 9e-3, 1.49));
+  EXPECT_EQ(guide.step(), 4) << "until a force, whatever the travel";
+  guide.pass(at(1.1, 3e-3, 1.5));
+  EXPECT_EQ(guide.step(), 5);
+  guide.pass(at(1.2, 1e-6));
+  EXPECT_FALSE(guide.done());
+  guide.pass(at(1.3, 0.0));
+  EXPECT_TRUE(guide.done());
+  EXPECT_EQ(guide.step(), 5);
+  guide.pass(at(1.4, 2e-3));
+  EXPECT_TRUE(guide.done()) << "over is over";
+}
+
+TEST(Guide, SaysWhatTheHandIsToDo) {
+  const auto steps = programme();
+  EXPECT_EQ(guidance(steps[0]), "press to 2 mm at about 5 mm/s");
+  EXPECT_EQ(guidance(steps[1]), "hold still for 0.5 s");
+  EXPECT_EQ(guidance(steps[2]), "slide sideways by 3 mm at about 5 mm/s");
+  EXPECT_EQ(guidance(steps[3]), "press until the force is 1.5 N at about 5 mm/s");
+  EXPECT_EQ(guidance(steps[4]), "withdraw to 0 mm at about 5 mm/s");
+}
+
+TEST(TouchLine, FindsWhereAHertzContactBegan) {
+  for (const double stiffness : {1e2, 1e5}) {  // N m^(-3/2)
+    TouchLine line;
+    for (int i = 1; i <= 20; ++i) {
+      const double depth = 1e-4 + 1e-5 * i;
+      line.add(-0.037 - depth, stiffness * depth * std::sqrt(depth));
+    }
+    ASSERT_TRUE(line.surface());
+    EXPECT_NEAR(*line.surface(), -0.037, 1e-12);  // rounding
+  }
+}
+
+TEST(TouchLine, KnowsNothingFromTooLittle) {
+  TouchLine line;
+  EXPECT_FALSE(line.surface());
+  line.add(-1e-3, 0.01);
+  line.add(-2e-3, 0.02);
+  EXPECT_FALSE(line.surface()) << "two readings are a line whatever they are";
+  line.add(-3e-3, -0.02);
+  EXPECT_FALSE(line.surface()) << "no contact pulls";
+  TouchLine upwards;
+  for (int i = 0; i < 5; ++i) upwards.add(1e-3 * i, 0.01 + 0.01 * i);
+  EXPECT_FALSE(upwards.surface()) << "it grows upwards";
+  TouchLine still;
+  for (int i = 0; i < 5; ++i) still.add(-1e-3, 0.01);
+  EXPECT_FALSE(still.surface());
+}
+
+}  // namespace
+}  // namespace palpate::live

@@ -1,0 +1,299 @@
+// Measured files as machines, spreadsheets and people leave them, and what is refused of them.
+#include "measured/measured.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "record/csv.h"
+#include "refusal.h"
+
+namespace palpate::measured {
+namespace {
+
+using Numbers = std::vector<double>;
+
+constexpr Dimension length{1, 0, 0};
+constexpr Dimension force{1, 1, -2};
+
+MeasuredCurve read(std::string_view text, const DataLayout& layout = {}) {
+  return parse_measured(text, "data.csv", layout);
+}
+
+std::string refusal(std::string_view text, const DataLayout& layout = {}) {
+  return test::refusal([&] { return read(text, layout); });
+}
+
+// 1.5 mm and 2 mm, 3 N and 4.25 N: the same curve in every dress.
+void expect_curve(const MeasuredCurve& curve) {
+  EXPECT_EQ(curve.x, (Numbers{1.5e-3, 2e-3}));
+  EXPECT_EQ(curve.y, (Numbers{3.0, 4.25}));
+  EXPECT_EQ(curve.x_axis.dimension, length);
+  EXPECT_EQ(curve.y_axis.dimension, force);
+}
+
+TEST(Measured, SeparatorsAndDecimals) {
+  const DataLayout layout{.x = "depth_mm", .y = "force_N"};
+  expect_curve(read("depth_mm,force_N\n1.5,3\n2,4.25\n", layout));
+  expect_curve(read("depth_mm;force_N\n1.5;3\n2;4.25\n", layout));
+  expect_curve(read("depth_mm;force_N\n1,5;3\n2,0;4,25\n", layout));
+  expect_curve(read("depth_mm\tforce_N\n1,5\t3\n2,0\t4,25\n", layout));
+  expect_curve(read("depth_mm force_N\n  1.5   3\n  2.0   4.25\n", layout));
+  expect_curve(read("depth_mm  force_N\n1,5  3,0\n2,0  4,25\n", layout));
+  expect_curve(read("depth_mm, force_N\n1.5, 3.0\n2.0, 4.25\n", layout));
+  expect_curve(read("\"depth_mm\",\"force_N\"\n\"1.5\",\"3\"\n\"2\",\"4.25\"\n", layout));
+  expect_curve(read("\"depth_mm\",\"force_N\"\n\"1,5\",\"3,0\"\n\"2,0\",\"4,25\"\n", layout));
+  expect_curve(read("depth_mm;force_N\n1,5;3\n2,0;4,25\n",
+                    {.x = "1", .y = "2", .separator = ";", .decimal = ","}));
+}
+
+TEST(Measured, LineEndsAndEncodings) {
+  const DataLayout layout{.x = "depth_mm", .y = "force_N"};
+  expect_curve(
+      read("\xEF\xBB\xBF"
+           "depth_mm,force_N\r\n1.5,3\r\n2,4.25\r\n",
+           layout));
+  expect_curve(read("depth_mm,force_N\r1.5,3\r2,4.25", layout));
+  expect_curve(read("depth_mm,force_N,\n1.5,3,\n2,4.25,\n", layout));
+  expect_curve(read("\ndepth_mm,force_N\n\n1.5,3\n2,4.25\n\n \n", layout));
+  const std::string ascii = "depth_mm\tforce_N\r\n1.5\t3\r\n2\t4.25\r\n";
+  std::string little = "\xFF\xFE";
+  std::string big = "\xFE\xFF";
+  for (const char c : ascii) {
+    little += c;
+    little += '\0';
+    big += '\0';
+    big += c;
+  }
+  expect_curve(read(little, layout));
+  expect_curve(read(big, layout));
+  EXPECT_EQ(refusal(little.substr(2)),
+            "data.csv:1:2: is no text: a NUL byte stands here; export the table as CSV in UTF-8");
+  // The micro sign in ISO 8859-1, in UTF-8, and the Greek letter in UTF-8.
+  for (const char* unit : {"\xB5"
+                           "m",
+                           "\xC2\xB5"
+                           "m",
+                           "\xCE\xBC"
+                           "m",
+                           "um", "micron"}) {
+    const MeasuredCurve curve =
+        read("Depth (" + std::string(unit) + "),Load (mN)\n1500,3000\n2000,4250\n",
+             {.x = "Depth", .y = "load"});
+    expect_curve(curve);
+    EXPECT_EQ(curve.x_axis.unit, "um");
+    EXPECT_EQ(curve.x_written, (Numbers{1500, 2000}));
+  }
+}
+
+TEST(Measured, UnitsInNamesRowsAndOptions) {
+  for (const char* heads : {"Displacement (mm),Load [N]", "Displacement_mm,Load_N",
+                            "Weg in mm,Kraft in N", "Weg / mm,Kraft / N", "mm,N"})
+    expect_curve(read(std::string(heads) + "\n1.5,3\n2,4.25\n"));
+  expect_curve(read("Zeit,Weg,Kraft\n(s),(mm),(N)\n0,1.5,3\n1,2,4.25\n"));
+  expect_curve(read("x,y\n1.5,3\n2,4.25\n", {.x_unit = "mm", .y_unit = "N"}));
+  expect_curve(read("Weg_m,y\n1.5,3\n2,4.25\n", {.x_unit = "mm", .y_unit = "N"}));
+  const MeasuredCurve scales =
+      read("Time (sec),Strain (%)\n1,50\n2,25\n", {.x = "time", .y = "strain"});
+  EXPECT_EQ(scales.y, (Numbers{0.5, 0.25}));
+  EXPECT_EQ(scales.x_axis.unit, "s");
+  EXPECT_TRUE(scales.y_axis.has_unit);
+  EXPECT_FALSE(read("a,b\n1,2\n").x_axis.has_unit);
+  // 1 lbf is 0.45359237 kg times 9.80665 m/s^2, and an inch 25.4 mm, both exactly.
+  const MeasuredCurve imperial = read("Extension (in),Load (lbF)\n1,1\n2,2\n");
+  EXPECT_DOUBLE_EQ(imperial.x[0], 0.0254);
+  EXPECT_DOUBLE_EQ(imperial.y[0], 0.45359237 * 9.80665);
+}
+
+TEST(Measured, BluehillBlocksAreSkipped) {
+  const std::string text =
+      "Specimen,liver 3\nRate : 0.5 mm/s\n\"Start of test\",\"10:00\"\n\n"
+      "Time,Extension,Load\n(s),(mm),(N)\n"
+      "\"0.0\",\"1.5\",\"3\"\n\"0.1\",\"2\",\"4.25\"\nEnd of test\n";
+  const MeasuredCurve curve = read(text, {.x = "Extension", .y = "Load"});
+  expect_curve(curve);
+  EXPECT_EQ(curve.lines, (std::vector<int>{7, 8}));
+  EXPECT_EQ(curve.notes, std::vector<std::string>{
+                             "the lines from line 9 on contain no numbers and are left out"});
+  expect_curve(read(text, {.x = "Extension", .y = "Load", .skip = 4}));
+}
+
+TEST(Measured, HeaderInAComment) {
+  expect_curve(read("# a press\n# depth_mm force_N\n1.5 3\n# seen\n2 4.25\n"));
+  expect_curve(read("# Depth (mm)  Load (N)\n1.5  3\n2  4.25\n"));
+}
+
+TEST(Measured, NoHeaderAtAll) {
+  const DataLayout layout{.x = "2", .y = "1", .x_unit = "mm", .y_unit = "N"};
+  const MeasuredCurve curve = read("3,1.5,0\n4.25,2,1\n", layout);
+  expect_curve(curve);
+  EXPECT_EQ(curve.x_axis.column, "2");
+  EXPECT_EQ(curve.lines, (std::vector<int>{1, 2}));
+  EXPECT_EQ(refusal("3,1.5,0\n4,2,1\n", {.x = "load", .y = "1"}),
+            "data.csv:1: the numbers begin here without names of columns above, so that there is "
+            "no column `load`; give a column's number, as `--x 1`, or `--skip` the lines above the "
+            "names");
+  EXPECT_EQ(refusal("3,1.5,0\n4,2,1\n", {.x = "4", .y = "1"}),
+            "data.csv: has 3 columns, and `--x 4` is not among them; columns count from 1");
+}
+
+TEST(Measured, WhatIsMissingIsLeftOutAndCounted) {
+  const std::string text = "t,depth_mm,force_N\n,1.5,3\n1,NaN,7\n2,,8\n3,1,n/a\n4,2,4.25\n";
+  const DataLayout layout{.x = "depth_mm", .y = "force_N"};
+  const MeasuredCurve curve = read(text, layout);
+  expect_curve(curve);
+  EXPECT_EQ(curve.left_out, 3);
+  EXPECT_EQ(curve.lines, (std::vector<int>{2, 6}));
+  EXPECT_EQ(curve.notes,
+            std::vector<std::string>{"3 rows are left out: a number is missing or not finite"});
+  DataLayout all = layout;
+  all.blanks = DataLayout::Blanks::keep;
+  const MeasuredCurve kept = read(text, all);
+  ASSERT_EQ(kept.x.size(), 5U);
+  EXPECT_TRUE(std::isnan(kept.x[1]));
+  EXPECT_EQ(kept.left_out, 0);
+}
+
+TEST(Measured, WhatCanBeReadInTwoWaysIsRefused) {
+  EXPECT_EQ(refusal("1,234\n2,345\n"),
+            "data.csv:1:1: `1,234` could be two whole numbers or one with a decimal comma; give "
+            "`--separator ,` for the first, and save the table with semicolons for the second");
+  EXPECT_EQ(read("1,234\n2,345\n", {.separator = ","}).y, (Numbers{234, 345}));
+  EXPECT_EQ(refusal("a;b\n1,234;5,678\n2,345;6,789\n"),
+            "data.csv:2:1: `1,234` could be 1.234 or 1234, and no other number of the file decides "
+            "this; give `--decimal ,`, or save the numbers with points and without marks between "
+            "thousands");
+  EXPECT_EQ(read("a;b\n1,234;5,678\n2,345;6,789\n", {.decimal = ","}).x, (Numbers{1.234, 2.345}));
+  EXPECT_EQ(read("a;b\n0,234;5,678\n2,345;6,789\n").x, (Numbers{0.234, 2.345}));
+  EXPECT_EQ(refusal("a,b\n0,5,1,25\n0,6,1,35\n"),
+            "data.csv:2: this row has 4 fields, the header names 2; with decimal commas, separate "
+            "the columns by semicolons or tabs");
+  EXPECT_EQ(refusal("a,b\n1,2\n", {.separator = ",", .decimal = ","}),
+            "data.csv:2: commas cannot both separate the columns and mark the decimals; save the "
+            "table with semicolons or tabs");
+}
+
+TEST(Measured, RefusalsHavePlaces) {
+  EXPECT_EQ(refusal(""), "data.csv:1: the file is empty; its first row names the columns");
+  EXPECT_EQ(refusal("depth_mm,force_N\n"),
+            "data.csv:1: the file contains no row of two numbers; give a table in text, and "
+            "`--separator`, `--decimal` or `--skip` if its form is unusual");
+  EXPECT_EQ(refusal("depth_mm,force_N\n1.5,3\n2, x7\n"),
+            "data.csv:3:4: `force_N` holds `x7`, which is no number; name a column of numbers");
+  EXPECT_EQ(
+      refusal("depth_mm;force_N\n1.5;1.234,5\n2;7\n"),
+      "data.csv:2:5: `force_N` holds `1.234,5`, which is no number; name a column of numbers");
+  EXPECT_EQ(refusal("depth_mm,force_N\n1.5,3\n2,1e400\n"),
+            "data.csv:3:3: `1e400` is too large or too small; write a number between 1e-300 and "
+            "1e300 in size");
+  EXPECT_EQ(refusal("depth_mm,force_N\n1.5,3\n2\n3,4\n"),
+            "data.csv:3: this row has 1 field, the header names 2; give every row one field per "
+            "column");
+  EXPECT_EQ(refusal("depth_mm,force_N\n1.5,3\n2,3,4\n"),
+            "data.csv:3: this row has 3 fields, the header names 2; give every row one field per "
+            "column");
+  EXPECT_EQ(refusal("depth_mm,force_N\n1.5,\"3\n2,4\n"),
+            "data.csv:2:5: the quote opened here is not closed on its line; end the field with "
+            "`\"`");
+  EXPECT_EQ(refusal("a_mm,b_N,b_N\n1,2,3\n", {.x = "a_mm", .y = "b_N"}),
+            "data.csv:1: the column name `b_N` occurs twice, as columns 2 and 3; give its number, "
+            "as `--y 2`");
+  EXPECT_EQ(read("a_mm,b_N,b_N\n1,2,3\n", {.x = "a_mm", .y = "3"}).y, Numbers{3});
+  EXPECT_EQ(refusal("depth_mm,force_N\n1,2\n", {.x = "dept_mm", .y = "force_N"}),
+            "data.csv:1: has no column `dept_mm`; did you mean `depth_mm`?");
+  EXPECT_EQ(refusal("a_mm,b_mm,c_N\n1,2,3\n"),
+            "data.csv:1: has 3 columns, and it is not clear which is x; set `--x` to one of a_mm, "
+            "b_mm, c_N");
+  EXPECT_EQ(refusal("a,b\n1,2\n", {.x_unit = "furlong"}),
+            "palpate: `--x-unit furlong` is no unit; write it as `mm`, `uN`, `kPa` or `1`");
+  EXPECT_EQ(refusal("a,b\n1,2\n", {.skip = 2}),
+            "data.csv: has 2 lines, and `--skip 2` leaves none");
+  EXPECT_EQ(refusal("a,b\n1,2\n", {.separator = "|"}),
+            "palpate: `--separator |` is unknown; give `,`, `;`, `tab` or `blank`");
+  EXPECT_EQ(refusal("a,b\n,2\n1,\n"),
+            "data.csv: no row is left with a number in `a` and in `b`; name columns that are "
+            "filled");
+  EXPECT_THROW(static_cast<void>(read_measured("/nowhere/data.csv", {})), InputError);
+}
+
+TEST(Measured, CompressionThatReadsNegative) {
+  const DataLayout automatic{.compression = "auto"};
+  const std::string machine = "Extension (mm),Load (N)\n0,0.02\n-1,-1\n-2,-4\n-1,-0.9\n";
+  MeasuredCurve curve = read(machine, automatic);
+  EXPECT_EQ(curve.x, (Numbers{0, 1e-3, 2e-3, 1e-3}));
+  EXPECT_EQ(curve.y, (Numbers{-0.02, 1, 4, 0.9}));
+  EXPECT_EQ(curve.notes,
+            (std::vector<std::string>{"`Load (N)` is negative in compression; sign changed",
+                                      "`Extension (mm)` falls as the load grows; sign changed"}));
+  EXPECT_EQ(read(machine, {.compression = "negative"}).y, curve.y);
+  EXPECT_EQ(read(machine).y, (Numbers{0.02, -1, -4, -0.9}));  // as the file says
+  // A cell with an offset: never below zero, and yet it falls in compression.
+  curve = read("x_mm,F_N\n0,10\n1,9\n2,6\n", automatic);
+  EXPECT_EQ(curve.y, (Numbers{-10, -9, -6}));
+  EXPECT_TRUE(read("x_mm,F_N\n0,0\n1,-0.1\n2,4\n", automatic).notes.empty());  // it adheres
+  // Relaxation begins at its peak, so that the load's own sign tells.
+  EXPECT_EQ(read("t_s,F_N\n0,-4\n1,-3\n", automatic).y, (Numbers{4, 3}));
+  EXPECT_EQ(read("t_s,F_N\n0,4\n1,3\n", automatic).y, (Numbers{4, 3}));
+  EXPECT_EQ(refusal("x_mm,F_N\n0,0\n1,-2\n2,3\n", automatic),
+            "data.csv: `F_N` both rises and falls from its start, so that its sign in compression "
+            "is not clear; give `--compression positive` or `--compression negative`");
+  EXPECT_EQ(refusal("x_mm,F_N\n0,0\n1,2\n", {.compression = "down"}),
+            "palpate: `--compression down` is unknown; give `positive`, `negative` or `auto`");
+}
+
+TEST(Measured, OurOwnTables) {
+  const std::string text = record::csv_text({{"case", "step", "indentation_mm", "force_N"},
+                                             {{std::string("a"), 1.0, 1.5, 3.0},
+                                              {std::string("b"), 1.0, 9.0, 9.0},
+                                              {std::string("a"), 1.0, 2.0, 4.25},
+                                              {std::string("a"), 2.0, 2.5, 5.0}}});
+  DataLayout layout{.x = "indentation_mm", .y = "force_N", .segment = "1", .case_name = "a"};
+  expect_curve(read(text, layout));
+  layout.case_name = "c";
+  EXPECT_EQ(refusal(text, layout),
+            "data.csv:1: the column `case` contains no `c`; its values are a, b");
+}
+
+// The same numbers in every dress that a spreadsheet or a machine may put on them.
+TEST(Measured, EveryDressHoldsTheSameNumbers) {
+  EXPECT_TRUE(rc::check("read(dressed(numbers)) == numbers", [] {
+    const std::string separator =
+        *rc::gen::elementOf(std::vector<std::string>{",", ";", "\t", " "});
+    const bool comma = separator != "," && *rc::gen::arbitrary<bool>();
+    const bool quoted = *rc::gen::arbitrary<bool>();
+    const std::string end = *rc::gen::elementOf(std::vector<std::string>{"\n", "\r\n", "\r"});
+    const int columns = *rc::gen::inRange(2, 5);
+    const int rows = *rc::gen::inRange(1, 8);
+    const std::string block = *rc::gen::elementOf(std::vector<std::string>{
+        "", "Specimen: liver\n", "# a comment\n\n", "Date\t2020-01-01\nRate\t0.5\n", "\n\n"});
+    std::string text = block;
+    for (std::size_t at = text.find('\n'); at != std::string::npos;
+         at = text.find('\n', at + end.size()))
+      text.replace(at, 1, end);
+    for (int k = 0; k < columns; ++k) text += (k > 0 ? separator : "") + "c" + std::to_string(k);
+    text += end;
+    std::vector<Numbers> values(static_cast<std::size_t>(columns));
+    for (int i = 0; i < rows; ++i)
+      for (int k = 0; k < columns; ++k) {
+        const double value = *rc::gen::inRange(-100000, 100000) / 128.0;
+        values[static_cast<std::size_t>(k)].push_back(value);
+        std::string digits = number_text(value);
+        if (comma && digits.find('.') != std::string::npos) digits[digits.find('.')] = ',';
+        // What could be thousands is another test's.
+        if (comma && digits.find(',') == std::string::npos) digits += ",0";
+        if (quoted) digits = '"' + digits + '"';
+        text += digits + (k + 1 < columns ? separator : end);
+      }
+    DataLayout layout{.x = "c0", .y = std::to_string(columns)};
+    if (comma) layout.decimal = ",";
+    const MeasuredCurve curve = parse_measured(text, "d", layout);
+    RC_ASSERT(curve.x == values.front());
+    RC_ASSERT(curve.y == values.back());
+  }));
+}
+
+}  // namespace
+}  // namespace palpate::measured

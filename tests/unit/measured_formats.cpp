@@ -1,0 +1,115 @@
+// The formats of instruments and of other tools, as their own readers define them.
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "measured/measured.h"
+#include "refusal.h"
+
+namespace palpate::measured {
+namespace {
+
+using Numbers = std::vector<double>;
+
+std::string refusal(std::string_view text, const DataLayout& layout = {}) {
+  return test::refusal([&] { return parse_measured(text, "curve", layout); });
+}
+
+// As afmformats writes: CR LF, a JSON block in comments, the last comment names the columns.
+const std::string tab =
+    "# afmformats 0.18.0\r\n#\r\n# BEGIN METADATA\r\n# {\r\n#   \"enum\": 0,\r\n"
+    "#   \"imaging mode\": \"force-distance\"\r\n# }\r\n# END METADATA\r\n#\r\n"
+    "# force\theight (measured)\tindex\tsegment\ttime\ttip position\r\n"
+    "0\t2e-06\t0\tFalse\t0\t1e-06\r\n"
+    "2.5e-09\t1e-06\t1\tFalse\t0.5\t5e-07\r\n"
+    "1e-09\t2e-06\t2\tTrue\t1\t7.5e-07\r\n";
+
+TEST(MeasuredFormats, AfmTab) {
+  MeasuredCurve curve = parse_measured(tab, "curve.tab", {.segment = "approach"});
+  EXPECT_EQ(curve.x, (Numbers{-1e-6, -5e-7}));  // downwards positive
+  EXPECT_EQ(curve.y, (Numbers{0, 2.5e-9}));
+  EXPECT_EQ(curve.x_axis.column, "tip position");
+  EXPECT_EQ(curve.x_axis.unit, "m");
+  EXPECT_EQ(curve.notes,
+            std::vector<std::string>{"`tip position` falls as the tip goes in; taken as a depth"});
+  curve = parse_measured(tab, "curve.tab", {.x = "time", .y = "force", .segment = "retract"});
+  EXPECT_EQ(curve.x, Numbers{1});
+  EXPECT_EQ(curve.x_axis.unit, "s");
+  EXPECT_EQ(parse_measured(tab, "curve.tab", {.x = "height (measured)"}).x,
+            (Numbers{-2e-6, -1e-6, -2e-6}));
+  EXPECT_EQ(refusal(tab, {.segment = "pause"}),
+            "curve:10: the column `segment` contains no `pause`; its values are False, True");
+}
+
+// Segments as numbers, as afmformats writes those it has as small integers.
+TEST(MeasuredFormats, AfmTabSegmentsAsNumbers) {
+  const std::string text =
+      "# BEGIN METADATA\n# {}\n# END METADATA\n# force\tsegment\ttip position\n"
+      "1\t0\t0\n2\t1\t-1\n3\t2\t-2\n";
+  EXPECT_EQ(parse_measured(text, "t.tab", {.segment = "approach"}).y, Numbers{1});
+  EXPECT_EQ(parse_measured(text, "t.tab", {.segment = "retract"}).y, Numbers{2});
+  EXPECT_EQ(parse_measured(text, "t.tab", {.segment = "2"}).x, Numbers{2});
+}
+
+TEST(MeasuredFormats, Chiaro) {
+  const std::string text =
+      "Date\t2020-01-31\tTime\t12:00:00\tStatus\tok\r\nDevice:\tChiaro\r\n"
+      "Tip radius (um)\t24.5\r\nk (N/m)\t0.48\r\n\r\nMax load (\xB5N)\t1.5\r\n"
+      "Profile:\r\nD[Z1] (nm)\t10000\tt[1] (s)\t2\r\n\r\n"
+      "Time (s)\tLoad (uN)\tIndentation (nm)\tCantilever (nm)\tPiezo (nm)\tAuxiliary\r\n"
+      "0.000\t0.000\t0.000\t0.0\t0.0\t0\r\n0.001\t0.250\t500.000\t1.0\t500.0\t0\r\n"
+      "0.002\t0.125\t250.000\t1.0\t250.0\t0\r\n";
+  MeasuredCurve curve = parse_measured(text, "I_001.txt", {.segment = "approach"});
+  EXPECT_EQ(curve.x, (Numbers{0, 500e-9}));
+  EXPECT_EQ(curve.y, (Numbers{0, 0.25e-6}));
+  EXPECT_EQ(curve.notes,
+            std::vector<std::string>{"the approach ends at the largest load, on line 12"});
+  curve = parse_measured(text, "I_001.txt", {.segment = "retract"});
+  EXPECT_EQ(curve.lines, std::vector<int>{13});
+}
+
+TEST(MeasuredFormats, ApproachOfACellWithAnOffset) {
+  const std::string text = "x_mm,F_N\n0,10\n1,9\n2,6\n1,8.5\n";
+  EXPECT_EQ(parse_measured(text, "c.csv", {.segment = "approach"}).y, (Numbers{10, 9, 6}));
+}
+
+TEST(MeasuredFormats, CellScale) {
+  const std::string text =
+      "SetName,Cycle,Time_S,Size_mm,Displacement_mm,Force_mN\n"
+      "1-Compress,1-Load,0,5,0,0\n1-Compress,1-Load,0.2,4.5,0.5,3.5\n";
+  const MeasuredCurve curve = parse_measured(text, "c.csv", {.x = "Displacement", .y = "force"});
+  EXPECT_EQ(curve.x, (Numbers{0, 5e-4}));
+  EXPECT_EQ(curve.y, (Numbers{0, 3.5e-3}));
+  EXPECT_EQ(parse_measured(text, "c.csv", {.x = "Time_S", .y = "force"}).x_axis.unit, "s");
+}
+
+TEST(MeasuredFormats, Rheos) {
+  const MeasuredCurve curve =
+      parse_measured("1.5,0.125,0.0\nNaN,0.125,0.1\n1.25,0.125,0.2\n", "relax.csv",
+                     {.x = "3", .y = "1", .x_unit = "s", .y_unit = "kPa"});
+  EXPECT_EQ(curve.x, (Numbers{0, 0.2}));
+  EXPECT_EQ(curve.y, (Numbers{1500, 1250}));
+  EXPECT_EQ(curve.left_out, 1);
+}
+
+TEST(MeasuredFormats, FebioLogData) {
+  const std::string one =
+      "*Step  = 0\n*Time  = 0\n*Data  = z;Fz\n1,0,0\n"
+      "*Step  = 1\n*Time  = 0.5\n*Data  = z;Fz\n1,-0.25,3\n";
+  const MeasuredCurve curve = parse_measured(
+      one, "log.txt", {.x = "z", .y = "Fz", .x_unit = "mm", .y_unit = "N", .compression = "auto"});
+  EXPECT_EQ(curve.x, (Numbers{0, 0.25e-3}));  // z falls as the force grows
+  EXPECT_EQ(curve.y, (Numbers{0, 3}));
+  EXPECT_EQ(curve.lines, (std::vector<int>{4, 8}));
+  EXPECT_EQ(parse_measured(one, "log.txt", {.x = "time", .y = "Fz"}).x, (Numbers{0, 0.5}));
+  const std::string two = "*Step  = 1\n*Time  = 1\n*Data  = z;Fz\n1 7 8\n2 9 10\n";
+  EXPECT_EQ(parse_measured(two, "log.txt", {.x = "z", .y = "Fz", .case_name = "2"}).y, Numbers{10});
+  EXPECT_EQ(refusal(two, {.x = "z", .y = "Fz"}),
+            "curve:3: contains several items per time; choose one by `--case`, as `--case 1`");
+  EXPECT_EQ(
+      refusal("*Step  = 1\n*Time  = 1\n*Data  = z;Fz\n1,7\n"),
+      "curve:4: this row has 2 values with its item, `*Data` names 2 and the item; give every "
+      "row one value per name");
+}
+
+}  // namespace
+}  // namespace palpate::measured
