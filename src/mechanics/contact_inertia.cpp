@@ -74,7 +74,7 @@ double Contacts::rise(const MeshAnswer& mesh) const {
 // reading would not be transposes of each other, and the contact could feed energy into the motion.
 void Contacts::spread_wide(SphereContact& contact) {
   const auto axes = contact.law.semi_axes(std::max(0.0, contact.approach));
-  spreader_.spread(contact::wide_patch(contact.patch, axes, rings_.spacing(contact.patch)),
+  spreader_.spread(contact::wide_patch(contact.patch, axes, spacing_.at(contact.patch)),
                    contact.wide);
 }
 

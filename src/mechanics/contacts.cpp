@@ -28,10 +28,9 @@ Contacts::Contacts(const scene::Scene& scene)
       surface_(&*scene.specimen->surface),
       detector_(*surface_),
       spreader_(*surface_),
-      rings_(*surface_),
+      spacing_(*surface_),
       stars_(surface_->surface(), surface_->neighbours(), curvature_options(scene)),
-      curvature_of_(surface_->surface().triangles.size(), -1),
-      shares_(surface_->surface().vertices.size(), 0.0) {
+      curvature_of_(surface_->surface().triangles.size(), -1) {
   if (scene.scenario.contact.coupling == contact::Coupling::resolved)
     resolved_ = std::make_unique<ResolvedContact>(scene);
   radiation_ = scene::radiation_compliance(scene);
@@ -64,9 +63,6 @@ void Contacts::make_room(Touch& touch) {
   touch.contacts.make_room(count, reserve);
   detector_.make_room();
   spreader_.make_room();
-  rings_.make_room();
-  reading_.vertices.reserve(skin.vertices.size());
-  reading_.weights.reserve(skin.vertices.size());
   moved_.reserve(skin.vertices.size());
   feet_.reserve(count);
   laws_.reserve(count);
@@ -151,18 +147,11 @@ std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereCont
     here = geometry::between({here, there, there},
                              {1.0 - contact.patch.turned, contact.patch.turned, 0.0});
   }
-  const auto law = contact::contact_law(
-      scene_->scenario.contact.law, {scene_->finger.sphere_radius, scene_->finger.sphere_modulus},
-      here, scene_->layer ? &*scene_->layer : nullptr);
+  const auto law =
+      contact::contact_law(scene_->scenario.contact.law,
+                           {scene_->finger.sphere_radius, scene_->finger.sphere_modulus}, here);
   if (!law) return hollow_text(here.kappa_2);
   contact.law = *law;
-  if (contact.law.point.layer != nullptr && presses_as_one()) {
-    // The law of the single sphere that these spheres represent; a^2 = R h with its R, which is
-    // n^(1/3) times the radius of a sphere.
-    const auto count = static_cast<double>(scene_->finger.centres.size());
-    contact.law.point.share = 1.0 / count;
-    contact.law.radius_share = std::pow(count, -1.0 / 6.0);
-  }
   // The curvature's axis, projected into the patch's tangent plane.
   Vec3 axis = law->axis - law->axis.dot(contact.patch.normal) * contact.patch.normal;
   contact.patch.axis =
@@ -180,6 +169,7 @@ void Contacts::carry_on(const Touch& before, SphereContact& contact) const {
     nearest = distance;
     contact.depth = old.depth;
     contact.compliance = old.compliance;
+    contact.law.point.part = old.law.point.part;
     contact.stretch = old.stretch;
   }
 }
@@ -253,11 +243,11 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
     share_places(contacts);
     for (std::size_t i = 0; i < count; ++i) {
       if (moving_) approach_moving_skin(touch.finger, contacts[i]);
-      laws_[i] = contacts[i].law.point;
       approaches_[i] = contacts[i].approach;
       depths_[i] = contacts[i].depth;
     }
     find_compliance(mesh, contacts);
+    for (std::size_t i = 0; i < count; ++i) laws_[i] = contacts[i].law.point;
     if (mesh.moving != nullptr) add_motion(*mesh.moving, contacts, approaches_);
     const Eigen::MatrixXd& all = mesh.moving != nullptr ? whole_compliance_ : compliance_;
     const auto size = static_cast<Eigen::Index>(count);

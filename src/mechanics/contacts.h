@@ -9,7 +9,7 @@
 
 #include "contact/detection.h"
 #include "contact/law.h"
-#include "contact/ring.h"
+#include "contact/skin_spacing.h"
 #include "mechanics/influence.h"
 #include "mechanics/kept_list.h"
 #include "scene/scene.h"
@@ -26,6 +26,8 @@ struct NodalContact {
   void renew();  // clears all, but keeps the memory of the lists
 };
 
+class BodySinking;
+
 // The contact of one sphere at one place of the skin.
 struct SphereContact {
   int sphere = 0;
@@ -37,6 +39,7 @@ struct SphereContact {
   double elastic = 0.0;         // N, the part of `force` that the law gives for relaxed tissue
   double radiated = 0.0;        // N, the part of `force` for waves that the mesh cannot resolve
   double compliance = 0.0;      // m/N, C_ii of docs/theory.md (15)
+  double sinking_error = 0.0;   // m/N, e of docs/theory.md (100)
   double stiffness = 0.0;       // N/m, derivative of `force` with respect to `depth`; where inertia
                                 // reaches the force, to the finger's position, within a step
   Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue
@@ -84,10 +87,9 @@ struct MovingMesh {
 struct MeshAnswer {
   std::span<const int> nodes;  // one per vertex of the skin; -1: does not move
   Eigen::Index freedoms = 0;
-  bool whole = false;                               // the whole specimen moves, not a part of it
   const integrate::Vector* displacement = nullptr;  // m, without the forces of these contacts
-  Influence* one_tissue = nullptr;  // of a specimen of one tissue; null if the real one is that
-  Influence* influence = nullptr;   // under forces of these contacts
+  Influence* influence = nullptr;                   // under forces of these contacts
+  BodySinking* beyond = nullptr;                    // of statics, for `consistent`
   const integrate::Vector* shape = nullptr;  // m, displacement for the curvature; null: at rest
   const MovingMesh* moving = nullptr;        // set where inertia reaches the force
 
@@ -147,20 +149,12 @@ class Contacts {
   void shape_patches(KeptList<SphereContact>& contacts);
   void load_nearest_node(SphereContact& contact) const;
   void approach_moving_skin(const Vec3& finger, SphereContact& contact);
-  void find_compliance(const MeshAnswer& mesh, const KeptList<SphereContact>& contacts);
+  void find_compliance(const MeshAnswer& mesh, KeptList<SphereContact>& contacts);
+  void find_body_sinking(const MeshAnswer& mesh, KeptList<SphereContact>& contacts);
+  void find_mesh_sinking(const MeshAnswer& mesh, const KeptList<SphereContact>& contacts);
   [[nodiscard]] bool presses_as_one() const;
-  [[nodiscard]] contact::Patch read_patch(const KeptList<SphereContact>& contacts,
-                                          const SphereContact& own) const;
-  [[nodiscard]] double sinking(const MeshAnswer& mesh, const contact::Patch& patch,
-                               const contact::Reading& reading, const SphereContact& pressed) const;
-  [[nodiscard]] double known_to_law(int read, int pressed, double spacing) const;
-  [[nodiscard]] double other_tissues(const MeshAnswer& mesh, const SphereContact& own,
-                                     const SphereContact& pressed) const;
-  [[nodiscard]] double unknown_to_hertz(const contact::Patch& patch,
-                                        const SphereContact& other) const;
-  [[nodiscard]] bool cut_from_layer(const MeshAnswer& mesh) const;
-  [[nodiscard]] double stiffer_layer(double aligned, const Vec3& at,
-                                     const SphereContact& pressed) const;
+  [[nodiscard]] contact::Patch joint_patch(const KeptList<SphereContact>& contacts,
+                                           const SphereContact& own) const;
   [[nodiscard]] double plane_modulus() const;  // Pa, E' of docs/theory.md (11)
   // In contact_inertia.cpp, where inertia reaches the force:
   struct Past {  // a contact at the end of the previous step
@@ -194,7 +188,7 @@ class Contacts {
   const geometry::SmoothSurface* surface_;
   contact::Detector detector_;
   contact::Spreader spreader_;
-  contact::RingReader rings_;
+  contact::SkinSpacing spacing_;
   geometry::CurvatureStars stars_;
   std::vector<int> curvature_of_;  // per triangle: index into known_curvature_; -1: not computed
   std::vector<std::array<geometry::CurvatureEstimate, 3>> known_curvature_;  // at rest
@@ -207,8 +201,6 @@ class Contacts {
   std::vector<double> approaches_;  // m
   std::vector<double> depths_;      // m
   std::vector<double> parts_;       // divisors of the forces, docs/theory.md below (15)
-  std::vector<double> shares_;      // per vertex: largest share of any contact's load
-  contact::Reading reading_;
   // The first rows and columns belong to the contacts; the rest is spare memory.
   Eigen::MatrixXd compliance_;        // m/N, C of docs/theory.md (15)
   Eigen::MatrixXd whole_compliance_;  // m/N, with the terms of the mesh's motion

@@ -49,7 +49,7 @@ std::optional<std::string> PressedMesh::meet(const Vec3& finger, MovingMesh movi
                                              ContactHistory& history, Touch& touch) {
   MeshAnswer mesh = answer();
   mesh.influence = &*influence_;
-  if (one_tissue_) mesh.one_tissue = &*one_tissue_;
+  mesh.beyond = &*beyond_;
   const bool viscous = history.relaxes();
   // Friction acts as in the previous step; its static displacement does not count as motion.
   if (!viscous) find_drag_load(touch);

@@ -32,21 +32,20 @@ PressedMesh::PressedMesh(const scene::Scene& scene)
       crept_(specimen_->law, memory_rule(scene)) {
   const auto& rings = scene.scenario.solver.rings;
   if (!rings) {
-    take(tissue::whole_part(specimen_->network), {});
+    take(tissue::whole_part(specimen_->network));
     return;
   }
   const auto& corners =
       specimen_->surface->surface().triangles[as_index(scene::first_touch(scene).at.triangle)];
   std::vector<int> start;
   for (const int vertex : corners) start.push_back(specimen_->skin[as_index(vertex)]);
-  take(tissue::part_around(specimen_->network, start, *rings), start);
+  take(tissue::part_around(specimen_->network, start, *rings));
 }
 
-// Makes `part`, the rings around `start`, the moving part. Nodes and springs that were in the
+// Makes `part` the moving part. Nodes and springs that were in the
 // previous part too keep their state.
-void PressedMesh::take(tissue::Part part, const std::vector<int>& start) {
+void PressedMesh::take(tissue::Part part) {
   const tissue::Part before = std::exchange(part_, std::move(part));
-  whole_ = std::find(part_.edge.begin(), part_.edge.end(), 1) == part_.edge.end();
   const State old = std::exchange(state_, {});
   std::vector<int> number(specimen_->network.rest.size(), -1);
   for (std::size_t i = 0; i < part_.nodes.size(); ++i)
@@ -95,6 +94,7 @@ void PressedMesh::take(tissue::Part part, const std::vector<int>& start) {
   if (time_step_ > 0.0) stepper_->set_step(time_step_);
 
   influence_.reset();
+  beyond_.reset();
   if (scene_->scenario.contact.coupling == Coupling::one_way) return;
   const auto response = [this](const Vector& unit, Vector& moved) { respond(unit, moved); };
   if (inertia_) response_.emplace(response);
@@ -102,23 +102,18 @@ void PressedMesh::take(tissue::Part part, const std::vector<int>& start) {
     influence_.emplace(response);
     return;
   }
-  const auto statics = [this](Cholesky& factors, const SplitMatrix& stiffness) {
-    // Positive definite, as the measurement of the network's modulus has shown.
-    [[maybe_unused]] const bool factored = factors.factor(stiffness);
-    eigen_assert(factored);
-    return [this, &factors](const Vector& unit, Vector& moved) {
-      moved = unit;
-      for (Eigen::Index d = 0; d < moved.size(); ++d)
-        if (body_->held()[as_index(d)] != 0) moved[d] = 0.0;
-      factors.solve(moved, moved);
-    };
-  };
-  influence_.emplace(statics(factors_, body_->stiffness()));
-  if (!specimen_->one_tissue) return;
-  const auto& rings = scene_->scenario.solver.rings;
-  const tissue::Part alike = rings ? tissue::part_around(*specimen_->one_tissue, start, *rings)
-                                   : tissue::whole_part(*specimen_->one_tissue);
-  one_tissue_.emplace(statics(one_factors_, tissue::stiffness_matrix(alike.network, held)));
+  // Positive definite, as the measurement of the network's modulus has shown.
+  [[maybe_unused]] const bool factored = factors_.factor(body_->stiffness());
+  eigen_assert(factored);
+  beyond_.emplace(*scene_, part_, body_->held(), factors_,
+                  scene::deepest_travel(scene_->scenario, scene_->law()));
+  if (!inertia_) return;
+  influence_.emplace([this](const Vector& unit, Vector& moved) {
+    moved = unit;
+    for (Eigen::Index d = 0; d < moved.size(); ++d)
+      if (body_->held()[as_index(d)] != 0) moved[d] = 0.0;
+    factors_.solve(moved, moved);
+  });
 }
 
 void PressedMesh::set_step(double time_step) {
@@ -146,7 +141,7 @@ void PressedMesh::set_stage(double duration) {
 }
 
 MeshAnswer PressedMesh::answer() const {
-  MeshAnswer mesh{.nodes = skin_nodes_, .freedoms = state_.displacement.size(), .whole = whole_};
+  MeshAnswer mesh{.nodes = skin_nodes_, .freedoms = state_.displacement.size()};
   if (scene_->scenario.contact.curvature_on == scenario::Contact::CurvatureOn::deformed)
     mesh.shape = &state_.displacement;
   return mesh;
@@ -160,7 +155,7 @@ bool PressedMesh::forces_follow_finger() const {
 std::optional<std::string> PressedMesh::try_out(const Vec3& finger, Touch& touch) {
   MeshAnswer mesh = answer();
   if (influence_) mesh.influence = &*influence_;
-  if (one_tissue_) mesh.one_tissue = &*one_tissue_;
+  if (beyond_) mesh.beyond = &*beyond_;
   return contacts_.find(finger, mesh, touch);
 }
 
@@ -286,7 +281,7 @@ void PressedMesh::follow(const Touch& touch) {
   const int rings = *scene_->scenario.solver.rings;
   tissue::reach_around(specimen_->network, start_, rings, reach_);
   if (tissue::spans(part_, reach_)) return;
-  take(tissue::part_around(specimen_->network, start_, rings), start_);
+  take(tissue::part_around(specimen_->network, start_, rings));
   Contacts::load(touch, answer(), load_);
 }
 

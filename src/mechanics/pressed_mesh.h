@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/cholesky.h"
+#include "mechanics/body_sinking.h"
 #include "mechanics/contact_history.h"
 #include "mechanics/contacts.h"
 #include "mechanics/crept_load.h"
@@ -68,7 +69,7 @@ class PressedMesh {
   [[nodiscard]] Contacts& contacts() { return contacts_; }
 
  private:
-  void take(tissue::Part part, const std::vector<int>& start);
+  void take(tissue::Part part);
   void set_stage(double duration);
   void follow(const Touch& touch);
   [[nodiscard]] std::optional<std::string> step_freely(const Vec3& finger, ContactHistory& history,
@@ -96,16 +97,14 @@ class PressedMesh {
   const scene::Specimen* specimen_;
   Contacts contacts_;
   tissue::Part part_;
-  bool whole_ = true;            // the part has no edge: it is the whole specimen
   std::vector<int> skin_nodes_;  // node of the part, one per vertex of the skin; -1 outside
   std::optional<scene::SpringBody> body_;
   std::optional<Stepper> stepper_;
   std::optional<EnergyMonitor> monitor_;
   std::optional<Influence> influence_;
-  std::optional<Influence> one_tissue_;
+  std::optional<BodySinking> beyond_;  // for `consistent`
   std::optional<Influence> response_;  // of an implicit step, for `consistent` with inertia
   Cholesky factors_;                   // of the static stiffness, for `consistent`
-  Cholesky one_factors_;               // of the static stiffness of a specimen of one tissue
   integrate::State state_;
   integrate::Vector load_;         // N
   integrate::State before_;        // at the start of the step

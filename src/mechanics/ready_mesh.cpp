@@ -31,9 +31,8 @@ void PressedMesh::make_ready(Touch& touch) {
 
   const Eigen::Index freedoms = state_.displacement.size();
   const bool answers = body_->linear() && !about(scene_->scenario.solver.integrator).explicit_steps;
-  if (influence_ && (answers || inertia_ || forces_follow_finger()))
+  if (influence_ && (answers || inertia_))
     (void)influence_->ask_all(skin_nodes_, freedoms, most_answers);
-  if (one_tissue_) (void)one_tissue_->ask_all(skin_nodes_, freedoms, most_answers);
   if (response_ && answers) (void)response_->ask_all(skin_nodes_, freedoms, most_answers);
 }
 

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "contact/hertz.h"
 #include "contact/patch.h"
-#include "contact/ring.h"
+#include "contact/skin_spacing.h"
 #include "contact/wide_patch.h"
 #include "scenario/integrators.h"
 #include "scene/contact_resolution.h"
@@ -62,8 +62,8 @@ ContactRate contact_rate(const Scene& scene) {
   // sixth of the dashpot C = D k^2 acts on the mesh: 0.4^2 from the wide patch's three radii.
   constexpr double stiffened = 3.0;
   constexpr double damped = 1.2;
-  const double spacing = contact::RingReader(*scene.specimen->surface)
-                             .spacing({.at = first_touch(scene).at, .position = {}, .beyond = {}});
+  const double spacing = contact::SkinSpacing(*scene.specimen->surface)
+                             .at({.at = first_touch(scene).at, .position = {}, .beyond = {}});
   ContactRate most;
   for (double depth = deepest; depth > 1e-3 * deepest; depth *= 0.5) {
     const auto [squared, looseness] = contact_frequency_squared(scene, depth, spacing);
@@ -169,11 +169,8 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
     return one.young_modulus != tissues.front().young_modulus ||
            one.poisson_ratio != tissues.front().poisson_ratio;
   });
-  // Slabs are part of the contact's law.
-  const bool beside_law = several && !all_slabs(*maker.scenario);
   if (maker.coupled()) {
     specimen.network = maker.elements(tissues);
-    if (beside_law) specimen.one_tissue = maker.elements(alike);
     // Linear finite elements pass the patch test: the network's E and nu are those of the tissue.
     specimen.measured.young_modulus = tissues.front().young_modulus;
     specimen.measured.poisson_ratio = tissues.front().poisson_ratio;
@@ -206,7 +203,6 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
     }
   }
   maker.finish(specimen.network, tissues, factor);
-  if (beside_law) specimen.one_tissue = std::move(alone);
 }
 
 std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
@@ -286,12 +282,6 @@ void set_deep_factor(Scene& scene, const scenario::Family& family) {
 void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
   const scenario::Resolved& scenario = scene.scenario;
   scene.specimen = make_specimen(scenario, family.folder, shapes);
-  if (!scenario.uniform() && scenario.contact.coupling == contact::Coupling::consistent &&
-      std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) {
-    set_layer(scene, shapes);
-    scene.specimen->sinking =
-        shapes.layer_sinking(layers_of(scenario, 1.0, &scene.specimen->measured));
-  }
   scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_rate(scene));
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);

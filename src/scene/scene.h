@@ -102,12 +102,10 @@ struct Specimen {
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
-  std::optional<tissue::Network> one_tissue;  // with the tissue everywhere; none if not needed
-  tissue::Uniaxial measured;                  // E and nu of the network with the tissue everywhere
-  std::optional<contact::LayerSinking> sinking;  // around a force on a layer with that nu
-  tissue::Uniaxial pressed;                      // response to platens, for a uniform test
-  std::vector<char> held;                        // in a press and in creep
-  std::vector<char> held_between_platens;        // in relaxation
+  tissue::Uniaxial measured;               // E and nu of the network with the tissue everywhere
+  tissue::Uniaxial pressed;                // response to platens, for a uniform test
+  std::vector<char> held;                  // in a press and in creep
+  std::vector<char> held_between_platens;  // in relaxation
   TimePlan plan;
 
   [[nodiscard]] double height() const { return high.z() - low.z(); }
@@ -120,7 +118,7 @@ struct Scene {
   Finger finger;
   contact::Relaxation relaxation;              // of the contact's modulus; empty if elastic
   std::optional<contact::DeepLaw> deep;        // for `hertz` with `contact.depth = "neo_hookean"`
-  std::optional<contact::LayerContact> layer;  // for `layer`, and for `consistent` on a cuboid
+  std::optional<contact::LayerContact> layer;  // for `layer`
   std::optional<contact::LayerSinking> layer_sinking;  // around a contact, for maps
   std::unique_ptr<Specimen> specimen;                  // null for `hertz` and `layer`
 

@@ -1,0 +1,115 @@
+// Boussinesq's solution summed over a quadrature of Hertz's pressure.
+#include "contact/patch_field.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace palpate::contact {
+namespace {
+
+// Positive nodes of the Gauss-Legendre rule with 2 n points on [-1, 1], and their weights, by
+// Newton's iteration on the Legendre polynomial.
+struct Rule {
+  std::vector<double> nodes, weights;
+};
+Rule gauss_legendre_half(int n) {
+  Rule rule;
+  const int order = 2 * n;
+  for (int i = 0; i < n; ++i) {
+    double x = std::cos(std::numbers::pi * (i + 0.75) / (order + 0.5));
+    double slope = 1.0;
+    for (int pass = 0; pass < 100; ++pass) {
+      double before = 1.0;
+      double value = x;
+      for (int k = 2; k <= order; ++k) {
+        const double next = ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k;
+        before = value;
+        value = next;
+      }
+      slope = order * (x * value - before) / (x * x - 1.0);
+      const double step = value / slope;
+      x -= step;
+      if (std::abs(step) < 1e-15) break;
+    }
+    rule.nodes.push_back(x);
+    rule.weights.push_back(2.0 / ((1.0 - x * x) * slope * slope));
+  }
+  return rule;
+}
+
+}  // namespace
+
+PatchField::PatchField(double a, double b, const HalfSpace& half_space, int finer)
+    : half_space_(half_space), reach_(std::max(a, b)) {
+  constexpr std::array<std::array<int, 2>, 3> rings_and_spokes{{{2, 6}, {4, 12}, {10, 30}}};
+  for (std::size_t level = 0; level < loads_.size(); ++level) {
+    const int rings = finer * rings_and_spokes[level][0];
+    const int spokes = finer * rings_and_spokes[level][1];
+    // With v^2 = 1 - s^2 the load inside the radius s is the integral of 3 v^2 dv: polynomials in
+    // s^2 are integrated exactly by a Gauss-Legendre rule for even functions of v.
+    const Rule rule = gauss_legendre_half(rings);
+    for (int ring = 0; ring < rings; ++ring) {
+      const double v = rule.nodes[as_index(ring)];
+      const double s = std::sqrt(1.0 - v * v);
+      const double share = 3.0 * v * v * rule.weights[as_index(ring)] / spokes;
+      for (int spoke = 0; spoke < spokes; ++spoke) {
+        const double angle = 2.0 * std::numbers::pi * (spoke + 0.5 * (ring % 2)) / spokes;
+        loads_[level].push_back({a * s * std::cos(angle), b * s * std::sin(angle), share});
+      }
+    }
+  }
+}
+
+const std::vector<PatchField::PointLoad>& PatchField::loads_for(const Vec3& point) const {
+  const double distance = point.norm() / reach_;
+  return loads_[distance > 8.0 ? 0 : distance > 3.0 ? 1 : 2];
+}
+
+Vec3 PatchField::displacement(const Vec3& point) const {
+  const double nu = half_space_.poisson_ratio;
+  const double scale = 1.0 / (4.0 * std::numbers::pi * half_space_.shear_modulus);
+  const double z = std::max(-point.z(), 0.0);
+  const double least = 1e-12 * reach_ * reach_;  // m^2: the point may lie on a point load
+  Vec3 sum = Vec3::Zero();
+  for (const PointLoad& load : loads_for(point)) {
+    const double x = point.x() - load.x;
+    const double y = point.y() - load.y;
+    const double away = std::sqrt(x * x + y * y + least + z * z);
+    const double inward = z / (away * away * away) - (1.0 - 2.0 * nu) / (away * (away + z));
+    const double down = z * z / (away * away * away) + 2.0 * (1.0 - nu) / away;
+    sum += load.share * Vec3(inward * x, inward * y, -down);
+  }
+  return scale * sum;
+}
+
+FieldValue PatchField::at(const Vec3& point) const {
+  const double nu = half_space_.poisson_ratio;
+  const double z = std::max(-point.z(), 0.0);
+  const double least = 1e-12 * reach_ * reach_;
+  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+  for (const PointLoad& load : loads_for(point)) {
+    const double x = point.x() - load.x;
+    const double y = point.y() - load.y;
+    const double r2 = x * x + y * y + least;
+    const double away2 = r2 + z * z;
+    const double away = std::sqrt(away2);
+    const double away5 = away2 * away2 * away;
+    const double inner = away * (away + z);
+    const double radial = load.share * ((1.0 - 2.0 * nu) / inner - 3.0 * r2 * z / away5);
+    const double hoop = load.share * (1.0 - 2.0 * nu) * (z / (away2 * away) - 1.0 / inner);
+    const double shear = load.share * 3.0 * z * z / away5;
+    xx += (radial * x * x + hoop * y * y) / r2;
+    yy += (radial * y * y + hoop * x * x) / r2;
+    xy += (radial - hoop) * x * y / r2;
+    zz -= shear * z;
+    xz += shear * x;
+    yz += shear * y;
+  }
+  FieldValue value;
+  value.displacement = displacement(point);
+  value.stress << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  value.stress /= 2.0 * std::numbers::pi;
+  return value;
+}
+
+}  // namespace palpate::contact

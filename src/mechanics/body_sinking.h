@@ -1,0 +1,70 @@
+// What the body sinks beyond a half-space at any place of the skin and for any contact radius.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "mechanics/energy_coupling.h"
+
+namespace palpate::mechanics {
+
+// EnergyCoupling::beyond() is evaluated for a few radii at the first touch and at vertices of the
+// skin, each when it is first needed, and interpolated: over the radius by a cubic polynomial, over
+// the skin linearly within a triangle. Where the finger first touches there is no interpolation.
+//                                                                        docs/theory.md (99)
+class BodySinking {
+ public:
+  // The references must outlive this. `deepest` (m) is the largest depth of a contact.
+  BodySinking(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held,
+              const Cholesky& factors, double deepest);
+
+  struct Value {
+    double sinking = 0.0;  // m/N, s + e
+    double slope = 0.0;    // 1/N, of that with respect to the radius
+    double error = 0.0;    // m/N, e
+  };
+  // Of the patch at its own radius. `radius_per_root` (sqrt(m)) is the contact's radius divided by
+  // the square root of its depth.
+  [[nodiscard]] Value at(const contact::Patch& patch, double radius_per_root);
+
+  // The sinking of the rest w under the vertices of `read`, along `normal`, per newton on
+  // `pressed`, m/N.
+  [[nodiscard]] double rest(const Vec3& normal, const contact::Spread& read,
+                            std::span<const int> nodes, const contact::Patch& pressed,
+                            double radius_per_root);
+
+  // Evaluates the first touch and all vertices within `reach` (m) of it.
+  void make_ready(double reach, double radius_per_root);
+
+ private:
+  static constexpr std::size_t radii = 4;
+  // The places of the table in which a radius lies, relative to the largest.
+  static constexpr std::array<double, radii> steps{0.2, 0.45, 0.75, 1.0};
+  struct Place {
+    double largest = 0.0;                 // m
+    std::array<double, radii> sinking{};  // m/N, s + e
+    std::array<double, radii> error{};    // m/N
+    integrate::Vector rest;               // m/N, w for the third radius
+  };
+  struct Share {
+    const Place* place = nullptr;
+    double weight = 0.0;
+  };
+  void spread(const contact::Patch& patch, double radius_per_root);
+  [[nodiscard]] Place evaluate(const contact::Patch& like, double radius_per_root);
+  [[nodiscard]] const Place& at_vertex(const contact::Patch& patch, std::size_t corner,
+                                       double radius_per_root);
+
+  const geometry::SmoothSurface* surface_;
+  EnergyCoupling coupling_;
+  double deepest_;
+  geometry::SurfacePoint first_;  // where the finger touches first
+  std::optional<Place> at_first_;
+  // Per vertex, one place for each smooth side of its creases.
+  std::map<int, std::vector<std::pair<Vec3, Place>>> at_vertices_;
+  std::array<Share, 4> shares_;
+};
+
+}  // namespace palpate::mechanics

@@ -1,0 +1,390 @@
+// Loads of the half-space's field on the body, the solution for the rest, and its recovered stress.
+#include "mechanics/energy_coupling.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scenario/rungs.h"
+#include "tissue/coupled.h"
+#include "tissue/springs.h"
+
+namespace palpate::mechanics {
+namespace {
+
+using integrate::Vector;
+
+// Under the patch itself nothing is left over, because the finger's pressure acts there.
+constexpr double under_finger = 1.05;
+
+}  // namespace
+
+// Quadrature of the half-space's tractions over the faces, for one patch.
+class EnergyCoupling::Loads {
+ public:
+  Loads(const geometry::TetMesh& mesh, const contact::Patch& patch, const Tissue& tissue, int finer)
+      : mesh_(&mesh),
+        patch_(&patch),
+        field_(patch.a, patch.b, {tissue.shear_modulus, tissue.poisson_ratio}, finer),
+        finer_(finer) {
+    axes_.col(0) = patch.axis;
+    axes_.col(1) = patch.normal.cross(patch.axis);
+    axes_.col(2) = patch.normal;
+    nodal = Vector::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()));
+  }
+
+  [[nodiscard]] Vec3 displacement(int node) const {
+    return axes_ * field_.displacement(local(mesh_->nodes[as_index(node)]));
+  }
+
+  void add(const Face& face, const Vector& interpolated) {
+    std::array<Vec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = local(mesh_->nodes[as_index(face.nodes[k])]);
+    normal_ = axes_.transpose() * face.normal;
+    // The plane of the contact is free of stress outside the patch.
+    const double flat = 1e-9 * (corners[1] - corners[0]).norm();
+    if (!face.interface && std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+          return std::abs(corner.z()) <= flat;
+        }))
+      return;
+    divide(face, corners, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, 0, interpolated);
+  }
+
+  Vector nodal;        // N/N, g
+  double known = 0.0;  // m/N, c
+
+ private:
+  [[nodiscard]] Vec3 local(const Vec3& point) const {
+    return axes_.transpose() * (point - patch_->position);
+  }
+
+  // Divides a triangle until it is small against its distance from the patch.
+  void divide(const Face& face, const std::array<Vec3, 3>& corners,
+              const std::array<Vec3, 3>& weights, int depth, const Vector& interpolated) {
+    constexpr int deepest = 8;
+    constexpr double nearest = 0.25;  // of the patch's radius
+    double edge = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      edge = std::max(edge, (corners[(k + 1) % 3] - corners[k]).norm());
+    const double distance = ((corners[0] + corners[1] + corners[2]) / 3.0).norm();
+    const double size = std::max(0.6 * distance, nearest * patch_->radius());
+    if (finer_ * edge <= size || depth == deepest)
+      return integrate(face, corners, weights, interpolated);
+    const std::array<Vec3, 3> middle{0.5 * (corners[1] + corners[2]),
+                                     0.5 * (corners[2] + corners[0]),
+                                     0.5 * (corners[0] + corners[1])};
+    const std::array<Vec3, 3> share{0.5 * (weights[1] + weights[2]),
+                                    0.5 * (weights[2] + weights[0]),
+                                    0.5 * (weights[0] + weights[1])};
+    for (std::size_t k = 0; k < 3; ++k)
+      divide(face, {corners[k], middle[(k + 2) % 3], middle[(k + 1) % 3]},
+             {weights[k], share[(k + 2) % 3], share[(k + 1) % 3]}, depth + 1, interpolated);
+    divide(face, middle, share, depth + 1, interpolated);
+  }
+
+  void integrate(const Face& face, const std::array<Vec3, 3>& corners,
+                 const std::array<Vec3, 3>& weights, const Vector& interpolated) {
+    const double area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    for (std::size_t q = 0; q < 3; ++q) {  // degree 2
+      Vec3 point = Vec3::Zero();
+      Vec3 shares = Vec3::Zero();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double weight = k == q ? 2.0 / 3.0 : 1.0 / 6.0;
+        point += weight * corners[k];
+        shares += weight * weights[k];
+      }
+      if (!face.interface && std::abs(point.z()) < patch_->a) {
+        const double x = point.x() / patch_->a;
+        const double y = point.y() / patch_->b;
+        if (x * x + y * y < under_finger * under_finger) continue;
+      }
+      const contact::FieldValue value = field_.at(point);
+      const Vec3 traction = area / 3.0 * (axes_ * (value.stress * normal_));
+      Vec3 moved = axes_ * value.displacement;
+      if (face.interface) {
+        moved.setZero();
+        for (std::size_t k = 0; k < 3; ++k)
+          moved +=
+              shares[static_cast<Eigen::Index>(k)] * interpolated.segment<3>(3 * face.nodes[k]);
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        const double work = traction[axis] * moved[axis];
+        if (face.held[as_index(axis)] && !face.interface) {
+          known += work;
+          continue;
+        }
+        known -= work;
+        for (std::size_t k = 0; k < 3; ++k)
+          nodal[3 * face.nodes[k] + axis] -= shares[static_cast<Eigen::Index>(k)] * traction[axis];
+      }
+    }
+  }
+
+  const geometry::TetMesh* mesh_;
+  const contact::Patch* patch_;
+  contact::PatchField field_;
+  int finer_;
+  Eigen::Matrix3d axes_;  // columns: the patch's axes
+  Vec3 normal_ = Vec3::Zero();
+};
+
+EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& part,
+                               std::span<const char> held, const Cholesky& factors)
+    : held_(held.begin(), held.end()),
+      stiffness_(tissue::stiffness_matrix(part.network, std::vector<char>(held.size(), 0))),
+      factors_(&factors),
+      volume_(scene.scenario.solver.volume) {
+  const scene::Specimen& specimen = *scene.specimen;
+  std::vector<int> number(specimen.mesh.nodes.size(), -1);
+  for (std::size_t n = 0; n < part.nodes.size(); ++n)
+    number[as_index(part.nodes[n])] = static_cast<int>(n);
+  mesh_.nodes = part.network.rest;
+  for (std::size_t t = 0; t < specimen.mesh.tetrahedra.size(); ++t) {
+    std::array<int, 4> corners{};
+    for (std::size_t k = 0; k < 4; ++k)
+      corners[k] = number[as_index(specimen.mesh.tetrahedra[t][k])];
+    if (*std::min_element(corners.begin(), corners.end()) < 0) continue;
+    mesh_.tetrahedra.push_back(corners);
+    mesh_.regions.push_back(specimen.mesh.region(static_cast<int>(t)));
+  }
+  uses_ = geometry::face_uses(mesh_);
+  for (const auto& triangle : specimen.surface->surface().triangles) {
+    std::array<int, 3> nodes{};
+    for (std::size_t k = 0; k < 3; ++k)
+      nodes[k] = number[as_index(specimen.skin[as_index(triangle[k])])];
+    std::sort(nodes.begin(), nodes.end());
+    skin_triangles_.push_back(nodes);
+  }
+  std::map<std::array<int, 2>, int> around;
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
+    const auto& corners = mesh_.tetrahedra[t];
+    Eigen::Matrix3d edges;
+    for (std::size_t k = 1; k < 4; ++k)
+      edges.col(static_cast<Eigen::Index>(k) - 1) =
+          mesh_.nodes[as_index(corners[k])] - mesh_.nodes[as_index(corners[0])];
+    Element element;
+    element.gradients.bottomRows<3>() = edges.inverse();
+    element.gradients.row(0) = -element.gradients.bottomRows<3>().colwise().sum();
+    element.volume = edges.determinant() / 6.0;
+    elements_.push_back(element);
+    std::array<int, 4> numbers{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto [found, added] = around.try_emplace({corners[k], mesh_.regions[t]},
+                                                     static_cast<int>(count_around_.size()));
+      if (added) count_around_.push_back(0);
+      ++count_around_[as_index(found->second)];
+      numbers[k] = found->second;
+    }
+    around_.push_back(numbers);
+  }
+  find_tissues(scene);
+  homes_.resize(tissues_.size());
+}
+
+// The moduli that the network has: measured for independent springs.
+void EnergyCoupling::find_tissues(const scene::Scene& scene) {
+  const scenario::Resolved& scenario = scene.scenario;
+  const tissue::Uniaxial& measured = scene.specimen->measured;
+  const bool coupled = scenario::rung(scenario.solver.model).coupled();
+  const double stiffer = measured.young_modulus / scenario.tissue.young_modulus;
+  const auto add = [&](const scenario::Resolved::Substance& substance, bool first) {
+    const double own_ratio = std::min(substance.poisson_ratio, scene::most_poisson_ratio);
+    const bool of_springs = first || (!coupled && volume_ == tissue::Volume::none);
+    Tissue tissue{.young_modulus = stiffer * substance.young_modulus,
+                  .poisson_ratio = of_springs ? measured.poisson_ratio : own_ratio};
+    const tissue::Isotropic isotropic{tissue.young_modulus, tissue.poisson_ratio};
+    tissue.shear_modulus = tissue::shear_modulus(isotropic);
+    tissue.own_bulk = tissue::bulk_modulus(isotropic);
+    if (volume_ == tissue::Volume::nodal) {
+      // Independent springs resist a change of volume as nu = 1/4 does: K = 5/3 mu.
+      const double own = coupled ? scene::own_share : 5.0 / 3.0;
+      const double bulk = tissue.own_bulk;
+      tissue.own_bulk = std::min(bulk, own * tissue.shear_modulus);
+      tissue.shared_bulk = bulk - tissue.own_bulk;
+    }
+    tissues_.push_back(tissue);
+  };
+  add(scenario.tissue, true);
+  for (const auto& region : scenario.regions) add(region, false);
+}
+
+int EnergyCoupling::region_under(int triangle) const {
+  const std::array<int, 3>& key = skin_triangles_[as_index(triangle)];
+  const auto found = std::lower_bound(
+      uses_.begin(), uses_.end(), key,
+      [](const geometry::FaceUse& use, const auto& wanted) { return use.key < wanted; });
+  if (found == uses_.end() || found->key != key) return 0;  // outside the part
+  return mesh_.regions[as_index(found->tetrahedron)];
+}
+
+const EnergyCoupling::Home& EnergyCoupling::home(int region) {
+  std::optional<Home>& known = homes_[as_index(region)];
+  if (known) return *known;
+  Home& here = known.emplace();
+  const auto at_home = [&](const geometry::FaceUse& use) {
+    return mesh_.regions[as_index(use.tetrahedron)] == region;
+  };
+  for (std::size_t i = 0; i < uses_.size();) {
+    const bool shared = i + 1 < uses_.size() && uses_[i + 1].key == uses_[i].key;
+    const geometry::FaceUse& first = uses_[i];
+    const geometry::FaceUse& second = uses_[shared ? i + 1 : i];
+    i += shared ? 2 : 1;
+    if (at_home(first) == at_home(second) && (shared || !at_home(first))) continue;
+    const geometry::FaceUse& own = at_home(first) ? first : second;
+    Face face{.nodes = own.nodes, .interface = shared};
+    const auto corner = [&](std::size_t k) -> const Vec3& {
+      return mesh_.nodes[as_index(own.nodes[k])];
+    };
+    face.normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      face.held[axis] = std::all_of(own.nodes.begin(), own.nodes.end(), [&](int node) {
+        return held_[3 * as_index(node) + axis] != 0;
+      });
+    here.faces.push_back(face);
+  }
+  here.other.assign(mesh_.nodes.size(), 0);
+  geometry::TetMesh rest{.nodes = mesh_.nodes, .tetrahedra = {}, .regions = {}};
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
+    if (mesh_.regions[t] == region) continue;
+    rest.tetrahedra.push_back(mesh_.tetrahedra[t]);
+    rest.regions.push_back(mesh_.regions[t]);
+    for (const int node : mesh_.tetrahedra[t]) here.other[as_index(node)] = 1;
+  }
+  if (rest.tetrahedra.empty()) return here;
+  std::vector<tissue::Isotropic> tissues;
+  for (const Tissue& one : tissues_) tissues.push_back({one.young_modulus, one.poisson_ratio});
+  tissue::Network network =
+      tissue::make_network(rest, std::vector<double>(tissues.size(), 1.0),
+                           std::vector<double>(geometry::edges(rest).size(), 0.0));
+  tissue::couple(network, rest, tissues,
+                 volume_ == tissue::Volume::none ? tissue::Volume::tetrahedron : volume_,
+                 scene::own_share);
+  here.others = tissue::stiffness_matrix(network, std::vector<char>(held_.size(), 0));
+  return here;
+}
+
+BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, int finer) {
+  const int region = region_under(patch.at.triangle);
+  const Home& here = home(region);
+  Loads loads(mesh_, patch, tissues_[as_index(region)], finer);
+  const Eigen::Index freedoms = stiffness_.local.rows();
+
+  Vector interpolated = Vector::Zero(freedoms);  // of the half-space in other tissues, m/N
+  Vector held_by = Vector::Zero(freedoms);       // w on supports: minus the half-space's
+  for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
+    const bool supported = held_[3 * n] != 0 || held_[3 * n + 1] != 0 || held_[3 * n + 2] != 0;
+    if (!supported && here.other[n] == 0) continue;
+    const auto first = 3 * static_cast<Eigen::Index>(n);
+    const Vec3 moved = loads.displacement(static_cast<int>(n));
+    if (here.other[n] != 0) interpolated.segment<3>(first) = moved;
+    for (int axis = 0; axis < 3; ++axis)
+      if (held_[3 * n + as_index(axis)] != 0) held_by[first + axis] = -moved[axis];
+  }
+  for (const Face& face : here.faces) loads.add(face, interpolated);
+  if (here.others) {
+    const Vector pull = *here.others * interpolated;
+    loads.nodal -= pull;
+    loads.known -= interpolated.dot(pull);
+  }
+
+  BeyondHalfSpace result;
+  Vector right = loads.nodal - stiffness_ * held_by;
+  for (Eigen::Index d = 0; d < freedoms; ++d)
+    if (held_[as_index(d)] != 0) right[d] = 0.0;
+  factors_->solve(right, result.rest);
+  result.rest += held_by;
+  const Vector reaction = stiffness_ * result.rest - loads.nodal;
+  result.sinking = loads.known;
+  for (Eigen::Index d = 0; d < freedoms; ++d)
+    result.sinking +=
+        held_[as_index(d)] != 0 ? -reaction[d] * held_by[d] : loads.nodal[d] * result.rest[d];
+  result.error = error_of(result.rest, interpolated, region);
+  return result;
+}
+
+// Zienkiewicz and Zhu 1992: the stress is recovered at the nodes by a linear fit over the
+// tetrahedra around them, of one tissue at a time; the error is the energy of the difference.
+double EnergyCoupling::error_of(const Vector& rest, const Vector& interpolated, int region) const {
+  using Stress = Eigen::Matrix<double, 6, 1>;  // xx yy zz xy xz yz
+  const std::size_t count = elements_.size();
+  std::vector<Stress> stresses(count);
+  std::vector<double> dilations(count);
+  std::vector<double> shared(count_around_.size(), 0.0);  // around (node, region)
+  std::vector<double> volumes(count_around_.size(), 0.0);
+  double whole = 0.0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const Element& element = elements_[t];
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Eigen::Index first = 3 * mesh_.tetrahedra[t][k];
+      Vec3 moved = rest.segment<3>(first);
+      if (mesh_.regions[t] != region) moved += interpolated.segment<3>(first);
+      gradient += moved * element.gradients.row(static_cast<Eigen::Index>(k));
+    }
+    dilations[t] = gradient.trace();
+    whole += element.volume;
+    for (const int at : around_[t]) {
+      shared[as_index(at)] += element.volume * dilations[t];
+      volumes[as_index(at)] += element.volume;
+    }
+    const double shear = tissues_[as_index(mesh_.regions[t])].shear_modulus;
+    const double mean = 2.0 / 3.0 * dilations[t];
+    const auto deviator = [&](int i, int j) {
+      return shear * (gradient(i, j) + gradient(j, i) - (i == j ? mean : 0.0));
+    };
+    stresses[t] << deviator(0, 0), deviator(1, 1), deviator(2, 2), deviator(0, 1), deviator(0, 2),
+        deviator(1, 2);
+  }
+  const double scale = std::cbrt(whole / static_cast<double>(count));
+  std::vector<Eigen::Matrix4d> left(count_around_.size(), Eigen::Matrix4d::Zero());
+  std::vector<Eigen::Matrix<double, 4, 6>> right(count_around_.size(),
+                                                 Eigen::Matrix<double, 4, 6>::Zero());
+  for (std::size_t t = 0; t < count; ++t) {
+    const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
+    double pressure = tissue.own_bulk * dilations[t];
+    for (const int at : around_[t])
+      pressure += 0.25 * tissue.shared_bulk * shared[as_index(at)] / volumes[as_index(at)];
+    stresses[t].head<3>().array() += pressure;
+    const auto& corners = mesh_.tetrahedra[t];
+    Vec3 centre = Vec3::Zero();
+    for (const int node : corners) centre += 0.25 * mesh_.nodes[as_index(node)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      Eigen::Vector4d basis;
+      basis << 1.0, (centre - mesh_.nodes[as_index(corners[k])]) / scale;
+      left[as_index(around_[t][k])] += basis * basis.transpose();
+      right[as_index(around_[t][k])] += basis * stresses[t].transpose();
+    }
+  }
+  std::vector<Stress> nodal(count_around_.size());
+  for (std::size_t i = 0; i < nodal.size(); ++i) {
+    constexpr int fewest = 8;  // tetrahedra for a linear fit; otherwise their mean
+    const double number = left[i](0, 0);
+    if (count_around_[i] < fewest) {
+      nodal[i] = right[i].row(0).transpose() / number;
+      continue;
+    }
+    const Eigen::Matrix4d ridged = left[i] + 1e-9 * number * Eigen::Matrix4d::Identity();
+    nodal[i] = (ridged.ldlt().solve(right[i])).row(0).transpose();
+  }
+  double error = 0.0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
+    const double bulk = tissue.own_bulk + tissue.shared_bulk;
+    for (std::size_t q = 0; q < 4; ++q) {  // four points, degree 2
+      constexpr double far = 0.13819660112501051;
+      Stress difference = -stresses[t];
+      for (std::size_t k = 0; k < 4; ++k)
+        difference += (k == q ? 1.0 - 3.0 * far : far) * nodal[as_index(around_[t][k])];
+      const double pressure = difference.head<3>().sum() / 3.0;
+      difference.head<3>().array() -= pressure;
+      const double shear_energy =
+          (difference.head<3>().squaredNorm() + 2.0 * difference.tail<3>().squaredNorm()) /
+          (2.0 * tissue.shear_modulus);
+      error += 0.25 * elements_[t].volume * (shear_energy + pressure * pressure / bulk);
+    }
+  }
+  return error;
+}
+
+}  // namespace palpate::mechanics

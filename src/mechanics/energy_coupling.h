@@ -1,0 +1,85 @@
+// What a body sinks under a contact beyond a half-space, and the mesh's own error in it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/cholesky.h"
+#include "contact/patch.h"
+#include "contact/patch_field.h"
+#include "scene/scene.h"
+#include "tissue/part.h"
+
+namespace palpate::mechanics {
+
+// The difference between the body and a half-space of the tissue at the contact, both pressed by
+// 1 N with Hertz's pressure over the patch.
+struct BeyondHalfSpace {
+  double sinking = 0.0;  // m/N: s of docs/theory.md (98), averaged with that pressure
+  double error = 0.0;    // m/N: e of (100); s + e is the better value
+  // m/N: w, the body's displacement minus the half-space's, three entries per node of the part;
+  // in other tissues minus the half-space's displacement interpolated between the nodes.
+  integrate::Vector rest;
+};
+
+// The displacement under a contact is the half-space's, known in closed form, plus a rest that is
+// smooth under the contact; only the rest is solved for on the mesh. It is loaded and read through
+// the same nodal loads.                                        docs/theory.md (94)-(100)
+class EnergyCoupling {
+ public:
+  // `factors` are those of the part's stiffness with the flags `held`; all must outlive this.
+  EnergyCoupling(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held,
+                 const Cholesky& factors);
+
+  // Both semi-axes of the patch are above 0. `finer` refines the quadrature of the loads.
+  [[nodiscard]] BeyondHalfSpace beyond(const contact::Patch& patch, int finer = 1);
+
+ private:
+  // A boundary face of the tissue at the contact, and between it and another tissue.
+  struct Face {
+    std::array<int, 3> nodes{};
+    Vec3 normal = Vec3::Zero();  // unit, outwards
+    std::array<bool, 3> held{};  // per axis: at all three nodes
+    bool interface = false;
+  };
+  // What depends on the tissue at the contact.
+  struct Home {
+    std::vector<Face> faces;
+    std::vector<char> other;            // per node: 1 at tetrahedra of other tissues
+    std::optional<SplitMatrix> others;  // N/m, stiffness of these tetrahedra alone
+  };
+  struct Tissue {
+    double young_modulus = 0.0, poisson_ratio = 0.0;  // Pa, -
+    double shear_modulus = 0.0;                       // Pa
+    double own_bulk = 0.0;                            // Pa, of single tetrahedra
+    double shared_bulk = 0.0;                         // Pa, of volumes averaged around nodes
+  };
+  struct Element {
+    Eigen::Matrix<double, 4, 3> gradients;  // 1/m, of the shape functions
+    double volume = 0.0;                    // m^3
+  };
+  class Loads;
+
+  void find_tissues(const scene::Scene& scene);
+  [[nodiscard]] int region_under(int triangle) const;
+  [[nodiscard]] const Home& home(int region);
+  [[nodiscard]] double error_of(const integrate::Vector& rest,
+                                const integrate::Vector& interpolated, int region) const;
+
+  geometry::TetMesh mesh_;  // of the part
+  std::vector<geometry::FaceUse> uses_;
+  std::vector<std::array<int, 3>> skin_triangles_;  // nodes of the part, ascending
+  std::vector<Tissue> tissues_;                     // per region
+  std::vector<Element> elements_;
+  std::vector<std::optional<Home>> homes_;  // per region
+  std::vector<char> held_;
+  std::vector<std::array<int, 4>> around_;  // per tetrahedron and corner: number of (node, region)
+  std::vector<int> count_around_;           // tetrahedra per (node, region)
+  SplitMatrix stiffness_;                   // N/m, without supports
+  const Cholesky* factors_;
+  tissue::Volume volume_;
+};
+
+}  // namespace palpate::mechanics
