@@ -23,7 +23,7 @@ struct FieldValue {
 
 // The field of an elliptic patch on the plane z = 0 of a half-space z <= 0, loaded along -z. The
 // pressure is replaced by point loads of Boussinesq, the more of them the nearer the point is.
-// Points above the plane count as points on it.  Boussinesq 1885; docs/theory.md (104)
+// Points above the plane count as points on it.  Boussinesq 1885; docs/theory.md (11)
 class PatchField {
  public:
   // Semi-axes along x and y, m, above 0. `finer` multiplies the numbers of point loads.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/hertz.h"
 #include "scene/first_touch.h"
 
 namespace palpate::mechanics {
@@ -13,34 +14,60 @@ namespace {
 constexpr double widest = 1.4;
 constexpr double stated = 1e-9;  // weights below it count as none
 
+// The largest part of s, and of the half-space's sinking, by which e corrects s.
+constexpr double most_corrected = 0.75;
+constexpr double least_corrected = 0.02;
+
 }  // namespace
 
 BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
-                         std::span<const char> held, const Cholesky& factors, double deepest)
+                         std::span<const char> held, double deepest)
     : surface_(&*scene.specimen->surface),
-      coupling_(scene, part, held, factors),
-      deepest_(deepest),
-      first_(scene::first_touch(scene).at) {}
+      coupling_(scene, part, held),
+      largest_(widest * contact::hertz::contact_radius(deepest, scene.law().radius)),
+      plane_modulus_(
+          scene.scenario.tissue.young_modulus /
+          (1.0 - scene.scenario.tissue.poisson_ratio * scene.scenario.tissue.poisson_ratio)),
+      first_(scene::first_touch(scene).at) {
+  if (!scene.layer) return;
+  const scene::Specimen& specimen = *scene.specimen;
+  std::vector<char> slides(held.begin(), held.end());
+  const double close = 1e-9 * specimen.height();
+  for (std::size_t n = 0; n < part.network.rest.size(); ++n)
+    for (Eigen::Index axis = 0; axis < 2; ++axis) {
+      const double place = part.network.rest[n][axis];
+      if (place <= specimen.low[axis] + close || place >= specimen.high[axis] - close)
+        slides[3 * n + as_index(axis)] = 1;
+    }
+  sliding_.emplace(scene, part, slides);
+}
 
-BodySinking::Place BodySinking::evaluate(const contact::Patch& like, double radius_per_root) {
+BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
   Place place;
-  place.largest = widest * radius_per_root * std::sqrt(deepest_);
   contact::Patch patch = like;
-  const double slender = like.b > 0.0 ? std::sqrt(like.a / like.b) : 1.0;
+  patch.axis = patch.normal.unitOrthogonal();
   for (std::size_t k = 0; k < radii; ++k) {
-    const double radius = steps[k] * place.largest;
-    patch.a = radius * slender;
-    patch.b = radius / slender;
+    patch.a = patch.b = steps[k] * largest_;
     BeyondHalfSpace beyond = coupling_.beyond(patch);
-    place.sinking[k] = beyond.sinking + beyond.error;
+    if (sliding_) {
+      const BeyondHalfSpace slides = sliding_->beyond(patch);
+      beyond.sinking = 0.5 * (beyond.sinking - slides.sinking);
+      beyond.error = 0.5 * std::abs(beyond.error - slides.error);
+      place.sinking[k] = beyond.sinking;
+    } else {
+      // An estimate of the error that exceeds what it corrects says only that the mesh is too
+      // coarse. 3/(5 E' a) is the half-space's own sinking, docs/theory.md (13).
+      const double most = most_corrected * std::abs(beyond.sinking) +
+                          least_corrected * 0.6 / (plane_modulus_ * patch.a);
+      place.sinking[k] = beyond.sinking + std::min(beyond.error, most);
+    }
     place.error[k] = beyond.error;
     if (k == 2) place.rest = std::move(beyond.rest);
   }
   return place;
 }
 
-const BodySinking::Place& BodySinking::at_vertex(const contact::Patch& patch, std::size_t corner,
-                                                 double radius_per_root) {
+const BodySinking::Place& BodySinking::at_vertex(const contact::Patch& patch, std::size_t corner) {
   const int triangle = patch.at.triangle;
   const int vertex = surface_->surface().triangles[as_index(triangle)][corner];
   const Vec3& normal = surface_->corner_normal(triangle, corner);
@@ -51,14 +78,12 @@ const BodySinking::Place& BodySinking::at_vertex(const contact::Patch& patch, st
   here.at.weights = Vec3::Unit(static_cast<Eigen::Index>(corner));
   here.position = surface_->surface().vertices[as_index(vertex)];
   here.normal = normal;
-  const Vec3 axis = patch.axis - patch.axis.dot(normal) * normal;
-  here.axis = axis.norm() > 1e-6 ? Vec3(axis.normalized()) : normal.unitOrthogonal();
-  return sides.emplace_back(normal, evaluate(here, radius_per_root)).second;
+  return sides.emplace_back(normal, evaluate(here)).second;
 }
 
 // Fills shares_: linear weights of the corners or, in the triangle of the first touch, of that
 // place and two corners.
-void BodySinking::spread(const contact::Patch& patch, double radius_per_root) {
+void BodySinking::spread(const contact::Patch& patch) {
   shares_.fill({});
   std::array<double, 3> weights{patch.at.weights[0], patch.at.weights[1], patch.at.weights[2]};
   if (patch.at.triangle == first_.triangle) {
@@ -76,23 +101,36 @@ void BodySinking::spread(const contact::Patch& patch, double radius_per_root) {
         here.at = first_;
         here.position = surface_->position(first_);
         here.normal = surface_->normal(first_);
-        const Vec3 axis = patch.axis - patch.axis.dot(here.normal) * here.normal;
-        here.axis = axis.norm() > 1e-6 ? Vec3(axis.normalized()) : here.normal.unitOrthogonal();
-        at_first_ = evaluate(here, radius_per_root);
+        at_first_ = evaluate(here);
       }
       shares_[3] = {&*at_first_, part};
     }
   }
   for (std::size_t k = 0; k < 3; ++k)
-    if (weights[k] > stated) shares_[k] = {&at_vertex(patch, k, radius_per_root), weights[k]};
+    if (weights[k] > stated) shares_[k] = {&at_vertex(patch, k), weights[k]};
 }
 
-BodySinking::Value BodySinking::at(const contact::Patch& patch, double radius_per_root) {
-  spread(patch, radius_per_root);
+BodySinking::Value BodySinking::at(const contact::Patch& patch) {
   Value value;
-  for (const auto& [place, weight] : shares_) {
+  if (!(patch.turned > 0.0)) {
+    add(patch, 1.0, value);
+    return value;
+  }
+  // On a crease the value changes from one side's to the other's as the perpendicular turns.
+  contact::Patch beyond = patch;
+  beyond.at = patch.beyond;
+  add(patch, 1.0 - patch.turned, value);
+  add(beyond, patch.turned, value);
+  return value;
+}
+
+void BodySinking::add(const contact::Patch& patch, double part, Value& value) {
+  spread(patch);
+  for (const auto& [place, own] : shares_) {
     if (place == nullptr) continue;
-    const double x = std::min(patch.radius() / place->largest, steps.back());
+    const double weight = part * own;
+    const double ratio = patch.radius() / largest_;
+    const double x = std::min(ratio, steps.back());
     for (std::size_t k = 0; k < radii; ++k) {
       // Lagrange's polynomial of the k-th radius, and its derivative.
       double product = 1.0;
@@ -104,17 +142,15 @@ BodySinking::Value BodySinking::at(const contact::Patch& patch, double radius_pe
         product *= (x - steps[j]) / gap;
       }
       value.sinking += weight * product * place->sinking[k];
-      value.slope += weight * slope / place->largest * place->sinking[k];
+      if (ratio <= steps.back()) value.slope += weight * slope / largest_ * place->sinking[k];
       value.error += weight * product * place->error[k];
     }
   }
-  return value;
 }
 
 double BodySinking::rest(const Vec3& normal, const contact::Spread& read,
-                         std::span<const int> nodes, const contact::Patch& pressed,
-                         double radius_per_root) {
-  spread(pressed, radius_per_root);
+                         std::span<const int> nodes, const contact::Patch& pressed) {
+  spread(pressed);
   double sum = 0.0;
   for (const auto& [place, weight] : shares_) {
     if (place == nullptr) continue;
@@ -125,24 +161,21 @@ double BodySinking::rest(const Vec3& normal, const contact::Spread& read,
   return sum;
 }
 
-void BodySinking::make_ready(double reach, double radius_per_root) {
+void BodySinking::make_ready(double reach) {
   const Vec3 middle = surface_->position(first_);
   const auto& triangles = surface_->surface().triangles;
   contact::Patch patch;
   patch.at = first_;
   patch.position = middle;
   patch.normal = surface_->normal(first_);
-  patch.axis = patch.normal.unitOrthogonal();
-  spread(patch, radius_per_root);
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      patch.at.triangle = static_cast<int>(t);
-      patch.axis = surface_->corner_normal(patch.at.triangle, k).unitOrthogonal();
-      const Vec3& vertex = surface_->surface().vertices[as_index(triangles[t][k])];
-      if ((vertex - middle).norm() <= reach &&
-          surface_->corner_normal(patch.at.triangle, k).z() > 0.2)
-        (void)at_vertex(patch, k, radius_per_root);
-    }
+  spread(patch);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    patch.at.triangle = static_cast<int>(t);
+    const bool near = std::any_of(triangles[t].begin(), triangles[t].end(), [&](int vertex) {
+      return (surface_->surface().vertices[as_index(vertex)] - middle).norm() <= reach;
+    });
+    for (std::size_t k = 0; near && k < 3; ++k) (void)at_vertex(patch, k);
+  }
 }
 
 }  // namespace palpate::mechanics

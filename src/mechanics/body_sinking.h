@@ -13,37 +13,35 @@ namespace palpate::mechanics {
 // EnergyCoupling::beyond() is evaluated for a few radii at the first touch and at vertices of the
 // skin, each when it is first needed, and interpolated: over the radius by a cubic polynomial, over
 // the skin linearly within a triangle. Where the finger first touches there is no interpolation.
-//                                                                        docs/theory.md (99)
+//                                                                        docs/theory.md (13)
 class BodySinking {
  public:
   // The references must outlive this. `deepest` (m) is the largest depth of a contact.
   BodySinking(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held,
-              const Cholesky& factors, double deepest);
+              double deepest);
 
   struct Value {
     double sinking = 0.0;  // m/N, s + e
     double slope = 0.0;    // 1/N, of that with respect to the radius
     double error = 0.0;    // m/N, e
   };
-  // Of the patch at its own radius. `radius_per_root` (sqrt(m)) is the contact's radius divided by
-  // the square root of its depth.
-  [[nodiscard]] Value at(const contact::Patch& patch, double radius_per_root);
+  // Of the patch; of an ellipse as of a circle of the same area.
+  [[nodiscard]] Value at(const contact::Patch& patch);
 
   // The sinking of the rest w under the vertices of `read`, along `normal`, per newton on
   // `pressed`, m/N.
   [[nodiscard]] double rest(const Vec3& normal, const contact::Spread& read,
-                            std::span<const int> nodes, const contact::Patch& pressed,
-                            double radius_per_root);
+                            std::span<const int> nodes, const contact::Patch& pressed);
 
-  // Evaluates the first touch and all vertices within `reach` (m) of it.
-  void make_ready(double reach, double radius_per_root);
+  // Evaluates the first touch, and the vertices of all triangles that come within `reach` (m) of
+  // it.
+  void make_ready(double reach);
 
  private:
   static constexpr std::size_t radii = 4;
   // The places of the table in which a radius lies, relative to the largest.
   static constexpr std::array<double, radii> steps{0.2, 0.45, 0.75, 1.0};
   struct Place {
-    double largest = 0.0;                 // m
     std::array<double, radii> sinking{};  // m/N, s + e
     std::array<double, radii> error{};    // m/N
     integrate::Vector rest;               // m/N, w for the third radius
@@ -52,14 +50,18 @@ class BodySinking {
     const Place* place = nullptr;
     double weight = 0.0;
   };
-  void spread(const contact::Patch& patch, double radius_per_root);
-  [[nodiscard]] Place evaluate(const contact::Patch& like, double radius_per_root);
-  [[nodiscard]] const Place& at_vertex(const contact::Patch& patch, std::size_t corner,
-                                       double radius_per_root);
+  void add(const contact::Patch& patch, double part, Value& value);
+  void spread(const contact::Patch& patch);
+  [[nodiscard]] Place evaluate(const contact::Patch& like);
+  [[nodiscard]] const Place& at_vertex(const contact::Patch& patch, std::size_t corner);
 
   const geometry::SmoothSurface* surface_;
   EnergyCoupling coupling_;
-  double deepest_;
+  // Where the contact's law is that of flat layers, the mesh gives the effect of the sides alone:
+  // half the difference between free sides and these, which only slide.
+  std::optional<EnergyCoupling> sliding_;
+  double largest_;                // m, the largest contact radius of the table
+  double plane_modulus_;          // Pa, E / (1 - nu^2) of the tissue
   geometry::SurfacePoint first_;  // where the finger touches first
   std::optional<Place> at_first_;
   // Per vertex, one place for each smooth side of its creases.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/text.h"
 #include "mechanics/resolved_contact.h"
@@ -147,11 +148,18 @@ std::optional<std::string> Contacts::give_law(const MeshAnswer& mesh, SphereCont
     here = geometry::between({here, there, there},
                              {1.0 - contact.patch.turned, contact.patch.turned, 0.0});
   }
-  const auto law =
-      contact::contact_law(scene_->scenario.contact.law,
-                           {scene_->finger.sphere_radius, scene_->finger.sphere_modulus}, here);
+  const auto law = contact::contact_law(
+      scene_->scenario.contact.law, {scene_->finger.sphere_radius, scene_->finger.sphere_modulus},
+      here, scene_->layer ? &*scene_->layer : nullptr);
   if (!law) return hollow_text(here.kappa_2);
   contact.law = *law;
+  if (contact.law.point.layer != nullptr && presses_as_one()) {
+    // The law of the single sphere that these spheres represent; a^2 = R h with its R, which is
+    // n^(1/3) times the radius of a sphere.
+    const auto count = static_cast<double>(scene_->finger.centres.size());
+    contact.law.point.share = 1.0 / count;
+    contact.law.radius_share = std::pow(count, -1.0 / 6.0);
+  }
   // The curvature's axis, projected into the patch's tangent plane.
   Vec3 axis = law->axis - law->axis.dot(contact.patch.normal) * contact.patch.normal;
   contact.patch.axis =
@@ -238,6 +246,10 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
   if (mesh.moving != nullptr) find_motion(mesh, contacts);
   // Explicit steps read the mesh once, over the patch of the previous step.
   const int passes = moving_ && mesh.influence == nullptr ? 1 : most_patches;
+  // Each pass takes this part of the way to the depths for the radii of the pass before: less after
+  // a pass that did not come nearer.
+  double part_of_way = 1.0;
+  double change_before = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < passes; ++pass) {
     shape_patches(contacts);
     share_places(contacts);
@@ -257,6 +269,7 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
     for (std::size_t i = 0; i < count; ++i) {
       change = std::max(change, std::abs(contacts[i].law.semi_axes(depths_[i])[0] -
                                          contacts[i].law.semi_axes(contacts[i].depth)[0]));
+      depths_[i] = contacts[i].depth + part_of_way * (depths_[i] - contacts[i].depth);
       contacts[i].depth = depths_[i];
       contacts[i].force = contacts[i].elastic = laws_[i].force(depths_[i]);
       contacts[i].stiffness = laws_[i].stiffness(depths_[i]);
@@ -264,6 +277,8 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
           compliance_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
     }
     if (change <= settled) return std::nullopt;
+    if (change > 0.7 * change_before) part_of_way *= 0.6;
+    change_before = change;
   }
   if (passes == 1) {
     shape_patches(contacts);
@@ -280,7 +295,7 @@ std::optional<std::string> Contacts::find(const Vec3& finger, const MeshAnswer& 
   for (SphereContact& contact : found_) {
     if (auto wrong = give_law(mesh, contact)) return wrong;
     carry_on(touch, contact);
-    if (mesh.moving != nullptr) spread_wide(contact);
+    if (mesh.wide) spread_wide(contact);
   }
   const Vec3 move = finger - touch.finger;
   touch.finger = finger;

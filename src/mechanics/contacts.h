@@ -10,6 +10,7 @@
 #include "contact/detection.h"
 #include "contact/law.h"
 #include "contact/skin_spacing.h"
+#include "mechanics/body_sinking.h"
 #include "mechanics/influence.h"
 #include "mechanics/kept_list.h"
 #include "scene/scene.h"
@@ -26,8 +27,6 @@ struct NodalContact {
   void renew();  // clears all, but keeps the memory of the lists
 };
 
-class BodySinking;
-
 // The contact of one sphere at one place of the skin.
 struct SphereContact {
   int sphere = 0;
@@ -39,13 +38,13 @@ struct SphereContact {
   double elastic = 0.0;         // N, the part of `force` that the law gives for relaxed tissue
   double radiated = 0.0;        // N, the part of `force` for waves that the mesh cannot resolve
   double compliance = 0.0;      // m/N, C_ii of docs/theory.md (15)
-  double sinking_error = 0.0;   // m/N, e of docs/theory.md (100)
+  double sinking_error = 0.0;   // m/N, e of docs/theory.md (12)
   double stiffness = 0.0;       // N/m, derivative of `force` with respect to `depth`; where inertia
                                 // reaches the force, to the finger's position, within a step
   Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue
   Vec3 stretch = Vec3::Zero();  // m, of the finger relative to the tissue since the last slip
   contact::Spread load;         // of the pressure
-  contact::Spread wide;         // over the wide patch (74); empty unless inertia reaches the force
+  contact::Spread wide;         // over the wide patch (74); empty unless MeshAnswer::wide
   NodalContact nodal;           // with `resolved`; otherwise empty
   bool on_crease = false;
   bool one_sided = false;  // its curvature has StarStatus::one_sided
@@ -56,6 +55,10 @@ struct SphereContact {
 // The pressure in the middle of the contact, Pa: for Hertz 3/2 of the mean, for a layer from its
 // law (59), with `resolved` the largest nodal pressure.
 [[nodiscard]] double peak_pressure(const SphereContact& contact);
+
+// The mesh's own error in the contact's force, a fraction of it; 0 where the law alone gives it.
+//                                                                        docs/theory.md (12)
+[[nodiscard]] double mesh_error(const SphereContact& contact);
 
 // Position of the finger and the state of its contacts at one moment.
 struct Touch {
@@ -90,6 +93,7 @@ struct MeshAnswer {
   const integrate::Vector* displacement = nullptr;  // m, without the forces of these contacts
   Influence* influence = nullptr;                   // under forces of these contacts
   BodySinking* beyond = nullptr;                    // of statics, for `consistent`
+  bool wide = false;                                // the mesh is loaded through the wide patches
   const integrate::Vector* shape = nullptr;  // m, displacement for the curvature; null: at rest
   const MovingMesh* moving = nullptr;        // set where inertia reaches the force
 
@@ -153,9 +157,10 @@ class Contacts {
   void find_body_sinking(const MeshAnswer& mesh, KeptList<SphereContact>& contacts);
   void find_mesh_sinking(const MeshAnswer& mesh, const KeptList<SphereContact>& contacts);
   [[nodiscard]] bool presses_as_one() const;
-  [[nodiscard]] contact::Patch joint_patch(const KeptList<SphereContact>& contacts,
-                                           const SphereContact& own) const;
-  [[nodiscard]] double plane_modulus() const;  // Pa, E' of docs/theory.md (11)
+  [[nodiscard]] BodySinking::Value joint_sinking(const MeshAnswer& mesh,
+                                                 const KeptList<SphereContact>& contacts,
+                                                 contact::Patch& joint) const;
+  [[nodiscard]] double plane_modulus() const;  // Pa, E / (1 - nu^2)
   // In contact_inertia.cpp, where inertia reaches the force:
   struct Past {  // a contact at the end of the previous step
     int sphere = 0;

@@ -26,7 +26,7 @@ class EnergyCoupling::Loads {
   Loads(const geometry::TetMesh& mesh, const contact::Patch& patch, const Tissue& tissue, int finer)
       : mesh_(&mesh),
         patch_(&patch),
-        field_(patch.a, patch.b, {tissue.shear_modulus, tissue.poisson_ratio}, finer),
+        field_(patch.a, patch.b, {tissue.shear_modulus, tissue.elastic.poisson_ratio}, finer),
         finer_(finer) {
     axes_.col(0) = patch.axis;
     axes_.col(1) = patch.normal.cross(patch.axis);
@@ -130,11 +130,10 @@ class EnergyCoupling::Loads {
 };
 
 EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& part,
-                               std::span<const char> held, const Cholesky& factors)
+                               std::span<const char> held)
     : held_(held.begin(), held.end()),
-      stiffness_(tissue::stiffness_matrix(part.network, std::vector<char>(held.size(), 0))),
-      factors_(&factors),
-      volume_(scene.scenario.solver.volume) {
+      volume_(scenario::rung(scene.scenario.solver.model).coupled() ? scene.scenario.solver.volume
+                                                                    : tissue::Volume::nodal) {
   const scene::Specimen& specimen = *scene.specimen;
   std::vector<int> number(specimen.mesh.nodes.size(), -1);
   for (std::size_t n = 0; n < part.nodes.size(); ++n)
@@ -180,33 +179,42 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
   }
   find_tissues(scene);
   homes_.resize(tissues_.size());
+  const tissue::Network network = elements_of(mesh_);
+  stiffness_ = tissue::stiffness_matrix(network, std::vector<char>(held.size(), 0));
+  // The tetrahedra have been checked, and the base is held.
+  [[maybe_unused]] const bool factored = factors_.factor(tissue::stiffness_matrix(network, held_));
+  eigen_assert(factored);
 }
 
-// The moduli that the network has: measured for independent springs.
+// The linear finite elements of a mesh as coupled springs.
+tissue::Network EnergyCoupling::elements_of(const geometry::TetMesh& mesh) const {
+  std::vector<tissue::Isotropic> tissues;
+  for (const Tissue& one : tissues_) tissues.push_back(one.elastic);
+  tissue::Network network =
+      tissue::make_network(mesh, std::vector<double>(tissues.size(), 1.0),
+                           std::vector<double>(geometry::edges(mesh).size(), 0.0));
+  tissue::couple(network, mesh, tissues,
+                 volume_ == tissue::Volume::none ? tissue::Volume::tetrahedron : volume_,
+                 scene::own_share);
+  return network;
+}
+
 void EnergyCoupling::find_tissues(const scene::Scene& scene) {
-  const scenario::Resolved& scenario = scene.scenario;
-  const tissue::Uniaxial& measured = scene.specimen->measured;
-  const bool coupled = scenario::rung(scenario.solver.model).coupled();
-  const double stiffer = measured.young_modulus / scenario.tissue.young_modulus;
-  const auto add = [&](const scenario::Resolved::Substance& substance, bool first) {
-    const double own_ratio = std::min(substance.poisson_ratio, scene::most_poisson_ratio);
-    const bool of_springs = first || (!coupled && volume_ == tissue::Volume::none);
-    Tissue tissue{.young_modulus = stiffer * substance.young_modulus,
-                  .poisson_ratio = of_springs ? measured.poisson_ratio : own_ratio};
-    const tissue::Isotropic isotropic{tissue.young_modulus, tissue.poisson_ratio};
-    tissue.shear_modulus = tissue::shear_modulus(isotropic);
-    tissue.own_bulk = tissue::bulk_modulus(isotropic);
+  const auto add = [&](const scenario::Resolved::Substance& substance) {
+    const tissue::Isotropic elastic{substance.young_modulus,
+                                    std::min(substance.poisson_ratio, scene::most_poisson_ratio)};
+    Tissue tissue{.elastic = elastic,
+                  .shear_modulus = tissue::shear_modulus(elastic),
+                  .own_bulk = tissue::bulk_modulus(elastic)};
     if (volume_ == tissue::Volume::nodal) {
-      // Independent springs resist a change of volume as nu = 1/4 does: K = 5/3 mu.
-      const double own = coupled ? scene::own_share : 5.0 / 3.0;
       const double bulk = tissue.own_bulk;
-      tissue.own_bulk = std::min(bulk, own * tissue.shear_modulus);
+      tissue.own_bulk = std::min(bulk, scene::own_share * tissue.shear_modulus);
       tissue.shared_bulk = bulk - tissue.own_bulk;
     }
     tissues_.push_back(tissue);
   };
-  add(scenario.tissue, true);
-  for (const auto& region : scenario.regions) add(region, false);
+  add(scene.scenario.tissue);
+  for (const auto& region : scene.scenario.regions) add(region);
 }
 
 int EnergyCoupling::region_under(int triangle) const {
@@ -252,14 +260,7 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
     for (const int node : mesh_.tetrahedra[t]) here.other[as_index(node)] = 1;
   }
   if (rest.tetrahedra.empty()) return here;
-  std::vector<tissue::Isotropic> tissues;
-  for (const Tissue& one : tissues_) tissues.push_back({one.young_modulus, one.poisson_ratio});
-  tissue::Network network =
-      tissue::make_network(rest, std::vector<double>(tissues.size(), 1.0),
-                           std::vector<double>(geometry::edges(rest).size(), 0.0));
-  tissue::couple(network, rest, tissues,
-                 volume_ == tissue::Volume::none ? tissue::Volume::tetrahedron : volume_,
-                 scene::own_share);
+  const tissue::Network network = elements_of(rest);
   here.others = tissue::stiffness_matrix(network, std::vector<char>(held_.size(), 0));
   return here;
 }
@@ -268,7 +269,7 @@ BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, int finer) {
   const int region = region_under(patch.at.triangle);
   const Home& here = home(region);
   Loads loads(mesh_, patch, tissues_[as_index(region)], finer);
-  const Eigen::Index freedoms = stiffness_.local.rows();
+  const Eigen::Index freedoms = static_cast<Eigen::Index>(held_.size());
 
   Vector interpolated = Vector::Zero(freedoms);  // of the half-space in other tissues, m/N
   Vector held_by = Vector::Zero(freedoms);       // w on supports: minus the half-space's
@@ -292,13 +293,12 @@ BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, int finer) {
   Vector right = loads.nodal - stiffness_ * held_by;
   for (Eigen::Index d = 0; d < freedoms; ++d)
     if (held_[as_index(d)] != 0) right[d] = 0.0;
-  factors_->solve(right, result.rest);
+  factors_.solve(right, result.rest);
   result.rest += held_by;
   const Vector reaction = stiffness_ * result.rest - loads.nodal;
-  result.sinking = loads.known;
+  result.sinking = loads.known + loads.nodal.dot(result.rest);
   for (Eigen::Index d = 0; d < freedoms; ++d)
-    result.sinking +=
-        held_[as_index(d)] != 0 ? -reaction[d] * held_by[d] : loads.nodal[d] * result.rest[d];
+    if (held_[as_index(d)] != 0) result.sinking -= reaction[d] * held_by[d];
   result.error = error_of(result.rest, interpolated, region);
   return result;
 }

@@ -10,6 +10,7 @@
 #include "contact/patch.h"
 #include "contact/patch_field.h"
 #include "scene/scene.h"
+#include "tissue/coupled.h"
 #include "tissue/part.h"
 
 namespace palpate::mechanics {
@@ -17,21 +18,21 @@ namespace palpate::mechanics {
 // The difference between the body and a half-space of the tissue at the contact, both pressed by
 // 1 N with Hertz's pressure over the patch.
 struct BeyondHalfSpace {
-  double sinking = 0.0;  // m/N: s of docs/theory.md (98), averaged with that pressure
-  double error = 0.0;    // m/N: e of (100); s + e is the better value
+  double sinking = 0.0;  // m/N: s of docs/theory.md (12), averaged with that pressure
+  double error = 0.0;    // m/N: e of (12); s + e is the better value
   // m/N: w, the body's displacement minus the half-space's, three entries per node of the part;
   // in other tissues minus the half-space's displacement interpolated between the nodes.
   integrate::Vector rest;
 };
 
 // The displacement under a contact is the half-space's, known in closed form, plus a rest that is
-// smooth under the contact; only the rest is solved for on the mesh. It is loaded and read through
-// the same nodal loads.                                        docs/theory.md (94)-(100)
+// smooth under the contact; only the rest is solved for, with the linear finite elements of the
+// mesh, which coupled springs are. It is loaded and read through the same nodal loads.
+//                                                              docs/theory.md (11)-(12)
 class EnergyCoupling {
  public:
-  // `factors` are those of the part's stiffness with the flags `held`; all must outlive this.
-  EnergyCoupling(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held,
-                 const Cholesky& factors);
+  // `held` has the supports' flags, one per degree of freedom of the part.
+  EnergyCoupling(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held);
 
   // Both semi-axes of the patch are above 0. `finer` refines the quadrature of the loads.
   [[nodiscard]] BeyondHalfSpace beyond(const contact::Patch& patch, int finer = 1);
@@ -51,10 +52,10 @@ class EnergyCoupling {
     std::optional<SplitMatrix> others;  // N/m, stiffness of these tetrahedra alone
   };
   struct Tissue {
-    double young_modulus = 0.0, poisson_ratio = 0.0;  // Pa, -
-    double shear_modulus = 0.0;                       // Pa
-    double own_bulk = 0.0;                            // Pa, of single tetrahedra
-    double shared_bulk = 0.0;                         // Pa, of volumes averaged around nodes
+    tissue::Isotropic elastic;
+    double shear_modulus = 0.0;  // Pa
+    double own_bulk = 0.0;       // Pa, of single tetrahedra
+    double shared_bulk = 0.0;    // Pa, of volumes averaged around nodes
   };
   struct Element {
     Eigen::Matrix<double, 4, 3> gradients;  // 1/m, of the shape functions
@@ -63,6 +64,7 @@ class EnergyCoupling {
   class Loads;
 
   void find_tissues(const scene::Scene& scene);
+  [[nodiscard]] tissue::Network elements_of(const geometry::TetMesh& mesh) const;
   [[nodiscard]] int region_under(int triangle) const;
   [[nodiscard]] const Home& home(int region);
   [[nodiscard]] double error_of(const integrate::Vector& rest,
@@ -78,7 +80,7 @@ class EnergyCoupling {
   std::vector<std::array<int, 4>> around_;  // per tetrahedron and corner: number of (node, region)
   std::vector<int> count_around_;           // tetrahedra per (node, region)
   SplitMatrix stiffness_;                   // N/m, without supports
-  const Cholesky* factors_;
+  Cholesky factors_;                        // of it with supports
   tissue::Volume volume_;
 };
 

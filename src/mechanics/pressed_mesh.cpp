@@ -102,18 +102,25 @@ void PressedMesh::take(tissue::Part part) {
     influence_.emplace(response);
     return;
   }
-  // Positive definite, as the measurement of the network's modulus has shown.
-  [[maybe_unused]] const bool factored = factors_.factor(body_->stiffness());
-  eigen_assert(factored);
-  beyond_.emplace(*scene_, part_, body_->held(), factors_,
+  beyond_.emplace(*scene_, part_, body_->held(),
                   scene::deepest_travel(scene_->scenario, scene_->law()));
+  factored_ = false;
   if (!inertia_) return;
+  factor();
   influence_.emplace([this](const Vector& unit, Vector& moved) {
     moved = unit;
     for (Eigen::Index d = 0; d < moved.size(); ++d)
       if (body_->held()[as_index(d)] != 0) moved[d] = 0.0;
     factors_.solve(moved, moved);
   });
+}
+
+// Factors the static stiffness, once for every moving part.
+void PressedMesh::factor() {
+  if (factored_) return;
+  // Positive definite, as the measurement of the network's modulus has shown.
+  factored_ = factors_.factor(body_->stiffness());
+  eigen_assert(factored_);
 }
 
 void PressedMesh::set_step(double time_step) {
@@ -141,7 +148,10 @@ void PressedMesh::set_stage(double duration) {
 }
 
 MeshAnswer PressedMesh::answer() const {
-  MeshAnswer mesh{.nodes = skin_nodes_, .freedoms = state_.displacement.size()};
+  MeshAnswer mesh{.nodes = skin_nodes_,
+                  .freedoms = state_.displacement.size(),
+                  // Steps in modes alone are frames in which every loaded node costs time.
+                  .wide = beyond_ && !in_modes_};
   if (scene_->scenario.contact.curvature_on == scenario::Contact::CurvatureOn::deformed)
     mesh.shape = &state_.displacement;
   return mesh;
@@ -163,6 +173,7 @@ std::optional<std::string> PressedMesh::step_freely(const Vec3& finger, ContactH
                                                     Touch& touch) {
   if (auto wrong = try_out(finger, touch)) return wrong;
   history.pass(*scene_, time_step_, touch);
+  if (beyond_ && !in_modes_) Contacts::finer_load(touch, answer(), finer_);
   return move(touch);
 }
 
@@ -313,10 +324,13 @@ Vector PressedMesh::displacement() {
   Vector load = finer_;
   for (Eigen::Index d = 0; d < load.size(); ++d)
     if (body_->held()[as_index(d)] != 0) load[d] = 0.0;
+  factor();
   return of_specimen(state_.displacement + factors_.solve(load));
 }
 
 bool PressedMesh::inverted() {
+  // There the mesh is loaded through the narrow patch, but its motion does not reach the force.
+  if (in_modes_ && beyond_) return false;
   show();
   return tissue::inverted(specimen_->mesh, of_specimen(state_.displacement));
 }

@@ -34,7 +34,7 @@ class PressedMesh {
   // One step, at the end of which, `time` (s), the finger's point is at `finger` (m). Returns a
   // sentence if the contact equations have no solution or the motion is unstable. The forces follow
   // - for `one_way`, and `consistent` without inertia, from the finger's position alone: in
-  //   h = approach - (c - g) F, c and g are those of statics, docs/theory.md (12);
+  //   h = approach - C F with the C of statics, docs/theory.md (13);
   // - for `consistent` with inertia, also from the mesh's deviation from its static displacement;
   // - for `series`, from the mesh's displacement at the start (explicit) or end (implicit steps);
   // - for `resolved` (implicit steps only), likewise, node by node.
@@ -85,6 +85,7 @@ class PressedMesh {
   [[nodiscard]] std::optional<std::string> step_in_modes(integrate::Modal& method,
                                                          const Vec3& finger,
                                                          ContactHistory& history, Touch& touch);
+  void factor();
   void show();
   void find_drag_load(const Touch& touch);
   void respond(const integrate::Vector& unit, integrate::Vector& moved);
@@ -105,6 +106,7 @@ class PressedMesh {
   std::optional<BodySinking> beyond_;  // for `consistent`
   std::optional<Influence> response_;  // of an implicit step, for `consistent` with inertia
   Cholesky factors_;                   // of the static stiffness, for `consistent`
+  bool factored_ = false;
   integrate::State state_;
   integrate::Vector load_;         // N
   integrate::State before_;        // at the start of the step

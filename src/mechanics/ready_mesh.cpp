@@ -1,9 +1,27 @@
 // Preparation of a mesh for a live run, after which solver steps allocate no memory.
 #include "mechanics/pressed_mesh.h"
+
+#include <cmath>
+
+#include "contact/hertz.h"
 #include "scenario/integrators.h"
 #include "scene/first_touch.h"
 
 namespace palpate::mechanics {
+namespace {
+
+// How far from its first touch the programme lets the finger press, with room for a hand that does
+// not follow it closely, m.
+double farthest_reach(const scene::Scene& scene) {
+  double path = 4.0 * contact::hertz::contact_radius(
+                          scene::deepest_travel(scene.scenario, scene.law()), scene.law().radius);
+  path += scene.law().radius;
+  for (const scenario::Step& step : scene.scenario.steps)
+    if (const auto* slide = std::get_if<scenario::Slide>(&step)) path += std::abs(slide->by);
+  return path;
+}
+
+}  // namespace
 
 // Steps still allocate
 // - for non-linear bodies: factors, in implicit steps at every linearisation, and in explicit steps
@@ -11,6 +29,7 @@ namespace palpate::mechanics {
 // - for `resolved`: the equations of the nodes in contact;
 // - for `solver.rings`: the new part and its influences when another part starts to move;
 // - influences, once per node in contact, if all of them would take more than `most_answers`;
+// - where a hand presses far beside the programme's path, once per vertex of the skin;
 // - contacts beyond four per sphere, once each.
 void PressedMesh::make_ready(Touch& touch) {
   constexpr double most_answers = 1e9;  // bytes
@@ -29,6 +48,7 @@ void PressedMesh::make_ready(Touch& touch) {
   state_.time = 0.0;
   touch.finger = place;
 
+  if (beyond_) beyond_->make_ready(farthest_reach(*scene_));
   const Eigen::Index freedoms = state_.displacement.size();
   const bool answers = body_->linear() && !about(scene_->scenario.solver.integrator).explicit_steps;
   if (influence_ && (answers || inertia_))

@@ -7,6 +7,13 @@
 #include "mechanics/contacts.h"
 
 namespace palpate::mechanics {
+namespace {
+
+// What is left of the estimate e after s + e: half of it, and more where e is large against the
+// force. Measured on the bodies of docs/accuracy.md.                        docs/theory.md (12)
+constexpr double stated_share = 0.5;
+
+}  // namespace
 
 void NodalContact::renew() {
   push.clear();
@@ -37,6 +44,13 @@ double peak_pressure(const SphereContact& contact) {
   return mean *
          layer->law.pressure(contact::layer_chi(contact.depth, layer->radius, layer->thickness))
              .at(0.0);
+}
+
+double mesh_error(const SphereContact& contact) {
+  const double stiffness = contact.law.point.stiffness(contact.depth);
+  const double estimated =
+      contact.sinking_error * stiffness / (1.0 + std::max(0.0, contact.compliance * stiffness));
+  return estimated * (stated_share + estimated);
 }
 
 const SphereContact* Touch::deepest() const {

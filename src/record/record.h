@@ -30,6 +30,7 @@ struct ContactRow {
   int contacts = 0;
   double slide = 0.0;       // m, sideways
   double tangential = 0.0;  // N, magnitude of the sum of the tangential forces
+  double mesh_error = 0.0;  // of the contact force, as a fraction of it; not in the CSV
 };
 
 // Values of a live device for a row; NaN where the device gives none.

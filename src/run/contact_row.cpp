@@ -25,6 +25,7 @@ record::ContactRow contact_row(const scene::Scene& scene, const mechanics::Touch
     row.indentation = deepest->depth;
     row.contact_radius = deepest->patch.radius();
     row.peak_pressure = mechanics::peak_pressure(*deepest);
+    row.mesh_error = mechanics::mesh_error(*deepest);
     if (deepest->law.mean_curvature != 0.0) row.tissue_radius = 1.0 / deepest->law.mean_curvature;
   }
   row.contacts = static_cast<int>(touch.contacts.size());

@@ -109,6 +109,13 @@ class Findings {
     // JKR pull-off 1.5 pi w R at w = 0.05 J/m^2, of the order of wet skin    docs/theory.md (44)
     const double pull_off = 1.5 * std::numbers::pi * 0.05 * radius;
     add("force_over_pull_off", peak.contact_force / pull_off);
+    if (scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent) {
+      add("mesh_error", peak.mesh_error);
+      if (peak.mesh_error > scene_.scenario.solver.tolerance)
+        remark("the mesh's own error in the force is about " + percent_text(peak.mesh_error) +
+               ", above the tolerance of " + percent_text(scene_.scenario.solver.tolerance) +
+               ": take a mesh with more nodes, above all between the finger and what is near it");
+    }
     identities();
     predictions(peak);
     validity(peak);
@@ -233,7 +240,7 @@ class Findings {
         mesh ? std::abs(scene_.specimen->measured.poisson_ratio -
                         std::min(scene_.scenario.tissue.poisson_ratio, 0.4995))
              : 0.0;
-    if (ratio_error > 0.05 && coupling != contact::Coupling::one_way)
+    if (ratio_error > 0.05 && contact::mesh_is_tissue(coupling))
       remark("the springs have a Poisson's ratio of " +
              rounded_text(scene_.specimen->measured.poisson_ratio, 2) + ", the tissue " +
              number_text(scene_.scenario.tissue.poisson_ratio) +

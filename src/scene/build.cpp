@@ -282,6 +282,11 @@ void set_deep_factor(Scene& scene, const scenario::Family& family) {
 void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
   const scenario::Resolved& scenario = scene.scenario;
   scene.specimen = make_specimen(scenario, family.folder, shapes);
+  // Flat layers have an exact law, and the mesh gives the effect of the sides.
+  if (!scenario.uniform() && scenario.contact.coupling == contact::Coupling::consistent &&
+      std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape) &&
+      !scenario.regions.empty() && all_slabs(scenario))
+    set_layer(scene, shapes);
   scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_rate(scene));
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);

@@ -57,7 +57,8 @@ constexpr double width_of_body = 0.5;
 constexpr double doubt = 0.4;  // relative uncertainty of the effect of the sides, which is a fit
 
 // The error of cells that are coarse compared with the thickness of a curved body,
-// 0.4 (cell / thickness)^2: measured on the ligament from 300 to 2400 nodes.   docs/theory.md (69)
+// 0.08 (cell / thickness)^2: measured on discs of 5 and 10 mm from 250 nodes on. docs/theory.md
+// (69)
 double coarseness(const scenario::Resolved& scenario) {
   const auto shape = parametric(scenario.tissue.shape);
   if (!shape || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) return 0.0;
@@ -67,7 +68,7 @@ double coarseness(const scenario::Resolved& scenario) {
   if (const auto* limb = std::get_if<scenario::LayeredLimb>(&scenario.tissue.shape))
     thickness = limb->skin_thickness;
   const double ratio = std::min(1.0, cell / thickness);
-  return 0.4 * ratio * ratio;
+  return 0.08 * ratio * ratio;
 }
 
 bool coarse_mesh(const scenario::Resolved& scenario) {

@@ -118,7 +118,7 @@ struct Scene {
   Finger finger;
   contact::Relaxation relaxation;              // of the contact's modulus; empty if elastic
   std::optional<contact::DeepLaw> deep;        // for `hertz` with `contact.depth = "neo_hookean"`
-  std::optional<contact::LayerContact> layer;  // for `layer`
+  std::optional<contact::LayerContact> layer;  // for `layer`, and for `consistent` on flat layers
   std::optional<contact::LayerSinking> layer_sinking;  // around a contact, for maps
   std::unique_ptr<Specimen> specimen;                  // null for `hertz` and `layer`
 

@@ -37,21 +37,14 @@ TEST(Blocks, LayerWithinFourPercent) {
     expect_within(block.aside ? 0.08 : 0.04, block, {"solver.model=layer"});
 }
 
-TEST(Blocks, CoupledSpringsWithinFivePercentOnEveryMesh) {
-  for (const Block& block : blocks())
-    for (const std::string& mesh : meshes(block))
-      expect_within(0.05, block, {"solver.model=coupled_springs", "tissue.mesh=" + mesh});
-}
-
-// The paper's own springs, whose Poisson's ratio is not the tissue's. Cells of 20 mm do not see a
-// side at 15 mm: there they give the layer's force.
-TEST(Blocks, MassSpringWithinFivePercentOrTwelveOnThinBlocks) {
-  for (const Block& block : blocks())
-    for (const std::string& mesh : meshes(block))
-      expect_within(block.aside           ? 0.08
-                    : block.height > 20.0 ? 0.05
-                                          : 0.12,
-                    block, {"solver.model=mass_spring", "tissue.mesh=" + mesh});
+// The static force of both kinds of springs comes from the same finite elements. Measured: 3 % but
+// on the block of 5 mm, where cells of 20 mm state an error of their own of 5 %.
+TEST(Blocks, MeshesWithinFivePercentOrSixOnTheThinnest) {
+  for (const char* model : {"coupled_springs", "mass_spring"})
+    for (const Block& block : blocks())
+      for (const std::string& mesh : meshes(block))
+        expect_within(block.height > 5.0 ? 0.05 : 0.06, block,
+                      {std::string("solver.model=") + model, "tissue.mesh=" + mesh});
 }
 
 }  // namespace

@@ -221,7 +221,7 @@ TEST_P(Exceptions, TakeMemoryOnlyWhereItIsSaid) {
 }
 
 const Exception exceptions[] = {
-    {"rings", "solver.model=mass_spring solver.rings=2", 12, 400},
+    {"rings", "solver.model=mass_spring solver.rings=2", 12, 6000},
     {"turning_dashpots",
      "solver.model=mass_spring solver.kinematics=nonlinear tissue.viscosity=kelvin_voigt "
      "contact.friction=0.5",
@@ -229,7 +229,7 @@ const Exception exceptions[] = {
     {"nonlinear_implicit",
      "solver.model=mass_spring solver.kinematics=nonlinear solver.integrator=backward_difference "
      "tissue.mesh.cells=[2,2,3]",
-     401, 150},
+     401, 800},
 };
 INSTANTIATE_TEST_SUITE_P(All, Exceptions, testing::ValuesIn(exceptions),
                          [](const auto& one) { return std::string(one.param.name); });
