@@ -118,7 +118,7 @@ void Contacts::find_mesh_sinking(const MeshAnswer& mesh, const KeptList<SphereCo
       const SphereContact& own = contacts[as_index(i)];
       const SphereContact& pressed = contacts[as_index(j)];
       PairTable& kept = mesh.influence->kept;
-      kept.look(own.patch.normal, pressed.patch.normal, 0.0);
+      kept.look(own.patch.normal, pressed.patch.normal);
       double sum = 0.0;
       for (std::size_t k = 0; k < own.load.vertices.size(); ++k) {
         const int vertex = own.load.vertices[k];
@@ -126,8 +126,7 @@ void Contacts::find_mesh_sinking(const MeshAnswer& mesh, const KeptList<SphereCo
         for (std::size_t l = 0; l < pressed.load.vertices.size(); ++l) {
           const int loaded = pressed.load.vertices[l];
           moved += pressed.load.shares[l] * kept.at(vertex, loaded, [&] {
-            return PairBlock{.moved = mesh.influence->block(mesh.node_of(vertex),
-                                                            mesh.node_of(loaded), mesh.freedoms)};
+            return mesh.influence->block(mesh.node_of(vertex), mesh.node_of(loaded), mesh.freedoms);
           });
         }
         sum += own.load.shares[k] * moved;

@@ -8,28 +8,20 @@
 
 namespace palpate::mechanics {
 
-// The displacement of a read vertex per newton on a pressed vertex, m/N.
-struct PairBlock {
-  Eigen::Matrix3d moved = Eigen::Matrix3d::Zero();
-  double known = 0.0;  // the part that the contact law contains, for parallel normals
-};
-
-// PairBlocks, and their components along two normals as long as these normals do not change.
+// Displacements of a read vertex per newton on a pressed vertex (m/N, one column per axis of the
+// load), and their components along two normals as long as these normals do not change.
 class PairTable {
  public:
   // Sets the normals for at(): n = `read` of the contact whose sinking is computed, m = `pressed`
-  // of the contact that presses. A new `key`, on which PairBlock::known depends, drops all blocks.
-  void look(const Vec3& read, const Vec3& pressed, double key) {
-    if (key != key_) forget();
-    key_ = key;
+  // of the contact that presses.
+  void look(const Vec3& read, const Vec3& pressed) {
     if (read == read_ && pressed == pressed_) return;
     ++turn_;
     read_ = read;
     pressed_ = pressed;
-    aligned_ = read.dot(pressed);
   }
 
-  // n . moved m - (n . m) known, m/N. fill() computes the pair's PairBlock if it is not stored yet.
+  // n . block m, m/N. fill() computes the pair's block if it is not stored yet.
   template <class Fill>
   [[nodiscard]] double at(int read, int pressed, const Fill& fill) {
     const std::size_t row = place(read, rows_);
@@ -42,7 +34,7 @@ class PairTable {
     if (entry.turn == turn_) return entry.along;
     if (entry.turn == 0) entry.block = fill();
     entry.turn = turn_;
-    entry.along = read_.dot(entry.block.moved * pressed_) - aligned_ * entry.block.known;
+    entry.along = read_.dot(entry.block * pressed_);
     return entry.along;
   }
 
@@ -68,7 +60,7 @@ class PairTable {
  private:
   static constexpr std::size_t most = 256;
   struct Entry {
-    PairBlock block;
+    Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
     double along = 0.0;
     unsigned turn = 0;  // value of turn_ for which `along` was computed; 0: `block` is not known
   };
@@ -95,8 +87,6 @@ class PairTable {
 
   Vec3 read_ = Vec3::Zero();
   Vec3 pressed_ = Vec3::Zero();
-  double aligned_ = 0.0;
-  double key_ = -1.0;
   std::size_t capacity_ = 0;
   std::vector<Entry> entries_;
   Places rows_;

@@ -17,19 +17,13 @@ contact::Relaxation contact_relaxation(const scenario::Resolved& scenario, const
   return contact::behind_finger(relaxation, finger.compliance_share);
 }
 
-contact::Layer layers_of(const scenario::Resolved& scenario, double share,
-                         const tissue::Uniaxial* network) {
+contact::Layer layers_of(const scenario::Resolved& scenario, double share) {
   const auto& tissue = scenario.tissue;
   contact::Layer layer{.base = tissue.base == tissue::Base::bonded
                                    ? contact::LayerBase::bonded
                                    : contact::LayerBase::frictionless,
                        .share = share};
-  // Springs without a volume term have the same Poisson's ratio in all tissues.
-  const bool springs_alone = network != nullptr &&
-                             scenario::rung(scenario.solver.model).independent() &&
-                             scenario.solver.volume == tissue::Volume::none;
-  layer.poisson_ratio =
-      network != nullptr ? std::min(0.5, network->poisson_ratio) : tissue.poisson_ratio;
+  layer.poisson_ratio = tissue.poisson_ratio;
   using Layered = std::pair<const scenario::Slab*, const scenario::Resolved::Region*>;
   std::vector<Layered> slabs;
   for (const auto& region : scenario.regions)
@@ -45,7 +39,7 @@ contact::Layer layers_of(const scenario::Resolved& scenario, double share,
   for (const auto& [slab, substance] : slabs) {
     if (slab->top < reached)
       layer.below.push_back({(reached - slab->top) / height, 1.0, layer.poisson_ratio});
-    const double nu = springs_alone ? layer.poisson_ratio : substance->poisson_ratio;
+    const double nu = substance->poisson_ratio;
     layer.below.push_back(
         {(slab->top - slab->bottom) / height, substance->young_modulus / (1.0 + nu) / own, nu});
     reached = slab->bottom;

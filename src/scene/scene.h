@@ -161,10 +161,9 @@ struct TopCurvature {
 // Whether all regions are slabs; true without regions.
 [[nodiscard]] bool all_slabs(const scenario::Resolved& scenario);
 
-// The flat layers of a cuboid, with the tissue on top. With a `network` they have its Poisson's
-// ratio instead of the tissue's. `share` as in contact::Layer.                  docs/theory.md (79)
-[[nodiscard]] contact::Layer layers_of(const scenario::Resolved& scenario, double share,
-                                       const tissue::Uniaxial* network = nullptr);
+// The flat layers of a cuboid, with the tissue on top. `share` as in contact::Layer.
+//                                                                        docs/theory.md (79)
+[[nodiscard]] contact::Layer layers_of(const scenario::Resolved& scenario, double share);
 
 // The contact of the finger with a flat layer as thick as the specimen.
 [[nodiscard]] contact::LayerContact make_layer(const scenario::Resolved& scenario,

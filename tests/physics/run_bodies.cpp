@@ -138,8 +138,9 @@ void PrintTo(const Body& body, std::ostream* out) { *out << body.id; }
 
 class Bodies : public testing::TestWithParam<Body> {};
 
-// The stated error of the mesh covers what is beyond the band, but for the half percent to which
-// the references and the sphere as a paraboloid are known.
+// The stated error of the mesh covers what is beyond the band, but for what is not the mesh's: the
+// references are known to 0.3 %, and at h/R = 0.09 a sphere pressed as a paraboloid is up to 1 %
+// too stiff.
 TEST_P(Bodies, AreWithinTheBandFromFourHundredNodesOn) {
   const Body& body = GetParam();
   const test::TemporaryFolder folder;
@@ -172,7 +173,7 @@ TEST_P(Bodies, AreWithinTheBandFromFourHundredNodesOn) {
                            : force > band.high ? force / band.high - 1.0
                                                : 0.0;
       EXPECT_LE(error, body.most) << nodes << " nodes, " << band.travel << " mm: " << force;
-      EXPECT_LE(error, row->mesh_error + 0.01)
+      EXPECT_LE(error, row->mesh_error + 0.013)
           << nodes << " nodes, " << band.travel << " mm: " << force;
     }
     EXPECT_GE(seen, 1);
