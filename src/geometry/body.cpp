@@ -47,23 +47,33 @@ std::string named(const Lump& lump) {
 }  // namespace
 
 void add_lump(Body& body, const Lump& lump, double spacing) {
-  // A polyhedron on the sphere has less volume: its vertices move outwards until it has the ball's.
-  constexpr double coarsest = 0.55;  // of the radius
-  Surface ball = ellipsoid_surface(lump.centre, Vec3::Constant(2.0 * lump.radius),
-                                   std::min(spacing, coarsest * lump.radius));
-  const double wanted = 4.0 / 3.0 * std::numbers::pi * lump.radius * lump.radius * lump.radius;
-  const double wider = std::cbrt(wanted / enclosed(ball).volume);
-  for (Vec3& vertex : ball.vertices) vertex = lump.centre + wider * (vertex - lump.centre);
-  const double reach = wider * lump.radius;
   const Surface& whole = body.parts.front().surface;
-  if (!encloses(whole, lump.centre) || distance_to(whole, lump.centre) <= reach)
+  double room = distance_to(whole, lump.centre);
+  if (!encloses(whole, lump.centre) || room <= lump.radius)
     throw MeshError(named(lump) +
                     "does not lie wholly inside the body; move it inwards or make it smaller");
-  for (std::size_t p = 1; p < body.parts.size(); ++p)
-    if (distance_to(body.parts[p].surface, lump.centre) <= reach)
+  for (std::size_t p = 1; p < body.parts.size(); ++p) {
+    const double distance = distance_to(body.parts[p].surface, lump.centre);
+    if (distance <= lump.radius)
       throw MeshError(named(lump) + "touches the boundary of region " +
                       std::to_string(body.parts[p].region) +
                       "; move it away from there or make it smaller");
+    room = std::min(room, distance);
+  }
+  // A polyhedron on the sphere has less volume: its vertices move outwards until it has the ball's.
+  // Where they would leave the body, the polyhedron is made finer.
+  constexpr double coarsest = 0.55;  // of the radius
+  const double wanted = 4.0 / 3.0 * std::numbers::pi * lump.radius * lump.radius * lump.radius;
+  double edge = std::min(spacing, coarsest * lump.radius);
+  Surface ball;
+  double wider = 0.0;
+  for (int tries = 0; tries < 3 && (wider == 0.0 || wider * lump.radius >= room); ++tries) {
+    ball = ellipsoid_surface(lump.centre, Vec3::Constant(2.0 * lump.radius), edge);
+    wider = std::cbrt(wanted / enclosed(ball).volume);
+    edge *= 0.5;
+  }
+  wider = std::min(wider, std::sqrt(room / lump.radius));
+  for (Vec3& vertex : ball.vertices) vertex = lump.centre + wider * (vertex - lump.centre);
   body.parts.push_back({std::move(ball), lump.region});
 }
 

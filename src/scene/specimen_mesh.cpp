@@ -83,7 +83,11 @@ geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& 
         std::sqrt(geometry::area(body.parts[0].surface) /
                   (0.433 * static_cast<double>(body.parts[0].surface.triangles.size())));
     for (const geometry::Lump& lump : inside) geometry::add_lump(body, lump, spacing);
-    return meshing::tetgen_body(body, target(mesh), meshing_time);
+    // The mesh keeps the surface's vertices, and needs nodes inside too.
+    meshing::Target wanted = target(mesh);
+    const int least = static_cast<int>(geometry::facets(body).vertices.size() * 3 / 2);
+    if (wanted.nodes > 0 && wanted.nodes < least) wanted = {.nodes = least};
+    return meshing::tetgen_body(body, wanted, meshing_time);
   }
   const geometry::Shape shape = *parametric(scenario.tissue.shape);
   const auto* box = std::get_if<geometry::Cuboid>(&shape);

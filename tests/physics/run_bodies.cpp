@@ -180,6 +180,25 @@ TEST_P(Bodies, AreWithinTheBandFromFourHundredNodesOn) {
   }
 }
 
+// By default a mesh has 728 nodes; this surface alone has more.
+TEST(FineSurface, IsMeshedWithMoreNodesAndSaysSo) {
+  const test::TemporaryFolder folder;
+  const test::fs::path file = folder.path() / "disc.off";
+  const int vertices = write_surface(disc(30.0, 10.0, 2.5), 2.5, file);
+  ASSERT_GT(vertices, 728);
+  const record::CaseRecord record = test::run_text(
+      "[tissue]\nmaterial = \"skin\"\nshape = { file = \"" + file.string() +
+      "\", unit = \"mm\" }\n[finger]\nx = \"0 mm\"\ny = \"0 mm\"\n[solver]\nmodel = "
+      "\"coupled_springs\"\nintegrator = \"quasi_static\"\n[output]\ninterval = \"250 "
+      "ms\"\npressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\nrate = \"2 "
+      "mm/s\"\n");
+  ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+  EXPECT_GT(std::get<double>(test::finding(record, "nodes")), vertices);
+  EXPECT_TRUE(std::any_of(record.remarks.begin(), record.remarks.end(), [](const auto& remark) {
+    return remark.find("because it keeps the surface's vertices") != std::string::npos;
+  }));
+}
+
 double of_disc(double radius, double height) { return std::numbers::pi * radius * radius * height; }
 
 std::string ball(const char* young_modulus, const char* poisson_ratio) {

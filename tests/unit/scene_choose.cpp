@@ -31,7 +31,7 @@ TEST(Choose, TwentySceneEachItsRung) {
       {"ligament that slides on its base", Model::layer},
       {"a narrow block", Model::coupled_springs},
       {"beside a side", Model::mass_spring},
-      {"a thin cylinder", Model::hertz},
+      {"a thin cylinder", Model::coupled_springs},
       {"an ellipsoid", Model::hertz},
       {"a curved ligament", Model::coupled_springs},
       {"a lump under the skin", Model::coupled_springs},
