@@ -10,6 +10,7 @@
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "run/family.h"
+#include "run/mesh_error.h"
 #include "scenario/family.h"
 #include "scene/specimen_mesh.h"
 
@@ -292,6 +293,9 @@ class Explanation {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
+    if (const auto error = run::mesh_error(scene_))
+      line("  mesh error   about " + percent_text(*error) +
+           " of the force at the deepest travel, estimated on this mesh");
     if (scenario::rung(scene_.scenario.solver.model).coupled()) {
       line("  network      coupled in every tetrahedron: it has E and nu of the tissue");
       return;

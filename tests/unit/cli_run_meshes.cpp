@@ -242,6 +242,24 @@ TEST_F(RunMeshes, gmsh_files_of_both_versions_have_regions) {
   EXPECT_GT(forces[0], 1.01 * last_force()) << "five times as stiff below";
 }
 
+// A finer mesh of the same block states a smaller error; other couplings state none.
+TEST_F(RunMeshes, explain_states_the_meshs_own_error) {
+  const auto stated = [&](const std::string& cells, const std::string& more) {
+    write_file(folder_ / "block.toml", "[tissue]\nmesh = { kind = \"mirrored\", cells = " + cells +
+                                           " }\n[solver]\nmodel = \"coupled_springs\"\n" + more +
+                                           "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n");
+    const std::string said = palpate(folder_.path(), {"explain", "block.toml"}).out;
+    const std::string key = "mesh error   about ";
+    const auto at = said.find(key);
+    return at == std::string::npos ? -1.0 : std::stod(said.substr(at + key.size()));
+  };
+  const double coarse = stated("[3, 4, 6]", "");
+  EXPECT_GT(coarse, 0.1);  // percent
+  EXPECT_LT(coarse, 5.0);
+  EXPECT_LT(stated("[6, 6, 6]", ""), 0.7 * coarse);
+  EXPECT_EQ(stated("[3, 4, 6]", "[contact]\ncoupling = \"one_way\"\n"), -1.0);
+}
+
 TEST_F(RunMeshes, regions_that_are_not_there) {
   write_file(folder_ / "box.msh", Layered().version2());
   expect_refused(of_mesh("[[region]]\ntag = 3\n[[region]]\ntag = 9\n"), 5,
