@@ -224,7 +224,10 @@ void Contacts::damp(double time_step, std::vector<double>& approaches) {
     rate[i] = near_[as_index(i)].damping / time_step;
   }
   Matrix whole = whole_compliance_.topLeftCorner(count, count);
-  const Matrix damped = whole * rate.asDiagonal();
+  // A body stiffer than the half-space is so in statics, where waves have been to its base and
+  // back: the dashpot does not press through that negative compliance.
+  const Matrix known = compliance_.topLeftCorner(count, count).cwiseMin(0.0);
+  const Matrix damped = (whole - known) * rate.asDiagonal();
   for (Eigen::Index i = 0; i < count; ++i) right += damped.col(i) * near_[as_index(i)].past.depth;
   const Eigen::PartialPivLU<Matrix> left(Matrix::Identity(count, count) + damped);
   const Side solved = left.solve(right);

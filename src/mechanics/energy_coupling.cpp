@@ -23,8 +23,10 @@ constexpr double under_finger = 1.05;
 // Quadrature of the half-space's tractions over the faces, for one patch.
 class EnergyCoupling::Loads {
  public:
-  Loads(const geometry::TetMesh& mesh, const contact::Patch& patch, const Tissue& tissue, int finer)
+  Loads(const geometry::TetMesh& mesh, const geometry::SmoothSurface& skin,
+        const contact::Patch& patch, const Tissue& tissue, int finer)
       : mesh_(&mesh),
+        skin_(&skin),
         patch_(&patch),
         field_(patch.a, patch.b, {tissue.shear_modulus, tissue.elastic.poisson_ratio}, finer),
         finer_(finer) {
@@ -94,13 +96,22 @@ class EnergyCoupling::Loads {
         point += weight * corners[k];
         shares += weight * weights[k];
       }
+      Vec3 normal = normal_;
+      if (face.triangle >= 0) {
+        // The contact lies on the smooth surface, from which a coarse facet is far away.
+        geometry::SurfacePoint at{.triangle = face.triangle, .weights = Vec3::Zero()};
+        for (std::size_t k = 0; k < 3; ++k)
+          at.weights[face.corners[k]] = shares[static_cast<Eigen::Index>(k)];
+        point = local(skin_->position(at));
+        normal = axes_.transpose() * skin_->normal(at);
+      }
       if (!face.interface && std::abs(point.z()) < patch_->a) {
         const double x = point.x() / patch_->a;
         const double y = point.y() / patch_->b;
         if (x * x + y * y < under_finger * under_finger) continue;
       }
       const contact::FieldValue value = field_.at(point);
-      const Vec3 traction = area / 3.0 * (axes_ * (value.stress * normal_));
+      const Vec3 traction = area / 3.0 * (axes_ * (value.stress * normal));
       Vec3 moved = axes_ * value.displacement;
       if (face.interface) {
         moved.setZero();
@@ -122,6 +133,7 @@ class EnergyCoupling::Loads {
   }
 
   const geometry::TetMesh* mesh_;
+  const geometry::SmoothSurface* skin_;
   const contact::Patch* patch_;
   contact::PatchField field_;
   int finer_;
@@ -131,7 +143,8 @@ class EnergyCoupling::Loads {
 
 EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& part,
                                std::span<const char> held)
-    : held_(held.begin(), held.end()),
+    : skin_(&*scene.specimen->surface),
+      held_(held.begin(), held.end()),
       volume_(scenario::rung(scene.scenario.solver.model).coupled() ? scene.scenario.solver.volume
                                                                     : tissue::Volume::nodal) {
   const scene::Specimen& specimen = *scene.specimen;
@@ -153,8 +166,10 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
     for (std::size_t k = 0; k < 3; ++k)
       nodes[k] = number[as_index(specimen.skin[as_index(triangle[k])])];
     std::sort(nodes.begin(), nodes.end());
+    triangle_of_[nodes] = static_cast<int>(skin_triangles_.size());
     skin_triangles_.push_back(nodes);
   }
+  for (const int node : specimen.skin) part_node_.push_back(number[as_index(node)]);
   std::map<std::array<int, 2>, int> around;
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
     const auto& corners = mesh_.tetrahedra[t];
@@ -249,6 +264,13 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
       face.held[axis] = std::all_of(own.nodes.begin(), own.nodes.end(), [&](int node) {
         return held_[3 * as_index(node) + axis] != 0;
       });
+    if (const auto skin = triangle_of_.find(own.key); !shared && skin != triangle_of_.end()) {
+      face.triangle = skin->second;
+      const auto& vertices = skin_->surface().triangles[as_index(face.triangle)];
+      for (std::size_t k = 0; k < 3; ++k)
+        for (int c = 0; c < 3; ++c)
+          if (part_node_[as_index(vertices[as_index(c)])] == own.nodes[k]) face.corners[k] = c;
+    }
     here.faces.push_back(face);
   }
   here.other.assign(mesh_.nodes.size(), 0);
@@ -268,7 +290,7 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
 BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, int finer) {
   const int region = region_under(patch.at.triangle);
   const Home& here = home(region);
-  Loads loads(mesh_, patch, tissues_[as_index(region)], finer);
+  Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer);
   const Eigen::Index freedoms = static_cast<Eigen::Index>(held_.size());
 
   Vector interpolated = Vector::Zero(freedoms);  // of the half-space in other tissues, m/N

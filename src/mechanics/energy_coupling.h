@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -41,8 +42,10 @@ class EnergyCoupling {
   // A boundary face of the tissue at the contact, and between it and another tissue.
   struct Face {
     std::array<int, 3> nodes{};
-    Vec3 normal = Vec3::Zero();  // unit, outwards
-    std::array<bool, 3> held{};  // per axis: at all three nodes
+    Vec3 normal = Vec3::Zero();    // unit, outwards
+    int triangle = -1;             // of the skin; -1 within the body
+    std::array<int, 3> corners{};  // of that triangle, one per node
+    std::array<bool, 3> held{};    // per axis: at all three nodes
     bool interface = false;
   };
   // What depends on the tissue at the contact.
@@ -72,7 +75,10 @@ class EnergyCoupling {
 
   geometry::TetMesh mesh_;  // of the part
   std::vector<geometry::FaceUse> uses_;
+  const geometry::SmoothSurface* skin_;
   std::vector<std::array<int, 3>> skin_triangles_;  // nodes of the part, ascending
+  std::map<std::array<int, 3>, int> triangle_of_;   // of the same nodes
+  std::vector<int> part_node_;                      // per vertex of the skin
   std::vector<Tissue> tissues_;                     // per region
   std::vector<Element> elements_;
   std::vector<std::optional<Home>> homes_;  // per region

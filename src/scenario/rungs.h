@@ -84,7 +84,7 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .inertia = true,
      .uniform = true,
      .error =
-         {.flat = 0.02, .sides = 0.3, .curved = 0.03, .size = 0.3, .waves = 0.15, .mixed = 0.05},
+         {.flat = 0.01, .sides = 0.05, .curved = 0.01, .size = 0.05, .waves = 0.15, .mixed = 0.04},
      .cost = {.factorisations = 3.8}},  // of the springs, and of the finite elements
     {.of = Model::coupled_springs,
      .word = "coupled_springs",

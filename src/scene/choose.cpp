@@ -56,19 +56,20 @@ constexpr double width_of_body = 0.5;
 
 constexpr double doubt = 0.4;  // relative uncertainty of the effect of the sides, which is a fit
 
-// The error of cells that are coarse compared with the thickness of a curved body,
-// 0.08 (cell / thickness)^2: measured on discs of 5 and 10 mm from 250 nodes on. docs/theory.md
-// (69)
+// The error of cells that are coarse compared with the thickness, 0.15 (cell / thickness)^2:
+// measured on discs of 5 and 10 mm and on thin blocks. Flat layers have an exact law.
+//                                                                        docs/theory.md (69)
 double coarseness(const scenario::Resolved& scenario) {
   const auto shape = parametric(scenario.tissue.shape);
-  if (!shape || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape)) return 0.0;
+  const bool box = std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
+  if (!shape || (box && !scenario.regions.empty() && all_slabs(scenario))) return 0.0;
   const Vec3 size = geometry::extent(*shape);
   const double cell = std::cbrt(size.prod() / expected_nodes(scenario.tissue.mesh));
   double thickness = size.z();
   if (const auto* limb = std::get_if<scenario::LayeredLimb>(&scenario.tissue.shape))
     thickness = limb->skin_thickness;
   const double ratio = std::min(1.0, cell / thickness);
-  return 0.08 * ratio * ratio;
+  return 0.15 * ratio * ratio;
 }
 
 bool coarse_mesh(const scenario::Resolved& scenario) {
@@ -220,6 +221,9 @@ class Chooser {
     const Forecast* best = nullptr;
     for (const Forecast& rung : choice_.rungs) {
       if (!rung.cannot.empty()) continue;
+      // The force of a press is that of finite elements on either kind of springs, but motion and
+      // pictures of independent springs do not have the tissue's Poisson's ratio.
+      if (!asked_.uniform() && scenario::rung(rung.model).independent()) continue;
       if (best == nullptr || rung.error < best->error) best = &rung;
       if (rung.error > tolerance()) continue;
       best = &rung;

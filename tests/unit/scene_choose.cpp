@@ -30,7 +30,7 @@ TEST(Choose, TwentySceneEachItsRung) {
       {"thin skin", Model::layer},
       {"ligament that slides on its base", Model::layer},
       {"a narrow block", Model::coupled_springs},
-      {"beside a side", Model::mass_spring},
+      {"beside a side", Model::coupled_springs},
       {"a thin cylinder", Model::coupled_springs},
       {"an ellipsoid", Model::hertz},
       {"a curved ligament", Model::coupled_springs},
