@@ -269,7 +269,8 @@ std::optional<std::string> Contacts::settle(const MeshAnswer& mesh, Touch& touch
     for (std::size_t i = 0; i < count; ++i) {
       change = std::max(change, std::abs(contacts[i].law.semi_axes(depths_[i])[0] -
                                          contacts[i].law.semi_axes(contacts[i].depth)[0]));
-      depths_[i] = contacts[i].depth + part_of_way * (depths_[i] - contacts[i].depth);
+      if (part_of_way < 1.0)
+        depths_[i] = contacts[i].depth + part_of_way * (depths_[i] - contacts[i].depth);
       contacts[i].depth = depths_[i];
       contacts[i].force = contacts[i].elastic = laws_[i].force(depths_[i]);
       contacts[i].stiffness = laws_[i].stiffness(depths_[i]);
