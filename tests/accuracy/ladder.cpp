@@ -270,8 +270,8 @@ int main(int count, char** arguments) {
     if (count > 1) palpate::figure(arguments[1]);
     std::printf(
         "\n![Force against nodes](accuracy.svg)\n\nThe same at 1 mm on TetGen's meshes. The grey "
-        "band is that of linear elasticity. The paper's springs, whose Poisson's\nratio is not the "
-        "tissue's, stay near it.\n");
+        "band is that of linear elasticity. The static\nforce of both kinds of springs comes from "
+        "the same finite elements.\n");
   }
   if (wanted("uniform")) palpate::uniform_table();
   if (wanted("auto")) palpate::auto_table();

@@ -1,0 +1,95 @@
+// The mesh's own error in what a body sinks beyond a half-space: docs/theory.md (12).
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "mechanics/energy_coupling.h"
+
+namespace palpate::mechanics {
+
+using integrate::Vector;
+
+// Zienkiewicz and Zhu 1992: the stress is recovered at the nodes by a linear fit over the
+// tetrahedra around them, of one tissue at a time; the error is the energy of the difference.
+double EnergyCoupling::error_of(const Vector& rest, const Vector& interpolated, int region) const {
+  using Stress = Eigen::Matrix<double, 6, 1>;  // xx yy zz xy xz yz
+  const std::size_t count = elements_.size();
+  std::vector<Stress> stresses(count);
+  std::vector<double> dilations(count);
+  std::vector<double> shared(count_around_.size(), 0.0);  // around (node, region)
+  std::vector<double> volumes(count_around_.size(), 0.0);
+  double whole = 0.0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const Element& element = elements_[t];
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Eigen::Index first = 3 * mesh_.tetrahedra[t][k];
+      Vec3 moved = rest.segment<3>(first);
+      if (mesh_.regions[t] != region) moved += interpolated.segment<3>(first);
+      gradient += moved * element.gradients.row(static_cast<Eigen::Index>(k));
+    }
+    dilations[t] = gradient.trace();
+    whole += element.volume;
+    for (const int at : around_[t]) {
+      shared[as_index(at)] += element.volume * dilations[t];
+      volumes[as_index(at)] += element.volume;
+    }
+    const double shear = tissues_[as_index(mesh_.regions[t])].shear_modulus;
+    const double mean = 2.0 / 3.0 * dilations[t];
+    const auto deviator = [&](int i, int j) {
+      return shear * (gradient(i, j) + gradient(j, i) - (i == j ? mean : 0.0));
+    };
+    stresses[t] << deviator(0, 0), deviator(1, 1), deviator(2, 2), deviator(0, 1), deviator(0, 2),
+        deviator(1, 2);
+  }
+  const double scale = std::cbrt(whole / static_cast<double>(count));
+  std::vector<Eigen::Matrix4d> left(count_around_.size(), Eigen::Matrix4d::Zero());
+  std::vector<Eigen::Matrix<double, 4, 6>> right(count_around_.size(),
+                                                 Eigen::Matrix<double, 4, 6>::Zero());
+  for (std::size_t t = 0; t < count; ++t) {
+    const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
+    double pressure = tissue.own_bulk * dilations[t];
+    for (const int at : around_[t])
+      pressure += 0.25 * tissue.shared_bulk * shared[as_index(at)] / volumes[as_index(at)];
+    stresses[t].head<3>().array() += pressure;
+    const auto& corners = mesh_.tetrahedra[t];
+    Vec3 centre = Vec3::Zero();
+    for (const int node : corners) centre += 0.25 * mesh_.nodes[as_index(node)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      Eigen::Vector4d basis;
+      basis << 1.0, (centre - mesh_.nodes[as_index(corners[k])]) / scale;
+      left[as_index(around_[t][k])] += basis * basis.transpose();
+      right[as_index(around_[t][k])] += basis * stresses[t].transpose();
+    }
+  }
+  std::vector<Stress> nodal(count_around_.size());
+  for (std::size_t i = 0; i < nodal.size(); ++i) {
+    constexpr int fewest = 8;  // tetrahedra for a linear fit; otherwise their mean
+    const double number = left[i](0, 0);
+    if (count_around_[i] < fewest) {
+      nodal[i] = right[i].row(0).transpose() / number;
+      continue;
+    }
+    const Eigen::Matrix4d ridged = left[i] + 1e-9 * number * Eigen::Matrix4d::Identity();
+    nodal[i] = (ridged.ldlt().solve(right[i])).row(0).transpose();
+  }
+  double error = 0.0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
+    const double bulk = tissue.own_bulk + tissue.shared_bulk;
+    for (std::size_t q = 0; q < 4; ++q) {  // four points, degree 2
+      constexpr double far = 0.13819660112501051;
+      Stress difference = -stresses[t];
+      for (std::size_t k = 0; k < 4; ++k)
+        difference += (k == q ? 1.0 - 3.0 * far : far) * nodal[as_index(around_[t][k])];
+      const double pressure = difference.head<3>().sum() / 3.0;
+      difference.head<3>().array() -= pressure;
+      const double shear_energy =
+          (difference.head<3>().squaredNorm() + 2.0 * difference.tail<3>().squaredNorm()) /
+          (2.0 * tissue.shear_modulus);
+      error += 0.25 * elements_[t].volume * (shear_energy + pressure * pressure / bulk);
+    }
+  }
+  return error;
+}
+
+}  // namespace palpate::mechanics

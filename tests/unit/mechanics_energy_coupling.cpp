@@ -1,0 +1,66 @@
+// What a body sinks beyond a half-space does not depend on how it is computed.
+#include "mechanics/energy_coupling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/first_touch.h"
+#include "scene_text.h"
+
+namespace palpate::mechanics {
+namespace {
+
+const std::string press = "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+const std::string solver = "[solver]\nmodel = \"coupled_springs\"\n";
+const std::string lump =
+    "[tissue]\nmesh = { kind = \"tetgen\", nodes = 600 }\n[[region]]\nkind = \"sphere\"\ncentre = "
+    "[\"30 "
+    "mm\", \"30 mm\", \"20 mm\"]\nradius = \"6 mm\"\nmaterial = \"skin\"\n";
+
+BeyondHalfSpace beyond(const scene::Scene& scene, int finer = 1) {
+  const tissue::Part part = tissue::whole_part(scene.specimen->network);
+  EnergyCoupling coupling(scene, part, scene.specimen->held);
+  const geometry::SmoothSurface& skin = *scene.specimen->surface;
+  contact::Patch patch;
+  patch.at = scene::first_touch(scene).at;
+  patch.position = skin.position(patch.at);
+  patch.normal = skin.normal(patch.at);
+  patch.axis = patch.normal.unitOrthogonal();
+  patch.a = patch.b = 3e-3;
+  return coupling.beyond(patch, finer);
+}
+
+// 3 / (5 E' a), m/N.
+double half_space(const scene::Scene& scene) {
+  const auto& tissue = scene.scenario.tissue;
+  return 0.6 * (1.0 - tissue.poisson_ratio * tissue.poisson_ratio) / (tissue.young_modulus * 3e-3);
+}
+
+TEST(EnergyCoupling, AFinerQuadratureChangesNothing) {
+  for (const std::string& body :
+       {std::string(),
+        std::string("[tissue]\nshape = { kind = \"ellipsoid\", size = [\"60 mm\", \"80 mm\", \"40 "
+                    "mm\"] }\nmesh = { kind = \"tetgen\", nodes = 400 }\n"),
+        lump + "young_modulus = \"700 kPa\"\n"}) {
+    const scene::Scene scene = test::scene_of(body + solver + press);
+    const BeyondHalfSpace once = beyond(scene);
+    const BeyondHalfSpace twice = beyond(scene, 2);
+    EXPECT_NEAR(once.sinking, twice.sinking, 0.003 * half_space(scene)) << body;
+    EXPECT_NEAR(once.error, twice.error, 0.003 * half_space(scene)) << body;
+    EXPECT_GT(once.error, 0.0);
+  }
+}
+
+// Tetrahedra of another region but of the same tissue are treated by interpolation (11).
+TEST(EnergyCoupling, ALumpOfTheSameTissueIsNone) {
+  const scene::Scene scene = test::scene_of(lump + solver + press);
+  const BeyondHalfSpace with = beyond(scene);
+  scene.specimen->mesh.regions.clear();
+  const BeyondHalfSpace without = beyond(scene);
+  EXPECT_NE(with.sinking, without.sinking);
+  EXPECT_NEAR(with.sinking + with.error, without.sinking + without.error, 0.01 * half_space(scene));
+}
+
+}  // namespace
+}  // namespace palpate::mechanics
