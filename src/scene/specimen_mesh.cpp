@@ -83,10 +83,11 @@ geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& 
         std::sqrt(geometry::area(body.parts[0].surface) /
                   (0.433 * static_cast<double>(body.parts[0].surface.triangles.size())));
     for (const geometry::Lump& lump : inside) geometry::add_lump(body, lump, spacing);
-    // The mesh keeps the surface's vertices, and needs nodes inside too.
+    // The mesh keeps the surface's vertices: with as many or more than the nodes asked for, its
+    // tetrahedra are as large as the surface's triangles.
     meshing::Target wanted = target(mesh);
-    const int least = static_cast<int>(geometry::facets(body).vertices.size() * 3 / 2);
-    if (wanted.nodes > 0 && wanted.nodes < least) wanted = {.nodes = least};
+    const int vertices = static_cast<int>(geometry::facets(body).vertices.size());
+    if (wanted.nodes > 0 && wanted.nodes <= vertices) wanted = {.edge_length = spacing};
     return meshing::tetgen_body(body, wanted, meshing_time);
   }
   const geometry::Shape shape = *parametric(scenario.tissue.shape);
