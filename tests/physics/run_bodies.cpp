@@ -199,6 +199,35 @@ TEST(FineSurface, IsMeshedWithMoreNodesAndSaysSo) {
   }));
 }
 
+double last_force(const std::string& text, const std::string& solver) {
+  const record::CaseRecord record = test::run_text(text + "[solver]\n" + solver);
+  EXPECT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+  return record.contact.back().contact_force;
+}
+
+// A facet of its mesh lies a millimetre below the skin, half the radius of the contact.
+TEST(WideCylinder, SinksAsHertzSays) {
+  const std::string text =
+      "[tissue]\nmaterial = \"muscle\"\nshape = { kind = \"cylinder\", radius = \"60 mm\", length "
+      "= "
+      "\"200 mm\" }\n[output]\npressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"0.5 "
+      "mm\"\n";
+  const double hertz = last_force(text, "model = \"hertz\"\n");
+  EXPECT_NEAR(last_force(text, "model = \"coupled_springs\"\n") / hertz, 1.0, 0.01);
+}
+
+// A thin block is far stiffer than a half-space in statics, and radiates like one.
+TEST(ThinBlock, IsPressedInExplicitStepsAsInStatics) {
+  const std::string text =
+      "[tissue]\nviscosity = \"none\"\nshape = { kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", "
+      "\"10 mm\"] }\n[output]\npressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"1 "
+      "mm\"\nrate = \"5 mm/s\"\n";
+  const std::string model = "model = \"mass_spring\"\nintegrator = ";
+  const double still = last_force(text, model + "\"quasi_static\"\n");
+  for (const char* more : {"", "substeps = 40\n"})
+    EXPECT_NEAR(last_force(text, model + "\"central_difference\"\n" + more) / still, 1.0, 0.01);
+}
+
 double of_disc(double radius, double height) { return std::numbers::pi * radius * radius * height; }
 
 std::string ball(const char* young_modulus, const char* poisson_ratio) {
