@@ -19,19 +19,8 @@ class Influence {
 
   explicit Influence(Respond respond) : respond_(std::move(respond)) {}
 
-  // The displacement of node `at` along `direction` per newton of a load along `push` that is
-  // distributed over `nodes` by `shares`, m/N. Negative node numbers neither move nor carry load.
-  [[nodiscard]] double between(const Vec3& direction, int at, const Vec3& push,
-                               std::span<const int> nodes, std::span<const double> shares,
-                               Eigen::Index freedoms) {
-    if (at < 0) return 0.0;
-    double sum = 0.0;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (nodes[k] >= 0) sum += shares[k] * between(direction, at, push, nodes[k], freedoms);
-    return sum;
-  }
-
-  // The same for a load on one node. Both node numbers are 0 or above.
+  // The displacement of node `at` along `direction` per newton along `push` on `node`, m/N. Both
+  // numbers are 0 or above.
   [[nodiscard]] double between(const Vec3& direction, int at, const Vec3& push, int node,
                                Eigen::Index freedoms) {
     double sum = 0.0;
