@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "chart/journal.h"
 #include "run/family.h"
+#include "run/refined_mesh.h"
 
 namespace palpate::chart {
 namespace {
@@ -186,7 +187,7 @@ class Measurer {
       const double setup = predicted_setup(family.cases.front());
       if (setup > options_.longest) return not_run(one, setup);
       const Clock::time_point start = Clock::now();
-      scene::Scene scene = scene::build(family.cases.front(), family);
+      scene::Scene scene = run::build_scene(family.cases.front(), family);
       Timing timing{.build = since(start)};
       scene.scenario.output.keep_rows_only();
       settle(scene, one);

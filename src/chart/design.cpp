@@ -9,6 +9,7 @@
 #include "base/field_writer.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "run/refined_mesh.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
@@ -214,7 +215,7 @@ class Designer {
   [[nodiscard]] std::optional<scene::TimePlan> plan_of(const Settings& settings) const {
     try {
       const auto family = with_settings(asked_, case_, settings);
-      const scene::Scene scene = scene::build(family.cases.front(), family);
+      const scene::Scene scene = run::build_scene(family.cases.front(), family);
       if (scene.specimen) return scene.specimen->plan;
     } catch (const InputError&) {
     } catch (const MeshError&) {

@@ -11,6 +11,7 @@
 #include "chart/design.h"
 #include "chart/extrapolation.h"
 #include "run/family.h"
+#include "run/refined_mesh.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
 #include "scene/estimates.h"
@@ -69,7 +70,7 @@ class Refinement {
     one.scenario.contact.direction = direction;
     mesh(one.scenario, level);
     if (dynamic_) shorten_steps(one.scenario, level);
-    scene::Scene scene = scene::build(one, family_);
+    scene::Scene scene = run::build_scene(one, family_);
     if (part_ != Part::whole) hold_mirrors(*scene.specimen);
     return scene;
   }

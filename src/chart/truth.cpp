@@ -9,6 +9,7 @@
 #include "chart/reference.h"
 #include "contact/relaxation.h"
 #include "run/family.h"
+#include "run/refined_mesh.h"
 #include "scenario/programme.h"
 #include "scene/estimates.h"
 #include "scene/specimen_mesh.h"
@@ -50,7 +51,7 @@ class Finder {
   // Runs the case with further settings; nothing if it was interrupted.
   [[nodiscard]] std::optional<History> run(const Settings& settings) const {
     const auto family = with_settings(asked_, case_, settings);
-    scene::Scene scene = scene::build(family.cases.front(), family);
+    scene::Scene scene = run::build_scene(family.cases.front(), family);
     nodes_ = scene.specimen ? scene.specimen->network.nodes() : 0;
     scene.scenario.output.keep_rows_only();
     const record::CaseRecord record = run::run_case(scene, stop_);
@@ -284,7 +285,7 @@ std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
       settings.push_back("solver.substeps=" +
                          number_text(std::max(1.0, std::round(interval / step))));
       const auto family = with_settings(asked, variant.of_case, settings);
-      scene::Scene scene = scene::build(family.cases.front(), family);
+      scene::Scene scene = run::build_scene(family.cases.front(), family);
       scene.scenario.output.keep_rows_only();
       const record::CaseRecord record = run::run_case(scene, stop);
       if (record.outcome != record::Outcome::completed) return std::nullopt;

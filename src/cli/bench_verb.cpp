@@ -15,6 +15,7 @@
 #include "cli/verbs.h"
 #include "record/csv.h"
 #include "run/bench.h"
+#include "run/refined_mesh.h"
 #include "scenario/words.h"
 
 namespace palpate::cli {
@@ -170,7 +171,7 @@ bool measure_models(const std::vector<std::string>& settings, Table& table) {
     if (asked.integrator) integrators = {*asked.integrator};
     std::vector<std::optional<int>> all_rings{std::nullopt, 3};
     if (asked.rings) all_rings = {asked.rings};
-    scene::Scene scene = scene::build(family.cases.front(), family);
+    scene::Scene scene = run::build_scene(family.cases.front(), family);
     for (const auto integrator : integrators)
       for (const std::optional<int> rings : all_rings) {
         scene.scenario.solver.integrator = integrator;
@@ -196,7 +197,7 @@ bool measure_scenario(const std::string& path, std::vector<std::string> settings
                        "has no finger; `palpate bench` times a press, so give a scenario with "
                        "`indent`");
     const std::string name = family.cases.size() > 1 ? family.name + "/" + one.name : family.name;
-    all = table.measure(name, scene::build(one, family), nullptr) && all;
+    all = table.measure(name, run::build_scene(one, family), nullptr) && all;
   }
   return all;
 }

@@ -293,6 +293,12 @@ class Explanation {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
+    if (const auto& refined = specimen.refined; refined && refined->rounds > 0)
+      line("  refined      from " + std::to_string(refined->start_nodes) + " nodes in " +
+           std::to_string(refined->rounds) + (refined->rounds == 1 ? " round" : " rounds") +
+           ", where the error in the force comes from, " +
+           (refined->error <= refined->wanted ? "until it is below " + percent_text(refined->wanted)
+                                              : "as far as `tissue.mesh.most_nodes` allows"));
     if (const auto error = run::mesh_error(scene_))
       line("  mesh error   about " + percent_text(*error) +
            " of the force at the deepest travel, estimated on this mesh");

@@ -13,6 +13,7 @@
 #include "report/machine.h"
 #include "report/results.h"
 #include "run/family.h"
+#include "run/refined_mesh.h"
 
 namespace palpate::cli {
 namespace {
@@ -76,7 +77,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
         "note: " + rows +
         " contains the rows of a run that was killed or is still running; it is left as it is, "
         "`--device replay:` plays it; remove its folder when you no longer need it");
-  const scene::Scene scene = scene::build(family.cases.front(), family);
+  const scene::Scene scene = run::build_scene(family.cases.front(), family);
   live::refuse_beyond_device(scene, file, options);
   // Installed before the link, whose signal handlers are added to these.
   const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);

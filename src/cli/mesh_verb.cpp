@@ -22,6 +22,7 @@
 #include "meshing/surface_files.h"
 #include "meshing/tetgen_body.h"
 #include "report/vtu.h"
+#include "run/refined_mesh.h"
 #include "scene/scene.h"
 
 namespace palpate::cli {
@@ -139,7 +140,7 @@ scene::Scene scene_of(const Mesh& command, const Talk& talk) {
   if (family.cases.size() > 1)
     talk.say("note: " + command.subject + " has " + std::to_string(family.cases.size()) +
              " cases; this is the mesh of the first, " + first.name);
-  scene::Scene scene = scene::build(first, family);
+  scene::Scene scene = run::build_scene(first, family);
   if (!scene.specimen)
     throw InputError(place_of(family.document, "solver.model"),
                      "the scenario is computed by `" +

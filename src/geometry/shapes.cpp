@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,47 @@ Body one_part(const Sweep& sweep, const Spacing& spacing) {
   return one_part(std::move(sweep_surfaces(sweep, spacing).front()));
 }
 
+Sweep sweep_of(const Cylinder& cylinder) {
+  const auto section = [=](double) { return Section{0.0, cylinder.radius}; };
+  return {cylinder.length, cylinder.radius, cylinder.radius, {section}};
+}
+
+Sweep sweep_of(const Ligament& ligament) {
+  assert(ligament.width > ligament.thickness);
+  const auto section = [=](double y) {
+    const double factor = 1.0 + (ligament_ends - 1.0) * towards_ends(y, ligament.length);
+    return Section{0.5 * factor * (ligament.width - ligament.thickness),
+                   0.5 * factor * ligament.thickness};
+  };
+  const Vec3 middle = 0.5 * extent(ligament);
+  return {ligament.length, middle.x(), middle.z(), {section}};
+}
+
+Sweep sweep_of(const BoneShaft& bone) {
+  const auto section = [=](double y) {
+    const double part = towards_ends(y, bone.length);
+    return Section{0.0, bone.radius + (bone.end_radius - bone.radius) * part * part};
+  };
+  const Vec3 middle = 0.5 * extent(bone);
+  return {bone.length, middle.x(), middle.z(), {section}};
+}
+
+// The skin, then the muscle's surface if there is skin, then the bone's if there is a bone.
+Sweep sweep_of(const LayeredLimb& limb) {
+  const auto inset = [=](double depth) {
+    return [=](double y) {
+      return Section{0.0,
+                     limb.radius + (limb.end_radius - limb.radius) * (y / limb.length) - depth};
+    };
+  };
+  const Vec3 middle = 0.5 * extent(limb);
+  Sweep sweep{limb.length, middle.x(), middle.z(), {inset(0.0)}};
+  if (limb.skin_thickness > 0.0) sweep.sections.push_back(inset(limb.skin_thickness));
+  if (limb.bone_radius > 0.0)
+    sweep.sections.push_back([=](double) { return Section{0.0, limb.bone_radius}; });
+  return sweep;
+}
+
 struct Sampler {
   Spacing spacing;
 
@@ -41,33 +83,13 @@ struct Sampler {
     return one_part(box_surface(cuboid.size, cells));
   }
 
-  Body operator()(const Cylinder& cylinder) const {
-    const auto section = [=](double) { return Section{0.0, cylinder.radius}; };
-    return one_part({cylinder.length, cylinder.radius, cylinder.radius, {section}}, spacing);
-  }
-
   Body operator()(const Ellipsoid& ellipsoid) const {
     return one_part(ellipsoid_surface(0.5 * ellipsoid.size, ellipsoid.size, spacing.outer));
   }
 
-  Body operator()(const Ligament& ligament) const {
-    assert(ligament.width > ligament.thickness);
-    const auto section = [=](double y) {
-      const double factor = 1.0 + (ligament_ends - 1.0) * towards_ends(y, ligament.length);
-      return Section{0.5 * factor * (ligament.width - ligament.thickness),
-                     0.5 * factor * ligament.thickness};
-    };
-    const Vec3 middle = 0.5 * extent(ligament);
-    return one_part({ligament.length, middle.x(), middle.z(), {section}}, spacing);
-  }
-
-  Body operator()(const BoneShaft& bone) const {
-    const auto section = [=](double y) {
-      const double part = towards_ends(y, bone.length);
-      return Section{0.0, bone.radius + (bone.end_radius - bone.radius) * part * part};
-    };
-    const Vec3 middle = 0.5 * extent(bone);
-    return one_part({bone.length, middle.x(), middle.z(), {section}}, spacing);
+  template <class Bar>
+  Body operator()(const Bar& bar) const {
+    return one_part(sweep_of(bar), spacing);
   }
 
   Body operator()(const LayeredLimb& limb) const {
@@ -77,24 +99,10 @@ struct Sampler {
                       " mm has no room for muscle between a skin of " +
                       rounded_text(1e3 * limb.skin_thickness) + " mm and a bone of radius " +
                       rounded_text(1e3 * limb.bone_radius) + " mm; make one of them thinner");
-    const auto inset = [=](double depth) {
-      return [=](double y) {
-        return Section{0.0,
-                       limb.radius + (limb.end_radius - limb.radius) * (y / limb.length) - depth};
-      };
-    };
     const bool skin = limb.skin_thickness > 0.0;
-    const Vec3 middle = 0.5 * extent(limb);
-    Sweep sweep{limb.length, middle.x(), middle.z(), {inset(0.0)}};
     std::vector<int> regions{skin ? 0 : 1};
-    if (skin) {
-      sweep.sections.push_back(inset(limb.skin_thickness));
-      regions.push_back(1);
-    }
-    if (limb.bone_radius > 0.0) {
-      sweep.sections.push_back([=](double) { return Section{0.0, limb.bone_radius}; });
-      regions.push_back(2);
-    }
+    if (skin) regions.push_back(1);
+    if (limb.bone_radius > 0.0) regions.push_back(2);
     // A chord h of a circle of radius R is at most h^2 / (8 R) inside it: half of the thickness.
     const auto chord = [](double radius, double thickness) {
       return 2.0 * std::sqrt(radius * thickness);
@@ -104,10 +112,44 @@ struct Sampler {
                                                     : chord(thinnest, muscle - limb.bone_radius)),
                        std::min(spacing.inner, chord(muscle, muscle - limb.bone_radius))};
     Body body;
-    std::vector<Surface> surfaces = sweep_surfaces(sweep, fine);
+    std::vector<Surface> surfaces = sweep_surfaces(sweep_of(limb), fine);
     for (std::size_t s = 0; s < surfaces.size(); ++s)
       body.parts.push_back({std::move(surfaces[s]), regions[s]});
     return body;
+  }
+};
+
+// The point of the section's outline in the direction of a point from its middle.
+Vec3 outline_point(const Sweep& sweep, const Section& section, const Vec3& point) {
+  const double across = point.x() - sweep.x;
+  const double end = std::clamp(across, -section.straight, section.straight);
+  const Vec3 away(across - end, 0.0, point.z() - sweep.z);
+  const double distance = away.norm();
+  if (!(distance > 0.0)) return point;
+  return Vec3(sweep.x + end, point.y(), sweep.z) + section.radius / distance * away;
+}
+
+struct Onto {
+  const Vec3& point;
+
+  Vec3 operator()(const Cuboid&) const { return point; }
+  Vec3 operator()(const Ellipsoid& ellipsoid) const {
+    const Vec3 half = 0.5 * ellipsoid.size;
+    const Vec3 away = point - half;
+    return half + away / away.cwiseQuotient(half).norm();
+  }
+  template <class Bar>
+  Vec3 operator()(const Bar& bar) const {
+    const Sweep sweep = sweep_of(bar);
+    Vec3 nearest = point;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& section : sweep.sections) {
+      const Vec3 there = outline_point(sweep, section(point.y()), point);
+      if ((there - point).norm() >= least) continue;
+      least = (there - point).norm();
+      nearest = there;
+    }
+    return nearest;
   }
 };
 
@@ -136,6 +178,8 @@ Body sampled(const Shape& shape, const Spacing& spacing) {
   assert(spacing.outer > 0.0 && spacing.inner > 0.0);
   return std::visit(Sampler{spacing}, shape);
 }
+
+Vec3 onto(const Shape& shape, const Vec3& point) { return std::visit(Onto{point}, shape); }
 
 Vec3 extent(const Shape& shape) { return std::visit(Extent{}, shape); }
 

@@ -60,6 +60,10 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, Lay
 // whose bone and skin leave no room for muscle.
 [[nodiscard]] Body sampled(const Shape& shape, const Spacing& spacing);
 
+// The point of the shape's nearest round surface, outer or between its regions, at about `point`,
+// which is near that surface and not on the axis of a bar. Flat ends and cuboids give `point`.
+[[nodiscard]] Vec3 onto(const Shape& shape, const Vec3& point);
+
 // The size of the shape's bounding box along x, y and z, m.
 [[nodiscard]] Vec3 extent(const Shape& shape);
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "run/family.h"
+#include "run/refined_mesh.h"
 #include "scenario/integrators.h"
 #include "scene/scene.h"
 
@@ -126,7 +127,7 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
     choice.chosen = scenario::resolve(one, rung_.model);
     choice.given = true;
     const scene::Scene scene =
-        scene::build(one, *family_, shape_varies_ ? fresh : shapes_, std::move(choice));
+        run::build_scene(one, *family_, shape_varies_ ? fresh : shapes_, std::move(choice));
     record = run::run_case(scene, *stop_);
   } catch (const InputError& error) {
     failure_ = error.problems().front().message;

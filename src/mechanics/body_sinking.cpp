@@ -53,6 +53,7 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
       const BeyondHalfSpace slides = sliding_->beyond(patch);
       beyond.sinking = 0.5 * (beyond.sinking - slides.sinking);
       beyond.error = 0.5 * std::abs(beyond.error - slides.error);
+      beyond.boundary = 0.0;  // a block is flat
       place.sinking[k] = beyond.sinking;
     } else {
       // An estimate of the error that exceeds what it corrects says only that the mesh is too
@@ -62,6 +63,7 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
       place.sinking[k] = beyond.sinking + std::min(beyond.error, most);
     }
     place.error[k] = beyond.error;
+    place.boundary[k] = beyond.boundary;
     if (k == 2) place.rest = std::move(beyond.rest);
   }
   return place;
@@ -144,8 +146,17 @@ void BodySinking::add(const contact::Patch& patch, double part, Value& value) {
       value.sinking += weight * product * place->sinking[k];
       if (ratio <= steps.back()) value.slope += weight * slope / largest_ * place->sinking[k];
       value.error += weight * product * place->error[k];
+      value.boundary += weight * product * place->boundary[k];
     }
   }
+}
+
+std::vector<double> BodySinking::errors(const contact::Patch& patch) {
+  std::vector<double> errors = coupling_.beyond(patch).errors;
+  if (!sliding_) return errors;
+  const std::vector<double> slides = sliding_->beyond(patch).errors;
+  for (std::size_t t = 0; t < errors.size(); ++t) errors[t] = 0.5 * std::abs(errors[t] - slides[t]);
+  return errors;
 }
 
 double BodySinking::rest(const Vec3& normal, const contact::Spread& read,

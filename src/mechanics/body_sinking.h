@@ -21,12 +21,16 @@ class BodySinking {
               double deepest);
 
   struct Value {
-    double sinking = 0.0;  // m/N, s + e
-    double slope = 0.0;    // 1/N, of that with respect to the radius
-    double error = 0.0;    // m/N, e
+    double sinking = 0.0;   // m/N, s + e
+    double slope = 0.0;     // 1/N, of that with respect to the radius
+    double error = 0.0;     // m/N, e
+    double boundary = 0.0;  // m/N, BeyondHalfSpace::boundary
   };
   // Of the patch; of an ellipse as of a circle of the same area.
   [[nodiscard]] Value at(const contact::Patch& patch);
+
+  // The error of the sinking under a circular patch per tetrahedron of the part, m/N.
+  [[nodiscard]] std::vector<double> errors(const contact::Patch& patch);
 
   // The sinking of the rest w under the vertices of `read`, along `normal`, per newton on
   // `pressed`, m/N.
@@ -42,9 +46,10 @@ class BodySinking {
   // The places of the table in which a radius lies, relative to the largest.
   static constexpr std::array<double, radii> steps{0.2, 0.45, 0.75, 1.0};
   struct Place {
-    std::array<double, radii> sinking{};  // m/N, s + e
-    std::array<double, radii> error{};    // m/N
-    integrate::Vector rest;               // m/N, w for the third radius
+    std::array<double, radii> sinking{};   // m/N, s + e
+    std::array<double, radii> error{};     // m/N
+    std::array<double, radii> boundary{};  // m/N
+    integrate::Vector rest;                // m/N, w for the third radius
   };
   struct Share {
     const Place* place = nullptr;

@@ -60,6 +60,7 @@ BodySinking::Value Contacts::joint_sinking(const MeshAnswer& mesh,
     sum.sinking += weight * own.sinking;
     sum.slope += weight * own.slope;
     sum.error += weight * own.error;
+    sum.boundary += weight * own.boundary;
   }
   return sum;
 }
@@ -85,6 +86,7 @@ void Contacts::find_body_sinking(const MeshAnswer& mesh, KeptList<SphereContact>
     const double stiffening =
         std::min(most_stiffening, 5.0 / 3.0 * modulus * radius * radius * value.slope);
     own.sinking_error = value.error;
+    own.sinking_doubt = value.boundary;
     double sinking = value.sinking;
     if (own.law.point.layer == nullptr) {
       own.law.point.part /= 1.0 - stiffening;

@@ -39,6 +39,7 @@ struct SphereContact {
   double radiated = 0.0;        // N, the part of `force` for waves that the mesh cannot resolve
   double compliance = 0.0;      // m/N, C_ii of docs/theory.md (15)
   double sinking_error = 0.0;   // m/N, e of docs/theory.md (12)
+  double sinking_doubt = 0.0;   // m/N, of the boundary's flat faces
   double stiffness = 0.0;       // N/m, derivative of `force` with respect to `depth`; where inertia
                                 // reaches the force, to the finger's position, within a step
   Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue

@@ -254,7 +254,7 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
     i += shared ? 2 : 1;
     if (at_home(first) == at_home(second) && (shared || !at_home(first))) continue;
     const geometry::FaceUse& own = at_home(first) ? first : second;
-    Face face{.nodes = own.nodes, .interface = shared};
+    Face face{.nodes = own.nodes, .interface = shared, .tetrahedron = own.tetrahedron};
     const auto corner = [&](std::size_t k) -> const Vec3& {
       return mesh_.nodes[as_index(own.nodes[k])];
     };
@@ -269,6 +269,7 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
       for (std::size_t k = 0; k < 3; ++k)
         for (int c = 0; c < 3; ++c)
           if (part_node_[as_index(vertices[as_index(c)])] == own.nodes[k]) face.corners[k] = c;
+      face.cut_off = cut_off(face);
     }
     here.faces.push_back(face);
   }
@@ -320,7 +321,7 @@ BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, int finer) {
   result.sinking = loads.known + loads.nodal.dot(result.rest);
   for (Eigen::Index d = 0; d < freedoms; ++d)
     if (held_[as_index(d)] != 0) result.sinking -= reaction[d] * held_by[d];
-  result.error = error_of(result.rest, interpolated, region);
+  find_errors(interpolated, region, here, result);
   return result;
 }
 

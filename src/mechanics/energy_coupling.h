@@ -19,8 +19,10 @@ namespace palpate::mechanics {
 // The difference between the body and a half-space of the tissue at the contact, both pressed by
 // 1 N with Hertz's pressure over the patch.
 struct BeyondHalfSpace {
-  double sinking = 0.0;  // m/N: s of docs/theory.md (12), averaged with that pressure
-  double error = 0.0;    // m/N: e of (12); s + e is the better value
+  double sinking = 0.0;        // m/N: s of docs/theory.md (12), averaged with that pressure
+  double error = 0.0;          // m/N: e of (12); s + e is the better value
+  double boundary = 0.0;       // m/N: what the flat faces of a round boundary may cost in s
+  std::vector<double> errors;  // m/N, both per tetrahedron of the part
   // m/N: w, the body's displacement minus the half-space's, three entries per node of the part;
   // in other tissues minus the half-space's displacement interpolated between the nodes.
   integrate::Vector rest;
@@ -47,6 +49,8 @@ class EnergyCoupling {
     std::array<int, 3> corners{};  // of that triangle, one per node
     std::array<bool, 3> held{};    // per axis: at all three nodes
     bool interface = false;
+    int tetrahedron = 0;   // of the tissue
+    double cut_off = 0.0;  // m^3, between the face and the smooth skin
   };
   // What depends on the tissue at the contact.
   struct Home {
@@ -70,8 +74,10 @@ class EnergyCoupling {
   [[nodiscard]] tissue::Network elements_of(const geometry::TetMesh& mesh) const;
   [[nodiscard]] int region_under(int triangle) const;
   [[nodiscard]] const Home& home(int region);
-  [[nodiscard]] double error_of(const integrate::Vector& rest,
-                                const integrate::Vector& interpolated, int region) const;
+  [[nodiscard]] double cut_off(const Face& face) const;
+  // Fills error, boundary and errors of a solution.
+  void find_errors(const integrate::Vector& interpolated, int region, const Home& home,
+                   BeyondHalfSpace& result) const;
 
   geometry::TetMesh mesh_;  // of the part
   std::vector<geometry::FaceUse> uses_;

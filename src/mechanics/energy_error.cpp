@@ -10,7 +10,9 @@ using integrate::Vector;
 
 // Zienkiewicz and Zhu 1992: the stress is recovered at the nodes by a linear fit over the
 // tetrahedra around them, of one tissue at a time; the error is the energy of the difference.
-double EnergyCoupling::error_of(const Vector& rest, const Vector& interpolated, int region) const {
+void EnergyCoupling::find_errors(const Vector& interpolated, int region, const Home& home,
+                                 BeyondHalfSpace& result) const {
+  const Vector& rest = result.rest;
   using Stress = Eigen::Matrix<double, 6, 1>;  // xx yy zz xy xz yz
   const std::size_t count = elements_.size();
   std::vector<Stress> stresses(count);
@@ -72,24 +74,49 @@ double EnergyCoupling::error_of(const Vector& rest, const Vector& interpolated, 
     const Eigen::Matrix4d ridged = left[i] + 1e-9 * number * Eigen::Matrix4d::Identity();
     nodal[i] = (ridged.ldlt().solve(right[i])).row(0).transpose();
   }
-  double error = 0.0;
-  for (std::size_t t = 0; t < count; ++t) {
+  // Twice the energy of a stress, J per m^3.
+  const auto density = [&](std::size_t t, Stress stress) {
     const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
-    const double bulk = tissue.own_bulk + tissue.shared_bulk;
+    const double pressure = stress.head<3>().sum() / 3.0;
+    stress.head<3>().array() -= pressure;
+    const double shear = (stress.head<3>().squaredNorm() + 2.0 * stress.tail<3>().squaredNorm()) /
+                         (2.0 * tissue.shear_modulus);
+    return shear + pressure * pressure / (tissue.own_bulk + tissue.shared_bulk);
+  };
+  result.errors.assign(count, 0.0);
+  for (std::size_t t = 0; t < count; ++t) {
     for (std::size_t q = 0; q < 4; ++q) {  // four points, degree 2
       constexpr double far = 0.13819660112501051;
       Stress difference = -stresses[t];
       for (std::size_t k = 0; k < 4; ++k)
         difference += (k == q ? 1.0 - 3.0 * far : far) * nodal[as_index(around_[t][k])];
-      const double pressure = difference.head<3>().sum() / 3.0;
-      difference.head<3>().array() -= pressure;
-      const double shear_energy =
-          (difference.head<3>().squaredNorm() + 2.0 * difference.tail<3>().squaredNorm()) /
-          (2.0 * tissue.shear_modulus);
-      error += 0.25 * elements_[t].volume * (shear_energy + pressure * pressure / bulk);
+      result.errors[t] += 0.25 * elements_[t].volume * density(t, difference);
     }
+    result.error += result.errors[t];
   }
-  return error;
+  // A boundary moved outwards by d lowers the compliance by d times the density of energy there.
+  for (const Face& face : home.faces) {
+    const std::size_t t = as_index(face.tetrahedron);
+    const double change = std::abs(face.cut_off) * density(t, stresses[t]);
+    result.boundary += change;
+    result.errors[t] += change;
+  }
+}
+
+// Of a curved triangle, by three points.
+double EnergyCoupling::cut_off(const Face& face) const {
+  const auto& corners = skin_->surface().triangles[as_index(face.triangle)];
+  const auto vertex = [&](std::size_t k) -> const Vec3& {
+    return skin_->surface().vertices[as_index(corners[k])];
+  };
+  const Vec3 twice_area = (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0));
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    geometry::SurfacePoint at{.triangle = face.triangle, .weights = Vec3::Constant(0.5)};
+    at.weights[k] = 0.0;  // the middles of the sides: exact to degree 2
+    sum += (skin_->position(at) - skin_->flat_position(at)).dot(twice_area) / 6.0;
+  }
+  return sum;
 }
 
 }  // namespace palpate::mechanics

@@ -328,6 +328,12 @@ Vector PressedMesh::displacement() {
   return of_specimen(state_.displacement + factors_.solve(load));
 }
 
+std::vector<double> PressedMesh::errors(const SphereContact& contact) {
+  contact::Patch patch = contact.patch;
+  patch.a = patch.b = patch.radius();
+  return beyond_->errors(patch);
+}
+
 bool PressedMesh::inverted() {
   // There the mesh is loaded through the narrow patch, but its motion does not reach the force.
   if (in_modes_ && beyond_) return false;

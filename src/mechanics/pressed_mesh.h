@@ -47,6 +47,10 @@ class PressedMesh {
   // Computes the contacts at a finger position (m) without moving the mesh; in that case only.
   [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
 
+  // The mesh's error in what it sinks under such a contact, per tetrahedron of the moving part,
+  // m/N; for `consistent`.                                              docs/theory.md (12)
+  [[nodiscard]] std::vector<double> errors(const SphereContact& contact);
+
   // One step of the mesh alone, under the forces of `touch`; public for timing.
   [[nodiscard]] std::optional<std::string> move(const Touch& touch);
 

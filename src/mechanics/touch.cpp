@@ -48,9 +48,9 @@ double peak_pressure(const SphereContact& contact) {
 
 double mesh_error(const SphereContact& contact) {
   const double stiffness = contact.law.point.stiffness(contact.depth);
-  const double estimated =
-      contact.sinking_error * stiffness / (1.0 + std::max(0.0, contact.compliance * stiffness));
-  return estimated * (stated_share + estimated);
+  const double share = stiffness / (1.0 + std::max(0.0, contact.compliance * stiffness));
+  const double estimated = contact.sinking_error * share;
+  return estimated * (stated_share + estimated) + contact.sinking_doubt * share;
 }
 
 const SphereContact* Touch::deepest() const {

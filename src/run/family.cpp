@@ -8,6 +8,7 @@
 #include "run/findings.h"
 #include "run/lanes.h"
 #include "run/press.h"
+#include "run/refined_mesh.h"
 #include "run/share_out.h"
 #include "run/uniform.h"
 #include "scenario/words.h"
@@ -36,7 +37,7 @@ std::vector<scene::Scene> build_all(const scenario::Family& family, int workers)
   std::vector<scene::Scene> scenes(family.cases.size());
   scene::SpecimenShapes shapes;
   share_out(scenes.size(), workers,
-            [&](std::size_t i) { scenes[i] = scene::build(family.cases[i], family, shapes); });
+            [&](std::size_t i) { scenes[i] = run::build_scene(family.cases[i], family, shapes); });
   return scenes;
 }
 

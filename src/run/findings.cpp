@@ -61,8 +61,10 @@ class Findings {
     const double modulus = specimen.measured.young_modulus;
     add("nodes", static_cast<double>(specimen.network.nodes()));
     const auto* asked = std::get_if<scenario::Tetgen>(&scene_.scenario.tissue.mesh);
-    if (asked != nullptr && !asked->edge && specimen.network.nodes() > 1.25 * asked->nodes)
-      remark("the mesh has " + std::to_string(specimen.network.nodes()) + " nodes instead of " +
+    const int start = specimen.refined ? specimen.refined->start_nodes : specimen.network.nodes();
+    if (start != specimen.network.nodes()) add("nodes_before_refining", static_cast<double>(start));
+    if (asked != nullptr && !asked->edge && start > 1.25 * asked->nodes)
+      remark("the mesh has " + std::to_string(start) + " nodes instead of " +
              std::to_string(asked->nodes) +
              ", because it keeps the surface's vertices; a coarser surface is computed faster");
     add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
@@ -119,7 +121,10 @@ class Findings {
       if (peak.mesh_error > scene_.scenario.solver.tolerance)
         remark("the mesh's own error in the force is about " + percent_text(peak.mesh_error) +
                ", above the tolerance of " + percent_text(scene_.scenario.solver.tolerance) +
-               ": take a mesh with more nodes, above all between the finger and what is near it");
+               (scene_.specimen->refined
+                    ? ": refining stopped at " + std::to_string(scene_.specimen->network.nodes()) +
+                          " nodes; raise `tissue.mesh.most_nodes`"
+                    : ": set `tissue.mesh.refine = true`, or take a finer mesh"));
     }
     identities();
     predictions(peak);

@@ -201,26 +201,17 @@ class Checker {
         wrong("step." + std::to_string(i + 1), "a `slide` over", "remove it");
   }
 
-  // Slabs must lie in a cuboid, below its top, and must not overlap.
+  // Slabs of a cuboid must lie below its top; they must not overlap.
   void slabs() {
     const auto* box = std::get_if<Cuboid>(&scenario_.tissue.shape);
-    const bool lattice = std::holds_alternative<Kuhn>(scenario_.tissue.mesh) ||
-                         std::holds_alternative<Mirrored>(scenario_.tissue.mesh);
     std::map<double, double> taken;  // bottoms and tops
     for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
       const auto* slab = std::get_if<Slab>(&scenario_.regions[i].part);
       if (slab == nullptr) continue;
       const std::string path = "region." + std::to_string(i + 1);
-      if (box == nullptr || !lattice) {
-        problem(path,
-                "a `slab` lies in a `cuboid` of `kuhn` or `mirrored` cells only; set "
-                "`tissue.mesh = { kind = \"mirrored\", cells = [8, 8, 8] }`, or mesh the "
-                "layers yourself and name them by `tag`");
-        continue;
-      }
       if (slab->top <= slab->bottom)
         problem(path + ".top", "`top` is not above `bottom`; exchange the two");
-      else if (slab->top >= box->size[2])
+      else if (box != nullptr && slab->top >= box->size[2])
         problem(path + ".top",
                 "`top` reaches the cuboid's top, which the finger presses; make that layer the "
                 "`tissue` "

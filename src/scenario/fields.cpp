@@ -59,13 +59,26 @@ static void grading(FieldVisitor& visitor, double& ratio) {
                   "under the finger; 1: all equal."},
                  ratio, between(1, 1000));
 }
+static void refinement(FieldVisitor& visitor, Refinement& mesh) {
+  visitor.flag({"refine",
+                "Whether a press with `consistent` contact refines this mesh where its own error "
+                "in the force comes from, until that error is below half of `solver.tolerance`. "
+                "Default: true if the scenario gives no `tissue.mesh`."},
+               mesh.refine);
+  visitor.count({"most_nodes",
+                 "Where refining stops.",
+                 {mesh.refine, "with `refine = true`", Use::Otherwise::note}},
+                mesh.most_nodes, between(8, 1e6));
+}
 static void fields(FieldVisitor& visitor, Kuhn& mesh) {
   visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
   grading(visitor, mesh.grading);
+  refinement(visitor, mesh);
 }
 static void fields(FieldVisitor& visitor, Mirrored& mesh) {
   visitor.counts({"cells", "Cells along x, y and z."}, mesh.cells, between(1, 500));
   grading(visitor, mesh.grading);
+  refinement(visitor, mesh);
 }
 static void fields(FieldVisitor& visitor, Tetgen& mesh) {
   visitor.count(
@@ -76,10 +89,12 @@ static void fields(FieldVisitor& visitor, Tetgen& mesh) {
       mesh.tetrahedra, between(1, 1e7));
   visitor.quantity_or("auto", {"edge", "A length of edges to aim at instead of a count."},
                       mesh.edge, unit::mm, above(0));
+  refinement(visitor, mesh);
 }
 static void fields(FieldVisitor& visitor, MeshFile& mesh) {
   visitor.text({"file", "Path of the .node or .msh file, from the scenario's folder."}, mesh.file);
   visitor.text({"unit", "The length unit of its coordinates, such as `mm`. Required."}, mesh.unit);
+  refinement(visitor, mesh);
 }
 
 static void fields(FieldVisitor& visitor, Indent& step) {
@@ -126,7 +141,7 @@ static void fields(FieldVisitor& visitor, Lump& region) {
 }
 static void fields(FieldVisitor& visitor, Slab& region) {
   visitor.quantity({"bottom", "Height where it begins."}, region.bottom, unit::mm, at_least(0));
-  visitor.quantity({"top", "Height where it ends, below the cuboid's top: that is `tissue`."},
+  visitor.quantity({"top", "Height where it ends; the top of the body is `tissue`."},
                    region.top, unit::mm, above(0));
 }
 

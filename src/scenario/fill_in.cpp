@@ -103,8 +103,8 @@ void require_tissue(const Scenario& scenario, const material::Tissue& material,
   require(Viscosity::nodal_drag, tissue.drag, material.drag, "drag");
 }
 
-// Sets muscle and bone of a limb unless the scenario has regions, and the mesh of shapes other than
-// cuboids unless the scenario has one.
+// Sets muscle and bone of a limb unless the scenario has regions, and the mesh unless the
+// scenario has one: by TetGen for shapes other than cuboids and with lumps, refined where needed.
 void complete_shape(Scenario& scenario, const Node& document) {
   const Member* tissue = document.find("tissue");
   const auto given = [&](const char* key) {
@@ -112,8 +112,14 @@ void complete_shape(Scenario& scenario, const Node& document) {
   };
   if (std::holds_alternative<MeshFile>(scenario.tissue.mesh) && !given("shape"))
     scenario.tissue.shape = AsMeshed{};
-  if (!given("mesh") && !std::holds_alternative<Cuboid>(scenario.tissue.shape))
-    scenario.tissue.mesh = Tetgen{};
+  if (!given("mesh")) {
+    const bool lumps =
+        std::any_of(scenario.regions.begin(), scenario.regions.end(),
+                    [](const Region& region) { return std::holds_alternative<Lump>(region.part); });
+    if (lumps || !std::holds_alternative<Cuboid>(scenario.tissue.shape))
+      scenario.tissue.mesh = Tetgen{};
+    refinement(scenario.tissue.mesh).refine = true;
+  }
   const auto* limb = std::get_if<LayeredLimb>(&scenario.tissue.shape);
   if (limb == nullptr || document.find("region") != nullptr) return;
   scenario.regions.clear();

@@ -62,28 +62,39 @@ struct AsMeshed {
 using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb, HalfSpace,
                            SurfaceFile, AsMeshed>;
 
-struct Kuhn {
+// Whether, and how far, a mesh is refined where its own error in the force comes from.
+struct Refinement {
+  bool refine = false;  // true by default only if the scenario gives no mesh
+  int most_nodes = 4000;
+};
+struct Kuhn : Refinement {
   static constexpr Word word{"kuhn", "Cells of six tetrahedra, all alike (the paper's cube)."};
   std::array<int, 3> cells{3, 4, 6};
   double grading = 1.0;  // longest cell over the shortest, which is under the finger
 };
-struct Mirrored {
+struct Mirrored : Refinement {
   static constexpr Word word{"mirrored", "Kuhn cells, every second one reflected."};
   std::array<int, 3> cells{3, 4, 6};
   double grading = 1.0;
 };
-struct Tetgen {
+struct Tetgen : Refinement {
   static constexpr Word word{"tetgen", "An unstructured mesh by TetGen."};
   int nodes = 728;
   std::optional<int> tetrahedra;  // empty: follows from `nodes`
   std::optional<double> edge;     // m; if given, `nodes` is not used
 };
-struct MeshFile {
+struct MeshFile : Refinement {
   static constexpr Word word{"file", "A ready mesh: TetGen's .node and .ele, or Gmsh's .msh."};
   std::string file;
   std::string unit;  // symbol of a length unit
 };
 using Mesh = std::variant<Kuhn, Mirrored, Tetgen, MeshFile>;
+[[nodiscard]] inline Refinement& refinement(Mesh& mesh) {
+  return std::visit([](auto& kind) -> Refinement& { return kind; }, mesh);
+}
+[[nodiscard]] inline const Refinement& refinement(const Mesh& mesh) {
+  return std::visit([](const auto& kind) -> const Refinement& { return kind; }, mesh);
+}
 
 // A branch of a Prony series: a spring in series with a dashpot.
 struct Branch {
@@ -123,7 +134,7 @@ struct Lump {
   double radius = 0.005;                              // m
 };
 struct Slab {
-  static constexpr Word word{"slab", "A flat layer of a cuboid, from side to side."};
+  static constexpr Word word{"slab", "A flat layer of the body, from side to side."};
   double bottom = 0.0;  // m, like `top` a height
   double top = 0.010;
 };

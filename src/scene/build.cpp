@@ -210,6 +210,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   auto specimen = std::make_unique<Specimen>();
   const SpecimenShape& shape = shapes.shape(scenario, folder);
   specimen->mesh = shape.mesh;
+  specimen->refined = shape.refined;
   specimen->law = scenario.tissue.law;
   const scenario::Rung& rung = scenario::rung(scenario.solver.model);
   if (scenario.solver.kinematics == scenario::Solver::Kinematics::nonlinear)
@@ -219,8 +220,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   measure_size(*specimen);
   const double top = specimen->high.z();
   const double top_area = shape.top_area;
-  specimen->base_height = scenario.tissue.base_height.value_or(
-      shape.bottom_area > 0.0 ? 0.0 : 0.1 * specimen->height());
+  specimen->base_height = shape.base_level - specimen->low.z();
   if (scenario.uniform() && top_area <= 0.0)
     throw MeshError(
         "the specimen has no flat upper end for a platen; `creep` and `relax` need a shape with "

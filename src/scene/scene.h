@@ -13,6 +13,7 @@
 #include "contact/relaxation.h"
 #include "geometry/smooth_surface.h"
 #include "scenario/resolved.h"
+#include "scene/refining_press.h"
 #include "scene/spring_body.h"
 #include "scene/time_plan.h"
 #include "tissue/uniaxial.h"
@@ -92,7 +93,8 @@ constexpr double own_share = 0.05;  // bulk modulus of single tetrahedra over sh
 
 // The specimen as springs, with all data that its steps need.
 struct Specimen {
-  geometry::TetMesh mesh;  // regions: 0 is the tissue, then the scenario's regions in order
+  geometry::TetMesh mesh;          // regions: 0 is the tissue, then the scenario's regions in order
+  std::optional<Refined> refined;  // empty if the mesh is as asked for
   tissue::Network network;
   tissue::ViscousLaw law;
   tissue::Kinematics kinematics = tissue::Kinematics::linear;

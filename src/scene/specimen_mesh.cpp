@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/cuboid.h"
+#include "meshing/level_cut.h"
 #include "meshing/mesh_check.h"
 #include "meshing/mesh_files.h"
 #include "meshing/surface_check.h"
@@ -25,26 +27,7 @@ constexpr double meshing_time = 120.0;  // s, time limit for TetGen
 // Lumps and slabs have region numbers from here on, which no shape or file uses.
 constexpr int first_own = 1'000'000'000;
 
-std::vector<geometry::Lump> lumps(const Scenario& scenario) {
-  std::vector<geometry::Lump> found;
-  for (std::size_t i = 0; i < scenario.regions.size(); ++i)
-    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
-      found.push_back({Vec3(lump->centre[0], lump->centre[1], lump->centre[2]), lump->radius,
-                       first_own + static_cast<int>(i)});
-  return found;
-}
-
-// The heights (m) of the interfaces between slabs and tissue, ascending.
-std::vector<double> levels(const Scenario& scenario) {
-  std::set<double> heights;
-  for (const auto& region : scenario.regions)
-    if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
-      heights.insert({slab->bottom, slab->top});
-  heights.erase(0.0);
-  return {heights.begin(), heights.end()};
-}
-
-// Assigns tetrahedra to slabs by their centres; no cell crosses the face of a slab.
+// Assigns tetrahedra to slabs by their centres; none crosses the face of a slab.
 void number_slabs(geometry::TetMesh& mesh, const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
     const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part);
@@ -73,7 +56,8 @@ meshing::Target target(const scenario::Tetgen& mesh) {
 
 geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& mesh,
                               const std::string& folder) {
-  const std::vector<geometry::Lump> inside = lumps(scenario);
+  std::vector<geometry::Lump> inside = lumps_of(scenario);
+  for (geometry::Lump& lump : inside) lump.region += first_own - 1;
   if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
     geometry::Body body;
     body.parts.push_back(
@@ -113,13 +97,11 @@ geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) 
   if (box != nullptr) volume = size.prod();
   if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh)) {
     mesh = geometry::cuboid(size, kuhn->cells, geometry::CellPattern::kuhn,
-                            grading(scenario, size, kuhn->grading), levels(scenario));
-    number_slabs(mesh, scenario);
+                            grading(scenario, size, kuhn->grading), slab_levels(scenario));
     name = "the kuhn mesh";
   } else if (const auto* mirrored = std::get_if<scenario::Mirrored>(&scenario.tissue.mesh)) {
     mesh = geometry::cuboid(size, mirrored->cells, geometry::CellPattern::mirrored,
-                            grading(scenario, size, mirrored->grading), levels(scenario));
-    number_slabs(mesh, scenario);
+                            grading(scenario, size, mirrored->grading), slab_levels(scenario));
     name = "the mirrored mesh";
   } else if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh)) {
     mesh = tetgen_mesh(scenario, *tetgen, folder);
@@ -130,6 +112,13 @@ geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) 
     name = "the mesh of " + file.file;
   }
   meshing::check(mesh, name, volume);
+  const std::vector<double> heights = slab_levels(scenario);
+  for (const double height : heights)
+    mesh = meshing::cut_at(std::move(mesh), height, false, parametric(scenario.tissue.shape));
+  if (!heights.empty()) {
+    number_slabs(mesh, scenario);
+    meshing::check(mesh, name + ", cut at the slabs,", volume);
+  }
   return mesh;
 }
 
@@ -194,6 +183,24 @@ std::optional<geometry::Shape> parametric(const scenario::Shape& shape) {
     std::optional<geometry::Shape> operator()(const scenario::AsMeshed&) const { return {}; }
   };
   return std::visit(Convert{}, shape);
+}
+
+std::vector<double> slab_levels(const Scenario& scenario) {
+  std::set<double> heights;
+  for (const auto& region : scenario.regions)
+    if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
+      heights.insert({slab->bottom, slab->top});
+  heights.erase(0.0);
+  return {heights.begin(), heights.end()};
+}
+
+std::vector<geometry::Lump> lumps_of(const Scenario& scenario) {
+  std::vector<geometry::Lump> found;
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i)
+    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
+      found.push_back({Vec3(lump->centre[0], lump->centre[1], lump->centre[2]), lump->radius,
+                       static_cast<int>(i) + 1});
+  return found;
 }
 
 geometry::TetMesh specimen_mesh(const Scenario& scenario, const std::string& folder) {

@@ -14,6 +14,12 @@ namespace palpate::scene {
 // The shape as a parametric one; nothing for half-spaces and shapes from files.
 [[nodiscard]] std::optional<geometry::Shape> parametric(const scenario::Shape& shape);
 
+// The heights (m) of the interfaces between slabs and tissue, ascending.
+[[nodiscard]] std::vector<double> slab_levels(const scenario::Resolved& scenario);
+
+// The scenario's lumps; their regions' numbers are those of specimen_mesh().
+[[nodiscard]] std::vector<geometry::Lump> lumps_of(const scenario::Resolved& scenario);
+
 // The mesh with the numbers of its substances: TetMesh::regions are 0 for `tissue.material`, then
 // the scenario's regions in order. For a uniform test, a shape that lies along y is turned to stand
 // on its end. Relative files are looked for in `folder`. Throws MeshError if the shape cannot be

@@ -1,11 +1,15 @@
 // A cache of meshes, skins and fits, with the text of the keys on which they depend as its key.
 #include "scene/specimen_shape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/field_writer.h"
 #include "geometry/surface.h"
+#include "meshing/level_cut.h"
+#include "meshing/mesh_check.h"
+#include "scene/refining_press.h"
 #include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
@@ -25,20 +29,15 @@ double flat_area(const geometry::Skin& skin, double z, double tolerance) {
   return sum;
 }
 
-SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
-  geometry::TetMesh mesh = specimen_mesh(scenario, folder);
-  geometry::Skin skin = geometry::skin(mesh);
+// The lowest and highest z of a mesh, m.
+std::pair<double, double> reach(const geometry::TetMesh& mesh) {
   double low = mesh.nodes.front().z();
   double high = low;
   for (const Vec3& node : mesh.nodes) {
     low = std::min(low, node.z());
     high = std::max(high, node.z());
   }
-  const double flat = 1e-9 * geometry::diagonal(mesh);
-  const double top_area = flat_area(skin, high, flat);
-  const double bottom_area = flat_area(skin, low, flat);
-  return {std::move(mesh), std::move(skin.nodes), geometry::SmoothSurface(std::move(skin.surface)),
-          top_area, bottom_area};
+  return {low, high};
 }
 
 // Whether the mesh depends on the finger's position: graded lattices are finer under the finger.
@@ -51,10 +50,34 @@ bool knows_finger(const scenario::Mesh& mesh) {
 
 }  // namespace
 
+SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
+  geometry::Skin skin = geometry::skin(mesh);
+  const auto [low, high] = reach(mesh);
+  const double flat = 1e-9 * geometry::diagonal(mesh);
+  const double top_area = flat_area(skin, high, flat);
+  const double bottom_area = flat_area(skin, low, flat);
+  return {std::move(mesh), std::move(skin.nodes), geometry::SmoothSurface(std::move(skin.surface)),
+          top_area,        bottom_area,           base_level};
+}
+
+SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
+  geometry::TetMesh mesh = specimen_mesh(scenario, folder);
+  const auto [low, high] = reach(mesh);
+  const bool flat = flat_area(geometry::skin(mesh), low, 1e-9 * geometry::diagonal(mesh)) > 0.0;
+  const double level = low + scenario.tissue.base_height.value_or(flat ? 0.0 : 0.1 * (high - low));
+  if (level > low && !scenario.uniform() &&
+      !std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
+    mesh = meshing::cut_at(std::move(mesh), level, true, parametric(scenario.tissue.shape));
+    meshing::check(mesh, "the mesh, cut at the border of the base,", 0.0);
+  }
+  return shape_of(std::move(mesh), level);
+}
+
 std::string shape_key(const Scenario& scenario) {
   scenario::Scenario only;
   only.tissue.shape = scenario.tissue.shape;
   only.tissue.mesh = scenario.tissue.mesh;
+  only.tissue.base_height = scenario.tissue.base_height;
   for (const auto& region : scenario.regions) only.regions.push_back({{region.part, ""}});
   if (knows_finger(scenario.tissue.mesh)) {
     only.finger.x = scenario.finger.x;
@@ -70,7 +93,8 @@ std::string shape_key(const Scenario& scenario) {
 }
 
 SpecimenShapes::Entry& SpecimenShapes::entry(const Scenario& scenario) {
-  const std::string key = shape_key(scenario);
+  std::string key = shape_key(scenario);
+  if (refines(scenario)) key += refining_key(scenario);
   const std::lock_guard lock(looking_up_);
   return entries_[key];
 }
@@ -81,9 +105,13 @@ std::size_t SpecimenShapes::size() {
 }
 
 const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const std::string& folder) {
+  return shape(scenario, [&] { return make_shape(scenario, folder); });
+}
+
+const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const Make& make) {
   Entry& known = entry(scenario);
   const std::lock_guard lock(known.building);
-  if (!known.shape) known.shape = std::make_unique<SpecimenShape>(make_shape(scenario, folder));
+  if (!known.shape) known.shape = std::make_unique<SpecimenShape>(make());
   return *known.shape;
 }
 

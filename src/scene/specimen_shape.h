@@ -1,9 +1,11 @@
 // The part of a specimen that does not depend on its materials, built once for all its cases.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "geometry/smooth_surface.h"
 #include "geometry/tet_mesh.h"
 #include "scenario/resolved.h"
+#include "scene/refining_press.h"
 #include "tissue/stiffness.h"
 
 namespace palpate::scene {
@@ -22,7 +25,16 @@ struct SpecimenShape {
   geometry::SmoothSurface surface;
   double top_area = 0.0;     // m^2, of the flat upper end; 0 if there is none
   double bottom_area = 0.0;  // m^2
+  double base_level = 0.0;   // m, absolute; the skin up to this height is the base
+  std::optional<Refined> refined = {};
 };
+
+[[nodiscard]] SpecimenShape shape_of(geometry::TetMesh mesh, double base_level);
+
+// The scenario's mesh, not refined, with its skin. Unless it comes from a file, no edge of the skin
+// crosses the border of the base. Throws what specimen_mesh() throws.
+[[nodiscard]] SpecimenShape make_shape(const scenario::Resolved& scenario,
+                                       const std::string& folder);
 
 // The keys on which a scenario's SpecimenShape depends, with their values: scenarios with equal
 // texts have the same shape, to the bit.
@@ -36,6 +48,10 @@ class SpecimenShapes {
   // call. The result lives as long as this object.
   [[nodiscard]] const SpecimenShape& shape(const scenario::Resolved& scenario,
                                            const std::string& folder);
+
+  // The same, made by `make` if it is not there yet.
+  using Make = std::function<SpecimenShape()>;
+  const SpecimenShape& shape(const scenario::Resolved& scenario, const Make& make);
 
   // The fit of the springs to that shape.
   [[nodiscard]] const tissue::SpringFit& fit(const scenario::Resolved& scenario,

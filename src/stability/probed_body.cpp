@@ -3,6 +3,7 @@
 
 #include "contact/hertz.h"
 #include "contact/patch.h"
+#include "run/refined_mesh.h"
 #include "scene/first_touch.h"
 
 namespace palpate::stability {
@@ -32,7 +33,7 @@ scenario::Case bare(scenario::Case one, scenario::Model model, tissue::Volume vo
 std::unique_ptr<ProbedBody> make_probed_body(const scenario::Case& one,
                                              const scenario::Family& family) {
   auto probed = std::make_unique<ProbedBody>();
-  probed->scene = scene::build(one, family);
+  probed->scene = run::build_scene(one, family);
   const scene::Specimen& specimen = *probed->scene.specimen;
   probed->elastic = std::make_unique<scene::SpringBody>(
       specimen.network, tissue::Kinematics::linear, tissue::ViscousLaw{}, specimen.held);

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "fit/case_fits.h"
+#include "run/refined_mesh.h"
 #include "run/share_out.h"
 #include "scene/estimates.h"
 #include "scene/specimen_shape.h"
@@ -199,7 +200,7 @@ class Runner {
       Made& made = part[i];
       if (!made.one || stop_.no_more()) return;
       made.built =
-          attempt(made, [&] { made.scene = scene::build(*made.one, plan_.family, *shapes_); });
+          attempt(made, [&] { made.scene = run::build_scene(*made.one, plan_.family, *shapes_); });
     });
     std::vector<scene::Scene> scenes;
     std::vector<const Made*> of_scene;

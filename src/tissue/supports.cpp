@@ -15,8 +15,9 @@ std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double 
   std::vector<int> nodes = geometry::nodes_at_height(mesh, low);
   if (base_height > 0.0) {
     nodes.clear();
+    const double rounding = 1e-9 * geometry::diagonal(mesh);
     for (const int node : geometry::skin(mesh).nodes)
-      if (height(mesh.nodes[as_index(node)]) <= low + base_height) nodes.push_back(node);
+      if (height(mesh.nodes[as_index(node)]) <= low + base_height + rounding) nodes.push_back(node);
   }
   const auto hold = [&](int node, int axis) { held[as_index(3 * node + axis)] = 1; };
   for (const int node : nodes) {

@@ -1,0 +1,67 @@
+// Refines a tetrahedral mesh locally, by splitting edges with all tetrahedra around them.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "geometry/tet_mesh.h"
+
+namespace palpate::meshing {
+
+// A tetrahedron is only ever halved at its longest edge, together with all tetrahedra around that
+// edge; where the edge is not the longest of one of these, that one is halved first (Rivara 1984,
+// Int. J. Numer. Methods Eng. 20, 745). The mesh stays conforming, existing nodes keep their places
+// and numbers, and children keep their parent's region. Edges of equal length are told apart by
+// their nodes, so that the same input gives the same mesh.
+class Bisection {
+ public:
+  // The new node on an edge.
+  struct Middle {
+    int a = 0;
+    int b = 0;
+    double share = 0.5;           // of the way from a to b
+    Vec3 between = Vec3::Zero();  // m, there
+    std::vector<int> outer;       // third nodes of the boundary faces at the edge; empty inside
+    bool inner = false;           // on a face between two regions
+  };
+  // Decides where the node on an edge goes, m. Nodes have consecutive numbers in the order of
+  // calls.
+  using Place = std::function<Vec3(const Middle&)>;
+
+  // The mesh has passed check(), mesh_check.h.
+  Bisection(geometry::TetMesh mesh, Place place);
+
+  // Halves every tetrahedron with marked[t] > 0, its halves if it is above 1, and so on: after
+  // three times their edges have about half the length. Where `place` would turn a tetrahedron
+  // inside out or make it flat, the node stays nearer to the edge, if necessary on it.
+  void halve(std::span<const char> marked);
+
+  // Splits every edge that crosses the plane at height z (m), or only those on the boundary, so
+  // that nodes lie in the plane instead. To be called before halve().
+  void cut(double z, bool outer_only);
+
+  // Without the tetrahedra that have been halved.
+  [[nodiscard]] geometry::TetMesh mesh() const;
+
+ private:
+  struct Edge {
+    int a = 0;  // below b
+    int b = 0;
+    double squared = 0.0;  // m^2, of its length
+
+    [[nodiscard]] bool operator==(const Edge& other) const { return a == other.a && b == other.b; }
+  };
+  [[nodiscard]] Edge longest(int tetrahedron) const;
+  [[nodiscard]] std::vector<int> around(const Edge& edge) const;
+  void halve(int tetrahedron);
+  void split(const Edge& edge, double share = 0.5, const double* height = nullptr);
+
+  geometry::TetMesh mesh_;
+  Place place_;
+  std::vector<char> left_;            // per tetrahedron: how often it is still to be halved
+  std::vector<char> gone_;            // per tetrahedron
+  std::vector<std::vector<int>> at_;  // per node: its tetrahedra, with some that are gone
+};
+
+}  // namespace palpate::meshing

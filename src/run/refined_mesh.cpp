@@ -1,0 +1,181 @@
+// Estimate, mark, halve, and again.
+#include "run/refined_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "mechanics/pressed_mesh.h"
+#include "meshing/mesh_check.h"
+#include "meshing/true_boundary.h"
+#include "scene/first_touch.h"
+#include "scene/refining_press.h"
+#include "scene/specimen_mesh.h"
+
+namespace palpate::run {
+namespace {
+
+constexpr double wanted_share = 0.5;    // of the tolerance
+                                        // of the error, in the tetrahedra that are halved
+constexpr char times = 3;               // halvings, for edges of half the length
+constexpr int most_modal_nodes = 1000;  // `modal` takes no more
+constexpr int most_rounds = 20;
+
+// What the mesh costs in the force, and which tetrahedra cost it.
+struct Estimate {
+  double error = 0.0;  // a fraction of the force
+  std::vector<double> parts;
+};
+
+// The places of the finger beside the first touch: start, middle and end of every slide, m.
+std::vector<Vec3> places(const scenario::Resolved& press) {
+  std::vector<Vec3> found{Vec3::Zero()};
+  for (const scenario::Step& step : press.steps)
+    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
+      const double angle = slide->direction * std::numbers::pi / 180.0;
+      const Vec3 way = slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0);
+      const Vec3 start = found.back();
+      found.emplace_back(start + 0.5 * way);
+      found.emplace_back(start + way);
+    }
+  return found;
+}
+
+Estimate estimate(const scene::Scene& scene) {
+  mechanics::PressedMesh mesh(scene);
+  mechanics::Touch touch;
+  const Vec3 first = scene::first_touch(scene).finger;
+  const double deepest = scene::deepest_travel(scene.scenario, scene.law());
+  Estimate sum;
+  sum.parts.assign(scene.specimen->mesh.tetrahedra.size(), 0.0);
+  for (const Vec3& place : places(scene.scenario)) {
+    // On a coarse mesh the contact may have no solution at the full depth.
+    const mechanics::SphereContact* contact = nullptr;
+    for (double depth = deepest; contact == nullptr && depth > 0.1 * deepest; depth *= 0.5)
+      if (!mesh.try_out(first + place - depth * Vec3::UnitZ(), touch)) contact = touch.deepest();
+    if (contact == nullptr) continue;
+    sum.error = std::max(sum.error, mechanics::mesh_error(*contact));
+    const std::vector<double> errors = mesh.errors(*contact);
+    for (std::size_t t = 0; t < errors.size(); ++t) sum.parts[t] += errors[t];
+  }
+  return sum;
+}
+
+// Edges of half the length leave a quarter of a tetrahedron's error.
+constexpr double removed = 0.75;
+
+// Marks the tetrahedra with the largest errors, which have the part `share` of the sum, but at most
+// `most` of them.
+std::vector<char> marked(const std::vector<double>& errors, double share, std::size_t most) {
+  std::vector<std::size_t> order(errors.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return errors[a] > errors[b]; });
+  const double all = std::accumulate(errors.begin(), errors.end(), 0.0);
+  std::vector<char> marks(errors.size(), 0);
+  double sum = 0.0;
+  for (const std::size_t t : order) {
+    if (sum >= share * all || most-- == 0) break;
+    sum += errors[t];
+    marks[t] = times;
+  }
+  return marks;
+}
+
+class Refining {
+ public:
+  Refining(const scenario::Case& one, const scenario::Family& family,
+           const scenario::Resolved& scenario)
+      : one_(one), family_(family), mesh_(&scenario.tissue.mesh) {
+    trial_.given = true;
+    trial_.chosen = scene::refining_press(scenario);
+    scenario::refinement(trial_.chosen.tissue.mesh).refine = false;
+    most_nodes_ = scenario::refinement(*mesh_).most_nodes;
+    if (scenario.solver.integrator == scenario::Solver::Integrator::modal)
+      most_nodes_ = std::min(most_nodes_, most_modal_nodes);
+  }
+
+  [[nodiscard]] scene::SpecimenShape refined() {
+    const scenario::Resolved& press = trial_.chosen;
+    scene::SpecimenShape shape = scene::make_shape(press, family_.folder);
+    std::vector<double> levels = scene::slab_levels(press);
+    levels.push_back(shape.base_level);
+    meshing::TrueBoundary boundary(shape.mesh, scene::parametric(press.tissue.shape),
+                                   scene::lumps_of(press), levels);
+    scene::Refined told{.start_nodes = static_cast<int>(shape.mesh.nodes.size()),
+                        .wanted = wanted_share * press.solver.tolerance};
+    for (int round = 0;; ++round) {
+      const Estimate found = estimate(scene_with(shape));
+      told.rounds = round;
+      told.error = found.error;
+      if (found.error <= told.wanted || round == most_rounds) break;
+      std::optional<geometry::TetMesh> finer = halved(shape.mesh, found, boundary);
+      if (!finer) break;
+      shape = scene::shape_of(std::move(*finer), shape.base_level);
+    }
+    shape.refined = told;
+    return shape;
+  }
+
+ private:
+  [[nodiscard]] scene::Scene scene_with(const scene::SpecimenShape& shape) const {
+    scene::SpecimenShapes shapes;
+    (void)shapes.shape(trial_.chosen, [&] { return shape; });
+    return scene::build(one_, family_, shapes, trial_);
+  }
+
+  // Nothing if the mesh would have too many nodes whatever is halved.
+  [[nodiscard]] std::optional<geometry::TetMesh> halved(const geometry::TetMesh& mesh,
+                                                        const Estimate& found,
+                                                        meshing::TrueBoundary& boundary) const {
+    const double wanted = wanted_share * trial_.chosen.solver.tolerance;
+    // Half of the error at once, and near the end no more than is needed.
+    const double share = std::min(0.5, 1.1 * (1.0 - wanted / found.error) / removed);
+    for (std::size_t most = found.parts.size(); most > 0;) {
+      const std::vector<char> marks = marked(found.parts, share, most);
+      meshing::TrueBoundary trial = boundary;
+      meshing::Bisection bisection(
+          mesh, [&](const meshing::Bisection::Middle& edge) { return trial.place(edge); });
+      bisection.halve(marks);
+      geometry::TetMesh finer = bisection.mesh();
+      if (static_cast<int>(finer.nodes.size()) > most_nodes_) {
+        most = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), times)) / 2;
+        continue;
+      }
+      trial.restore_lumps(finer);
+      meshing::check(finer, "the refined mesh", 0.0);
+      boundary = std::move(trial);
+      return finer;
+    }
+    return std::nullopt;
+  }
+
+  const scenario::Case& one_;
+  const scenario::Family& family_;
+  const scenario::Mesh* mesh_;
+  scene::Choice trial_;
+  int most_nodes_ = 0;
+};
+
+}  // namespace
+
+scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family) {
+  scene::SpecimenShapes shapes;
+  return build_scene(one, family, shapes);
+}
+
+scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
+                         scene::SpecimenShapes& shapes) {
+  return build_scene(one, family, shapes, scene::choose(one));
+}
+
+scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
+                         scene::SpecimenShapes& shapes, scene::Choice choice) {
+  if (scene::refines(choice.chosen))
+    (void)shapes.shape(choice.chosen,
+                       [&] { return Refining(one, family, choice.chosen).refined(); });
+  return scene::build(one, family, shapes, std::move(choice));
+}
+
+}  // namespace palpate::run
