@@ -25,8 +25,12 @@ using Integrator = scenario::Solver::Integrator;
 using scenario::Scenario;
 
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
-constexpr double first_nodes = 700.0;  // first level if contact is not resolved
-constexpr double most_rows = 40.0;     // of a programme without memory
+constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
+// Without inertia the meshes follow the error, which each level states three times smaller.
+constexpr double last_error = 0.0025;
+constexpr double finer_error = 3.0;
+constexpr int most_nodes = 12000;
+constexpr double most_rows = 40.0;  // of a programme without memory
 
 // The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
 enum class Part { whole, half, quarter };
@@ -51,15 +55,18 @@ Part part_of(const Scenario& scenario, const scenario::Cuboid& box) {
 
 class Refinement {
  public:
-  Refinement(const scenario::Case& one, const scenario::Family& family)
+  Refinement(const scenario::Case& one, const scenario::Family& family, int levels)
       : family_(family),
+        levels_(levels),
         case_(one),
         given_(scene::choose(one).chosen),
         found_(scene::estimate(given_)) {
+    dynamic_ = moves();
     refuse();
     const auto* box = std::get_if<scenario::Cuboid>(&case_.scenario.tissue.shape);
-    resolved_ =
-        box != nullptr && case_.scenario.regions.empty() && case_.scenario.finger.spheres == 1;
+    resolved_ = box != nullptr && case_.scenario.regions.empty() &&
+                case_.scenario.finger.spheres == 1 &&
+                (dynamic_ || case_.scenario.contact.coupling == Coupling::resolved);
     strengthen();
     if (resolved_) cut(std::get<scenario::Cuboid>(case_.scenario.tissue.shape));
   }
@@ -81,6 +88,8 @@ class Refinement {
                      : static_cast<double>(coarsest) / (coarsest + level);
   }
   [[nodiscard]] bool resolved() const { return resolved_; }
+  // Whether the meshes follow the error that they state.
+  [[nodiscard]] bool follows_error() const { return !resolved_ && !dynamic_; }
   [[nodiscard]] Part part() const { return part_; }
   [[nodiscard]] bool dynamic() const { return dynamic_; }
   [[nodiscard]] const Scenario& scenario() const { return case_.scenario; }
@@ -98,18 +107,23 @@ class Refinement {
     if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
       refuse_at("tissue.shape",
                 "a `half_space` has no mesh to refine; on it `hertz` is exact for small depths");
-    if (std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh))
+    if (dynamic_ && std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh))
       refuse_at("tissue.mesh",
-                "a ready mesh cannot be refined; give the shape, and let `palpate` mesh it");
+                "a ready mesh is not refined where inertia matters; give the shape, and let "
+                "`palpate` mesh it");
     refuse_forces(family_, scenario.steps,
                   "a step to a force ends elsewhere on every mesh; give a travel");
+  }
+
+  [[nodiscard]] bool moves() const {
+    const scenario::Solver& solver = case_.scenario.solver;
+    return solver.integrator ? about(*solver.integrator).inertia
+                             : found_.inertia >= solver.tolerance;
   }
 
   void strengthen() {
     Scenario& scenario = case_.scenario;
     scenario::Solver& solver = scenario.solver;
-    dynamic_ =
-        solver.integrator ? about(*solver.integrator).inertia : found_.inertia >= solver.tolerance;
     // A contact without viscosity gives the force of the relaxed tissue. In the couplings of the
     // reference the mesh's viscosity would change it.
     if (scenario.contact.viscosity == scenario::Contact::Viscosity::none &&
@@ -150,6 +164,11 @@ class Refinement {
     const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
     if (resolved_) {
       scenario.tissue.mesh = graded(*box, level);
+    } else if (!dynamic_) {
+      scenario::Refinement& refinement = scenario::refinement(scenario.tissue.mesh);
+      refinement = {.refine = true, .most_nodes = most_nodes};
+      // A mesh is refined until its error is below half of the tolerance.
+      scenario.solver.tolerance = 2.0 * last_error * std::pow(finer_error, levels_ - 1 - level);
     } else if (box != nullptr && scenario.regions.empty()) {
       const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / first_nodes);
       scenario::Mirrored cells;
@@ -204,6 +223,7 @@ class Refinement {
   }
 
   const scenario::Family& family_;
+  int levels_;
   scenario::Case case_;       // changed for the refinement
   scenario::Resolved given_;  // the original scenario
   scene::Estimates found_;
@@ -214,10 +234,9 @@ class Refinement {
 
 void remark(const Refinement& refinement, Reference& reference) {
   const Scenario& scenario = refinement.scenario();
-  std::string how = refinement.resolved()
-                        ? "coupled springs, contact resolved node by node"
-                        : "coupled springs with `consistent` contact, because this is not one "
-                          "sphere on a cuboid of one tissue";
+  std::string how = refinement.resolved() ? "coupled springs, contact resolved node by node"
+                                          : "coupled springs with `consistent` contact";
+  if (refinement.follows_error()) how += ", on meshes refined where their own error comes from";
   if (refinement.part() != Part::whole)
     how += refinement.part() == Part::quarter ? ", on a quarter of the body, by symmetry"
                                               : ", on half of the body, by symmetry";
@@ -251,7 +270,7 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
                 const std::atomic<bool>& stop,
                 const std::function<void(const std::string&)>& told) {
   using Direction = scenario::Contact::Direction;
-  Refinement refinement(one, family);
+  Refinement refinement(one, family, levels);
   Reference reference;
   std::vector<double> spacings;
   const auto run_level = [&](int level, Direction direction) {
@@ -272,11 +291,20 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
       for (const record::ContactRow& row : record.contact)
         reference.rows.push_back(
             {.step = row.step, .time = row.time, .travel = row.travel, .slide = row.slide});
-    for (std::size_t i = 0; i < std::min(record.contact.size(), reference.rows.size()); ++i)
-      reference.rows[i].forces.push_back(factor * record.contact[i].contact_force);
+    for (std::size_t i = 0; i < std::min(record.contact.size(), reference.rows.size()); ++i) {
+      ReferenceRow& row = reference.rows[i];
+      row.forces.push_back(factor * record.contact[i].contact_force);
+      row.error = record.contact[i].mesh_error * row.forces.back();
+    }
   }
   if (reference.diverged) return reference;
   for (ReferenceRow& row : reference.rows) {
+    if (refinement.follows_error()) {
+      // The last mesh states its error, which is not less than what the last refinement changed.
+      row.force = row.forces.back();
+      row.error = std::max(row.error, std::abs(row.force - row.forces[row.forces.size() - 2]));
+      continue;
+    }
     const Extrapolated found = extrapolate(spacings, row.forces);
     row.force = found.value;
     row.error = found.error;

@@ -31,12 +31,15 @@ struct Reference {
 };
 
 // Computes the reference with coupled springs and volumes averaged at nodes, on `levels` (2 or
-// more) meshes: with `resolved` contact on graded cells if one sphere presses a cuboid of one
-// tissue (only a half or a quarter of it if the scene is symmetric), otherwise with `consistent`
-// contact. Quasi-static, unless the scenario names an integrator with inertia or inertia reaches
-// the tolerance; then by backward differences whose steps shrink with the cells. `told` is called
-// with a sentence before every level. Throws InputError if there is nothing to refine (uniform
-// tests, half-spaces, ready meshes, steps to a force), and like scene::build().
+// more) meshes. Without inertia, with `consistent` contact on meshes that are refined where their
+// error comes from, each level to a third of the stated error of the one before; the error of the
+// last, or the change by it, is the reference's. With `resolved` contact, if the scenario asks for
+// it or inertia matters, on graded cells if one sphere presses a cuboid of one tissue (only a half
+// or a quarter of it if the scene is symmetric), extrapolated. Quasi-static, unless the scenario
+// names an integrator with inertia or inertia reaches the tolerance; then by backward differences
+// whose steps shrink with the cells. `told` is called with a sentence before every level. Throws
+// InputError if there is nothing to refine (uniform tests, half-spaces, ready meshes that move,
+// steps to a force), and like scene::build().
 //                                                                         docs/theory.md (77), (78)
 [[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
                               const std::atomic<bool>& stop,
