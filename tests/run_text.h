@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "run/family.h"
+#include "run/refined_mesh.h"
 #include "scene_text.h"
 
 namespace palpate::test {
@@ -18,7 +19,8 @@ inline record::CaseRecord run_scene(const scene::Scene& scene) {
 }
 
 inline record::CaseRecord run_text(const std::string& text, const Settings& settings = {}) {
-  return run_scene(scene_of(text, settings));
+  const scenario::Family family = scenario::parse(text, "test.toml", settings);
+  return run_scene(run::build_scene(family.cases.front(), family));
 }
 
 inline record::Cell finding(const record::CaseRecord& record, const std::string& name) {

@@ -131,8 +131,10 @@ void BodySinking::add(const contact::Patch& patch, double part, Value& value) {
   for (const auto& [place, own] : shares_) {
     if (place == nullptr) continue;
     const double weight = part * own;
+    // Beyond the table the value levels off, with a slope that begins as the polynomial's ends.
     const double ratio = patch.radius() / largest_;
     const double x = std::min(ratio, steps.back());
+    const double fading = std::exp(x - ratio);
     for (std::size_t k = 0; k < radii; ++k) {
       // Lagrange's polynomial of the k-th radius, and its derivative.
       double product = 1.0;
@@ -143,8 +145,8 @@ void BodySinking::add(const contact::Patch& patch, double part, Value& value) {
         slope = (slope * (x - steps[j]) + product) / gap;
         product *= (x - steps[j]) / gap;
       }
-      value.sinking += weight * product * place->sinking[k];
-      if (ratio <= steps.back()) value.slope += weight * slope / largest_ * place->sinking[k];
+      value.sinking += weight * (product + slope * (1.0 - fading)) * place->sinking[k];
+      value.slope += weight * slope * fading / largest_ * place->sinking[k];
       value.error += weight * product * place->error[k];
       value.boundary += weight * product * place->boundary[k];
     }

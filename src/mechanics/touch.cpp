@@ -13,6 +13,10 @@ namespace {
 // force. Measured on the bodies of docs/accuracy.md.                        docs/theory.md (12)
 constexpr double stated_share = 0.5;
 
+// What a mesh leaves open even where e is zero: the curvature read from its skin, the quadrature of
+// the loads and the interpolation over contact radii.
+constexpr double stated_least = 1e-3;
+
 }  // namespace
 
 void NodalContact::renew() {
@@ -50,7 +54,7 @@ double mesh_error(const SphereContact& contact) {
   const double stiffness = contact.law.point.stiffness(contact.depth);
   const double share = stiffness / (1.0 + std::max(0.0, contact.compliance * stiffness));
   const double estimated = contact.sinking_error * share;
-  return estimated * (stated_share + estimated) + contact.sinking_doubt * share;
+  return stated_least + estimated * (stated_share + estimated) + contact.sinking_doubt * share;
 }
 
 const SphereContact* Touch::deepest() const {

@@ -85,8 +85,13 @@ void Bisection::cut(double z, bool outer_only) {
   } else {
     for (const auto& [a, b] : geometry::edges(mesh_)) add(a, b);
   }
-  for (const auto& [a, b] : crossing)
-    split({.a = a, .b = b}, (z - height(a)) / (height(b) - height(a)), &z);
+  // On the boundary alone, a node as near as this counts as in the plane, and no sliver is cut.
+  constexpr double in_plane = 0.02;  // of an edge
+  for (const auto& [a, b] : crossing) {
+    const double share = (z - height(a)) / (height(b) - height(a));
+    if (outer_only && std::min(share, 1.0 - share) < in_plane) continue;
+    split({.a = a, .b = b}, share, &z);
+  }
 }
 
 // The new node is at `share` of the edge and, if given, at `height`.

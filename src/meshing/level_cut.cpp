@@ -15,8 +15,10 @@
 namespace palpate::meshing {
 namespace {
 
-constexpr double near_part = 0.25;    // of an edge, from a node to the plane
-constexpr double least_volume = 0.2;  // of a tetrahedron, that moving a node leaves
+// The part of an edge from a node to the plane, up to which the node is moved.
+constexpr double near_part = 0.25;
+constexpr double near_part_on_skin = 0.5;  // needs no new nodes where nodes are free to move
+constexpr double least_volume = 0.2;       // of a tetrahedron, that moving a node leaves
 
 // How freely a node may move, and along which edges.
 enum class Freedom { everywhere, skin, crease, fixed };
@@ -65,11 +67,12 @@ void snap(geometry::TetMesh& mesh, double z, bool outer_only,
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
     for (const int node : mesh.tetrahedra[t]) at[as_index(node)].push_back(static_cast<int>(t));
   struct Move {
-    double share = near_part;  // of an edge, to the plane
+    double share = 0.0;  // of an edge, to the plane
     Vec3 to = Vec3::Zero();
     bool found = false;
   };
-  std::vector<Move> moves(mesh.nodes.size());
+  std::vector<Move> moves(mesh.nodes.size(),
+                          Move{.share = outer_only ? near_part_on_skin : near_part});
   for (const auto& edge : geometry::edges(mesh)) {
     const auto outer = borders.edges.find(edge);
     const Freedom along = outer != borders.edges.end() ? outer->second : Freedom::everywhere;

@@ -108,6 +108,11 @@ class Press {
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "
           "side it touched");
+    if (folded_at_ >= 0.0)
+      record_.remarks.push_back(
+          "at a travel of " + quantity_text(folded_at_, unit::mm) +
+          " a tetrahedron of the computed displacement turns inside out; the force does not depend "
+          "on it, but pictures of the deformed mesh are wrong from there on");
     if (nearly_conforming_)
       record_.remarks.push_back(
           "the tissue is hollow beyond half the finger's curvature where it was pressed: the "
@@ -157,7 +162,13 @@ class Press {
       }
       time_ = start + pace.time(row + 1, 0);
       write_row();
-      if (mesh_ && mesh_->inverted()) return diverged("a tetrahedron has turned inside out");
+      if (mesh_ && folded_at_ < 0.0 && mesh_->inverted()) {
+        if (!mesh_->forces_follow_finger())
+          return diverged(
+              "a tetrahedron has turned inside out; press less deep, or set `solver.kinematics = "
+              "\"nonlinear\"` or larger cells in `tissue.mesh`");
+        folded_at_ = touch_.travel;
+      }
     }
     if (to_force) return diverged("the force of the step was not reached");
     return true;
@@ -282,6 +293,7 @@ class Press {
       Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
   mechanics::Touch touch_;
   double kept_force_ = 0.0;       // N, during a slide
+  double folded_at_ = -1.0;       // m, travel with the first inverted tetrahedron; below 0: none
   double edge_share_ = 0.0;       // largest ratio of edge reaction to contact force
   double deepest_sinking_ = 0.0;  // m, with `contact.spread = "nearest_node"`
   double time_ = 0.0;

@@ -118,7 +118,7 @@ class Surroundings {
 
   // Marks with 1.
   [[nodiscard]] std::vector<char> too_wide(const geometry::TetMesh& mesh) const {
-    constexpr double widest = 0.7;  // longest edge over the distance
+    constexpr double widest = 0.9;  // longest edge over the distance
     std::vector<char> marks(mesh.tetrahedra.size(), 0);
     for (std::size_t t = 0; t < marks.size(); ++t) {
       const auto node = [&](int k) -> const Vec3& {

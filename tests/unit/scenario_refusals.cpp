@@ -23,8 +23,8 @@ TEST(Refusals, UnknownKeys) {
       {"[tissue]\nmesh = { kind = \"kuhn\", cels = [1, 2, 3] }\n",
        "press.toml:5:25: `cels` is not a key here; did you mean `cells`?"},
       {"[tissue]\nmesh = { kind = \"tetgen\", cells = [1, 2, 3] }\n",
-       "press.toml:5:27: `cells` is not a key here; known keys: edge, kind, nodes, "
-       "tetrahedra"},
+       "press.toml:5:27: `cells` is not a key here; known keys: edge, kind, "
+       "most_nodes, nodes, refine, tetrahedra"},
       {"rat = \"5 mm/s\"\n", "press.toml:4:1: `rat` is not a key here; did you mean `rate`?"},
       {"[[step]]\nkind = \"hold\"\nrate = \"5 mm/s\"\n",
        "press.toml:6:1: `rate` is not a key here; known keys: kind, time"},

@@ -201,19 +201,31 @@ TEST(Regions, OfALimbAreMuscleAndBoneUnlessTheScenarioHasItsOwn) {
   EXPECT_EQ(read_one(press + limb + "[[region]]\ntag = 2\n").regions.size(), 1U);
 }
 
+// Without a mesh of the scenario's own, the mesh suits the body and is refined.
+TEST(Meshes, SuitTheBodyByDefault) {
+  const auto nodes_wanted = [](const std::string& text) {
+    const Scenario scenario = read_one(press + text);
+    const auto* mesh = std::get_if<Tetgen>(&scenario.tissue.mesh);
+    return mesh != nullptr ? mesh->nodes : 0;
+  };
+  const auto refined = [](const std::string& text) {
+    const Scenario scenario = read_one(press + text);
+    return refinement(scenario.tissue.mesh).refine;
+  };
+  EXPECT_EQ(nodes_wanted(""), 0);
+  EXPECT_EQ(nodes_wanted("[[region]]\nkind = \"sphere\"\n"), 728);
+  EXPECT_EQ(nodes_wanted("[tissue]\nshape = { kind = \"ellipsoid\" }\n"), 728);
+  EXPECT_TRUE(refined(""));
+  EXPECT_TRUE(refined("[tissue]\nshape = { kind = \"ellipsoid\" }\n"));
+  EXPECT_FALSE(refined("[tissue]\nmesh = { kind = \"tetgen\", nodes = 400 }\n"));
+  EXPECT_TRUE(refined("[tissue]\nmesh = { kind = \"mirrored\", refine = true }\n"));
+}
+
 TEST(Regions, AreRefusedAtTheirPlace) {
   expect_refused({
-      {"[[region]]\nkind = \"sphere\"\n",
-       "press.toml:1:1: a `sphere` region is meshed by TetGen only; set `tissue.mesh = { kind = "
-       "\"tetgen\", nodes = 1500 }`"},
       {"[tissue]\nmesh = { kind = \"mirrored\" }\n[[region]]\nkind = \"sphere\"\n",
        "press.toml:5:8: a `sphere` region is meshed by TetGen only; set `tissue.mesh = { kind = "
        "\"tetgen\", nodes = 1500 }`"},
-      {"[[region]]\nkind = \"slab\"\n[tissue]\nmesh = { kind = \"tetgen\", nodes = 300 }\n",
-       "press.toml:4:1: a `slab` lies in a `cuboid` of `kuhn` or `mirrored` cells only; set "
-       "`tissue.mesh = { kind = \"mirrored\", cells = [8, 8, 8] }`, or mesh the layers yourself "
-       "and "
-       "name them by `tag`"},
       {"[[region]]\nkind = \"slab\"\nbottom = \"10 mm\"\n",
        "press.toml:4:1: `top` is not above `bottom`; exchange the two"},
       {"[[region]]\nkind = \"slab\"\ntop = \"30 mm\"\n",

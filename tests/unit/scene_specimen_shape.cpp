@@ -108,7 +108,7 @@ TEST(SpecimenShapes, are_apart_where_the_mesh_differs) {
 TEST(SpecimenShapes, refuse_each_time_they_are_asked) {
   scenario::Resolved lost = resolved(family_of("").cases.front());
   lost.tissue.shape = scenario::AsMeshed{};
-  lost.tissue.mesh = scenario::MeshFile{"none.msh", "mm"};
+  lost.tissue.mesh = scenario::MeshFile{{}, "none.msh", "mm"};
   scene::SpecimenShapes shapes;
   for (int i = 0; i < 2; ++i) EXPECT_THROW((void)shapes.shape(lost, "/nowhere"), std::exception);
 }
