@@ -272,6 +272,7 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
   using Direction = scenario::Contact::Direction;
   Refinement refinement(one, family, levels);
   Reference reference;
+  reference.moves = refinement.dynamic();
   std::vector<double> spacings;
   const auto run_level = [&](int level, Direction direction) {
     const scene::Scene scene = refinement.build(level, direction);

@@ -26,6 +26,7 @@ struct ReferenceRow {
 
 struct Reference {
   std::vector<ReferenceRow> rows;
+  bool moves = false;                   // with the tissue's inertia
   std::vector<std::string> remarks;     // sentences on the method and the remaining error
   std::optional<std::string> diverged;  // the reason why a level could not be completed
 };

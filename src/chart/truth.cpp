@@ -20,8 +20,8 @@ namespace {
 using Settings = std::vector<std::string>;
 using scenario::Model;
 
-// Refined meshes are not more accurate than this, in a thousand times the time: docs/accuracy.md.
-constexpr double refined_error = 0.03;
+// Meshes that follow their error state about this.
+constexpr double refined_error = 0.004;
 constexpr double most_moments = 20.0;          // of a press without memory
 constexpr double most_moments_in_time = 50.0;  // of a press with viscosity or inertia
 
@@ -120,14 +120,20 @@ class Finder {
     Truth truth{"refined", "", {}};
     double turned = 0.0;
     double peak = 0.0;
+    const double waves = reference.moves ? 0.0 : found.inertia;
     for (const chart::ReferenceRow& row : reference.rows) {
-      truth.moments.push_back({row.step, row.time, row.force, row.error});
+      truth.moments.push_back(
+          {row.step, row.time, row.force, row.error + waves * std::abs(row.force)});
       peak = std::max(peak, row.force);
       turned = std::max(turned, std::abs(row.by_sphere - 1.0) * row.force);
     }
-    truth.sentence = "coupled springs on three meshes, extrapolated (`palpate reference`)";
+    truth.sentence = reference.moves
+                         ? "coupled springs on three meshes, extrapolated (`palpate reference`)"
+                         : "coupled springs on meshes that follow their error (`palpate "
+                           "reference`); the estimated effect of inertia is " +
+                               percent_text(waves);
     const double own = own_error(scenario_, truth.moments).greatest;
-    truth.sentence += "; further refinement may change " + percent_text(own);
+    truth.sentence += "; its own error is about " + percent_text(own);
     if (turned > 0.0 && peak > 0.0)
       truth.sentence += ", and the choice of the pressure's direction at this depth " +
                         percent_text(turned / peak) + ", which is not included";
