@@ -293,6 +293,7 @@ class Explanation {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
+    if (!specimen.remark.empty()) line("  surface      " + specimen.remark);
     if (const auto error = run::mesh_error(scene_))
       line("  mesh error   about " + percent_text(*error) +
            " of the force at the deepest travel, estimated on this mesh");

@@ -60,11 +60,7 @@ class Findings {
     const double table_modulus = scene_.scenario.tissue.young_modulus;
     const double modulus = specimen.measured.young_modulus;
     add("nodes", static_cast<double>(specimen.network.nodes()));
-    const auto* asked = std::get_if<scenario::Tetgen>(&scene_.scenario.tissue.mesh);
-    if (asked != nullptr && !asked->edge && specimen.network.nodes() > 1.25 * asked->nodes)
-      remark("the mesh has " + std::to_string(specimen.network.nodes()) + " nodes instead of " +
-             std::to_string(asked->nodes) +
-             ", because it keeps the surface's vertices; a coarser surface is computed faster");
+    if (!specimen.remark.empty()) remark(specimen.remark);
     add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
     add("springs", static_cast<double>(specimen.network.springs()));
     add("young_modulus_kPa", unit::kPa.from_si(table_modulus));

@@ -247,6 +247,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   }
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height);
   specimen->skin = shape.skin;
+  specimen->remark = shape.remark;
   specimen->surface.emplace(shape.surface);
   return specimen;
 }

@@ -102,9 +102,10 @@ struct Specimen {
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
-  tissue::Uniaxial measured;               // E and nu of the network with the tissue everywhere
-  tissue::Uniaxial pressed;                // response to platens, for a uniform test
-  std::vector<char> held;                  // in a press and in creep
+  std::string remark;         // a sentence on a surface file whose triangles were changed; or empty
+  tissue::Uniaxial measured;  // E and nu of the network with the tissue everywhere
+  tissue::Uniaxial pressed;   // response to platens, for a uniform test
+  std::vector<char> held;     // in a press and in creep
   std::vector<char> held_between_platens;  // in relaxation
   TimePlan plan;
 

@@ -26,7 +26,7 @@ double flat_area(const geometry::Skin& skin, double z, double tolerance) {
 }
 
 SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
-  geometry::TetMesh mesh = specimen_mesh(scenario, folder);
+  auto [mesh, remark] = specimen_mesh(scenario, folder);
   geometry::Skin skin = geometry::skin(mesh);
   double low = mesh.nodes.front().z();
   double high = low;
@@ -38,7 +38,7 @@ SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
   const double top_area = flat_area(skin, high, flat);
   const double bottom_area = flat_area(skin, low, flat);
   return {std::move(mesh), std::move(skin.nodes), geometry::SmoothSurface(std::move(skin.surface)),
-          top_area, bottom_area};
+          top_area,        bottom_area,           std::move(remark)};
 }
 
 // Whether the mesh depends on the finger's position: graded lattices are finer under the finger.

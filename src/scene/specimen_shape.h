@@ -22,6 +22,7 @@ struct SpecimenShape {
   geometry::SmoothSurface surface;
   double top_area = 0.0;     // m^2, of the flat upper end; 0 if there is none
   double bottom_area = 0.0;  // m^2
+  std::string remark;        // of SpecimenMesh
 };
 
 // The keys on which a scenario's SpecimenShape depends, with their values: scenarios with equal
