@@ -24,6 +24,10 @@ double towards_ends(double y, double length) {
   return part * part;
 }
 
+Section limb_section(const LayeredLimb& limb, double y) {
+  return {0.0, limb.radius + (limb.end_radius - limb.radius) * (y / limb.length)};
+}
+
 Body one_part(Surface surface) { return {{{std::move(surface), 0}}}; }
 
 Body one_part(const Sweep& sweep, const Spacing& spacing) {
@@ -41,33 +45,17 @@ struct Sampler {
     return one_part(box_surface(cuboid.size, cells));
   }
 
-  Body operator()(const Cylinder& cylinder) const {
-    const auto section = [=](double) { return Section{0.0, cylinder.radius}; };
-    return one_part({cylinder.length, cylinder.radius, cylinder.radius, {section}}, spacing);
-  }
-
   Body operator()(const Ellipsoid& ellipsoid) const {
     return one_part(ellipsoid_surface(0.5 * ellipsoid.size, ellipsoid.size, spacing.outer));
   }
 
+  Body operator()(const Cylinder& cylinder) const {
+    return one_part(*outer_sweep(cylinder), spacing);
+  }
+  Body operator()(const BoneShaft& bone) const { return one_part(*outer_sweep(bone), spacing); }
   Body operator()(const Ligament& ligament) const {
     assert(ligament.width > ligament.thickness);
-    const auto section = [=](double y) {
-      const double factor = 1.0 + (ligament_ends - 1.0) * towards_ends(y, ligament.length);
-      return Section{0.5 * factor * (ligament.width - ligament.thickness),
-                     0.5 * factor * ligament.thickness};
-    };
-    const Vec3 middle = 0.5 * extent(ligament);
-    return one_part({ligament.length, middle.x(), middle.z(), {section}}, spacing);
-  }
-
-  Body operator()(const BoneShaft& bone) const {
-    const auto section = [=](double y) {
-      const double part = towards_ends(y, bone.length);
-      return Section{0.0, bone.radius + (bone.end_radius - bone.radius) * part * part};
-    };
-    const Vec3 middle = 0.5 * extent(bone);
-    return one_part({bone.length, middle.x(), middle.z(), {section}}, spacing);
+    return one_part(*outer_sweep(ligament), spacing);
   }
 
   Body operator()(const LayeredLimb& limb) const {
@@ -77,18 +65,15 @@ struct Sampler {
                       " mm has no room for muscle between a skin of " +
                       rounded_text(1e3 * limb.skin_thickness) + " mm and a bone of radius " +
                       rounded_text(1e3 * limb.bone_radius) + " mm; make one of them thinner");
-    const auto inset = [=](double depth) {
-      return [=](double y) {
-        return Section{0.0,
-                       limb.radius + (limb.end_radius - limb.radius) * (y / limb.length) - depth};
-      };
-    };
     const bool skin = limb.skin_thickness > 0.0;
-    const Vec3 middle = 0.5 * extent(limb);
-    Sweep sweep{limb.length, middle.x(), middle.z(), {inset(0.0)}};
+    Sweep sweep = *outer_sweep(limb);
     std::vector<int> regions{skin ? 0 : 1};
     if (skin) {
-      sweep.sections.push_back(inset(limb.skin_thickness));
+      sweep.sections.push_back([=](double y) {
+        Section section = limb_section(limb, y);
+        section.radius -= limb.skin_thickness;
+        return section;
+      });
       regions.push_back(1);
     }
     if (limb.bone_radius > 0.0) {
@@ -108,6 +93,33 @@ struct Sampler {
     for (std::size_t s = 0; s < surfaces.size(); ++s)
       body.parts.push_back({std::move(surfaces[s]), regions[s]});
     return body;
+  }
+};
+
+// The outermost section of each shape along y.
+struct Outline {
+  using Function = std::function<Section(double)>;
+
+  Function operator()(const Cuboid&) const { return {}; }
+  Function operator()(const Ellipsoid&) const { return {}; }
+  Function operator()(const Cylinder& cylinder) const {
+    return [=](double) { return Section{0.0, cylinder.radius}; };
+  }
+  Function operator()(const Ligament& ligament) const {
+    return [=](double y) {
+      const double factor = 1.0 + (ligament_ends - 1.0) * towards_ends(y, ligament.length);
+      return Section{0.5 * factor * (ligament.width - ligament.thickness),
+                     0.5 * factor * ligament.thickness};
+    };
+  }
+  Function operator()(const BoneShaft& bone) const {
+    return [=](double y) {
+      const double part = towards_ends(y, bone.length);
+      return Section{0.0, bone.radius + (bone.end_radius - bone.radius) * part * part};
+    };
+  }
+  Function operator()(const LayeredLimb& limb) const {
+    return [=](double y) { return limb_section(limb, y); };
   }
 };
 
@@ -135,6 +147,13 @@ struct Extent {
 Body sampled(const Shape& shape, const Spacing& spacing) {
   assert(spacing.outer > 0.0 && spacing.inner > 0.0);
   return std::visit(Sampler{spacing}, shape);
+}
+
+std::optional<Sweep> outer_sweep(const Shape& shape) {
+  const auto section = std::visit(Outline{}, shape);
+  if (!section) return std::nullopt;
+  const Vec3 size = extent(shape);
+  return Sweep{size.y(), 0.5 * size.x(), 0.5 * size.z(), {section}};
 }
 
 Vec3 extent(const Shape& shape) { return std::visit(Extent{}, shape); }

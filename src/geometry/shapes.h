@@ -1,6 +1,7 @@
 // The shapes that a scenario can name instead of a file, and their surfaces.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "geometry/body.h"
@@ -59,6 +60,9 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, Lay
 // the enclosed volume is slightly too small where the shape is round. Throws MeshError for a limb
 // whose bone and skin leave no room for muscle.
 [[nodiscard]] Body sampled(const Shape& shape, const Spacing& spacing);
+
+// The outermost surface of a shape along y as a sweep; empty for a cuboid and an ellipsoid.
+[[nodiscard]] std::optional<Sweep> outer_sweep(const Shape& shape);
 
 // The size of the shape's bounding box along x, y and z, m.
 [[nodiscard]] Vec3 extent(const Shape& shape);

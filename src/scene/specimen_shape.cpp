@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/error.h"
 #include "base/field_writer.h"
 #include "geometry/surface.h"
 #include "scene/specimen_mesh.h"
@@ -93,6 +94,24 @@ const tissue::SpringFit& SpecimenShapes::fit(const Scenario& scenario, const std
   const std::lock_guard lock(known.building);
   if (!known.fit) known.fit = std::make_unique<tissue::SpringFit>(tissue::fit_springs(mesh));
   return *known.fit;
+}
+
+const SpecimenShapes::FileSurface& SpecimenShapes::surface(const scenario::SurfaceFile& file,
+                                                           const std::string& folder) {
+  FileSurface& known = [&]() -> FileSurface& {
+    const std::lock_guard lock(looking_up_);
+    return surfaces_[folder + "\n" + file.file + "\n" + file.unit];
+  }();
+  const std::lock_guard lock(known.reading);
+  if (known.surface || !known.fault.empty()) return known;
+  try {
+    known.surface.emplace(surface_of(file, folder));
+  } catch (const MeshError& error) {
+    known.fault = error.what();
+  } catch (const InputError& error) {
+    known.fault = error.what();
+  }
+  return known;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,15 @@ class SpecimenShapes {
   [[nodiscard]] const tissue::SpringFit& fit(const scenario::Resolved& scenario,
                                              const std::string& folder);
 
+  // The surface of a file for closed forms, or a sentence on why there is none.
+  struct FileSurface {
+    std::mutex reading;
+    std::optional<geometry::SmoothSurface> surface;
+    std::string fault;
+  };
+  [[nodiscard]] const FileSurface& surface(const scenario::SurfaceFile& file,
+                                           const std::string& folder);
+
   // The number of shapes.
   [[nodiscard]] std::size_t size();
 
@@ -59,6 +69,7 @@ class SpecimenShapes {
 
   std::mutex looking_up_;
   std::map<std::string, Entry> entries_;
+  std::map<std::string, FileSurface> surfaces_;  // by path and unit
 
   std::mutex looking_up_layer_;
   std::map<std::vector<double>, contact::LayerLaw> laws_;  // by all numbers of the layer
