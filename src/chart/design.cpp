@@ -13,6 +13,7 @@
 #include "scenario/words.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
+#include "scene/specimen_shape.h"
 
 namespace palpate::chart {
 namespace {
@@ -158,7 +159,7 @@ class Designer {
     try {
       const auto family = with_settings(asked_, case_, settings);
       const scenario::Case& one = family.cases.front();
-      Scenario chosen = scenario::answered(one, scene::choose(one).chosen);
+      Scenario chosen = scenario::answered(one, scene::choose(one, shapes_).chosen);
       return fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, chosen); });
     } catch (const InputError&) {
       return joined(settings, "\n");
@@ -184,7 +185,7 @@ class Designer {
       add("rung x coupling", word_of(model) + ", " + coupling,
           joined_to(rung(model), {"contact.coupling=" + coupling}));
     }
-    const std::string mesh = graded(base_, scene::estimate(scene::choose(one_).chosen));
+    const std::string mesh = graded(base_, scene::estimate(scene::choose(one_)));
     if (!mesh.empty())
       add("rung x coupling", word_of(model) + ", resolved on graded cells",
           joined_to(rung(model), {"contact.coupling=resolved", mesh}));
@@ -240,6 +241,7 @@ class Designer {
   std::string integrator_;
   std::vector<Variant> variants_;
   std::set<std::string> seen_;
+  mutable scene::SpecimenShapes shapes_;  // surface files, read once
 };
 
 void refuse_own_keys(const scenario::Family& family) {
@@ -284,7 +286,7 @@ Integrator base_integrator(const scenario::Case& one) {
   if (solver.integrator) return *solver.integrator;
   const bool drag = scenario.tissue.viscosity == tissue::Viscosity::nodal_drag;
   if (scenario.uniform() || drag) return Integrator::central_difference;
-  return scene::estimate(scene::choose(one).chosen).inertia < solver.tolerance
+  return scene::estimate(scene::choose(one)).inertia < solver.tolerance
              ? Integrator::quasi_static
              : Integrator::central_difference;
 }

@@ -59,8 +59,9 @@ class Refinement {
       : family_(family),
         levels_(levels),
         case_(one),
-        given_(scene::choose(one).chosen),
-        found_(scene::estimate(given_)) {
+        choice_(scene::choose(one)),
+        given_(choice_.chosen),
+        found_(scene::estimate(choice_)) {
     dynamic_ = moves();
     refuse();
     const auto* box = std::get_if<scenario::Cuboid>(&case_.scenario.tissue.shape);
@@ -224,8 +225,9 @@ class Refinement {
 
   const scenario::Family& family_;
   int levels_;
-  scenario::Case case_;       // changed for the refinement
-  scenario::Resolved given_;  // the original scenario
+  scenario::Case case_;  // changed for the refinement
+  scene::Choice choice_;
+  const scenario::Resolved& given_;  // the original scenario
   scene::Estimates found_;
   bool resolved_ = false;
   bool dynamic_ = false;

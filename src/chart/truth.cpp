@@ -32,17 +32,19 @@ class Finder {
       : asked_(asked),
         case_(of_case),
         one_(asked.family.cases[of_case]),
-        scenario_(scene::choose(one_).chosen),
+        choice_(scene::choose(one_)),
+        scenario_(choice_.chosen),
         stop_(stop),
         told_(told) {}
 
   std::optional<Truth> find() {
     if (scenario_.uniform()) return uniform();
-    const scene::Estimates found = scene::estimate(scenario_);
+    const scene::Estimates found = scene::estimate(choice_);
     if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
       return half_space(found);
     const double left_out = found.sides + found.inertia;
-    if (!scene::beyond(Model::layer, scenario_) && left_out <= refined_error) return layer(found);
+    if (!scene::beyond(Model::layer, scenario_, choice_.touch) && left_out <= refined_error)
+      return layer(found);
     if (!std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh)) return refined(found);
     return on_the_mesh();
   }
@@ -265,7 +267,8 @@ class Finder {
   const Asked& asked_;
   std::size_t case_;
   const scenario::Case& one_;
-  const scenario::Resolved scenario_;
+  const scene::Choice choice_;
+  const scenario::Resolved& scenario_;
   const std::atomic<bool>& stop_;
   const std::function<void(const std::string&)>& told_;
   mutable int nodes_ = 0;  // of the last run

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -130,13 +131,11 @@ class Explanation {
         [](const auto& one) -> std::string { return std::decay_t<decltype(one)>::word.word; },
         tissue.shape);
     if (const auto shape = scene::parametric(tissue.shape)) {
-      const Vec3 size = geometry::extent(*shape);
-      text += ", ";
-      for (int axis = 0; axis < 3; ++axis)
-        text += (axis == 0 ? "" : " x ") + rounded_text(unit::mm.from_si(size[axis]));
-      text += " mm";
+      text += ", " + size_text(geometry::extent(*shape));
     } else if (const auto* file = std::get_if<scenario::SurfaceFile>(&tissue.shape)) {
       text += " " + file->file + ", in " + file->unit;
+      if (const Vec3& size = scene_.choice.touch.size; size.allFinite())
+        text += ", " + size_text(size);
     }
     line("  shape        " + text);
     if (!scene_.specimen) {
@@ -151,12 +150,27 @@ class Explanation {
          (scene_.specimen->base == tissue::Base::bonded ? " is fixed" : " slides on the table"));
   }
 
-  // The curvature of a shape without a mesh.
+  static std::string size_text(const Vec3& size) {
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis)
+      text += (axis == 0 ? "" : " x ") + rounded_text(unit::mm.from_si(size[axis]));
+    return text + " mm";
+  }
+
+  // Where the finger touches a shape without a mesh.
   void top() {
-    const auto top = scene::top_curvature(scene_.scenario.tissue.shape);
-    if (!top || (top->kappa_1 == 0.0 && top->kappa_2 == 0.0)) return;
-    line("  top          curvatures " + rounded_text(top->kappa_1) + " and " +
-         rounded_text(top->kappa_2) + " 1/m, positive if convex");
+    const scene::SurfaceTouch& touch = scene_.choice.touch;
+    if (!touch.curved() && !touch.tilted()) return;
+    line("  top          curvatures " + rounded_text(touch.curvature.kappa_1) + " and " +
+         rounded_text(touch.curvature.kappa_2) + " 1/m, positive if convex");
+    if (!touch.size.allFinite()) return;
+    std::string at;
+    for (int axis = 0; axis < 3; ++axis)
+      at += (axis == 0 ? "" : ", ") + rounded_text(unit::mm.from_si(touch.position[axis]));
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    line("               at (" + at + ") mm, where the surface is inclined by " +
+         rounded_text(degrees * std::acos(std::min(1.0, touch.curvature.normal.z())), 3) +
+         " degrees");
   }
 
   void regions() {
@@ -293,6 +307,7 @@ class Explanation {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
+    if (!specimen.remark.empty()) line("  surface      " + specimen.remark);
     if (const auto& refined = specimen.refined; refined && refined->rounds > 0)
       line("  refined      from " + std::to_string(refined->start_nodes) + " nodes in " +
            std::to_string(refined->rounds) + (refined->rounds == 1 ? " round" : " rounds") +

@@ -20,7 +20,7 @@
 #include "meshing/mesh_quality.h"
 #include "meshing/surface_check.h"
 #include "meshing/surface_files.h"
-#include "meshing/tetgen_body.h"
+#include "meshing/tetgen_file.h"
 #include "report/vtu.h"
 #include "run/refined_mesh.h"
 #include "scene/scene.h"
@@ -118,7 +118,7 @@ void check_outputs(const Mesh& command) {
     }
 }
 
-geometry::TetMesh mesh_of_surface(const Mesh& command) {
+geometry::TetMesh mesh_of_surface(const Mesh& command, const Talk& talk) {
   meshing::Target target{.nodes = command.nodes};
   if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
   geometry::Surface surface = meshing::read_surface(command.subject, metres_per(command.unit));
@@ -127,9 +127,9 @@ geometry::TetMesh mesh_of_surface(const Mesh& command) {
   if (target.nodes == 0 && target.edge_length == 0.0)
     target.edge_length = std::sqrt(geometry::area(surface) /
                                    (0.433 * static_cast<double>(surface.triangles.size())));
-  geometry::Body body;
-  body.parts.push_back({std::move(surface), 0});
-  return meshing::tetgen_body(body, target, meshing_time);
+  auto [mesh, remark] = meshing::tetgen_file(std::move(surface), {}, target, meshing_time);
+  if (!remark.empty()) talk.say("note: " + remark);
+  return mesh;
 }
 
 // The scene of the first case.
@@ -242,13 +242,14 @@ int perform(const Mesh& command, const Arguments&, const Talk& talk) {
   geometry::TetMesh mesh;
   if (kind == Kind::scenario) {
     const scene::Scene scene = scene_of(command, talk);
+    if (!scene.specimen->remark.empty()) talk.say("note: " + scene.specimen->remark);
     mesh = scene.specimen->mesh;
     report.mesh(mesh, &scene.scenario);
     report.count("springs", as_index(scene.specimen->network.springs()));
     report.add("stable_step_ms", unit::ms.from_si(scene.specimen->plan.limit));
   } else {
     if (kind == Kind::surface) {
-      mesh = mesh_of_surface(command);
+      mesh = mesh_of_surface(command, talk);
     } else {
       mesh = meshing::read_mesh(command.subject, metres_per(command.unit));
       meshing::check(mesh, command.subject, 0.0);

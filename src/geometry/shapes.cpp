@@ -119,6 +119,17 @@ struct Sampler {
   }
 };
 
+struct OuterSweep {
+  std::optional<Sweep> operator()(const Cuboid&) const { return std::nullopt; }
+  std::optional<Sweep> operator()(const Ellipsoid&) const { return std::nullopt; }
+  template <class Bar>
+  std::optional<Sweep> operator()(const Bar& bar) const {
+    Sweep sweep = sweep_of(bar);
+    sweep.sections.resize(1);
+    return sweep;
+  }
+};
+
 // The point of the section's outline in the direction of a point from its middle.
 Vec3 outline_point(const Sweep& sweep, const Section& section, const Vec3& point) {
   const double across = point.x() - sweep.x;
@@ -180,6 +191,8 @@ Body sampled(const Shape& shape, const Spacing& spacing) {
 }
 
 Vec3 onto(const Shape& shape, const Vec3& point) { return std::visit(Onto{point}, shape); }
+
+std::optional<Sweep> outer_sweep(const Shape& shape) { return std::visit(OuterSweep{}, shape); }
 
 Vec3 extent(const Shape& shape) { return std::visit(Extent{}, shape); }
 

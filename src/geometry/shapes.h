@@ -1,6 +1,7 @@
 // The shapes that a scenario can name instead of a file, and their surfaces.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "geometry/body.h"
@@ -63,6 +64,9 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, Lay
 // The point of the shape's nearest round surface, outer or between its regions, at about `point`,
 // which is near that surface and not on the axis of a bar. Flat ends and cuboids give `point`.
 [[nodiscard]] Vec3 onto(const Shape& shape, const Vec3& point);
+
+// The outermost surface of a shape along y as a sweep; empty for a cuboid and an ellipsoid.
+[[nodiscard]] std::optional<Sweep> outer_sweep(const Shape& shape);
 
 // The size of the shape's bounding box along x, y and z, m.
 [[nodiscard]] Vec3 extent(const Shape& shape);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "contact/deep.h"
 #include "scene/scene.h"
+#include "scene/specimen_shape.h"
 
 namespace palpate::identify {
 namespace {
@@ -51,6 +52,7 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
   const scenario::Scenario& scenario = one.scenario;
   FixedRung fixed{.one = one};
   std::vector<scene::Choice> choices;
+  scene::SpecimenShapes shapes;
   std::vector<Problem> wrong;
   // Creep and relaxation tests measure the flow of a specimen, so that its waves are left out; the
   // caller checks this afterwards with inertia_of_flow().
@@ -66,7 +68,7 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
     scenario::check(at, document, problems);
     deep_known = deep_known && contact::deep_law(scenario::poisson_ratio(at)).has_value();
     if (problems.empty())
-      choices.push_back(scene::choose(at));
+      choices.push_back(scene::choose(at, shapes));
     else if (wrong.empty())
       wrong = problems;
   }

@@ -10,12 +10,8 @@ namespace palpate::mechanics {
 
 std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec3& top,
                                             Touch& touch) {
-  const auto shape = *scene::top_curvature(scene.scenario.tissue.shape);
-  geometry::Curvature curvature;
-  curvature.kappa_1 = shape.kappa_1;
-  curvature.kappa_2 = shape.kappa_2;
-  curvature.direction_1 = shape.direction_1;
-  curvature.direction_2 = Vec3::UnitZ().cross(shape.direction_1);
+  const scene::SurfaceTouch& surface = scene.choice.touch;
+  const geometry::Curvature& curvature = surface.curvature;
   auto law = contact::contact_law(scene.scenario.contact.law,
                                   {scene.finger.sphere_radius, scene.finger.sphere_modulus},
                                   curvature, scene.layer ? &*scene.layer : nullptr);
@@ -27,18 +23,19 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
     law->point.deep = scene.deep->q / round;
     law->point.deepest = contact::DeepLaw::deepest * round;
   }
-  if (touch.travel > law->point.last_depth())
+  const double radius = scene.finger.sphere_radius;
+  const auto [depth, normal] = surface.pressed(radius, touch.travel);
+  if (depth > law->point.last_depth())
     return scene.layer
                ? "the layer is too thin for this depth: its law is known up to sqrt(R h) = 3 H"
                : "the press is deeper than half the radius, where the factor for deep presses "
                  "ends; "
                  "set `contact.depth = \"hertz\"`";
-  const double radius = scene.finger.sphere_radius;
   const Vec3 before = touch.finger;
   touch.finger = top + (radius - touch.travel) * Vec3::UnitZ();
   const Vec3 move = touch.finger - before;
   // resize() reuses memory: a step in a live run allocates nothing.
-  const bool touches = touch.travel > 0.0;
+  const bool touches = depth > 0.0;
   touch.contacts.resize(touches ? scene.finger.centres.size() : 0);
   for (std::size_t i = 0; i < touch.contacts.size(); ++i) {
     SphereContact& contact = touch.contacts[i];
@@ -46,8 +43,14 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
     contact.law = *law;
     contact.patch.position = touch.finger + scene.finger.centres[i];
     contact.patch.position.z() = top.z();
+    contact.patch.normal = normal;
     contact.patch.axis = law->axis;
-    contact.approach = contact.depth = touch.travel;
+    if (surface.tilted()) {  // one sphere
+      contact.patch.position = touch.finger - (radius - depth) * normal;
+      contact.patch.axis = (law->axis - law->axis.dot(normal) * normal).normalized();
+    }
+    contact.one_sided = surface.one_sided;
+    contact.approach = contact.depth = depth;
     contact.force = law->point.force(contact.depth);
     const auto [a, b] = law->semi_axes(contact.depth);
     contact.patch.a = a;

@@ -8,8 +8,9 @@
 
 namespace palpate::mechanics {
 
-// Computes the contacts of `touch` for its travel below `top` (m), a point of the surface. The
-// depth of all spheres is the travel. Returns a sentence if the contact law does not apply.
+// Computes the contacts of `touch` for its travel below `top` (m), the lowest point of the finger
+// when it first touches. The depth of all spheres is the travel, or follows from it where the
+// surface is inclined. Returns a sentence if the contact law does not apply.
 [[nodiscard]] std::optional<std::string> press_half_space(const scene::Scene& scene,
                                                           const Vec3& top, Touch& touch);
 

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "meshing/self_intersection.h"
+#include "meshing/cgal_library.h"
 
 namespace palpate::meshing {
 namespace {
@@ -239,7 +239,7 @@ class Checker {
   }
 
   void crossings() const {
-    const auto pair = self_intersection(surface_);
+    const auto pair = cgal_library::self_intersection(surface_);
     if (pair)
       fail("faces " + std::to_string((*pair)[0]) + " and " + std::to_string((*pair)[1]) +
            " cut, touch or overlap each other" + place(corners((*pair)[0])[0]) +

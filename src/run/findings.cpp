@@ -60,13 +60,10 @@ class Findings {
     const double table_modulus = scene_.scenario.tissue.young_modulus;
     const double modulus = specimen.measured.young_modulus;
     add("nodes", static_cast<double>(specimen.network.nodes()));
-    const auto* asked = std::get_if<scenario::Tetgen>(&scene_.scenario.tissue.mesh);
-    const int start = specimen.refined ? specimen.refined->start_nodes : specimen.network.nodes();
-    if (start != specimen.network.nodes()) add("nodes_before_refining", static_cast<double>(start));
-    if (asked != nullptr && !asked->edge && start > 1.25 * asked->nodes)
-      remark("the mesh has " + std::to_string(start) + " nodes instead of " +
-             std::to_string(asked->nodes) +
-             ", because it keeps the surface's vertices; a coarser surface is computed faster");
+    if (const auto& refined = specimen.refined;
+        refined && refined->start_nodes != specimen.network.nodes())
+      add("nodes_before_refining", static_cast<double>(refined->start_nodes));
+    if (!specimen.remark.empty()) remark(specimen.remark);
     add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
     add("springs", static_cast<double>(specimen.network.springs()));
     add("young_modulus_kPa", unit::kPa.from_si(table_modulus));
@@ -170,7 +167,7 @@ class Findings {
 
   // The estimates on which the choice of the model was based, and the force to compare them with.
   void predictions(const record::ContactRow& peak) {
-    expected_ = scene::estimate(scene_.scenario);
+    expected_ = scene::estimate(scene_.scenario, scene_.choice.touch);
     add("thickness_effect", expected_.thickness);
     add("side_effect", expected_.sides);
     add("body_effect", expected_.curved_body);
@@ -180,18 +177,16 @@ class Findings {
     add("curvature_ratio", expected_.curvature_ratio);
     if (const auto* forecast = scene_.choice.taken()) add("predicted_error", forecast->error);
     if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
-    const auto top = scene::top_curvature(scene_.scenario.tissue.shape);
-    if (!top || peak.travel <= 0.0) return;
-    geometry::Curvature curvature;
-    curvature.kappa_1 = top->kappa_1;
-    curvature.kappa_2 = top->kappa_2;
-    const auto law =
-        contact::contact_law(scene_.scenario.contact.law,
-                             {scene_.finger.whole.radius, scene_.finger.whole.modulus}, curvature);
+    const scene::SurfaceTouch& touch = scene_.choice.touch;
+    if (!touch.known() || peak.travel <= 0.0) return;
+    const auto law = contact::contact_law(scene_.scenario.contact.law,
+                                          {scene_.finger.whole.radius, scene_.finger.whole.modulus},
+                                          touch.curvature);
     if (!law) return;
+    const auto [depth, normal] = touch.pressed(scene_.finger.whole.radius, peak.travel);
     if (std::isfinite(expected_.thickness))
       add("predicted_force_over_hertz", (1.0 + expected_.thickness) * (1.0 - expected_.sides));
-    add("force_over_hertz", peak.contact_force / law->point.force(peak.travel));
+    add("force_over_hertz", peak.contact_force / (normal.z() * law->point.force(depth)));
   }
 
   void validity(const record::ContactRow& peak) {

@@ -163,7 +163,9 @@ class Refining {
                         .wanted = wanted_share * press.solver.tolerance};
     const double base_level = shape.base_level;
     const auto take = [&](geometry::TetMesh mesh) {
+      std::string remark = std::move(shape.remark);
       shape = scene::shape_of(std::move(mesh), base_level);
+      shape.remark = std::move(remark);
     };
     const Surroundings around(scene_with(shape));
     for (std::vector<char> wide = around.too_wide(shape.mesh);

@@ -29,6 +29,7 @@ struct Case {
   std::vector<std::pair<std::string, std::string>>
       swept;                       // key and value, as written, without folders
   std::vector<std::string> files;  // names of the input files besides the scenario
+  std::string folder;              // of relative paths
 };
 
 // Poisson's ratio of the tissue.

@@ -177,7 +177,7 @@ Materials find_materials(const Scenario& scenario, const Node& document, Sources
       read_named_file({"mesh", "box.node", mesh->file, mesh->unit}, document, sources);
     });
   const auto* surface = std::get_if<SurfaceFile>(&scenario.tissue.shape);
-  if (surface != nullptr && readable && meshed)
+  if (surface != nullptr && readable)  // closed forms read its curvature
     attempt([&] {
       read_named_file({"shape", "leg.stl", surface->file, surface->unit}, document, sources);
     });

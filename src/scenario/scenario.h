@@ -52,7 +52,10 @@ struct HalfSpace {
   std::optional<double> curvature_2;  // 1/m, across the first; empty: the same
 };
 struct SurfaceFile {
-  static constexpr Word word{"file", "A closed surface from an STL, OBJ, PLY or OFF file."};
+  static constexpr Word word{"file",
+                             "A closed surface from an STL, OBJ, PLY or OFF file. For a mesh, "
+                             "triangles that are too fine, "
+                             "and needles, are replaced."};
   std::string file;
   std::string unit;  // symbol of a length unit
 };

@@ -75,6 +75,7 @@ Made make(const Family& family, const std::vector<Setting>& settings, Sources& s
   made.one.materials = find_materials(scenario, document, sources, problems);
   if (problems.empty()) check(made.one, document, made.together);
   made.one.files = sources.used;
+  made.one.folder = family.folder;
   return made;
 }
 

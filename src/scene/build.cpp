@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "base/text.h"
 #include "contact/hertz.h"
@@ -247,17 +246,14 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   }
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height);
   specimen->skin = shape.skin;
+  specimen->remark = shape.remark;
   specimen->surface.emplace(shape.surface);
   return specimen;
 }
 
 }  // namespace
 
-double Scene::thickness() const {
-  if (specimen) return specimen->height();
-  const auto shape = parametric(scenario.tissue.shape);
-  return shape ? geometry::extent(*shape).z() : std::numeric_limits<double>::infinity();
-}
+double Scene::thickness() const { return specimen ? specimen->height() : choice.touch.thickness; }
 
 namespace {
 
@@ -296,12 +292,16 @@ void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& 
 }
 
 // Refuses a model that cannot compute the scene, and names the most complete model that can.
-void refuse_beyond(const scenario::Resolved& scenario, const scenario::Family& family) {
-  const auto reason = beyond(scenario.solver.model, scenario);
-  if (scenario.uniform() || !reason) return;
+void refuse_beyond(const Scene& scene, const scenario::Family& family) {
+  const scenario::Resolved& scenario = scene.scenario;
+  if (scenario.uniform()) return;
+  const SurfaceTouch& touch = scene.choice.touch;
+  const auto reason = beyond(scenario.solver.model, scenario, touch);
+  if (!reason) return;
+  if (touch.nowhere) throw MeshError(*reason);
   const scenario::Rung* remedy = &scenario::strongest;
   for (const scenario::Rung& other : scenario::ladder)
-    if (!beyond(other.of, scenario)) remedy = &other;
+    if (!beyond(other.of, scenario, touch)) remedy = &other;
   throw InputError(place_of(family.document, "solver.model"),
                    "`" + std::string(scenario::rung(scenario.solver.model).word) +
                        "` cannot compute this scene: " + *reason + "; set `solver.model = \"" +
@@ -316,7 +316,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family) {
 }
 
 Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes) {
-  return build(one, family, shapes, choose(one));
+  return build(one, family, shapes, choose(one, shapes));
 }
 
 Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes,
@@ -329,7 +329,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   const scenario::Resolved& scenario = scene.scenario;
   if (!scenario.uniform()) scene.finger = make_finger(scenario);
   scene.relaxation = contact_relaxation(scenario, scene.finger);
-  refuse_beyond(scenario, family);
+  refuse_beyond(scene, family);
   switch (scenario.solver.model) {
     case Model::hertz: set_deep_factor(scene, family); break;
     case Model::layer: set_layer(scene, shapes); break;

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
-#include "scene/specimen_mesh.h"
+#include "scene/specimen_shape.h"
 #include "scene/time_plan.h"
 
 namespace palpate::scene {
@@ -59,11 +59,10 @@ constexpr double doubt = 0.4;  // relative uncertainty of the effect of the side
 // The error of cells that are coarse compared with the thickness, 0.15 (cell / thickness)^2:
 // measured on discs of 5 and 10 mm and on thin blocks. Flat layers have an exact law.
 //                                                                        docs/theory.md (69)
-double coarseness(const scenario::Resolved& scenario) {
-  const auto shape = parametric(scenario.tissue.shape);
+double coarseness(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
   const bool box = std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
-  if (!shape || (box && !scenario.regions.empty() && all_slabs(scenario))) return 0.0;
-  const Vec3 size = geometry::extent(*shape);
+  const Vec3& size = touch.size;
+  if (!size.allFinite() || (box && !scenario.regions.empty() && all_slabs(scenario))) return 0.0;
   const double cell = std::cbrt(size.prod() / expected_nodes(scenario.tissue.mesh));
   double thickness = size.z();
   if (const auto* limb = std::get_if<scenario::LayeredLimb>(&scenario.tissue.shape))
@@ -72,16 +71,18 @@ double coarseness(const scenario::Resolved& scenario) {
   return 0.15 * ratio * ratio;
 }
 
-bool coarse_mesh(const scenario::Resolved& scenario) {
-  return scenario.meshed() && coarseness(scenario) > 0.0;
+bool coarse_mesh(const Choice& choice) {
+  return choice.chosen.meshed() && coarseness(choice.chosen, choice.touch) > 0.0;
 }
 
 class Chooser {
  public:
-  explicit Chooser(const scenario::Case& one)
+  Chooser(const scenario::Case& one, SpecimenShapes& shapes)
       : case_(one),
         asked_(scenario::resolve(one, scenario::strongest.of)),
-        model_(one.scenario.solver.model.value_or(asked_.solver.model)) {}
+        model_(one.scenario.solver.model.value_or(asked_.solver.model)) {
+    if (!asked_.uniform()) choice_.touch = surface_touch(asked_, one.folder, shapes);
+  }
 
   Choice choose() {
     choice_.given = case_.scenario.solver.model.has_value();
@@ -126,10 +127,10 @@ class Chooser {
   }
 
   void pressed() {
-    const Estimates e = estimate(asked_);
+    const Estimates e = estimate(asked_, choice_.touch);
     const double limit = tolerance();
     // The reason why no formula is applicable, if none is.
-    std::optional<std::string> reason = beyond(Model::hertz, asked_);
+    std::optional<std::string> reason = beyond(Model::hertz, asked_, choice_.touch);
     const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
     if (asked_.contact.coupling == contact::Coupling::one_way && !reason) {
       ask(Asked::force_knows_mesh, 0.0, 1.0);
@@ -137,7 +138,7 @@ class Chooser {
       return;
     }
     for (const Rung& rung : scenario::ladder)
-      if (!rung.meshed() && !beyond(rung.of, asked_)) reason.reset();
+      if (!rung.meshed() && !beyond(rung.of, asked_, choice_.touch)) reason.reset();
     ask(Asked::rigid_tissue, e.tissue_share, std::min(limit, 0.02));
     // A narrow curved body reduces the force as free sides do, while the thickness increases it.
     narrow_ = std::min(0.99, e.sides + width_of_body * e.curved_body);
@@ -178,7 +179,8 @@ class Chooser {
     const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
     const double waves =
         found.inertia_matters ? (moves() ? rung.error.waves : 1.0) * e.inertia : 0.0;
-    return waves + coarseness(asked_) + rung.error.flat + rung.error.sides * e.sides +
+    return waves + coarseness(asked_, choice_.touch) + rung.error.flat +
+           rung.error.sides * e.sides +
            (box ? 0.0 : rung.error.curved + rung.error.size * e.curved_body) +
            (all_slabs(asked_) ? 0.0 : rung.error.mixed);
   }
@@ -202,7 +204,7 @@ class Chooser {
 
   void add(const Rung& rung, double error) {
     if (!asked_.uniform())
-      if (auto cannot = beyond(rung.of, asked_)) {
+      if (auto cannot = beyond(rung.of, asked_, choice_.touch)) {
         choice_.rungs.push_back({.model = rung.of, .cannot = *cannot});
         return;
       }
@@ -253,9 +255,16 @@ std::string Choice::shortfall() const {
   return "no rung is predicted to be within the tolerance of " +
          percent_text(chosen.solver.tolerance) + ": `" + scenario::rung(rung->model).word +
          "` comes nearest with about " + percent_text(rung->error) +
-         (coarse_mesh(chosen) ? "; a finer `tissue.mesh` may help" : "");
+         (coarse_mesh(*this) ? "; a finer `tissue.mesh` may help" : "");
 }
 
-Choice choose(const scenario::Case& one) { return Chooser(one).choose(); }
+Choice choose(const scenario::Case& one) {
+  SpecimenShapes shapes;
+  return choose(one, shapes);
+}
+
+Choice choose(const scenario::Case& one, SpecimenShapes& shapes) {
+  return Chooser(one, shapes).choose();
+}
 
 }  // namespace palpate::scene

@@ -9,7 +9,6 @@
 #include "contact/deep.h"
 #include "contact/hertz.h"
 #include "scenario/programme.h"
-#include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
 namespace {
@@ -74,19 +73,18 @@ double inertia_effect(const scenario::Resolved::Tissue& tissue, const contact::S
 
 }  // namespace
 
-Estimates estimate(const scenario::Resolved& scenario) {
+Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
   Estimates found;
   const scenario::Resolved::Tissue& tissue = scenario.tissue;
   const contact::Elastic body{tissue.young_modulus, tissue.poisson_ratio};
   const auto& rubber = scenario.finger.elastic;
   const double lambda_1 = rubber ? rubber->compliance() : 0.0;
   found.tissue_share = body.compliance() / (lambda_1 + body.compliance());
-  const auto top = top_curvature(tissue.shape);
   contact::SphereLaw law{scenario.finger.radius,
                          contact::hertz::effective_modulus(lambda_1, body.compliance())};
-  if (top) {
-    const double k_1 = 1.0 / law.radius + top->kappa_1;
-    const double k_2 = 1.0 / law.radius + top->kappa_2;
+  if (touch.known()) {
+    const double k_1 = 1.0 / law.radius + touch.curvature.kappa_1;
+    const double k_2 = 1.0 / law.radius + touch.curvature.kappa_2;
     if (k_2 > 0.0) {
       found.curvature_ratio = k_1 / k_2;
       law.radius = 1.0 / std::sqrt(k_1 * k_2);
@@ -97,11 +95,11 @@ Estimates estimate(const scenario::Resolved& scenario) {
   found.contact_radius = contact::hertz::contact_radius(found.travel, law.radius);
 
   const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
-  const auto shape = parametric(tissue.shape);
-  if (shape) {
+  const bool sized = touch.size.allFinite();
+  if (sized) {
     const contact::Layer layer = layers_of(scenario, found.tissue_share);
     constexpr double last_chi = 3.0;
-    found.chi = found.contact_radius / geometry::extent(*shape).z();
+    found.chi = found.contact_radius / touch.thickness;
     found.thickness =
         found.chi < last_chi
             ? contact::LayerEquation(layer, contact::layer_resolution(last_chi / layer.top()))
@@ -116,10 +114,12 @@ Estimates estimate(const scenario::Resolved& scenario) {
     for (const auto& region : scenario.regions) softest = std::min(softest, region.young_modulus);
     found.sides = found.tissue_share * tissue.young_modulus / softest *
                   side_effect(scenario, *box, found.contact_radius);
-  } else if (shape) {
+  } else if (sized) {
     // A curved body of width w is compressed as a whole, with an effect of the order a / (w/2).
-    const Vec3 size = geometry::extent(*shape);
-    found.curved_body = found.tissue_share * found.contact_radius / (0.5 * size.minCoeff());
+    // An inclined force also shears it on its base: on an ellipsoid the effect grew as 1 / cos^2.
+    const double cosine = touch.known() ? std::max(0.1, touch.curvature.normal.z()) : 1.0;
+    found.curved_body =
+        found.tissue_share * found.contact_radius / (0.5 * touch.size.minCoeff() * cosine * cosine);
   }
   const double x = found.travel / law.radius;
   if (const auto deep = contact::deep_law(tissue.poisson_ratio))

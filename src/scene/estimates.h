@@ -22,8 +22,13 @@ struct Estimates {
   double curvature_ratio = 1.0;  // (1/R + kappa_1) / (1/R + kappa_2)
 };
 
-// The estimates for a scenario with a finger.
-[[nodiscard]] Estimates estimate(const scenario::Resolved& scenario);
+// The estimates for a scenario with a finger, from what is known of the surface. Thickness and
+// width of a body from a file are those of its bounding box.
+[[nodiscard]] Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch);
+
+[[nodiscard]] inline Estimates estimate(const Choice& choice) {
+  return estimate(choice.chosen, choice.touch);
+}
 
 // The number of nodes that the mesh will have; 1000 for a ready mesh, which is not read here.
 [[nodiscard]] double expected_nodes(const scenario::Mesh& mesh);

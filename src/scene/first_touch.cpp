@@ -1,61 +1,58 @@
 // Finds the first touch by bisection between a height without contact and one with contact.
 #include "scene/first_touch.h"
 
-#include <limits>
+#include <algorithm>
+#include <vector>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "contact/detection.h"
-#include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
 
 Vec3 pressed_place(const Scene& scene) {
+  if (!scene.specimen) return scene.choice.touch.lowest;
   const scenario::PlainFinger& finger = scene.scenario.finger;
-  Vec3 low = Vec3::Zero();
-  Vec3 high = Vec3::Zero();
-  if (scene.specimen) {
-    low = scene.specimen->low;
-    high = scene.specimen->high;
-  } else if (const auto shape = parametric(scene.scenario.tissue.shape)) {
-    high = geometry::extent(*shape);
-  }
-  const Vec3 middle = 0.5 * (low + high);
-  return {finger.x.value_or(middle.x()), finger.y.value_or(middle.y()), high.z()};
+  const Vec3 middle = 0.5 * (scene.specimen->low + scene.specimen->high);
+  return {finger.x.value_or(middle.x()), finger.y.value_or(middle.y()), scene.specimen->high.z()};
 }
 
-FirstTouch first_touch(const Scene& scene) {
-  const Specimen& specimen = *scene.specimen;
-  const Finger& finger = scene.finger;
-  contact::Detector detector(*specimen.surface);
+std::string beside_text(const Vec3& place) {
+  return "the finger passes beside the specimen at x " + quantity_text(place.x(), unit::mm) +
+         ", y " + quantity_text(place.y(), unit::mm) +
+         "; set `finger.x` and `finger.y` to a place above it";
+}
+
+FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& place,
+                        const Spheres& spheres) {
+  const auto& [centres, radius] = spheres;
+  contact::Detector detector(surface);
   std::vector<geometry::SmoothSurface::Foot> feet;
+  double lowest = place.z();
+  for (const Vec3& vertex : surface.surface().vertices) lowest = std::min(lowest, vertex.z());
   FirstTouch touch;
-  touch.finger = pressed_place(scene);
-  const double radius = finger.sphere_radius;
+  touch.finger = place;
   // Whether a sphere touches if the finger's point is at height z; stores the deepest touch.
   const auto touches = [&](double z) {
     double deepest = 0.0;
-    for (std::size_t i = 0; i < finger.centres.size(); ++i) {
-      Vec3 centre = touch.finger + finger.centres[i];
-      centre.z() = z + finger.centres[i].z();
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      Vec3 centre = touch.finger + centres[i];
+      centre.z() = z + centres[i].z();
       detector.find(centre, radius, {}, feet);
       for (const auto& foot : feet) {
         if (radius - foot.height <= deepest) continue;
         deepest = radius - foot.height;
         touch.sphere = static_cast<int>(i);
         touch.at = foot.at;
+        touch.on_crease = foot.on_crease;
       }
     }
     return deepest > 0.0;
   };
-  double clear = specimen.high.z() + 2.0 * radius;
+  double clear = place.z() + 2.0 * radius;
   double touching = clear;
   while (!touches(touching)) {
-    if (touching < specimen.low.z())
-      throw MeshError("the finger passes beside the specimen at x " +
-                      quantity_text(touch.finger.x(), unit::mm) + ", y " +
-                      quantity_text(touch.finger.y(), unit::mm) +
-                      "; set `finger.x` and `finger.y` to a place above it");
+    if (touching < lowest) throw MeshError(beside_text(place));
     clear = touching;
     touching -= 0.25 * radius;
   }
@@ -66,6 +63,11 @@ FirstTouch first_touch(const Scene& scene) {
   [[maybe_unused]] const bool reached = touches(touching);  // stores the touch at this height
   touch.finger.z() = clear;                                 // without contact force at zero travel
   return touch;
+}
+
+FirstTouch first_touch(const Scene& scene) {
+  return lowered_onto(*scene.specimen->surface, pressed_place(scene),
+                      {scene.finger.centres, scene.finger.sphere_radius});
 }
 
 }  // namespace palpate::scene

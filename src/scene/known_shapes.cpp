@@ -1,12 +1,12 @@
 // The shapes and programmes to which closed forms apply.
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
+#include "base/text.h"
 #include "contact/hertz.h"
 #include "scenario/programme.h"
 #include "scene/scene.h"
-#include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
 namespace {
@@ -18,17 +18,23 @@ bool leaves(const scenario::Resolved& scenario, const scenario::Cuboid& box) {
   return false;
 }
 
-std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario) {
-  const auto top = top_curvature(scenario.tissue.shape);
-  if (!top) return "no formula gives the curvature of its shape";
+std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario,
+                                             const SurfaceTouch& touch) {
+  // Steeper, the second order of SurfaceTouch::pressed() is not enough.
+  constexpr double least_cosine = 0.5;
+  if (!touch.known()) return touch.cannot;
   const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
   if (box != nullptr && leaves(scenario, *box)) return "the finger leaves the specimen's top";
-  if (top->kappa_1 == 0.0 && top->kappa_2 == 0.0) return std::nullopt;
+  if (!touch.curved() && !touch.tilted()) return std::nullopt;
   if (scenario.finger.spheres > 1) return "several spheres press a curved surface";
-  if (scenario.finger.x || scenario.finger.y) return "the finger may stand off the curved top";
   for (const scenario::Step& step : scenario.steps)
     if (std::holds_alternative<scenario::Slide>(step))
       return "the finger slides over a curved surface";
+  const double cosine = touch.curvature.normal.z();
+  if (cosine < least_cosine)
+    return "the surface is inclined by " +
+           rounded_text(std::acos(cosine) * 180.0 / std::numbers::pi, 2) +
+           " degrees where the finger touches it, and the formula holds up to 60";
   return std::nullopt;
 }
 
@@ -36,36 +42,18 @@ constexpr const char* has_regions = "it has regions of other tissues";
 
 }  // namespace
 
-std::optional<TopCurvature> top_curvature(const scenario::Shape& shape) {
-  if (std::holds_alternative<scenario::Cuboid>(shape)) return TopCurvature{};
-  if (const auto* half = std::get_if<scenario::HalfSpace>(&shape)) {
-    const double across = half->curvature_2.value_or(half->curvature);
-    if (half->curvature >= across) return TopCurvature{half->curvature, across};
-    return TopCurvature{across, half->curvature, Vec3::UnitY()};
-  }
-  if (const auto* cylinder = std::get_if<scenario::Cylinder>(&shape))
-    return TopCurvature{1.0 / cylinder->radius, 0.0};
-  if (const auto* ellipsoid = std::get_if<scenario::Ellipsoid>(&shape)) {
-    // The top of z = c sqrt(1 - x^2/a^2 - y^2/b^2) has the curvatures c/a^2 and c/b^2.
-    const Vec3 half = 0.5 * ellipsoid->size;
-    const double x = half.z() / (half.x() * half.x());
-    const double y = half.z() / (half.y() * half.y());
-    return x >= y ? TopCurvature{x, y} : TopCurvature{y, x, Vec3::UnitY()};
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> beyond(scenario::Model model, const scenario::Resolved& scenario) {
+std::optional<std::string> beyond(scenario::Model model, const scenario::Resolved& scenario,
+                                  const SurfaceTouch& touch) {
   switch (model) {
     case scenario::Model::hertz:
       if (!scenario.regions.empty()) return has_regions;
-      return beyond_half_space(scenario);
+      return beyond_half_space(scenario, touch);
     case scenario::Model::layer:
       if (!std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape))
         return "a layer is a `cuboid` pressed on its flat top";
       if (scenario.finger.spheres > 1) return "several spheres press into one layer";
       if (!all_slabs(scenario)) return has_regions;
-      return beyond_half_space(scenario);
+      return beyond_half_space(scenario, touch);
     case scenario::Model::mass_spring:
     case scenario::Model::coupled_springs:
       if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))

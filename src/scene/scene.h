@@ -15,6 +15,7 @@
 #include "scenario/resolved.h"
 #include "scene/refining_press.h"
 #include "scene/spring_body.h"
+#include "scene/surface_touch.h"
 #include "scene/time_plan.h"
 #include "tissue/uniaxial.h"
 #include "tissue/viscous.h"
@@ -60,6 +61,7 @@ struct Choice {
   std::vector<Question> questions;
   std::vector<Forecast> rungs;  // cheapest first; empty if `one_way` alone decides the model
   scenario::Found found;
+  SurfaceTouch touch;  // what closed forms know of the surface; not in a uniform test
 
   // The forecast for a model; null if there is none, or the model is not applicable.
   [[nodiscard]] const Forecast* forecast(scenario::Model model) const;
@@ -69,6 +71,10 @@ struct Choice {
   [[nodiscard]] std::string shortfall() const;
 };
 [[nodiscard]] Choice choose(const scenario::Case& one);
+
+// The same; reuses the surface files that `shapes` contains, and adds those that it reads.
+class SpecimenShapes;
+[[nodiscard]] Choice choose(const scenario::Case& one, SpecimenShapes& shapes);
 
 // The finger: equal spheres around a reference point that travels.
 struct Finger {
@@ -104,6 +110,7 @@ struct Specimen {
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
+  std::string remark;                      // that of meshing::FileMesh, or empty
   tissue::Uniaxial measured;               // E and nu of the network with the tissue everywhere
   tissue::Uniaxial pressed;                // response to platens, for a uniform test
   std::vector<char> held;                  // in a press and in creep
@@ -124,7 +131,7 @@ struct Scene {
   std::optional<contact::LayerSinking> layer_sinking;  // around a contact, for maps
   std::unique_ptr<Specimen> specimen;                  // null for `hertz` and `layer`
 
-  // From the top to the base of the specimen, m; infinite for shapes without size.
+  // From the top (without a mesh: the touch) to the base, m; infinite for shapes without size.
   [[nodiscard]] double thickness() const;
 
   // The contact law of the finger as one sphere on a flat, for estimates.
@@ -136,24 +143,16 @@ struct Scene {
 [[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family);
 
 // The same scene, to the bit; reuses what `shapes` contains, and adds what it builds.
-class SpecimenShapes;
 [[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family,
                           SpecimenShapes& shapes);
 // With a choice that was made before; no question is evaluated again.
 [[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family,
                           SpecimenShapes& shapes, Choice choice);
 
-// The principal curvatures (1/m, convex positive) where `hertz` presses: of a flat, a half-space,
-// or the top of a cylinder or ellipsoid. Nothing for other shapes.
-struct TopCurvature {
-  double kappa_1 = 0.0, kappa_2 = 0.0;  // kappa_1 >= kappa_2
-  Vec3 direction_1 = Vec3::UnitX();
-};
-[[nodiscard]] std::optional<TopCurvature> top_curvature(const scenario::Shape& shape);
-
 // The reason why a model cannot compute a scene with a finger; nothing if it can.
 [[nodiscard]] std::optional<std::string> beyond(scenario::Model model,
-                                                const scenario::Resolved& scenario);
+                                                const scenario::Resolved& scenario,
+                                                const SurfaceTouch& touch);
 
 // The relaxation of the contact's modulus: the tissue's branches behind an elastic finger (63);
 // empty (elastic) if the contact does not include viscosity.

@@ -16,6 +16,7 @@
 #include "meshing/surface_files.h"
 #include "meshing/tetgen.h"
 #include "meshing/tetgen_body.h"
+#include "meshing/tetgen_file.h"
 
 namespace palpate::scene {
 namespace {
@@ -54,27 +55,16 @@ meshing::Target target(const scenario::Tetgen& mesh) {
   return target;
 }
 
-geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& mesh,
-                              const std::string& folder) {
-  std::vector<geometry::Lump> inside = lumps_of(scenario);
-  for (geometry::Lump& lump : inside) lump.region += first_own - 1;
-  if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
-    geometry::Body body;
-    body.parts.push_back(
-        {meshing::read_surface(path_in(folder, file->file), metres_per(file->unit)), 0});
-    meshing::check_closed(body.parts[0].surface, file->file);
-    const double spacing =
-        std::sqrt(geometry::area(body.parts[0].surface) /
-                  (0.433 * static_cast<double>(body.parts[0].surface.triangles.size())));
-    for (const geometry::Lump& lump : inside) geometry::add_lump(body, lump, spacing);
-    // The mesh keeps the surface's vertices: with as many or more than the nodes asked for, its
-    // tetrahedra are as large as the surface's triangles.
-    meshing::Target wanted = target(mesh);
-    const int vertices = static_cast<int>(geometry::facets(body).vertices.size());
-    if (wanted.nodes > 0 && wanted.nodes <= vertices) wanted = {.edge_length = spacing};
-    return meshing::tetgen_body(body, wanted, meshing_time);
-  }
+// With the numbers of the mesh.
+std::vector<geometry::Lump> numbered_lumps(const Scenario& scenario) {
+  std::vector<geometry::Lump> lumps = lumps_of(scenario);
+  for (geometry::Lump& lump : lumps) lump.region += first_own - 1;
+  return lumps;
+}
+
+geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& mesh) {
   const geometry::Shape shape = *parametric(scenario.tissue.shape);
+  const std::vector<geometry::Lump> inside = numbered_lumps(scenario);
   const auto* box = std::get_if<geometry::Cuboid>(&shape);
   if (box != nullptr && inside.empty() && !mesh.edge)
     return meshing::tetgen_cuboid(box->size, mesh.nodes, meshing_time);
@@ -87,8 +77,9 @@ geometry::Grading grading(const Scenario& scenario, const Vec3& size, double rat
                       scenario.finger.y.value_or(0.5 * size.y()), size.z())};
 }
 
-geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) {
-  geometry::TetMesh mesh;
+SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder) {
+  SpecimenMesh made;
+  geometry::TetMesh& mesh = made.mesh;
   std::string name;
   double volume = 0.0;
   const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
@@ -104,8 +95,15 @@ geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) 
                             grading(scenario, size, mirrored->grading), slab_levels(scenario));
     name = "the mirrored mesh";
   } else if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh)) {
-    mesh = tetgen_mesh(scenario, *tetgen, folder);
     name = "TetGen's mesh";
+    const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
+    if (file == nullptr) {
+      mesh = tetgen_mesh(scenario, *tetgen);
+    } else {
+      auto [found, remark] = meshing::tetgen_file(
+          surface_of(*file, folder), numbered_lumps(scenario), target(*tetgen), meshing_time);
+      made = {std::move(found), std::move(remark)};
+    }
   } else {
     const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
     mesh = meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
@@ -119,7 +117,7 @@ geometry::TetMesh any_mesh(const Scenario& scenario, const std::string& folder) 
     number_slabs(mesh, scenario);
     meshing::check(mesh, name + ", cut at the slabs,", volume);
   }
-  return mesh;
+  return made;
 }
 
 // Replaces the numbers of shapes and files by 0 for the tissue and 1... for the scenario's regions.
@@ -203,13 +201,21 @@ std::vector<geometry::Lump> lumps_of(const Scenario& scenario) {
   return found;
 }
 
-geometry::TetMesh specimen_mesh(const Scenario& scenario, const std::string& folder) {
-  geometry::TetMesh mesh = any_mesh(scenario, folder);
+geometry::Surface surface_of(const scenario::SurfaceFile& file, const std::string& folder) {
+  geometry::Surface surface =
+      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit));
+  meshing::check_closed(surface, file.file);
+  return surface;
+}
+
+SpecimenMesh specimen_mesh(const Scenario& scenario, const std::string& folder) {
+  SpecimenMesh made = any_mesh(scenario, folder);
+  geometry::TetMesh& mesh = made.mesh;
   if (!scenario.regions.empty() || !mesh.regions.empty()) number_regions(mesh, scenario);
   const auto shape = parametric(scenario.tissue.shape);
   const bool lies = shape && !std::holds_alternative<geometry::Cuboid>(*shape);
   if (scenario.uniform() && lies) stand_up(mesh);
-  return mesh;
+  return made;
 }
 
 }  // namespace palpate::scene

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/shapes.h"
+#include "geometry/surface.h"
 #include "geometry/tet_mesh.h"
 #include "scenario/resolved.h"
 
@@ -20,11 +21,20 @@ namespace palpate::scene {
 // The scenario's lumps; their regions' numbers are those of specimen_mesh().
 [[nodiscard]] std::vector<geometry::Lump> lumps_of(const scenario::Resolved& scenario);
 
+// The surface from a file. Throws InputError if it cannot be read, MeshError if it bounds no body.
+[[nodiscard]] geometry::Surface surface_of(const scenario::SurfaceFile& file,
+                                           const std::string& folder);
+
+struct SpecimenMesh {
+  geometry::TetMesh mesh;
+  std::string remark;  // that of meshing::FileMesh, or empty
+};
+
 // The mesh with the numbers of its substances: TetMesh::regions are 0 for `tissue.material`, then
 // the scenario's regions in order. For a uniform test, a shape that lies along y is turned to stand
 // on its end. Relative files are looked for in `folder`. Throws MeshError if the shape cannot be
 // meshed, or if the mesh has no tetrahedron of a region; InputError for a file that cannot be read.
-[[nodiscard]] geometry::TetMesh specimen_mesh(const scenario::Resolved& scenario,
-                                              const std::string& folder);
+[[nodiscard]] SpecimenMesh specimen_mesh(const scenario::Resolved& scenario,
+                                         const std::string& folder);
 
 }  // namespace palpate::scene

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/error.h"
 #include "base/field_writer.h"
 #include "geometry/surface.h"
 #include "meshing/level_cut.h"
@@ -56,12 +57,18 @@ SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
   const double flat = 1e-9 * geometry::diagonal(mesh);
   const double top_area = flat_area(skin, high, flat);
   const double bottom_area = flat_area(skin, low, flat);
-  return {std::move(mesh), std::move(skin.nodes), geometry::SmoothSurface(std::move(skin.surface)),
-          top_area,        bottom_area,           base_level};
+  return {std::move(mesh),
+          std::move(skin.nodes),
+          geometry::SmoothSurface(std::move(skin.surface)),
+          top_area,
+          bottom_area,
+          base_level,
+          "",
+          std::nullopt};
 }
 
 SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
-  geometry::TetMesh mesh = specimen_mesh(scenario, folder);
+  auto [mesh, remark] = specimen_mesh(scenario, folder);
   const auto [low, high] = reach(mesh);
   const bool flat = flat_area(geometry::skin(mesh), low, 1e-9 * geometry::diagonal(mesh)) > 0.0;
   const double level = low + scenario.tissue.base_height.value_or(flat ? 0.0 : 0.1 * (high - low));
@@ -70,7 +77,9 @@ SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
     mesh = meshing::cut_at(std::move(mesh), level, true, parametric(scenario.tissue.shape));
     meshing::check(mesh, "the mesh, cut at the border of the base,", 0.0);
   }
-  return shape_of(std::move(mesh), level);
+  SpecimenShape shape = shape_of(std::move(mesh), level);
+  shape.remark = std::move(remark);
+  return shape;
 }
 
 std::string shape_key(const Scenario& scenario) {
@@ -121,6 +130,24 @@ const tissue::SpringFit& SpecimenShapes::fit(const Scenario& scenario, const std
   const std::lock_guard lock(known.building);
   if (!known.fit) known.fit = std::make_unique<tissue::SpringFit>(tissue::fit_springs(mesh));
   return *known.fit;
+}
+
+const SpecimenShapes::FileSurface& SpecimenShapes::surface(const scenario::SurfaceFile& file,
+                                                           const std::string& folder) {
+  FileSurface& known = [&]() -> FileSurface& {
+    const std::lock_guard lock(looking_up_);
+    return surfaces_[folder + "\n" + file.file + "\n" + file.unit];
+  }();
+  const std::lock_guard lock(known.reading);
+  if (known.surface || !known.fault.empty()) return known;
+  try {
+    known.surface.emplace(surface_of(file, folder));
+  } catch (const MeshError& error) {
+    known.fault = error.what();
+  } catch (const InputError& error) {
+    known.fault = error.what();
+  }
+  return known;
 }
 
 namespace {

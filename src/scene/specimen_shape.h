@@ -26,6 +26,7 @@ struct SpecimenShape {
   double top_area = 0.0;     // m^2, of the flat upper end; 0 if there is none
   double bottom_area = 0.0;  // m^2
   double base_level = 0.0;   // m, absolute; the skin up to this height is the base
+  std::string remark;        // of SpecimenMesh
   std::optional<Refined> refined = {};
 };
 
@@ -57,6 +58,15 @@ class SpecimenShapes {
   [[nodiscard]] const tissue::SpringFit& fit(const scenario::Resolved& scenario,
                                              const std::string& folder);
 
+  // The surface of a file for closed forms, or a sentence on why there is none.
+  struct FileSurface {
+    std::mutex reading;
+    std::optional<geometry::SmoothSurface> surface;
+    std::string fault;
+  };
+  [[nodiscard]] const FileSurface& surface(const scenario::SurfaceFile& file,
+                                           const std::string& folder);
+
   // The number of shapes.
   [[nodiscard]] std::size_t size();
 
@@ -74,6 +84,7 @@ class SpecimenShapes {
 
   std::mutex looking_up_;
   std::map<std::string, Entry> entries_;
+  std::map<std::string, FileSurface> surfaces_;  // by path and unit
 
   std::mutex looking_up_layer_;
   std::map<std::vector<double>, contact::LayerLaw> laws_;  // by all numbers of the layer

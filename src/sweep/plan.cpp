@@ -14,6 +14,7 @@
 #include "record/csv.h"
 #include "run/share_out.h"
 #include "scene/scene.h"
+#include "scene/specimen_shape.h"
 #include "sweep/plan_file.h"
 #include "sweep/row.h"
 
@@ -142,9 +143,10 @@ std::string forecast(const scenario::Family& family, SweepOrder::Curves curves) 
   constexpr double bytes = 2400.0;  // per row, about; docs/sweeps.md
   const std::size_t count = family.design.count();
   double seconds = 0.0;
+  scene::SpecimenShapes shapes;
   try {
     for (const std::size_t i : {std::size_t{0}, count / 2, count - 1}) {
-      const scene::Choice choice = scene::choose(scenario::make_case(family, i));
+      const scene::Choice choice = scene::choose(scenario::make_case(family, i), shapes);
       if (choice.taken() == nullptr) return {};
       seconds += choice.taken()->seconds * static_cast<double>(count) / 3.0;
     }
@@ -161,10 +163,11 @@ void refuse_unread(const scenario::Family& family) {
   constexpr std::size_t most = 64;  // cases tried, evenly chosen
   const std::size_t tries = std::min(family.design.count(), most);
   std::map<std::string, std::size_t> unread;
+  scene::SpecimenShapes shapes;
   for (std::size_t t = 0; t < tries; ++t) {
     const std::size_t i = tries == 1 ? 0 : t * (family.design.count() - 1) / (tries - 1);
     try {
-      const scene::Choice choice = scene::choose(scenario::make_case(family, i));
+      const scene::Choice choice = scene::choose(scenario::make_case(family, i), shapes);
       if (choice.given) return;  // reading the scenario has checked this
       for (const std::string& key : scenario::unread_keys(family, i, choice.chosen.solver.model))
         ++unread[key];

@@ -180,23 +180,46 @@ TEST_P(Bodies, AreWithinTheBandFromFourHundredNodesOn) {
   }
 }
 
-// By default a mesh has 728 nodes; this surface alone has more.
-TEST(FineSurface, IsMeshedWithMoreNodesAndSaysSo) {
+// Presses a disc from a file with edges of `spacing` (mm) on a mesh of `nodes` nodes.
+record::CaseRecord pressed_disc(double spacing, int nodes) {
   const test::TemporaryFolder folder;
   const test::fs::path file = folder.path() / "disc.off";
-  const int vertices = write_surface(disc(30.0, 10.0, 2.5), 2.5, file);
-  ASSERT_GT(vertices, 728);
-  const record::CaseRecord record = test::run_text(
+  write_surface(disc(30.0, 10.0, spacing), spacing, file);
+  return test::run_text(
       "[tissue]\nmaterial = \"skin\"\nshape = { file = \"" + file.string() +
-      "\", unit = \"mm\" }\n[finger]\nx = \"0 mm\"\ny = \"0 mm\"\n[solver]\nmodel = "
+      "\", unit = \"mm\" }\nmesh = { kind = \"tetgen\", nodes = " + std::to_string(nodes) +
+      " }\n[finger]\nx = \"0 mm\"\ny = \"0 mm\"\n[solver]\nmodel = "
       "\"coupled_springs\"\nintegrator = \"quasi_static\"\n[output]\ninterval = \"250 "
       "ms\"\npressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\nrate = \"2 "
       "mm/s\"\n");
+}
+
+bool says(const record::CaseRecord& record, const std::string& words) {
+  return std::any_of(record.remarks.begin(), record.remarks.end(),
+                     [&](const auto& remark) { return remark.find(words) != std::string::npos; });
+}
+
+// By default a mesh has 728 nodes; this surface alone has 27 000 vertices.
+TEST(FineSurface, IsCoarsenedToTheNodesAskedForAndSaysSo) {
+  const record::CaseRecord fine = pressed_disc(0.6, 728);
+  ASSERT_EQ(fine.outcome, record::Outcome::completed) << fine.reason;
+  EXPECT_NEAR(std::get<double>(test::finding(fine, "nodes")), 728.0, 0.03 * 728.0);
+  EXPECT_TRUE(says(fine, " triangles of the surface became "));
+  EXPECT_FALSE(says(fine, "because it keeps the surface's vertices"));
+  // A surface of about the right spacing is kept, and gives the same force.
+  const record::CaseRecord kept = pressed_disc(5.5, 728);
+  ASSERT_EQ(kept.outcome, record::Outcome::completed) << kept.reason;
+  EXPECT_FALSE(says(kept, " triangles of the surface became "));
+  EXPECT_NEAR(fine.contact.back().contact_force / kept.contact.back().contact_force, 1.0,
+              fine.contact.back().mesh_error + kept.contact.back().mesh_error);
+}
+
+// Half a per cent of the size is too near for a mesh of so few nodes.
+TEST(FineSurface, IsMeshedWithMoreNodesWhereItsShapeNeedsThemAndSaysSo) {
+  const record::CaseRecord record = pressed_disc(2.5, 60);
   ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
-  EXPECT_GT(std::get<double>(test::finding(record, "nodes")), vertices);
-  EXPECT_TRUE(std::any_of(record.remarks.begin(), record.remarks.end(), [](const auto& remark) {
-    return remark.find("because it keeps the surface's vertices") != std::string::npos;
-  }));
+  EXPECT_GT(std::get<double>(test::finding(record, "nodes")), 75.0);
+  EXPECT_TRUE(says(record, "because it keeps the surface's vertices"));
 }
 
 double last_force(const std::string& text, const std::string& solver) {

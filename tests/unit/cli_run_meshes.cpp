@@ -293,13 +293,9 @@ TEST_F(RunMeshes, hertz_refuses_what_only_a_mesh_knows) {
     return "press.toml:6:9: `hertz` cannot compute this scene: " + reason +
            "; set `solver.model = \"coupled_springs\"`";
   };
-  expect_refused(hertz + "[tissue]\nshape = { kind = \"ligament\" }\n", 2,
-                 sentence("no formula gives the curvature of its shape"));
   const std::string cylinder = hertz + "[tissue]\nshape = { kind = \"cylinder\" }\n";
   expect_refused(cylinder + "[finger]\nspheres = 3\n", 2,
                  sentence("several spheres press a curved surface"));
-  expect_refused(cylinder + "[finger]\nx = \"3 mm\"\n", 2,
-                 sentence("the finger may stand off the curved top"));
   expect_refused(cylinder + "[[step]]\nkind = \"slide\"\n", 2,
                  sentence("the finger slides over a curved surface"));
   expect_refused(hertz + "[[region]]\ntag = 1\n", 2, sentence("it has regions of other tissues"));

@@ -1,0 +1,144 @@
+// The only file that includes CGAL. Its predicates use exact arithmetic by Boost where needed, so
+// that nothing has to be linked.
+#define CGAL_DISABLE_GMP 1
+#include "meshing/cgal_library.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace palpate::meshing::cgal_library {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+namespace simplification = CGAL::Surface_mesh_simplification;
+
+Mesh filled(const geometry::Surface& surface) {
+  Mesh mesh;
+  for (const Vec3& vertex : surface.vertices)
+    mesh.add_vertex(Point(vertex.x(), vertex.y(), vertex.z()));
+  for (const auto& [a, b, c] : surface.triangles)
+    mesh.add_face(Mesh::Vertex_index(static_cast<Mesh::size_type>(a)),
+                  Mesh::Vertex_index(static_cast<Mesh::size_type>(b)),
+                  Mesh::Vertex_index(static_cast<Mesh::size_type>(c)));
+  return mesh;
+}
+
+geometry::Surface taken(Mesh& mesh) {
+  mesh.collect_garbage();  // numbers vertices and faces without gaps
+  geometry::Surface surface;
+  for (const Mesh::Vertex_index vertex : mesh.vertices()) {
+    const Point& point = mesh.point(vertex);
+    surface.vertices.emplace_back(point.x(), point.y(), point.z());
+  }
+  for (const Mesh::Face_index face : mesh.faces()) {
+    std::array<int, 3> triangle{};
+    std::size_t corner = 0;
+    for (const Mesh::Vertex_index vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+      triangle[corner++] = static_cast<int>(vertex.idx());
+    surface.triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+using Corners = std::array<Point, 3>;
+
+Kernel::Vector_3 twice_area(const Corners& p) {
+  return CGAL::cross_product(p[1] - p[0], p[2] - p[0]);
+}
+
+// 4 sqrt(3) area / (sum of the squared edges): 1 for equal sides, 0 for a needle.
+double roundness(const Corners& p) {
+  const double squares = (p[1] - p[0]).squared_length() + (p[2] - p[1]).squared_length() +
+                         (p[0] - p[2]).squared_length();
+  return 2.0 * std::sqrt(3.0 * twice_area(p).squared_length()) / squares;
+}
+
+// Leaves out collapses that spoil triangles. Triangles that are worse already may stay as they are.
+struct Shapes {
+  static constexpr double least_roundness = 0.4;  // that of a right-angled triangle of 1 : 4
+  static constexpr double least_cosine = 0.5;     // of the angle by which a triangle turns
+
+  template <class Profile>
+  boost::optional<Point> operator()(const Profile& profile,
+                                    const boost::optional<Point>& place) const {
+    if (!place) return place;
+    double before = least_roundness;
+    double after = 1.0;
+    for (const auto& triangle : profile.triangles()) {
+      const std::array vertices{triangle.v0, triangle.v1, triangle.v2};
+      Corners old;
+      Corners moved;
+      int merged = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        old[i] = moved[i] = get(profile.vertex_point_map(), vertices[i]);
+        if (vertices[i] != profile.v0() && vertices[i] != profile.v1()) continue;
+        moved[i] = *place;
+        ++merged;
+      }
+      before = std::min(before, roundness(old));
+      if (merged == 2) continue;  // vanishes with the edge
+      const Kernel::Vector_3 was = twice_area(old);
+      const Kernel::Vector_3 is = twice_area(moved);
+      if (!(was * is > least_cosine * std::sqrt(was.squared_length() * is.squared_length())))
+        return boost::none;
+      after = std::min(after, roundness(moved));
+    }
+    return after < before ? boost::none : place;
+  }
+};
+
+}  // namespace
+
+std::optional<std::array<int, 2>> self_intersection(const geometry::Surface& surface) {
+  using Face = Mesh::Face_index;
+  const Mesh mesh = filled(surface);
+  std::vector<std::pair<Face, Face>> pairs;  // in a random order
+  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
+  std::optional<std::array<int, 2>> lowest;
+  for (const auto& [f, g] : pairs) {
+    const std::array<int, 2> pair{static_cast<int>(std::min(f, g)),
+                                  static_cast<int>(std::max(f, g))};
+    if (!lowest || pair < *lowest) lowest = pair;
+  }
+  return lowest;
+}
+
+geometry::Surface collapsed(const geometry::Surface& surface, double spacing) {
+  Mesh mesh = filled(surface);
+  // With no edge below 0.7 of it, the mean edge is about `spacing`: measured on ellipsoids.
+  const simplification::Edge_length_stop_predicate<double> stop(0.7 * spacing);
+  simplification::edge_collapse(mesh, stop,
+                                CGAL::parameters::get_cost(simplification::Edge_length_cost<Mesh>())
+                                    .get_placement(simplification::LindstromTurk_placement<Mesh>())
+                                    .filter(Shapes()));
+  return taken(mesh);
+}
+
+geometry::Surface even(const geometry::Surface& surface, double spacing, double crease_degrees) {
+  constexpr unsigned rounds = 3;
+  Mesh mesh = filled(surface);
+  const auto creases = mesh.add_property_map<Mesh::Edge_index, bool>("e:crease", false).first;
+  CGAL::Polygon_mesh_processing::detect_sharp_edges(mesh, crease_degrees, creases);
+  CGAL::Polygon_mesh_processing::isotropic_remeshing(mesh.faces(), spacing, mesh,
+                                                     CGAL::parameters::number_of_iterations(rounds)
+                                                         .edge_is_constrained_map(creases)
+                                                         .protect_constraints(false));
+  return taken(mesh);
+}
+
+}  // namespace palpate::meshing::cgal_library

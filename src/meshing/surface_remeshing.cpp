@@ -1,0 +1,159 @@
+// Runs CGAL in a child process, checks what it returns, and tries shorter edges until all is well.
+#include "meshing/surface_remeshing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "geometry/box_tree.h"
+#include "meshing/cgal_library.h"
+#include "meshing/child_bytes.h"
+#include "meshing/child_process.h"
+#include "meshing/surface_check.h"
+
+namespace palpate::meshing {
+namespace {
+
+using geometry::Surface;
+
+constexpr ChildLimits limits{120.0, 8.0 * 1024 * 1024 * 1024};  // s, bytes: far above any need
+constexpr double crease_degrees = 40.0;                         // as for normals and curvatures
+constexpr double most_volume = 0.005;                           // relative change
+constexpr double needle = 1.0 / 15.0;                           // altitude over longest edge
+constexpr double shorter = 0.75;                                // the next spacing to try
+
+// Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
+// the volume that it would take at the spacing itself.
+constexpr double even_part = 0.4;
+
+std::string packed(const Surface& surface) {
+  std::string bytes;
+  const std::size_t vertices = surface.vertices.size();
+  append(bytes, &vertices, 1);
+  for (const Vec3& vertex : surface.vertices) append(bytes, vertex.data(), 3);
+  const std::size_t triangles = surface.triangles.size();
+  append(bytes, &triangles, 1);
+  append(bytes, surface.triangles.data(), triangles);
+  return bytes;
+}
+
+Surface unpacked(const std::string& bytes) {
+  ChildBytes from(bytes, "CGAL");
+  Surface surface;
+  std::size_t count = 0;
+  from.take(&count, 1);
+  for (std::size_t v = 0; v < count; ++v) from.take(surface.vertices.emplace_back().data(), 3);
+  from.take(&count, 1);
+  from.take(surface.triangles, count);
+  if (!from.done()) from.refuse();
+  return surface;
+}
+
+double longest_edge(const Surface& surface, const std::array<int, 3>& triangle) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    longest = std::max(longest, (surface.vertices[as_index(triangle[i])] -
+                                 surface.vertices[as_index(triangle[(i + 1) % 3])])
+                                    .norm());
+  return longest;
+}
+
+// The largest distance of the vertices of `from`, and of its triangles' centres and middles of
+// edges, from the surface in the tree, m.
+double farthest(const Surface& from, const geometry::BoxTree& to) {
+  double most = 0.0;
+  const auto look = [&](const Vec3& point) {
+    most = std::max(most, to.nearest(point).distance_squared);
+  };
+  for (const Vec3& vertex : from.vertices) look(vertex);
+  for (const auto& [a, b, c] : from.triangles) {
+    const Vec3& p = from.vertices[as_index(a)];
+    const Vec3& q = from.vertices[as_index(b)];
+    const Vec3& r = from.vertices[as_index(c)];
+    look((p + q + r) / 3.0);
+    if (a < b) look(0.5 * (p + q));
+    if (b < c) look(0.5 * (q + r));
+    if (c < a) look(0.5 * (r + p));
+  }
+  return std::sqrt(most);
+}
+
+std::optional<Surface> attempt(const Surface& surface, double spacing, bool uneven) {
+  const ChildResult result = run_in_child(
+      [&] {
+        return packed(cgal_library::collapsed(
+            uneven ? cgal_library::even(surface, even_part * spacing, crease_degrees) : surface,
+            spacing));
+      },
+      limits);
+  const auto* answer = std::get_if<ChildAnswer>(&result);
+  if (answer == nullptr) return std::nullopt;
+  return unpacked(answer->bytes);
+}
+
+bool closed(const Surface& surface) {
+  try {
+    check_closed(surface, "remeshed");
+  } catch (const MeshError&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::size_t count_needles(const Surface& surface) {
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const double longest = longest_edge(surface, surface.triangles[t]);
+    if (geometry::twice_area(surface, static_cast<int>(t)).norm() < needle * longest * longest)
+      ++count;
+  }
+  return count;
+}
+
+double cell_for(const Surface& surface, int nodes) {
+  // Nodes on the surface have 0.866 h^2 each, and nodes inside, half an edge below it, 0.7 h^3.
+  const double area = geometry::area(surface);
+  const double volume = geometry::enclosed(surface).volume;
+  double low = 0.0;
+  double high = std::cbrt(volume) + std::sqrt(area);
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double h = 0.5 * (low + high);
+    const double inside = std::max(0.0, volume - 0.5 * h * area);
+    (area / (0.866 * h * h) + inside / (0.7 * h * h * h) > nodes ? low : high) = h;
+  }
+  return high;
+}
+
+double remeshing_limit(const Surface& surface, double spacing) {
+  Vec3 low = surface.vertices.front();
+  Vec3 high = low;
+  for (const Vec3& vertex : surface.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  return std::min(0.125 * spacing, 0.005 * (high - low).norm());
+}
+
+std::optional<Remeshed> remeshed(const Surface& surface, double spacing) {
+  const double limit = remeshing_limit(surface, spacing);
+  const double volume = geometry::enclosed(surface).volume;
+  const bool uneven = count_needles(surface) > 0;
+  const geometry::BoxTree original(surface);
+  constexpr int most_tries = 8;  // down to an eighth of the spacing
+  for (int i = 0; i < most_tries; ++i, spacing *= shorter) {
+    std::optional<Surface> tried = attempt(surface, spacing, uneven);
+    if (!tried || tried->triangles.empty()) continue;
+    if (!uneven && tried->triangles.size() >= surface.triangles.size()) return std::nullopt;
+    if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) > most_volume) continue;
+    if (count_needles(*tried) > 0) continue;
+    const double distance =
+        std::max(farthest(*tried, original), farthest(surface, geometry::BoxTree(*tried)));
+    if (distance <= limit && closed(*tried)) return Remeshed{std::move(*tried), distance};
+  }
+  return std::nullopt;
+}
+
+}  // namespace palpate::meshing

@@ -1,0 +1,34 @@
+// Coarser or more even triangles for a surface that is too fine, or has needles, for a mesh.
+#pragma once
+
+#include <optional>
+
+#include "geometry/surface.h"
+
+namespace palpate::meshing {
+
+// A triangle whose altitude is below a fifteenth of its longest edge: TetGen keeps it, and the flat
+// tetrahedra on it limit the stable time step.
+[[nodiscard]] std::size_t count_needles(const geometry::Surface& surface);
+
+// The edge length (m) with which a mesh of the body inside `surface` has about `nodes` nodes.
+[[nodiscard]] double cell_for(const geometry::Surface& surface, int nodes);
+
+struct Remeshed {
+  geometry::Surface surface;
+  double distance = 0.0;  // m, the largest between the two surfaces, in both directions
+};
+
+// A surface with edges of about `spacing` (m) for the same body. It has passed check_closed(), has
+// the same volume within 0.5 %, keeps creases and has no needles, and its largest distance from
+// `surface` is at most remeshing_limit(); where details do not allow that, its edges are shorter.
+// Empty if no such surface with fewer triangles, or without needles, is found. `surface` has passed
+// check_closed(). The same arguments give the same bits.
+[[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing);
+
+// An eighth of the spacing, but at most 0.5 % of the diagonal of the bounding box, m. A chord of
+// the requested spacing on a round body with a radius of more than its length is nearer than that,
+// so that a mesh of such cells does not show the difference.
+[[nodiscard]] double remeshing_limit(const geometry::Surface& surface, double spacing);
+
+}  // namespace palpate::meshing

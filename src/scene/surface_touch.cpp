@@ -1,0 +1,225 @@
+// Closed forms for parametric shapes, and the smooth surface of a file's triangles.
+#include "scene/surface_touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "contact/elliptic.h"
+#include "contact/hertz.h"
+#include "geometry/shape_touch.h"
+#include "scene/first_touch.h"
+#include "scene/specimen_mesh.h"
+#include "scene/specimen_shape.h"
+
+namespace palpate::scene {
+namespace {
+
+using Scenario = scenario::Resolved;
+
+constexpr const char* on_an_edge =
+    "the finger first touches an edge of the surface, where it has no curvature";
+
+void put(SurfaceTouch& touch, const Vec3& position, double radius) {
+  touch.position = position;
+  touch.lowest = position + radius * (touch.curvature.normal - Vec3::UnitZ());
+}
+
+SurfaceTouch of_half_space(const scenario::HalfSpace& half) {
+  SurfaceTouch touch;
+  const double across = half.curvature_2.value_or(half.curvature);
+  touch.curvature.kappa_1 = std::max(half.curvature, across);
+  touch.curvature.kappa_2 = std::min(half.curvature, across);
+  if (half.curvature < across) {
+    touch.curvature.direction_1 = Vec3::UnitY();
+    touch.curvature.direction_2 = -Vec3::UnitX();
+  }
+  return touch;
+}
+
+SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
+  SurfaceTouch touch;
+  touch.size = geometry::extent(shape);
+  const double x = scenario.finger.x.value_or(0.5 * touch.size.x());
+  const double y = scenario.finger.y.value_or(0.5 * touch.size.y());
+  touch.lowest = {x, y, touch.size.z()};
+  touch.thickness = touch.size.z();
+  const double radius = scenario.finger.radius;
+  const auto found = geometry::touch_from_above(shape, x, y, radius);
+  if (!found) {
+    touch.cannot = beside_text(touch.lowest);
+    touch.nowhere = true;
+  } else if (found->on_edge) {
+    touch.cannot = std::holds_alternative<geometry::Cuboid>(shape)
+                       ? "the finger leaves the specimen's top"
+                       : on_an_edge;
+  } else {
+    touch.curvature = found->curvature;
+    touch.thickness = found->position.z();
+    put(touch, found->position, radius);
+  }
+  return touch;
+}
+
+// The triangles within some rings of a triangle's corners, as a surface of their own.
+struct Piece {
+  geometry::Surface surface;
+  int triangle = -1;
+};
+Piece piece_around(const geometry::SmoothSurface& whole, int triangle, int rings) {
+  const geometry::Surface& surface = whole.surface();
+  const std::vector<int> near =
+      whole.neighbours().rings(surface.triangles[as_index(triangle)], rings);
+  std::vector<int> triangles;
+  for (const int vertex : near)
+    for (const int one : whole.neighbours().triangles_at(vertex)) triangles.push_back(one);
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  Piece piece;
+  std::vector<int> number(surface.vertices.size(), -1);
+  for (const int one : triangles) {
+    if (one == triangle) piece.triangle = static_cast<int>(piece.surface.triangles.size());
+    std::array<int, 3> corners = surface.triangles[as_index(one)];
+    for (int& corner : corners) {
+      int& own = number[as_index(corner)];
+      if (own < 0) {
+        own = static_cast<int>(piece.surface.vertices.size());
+        piece.surface.vertices.push_back(surface.vertices[as_index(corner)]);
+      }
+      corner = own;
+    }
+    piece.surface.triangles.push_back(corners);
+  }
+  return piece;
+}
+
+// The length of the edges at a triangle's corners, m.
+double edges_around(const geometry::SmoothSurface& whole, int triangle) {
+  const auto& vertices = whole.surface().vertices;
+  double sum = 0.0;
+  int count = 0;
+  for (const int corner : whole.surface().triangles[as_index(triangle)])
+    for (const int other : whole.neighbours().vertices_at(corner)) {
+      sum += (vertices[as_index(other)] - vertices[as_index(corner)]).norm();
+      ++count;
+    }
+  return sum / count;
+}
+
+geometry::CurvatureEstimate curvature_over(const geometry::SmoothSurface& whole,
+                                           const geometry::SurfacePoint& at,
+                                           const geometry::CurvatureOptions& options) {
+  // One ring more than the fits use, so that they do not meet the rim of the piece.
+  const Piece piece = piece_around(whole, at.triangle, options.rings + 1);
+  const geometry::Neighbours neighbours(piece.surface);
+  const geometry::CurvatureStars stars(piece.surface, neighbours, options);
+  return geometry::between(stars.at_corners(piece.surface, piece.triangle),
+                           {at.weights[0], at.weights[1], at.weights[2]});
+}
+
+// The fit spans the contact at the deepest travel, so that it does not take the grain of a fine
+// surface for curvature, but at least `contact.curvature_rings`.
+geometry::CurvatureEstimate measured(const geometry::SmoothSurface& surface,
+                                     const geometry::SurfacePoint& at, const Scenario& scenario) {
+  constexpr int most_rings = 20;
+  const double edge = edges_around(surface, at.triangle);
+  const double modulus = scenario.tissue.young_modulus;  // that of the finger changes little here
+  contact::SphereLaw law{
+      scenario.finger.radius,
+      contact::hertz::effective_modulus(
+          0.0, contact::Elastic{modulus, scenario.tissue.poisson_ratio}.compliance())};
+  const int least = scenario.contact.curvature_rings;
+  geometry::CurvatureOptions options;
+  options.method = scenario.contact.curvature;
+  geometry::CurvatureEstimate estimate;
+  for (int before = most_rings + 1;; before = options.rings) {
+    const double span = contact::hertz::contact_radius(deepest_travel(scenario, law), law.radius);
+    options.rings =
+        std::clamp(static_cast<int>(std::lround(span / edge)), least, std::max(least, most_rings));
+    // A surface that is rounder than the flat of the first guess has a smaller contact.
+    if (options.rings >= before) return estimate;
+    estimate = curvature_over(surface, at, options);
+    if (!estimate.known()) return estimate;
+    const auto& [kappa_1, kappa_2] =
+        std::pair(estimate.curvature.kappa_1, estimate.curvature.kappa_2);
+    const double inverse = 1.0 / scenario.finger.radius;
+    if (!(inverse + kappa_2 > 0.0)) return estimate;
+    law.radius = contact::geometric_radius(scenario.finger.radius, kappa_1, kappa_2);
+  }
+}
+
+SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
+  SurfaceTouch touch;
+  const auto& vertices = surface.surface().vertices;
+  Vec3 low = vertices.front();
+  Vec3 high = low;
+  for (const Vec3& vertex : vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  touch.size = high - low;
+  touch.thickness = touch.size.z();
+  const Vec3 middle = 0.5 * (low + high);
+  touch.lowest = {scenario.finger.x.value_or(middle.x()), scenario.finger.y.value_or(middle.y()),
+                  high.z()};
+  const double radius = scenario.finger.radius;
+  const Vec3 centre = Vec3::Zero();
+  FirstTouch first;
+  try {
+    first = lowered_onto(surface, touch.lowest, {{&centre, 1}, radius});
+  } catch (const MeshError& error) {
+    touch.cannot = error.what();
+    touch.nowhere = true;
+    return touch;
+  }
+  if (first.on_crease) {
+    touch.cannot = on_an_edge;
+    return touch;
+  }
+  const geometry::CurvatureEstimate found = measured(surface, first.at, scenario);
+  if (!found.known()) {
+    touch.cannot = "the surface's curvature at the contact cannot be estimated: " +
+                   std::string(geometry::explanation(found.status));
+    return touch;
+  }
+  touch.curvature = geometry::turned_to(found.curvature, surface.normal(first.at));
+  touch.one_sided = found.status == geometry::StarStatus::one_sided;
+  const Vec3 position = surface.position(first.at);
+  touch.thickness = position.z() - low.z();
+  put(touch, position, radius);
+  return touch;
+}
+
+}  // namespace
+
+SurfaceTouch::Pressed SurfaceTouch::pressed(double radius, double travel) const {
+  // The distance from the surface has the second derivatives kappa / (1 + kappa R) at the centre.
+  const auto& [kappa_1, kappa_2, t_1, t_2, normal] = curvature;
+  const double bend_1 = t_1.z() * kappa_1 / (1.0 + kappa_1 * radius);
+  const double bend_2 = t_2.z() * kappa_2 / (1.0 + kappa_2 * radius);
+  return {travel * normal.z() - 0.5 * travel * travel * (bend_1 * t_1.z() + bend_2 * t_2.z()),
+          (normal - travel * (bend_1 * t_1 + bend_2 * t_2)).normalized()};
+}
+
+SurfaceTouch surface_touch(const Scenario& scenario, const std::string& folder,
+                           SpecimenShapes& shapes) {
+  if (const auto shape = parametric(scenario.tissue.shape)) return of_shape(*shape, scenario);
+  if (const auto* half = std::get_if<scenario::HalfSpace>(&scenario.tissue.shape))
+    return of_half_space(*half);
+  if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
+    const SpecimenShapes::FileSurface& read = shapes.surface(*file, folder);
+    if (read.surface) return of_file(*read.surface, scenario);
+    SurfaceTouch touch;
+    touch.cannot = read.fault;
+    touch.nowhere = true;
+    return touch;
+  }
+  SurfaceTouch touch;
+  touch.cannot = "its shape is that of a ready mesh";
+  return touch;
+}
+
+}  // namespace palpate::scene

@@ -1,0 +1,46 @@
+// Where a finger first touches a specimen without a mesh, and how the surface curves there.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "geometry/curvature.h"
+#include "scenario/resolved.h"
+
+namespace palpate::scene {
+
+class SpecimenShapes;
+
+// What a closed form knows of a specimen's surface. The force acts along the normal of the surface
+// nearest to the sphere, as on a mesh.
+struct SurfaceTouch {
+  Vec3 size = Vec3::Constant(std::numeric_limits<double>::infinity());  // m, of the bounding box
+  double thickness = std::numeric_limits<double>::infinity();  // m, from the touch to the underside
+  Vec3 lowest = Vec3::Zero();     // m, the lowest point of one sphere at first touch
+  Vec3 position = Vec3::Zero();   // m, of the surface
+  geometry::Curvature curvature;  // there, with the normal
+  bool one_sided = false;         // the curvature has StarStatus::one_sided
+  std::string cannot = {};        // why there is no curvature; empty if there is one
+  bool nowhere = false;           // no model can press here: beside the body, or it is not sound
+
+  [[nodiscard]] bool known() const { return cannot.empty(); }
+  [[nodiscard]] bool curved() const { return curvature.kappa_1 != 0.0 || curvature.kappa_2 != 0.0; }
+  [[nodiscard]] bool tilted() const { return curvature.normal.z() < 1.0; }
+
+  // The indentation (m) and the normal after the finger has gone down vertically by `travel` (m),
+  // on the quadric with these curvatures: exact on a flat, else to second order in the travel.
+  //                                                                        docs/theory.md (96)
+  struct Pressed {
+    double depth;
+    Vec3 normal;
+  };
+  [[nodiscard]] Pressed pressed(double radius, double travel) const;
+};
+
+// The touch of one sphere of `finger.radius` at `finger.x`, `finger.y`: in closed form for a
+// parametric shape; for a file, on the file's triangles, with the quadric fit of the skin of a
+// mesh. Nothing is meshed. Relative files are looked for in `folder`.
+[[nodiscard]] SurfaceTouch surface_touch(const scenario::Resolved& scenario,
+                                         const std::string& folder, SpecimenShapes& shapes);
+
+}  // namespace palpate::scene

@@ -1,0 +1,202 @@
+// Fine surfaces and surfaces with needles: what remeshing keeps, and the meshes of such surfaces.
+#include "meshing/surface_remeshing.h"
+
+#include <numbers>
+
+#include "geometry/body.h"
+#include "geometry/shapes.h"
+#include "meshing/surface_check.h"
+#include "meshing/tetgen_file.h"
+#include "test_surfaces.h"
+
+namespace palpate::meshing {
+namespace {
+
+using geometry::Surface;
+
+constexpr double time_given = 60.0;  // s, far above any need
+
+Surface sampled(const geometry::Shape& shape, double spacing) {
+  return geometry::sampled(shape, {spacing, spacing}).parts.front().surface;
+}
+
+double volume(const Surface& surface) { return geometry::enclosed(surface).volume; }
+
+// Of an ellipsoid of the default size: the distance of a point from it, to first order, m.
+double off_ellipsoid(const Vec3& point) {
+  const Vec3 half = 0.5 * geometry::Ellipsoid{}.size;
+  const Vec3 x = point - half;
+  const double level = x.cwiseQuotient(half).norm() - 1.0;
+  return std::abs(level) / x.cwiseQuotient(half.cwiseProduct(half)).norm();
+}
+
+// Narrow strips from end to end, as programs for drawing export a cylinder: axis along z, m.
+Surface strips(int count, double radius, double length) {
+  Surface surface;
+  for (const double z : {0.0, length})
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / count;
+      surface.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  surface.vertices.emplace_back(0.0, 0.0, 0.0);
+  surface.vertices.emplace_back(0.0, 0.0, length);
+  for (int i = 0; i < count; ++i) {
+    const int j = (i + 1) % count;
+    surface.triangles.push_back({i, j, j + count});
+    surface.triangles.push_back({i, j + count, i + count});
+    surface.triangles.push_back({j, i, 2 * count});
+    surface.triangles.push_back({i + count, j + count, 2 * count + 1});
+  }
+  return surface;
+}
+
+TEST(FineSurface, BecomesCoarserWithTheSameVolume) {
+  const Surface fine = sampled(geometry::Ellipsoid{}, 1.6e-3);
+  ASSERT_GT(fine.triangles.size(), 100000u);
+  for (const double spacing : {20e-3, 10e-3}) {
+    const auto coarse = remeshed(fine, spacing);
+    ASSERT_TRUE(coarse.has_value());
+    check_closed(coarse->surface, "coarse");
+    EXPECT_NEAR(test::mean_edge(coarse->surface) / spacing, 1.0, 0.2);
+    EXPECT_EQ(count_needles(coarse->surface), 0u);
+    // The needles at the poles are remeshed with vertices on the surface, inside the round body.
+    EXPECT_NEAR(volume(coarse->surface) / volume(fine), 1.0, 0.005);
+    EXPECT_LE(coarse->distance, remeshing_limit(fine, spacing));
+    double most = 0.0;
+    for (const auto& [a, b, c] : coarse->surface.triangles) {
+      const auto& v = coarse->surface.vertices;
+      for (const Vec3& point :
+           {v[as_index(a)], Vec3((v[as_index(a)] + v[as_index(b)] + v[as_index(c)]) / 3.0)})
+        most = std::max(most, off_ellipsoid(point));
+    }
+    EXPECT_NEAR(coarse->distance / most, 1.0, 0.15);  // middles of edges count too, to first order
+  }
+}
+
+TEST(FineSurface, KeepsCornersAndEdgesOfABox) {
+  const Vec3 size{0.060, 0.050, 0.030};
+  const Surface fine = sampled(geometry::Cuboid{size}, 0.5e-3);
+  ASSERT_EQ(count_needles(fine), 0u);
+  const auto coarse = remeshed(fine, 8e-3);
+  ASSERT_TRUE(coarse.has_value());
+  EXPECT_LT(coarse->surface.triangles.size(), 1000u);
+  EXPECT_NEAR(volume(coarse->surface) / size.prod(), 1.0, 1e-9);  // each collapse preserves it
+  constexpr double rounding = 1e-8;  // m, of the least squares that place the vertices
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 place((corner & 1) * size.x(), ((corner >> 1) & 1) * size.y(),
+                     (corner >> 2) * size.z());
+    double nearest = 1.0;
+    for (const Vec3& vertex : coarse->surface.vertices)
+      nearest = std::min(nearest, (vertex - place).norm());
+    EXPECT_LT(nearest, rounding);
+  }
+  EXPECT_LT(coarse->distance, rounding);
+}
+
+TEST(FineSurface, KeepsADetailByShorterEdges) {
+  // A ball of 100 mm with a knob that is 4 mm high and 6 mm wide.
+  Surface fine = sampled(geometry::Ellipsoid{{0.1, 0.1, 0.1}}, 1e-3);
+  const Vec3 middle = Vec3::Constant(0.05);
+  for (Vec3& vertex : fine.vertices) {
+    const Vec3 out = (vertex - middle).normalized();
+    const double along = (out - Vec3::UnitX()).norm() * 0.05 / 0.003;
+    vertex += 0.004 * std::exp(-along * along) * out;
+  }
+  const auto coarse = remeshed(fine, 15e-3);
+  ASSERT_TRUE(coarse.has_value());
+  EXPECT_LE(coarse->distance, remeshing_limit(fine, 15e-3));
+  EXPECT_LT(test::mean_edge(coarse->surface), 12e-3);
+  double highest = 0.0;
+  for (const Vec3& vertex : coarse->surface.vertices)
+    highest = std::max(highest, (vertex - middle).norm());
+  EXPECT_NEAR(highest, 0.054, remeshing_limit(fine, 15e-3));
+}
+
+TEST(FineSurface, IsTheSameToTheBitAgain) {
+  const Surface fine = sampled(geometry::Cylinder{}, 1.5e-3);
+  const auto first = remeshed(fine, 8e-3);
+  const auto again = remeshed(fine, 8e-3);
+  ASSERT_TRUE(first && again);
+  EXPECT_EQ(first->surface.vertices, again->surface.vertices);
+  EXPECT_EQ(first->surface.triangles, again->surface.triangles);
+  EXPECT_EQ(first->distance, again->distance);
+}
+
+TEST(CoarseSurface, IsNotMadeFiner) {
+  EXPECT_FALSE(remeshed(sampled(geometry::Cuboid{}, 10e-3), 5e-3).has_value());
+}
+
+TEST(Needles, AreRemeshedAndTheRimStays) {
+  const Surface needles = strips(128, 0.030, 0.080);
+  ASSERT_EQ(count_needles(needles), needles.triangles.size());
+  const auto even = remeshed(needles, 8e-3);
+  ASSERT_TRUE(even.has_value());
+  EXPECT_EQ(count_needles(even->surface), 0u);
+  EXPECT_NEAR(volume(even->surface) / volume(needles), 1.0, 0.005);
+  double smallest = std::numbers::pi;
+  for (std::size_t t = 0; t < even->surface.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      smallest = std::min(smallest, geometry::corner_angle(even->surface, static_cast<int>(t), i));
+  EXPECT_GT(smallest, 10.0 * std::numbers::pi / 180.0);
+  // No triangle cuts the rim off: the ends keep their area.
+  double ends = 0.0;
+  for (std::size_t t = 0; t < even->surface.triangles.size(); ++t) {
+    const Vec3 twice = geometry::twice_area(even->surface, static_cast<int>(t));
+    if (std::abs(twice.z()) > 0.9 * twice.norm()) ends += 0.5 * twice.norm();
+  }
+  EXPECT_NEAR(ends / (2.0 * std::numbers::pi * 9e-4), 1.0, 0.03);  // chords of 8 mm take 1.2 %
+}
+
+TEST(Cells, GiveAboutAsManyNodesAsAskedFor) {
+  // A cube of 60 mm in cells of 10 mm: 218 vertices on its surface, 125 inside.
+  EXPECT_NEAR(cell_for(sampled(geometry::Cuboid{{0.06, 0.06, 0.06}}, 5e-3), 343), 10e-3, 1.5e-3);
+}
+
+TEST(FileMesh, OfAFineSurfaceHasTheNodesAskedForAndSaysWhatItDid) {
+  const Surface fine = sampled(geometry::Ellipsoid{}, 1.6e-3);
+  for (const int nodes : {728, 3000}) {
+    const FileMesh made = tetgen_file(fine, {}, {.nodes = nodes}, time_given);
+    EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / nodes, 1.0, 0.03);
+    EXPECT_NEAR(geometry::volume(made.mesh) / volume(fine), 1.0, 0.005);
+    EXPECT_NE(made.remark.find("the " + std::to_string(fine.triangles.size()) +
+                               " triangles of the surface became "),
+              std::string::npos)
+        << made.remark;
+    EXPECT_NE(made.remark.find(" mm apart"), std::string::npos) << made.remark;
+  }
+}
+
+TEST(FileMesh, OfNeedlesHasTheNodesAskedFor) {
+  const FileMesh made = tetgen_file(strips(128, 0.030, 0.080), {}, {.nodes = 728}, time_given);
+  EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / 728.0, 1.0, 0.03);
+  EXPECT_NE(made.remark.find("because 512 of them are needles"), std::string::npos) << made.remark;
+}
+
+TEST(FileMesh, OfAFineSurfaceWithAnEdgeLengthIsCoarserToo) {
+  const FileMesh made =
+      tetgen_file(sampled(geometry::Cuboid{}, 1e-3), {}, {.edge_length = 8e-3}, time_given);
+  EXPECT_LT(made.mesh.nodes.size(), 1500u);
+  EXPECT_NE(made.remark.find("finer than the mesh asked for"), std::string::npos) << made.remark;
+}
+
+TEST(FileMesh, KeepsAGoodSurface) {
+  const Surface good = sampled(geometry::Cuboid{}, 8e-3);
+  const FileMesh made = tetgen_file(good, {}, {.nodes = 728}, time_given);
+  EXPECT_EQ(made.remark, "");
+  EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / 728.0, 1.0, 0.03);
+}
+
+// 100 nodes are fewer than a torus that is nearer than half a per cent of its size needs.
+TEST(FileMesh, HasMoreNodesWhereTheSurfaceNeedsThem) {
+  Surface fine = test::torus(0.06).surface;
+  for (Vec3& vertex : fine.vertices) vertex *= 0.01;  // 80 mm wide
+  const FileMesh made = tetgen_file(fine, {}, {.nodes = 100}, time_given);
+  EXPECT_GT(made.mesh.nodes.size(), 125u);
+  EXPECT_NE(made.remark.find(" nodes instead of 100, because it keeps the surface's vertices"),
+            std::string::npos)
+      << made.remark;
+  EXPECT_LT(made.mesh.nodes.size(), 4000u);
+}
+
+}  // namespace
+}  // namespace palpate::meshing

@@ -1,0 +1,180 @@
+// The touch on surface files, its limits, and the indentation on an inclined surface.
+#include "scene/surface_touch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "geometry/shapes.h"
+#include "refusal.h"
+#include "scenario_text.h"
+#include "scene/estimates.h"
+#include "scene/specimen_shape.h"
+#include "scene_text.h"
+#include "temporary_folder.h"
+#include "test_surfaces.h"
+
+namespace palpate::scene {
+namespace {
+
+void write_off(const test::fs::path& path, const geometry::Surface& surface) {
+  std::ostringstream text;
+  text << "OFF\n" << surface.vertices.size() << " " << surface.triangles.size() << " 0\n";
+  for (const Vec3& v : surface.vertices)
+    text << number_text(1e3 * v.x()) << " " << number_text(1e3 * v.y()) << " "
+         << number_text(1e3 * v.z()) << "\n";
+  for (const auto& [a, b, c] : surface.triangles) text << "3 " << a << " " << b << " " << c << "\n";
+  test::write_file(path, text.str());
+}
+
+geometry::Surface sampled(const geometry::Shape& shape, double spacing) {
+  return geometry::sampled(shape, {spacing, spacing}).parts.front().surface;
+}
+
+class SurfaceFiles : public testing::Test {
+ protected:
+  void write(const geometry::Surface& surface) { write_off(folder_.path() / "body.off", surface); }
+
+  [[nodiscard]] std::string text(const std::string& finger, const std::string& more = "") const {
+    return "[tissue]\nmaterial = \"skin\"\nshape = { file = \"" +
+           (folder_.path() / "body.off").string() + "\", unit = \"mm\" }\n[finger]\n" + finger +
+           "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n" + more;
+  }
+  [[nodiscard]] SurfaceTouch touch(const std::string& finger) const {
+    return choose(scenario::read_case(text(finger))).touch;
+  }
+  [[nodiscard]] std::string refused(const std::string& finger, const std::string& more) const {
+    return test::refusal([&] { return test::scene_of(text(finger, hertz + more)); });
+  }
+
+  const std::string hertz = "[solver]\nmodel = \"hertz\"\n";
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(SurfaceFiles, AreTouchedWhereTheShapeIs) {
+  for (const double spacing : {5e-3, 2e-3}) {
+    write(sampled(geometry::Ellipsoid{}, spacing));
+    for (const char* x : {"77 mm", "107 mm", "30 mm"}) {
+      const std::string place = "x = \"" + std::string(x) + "\"\ny = \"80 mm\"\n";
+      const SurfaceTouch file = touch(place);
+      const SurfaceTouch shape =
+          choose(
+              scenario::read_case("[tissue]\nmaterial = \"skin\"\nshape = { kind = \"ellipsoid\" "
+                                  "}\n[finger]\n" +
+                                  place + "[[step]]\nkind = \"indent\"\n"))
+              .touch;
+      ASSERT_TRUE(file.known() && shape.known()) << file.cannot;
+      EXPECT_NEAR(file.curvature.kappa_1 / shape.curvature.kappa_1, 1.0, 0.01);
+      EXPECT_NEAR(file.curvature.kappa_2 / shape.curvature.kappa_2, 1.0, 0.01);
+      EXPECT_GT(file.curvature.normal.dot(shape.curvature.normal), std::cos(0.005));
+      // The smooth surface through the triangles follows the shape to second order.
+      EXPECT_LT((file.lowest - shape.lowest).norm(), 0.02e-3);
+      EXPECT_NEAR(file.thickness, shape.thickness, 0.5e-3);
+      EXPECT_LT((file.size - shape.size).norm(), 0.5e-3);
+    }
+  }
+}
+
+// A scan has a grain: here 0.02 mm on triangles of 1 mm, which alone would be curvatures of 100/m.
+TEST_F(SurfaceFiles, WithAGrainAreMeasuredOverTheContact) {
+  geometry::Surface surface = sampled(geometry::Ellipsoid{{0.1, 0.1, 0.1}}, 1e-3);
+  test::Dice dice(7);
+  for (Vec3& vertex : surface.vertices)
+    vertex += 0.02e-3 * (2.0 * dice.roll() - 1.0) * (vertex - Vec3::Constant(0.05)).normalized();
+  write(surface);
+  const SurfaceTouch found = touch("x = \"60 mm\"\n");
+  ASSERT_TRUE(found.known()) << found.cannot;
+  EXPECT_NEAR(found.curvature.kappa_1, 20.0, 6.0);  // a third: four times less than two rings give
+  EXPECT_NEAR(found.curvature.kappa_2, 20.0, 6.0);
+}
+
+TEST_F(SurfaceFiles, TellAutoTheirThicknessAndWidth) {
+  write(sampled(geometry::Ellipsoid{{0.08, 0.08, 0.02}}, 2e-3));
+  const Choice choice = choose(scenario::read_case(text("")));
+  EXPECT_NEAR(choice.touch.size.x(), 0.08, 1e-4);
+  EXPECT_NEAR(choice.touch.thickness, 0.02, 1e-4);
+  const Estimates found = estimate(choice);
+  EXPECT_GT(found.thickness, 0.1);
+  EXPECT_NEAR(found.curved_body, found.tissue_share * found.contact_radius / 0.01,
+              0.01 * found.curved_body);  // the box is that of the triangles
+  const Question* size = nullptr;
+  for (const Question& question : choice.questions)
+    if (question.asked == "half-space?") size = &question;
+  ASSERT_NE(size, nullptr);
+  EXPECT_NEAR(size->number,
+              std::abs((1.0 + found.thickness) * (1.0 - 0.5 * found.curved_body) - 1.0), 1e-12);
+  ASSERT_NE(choice.forecast(scenario::Model::hertz), nullptr);
+  EXPECT_GT(choice.forecast(scenario::Model::hertz)->error, 0.1);
+  EXPECT_NE(choice.chosen.solver.model, scenario::Model::hertz);
+  // A large body of the same tissue needs no mesh.
+  write(sampled(geometry::Ellipsoid{{0.4, 0.4, 0.4}}, 10e-3));
+  EXPECT_EQ(choose(scenario::read_case(text("x = \"240 mm\"\n"))).chosen.solver.model,
+            scenario::Model::hertz);
+}
+
+TEST_F(SurfaceFiles, AreRefusedWhereNoFormulaHolds) {
+  write(sampled(geometry::Cylinder{}, 2e-3));
+  EXPECT_NE(refused("y = \"-3 mm\"\n", "").find("first touches an edge of the surface"),
+            std::string::npos);
+  EXPECT_NE(refused("x = \"68 mm\"\n", "").find("the surface is inclined by "), std::string::npos);
+  EXPECT_NE(refused("spheres = 3\n", "").find("several spheres press a curved surface"),
+            std::string::npos);
+  EXPECT_NE(refused("", "[[step]]\nkind = \"slide\"\nby = \"1 mm\"\n")
+                .find("the finger slides over a curved surface"),
+            std::string::npos);
+  EXPECT_NE(test::refusal<MeshError>([&] {
+              return test::scene_of(text("x = \"90 mm\"\n", hertz));
+            }).find("the finger passes beside the specimen at x 90 mm, y "),
+            std::string::npos);
+  geometry::Surface open = sampled(geometry::Cylinder{}, 5e-3);
+  open.triangles.pop_back();
+  write(open);
+  EXPECT_NE(
+      test::refusal<MeshError>([&] { return test::scene_of(text("", hertz)); }).find("is open: "),
+      std::string::npos);
+}
+
+TEST_F(SurfaceFiles, AreReadOnceForAllCases) {
+  write(sampled(geometry::Ellipsoid{}, 8e-3));
+  SpecimenShapes shapes;
+  const scenario::Case one = scenario::read_case(text(""));
+  const SurfaceTouch first = choose(one, shapes).touch;
+  test::fs::remove(folder_.path() / "body.off");
+  EXPECT_EQ(choose(one, shapes).touch.position, first.position);
+  EXPECT_NE(choose(one).touch.cannot, "");
+}
+
+// A ball on a ball: the indentation is the sum of the radii less the distance of the centres.
+TEST(Inclined, IndentationIsTheSpheresToSecondOrder) {
+  constexpr double own = 0.011;
+  constexpr double other = 0.040;
+  SurfaceTouch touch;
+  const Vec3 normal = Vec3(0.3, -0.4, 1.0).normalized();
+  const auto [a, b] = geometry::tangent_axes(normal);
+  touch.curvature = {1.0 / other, 1.0 / other, a, b, normal};
+  for (const double travel : {1e-4, 1e-3, 4e-3}) {
+    const Vec3 centre = (own + other) * normal - travel * Vec3::UnitZ();
+    const auto [depth, direction] = touch.pressed(own, travel);
+    // The next term of the square root: t^3 cos sin^2 / (2 (R + R_2)^2), and 10 % for those after.
+    const double cosine = normal.z();
+    const double third = 0.55 * travel * travel * travel * cosine * (1.0 - cosine * cosine) /
+                         ((own + other) * (own + other));
+    EXPECT_NEAR(depth, own + other - centre.norm(), third);
+    EXPECT_LT((direction - centre.normalized()).norm(), std::pow(travel / (own + other), 2));
+    EXPECT_GT(std::abs(travel * normal.z() - (own + other - centre.norm())), 3.0 * third);
+  }
+}
+
+TEST(Inclined, AFlatIsExact) {
+  SurfaceTouch touch;
+  touch.curvature.normal = Vec3(0.6, 0.0, 0.8);
+  touch.curvature.direction_1 = Vec3(0.8, 0.0, -0.6);
+  EXPECT_EQ(touch.pressed(0.011, 0.002).depth, 0.002 * 0.8);
+  EXPECT_EQ(SurfaceTouch{}.pressed(0.011, 0.002).depth, 0.002);
+}
+
+}  // namespace
+}  // namespace palpate::scene
