@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/bodies.h"
 #include "auto_scenes.h"
 #include "base/text.h"
 #include "blocks.h"
@@ -229,7 +230,7 @@ void auto_table() {
   std::printf("---|\n");
   for (const test::AutoScene& one : test::auto_scenes()) {
     const auto family = scenario::parse(one.text, "scene.toml", {});
-    const auto chosen = test::first_scene(family);
+    const auto chosen = run::build_scene(family.cases.front(), family);
     const Reference truth = reference(one, chosen);
     std::printf("| %s | %s | %s |", one.name, truth.kind, percent(truth.error).c_str());
     for (const scenario::Rung& each : scenario::ladder) {
@@ -242,7 +243,9 @@ void auto_table() {
           asked = scenario::answered(as_taken.cases.front(), chosen.scenario);
           asked.solver.model = each.of;
           if (!each.deep_factor) asked.contact.depth = scenario::Contact::Depth::hertz;
-          error = measure(test::run_scene(test::first_scene(as_taken))) / truth.value - 1.0;
+          error = measure(test::run_scene(run::build_scene(as_taken.cases.front(), as_taken))) /
+                      truth.value -
+                  1.0;
         } catch (const std::exception&) {
         }
       }
@@ -258,7 +261,7 @@ void auto_table() {
 }  // namespace palpate
 
 // The first argument names the gnuplot script of the figure; a second one the only table to write:
-// `blocks`, `uniform` or `auto`.
+// `blocks`, `bodies`, `uniform` or `auto`.
 int main(int count, char** arguments) {
   const std::string only = count > 2 ? arguments[2] : "";
   const auto wanted = [&](const char* table) { return only.empty() || only == table; };
@@ -274,6 +277,7 @@ int main(int count, char** arguments) {
         "band is that of linear elasticity. The static\nforce of both kinds of springs comes from "
         "the same finite elements.\n");
   }
+  if (wanted("bodies")) palpate::bodies_table();
   if (wanted("uniform")) palpate::uniform_table();
   if (wanted("auto")) palpate::auto_table();
 }

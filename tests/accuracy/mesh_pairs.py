@@ -1,6 +1,6 @@
 """Counts how often two meshes of one random body differ in force by more than both state.
 
-Usage: python3 tests/accuracy/mesh_pairs.py PALPATE [PAIRS]     (200 pairs take nine minutes at -O1)
+Usage: python3 tests/accuracy/mesh_pairs.py PALPATE [PAIRS]     (200 pairs take seven minutes at -O1)
 """
 import csv
 import random
