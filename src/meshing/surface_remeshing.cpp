@@ -78,6 +78,41 @@ double farthest(const Surface& from, const geometry::BoxTree& to) {
   return std::sqrt(most);
 }
 
+struct Box {
+  Vec3 low, high;
+};
+
+Box box_around(const Surface& surface) {
+  Box box{surface.vertices.front(), surface.vertices.front()};
+  for (const Vec3& vertex : surface.vertices) {
+    box.low = box.low.cwiseMin(vertex);
+    box.high = box.high.cwiseMax(vertex);
+  }
+  return box;
+}
+
+// Flat sides of the original stay flat to the last bit: the base of a specimen is known by that.
+// Collapsed edges of a rim end a little above or below its plane.
+void flatten_sides(const Surface& original, double spacing, Surface& surface) {
+  const auto [low, high] = box_around(original);
+  const double flat = 1e-9 * (high - low).norm();
+  const double close = 0.05 * spacing;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    for (const double side : {low[axis], high[axis]}) {
+      double area = 0.0;
+      for (std::size_t t = 0; t < original.triangles.size(); ++t) {
+        const auto& corners = original.triangles[t];
+        if (std::all_of(corners.begin(), corners.end(), [&](int vertex) {
+              return std::abs(original.vertices[as_index(vertex)][axis] - side) <= flat;
+            }))
+          area += 0.5 * geometry::twice_area(original, static_cast<int>(t)).norm();
+      }
+      if (area < spacing * spacing) continue;
+      for (Vec3& vertex : surface.vertices)
+        if (std::abs(vertex[axis] - side) <= close) vertex[axis] = side;
+    }
+}
+
 std::optional<Surface> attempt(const Surface& surface, double spacing, bool uneven) {
   const ChildResult result = run_in_child(
       [&] {
@@ -128,12 +163,7 @@ double cell_for(const Surface& surface, int nodes) {
 }
 
 double remeshing_limit(const Surface& surface, double spacing) {
-  Vec3 low = surface.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& vertex : surface.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
+  const auto [low, high] = box_around(surface);
   return std::min(0.125 * spacing, 0.005 * (high - low).norm());
 }
 
@@ -146,6 +176,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing) {
   for (int i = 0; i < most_tries; ++i, spacing *= shorter) {
     std::optional<Surface> tried = attempt(surface, spacing, uneven);
     if (!tried || tried->triangles.empty()) continue;
+    flatten_sides(surface, spacing, *tried);
     if (!uneven && tried->triangles.size() >= surface.triangles.size()) return std::nullopt;
     if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) > most_volume) continue;
     if (count_needles(*tried) > 0) continue;

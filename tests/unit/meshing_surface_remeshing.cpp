@@ -50,6 +50,23 @@ Surface strips(int count, double radius, double length) {
   return surface;
 }
 
+// A base is known by being flat.
+TEST(FineSurface, KeepsItsFlatSidesFlat) {
+  const Surface fine = sampled(geometry::Cylinder{.radius = 0.03, .length = 0.02}, 0.6e-3);
+  const auto coarse = remeshed(fine, 6e-3);
+  ASSERT_TRUE(coarse.has_value());
+  double ends = 0.0;
+  for (std::size_t t = 0; t < coarse->surface.triangles.size(); ++t) {
+    const auto& corners = coarse->surface.triangles[t];
+    const auto y = [&](std::size_t k) {
+      return coarse->surface.vertices[as_index(corners[k])].y();
+    };
+    if (y(0) == y(1) && y(1) == y(2) && (y(0) == 0.0 || y(0) == 0.02))
+      ends += 0.5 * geometry::twice_area(coarse->surface, static_cast<int>(t)).norm();
+  }
+  EXPECT_NEAR(ends / (2.0 * std::numbers::pi * 0.03 * 0.03), 1.0, 0.03);
+}
+
 TEST(FineSurface, BecomesCoarserWithTheSameVolume) {
   const Surface fine = sampled(geometry::Ellipsoid{}, 1.6e-3);
   ASSERT_GT(fine.triangles.size(), 100000u);
