@@ -13,8 +13,8 @@ namespace palpate::run {
 //                                                                        docs/theory.md (12)
 [[nodiscard]] scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family);
 [[nodiscard]] scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
-                                 scene::SpecimenShapes& shapes);
+                                       scene::SpecimenShapes& shapes);
 [[nodiscard]] scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
-                                 scene::SpecimenShapes& shapes, scene::Choice choice);
+                                       scene::SpecimenShapes& shapes, scene::Choice choice);
 
 }  // namespace palpate::run

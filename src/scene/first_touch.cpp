@@ -25,7 +25,8 @@ std::string beside_text(const Vec3& place) {
 
 FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& place,
                         const Spheres& spheres) {
-  const auto& [centres, radius] = spheres;
+  const std::span<const Vec3> centres = spheres.centres;
+  const double radius = spheres.radius;
   contact::Detector detector(surface);
   std::vector<geometry::SmoothSurface::Foot> feet;
   double lowest = place.z();

@@ -1,6 +1,8 @@
 // Fine surfaces and surfaces with needles: what remeshing keeps, and the meshes of such surfaces.
 #include "meshing/surface_remeshing.h"
 
+#include <gtest/gtest.h>
+
 #include <numbers>
 
 #include "geometry/body.h"
