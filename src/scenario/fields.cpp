@@ -141,8 +141,8 @@ static void fields(FieldVisitor& visitor, Lump& region) {
 }
 static void fields(FieldVisitor& visitor, Slab& region) {
   visitor.quantity({"bottom", "Height where it begins."}, region.bottom, unit::mm, at_least(0));
-  visitor.quantity({"top", "Height where it ends; the top of the body is `tissue`."},
-                   region.top, unit::mm, above(0));
+  visitor.quantity({"top", "Height where it ends; the top of the body is `tissue`."}, region.top,
+                   unit::mm, above(0));
 }
 
 namespace {

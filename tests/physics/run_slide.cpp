@@ -87,7 +87,8 @@ TEST(Slide, ForceHasNoJumps) {
       for (int i = 0; i <= steps; ++i) {
         const Vec3 offset = way.from + (way.to - way.from) * (static_cast<double>(i) / steps);
         const auto wrong = mesh.try_out(first + offset, touch);
-        ASSERT_FALSE(wrong.has_value()) << coupling << " " << way.name << " " << i << ": " << *wrong;
+        ASSERT_FALSE(wrong.has_value())
+            << coupling << " " << way.name << " " << i << ": " << *wrong;
         forces.push_back(touch.normal_force());
       }
       double most = 0.0;
