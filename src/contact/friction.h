@@ -1,6 +1,8 @@
 // Friction of the finger: Coulomb's limit (Chen 2007 eq. (4)), and stick before slip.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "base/vec3.h"
 
 namespace palpate::contact::friction {
@@ -22,10 +24,11 @@ struct Stick {
                           double shear_compliance);
 
 // The inverse, N: the tangential force on the tissue after the finger has moved by `stretch` (m,
-// tangential) relative to it. Its largest value is the limit, at which the whole contact slips; a
-// longer stretch is shortened to that of the limit. Zero, with the stretch reset, if limit <= 0.
-//                                                                             docs/theory.md (8)
-[[nodiscard]] Vec3 drag(Vec3& stretch, double limit, double contact_radius,
-                        double shear_compliance);
+// tangential) relative to it. `beyond` (m/N, symmetric, tangential) times this force is what the
+// body moves beyond a half-space. Its largest value is the limit, at which the whole contact slips;
+// a longer stretch is shortened along the force to that of the limit. Zero, with the stretch reset,
+// if limit <= 0.                                                              docs/theory.md (8)
+[[nodiscard]] Vec3 drag(Vec3& stretch, double limit, double contact_radius, double shear_compliance,
+                        const Eigen::Matrix3d& beyond = Eigen::Matrix3d::Zero());
 
 }  // namespace palpate::contact::friction
