@@ -18,6 +18,12 @@ constexpr double stated = 1e-9;  // weights below it count as none
 constexpr double most_corrected = 0.75;
 constexpr double least_corrected = 0.02;
 
+// s + e, m/N. An estimate of the error that exceeds what it corrects says only that the mesh is too
+// coarse. `known` is the part of the half-space's sinking that e may correct, m/N.
+double corrected(const BeyondHalfSpace& beyond, double known) {
+  return beyond.sinking + std::min(beyond.error, most_corrected * std::abs(beyond.sinking) + known);
+}
+
 }  // namespace
 
 BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
@@ -28,6 +34,12 @@ BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
       plane_modulus_(
           scene.scenario.tissue.young_modulus /
           (1.0 - scene.scenario.tissue.poisson_ratio * scene.scenario.tissue.poisson_ratio)),
+      shear_compliance_((2.0 - scene.scenario.tissue.poisson_ratio) * 2.0 *
+                        (1.0 + scene.scenario.tissue.poisson_ratio) /
+                        scene.scenario.tissue.young_modulus),
+      rubs_(scene.scenario.contact.friction > 0.0 && !scene.layer &&
+            scene.scenario.contact.slip == scenario::Contact::Slip::mindlin &&
+            scene.specimen->base == tissue::Base::bonded),
       first_(scene::first_touch(scene).at) {
   if (!scene.layer) return;
   const scene::Specimen& specimen = *scene.specimen;
@@ -42,26 +54,40 @@ BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
   sliding_.emplace(scene, part, slides);
 }
 
+// From loads along two axes and between them. The half-space's own is 3 q / (20 a), q = (2 - nu)/G.
+Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch) {
+  const Vec3 x = patch.axis;
+  const Vec3 y = patch.normal.cross(x);
+  const auto along = [&](const Vec3& load) {
+    return corrected(coupling_.beyond(patch, load),
+                     least_corrected * 0.15 * shear_compliance_ / patch.a);
+  };
+  const double of_x = along(x);
+  const double of_y = along(y);
+  const double of_both = along((x + y).normalized()) - 0.5 * (of_x + of_y);
+  return of_x * x * x.transpose() + of_y * y * y.transpose() +
+         of_both * (x * y.transpose() + y * x.transpose());
+}
+
 BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
   Place place;
   contact::Patch patch = like;
   patch.axis = patch.normal.unitOrthogonal();
+  place.normal = patch.normal;
   for (std::size_t k = 0; k < radii; ++k) {
     patch.a = patch.b = steps[k] * largest_;
-    BeyondHalfSpace beyond = coupling_.beyond(patch);
+    BeyondHalfSpace beyond = coupling_.beyond(patch, -patch.normal);
     if (sliding_) {
-      const BeyondHalfSpace slides = sliding_->beyond(patch);
+      const BeyondHalfSpace slides = sliding_->beyond(patch, -patch.normal);
       beyond.sinking = 0.5 * (beyond.sinking - slides.sinking);
       beyond.error = 0.5 * std::abs(beyond.error - slides.error);
       beyond.boundary = 0.0;  // a block is flat
       place.sinking[k] = beyond.sinking;
     } else {
-      // An estimate of the error that exceeds what it corrects says only that the mesh is too
-      // coarse. 3/(5 E' a) is the half-space's own sinking, docs/theory.md (13).
-      const double most = most_corrected * std::abs(beyond.sinking) +
-                          least_corrected * 0.6 / (plane_modulus_ * patch.a);
-      place.sinking[k] = beyond.sinking + std::min(beyond.error, most);
+      // 3/(5 E' a) is the half-space's own sinking, docs/theory.md (13).
+      place.sinking[k] = corrected(beyond, least_corrected * 0.6 / (plane_modulus_ * patch.a));
     }
+    if (rubs_) place.shear[k] = find_shear(patch);
     place.error[k] = beyond.error;
     place.boundary[k] = beyond.boundary;
     if (k == 2) place.rest = std::move(beyond.rest);
@@ -112,51 +138,70 @@ void BodySinking::spread(const contact::Patch& patch) {
     if (weights[k] > stated) shares_[k] = {&at_vertex(patch, k), weights[k]};
 }
 
-BodySinking::Value BodySinking::at(const contact::Patch& patch) {
-  Value value;
-  if (!(patch.turned > 0.0)) {
-    add(patch, 1.0, value);
-    return value;
-  }
+// Calls add(place, k, weight, product, slope, fading) for every place and its k-th radius:
+// `product` is Lagrange's polynomial of that radius, and `slope` its derivative. Beyond the table a
+// value levels off, with a slope that begins as the polynomial's ends: product + slope * (1 -
+// fading).
+template <class Add>
+void BodySinking::at_radius(const contact::Patch& patch, const Add& add) {
+  const double ratio = patch.radius() / largest_;
+  const double x = std::min(ratio, steps.back());
+  const double fading = std::exp(x - ratio);
+  const auto add_side = [&](const contact::Patch& side, double part) {
+    spread(side);
+    for (const Share& share : shares_) {
+      if (share.place == nullptr) continue;
+      for (std::size_t k = 0; k < radii; ++k) {
+        double product = 1.0;
+        double slope = 0.0;
+        for (std::size_t j = 0; j < radii; ++j) {
+          if (j == k) continue;
+          const double gap = steps[k] - steps[j];
+          slope = (slope * (x - steps[j]) + product) / gap;
+          product *= (x - steps[j]) / gap;
+        }
+        add(*share.place, k, part * share.weight, product, slope, fading);
+      }
+    }
+  };
+  if (!(patch.turned > 0.0)) return add_side(patch, 1.0);
   // On a crease the value changes from one side's to the other's as the perpendicular turns.
   contact::Patch beyond = patch;
   beyond.at = patch.beyond;
-  add(patch, 1.0 - patch.turned, value);
-  add(beyond, patch.turned, value);
+  add_side(patch, 1.0 - patch.turned);
+  add_side(beyond, patch.turned);
+}
+
+BodySinking::Value BodySinking::at(const contact::Patch& patch) {
+  Value value;
+  at_radius(patch, [&](const Place& place, std::size_t k, double weight, double product,
+                       double slope, double fading) {
+    value.sinking += weight * (product + slope * (1.0 - fading)) * place.sinking[k];
+    value.slope += weight * slope * fading / largest_ * place.sinking[k];
+    value.error += weight * product * place.error[k];
+    value.boundary += weight * product * place.boundary[k];
+  });
   return value;
 }
 
-void BodySinking::add(const contact::Patch& patch, double part, Value& value) {
-  spread(patch);
-  for (const auto& [place, own] : shares_) {
-    if (place == nullptr) continue;
-    const double weight = part * own;
-    // Beyond the table the value levels off, with a slope that begins as the polynomial's ends.
-    const double ratio = patch.radius() / largest_;
-    const double x = std::min(ratio, steps.back());
-    const double fading = std::exp(x - ratio);
-    for (std::size_t k = 0; k < radii; ++k) {
-      // Lagrange's polynomial of the k-th radius, and its derivative.
-      double product = 1.0;
-      double slope = 0.0;
-      for (std::size_t j = 0; j < radii; ++j) {
-        if (j == k) continue;
-        const double gap = steps[k] - steps[j];
-        slope = (slope * (x - steps[j]) + product) / gap;
-        product *= (x - steps[j]) / gap;
-      }
-      value.sinking += weight * (product + slope * (1.0 - fading)) * place->sinking[k];
-      value.slope += weight * slope * fading / largest_ * place->sinking[k];
-      value.error += weight * product * place->error[k];
-      value.boundary += weight * product * place->boundary[k];
-    }
-  }
+Eigen::Matrix3d BodySinking::shear(const contact::Patch& patch) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  if (!rubs_) return sum;
+  at_radius(patch, [&](const Place& place, std::size_t k, double weight, double product,
+                       double slope, double fading) {
+    // The shortest rotation between the normals.                         docs/theory.md (22)
+    const Eigen::Matrix3d turn =
+        Eigen::Matrix3d::Identity() - (patch.normal + place.normal) * patch.normal.transpose() /
+                                          (1.0 + patch.normal.dot(place.normal));
+    sum += weight * (product + slope * (1.0 - fading)) * turn * place.shear[k] * turn.transpose();
+  });
+  return sum;
 }
 
 std::vector<double> BodySinking::errors(const contact::Patch& patch) {
-  std::vector<double> errors = coupling_.beyond(patch).errors;
+  std::vector<double> errors = coupling_.beyond(patch, -patch.normal).errors;
   if (!sliding_) return errors;
-  const std::vector<double> slides = sliding_->beyond(patch).errors;
+  const std::vector<double> slides = sliding_->beyond(patch, -patch.normal).errors;
   for (std::size_t t = 0; t < errors.size(); ++t) errors[t] = 0.5 * std::abs(errors[t] - slides[t]);
   return errors;
 }

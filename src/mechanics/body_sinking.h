@@ -29,6 +29,12 @@ class BodySinking {
   // Of the patch; of an ellipse as of a circle of the same area.
   [[nodiscard]] Value at(const contact::Patch& patch);
 
+  // The same of tangential loads: the displacement (m/N) in the patch's plane beyond the
+  // half-space's is this symmetric tensor times the load. Zero without friction, over a
+  // frictionless base, on which a tangential load meets no resistance, and where the law is that of
+  // flat layers.
+  [[nodiscard]] Eigen::Matrix3d shear(const contact::Patch& patch);
+
   // The error of the sinking under a circular patch per tetrahedron of the part, m/N.
   [[nodiscard]] std::vector<double> errors(const contact::Patch& patch);
 
@@ -46,16 +52,20 @@ class BodySinking {
   // The places of the table in which a radius lies, relative to the largest.
   static constexpr std::array<double, radii> steps{0.2, 0.45, 0.75, 1.0};
   struct Place {
-    std::array<double, radii> sinking{};   // m/N, s + e
-    std::array<double, radii> error{};     // m/N
-    std::array<double, radii> boundary{};  // m/N
-    integrate::Vector rest;                // m/N, w for the third radius
+    std::array<double, radii> sinking{};         // m/N, s + e
+    std::array<double, radii> error{};           // m/N
+    std::array<double, radii> boundary{};        // m/N
+    std::array<Eigen::Matrix3d, radii> shear{};  // m/N, as shear()
+    Vec3 normal = Vec3::Zero();                  // of the patch
+    integrate::Vector rest;                      // m/N, w for the third radius
   };
   struct Share {
     const Place* place = nullptr;
     double weight = 0.0;
   };
-  void add(const contact::Patch& patch, double part, Value& value);
+  template <class Add>
+  void at_radius(const contact::Patch& patch, const Add& add);
+  [[nodiscard]] Eigen::Matrix3d find_shear(const contact::Patch& patch);
   void spread(const contact::Patch& patch);
   [[nodiscard]] Place evaluate(const contact::Patch& like);
   [[nodiscard]] const Place& at_vertex(const contact::Patch& patch, std::size_t corner);
@@ -67,6 +77,8 @@ class BodySinking {
   std::optional<EnergyCoupling> sliding_;
   double largest_;                // m, the largest contact radius of the table
   double plane_modulus_;          // Pa, E / (1 - nu^2) of the tissue
+  double shear_compliance_;       // 1/Pa, (2 - nu) / G of the tissue
+  bool rubs_;                     // tangential loads are evaluated
   geometry::SurfacePoint first_;  // where the finger touches first
   std::optional<Place> at_first_;
   // Per vertex, one place for each smooth side of its creases.

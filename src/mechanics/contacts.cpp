@@ -308,7 +308,7 @@ std::optional<std::string> Contacts::find(const Vec3& finger, const MeshAnswer& 
     remember(*mesh.moving, touch.contacts);
   }
   touch.contacts.erase_if([](const SphereContact& contact) { return contact.depth <= 0.0; });
-  rub(*scene_, move, touch);
+  rub(*scene_, move, touch, mesh.beyond);
   return std::nullopt;
 }
 

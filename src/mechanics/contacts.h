@@ -50,6 +50,9 @@ struct SphereContact {
   bool on_crease = false;
   bool one_sided = false;  // its curvature has StarStatus::one_sided
 
+  // m/N: the tangential displacement beyond the half-space's is this tensor times the drag.
+  Eigen::Matrix3d shear = Eigen::Matrix3d::Zero();
+
   void renew();  // resets all members, but keeps the memory of the lists
 };
 
@@ -103,8 +106,9 @@ struct MeshAnswer {
 
 // Friction of all contacts after the finger has moved by `move` (m). The stretch grows by the
 // tangential part of `move`, and Cattaneo and Mindlin's partial slip gives the drag, at most mu F;
-// with `contact.slip = "coulomb"` the drag is mu F along `move`.             docs/theory.md (8)
-void rub(const scene::Scene& scene, const Vec3& move, Touch& touch);
+// with `contact.slip = "coulomb"` the drag is mu F along `move`. `beyond` renews the contacts'
+// `shear`; without it they keep it.                                          docs/theory.md (8)
+void rub(const scene::Scene& scene, const Vec3& move, Touch& touch, BodySinking* beyond = nullptr);
 
 // Why Hertz's law does not apply to tissue of the curvature `kappa_2` (1/m).
 [[nodiscard]] std::string hollow_text(double kappa_2);

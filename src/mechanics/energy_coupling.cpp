@@ -23,15 +23,14 @@ constexpr double under_finger = 1.05;
 class EnergyCoupling::Loads {
  public:
   Loads(const geometry::TetMesh& mesh, const geometry::SmoothSurface& skin,
-        const contact::Patch& patch, const Tissue& tissue, int finer)
+        const contact::Patch& patch, const Tissue& tissue, int finer, const Vec3& along)
       : mesh_(&mesh),
         skin_(&skin),
         patch_(&patch),
-        field_(patch.a, patch.b, {tissue.shear_modulus, tissue.elastic.poisson_ratio}, finer),
+        axes_(axes_of(patch)),
+        field_(patch.a, patch.b, {tissue.shear_modulus, tissue.elastic.poisson_ratio}, finer,
+               axes_.transpose() * along),
         finer_(finer) {
-    axes_.col(0) = patch.axis;
-    axes_.col(1) = patch.normal.cross(patch.axis);
-    axes_.col(2) = patch.normal;
     nodal = Vector::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()));
   }
 
@@ -56,6 +55,11 @@ class EnergyCoupling::Loads {
   double known = 0.0;  // m/N, c
 
  private:
+  [[nodiscard]] static Eigen::Matrix3d axes_of(const contact::Patch& patch) {
+    Eigen::Matrix3d axes;
+    axes << patch.axis, patch.normal.cross(patch.axis), patch.normal;
+    return axes;
+  }
   [[nodiscard]] Vec3 local(const Vec3& point) const {
     return axes_.transpose() * (point - patch_->position);
   }
@@ -134,9 +138,9 @@ class EnergyCoupling::Loads {
   const geometry::TetMesh* mesh_;
   const geometry::SmoothSurface* skin_;
   const contact::Patch* patch_;
+  Eigen::Matrix3d axes_;  // columns: the patch's axes
   contact::PatchField field_;
   int finer_;
-  Eigen::Matrix3d axes_;  // columns: the patch's axes
   Vec3 normal_ = Vec3::Zero();
 };
 
@@ -287,10 +291,10 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
   return here;
 }
 
-BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, int finer) {
+BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, const Vec3& along, int finer) {
   const int region = region_under(patch.at.triangle);
   const Home& here = home(region);
-  Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer);
+  Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer, along);
   const Eigen::Index freedoms = static_cast<Eigen::Index>(held_.size());
 
   Vector interpolated = Vector::Zero(freedoms);  // of the half-space in other tissues, m/N

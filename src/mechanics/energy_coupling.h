@@ -16,10 +16,10 @@
 
 namespace palpate::mechanics {
 
-// The difference between the body and a half-space of the tissue at the contact, both pressed by
-// 1 N with Hertz's pressure over the patch.
+// The difference between the body and a half-space of the tissue at the contact, both loaded by
+// 1 N, with the shape of Hertz's pressure, over the patch.
 struct BeyondHalfSpace {
-  double sinking = 0.0;        // m/N: s of docs/theory.md (12), averaged with that pressure
+  double sinking = 0.0;        // m/N: s of docs/theory.md (12), along the load, averaged with it
   double error = 0.0;          // m/N: e of (12); s + e is the better value
   double boundary = 0.0;       // m/N: what the flat faces of a round boundary may cost in s
   std::vector<double> errors;  // m/N, both per tetrahedron of the part
@@ -37,8 +37,10 @@ class EnergyCoupling {
   // `held` has the supports' flags, one per degree of freedom of the part.
   EnergyCoupling(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held);
 
-  // Both semi-axes of the patch are above 0. `finer` refines the quadrature of the loads.
-  [[nodiscard]] BeyondHalfSpace beyond(const contact::Patch& patch, int finer = 1);
+  // Both semi-axes of the patch are above 0. The load is along the unit vector `along`: against the
+  // patch's normal, or tangential. `finer` refines the quadrature of the loads.
+  [[nodiscard]] BeyondHalfSpace beyond(const contact::Patch& patch, const Vec3& along,
+                                       int finer = 1);
 
  private:
   // A boundary face of the tissue at the contact, and between it and another tissue.

@@ -1,5 +1,6 @@
 // Sums over the contacts of a touch, and their friction.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -16,6 +17,22 @@ constexpr double stated_share = 0.5;
 // What a mesh leaves open even where e is zero: the curvature read from its skin, the quadrature of
 // the loads and the interpolation over contact radii.
 constexpr double stated_least = 1e-3;
+
+// Of spheres that represent one, the shear is that of its patch under the drag of all, which is
+// shared like their forces.
+void find_shear(const scene::Scene& scene, const Touch& touch, BodySinking& beyond,
+                SphereContact& contact) {
+  contact::Patch patch = contact.patch;
+  double share = 1.0;
+  if (scene.finger.centres.size() > 1 && contact.force > 0.0 &&
+      scene.scenario.finger.calibration == finger::Calibration::force) {
+    const double wider = std::pow(static_cast<double>(scene.finger.centres.size()), 1.0 / 6.0);
+    patch.a *= wider;
+    patch.b *= wider;
+    share = contact.force / touch.pressed();
+  }
+  contact.shear = beyond.shear(patch) / share;
+}
 
 }  // namespace
 
@@ -84,7 +101,7 @@ double Touch::pressed() const {
   return sum;
 }
 
-void rub(const scene::Scene& scene, const Vec3& move, Touch& touch) {
+void rub(const scene::Scene& scene, const Vec3& move, Touch& touch, BodySinking* beyond) {
   const double friction = scene.scenario.contact.friction;
   const bool at_once = scene.scenario.contact.slip == scenario::Contact::Slip::coulomb;
   for (SphereContact& contact : touch.contacts) {
@@ -97,10 +114,12 @@ void rub(const scene::Scene& scene, const Vec3& move, Touch& touch) {
       contact.drag = length > 0.0 ? Vec3(limit / length * slip) : Vec3::Zero();
       continue;
     }
+    if (beyond != nullptr) find_shear(scene, touch, *beyond, contact);
     contact.stretch += move;
     contact.stretch -= contact.stretch.dot(normal) * normal;
-    contact.drag = contact::friction::drag(contact.stretch, friction * contact.force,
-                                           contact.patch.radius(), scene.finger.shear_compliance);
+    contact.drag =
+        contact::friction::drag(contact.stretch, friction * contact.force, contact.patch.radius(),
+                                scene.finger.shear_compliance, contact.shear);
   }
 }
 

@@ -82,10 +82,12 @@ void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& u
   visitor.choice({"spread", "How a contact force is distributed over nodes.", use.mesh},
                  contact.spread, loaded);
   visitor.number({"friction", "Coulomb's coefficient mu."}, contact.friction, at_least(0));
-  visitor.choice({"slip",
-                  "How friction sets in.",
-                  {contact.friction > 0.0, "with `friction` above 0", Use::Otherwise::note}},
-                 contact.slip, slips);
+  visitor.choice(
+      {"slip",
+       "How friction sets in. With `coupling = \"consistent\"` on a bonded base the mesh tells "
+       "how far the tissue follows the finger; otherwise it does so as a half-space.",
+       {contact.friction > 0.0, "with `friction` above 0", Use::Otherwise::note}},
+      contact.slip, slips);
   visitor.quantity({"ambient_force", "F_a of eq. (1), added to the force."}, contact.ambient_force,
                    unit::N, {});
 }

@@ -28,7 +28,7 @@ BeyondHalfSpace beyond(const scene::Scene& scene, int finer = 1) {
   patch.normal = skin.normal(patch.at);
   patch.axis = patch.normal.unitOrthogonal();
   patch.a = patch.b = 3e-3;
-  return coupling.beyond(patch, finer);
+  return coupling.beyond(patch, -patch.normal, finer);
 }
 
 // 3 / (5 E' a), m/N.
