@@ -72,7 +72,7 @@ Vec3 drag(Vec3& stretch, double limit, double contact_radius, double shear_compl
     const double slipping =
         root(sticking(0.0), sticking(0.0) + length / limit + body.norm(),
              [&](double of_half_space) { return force(of_half_space).norm() - limit; });
-    const Vec3 slip = limit * force(slipping).normalized();
+    Vec3 slip = limit * force(slipping).normalized();
     stretch -= (slipping - sticking(0.0)) * slip;
     return slip;
   }

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "cases.h"
-#include "mechanics/body_sinking.h"
+#include "mechanics/pressed_mesh.h"
 #include "revolved_bodies.h"
 #include "scene/first_touch.h"
 #include "scene_text.h"
@@ -127,6 +127,58 @@ TEST(Shear, OfABlockIsThatOfFiniteElements) {
     }
     EXPECT_NEAR(known[0], known[1], 0.004 * half_space) << block.size << block.nu;
   }
+}
+
+const std::string press =
+    "[tissue]\nmaterial = \"skin\"\nviscosity = \"none\"\n[contact]\nfriction = "
+    "0.3\n[solver]\nmodel = "
+    "\"mass_spring\"\nintegrator = \"quasi_static\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+
+// Contacts of the finger `offset` (m) from its first touch.
+mechanics::Touch touch_of(const scene::Scene& scene, const Vec3& offset) {
+  mechanics::PressedMesh mesh(scene);
+  mechanics::Touch touch;
+  touch.finger = scene::first_touch(scene).finger;
+  EXPECT_FALSE(mesh.try_out(touch.finger + offset, touch));
+  EXPECT_GT(touch.contacts.size(), 0U);
+  return touch;
+}
+
+TEST(Shear, IsNoneWhereItIsNotKnown) {
+  for (const char* setting :
+       {"tissue.mesh={ kind = \"kuhn\", cells = [4, 4, 4] }", "tissue.base=frictionless",
+        "contact.friction=0", "contact.slip=coulomb", "contact.coupling=one_way"}) {
+    const mechanics::Touch touch = touch_of(test::scene_of(press, {setting}), {0.0, 0.0, -1e-3});
+    const bool known = std::string(setting).find("mesh") != std::string::npos;
+    EXPECT_EQ(touch.contacts.front().shear.norm() > 0.0, known) << setting;
+  }
+}
+
+TEST(Shear, IsInTheTangentPlaneOfCurvedSkin) {
+  const scene::Scene scene = test::scene_of(
+      press, {"tissue.shape={ kind = \"ellipsoid\", size = [\"60 mm\", \"90 mm\", \"50 mm\"] }",
+              "tissue.mesh={ kind = \"tetgen\", nodes = 400 }"});
+  for (const Vec3& offset : {Vec3(0.0, 0.0, -1e-3), Vec3(5e-3, -3e-3, -1.5e-3)}) {
+    const mechanics::SphereContact contact = touch_of(scene, offset).contacts.front();
+    const double size = contact.shear.norm();
+    EXPECT_LT((contact.shear * contact.patch.normal).norm(), 1e-12 * size);
+    EXPECT_LT((contact.shear - contact.shear.transpose()).norm(), 1e-12 * size);
+    // The ellipsoid yields to both directions, and less along than across.
+    EXPECT_GT(contact.shear(0, 0), contact.shear(1, 1));
+  }
+}
+
+// Spheres that represent one share its tensor; under their whole drag each moves as it would.
+TEST(Shear, OfSpheresThatRepresentOneIsItsOwn) {
+  const Vec3 down(0.0, 0.0, -0.5e-3);
+  const std::string layer =
+      "tissue.shape={ kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", \"8 mm\"] }";
+  const mechanics::Touch one = touch_of(test::scene_of(press, {layer}), down);
+  const mechanics::Touch all = touch_of(test::scene_of(press, {layer, "finger.spheres=8"}), down);
+  ASSERT_GT(all.contacts.size(), 1U);
+  const double want = one.contacts.front().shear(0, 0);
+  for (const mechanics::SphereContact& contact : all.contacts)
+    EXPECT_NEAR(contact.shear(0, 0) * contact.force / all.pressed(), want, 0.1 * std::abs(want));
 }
 
 // The law (8) against a layer solved for its traction. The contact sticks where the traction
