@@ -18,7 +18,9 @@ const std::string lump =
     "[\"30 "
     "mm\", \"30 mm\", \"20 mm\"]\nradius = \"6 mm\"\nmaterial = \"skin\"\n";
 
-BeyondHalfSpace beyond(const scene::Scene& scene, int finer = 1) {
+enum class Load { normal, tangential };
+
+BeyondHalfSpace beyond(const scene::Scene& scene, Load load, int finer = 1) {
   const tissue::Part part = tissue::whole_part(scene.specimen->network);
   EnergyCoupling coupling(scene, part, scene.specimen->held);
   const geometry::SmoothSurface& skin = *scene.specimen->surface;
@@ -28,7 +30,7 @@ BeyondHalfSpace beyond(const scene::Scene& scene, int finer = 1) {
   patch.normal = skin.normal(patch.at);
   patch.axis = patch.normal.unitOrthogonal();
   patch.a = patch.b = 3e-3;
-  return coupling.beyond(patch, -patch.normal, finer);
+  return coupling.beyond(patch, load == Load::tangential ? patch.axis : Vec3(-patch.normal), finer);
 }
 
 // 3 / (5 E' a), m/N.
@@ -44,22 +46,29 @@ TEST(EnergyCoupling, AFinerQuadratureChangesNothing) {
                     "mm\"] }\nmesh = { kind = \"tetgen\", nodes = 400 }\n"),
         lump + "young_modulus = \"700 kPa\"\n"}) {
     const scene::Scene scene = test::scene_of(body + solver + press);
-    const BeyondHalfSpace once = beyond(scene);
-    const BeyondHalfSpace twice = beyond(scene, 2);
-    EXPECT_NEAR(once.sinking, twice.sinking, 0.003 * half_space(scene)) << body;
-    EXPECT_NEAR(once.error, twice.error, 0.003 * half_space(scene)) << body;
-    EXPECT_GT(once.error, 0.0);
+    for (const Load load : {Load::normal, Load::tangential}) {
+      const BeyondHalfSpace once = beyond(scene, load);
+      const BeyondHalfSpace twice = beyond(scene, load, 2);
+      EXPECT_NEAR(once.sinking, twice.sinking, 0.003 * half_space(scene)) << body;
+      EXPECT_NEAR(once.error, twice.error, 0.003 * half_space(scene)) << body;
+      EXPECT_GT(once.error, 0.0);
+    }
   }
 }
 
 // Tetrahedra of another region but of the same tissue are treated by interpolation (11).
 TEST(EnergyCoupling, ALumpOfTheSameTissueIsNone) {
   const scene::Scene scene = test::scene_of(lump + solver + press);
-  const BeyondHalfSpace with = beyond(scene);
-  scene.specimen->mesh.regions.clear();
-  const BeyondHalfSpace without = beyond(scene);
-  EXPECT_NE(with.sinking, without.sinking);
-  EXPECT_NEAR(with.sinking + with.error, without.sinking + without.error, 0.01 * half_space(scene));
+  const std::vector<int> regions = scene.specimen->mesh.regions;
+  for (const Load load : {Load::normal, Load::tangential}) {
+    scene.specimen->mesh.regions = regions;
+    const BeyondHalfSpace with = beyond(scene, load);
+    scene.specimen->mesh.regions.clear();
+    const BeyondHalfSpace without = beyond(scene, load);
+    EXPECT_NE(with.sinking, without.sinking);
+    EXPECT_NEAR(with.sinking + with.error, without.sinking + without.error,
+                0.01 * half_space(scene));
+  }
 }
 
 }  // namespace
