@@ -14,6 +14,7 @@
 #include "scene/estimates.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
+#include "scene/time_plan.h"
 
 namespace palpate::chart {
 namespace {
@@ -28,6 +29,7 @@ constexpr std::size_t most_cases = 8;
 constexpr double mesh_factors[] = {0.25, 4.0};        // times the scenario's number of nodes
 constexpr double time_steps_ms[] = {0.25, 1.0, 4.0};  // a haptic frame is 1 ms
 constexpr int ring_counts[] = {2, 3, 5};
+constexpr Integrator moving = Integrator::central_difference;
 constexpr double cells_a_contact_radius = 3.5;  // `resolved` requires 3
 
 // The keys that a chart varies.
@@ -191,13 +193,23 @@ class Designer {
           joined_to(rung(model), {"contact.coupling=resolved", mesh}));
   }
 
+  // Whether the force depends on the motion of the mesh, so that steps change it.
+  [[nodiscard]] bool steps_matter() const {
+    if (base_.uniform() || contact::mesh_is_tissue(base_.contact.coupling)) return true;
+    const auto family = with_settings(
+        asked_, case_, {model_setting(rung_), "solver.integrator=" + word_of(moving)});
+    return scene::inertia_reaches_force(scene::choose(family.cases.front(), shapes_).chosen);
+  }
+
   void integrators() {
     const std::string model = word_of(rung_);
+    const bool steps = steps_matter();
     for (const Word& word : words::integrators) {
       const std::string method = word.word;
       const std::string name = model + ", " + method;
       const Settings settings{model_setting(rung_), "solver.integrator=" + method};
       add("integrator x time step", name, settings);
+      if (!steps) continue;
       const std::optional<scene::TimePlan> plan = plan_of(settings);
       if (plan && cut_by_limit(settings, *plan))
         add("integrator x time step", name + ", half the limit",

