@@ -159,6 +159,5 @@ class Resolved : public FromMesh {
 
 // The coupling of a scene, chosen once.
 using Coupling = std::variant<OneWay, Consistent, ConsistentWithInertia, Series, Resolved>;
-[[nodiscard]] Coupling make_coupling(SkinContacts& skin, MovingPart& part);
 
 }  // namespace palpate::mechanics

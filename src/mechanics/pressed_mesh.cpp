@@ -5,6 +5,8 @@
 #include "scene/time_plan.h"
 
 namespace palpate::mechanics {
+namespace {
+
 using integrate::Vector;
 
 Coupling make_coupling(SkinContacts& skin, MovingPart& part) {
@@ -19,6 +21,8 @@ Coupling make_coupling(SkinContacts& skin, MovingPart& part) {
     return Coupling(std::in_place_type<ConsistentWithInertia>, skin, part);
   return Coupling(std::in_place_type<Consistent>, skin, part);
 }
+
+}  // namespace
 
 PressedMesh::PressedMesh(const scene::Scene& scene)
     : part_(scene), skin_(part_), coupling_(make_coupling(skin_, part_)) {}
