@@ -1,76 +1,71 @@
-// The mesh's displacements under unit loads, each computed when first needed and then stored.
+// The part's displacements under unit loads, each computed when first needed and then stored.
 #pragma once
 
-#include <Eigen/Core>
-#include <functional>
-#include <span>
 #include <vector>
 
 #include "contact/patch.h"
-#include "integrate/body.h"
+#include "mechanics/moving_part.h"
 #include "mechanics/pair_table.h"
 
 namespace palpate::mechanics {
 
 class Influence {
  public:
-  // Computes the displacement (m) under a load (N), both with one entry per degree of freedom.
-  using Respond = std::function<void(const integrate::Vector& load, integrate::Vector& moved)>;
-
-  explicit Influence(Respond respond) : respond_(std::move(respond)) {}
+  // The part must outlive this.
+  Influence(MovingPart& part, Response response) : part_(&part), response_(response) {}
 
   // The displacement of node `at` along `direction` per newton along `push` on `node`, m/N. Both
   // numbers are 0 or above.
-  [[nodiscard]] double between(const Vec3& direction, int at, const Vec3& push, int node,
-                               Eigen::Index freedoms) {
+  [[nodiscard]] double between(const Vec3& direction, int at, const Vec3& push, int node) {
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis)
       if (push[axis] != 0.0)
-        sum += push[axis] * direction.dot(column(3 * node + axis, freedoms).segment<3>(3 * at));
+        sum += push[axis] * direction.dot(column(3 * node + axis).segment<3>(3 * at));
     return sum;
   }
 
   // The displacement of every degree of freedom (m) under 1 N on the degree of freedom `freedom`.
-  [[nodiscard]] const integrate::Vector& column(int freedom, Eigen::Index freedoms) {
-    if (known_.empty()) known_.resize(as_index(freedoms));
+  [[nodiscard]] const integrate::Vector& column(int freedom) {
+    if (known_.empty()) known_.resize(as_index(part_->freedoms()));
     integrate::Vector& known = known_[as_index(freedom)];
     if (known.size() == 0) {
-      unit_.setZero(freedoms);
+      unit_.setZero(part_->freedoms());
       unit_[freedom] = 1.0;
-      respond_(unit_, known);
+      part_->respond(response_, unit_, known);
     }
     return known;
   }
 
-  // Computes the columns of all `nodes` of the skin (-1 is skipped), so that loads on the skin
-  // allocate and solve nothing until forget(). Returns false, and leaves the columns to be computed
-  // when needed, if they would take more than `most` bytes.
-  bool ask_all(std::span<const int> nodes, Eigen::Index freedoms, double most) {
+  // Computes the columns of all nodes of the skin, so that loads on the skin allocate and solve
+  // nothing until forget(). Columns that would take more than 1 GB together are left to be computed
+  // when needed.
+  void ask_all() {
+    constexpr double most_bytes = 1e9;
+    const std::vector<int>& nodes = part_->nodes;
     kept.make_room(nodes.size());
-    const double each = static_cast<double>(sizeof(double)) * static_cast<double>(freedoms);
-    if (3.0 * static_cast<double>(nodes.size()) * each > most) return false;
+    const double each = sizeof(double) * static_cast<double>(part_->freedoms());
+    if (3.0 * static_cast<double>(nodes.size()) * each > most_bytes) return;
     for (const int node : nodes)
-      for (int axis = 0; node >= 0 && axis < 3; ++axis) (void)column(3 * node + axis, freedoms);
-    return true;
+      for (int axis = 0; node >= 0 && axis < 3; ++axis) (void)column(3 * node + axis);
   }
 
   // Writes the displacement (m) under `load` (N) to `sum`; cheap if the load has few entries.
   void to(const integrate::Vector& load, integrate::Vector& sum) {
     sum.setZero(load.size());
     for (Eigen::Index d = 0; d < load.size(); ++d)
-      if (load[d] != 0.0) sum += load[d] * column(static_cast<int>(d), load.size());
+      if (load[d] != 0.0) sum += load[d] * column(static_cast<int>(d));
   }
 
   // The displacement of node `at` per newton on `node`, m/N: one column per axis of the load.
-  [[nodiscard]] Eigen::Matrix3d block(int at, int node, Eigen::Index freedoms) {
+  [[nodiscard]] Eigen::Matrix3d block(int at, int node) {
     Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
     if (at >= 0 && node >= 0)
       for (int axis = 0; axis < 3; ++axis)
-        block.col(axis) = column(3 * node + axis, freedoms).segment<3>(3 * at);
+        block.col(axis) = column(3 * node + axis).segment<3>(3 * at);
     return block;
   }
 
-  // Drops all stored displacements; call when the stiffness changes.
+  // Drops all stored displacements; call when the stiffness or the part changes.
   void forget() {
     known_.clear();
     kept.forget();
@@ -79,7 +74,8 @@ class Influence {
   PairTable kept;  // pairs of vertices of recent contacts
 
  private:
-  Respond respond_;
+  MovingPart* part_;
+  Response response_;
   integrate::Vector unit_;
   std::vector<integrate::Vector> known_;  // one per degree of freedom; empty: not computed yet
 };

@@ -16,15 +16,16 @@ using Eigen::Index;
 
 }  // namespace
 
-ResolvedContact::ResolvedContact(const scene::Scene& scene)
-    : scene_(&scene),
-      surface_(&*scene.specimen->surface),
+ResolvedContact::ResolvedContact(const MovingPart& part)
+    : part_(&part),
+      scene_(part.scene),
+      surface_(&*scene_->specimen->surface),
       skin_(*surface_),
       tree_(surface_->surface()),
       stars_(surface_->surface(), surface_->neighbours(), {}),
-      finger_compliance_(scene.finger.compliance_share / scene.finger.whole.modulus) {
-  for (const Vec3& centre : scene.finger.centres)
-    balls_.push_back({centre, scene.finger.sphere_radius});
+      finger_compliance_(scene_->finger.compliance_share / scene_->finger.whole.modulus) {
+  for (const Vec3& centre : scene_->finger.centres)
+    balls_.push_back({centre, scene_->finger.sphere_radius});
 }
 
 bool ResolvedContact::sphere_normals() const {
@@ -32,7 +33,8 @@ bool ResolvedContact::sphere_normals() const {
 }
 
 // Fills candidates_ with the nodes near the spheres, each with the sphere nearest to it.
-void ResolvedContact::look(const Vec3& finger, const MeshAnswer& mesh, const Touch& before) {
+void ResolvedContact::look(const Vec3& finger, const integrate::Vector& displacement,
+                           const Touch& before) {
   constexpr double reach = 1.25;  // distance from a centre, in radii
   for (std::size_t i = 0; i < balls_.size(); ++i)
     balls_[i].centre = finger + scene_->finger.centres[i];
@@ -42,8 +44,8 @@ void ResolvedContact::look(const Vec3& finger, const MeshAnswer& mesh, const Tou
   candidates_.clear();
   const auto& vertices = surface_->surface().vertices;
   for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
-    const int node = mesh.node_of(v);
-    const Vec3 base = node < 0 ? Vec3(Vec3::Zero()) : Vec3(mesh.displacement->segment<3>(3 * node));
+    const int node = part_->node_of(v);
+    const Vec3 base = node < 0 ? Vec3(Vec3::Zero()) : Vec3(displacement.segment<3>(3 * node));
     double nearest = std::numeric_limits<double>::infinity();
     int sphere = -1;
     for (int i = 0; i < static_cast<int>(balls_.size()); ++i) {
@@ -96,13 +98,13 @@ double ResolvedContact::finger_sinking(const Candidate& at, const Candidate& pre
 }
 
 // The displacement of every candidate (columns, m) per newton on one of them.
-Eigen::Matrix3Xd ResolvedContact::answer(const MeshAnswer& mesh, const Candidate& loaded) const {
+Eigen::Matrix3Xd ResolvedContact::answer(Influence& influence, const Candidate& loaded) const {
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, static_cast<Index>(candidates_.size()));
   if (loaded.node < 0) return moved;
   for (int axis = 0; axis < 3; ++axis) {
     const double part = loaded.push[axis];
     if (part == 0.0) continue;
-    const auto& column = mesh.influence->column(3 * loaded.node + axis, mesh.freedoms);
+    const auto& column = influence.column(3 * loaded.node + axis);
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].node >= 0)
         moved.col(static_cast<Index>(i)) += part * column.segment<3>(3 * candidates_[i].node);
@@ -112,7 +114,7 @@ Eigen::Matrix3Xd ResolvedContact::answer(const MeshAnswer& mesh, const Candidate
 
 // Solves (70) for the present gaps and directions. Columns of A are computed only for nodes that
 // overlap, and for those that overlap under the resulting forces, until no further node overlaps.
-std::optional<std::string> ResolvedContact::solve(const MeshAnswer& mesh) {
+std::optional<std::string> ResolvedContact::solve(Influence& influence) {
   const auto count = static_cast<Index>(candidates_.size());
   const double closed = 1e-12 * scene_->finger.sphere_radius;
   double deepest = 0.0;
@@ -136,7 +138,7 @@ std::optional<std::string> ResolvedContact::solve(const MeshAnswer& mesh) {
       if (!one.sought || std::find(sought.begin(), sought.end(), i) != sought.end()) continue;
       sought.push_back(i);
       pressed.push_back(overlaps(one) ? 1 : 0);
-      answers.push_back(answer(mesh, one));
+      answers.push_back(answer(influence, one));
       changes.conservativeResize(Eigen::NoChange, changes.cols() + 1);
       for (Index j = 0; j < count; ++j) {
         const Candidate& other = candidates_[as_index(j)];
@@ -174,14 +176,14 @@ std::optional<std::string> ResolvedContact::solve(const MeshAnswer& mesh) {
 }
 
 // Solves (70), repeatedly if the directions are the sphere's normals, which turn as the nodes move.
-std::optional<std::string> ResolvedContact::press(const MeshAnswer& mesh) {
+std::optional<std::string> ResolvedContact::press(Influence& influence) {
   constexpr int most_turns = 100;
   const double settled = 1e-12 * scene_->finger.sphere_radius;
   for (int turn = 0; turn < most_turns; ++turn) {
     measure_gaps();
     std::vector<Vec3> before;
     for (const Candidate& one : candidates_) before.push_back(one.moved);
-    if (auto wrong = solve(mesh)) return wrong;
+    if (auto wrong = solve(influence)) return wrong;
     if (!sphere_normals()) return std::nullopt;
     double change = 0.0;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
@@ -246,10 +248,11 @@ void ResolvedContact::fill(int sphere, const Touch& before, Touch& touch) const 
     if (old.sphere == sphere) contact.stretch = old.stretch;
 }
 
-std::optional<std::string> ResolvedContact::find(const Vec3& finger, const MeshAnswer& mesh,
-                                                 Touch& touch) {
-  look(finger, mesh, touch);
-  if (auto wrong = press(mesh)) return wrong;
+std::optional<std::string> ResolvedContact::find(const Vec3& finger,
+                                                 const integrate::Vector& displacement,
+                                                 Influence& influence, Touch& touch) {
+  look(finger, displacement, touch);
+  if (auto wrong = press(influence)) return wrong;
   Touch next = touch;
   next.finger = finger;
   next.contacts.clear();

@@ -7,7 +7,7 @@
 
 #include "geometry/box_tree.h"
 #include "geometry/curvature.h"
-#include "mechanics/contacts.h"
+#include "mechanics/influence.h"
 #include "mechanics/pressed_nodes.h"
 
 namespace palpate::mechanics {
@@ -17,12 +17,14 @@ namespace palpate::mechanics {
 // elastic finger, of a half-space. Friction is not part of this problem; it acts on the resultant.
 class ResolvedContact {
  public:
-  explicit ResolvedContact(const scene::Scene& scene);
+  // The part must outlive this.
+  explicit ResolvedContact(const MovingPart& part);
 
-  // As Contacts::find(). `mesh.displacement` (m) is that at the end of the step without the contact
-  // forces, `mesh.influence` the response to them. Gives one contact per sphere that presses.
-  [[nodiscard]] std::optional<std::string> find(const Vec3& finger, const MeshAnswer& mesh,
-                                                Touch& touch);
+  // As SkinContacts::find(). `displacement` (m) is that at the end of the step without the contact
+  // forces, `influence` the response to them. Gives one contact per sphere that presses.
+  [[nodiscard]] std::optional<std::string> find(const Vec3& finger,
+                                                const integrate::Vector& displacement,
+                                                Influence& influence, Touch& touch);
 
  private:
   // A node that may be in contact.
@@ -38,16 +40,17 @@ class ResolvedContact {
     bool sought = false;        // the force is an unknown of the current problem
   };
 
-  void look(const Vec3& finger, const MeshAnswer& mesh, const Touch& before);
+  void look(const Vec3& finger, const integrate::Vector& displacement, const Touch& before);
   void measure_gaps();
-  [[nodiscard]] std::optional<std::string> press(const MeshAnswer& mesh);
-  [[nodiscard]] std::optional<std::string> solve(const MeshAnswer& mesh);
-  [[nodiscard]] Eigen::Matrix3Xd answer(const MeshAnswer& mesh, const Candidate& loaded) const;
+  [[nodiscard]] std::optional<std::string> press(Influence& influence);
+  [[nodiscard]] std::optional<std::string> solve(Influence& influence);
+  [[nodiscard]] Eigen::Matrix3Xd answer(Influence& influence, const Candidate& loaded) const;
   [[nodiscard]] double finger_sinking(const Candidate& at, const Candidate& pressed) const;
   [[nodiscard]] bool sphere_normals() const;
   void fill(int sphere, const Touch& before, Touch& touch) const;
   [[nodiscard]] contact::ContactLaw law_for_estimates(const geometry::SurfacePoint& at) const;
 
+  const MovingPart* part_;
   const scene::Scene* scene_;
   const geometry::SmoothSurface* surface_;
   SkinNodes skin_;

@@ -25,7 +25,7 @@ double seconds(const Work& work) {
 class Stages {
  public:
   Stages(const scene::Scene& scene, int substeps)
-      : mesh_(scene), seeing_(scene), substeps_(substeps) {
+      : mesh_(scene), seeing_(mesh_.part()), substeps_(substeps) {
     mesh_.set_step(scene.specimen->plan.substep);
   }
 
@@ -33,17 +33,18 @@ class Stages {
   std::optional<std::string> frame(const Vec3& finger, mechanics::Touch before,
                                    const mechanics::Touch& after, FrameTime& time) {
     std::optional<std::string> wrong;
-    mechanics::MeshAnswer deformed = mesh_.answer();
-    deformed.displacement = &mesh_.state().displacement;
-    time.collision = seconds([&] { seeing_.detect(finger, deformed, found_); });
+    const auto& deformed = mesh_.state().displacement;
+    time.collision = seconds([&] { seeing_.detect(finger, &deformed); });
     if (mesh_.forces_follow_finger()) {
       // These forces use contacts found on the skin at rest, by another detection.
-      const mechanics::MeshAnswer resting = mesh_.answer();
-      const double search = seconds([&] { mesh_.contacts().detect(finger, resting, found_); });
+      const double search = seconds([&] { resting_.detect(finger, nullptr); });
       time.force = seconds([&] { wrong = mesh_.try_out(finger, before); }) - search;
     } else {
-      time.force =
-          seconds([&] { wrong = seeing_.find(finger, deformed, before); }) - time.collision;
+      const auto solve = [&](mechanics::Touch& touch) {
+        return seeing_.settle(
+            touch, [](auto&, auto& compliance) -> auto& { return compliance; }, 1);
+      };
+      time.force = seconds([&] { wrong = seeing_.find(finger, before, solve); });
     }
     if (wrong) return wrong;
     time.deformation = seconds([&] {
@@ -62,9 +63,9 @@ class Stages {
 
  private:
   mechanics::PressedMesh mesh_;
-  mechanics::Contacts seeing_;  // for detection on the deformed mesh
+  mechanics::SkinContacts seeing_;                 // for detection on the deformed mesh
+  mechanics::SkinContacts resting_{mesh_.part()};  // and on the skin at rest
   int substeps_;
-  mechanics::KeptList<mechanics::SphereContact> found_;
 };
 
 }  // namespace

@@ -1,0 +1,164 @@
+// The couplings of contact and mesh (`contact.coupling`), one type each.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "mechanics/body_sinking.h"
+#include "mechanics/contact_history.h"
+#include "mechanics/contact_inertia.h"
+#include "mechanics/crept_load.h"
+#include "mechanics/resolved_contact.h"
+#include "mechanics/skin_contacts.h"
+
+namespace palpate::mechanics {
+
+// A step, or a stage of TR-BDF2, as every coupling's step() takes it.
+struct StepTo {
+  Vec3 finger;              // m, its point at the end
+  double duration;          // s
+  ContactHistory& history;  // makes elastic forces viscoelastic; not used by FromMesh
+  Touch& touch;
+};
+
+// What every coupling has. A coupling defines again the functions in which it has something to do.
+class OnMesh {
+ public:
+  // Both must outlive this.
+  OnMesh(SkinContacts& contacts, MovingPart& moving) : skin(&contacts), part(&moving) {}
+
+  // Whether the forces follow from the finger's position alone.
+  static constexpr bool follows_finger = false;
+  // Call when another part moves; `from` is what MovingPart::take() returned.
+  void begin_part(const std::vector<Eigen::Index>& /*from*/) {}
+  void forget_steps() {}  // call when the size of the steps changes
+  void make_ready() {}    // allocates and solves what later steps need
+
+ protected:
+  SkinContacts* skin;
+  MovingPart* part;
+};
+
+// `one_way`: h = approach.
+class OneWay : public OnMesh {
+ public:
+  using OnMesh::OnMesh;
+  static constexpr bool follows_finger = true;
+  // The contacts of the finger at `finger` (m), without moving the mesh.
+  [[nodiscard]] std::optional<std::string> find(const Vec3& finger, Touch& touch);
+  [[nodiscard]] std::optional<std::string> step(const StepTo& to);
+};
+
+// `consistent` in statics: h = approach - C F.                            docs/theory.md (13)
+class Consistent : public OnMesh {
+ public:
+  Consistent(SkinContacts& contacts, MovingPart& moving) : OnMesh(contacts, moving) {
+    begin_part({});
+  }
+  static constexpr bool follows_finger = true;
+  [[nodiscard]] std::optional<std::string> find(const Vec3& finger, Touch& touch);
+  [[nodiscard]] std::optional<std::string> step(const StepTo& to);
+  void begin_part(const std::vector<Eigen::Index>& from);
+  void make_ready();
+
+  // Fills `compliance` (m/N) and the contacts' factors and errors of (13).
+  void find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance);
+  [[nodiscard]] BodySinking* body() { return &*beyond_; }
+  // The error of the sinking under a contact per tetrahedron of the part, m/N.
+  [[nodiscard]] std::vector<double> errors(const SphereContact& contact);
+  // Stores finer_load() of `touch`; displacement() of the part (m) adds its static displacement.
+  void load_finely(const Touch& touch) { finer_load(touch, *part, finer_); }
+  [[nodiscard]] integrate::Vector displacement();
+
+ private:
+  [[nodiscard]] BodySinking::Value joint_sinking(const KeptList<SphereContact>& contacts,
+                                                 contact::Patch& joint);
+
+  std::optional<BodySinking> beyond_;  // of the present part
+  integrate::Vector finer_;            // N
+};
+
+// `consistent` where inertia reaches the force, which then also follows from the mesh's deviation
+// from its static displacement.                                           docs/theory.md (74)
+class ConsistentWithInertia : public OnMesh {
+ public:
+  ConsistentWithInertia(SkinContacts& contacts, MovingPart& moving);
+  [[nodiscard]] std::optional<std::string> step(const StepTo& to);
+  void begin_part(const std::vector<Eigen::Index>& from);
+  void forget_steps() { inertia_.response.forget(); }
+  void make_ready();
+
+  Consistent statics;
+
+ private:
+  [[nodiscard]] std::optional<std::string> find(const Motion& motion, const StepTo& to);
+  [[nodiscard]] std::optional<std::string> meet(const integrate::Vector& displacement, double share,
+                                                const StepTo& to);
+  template <class Linearised>
+  [[nodiscard]] std::optional<std::string> step_with(Linearised& method, const StepTo& to);
+  void set_stage(double duration);
+
+  ContactInertia inertia_;
+  CreptLoad crept_;
+  double stage_ = 0.0;                 // s, from one solution of the contacts to the next
+  double slope_ = 1.0;                 // Motion::slope
+  integrate::Vector drag_, acting_;    // N, of friction; during the step
+  integrate::Vector reached_, moved_;  // m, without and with the contact forces
+};
+
+// Forces and displacement agree at the end of implicit and modal steps, and forces follow from the
+// displacement in explicit steps.
+class FromMesh : public OnMesh {
+ public:
+  FromMesh(SkinContacts& contacts, MovingPart& moving)
+      : OnMesh(contacts, moving), influence(moving, Response::step) {}
+  void begin_part(const std::vector<Eigen::Index>& /*from*/) { influence.forget(); }
+  void forget_steps() { influence.forget(); }
+  void make_ready();
+
+ protected:
+  // find(displacement in m, touch) finds the contacts: in explicit steps with the displacement at
+  // the end, in others with that without their forces, which act by `influence`.
+  template <class Find>
+  [[nodiscard]] std::optional<std::string> step_by(integrate::MemoryRule rule, const Find& find,
+                                                   Touch& touch);
+  Influence influence;
+
+ private:
+  template <class Linearised, class Find>
+  [[nodiscard]] std::optional<std::string> balance(Linearised& method, integrate::MemoryRule rule,
+                                                   const Find& find, Touch& touch);
+
+  Touch next_;                         // of the current linearisation
+  integrate::Vector drag_, further_;   // N
+  integrate::Vector reached_, moved_;  // m, before and after it
+};
+
+// `series`: h = approach to the displaced skin. In explicit steps over the patches of the previous
+// step, which change by less than a step's travel.
+class Series : public FromMesh {
+ public:
+  using FromMesh::FromMesh;
+  [[nodiscard]] std::optional<std::string> step(const StepTo& to);
+
+ private:
+  void find_sinking(const KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance);
+};
+
+// `resolved`: node by node, in implicit steps only.
+class Resolved : public FromMesh {
+ public:
+  Resolved(SkinContacts& contacts, MovingPart& moving)
+      : FromMesh(contacts, moving), contact_(moving) {}
+  [[nodiscard]] std::optional<std::string> step(const StepTo& to);
+
+ private:
+  ResolvedContact contact_;
+};
+
+// The coupling of a scene, chosen once.
+using Coupling = std::variant<OneWay, Consistent, ConsistentWithInertia, Series, Resolved>;
+
+}  // namespace palpate::mechanics

@@ -1,0 +1,77 @@
+// The moving part of a meshed specimen: its body, its state, its loads and its steps.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/cholesky.h"
+#include "mechanics/contacts.h"
+#include "mechanics/monitor.h"
+#include "mechanics/stepper.h"
+#include "tissue/part.h"
+
+namespace palpate::mechanics {
+
+// What a response to a load is: in statics; at the end of an implicit or modal step, in which the
+// load grows in modal steps; or where it acts during whole modal steps.
+enum class Response { statics, step, whole_step };
+
+// With `solver.rings` only nodes around the contact move; otherwise the part is the whole specimen.
+// Its members refer to each other: a part is neither copied nor moved.
+struct MovingPart {
+  // The part around the first touch. The scene must outlive it.
+  explicit MovingPart(const scene::Scene& whole);
+  MovingPart(const MovingPart&) = delete;
+  MovingPart& operator=(const MovingPart&) = delete;
+
+  // Makes `next` the moving part. Nodes and springs that were in the previous part too keep their
+  // state; other nodes start from rest. Returns the previous number of every degree of freedom, or
+  // -1 for new ones.
+  std::vector<Eigen::Index> take(tissue::Part next);
+
+  // Sets the size of the next steps, s.
+  void set_step(double size);
+
+  // One step under the forces of `touch`. Returns a sentence if its equations have no solution.
+  [[nodiscard]] std::optional<std::string> move(const Touch& touch);
+
+  // The displacement (m) that a load (N) adds; in statics the stiffness is factored once.
+  void respond(Response response, const integrate::Vector& load, integrate::Vector& moved);
+  // Whether the responses of a step serve all steps of one size.
+  [[nodiscard]] bool keeps_responses() const;
+
+  // Computes `state` and the energies, if steps are computed in modal coordinates alone.
+  void show();
+
+  [[nodiscard]] int node_of(int vertex) const { return nodes[as_index(vertex)]; }
+  [[nodiscard]] Eigen::Index freedoms() const { return state.displacement.size(); }
+
+  const scene::Scene* scene;
+  tissue::Part part;
+  std::vector<int> nodes;  // of the part, one per vertex of the skin; -1: outside
+  std::optional<scene::SpringBody> body;
+  std::optional<Stepper> stepper;
+  std::optional<EnergyMonitor> monitor;
+  integrate::State state;
+  integrate::Vector load;         // N
+  integrate::State before;        // at the start of the step
+  integrate::Vector load_before;  // N, at the start of the step
+  integrate::Vector other_load;   // N, a temporary
+  integrate::Vector unloaded;     // m, a temporary
+  Cholesky factors;               // of the static stiffness, if `factored`
+  bool factored = false;
+  double time_step = 0.0;  // s
+  // Whether steps are computed in modal coordinates alone, and whether `state` is up to date with
+  // them.                                                                    docs/theory.md (41)
+  bool in_modes = false;
+  bool shown = true;
+};
+
+// The forces of the contacts on the part, N; of their friction alone; and the forces without
+// viscosity over the actual patches minus those over the wide patches, whose sum is 0.
+void contact_load(const Touch& touch, const MovingPart& part, integrate::Vector& load);
+void drag_load(const Touch& touch, const MovingPart& part, integrate::Vector& load);
+void finer_load(const Touch& touch, const MovingPart& part, integrate::Vector& load);
+
+}  // namespace palpate::mechanics

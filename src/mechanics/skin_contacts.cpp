@@ -1,0 +1,232 @@
+// Detection of contacts, their laws and patches, and one pass of the contact equations.
+#include "mechanics/skin_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "contact/wide_patch.h"
+
+namespace palpate::mechanics {
+
+bool presses_as_one(const scene::Scene& scene) {
+  return scene.finger.centres.size() > 1 &&
+         scene.scenario.finger.calibration == finger::Calibration::force;
+}
+
+std::string hollow_text(double kappa_2) {
+  return "the tissue is hollow and conforms to the finger (curvature " + rounded_text(kappa_2) +
+         " 1/m): Hertz does not hold there";
+}
+
+void clear_corner(Eigen::MatrixXd& matrix, Eigen::Index count) {
+  if (matrix.rows() < count) matrix.resize(count, count);
+  matrix.topLeftCorner(count, count).setZero();
+}
+
+SkinContacts::SkinContacts(const MovingPart& part)
+    : scene_(part.scene),
+      part_(&part),
+      surface_(&*part.scene->specimen->surface),
+      detector_(*surface_),
+      spreader_(*surface_),
+      spacing_(*surface_),
+      curvature_(part) {}
+
+void SkinContacts::make_room(Touch& touch) {
+  const std::size_t count = most_contacts();
+  const std::size_t vertices = surface_->surface().vertices.size();
+  const std::size_t nodes = std::min(contact::most_shares, vertices);
+  const auto reserve = [&](SphereContact& contact) {
+    for (contact::Spread* spread : {&contact.load, &contact.wide}) {
+      spread->vertices.reserve(nodes);
+      spread->shares.reserve(nodes);
+    }
+  };
+  found_.make_room(count, reserve);
+  touch.contacts.make_room(count, reserve);
+  detector_.make_room();
+  spreader_.make_room();
+  curvature_.make_room();
+  moved_.reserve(vertices);
+  feet_.reserve(count);
+  laws_.reserve(count);
+  for (std::vector<double>* values : {&approaches_, &depths_, &parts_}) values->reserve(count);
+  clear_corner(compliance_, static_cast<Eigen::Index>(count));
+}
+
+KeptList<SphereContact>& SkinContacts::detect(const Vec3& finger,
+                                              const integrate::Vector* displacement,
+                                              double beyond) {
+  moved_.clear();
+  if (displacement != nullptr) {
+    for (const int node : part_->nodes)
+      moved_.push_back(node < 0 ? Vec3(Vec3::Zero()) : Vec3(displacement->segment<3>(3 * node)));
+    detector_.refit(moved_);
+  }
+  const double radius = scene_->finger.sphere_radius;
+  const double reach = radius + beyond;
+  found_.clear();
+  for (std::size_t i = 0; i < scene_->finger.centres.size(); ++i) {
+    detector_.find(finger + scene_->finger.centres[i], reach, moved_, feet_);
+    for (const auto& foot : feet_) {
+      SphereContact& contact = found_.add();
+      contact.sphere = static_cast<int>(i);
+      contact.patch.at = foot.at;
+      contact.patch.position = foot.position;
+      contact.patch.normal = foot.normal;
+      contact.approach = radius - foot.height;
+      contact.on_crease = foot.on_crease;
+      contact.patch.beyond = foot.beyond;
+      contact.patch.turned = foot.turned;
+    }
+  }
+  return found_;
+}
+
+std::optional<std::string> SkinContacts::give_law(SphereContact& contact) {
+  geometry::Curvature here;
+  if (auto wrong = curvature_.find(contact.patch.at, contact.one_sided, here)) return wrong;
+  if (contact.patch.turned > 0.0) {
+    // At a crease the curvature changes from one side's to the other's as the perpendicular turns.
+    geometry::Curvature there;
+    if (auto wrong = curvature_.find(contact.patch.beyond, contact.one_sided, there)) return wrong;
+    here = geometry::between({here, there, there},
+                             {1.0 - contact.patch.turned, contact.patch.turned, 0.0});
+  }
+  const auto law = contact::contact_law(
+      scene_->scenario.contact.law, {scene_->finger.sphere_radius, scene_->finger.sphere_modulus},
+      here, scene_->layer ? &*scene_->layer : nullptr);
+  if (!law) return hollow_text(here.kappa_2);
+  contact.law = *law;
+  if (contact.law.point.layer != nullptr && presses_as_one(*scene_)) {
+    // The law of the single sphere that these spheres represent; a^2 = R h with its R, which is
+    // n^(1/3) times the radius of a sphere.
+    const auto count = static_cast<double>(scene_->finger.centres.size());
+    contact.law.point.share = 1.0 / count;
+    contact.law.radius_share = std::pow(count, -1.0 / 6.0);
+  }
+  // The curvature's axis, projected into the patch's tangent plane.
+  Vec3 axis = law->axis - law->axis.dot(contact.patch.normal) * contact.patch.normal;
+  contact.patch.axis =
+      axis.norm() > 1e-6 ? Vec3(axis.normalized()) : contact.patch.normal.unitOrthogonal();
+  return std::nullopt;
+}
+
+// Takes depth (first guess), compliance and stretch from the sphere's nearest previous contact.
+void SkinContacts::carry_on(const Touch& before, SphereContact& contact) const {
+  contact.depth = std::max(0.0, contact.approach);
+  double nearest = scene_->finger.sphere_radius;
+  for (const SphereContact& old : before.contacts) {
+    const double distance = (old.patch.position - contact.patch.position).norm();
+    if (old.sphere != contact.sphere || distance >= nearest) continue;
+    nearest = distance;
+    contact.depth = old.depth;
+    contact.compliance = old.compliance;
+    contact.law.point.part = old.law.point.part;
+    contact.stretch = old.stretch;
+  }
+}
+
+void SkinContacts::guess_depth(KeptList<SphereContact>& contacts) {
+  if (contacts.size() != 1) return;
+  SphereContact& contact = contacts.front();
+  const auto depth = contact::penetration(contact.law.point, contact.approach, contact.compliance);
+  if (depth && *depth > 0.0) contact.depth = *depth;
+}
+
+void SkinContacts::shape_patches(KeptList<SphereContact>& contacts) {
+  for (SphereContact& contact : contacts) {
+    const auto [a, b] = contact.law.semi_axes(contact.depth);
+    contact.patch.a = a;
+    contact.patch.b = b;
+    spreader_.spread(contact.patch, contact.load);
+    if (scene_->scenario.contact.spread == scenario::Contact::Spread::nearest_node)
+      load_nearest_node(contact);
+  }
+}
+
+// Loads only the corner with the largest weight of the triangle under the contact.
+void SkinContacts::load_nearest_node(SphereContact& contact) const {
+  const auto& weights = contact.patch.at.weights;
+  const auto most = std::max_element(weights.begin(), weights.end()) - weights.begin();
+  const auto& corners = surface_->surface().triangles[as_index(contact.patch.at.triangle)];
+  contact.load.vertices.assign(1, corners[as_index(most)]);
+  contact.load.shares.assign(1, 1.0);
+}
+
+// The approach of the sphere, minus the mean displacement under its patch, to the skin at rest.
+void SkinContacts::approach_moved_skin(const Vec3& finger, SphereContact& contact) const {
+  Vec3 mean = Vec3::Zero();
+  for (std::size_t k = 0; k < contact.load.vertices.size(); ++k)
+    mean += contact.load.shares[k] * moved_[as_index(contact.load.vertices[k])];
+  const Vec3 centre = finger + scene_->finger.centres[as_index(contact.sphere)] - mean;
+  const auto foot = surface_->foot(
+      centre, {.triangle = contact.patch.at.triangle, .weights = contact.patch.at.weights});
+  contact.approach = scene_->finger.sphere_radius - foot.height;
+}
+
+// Contacts at the same place share its force, without a jump as they come together: `part` is
+// 1 / (1 + sum_j (1 - 2 s_ij / max(a_i, a_j))^2).                    docs/theory.md, below (15)
+void SkinContacts::share_places(KeptList<SphereContact>& contacts) {
+  parts_.assign(contacts.size(), 1.0);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    for (std::size_t j = 0; j < contacts.size(); ++j) {
+      if (i == j) continue;
+      const double reach = 0.5 * std::max(contacts[i].patch.radius(), contacts[j].patch.radius());
+      const double apart = (contacts[i].patch.position - contacts[j].patch.position).norm();
+      if (apart >= reach) continue;
+      const double overlap = 1.0 - apart / reach;
+      parts_[i] += overlap * overlap;
+    }
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].law.point.part = 1.0 / parts_[i];
+}
+
+// The width depends on the finger's position alone. If it depended on the force, loading and
+// reading would not be transposes of each other, and the contact could feed energy into the motion.
+void SkinContacts::spread_wide(SphereContact& contact) {
+  const auto axes = contact.law.semi_axes(std::max(0.0, contact.approach));
+  spreader_.spread(contact::wide_patch(contact.patch, axes, spacing_.at(contact.patch)),
+                   contact.wide);
+}
+
+// Sets patches, approaches and first guesses of the depths, and clears the compliance.
+void SkinContacts::begin_pass(Touch& touch) {
+  KeptList<SphereContact>& contacts = touch.contacts;
+  shape_patches(contacts);
+  share_places(contacts);
+  approaches_.clear();
+  depths_.clear();
+  for (SphereContact& contact : contacts) {
+    if (!moved_.empty()) approach_moved_skin(touch.finger, contact);
+    approaches_.push_back(contact.approach);
+    depths_.push_back(contact.depth);
+  }
+  clear_corner(compliance_, static_cast<Eigen::Index>(contacts.size()));
+}
+
+// Sets depths and forces; `part_of_way` is a share of the change of depth. Returns the largest
+// change of a contact radius (m) for the whole change, or nothing without a solution.
+std::optional<double> SkinContacts::balance(KeptList<SphereContact>& contacts,
+                                            const Eigen::MatrixXd& compliance, double part_of_way) {
+  const auto size = static_cast<Eigen::Index>(contacts.size());
+  laws_.clear();
+  for (const SphereContact& contact : contacts) laws_.push_back(contact.law.point);
+  if (!contact::balance(laws_, approaches_, compliance.topLeftCorner(size, size), depths_))
+    return std::nullopt;
+  double change = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    SphereContact& contact = contacts[i];
+    change = std::max(change, std::abs(contact.law.semi_axes(depths_[i])[0] -
+                                       contact.law.semi_axes(contact.depth)[0]));
+    if (part_of_way < 1.0) depths_[i] = contact.depth + part_of_way * (depths_[i] - contact.depth);
+    contact.depth = depths_[i];
+    contact.force = contact.elastic = laws_[i].force(depths_[i]);
+    contact.stiffness = laws_[i].stiffness(depths_[i]);
+    const auto own = static_cast<Eigen::Index>(i);
+    contact.compliance = compliance_(own, own);
+  }
+  return change;
+}
+
+}  // namespace palpate::mechanics

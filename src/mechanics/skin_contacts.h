@@ -1,0 +1,129 @@
+// Where the finger's spheres touch the skin, with which laws and patches, and their equations: what
+// all couplings but `resolved` share.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/detection.h"
+#include "contact/skin_spacing.h"
+#include "mechanics/skin_curvature.h"
+
+namespace palpate::mechanics {
+
+// Whether the spheres of the finger represent one sphere, with `calibration = "force"`.
+[[nodiscard]] bool presses_as_one(const scene::Scene& scene);
+
+// Sets the first `count` rows and columns to 0; allocates only if the matrix is smaller.
+void clear_corner(Eigen::MatrixXd& matrix, Eigen::Index count);
+
+class SkinContacts {
+ public:
+  static constexpr int most_passes = 100;
+
+  // The part must outlive this.
+  explicit SkinContacts(const MovingPart& part);
+
+  // Finds the places of the skin that lie in a sphere of the finger at `finger` (m), or are less
+  // than `beyond` (m) away from it: on the skin under `displacement` (m), or at rest if that is
+  // null. find() takes the places that are left in the list.
+  KeptList<SphereContact>& detect(const Vec3& finger, const integrate::Vector* displacement,
+                                  double beyond = 0.0);
+
+  // Finds the contacts at the detected places and their forces. On entry `touch` contains the
+  // contacts of the previous step, for first guesses and the stretch of the friction. solve(touch)
+  // calls settle(); `beyond` is that of rub(). Returns a sentence if the equations have no solution
+  // or the contact law does not apply.
+  template <class Solve>
+  [[nodiscard]] std::optional<std::string> find(const Vec3& finger, Touch& touch,
+                                                const Solve& solve, BodySinking* beyond = nullptr);
+
+  // Solves the contact equations (15) and recomputes the patches until their radii do not change,
+  // or only once for `passes` = 1. complete(approaches, compliance) fills the compliance (m/N),
+  // whose first rows and columns belong to the contacts and are 0 at first, may change the
+  // approaches (m), and returns the compliance to solve with.
+  template <class Complete>
+  [[nodiscard]] std::optional<std::string> settle(Touch& touch, const Complete& complete,
+                                                  int passes = most_passes);
+
+  // First guess for a single contact at rest, with the compliance of the previous step.
+  static void guess_depth(KeptList<SphereContact>& contacts);
+  // Fills the contact's wide patch.                                        docs/theory.md (74)
+  void spread_wide(SphereContact& contact);
+
+  // Allocates the memory, also of `touch`, for up to four contacts per sphere.
+  void make_room(Touch& touch);
+  [[nodiscard]] std::size_t most_contacts() const { return 4 * scene_->finger.centres.size(); }
+  [[nodiscard]] const Eigen::MatrixXd& compliance() const { return compliance_; }
+
+ private:
+  [[nodiscard]] std::optional<std::string> give_law(SphereContact& contact);
+  void carry_on(const Touch& before, SphereContact& contact) const;
+  void shape_patches(KeptList<SphereContact>& contacts);
+  void share_places(KeptList<SphereContact>& contacts);
+  void load_nearest_node(SphereContact& contact) const;
+  void approach_moved_skin(const Vec3& finger, SphereContact& contact) const;
+  void begin_pass(Touch& touch);
+  [[nodiscard]] std::optional<double> balance(KeptList<SphereContact>& contacts,
+                                              const Eigen::MatrixXd& compliance,
+                                              double part_of_way);
+
+  const scene::Scene* scene_;
+  const MovingPart* part_;
+  const geometry::SmoothSurface* surface_;
+  contact::Detector detector_;
+  contact::Spreader spreader_;
+  contact::SkinSpacing spacing_;
+  SkinCurvature curvature_;
+  std::vector<Vec3> moved_;  // m, displacement of every vertex; empty at rest
+  std::vector<geometry::SmoothSurface::Foot> feet_;
+  KeptList<SphereContact> found_;
+  // One per contact, while the contact equations are solved:
+  std::vector<contact::PointLaw> laws_;
+  std::vector<double> approaches_;  // m
+  std::vector<double> depths_;      // m
+  std::vector<double> parts_;       // divisors of the forces, docs/theory.md below (15)
+  Eigen::MatrixXd compliance_;      // m/N, C of docs/theory.md (15), and spare memory
+};
+
+template <class Solve>
+std::optional<std::string> SkinContacts::find(const Vec3& finger, Touch& touch, const Solve& solve,
+                                              BodySinking* beyond) {
+  for (SphereContact& contact : found_) {
+    if (auto wrong = give_law(contact)) return wrong;
+    carry_on(touch, contact);
+  }
+  const Vec3 move = finger - touch.finger;
+  touch.finger = finger;
+  touch.contacts.swap(found_);
+  if (std::optional<std::string> wrong = solve(touch)) return wrong;
+  touch.contacts.erase_if([](const SphereContact& contact) { return contact.depth <= 0.0; });
+  rub(*scene_, move, touch, beyond);
+  return std::nullopt;
+}
+
+template <class Complete>
+std::optional<std::string> SkinContacts::settle(Touch& touch, const Complete& complete,
+                                                int passes) {
+  const double settled = 1e-12 * scene_->finger.sphere_radius;
+  // Each pass takes this part of the way to the depths for the radii of the pass before: less after
+  // a pass that did not come nearer.
+  double part_of_way = 1.0;
+  double change_before = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < passes; ++pass) {
+    begin_pass(touch);
+    const Eigen::MatrixXd& whole = complete(approaches_, compliance_);
+    const std::optional<double> change = balance(touch.contacts, whole, part_of_way);
+    if (!change) return "no penetration balances the contact: the layer is too thin for this depth";
+    if (*change <= settled) return std::nullopt;
+    if (*change > 0.7 * change_before) part_of_way *= 0.6;
+    change_before = *change;
+  }
+  if (passes > 1) return "the contact radius did not settle in 100 iterations";
+  shape_patches(touch.contacts);
+  return std::nullopt;
+}
+
+}  // namespace palpate::mechanics

@@ -1,0 +1,35 @@
+// The skin's curvature at a point, at rest or as the mesh deforms it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/curvature.h"
+#include "mechanics/moving_part.h"
+
+namespace palpate::mechanics {
+
+class SkinCurvature {
+ public:
+  // The part must outlive this.
+  explicit SkinCurvature(const MovingPart& part);
+
+  // Sets `here` (1/m) to the curvature at a point, with `contact.curvature_on = "deformed"` of the
+  // displaced skin, and `one_sided` if its estimate is StarStatus::one_sided. Returns a sentence if
+  // it cannot be estimated.
+  [[nodiscard]] std::optional<std::string> find(const geometry::SurfacePoint& at, bool& one_sided,
+                                                geometry::Curvature& here);
+  void make_room();  // after which find() allocates nothing
+
+ private:
+  const MovingPart* part_;
+  const geometry::Surface* skin_;
+  geometry::CurvatureStars stars_;
+  std::vector<int> number_of_;  // per triangle: index into known_; -1: not computed
+  std::vector<std::array<geometry::CurvatureEstimate, 3>> known_;  // at rest
+  geometry::Surface shape_;                                        // the deformed skin
+};
+
+}  // namespace palpate::mechanics
