@@ -196,9 +196,13 @@ class Designer {
   // Whether the force depends on the motion of the mesh, so that steps change it.
   [[nodiscard]] bool steps_matter() const {
     if (base_.uniform() || contact::mesh_is_tissue(base_.contact.coupling)) return true;
-    const auto family = with_settings(
-        asked_, case_, {model_setting(rung_), "solver.integrator=" + word_of(moving)});
-    return scene::inertia_reaches_force(scene::choose(family.cases.front(), shapes_).chosen);
+    try {
+      const auto family = with_settings(
+          asked_, case_, {model_setting(rung_), "solver.integrator=" + word_of(moving)});
+      return scene::inertia_reaches_force(scene::choose(family.cases.front(), shapes_).chosen);
+    } catch (const InputError&) {
+      return true;  // the variants say why there is no mesh
+    }
   }
 
   void integrators() {

@@ -11,6 +11,8 @@
 
 namespace palpate::mechanics {
 
+class BodySinking;
+
 // The nodal forces and gaps of a contact with the coupling `resolved`.
 struct NodalContact {
   std::vector<Vec3> push;      // per newton of the contact's force: one per vertex of its `load`

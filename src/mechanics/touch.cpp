@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact/friction.h"
+#include "mechanics/body_sinking.h"
 #include "mechanics/contacts.h"
 
 namespace palpate::mechanics {
