@@ -133,10 +133,9 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
 
 double uniform_inertia(const scenario::Resolved& scenario) {
   const scenario::Resolved::Tissue& tissue = scenario.tissue;
-  const bool creeps =
-      std::all_of(scenario.steps.begin(), scenario.steps.end(), [](const scenario::Step& step) {
-        return std::holds_alternative<scenario::Creep>(step);
-      });
+  const bool creeps = std::all_of(
+      scenario.steps.begin(), scenario.steps.end(),
+      [](const scenario::Step& step) { return std::holds_alternative<scenario::Creep>(step); });
   const auto shape = parametric(tissue.shape);
   if (!creeps || !shape || tissue.viscosity != tissue::Viscosity::kelvin_voigt) return 1.0;
   double softest = tissue.young_modulus;

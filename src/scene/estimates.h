@@ -38,7 +38,8 @@ struct Estimates {
 // Meshes that follow their error are refined until this share of `solver.tolerance` is stated.
 inline constexpr double refined_share = 0.5;
 
-// The number of nodes that the mesh will have, before it is refined; 1000 for a ready mesh, which is not read here.
+// The number of nodes that the mesh will have, before it is refined; 1000 for a ready mesh, which
+// is not read here.
 [[nodiscard]] double expected_nodes(const scenario::Mesh& mesh);
 
 }  // namespace palpate::scene

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "base/text.h"
@@ -115,6 +116,21 @@ TEST(Refined, MeshesOfRandomBodiesAgreeWithinWhatTheyState) {
 }
 
 // Slabs are cut out of any mesh.
+TEST(Refined, ALumpKeepsItsVolume) {
+  const std::string text = press(
+      "poisson_ratio = 0.45\nshape = { kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", \"40 "
+      "mm\"] }\n[[region]]\nkind = \"sphere\"\ncentre = [\"30 mm\", \"30 mm\", \"30 "
+      "mm\"]\nradius = \"5 mm\"\nmaterial = \"skin\"\nyoung_modulus = \"1448 kPa\"\n");
+  const scenario::Family family = scenario::parse(text, "scene.toml", {});
+  const scene::Scene scene = run::build_scene(family.cases.front(), family);
+  const geometry::TetMesh& mesh = scene.specimen->mesh;
+  double volume = 0.0;
+  for (int t = 0; t < static_cast<int>(mesh.tetrahedra.size()); ++t)
+    if (mesh.region(t) == 1) volume += geometry::signed_volume(mesh, t);
+  ASSERT_GT(scene.specimen->refined->rounds, 0);
+  EXPECT_NEAR(volume / (4.0 / 3.0 * std::numbers::pi * std::pow(0.005, 3)), 1.0, 1e-6);
+}
+
 TEST(Slabs, InMeshesByTetGenAreThoseOfLattices) {
   const std::string layers =
       "young_modulus = \"60 kPa\"\nshape = { kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", \"20 "

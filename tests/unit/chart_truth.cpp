@@ -48,8 +48,8 @@ TEST(ChartReference, AWideFlatHasTheLayer) {
                    estimated.sides + estimated.inertia);
 }
 
-// What inertia adds to the strain, relative to the final one. Without a Poisson's ratio the block is
-// a rod, held at one end and loaded at the other; each of its modes is an oscillator.
+// What inertia adds to the strain, relative to the final one. Without a Poisson's ratio the block
+// is a rod, held at one end and loaded at the other; each of its modes is an oscillator.
 double inertia_of_rod(double time, double frequency, double retardation) {
   double sum = 0.0;
   for (int k = 1; k < 200; k += 2) {
