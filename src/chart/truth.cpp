@@ -178,11 +178,16 @@ class Finder {
     return settings;
   }
 
-  // Coupled springs on a mesh of about `nodes` nodes, more where the shape cannot have so few.
+  // Coupled springs on a mesh of about `nodes` nodes, more where the shape cannot have so few, at
+  // the moments of the variants with the longest interval.
   [[nodiscard]] std::optional<History> run_coupled(double nodes, const char* integrator) const {
     for (;; nodes = std::ceil(1.5 * nodes)) {
       try {
-        return run(coupled(nodes, integrator));
+        Settings settings = coupled(nodes, integrator);
+        const double interval = coarsest_interval(one_.scenario);
+        settings.push_back("output.interval=" + number_text(1e3 * interval) + " ms");
+        if (integrator == std::string("tr_bdf2")) settings.emplace_back("solver.substeps=16");
+        return run(settings);
       } catch (const MeshError&) {
         if (1.5 * nodes > most_modal_nodes) throw;
       }
