@@ -164,7 +164,7 @@ class Chooser {
     ask(Asked::rigid_tissue, e.tissue_share, std::min(limit, 0.02));
     // A narrow curved body reduces the force as free sides do, while the thickness increases it.
     narrow_ = std::min(0.99, e.sides + width_of_body * e.curved_body);
-    const double size = std::abs((1.0 + e.thickness) * (1.0 - narrow_) - 1.0);
+    const double size = std::abs(change_by_size(e));
     ask(Asked::half_space, size, limit,
         "no: the thickness adds " + percent_text(e.thickness) +
             (box ? ", the sides take " + percent_text(e.sides)
@@ -191,8 +191,8 @@ class Chooser {
     const double still = found.inertia_matters ? e.inertia : 0.0;
     switch (rung.of) {
       case Model::hertz:
-        return std::abs(1.0 / ((1.0 + e.thickness) * (1.0 - narrow_)) - 1.0) + doubt * narrow_ +
-               still + (found.depth_matters ? contact::DeepLaw::error : e.deep);
+        return std::abs(1.0 / (1.0 + change_by_size(e)) - 1.0) + doubt * narrow_ + still +
+               (found.depth_matters ? contact::DeepLaw::error : e.deep);
       case Model::layer:
         return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt * e.sides + still;
       case Model::mass_spring:
@@ -205,6 +205,18 @@ class Chooser {
            rung.error.sides * e.sides +
            (box ? 0.0 : rung.error.curved + rung.error.size * e.curved_body) +
            (all_slabs(asked_) ? 0.0 : rung.error.mixed);
+  }
+
+  // The change of the half-space's force by the size of the body. A narrow base lets a curved body
+  // yield as a whole; files and ligaments may stand on all of their underside, where the thickness
+  // acts alone.
+  [[nodiscard]] double change_by_size(const Estimates& e) const {
+    const auto& shape = asked_.tissue.shape;
+    const bool wide_base = std::holds_alternative<scenario::SurfaceFile>(shape) ||
+                           std::holds_alternative<scenario::AsMeshed>(shape) ||
+                           std::holds_alternative<scenario::Ligament>(shape);
+    const double both = (1.0 + e.thickness) * (1.0 - narrow_) - 1.0;
+    return wide_base && e.thickness > std::abs(both) ? e.thickness : both;
   }
 
   // Whether the tissue's inertia affects the force on a mesh.
