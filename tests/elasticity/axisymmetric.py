@@ -7,6 +7,7 @@ and small-strain elasticity is its second derivative in the undeformed body. Con
 Gauss points of the top's edges through a stiff layer of springs, whose own share of the force is
 taken off again. Any consistent units: mm and kPa give mN.
 """
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,16 +23,21 @@ BOUNDARY = np.array([2 * k + c for k in EDGE_NODES for c in (0, 1)])
 INSIDE = np.array([2 * CENTRE, 2 * CENTRE + 1])
 
 
-class Indefinite(Exception):
-    """The tangent stiffness is not positive definite."""
-
-
 @dataclass
 class Tangent:
     """Forces and stiffness of the elements in one state."""
     force: np.ndarray  # of all unknowns
     stiffness: np.ndarray  # (elements, 18, 18)
     least_volume: float  # the smallest J of all Gauss points
+
+
+@dataclass
+class Factored:
+    """A stiffness ready to be solved with."""
+    back: Callable  # from loads to displacements of what stays in the band
+    definite: bool  # whether the equilibrium is stable
+    inner: np.ndarray  # the inverse of the inner nodes' part
+    link: np.ndarray  # their part with the others
 
 
 @dataclass
@@ -214,7 +220,11 @@ class Solid:
                      radius=place[:, :, 0][active].max() if active.any() else 0.0)
 
     def factor(self, element_stiffness, edge_stiffness=None):
-        """A banded Cholesky factor with the elements' inner nodes eliminated."""
+        """The banded matrix, factored, with the elements' inner nodes eliminated.
+
+        Cholesky's factor, or that of Gauss with pivots where the matrix is not positive definite:
+        on the way to an equilibrium, and in a body that would rather fold.
+        """
         inner = np.linalg.inv(element_stiffness[:, INSIDE[:, None], INSIDE])
         link = element_stiffness[:, BOUNDARY[:, None], INSIDE]
         outer = element_stiffness[:, BOUNDARY[:, None], BOUNDARY] \
@@ -227,21 +237,28 @@ class Solid:
             values = np.concatenate([values, edge_stiffness[edge_used]])
         matrix = np.bincount(slots, values, self.size * (self.band + 1))
         matrix = matrix.reshape(self.size, self.band + 1).T  # columns contiguous, as LAPACK wants
-        factor, info = lapack.dpbtrf(matrix, lower=1, overwrite_ab=1)
-        if info != 0:
-            raise Indefinite
-        return factor, inner, link
+        factor, info = lapack.dpbtrf(matrix, lower=1)
+        if info == 0:
+            return Factored(lambda load: lapack.dpbtrs(factor, load, lower=1)[0], True, inner, link)
+        band = self.band
+        both = np.zeros((3 * band + 1, self.size), order="F")
+        both[2 * band:] = matrix
+        for offset in range(1, band + 1):
+            both[2 * band - offset, offset:] = matrix[offset, :self.size - offset]
+        factors, pivots, info = lapack.dgbtrf(both, band, band, overwrite_ab=1)
+        return Factored(lambda load: lapack.dgbtrs(factors, band, band, load, pivots)[0], False,
+                        inner, link)
 
     def solve(self, factored, load):
         """Displacements under `load`, both of all unknowns."""
-        factor, inner, link = factored
+        inner, link = factored.inner, factored.link
         load = np.where(self.held, 0.0, load)
         condensed = load.copy()
         inside = load[self.dofs[:, INSIDE]]
         passed = (link @ (inner @ inside[:, :, None]))[:, :, 0]
         condensed -= np.bincount(self.dofs[:, BOUNDARY].ravel(), passed.ravel(), self.unknowns)
         kept = self.place >= 0
-        solution, _ = lapack.dpbtrs(factor, condensed[kept], lower=1)
+        solution = factored.back(condensed[kept])
         result = np.zeros(self.unknowns)
         result[kept] = solution[self.place[kept]]
         rest = inside - (link.transpose(0, 2, 1) @ result[self.dofs[:, BOUNDARY]][:, :, None])[:, :, 0]
@@ -257,6 +274,7 @@ class Reading:
     contact_radius: float
     least_volume: float  # 1 in small strain
     iterations: int
+    stable: bool = True
 
 
 def press(solid, radius, depths, most_iterations=14):
@@ -282,7 +300,7 @@ def press(solid, radius, depths, most_iterations=14):
         step = 2.0 * step if used <= 6 else step
         if depth >= targets[0] * (1.0 - 1e-12):
             readings.append(Reading(depth, _without_springs(touch, rate), touch.radius,
-                                    state.least_volume, spent))
+                                    state.least_volume, spent, factored.definite))
             targets.pop(0)
             step = max(step, targets[0] - reached) if targets else step
             spent = 0
@@ -306,10 +324,7 @@ def _equilibrium(solid, radius, depth, u, most):
             return *failed, iteration
         touch = solid.touch(u, radius, depth, "normal")
         rest = np.where(solid.held, 0.0, state.force + touch.load)
-        try:
-            factored = solid.factor(state.stiffness, touch.stiffness)
-        except Indefinite:
-            return *failed, iteration
+        factored = solid.factor(state.stiffness, touch.stiffness)
         change = solid.solve(factored, -rest)
         largest = np.abs(change).max()
         if largest < 1e-6 * radius:
@@ -332,7 +347,7 @@ class SmallStrain:
         self.nodes = nodes[solid.place[nodes] >= 0]
         unit = np.zeros((solid.size, len(self.nodes)), order="F")
         unit[solid.place[self.nodes], np.arange(len(self.nodes))] = 1.0
-        answer, _ = lapack.dpbtrs(factored[0], unit, lower=1, overwrite_b=1)
+        answer = factored.back(unit)
         compliance = answer[solid.place[self.nodes]]
         self.stiffness = np.linalg.inv(0.5 * (compliance + compliance.T))
         self.at = np.full(solid.unknowns, -1)

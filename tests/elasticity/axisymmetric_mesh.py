@@ -109,3 +109,46 @@ def dome(radius, height, contact, elements, growth=1.25):
         return np.stack([radius * np.sin(angle), (1.0 + points[:, 1]) * height * np.cos(angle)], 1)
 
     return Mesh(across, down, mapping)
+
+
+def disc_with_ball(radius, height, ball, centre, contact, elements):
+    """A disc with a ball on its axis, `centre` below the top; the ball's material is 1.
+
+    A square of the grid around the ball's centre is drawn to a circle; the change fades out towards
+    a larger square, which must lie inside the disc, and is weaker towards the centre.
+    """
+    outer = min(centre, height - centre, 2.0 * ball)
+    across = _through(contact_axis(contact, radius, elements), (ball, outer))
+    levels = (centre - outer, centre - ball, centre, centre + ball, centre + outer)
+    down = _through(growing(across[1], height, 1.25, 0.4 * ball), levels)
+
+    def mapping(points):
+        local = points + np.array([0.0, centre])
+        square = np.abs(local).max(1)
+        round_ = np.hypot(local[:, 0], local[:, 1])
+        fade = np.where(square <= ball, (square / ball) ** 2,
+                        np.clip((outer - square) / (outer - ball), 0.0, 1.0))
+        scale = 1.0 + fade * (square / np.maximum(round_, 1e-300) - 1.0)
+        return local * scale[:, None] - np.array([0.0, centre])
+
+    inside = lambda middles: (np.abs(middles + np.array([0.0, centre])).max(1) < ball).astype(int)
+    return Mesh(across, down, mapping, inside)
+
+
+def _through(borders, marks):
+    """The borders, the nearest of which are moved to the marks; extra ones where none is near."""
+    borders = np.array(borders)
+    for mark in marks:
+        if mark <= borders[0] or mark >= borders[-1]:
+            continue
+        taken = np.isin(borders, marks)
+        free = np.where(taken | (np.arange(len(borders)) % (len(borders) - 1) == 0), np.inf,
+                        np.abs(borders - mark))
+        nearest = int(np.argmin(free))
+        room = np.diff(borders)[max(0, nearest - 1):nearest + 1].max()
+        if free[nearest] < 0.6 * room and not np.any(borders == mark):
+            borders[nearest] = mark
+            borders = np.sort(borders)
+        elif not np.any(borders == mark):
+            borders = np.sort(np.append(borders, mark))
+    return borders
