@@ -111,6 +111,18 @@ def dome(radius, height, contact, elements, growth=1.25):
     return Mesh(across, down, mapping)
 
 
+def dish(radius, height, hollow, contact, elements, growth=1.25):
+    """A disc of `height` on the axis whose top is hollow, with the radius of curvature `hollow`."""
+    across = contact_axis(contact, radius, elements, growth)
+    down = growing(across[1] / height, 1.0, growth)
+
+    def mapping(points):
+        rise = hollow - np.sqrt(hollow ** 2 - points[:, 0] ** 2)
+        return np.stack([points[:, 0], (1.0 + points[:, 1]) * (height + rise)], 1)
+
+    return Mesh(across, down, mapping)
+
+
 def disc_with_ball(radius, height, ball, centre, contact, elements):
     """A disc with a ball on its axis, `centre` below the top; the ball's material is 1.
 
