@@ -1,9 +1,11 @@
 """Finite strain over linear elasticity for a sphere on wide layers: fills deep_layers.csv.
 
 Lengths are in radii of the sphere and forces in E R^2. The linear force is the exact one of a
-paraboloid on a linear layer (layer.py); the other one is of axisymmetric.py. What the file holds
-already is not computed again, so a run that was stopped goes on.
-    deep_layers.py [ELEMENTS...]    elements under the contact; 24 and 40 if not given
+paraboloid on a linear layer (layer.py); the other one is of axisymmetric.py, on two meshes of 24
+and 40 elements under the contact. deep_layers_runs.csv (300 kB, not kept here) has every mesh; what
+it holds already is not computed again, so a run that was stopped goes on. deep_layers.csv has the
+finer mesh, and in `error` the difference of the two, as a fraction; empty where one mesh found no
+equilibrium. `stable` is 0 where the body would rather fold.
 """
 import csv
 import os
@@ -21,9 +23,10 @@ from layer import contact
 HERE = os.path.dirname(os.path.abspath(__file__))
 NAMES = ["base", "poisson", "thickness", "elements", "depth", "force", "linear_force", "ratio",
          "contact_radius", "least_volume", "stable"]
-RATIOS = (0.45, 0.33, 0.49, 0.2, 0.4, 0.0, 0.499, 0.475, 0.27)
+RATIOS = (0.45, 0.33, 0.49, 0.2, 0.4, 0.0, 0.499, 0.475, 0.27, 0.1)
 THICKNESSES = (64.0, 1.0, 0.5, 2.0, 4.0, 0.3, 0.7, 1.4, 2.8, 8.0, 0.4, 16.0)
 STEPS = 24
+MESHES = (24, 40)
 
 
 def linear_force(depth, thickness, poisson, base):
@@ -62,8 +65,8 @@ def run(base, poisson, thickness, elements):
                f"{reading.least_volume:.4f}", int(reading.stable)]
 
 
-def main():
-    path = os.path.join(HERE, "deep_layers.csv")
+def compute(path):
+    """Appends the paths that the journal lacks."""
     done = set()
     if os.path.exists(path):
         with open(path, newline="") as file:
@@ -72,20 +75,43 @@ def main():
     else:
         with open(path, "w") as file:
             file.write(",".join(NAMES) + "\n")
-    for elements in [int(word) for word in sys.argv[1:]] or [24, 40]:
-        for base in ("bonded", "frictionless"):
-            for thickness in THICKNESSES:
-                for poisson in RATIOS:
-                    key = (base, poisson, thickness, elements)
-                    if key in done:
-                        continue
-                    start = time.time()
-                    rows = list(run(*key))
-                    with open(path, "a") as file:
-                        file.writelines(",".join(map(str, row)) + "\n" for row in rows)
-                    last = rows[-1] if rows else ["-"] * 11
-                    print(*key, "to", last[4], "ratio", last[7], f"{time.time() - start:.1f} s",
-                          file=sys.stderr, flush=True)
+    for key in [(base, poisson, thickness, elements) for elements in MESHES
+                for base in ("bonded", "frictionless") for thickness in THICKNESSES
+                for poisson in RATIOS]:
+        if key in done:
+            continue
+        start = time.time()
+        rows = list(run(*key))
+        with open(path, "a") as file:
+            file.writelines(",".join(map(str, row)) + "\n" for row in rows)
+        print(*key, f"{len(rows)} depths, {time.time() - start:.1f} s", file=sys.stderr, flush=True)
+
+
+def condense(journal, path):
+    """One row per depth, in order."""
+    meshes = {elements: {} for elements in MESHES}
+    with open(journal, newline="") as file:
+        for row in csv.DictReader(file):
+            key = (row["base"], *[float(row[n]) for n in ("poisson", "thickness", "depth")])
+            meshes[int(row["elements"])][key] = row
+    coarse, fine = (meshes[elements] for elements in MESHES)
+    with open(path, "w") as file:
+        file.write("base,poisson,thickness,depth,linear_force,ratio,error,contact_radius,"
+                   "least_volume,stable\n")
+        for key in sorted(coarse.keys() | fine.keys()):
+            row, error = fine.get(key) or coarse[key], ""
+            if key in fine and key in coarse:
+                error = f"{abs(float(row['force']) / float(coarse[key]['force']) - 1.0):.5f}"
+            file.write(f"{key[0]},{key[1]:g},{key[2]:g},{key[3]:.6g},"
+                       f"{float(row['linear_force']):.5g},{float(row['ratio']):.5f},{error},"
+                       f"{float(row['contact_radius']):.4g},{float(row['least_volume']):.3f},"
+                       f"{row['stable']}\n")
+
+
+def main():
+    journal = os.path.join(HERE, "deep_layers_runs.csv")
+    compute(journal)
+    condense(journal, os.path.join(HERE, "deep_layers.csv"))
 
 
 if __name__ == "__main__":
