@@ -64,6 +64,11 @@ def profile(kind, shape):
         count = int(np.ceil(0.45 * np.pi * max(radius, height) / spacing))
         angles = 0.5 * np.pi * np.arange(count) / count
         points = [(radius * np.sin(a), height * np.cos(a)) for a in angles]
+    elif kind == "dish":
+        across = np.linspace(0.0, radius, int(np.ceil(radius / spacing)) + 1)
+        rise = shape["hollow"] - np.sqrt(shape["hollow"] ** 2 - across ** 2)
+        points = list(zip(across[:-1], height + rise[:-1])) \
+            + line((radius, height + rise[-1]), (radius, 0.0), spacing)
     else:
         points = line((0.0, height), (radius, height), spacing) \
             + line((radius, height), (radius, 0.0), spacing)

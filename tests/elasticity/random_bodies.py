@@ -1,7 +1,7 @@
 """Reference forces on random bodies of revolution: fills random_bodies.csv.
 
-Discs, domes (half ellipsoids), layered discs and discs with a ball on the axis, pressed on the
-axis up to half the sphere's radius. Body k is drawn with the seed k, so that the file can be
+Discs, domes (half ellipsoids), layered discs and discs with a ball on the axis, and from number 200
+on discs with a hollow top, pressed on the axis up to half the sphere's radius. Body k is drawn with the seed k, so that the file can be
 extended and a stopped run goes on. Lengths in mm, moduli in kPa, forces in mN.
     random_bodies.py FIRST LAST
 """
@@ -29,6 +29,8 @@ def draw(number):
     """The body of this number: kind, shape (mm), moduli, ratios, base, sphere and deepest press."""
     random = np.random.default_rng(number)
     kind = ("disc", "dome", "layers", "ball", "disc", "dome")[number % 6]
+    if number >= 200:
+        kind = "dish"
     radius = random.uniform(6.0, 14.0)
     youngs = random.uniform(5.0, 80.0)
     poisson = random.uniform(0.0, 0.49) if random.random() < 0.5 else random.uniform(0.4, 0.49)
@@ -42,6 +44,10 @@ def draw(number):
         width = radius * random.uniform(1.5, 5.0)
         height = width * random.uniform(0.3, 1.1)
         shape = {"radius": width, "height": height}
+    elif kind == "dish":
+        hollow = radius * random.uniform(2.0, 6.0)
+        height = radius * np.exp(random.uniform(np.log(0.5), np.log(3.0)))
+        shape = {"radius": min(0.8 * hollow, 4.0 * radius), "height": height, "hollow": hollow}
     elif kind == "layers":
         count = random.integers(2, 4)
         layers = radius * np.exp(random.uniform(np.log(0.15), np.log(1.5), count))
@@ -70,6 +76,8 @@ def solid(body, elements):
     contact = min(1.15 * np.sqrt(deepest * (2.0 * radius - deepest)), 0.9 * shape["radius"])
     if body["kind"] in ("disc", "layers"):
         mesh = meshes.disc(shape["radius"], shape["layers"], contact, elements)
+    elif body["kind"] == "dish":
+        mesh = meshes.dish(shape["radius"], shape["height"], shape["hollow"], contact, elements)
     elif body["kind"] == "dome":
         mesh = meshes.dome(shape["radius"], shape["height"], contact, elements)
     else:
