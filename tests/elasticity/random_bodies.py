@@ -1,7 +1,8 @@
 """Reference forces on random bodies of revolution: fills random_bodies.csv.
 
 Discs, domes (half ellipsoids), layered discs and discs with a ball on the axis, and from number 200
-on discs with a hollow top, pressed on the axis up to half the sphere's radius. Body k is drawn with the seed k, so that the file can be
+to 299 discs with a hollow top, pressed on the axis up to half the sphere's radius; from number 300
+on up to 0.8 radii. Body k is drawn with the seed k, so that the file can be
 extended and a stopped run goes on. Lengths in mm, moduli in kPa, forces in mN.
     random_bodies.py FIRST LAST
 """
@@ -29,7 +30,7 @@ def draw(number):
     """The body of this number: kind, shape (mm), moduli, ratios, base, sphere and deepest press."""
     random = np.random.default_rng(number)
     kind = ("disc", "dome", "layers", "ball", "disc", "dome")[number % 6]
-    if number >= 200:
+    if 200 <= number < 300:
         kind = "dish"
     radius = random.uniform(6.0, 14.0)
     youngs = random.uniform(5.0, 80.0)
@@ -62,7 +63,7 @@ def draw(number):
         shape = {"radius": radius * 4.0, "height": height, "ball": ball, "centre": centre}
         moduli = [youngs, youngs * np.exp(random.uniform(np.log(0.2), np.log(20.0)))]
         ratios = [poisson, poisson]
-    deepest = min(0.5 * radius, 0.45 * height)
+    deepest = min((0.5 if number < 300 else 0.8) * radius, 0.45 * height)
     if kind == "ball":
         deepest = min(deepest, 0.6 * (shape["centre"] - shape["ball"]))
     shape = {name: np.round(value, 3).tolist() for name, value in shape.items()}
@@ -73,7 +74,8 @@ def draw(number):
 
 def solid(body, elements):
     shape, radius, deepest = body["shape"], body["sphere_radius"], body["deepest"]
-    contact = min(1.15 * np.sqrt(deepest * (2.0 * radius - deepest)), 0.9 * shape["radius"])
+    contact = 1.15 * np.sqrt(deepest * (2.0 * radius - deepest) * widening(body))
+    contact = min(contact, 0.9 * shape["radius"])
     if body["kind"] in ("disc", "layers"):
         mesh = meshes.disc(shape["radius"], shape["layers"], contact, elements)
     elif body["kind"] == "dish":
@@ -86,13 +88,19 @@ def solid(body, elements):
     return Solid(mesh, body["youngs"], body["poisson"], body["base"])
 
 
+def widening(body):
+    """The square of how much wider a hollow makes the contact than a flat."""
+    hollow = body["shape"].get("hollow")
+    return 1.0 / (1.0 - body["sphere_radius"] / hollow) if hollow else 1.0
+
+
 def forces(body, elements):
     """Forces by reading and depth; what was not found is missing."""
     pressed = solid(body, elements)
     radius, deepest = body["sphere_radius"], body["deepest"]
     wanted = [round(deepest * share, 4) for share in DEPTHS]
     path = sorted(set(wanted) | {deepest * (k / 12.0) ** 2 for k in range(3, 12)})
-    linear = SmallStrain(pressed, 1.3 * np.sqrt(2.0 * radius * deepest))
+    linear = SmallStrain(pressed, 1.3 * np.sqrt(2.0 * radius * deepest * widening(body)))
     found = {name: linear.press(radius, path, name) for name in READINGS[:3]}
     found["neo_hookean"] = press(pressed, radius, path)
     return wanted, {(name, reading.depth): reading.force

@@ -109,19 +109,22 @@ TEST(DepthRatio, IsEmptyWhereNothingWasComputed) {
   }
 }
 
-// e = 0.004 + 0.015 x + 0.043 |K| + 0.16 y (layers) + 0.019 x (inclusion)
+// e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.27 y (layers) + 0.064 x (inclusion)
 TEST(DepthRatio, StatesItsError) {
   DeepPress press{.radius = radius,
                   .effective_radius = 0.8 * radius,
                   .thickness = 2.0 * radius,
                   .poisson_ratio = 0.4};
   const auto error = [&] { return depth_ratio(press).value().error(0.5 * radius).value(); };
-  const double one = 0.004 + 0.015 * 0.4 + 0.043 * 0.25;
-  EXPECT_NEAR(error(), one, 1e-15);  // rounding
+  const double wide = 0.004 + 0.034 * 0.25;
+  EXPECT_NEAR(error(), wide, 1e-15);  // rounding
+  press.half_width = 2.0 * radius;
+  const double one = wide + 0.2 * 0.4 / 4.0;
+  EXPECT_NEAR(error(), one, 1e-15);
   press.tissues = Tissues::layers;
-  EXPECT_NEAR(error(), one + 0.16 * 0.25, 1e-15);
+  EXPECT_NEAR(error(), one + 0.27 * 0.25, 1e-15);
   press.tissues = Tissues::inclusion;
-  EXPECT_NEAR(error(), one + 0.019 * 0.4, 1e-15);
+  EXPECT_NEAR(error(), one + 0.064 * 0.4, 1e-15);
 }
 
 TEST(EffectiveThickness, IsThatOfTheSoftLayer) {
