@@ -41,7 +41,7 @@ class DepthRatio {
   static constexpr double least_curved = -0.49, most_curved = 0.61;  // K
 
   // Where the formula ends, m: at `deepest_x` or `deepest_y`, whichever comes first. Beyond the
-  // latter, layers with nu > 0.44 fold.
+  // latter, bonded layers with nu from 0.45 on fold.
   [[nodiscard]] double last_depth() const { return last_depth_; }
 
   // The factor; 1 for h <= 0, empty beyond last_depth().
@@ -51,7 +51,7 @@ class DepthRatio {
   [[nodiscard]] std::optional<double> slope(double depth) const;
 
   // The relative error of the factor, without that of the linear force. On random bodies that had
-  // no part in choosing its constants it covers 84 % (hollow) to 100 % (flat, convex) of the
+  // no part in choosing its constants it covers 90 % (hollow) to 100 % (flat, convex) of the
   // errors.
   //   e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.27 y (layers) + 0.064 x (inclusion),   a^2 = R_e h
   [[nodiscard]] std::optional<double> error(double depth) const;

@@ -261,7 +261,8 @@ class Solid:
         solution = factored.back(condensed[kept])
         result = np.zeros(self.unknowns)
         result[kept] = solution[self.place[kept]]
-        rest = inside - (link.transpose(0, 2, 1) @ result[self.dofs[:, BOUNDARY]][:, :, None])[:, :, 0]
+        moved = result[self.dofs[:, BOUNDARY]]
+        rest = inside - (link.transpose(0, 2, 1) @ moved[:, :, None])[:, :, 0]
         result[self.dofs[:, INSIDE]] = (inner @ rest[:, :, None])[:, :, 0]
         return result
 

@@ -1,8 +1,9 @@
 """axisymmetric.py where the answer is known: fills axisymmetric_checks.csv.
 
 Bodies of tests/cases/bodies.csv, the exact linear layers of layer.py, Sneddon's sphere on a
-half-space and the fitted factors of deep presses in tests/cases/physics.csv. `error` is what a coarser mesh (16
-instead of 24 elements under the contact) differs by; both are fractions of `given`.
+half-space and the fitted factors of deep presses in tests/cases/physics.csv. `error` is what a
+coarser mesh (16 instead of 24 elements under the contact) differs by, and `deviation` what the
+finer one differs by from the given value; both are fractions of it.
 """
 import csv
 import os
@@ -84,7 +85,8 @@ def exact_layers():
             found = []
             for elements in MESHES:
                 solid = Solid(layer_mesh(thickness, path[-1], elements, base), 1.0, poisson, base)
-                found.append([r.force for r in SmallStrain(solid, 1.0).press(1.0, path, "paraboloid")])
+                readings = SmallStrain(solid, 1.0).press(1.0, path, "paraboloid")
+                found.append([reading.force for reading in readings])
             for k, depth in enumerate(path):
                 yield f"layer {base} nu {poisson:g} t/R {thickness:g}", \
                     f"paraboloid at h/R {depth:g}", \

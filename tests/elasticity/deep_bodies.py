@@ -1,7 +1,7 @@
 """palpate's linear answers on the random bodies: fills deep_bodies.csv.
 
 The forces of `coupled_springs` with `contact.depth = "hertz"` on surface files of the bodies in
-random_bodies.csv (layered ones: cuboids), at the same depths; deep_errors.py compares them. Run from the project's folder.
+random_bodies.csv (layered ones: cuboids), at the same depths; deep_ratio.py compares them.
     deep_bodies.py PALPATE      the program's path
 """
 import csv
@@ -108,8 +108,8 @@ def regions(kind, shape, youngs, poisson):
     if kind == "layers":
         top = sum(shape["layers"])
         for thickness, modulus, ratio in list(zip(shape["layers"], youngs, poisson)):
-            made.append((f'kind = "slab"\nbottom = "{top - thickness:.6g} mm"\ntop = "{top:.6g} mm"',
-                         modulus, ratio))
+            place = f'bottom = "{top - thickness:.6g} mm"\ntop = "{top:.6g} mm"'
+            made.append((f'kind = "slab"\n{place}', modulus, ratio))
             top = abs(round(top - thickness, 6))
         made = made[1:]
     elif kind == "ball":
@@ -179,7 +179,7 @@ def main():
             continue
         found, more = answers(program, rows)
         if found is None:
-            print(number, rows[0]["kind"], "has no answer:", more[-600:], file=sys.stderr, flush=True)
+            print(number, rows[0]["kind"], "has no answer:", more[-600:], file=sys.stderr)
             continue
         with open(path, "a") as file:
             file.writelines(f"{number},{row['depth']},{force:.6g},{more}\n"

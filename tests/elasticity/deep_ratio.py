@@ -29,7 +29,7 @@ TERMS = ((1, 0), (2, 0), (4, 0), (0, 1), (1, 1), (2, 1), (0, 2), (1, 2), (2, 2),
          (0, 4), (1, 4))  # (i, j)
 POWERS = 5  # of q
 LEAST_ERROR = 0.004  # the formula on layers and the meshes, each 0.2 %
-MOST_SHARE = 0.5  # y; beyond it thin layers with nu > 0.44 fold
+MOST_SHARE = 0.5  # y; beyond it bonded layers with nu from 0.45 on fold
 BASES = ("bonded", "frictionless")
 
 
@@ -151,8 +151,9 @@ def factor(table, bend, body):
 
 
 def stated_parts(body):
-    return np.array([body["x"] * (body["radius"] / body["width"]) ** 2, abs(body["curved"]), body["y"] * (body["kind"] == "layers"),
-                     body["x"] * (body["kind"] == "ball")])
+    """(a/W)^2, |K|, y of several layers and x of a body with a ball."""
+    return np.array([body["x"] * (body["radius"] / body["width"]) ** 2, abs(body["curved"]),
+                     body["y"] * (body["kind"] == "layers"), body["x"] * (body["kind"] == "ball")])
 
 
 def fit_stated(table, bend, all_bodies):
@@ -174,8 +175,8 @@ def print_errors(table, bend, constants, all_bodies):
     within 3 % of the reference's."""
     ours = {(int(row["body"]), float(row["depth"])): float(row["force"])
             for row in read("deep_bodies.csv")}
-    print("| bodies | forces | linear: rms | with the factor: rms | largest | stated: mean | covers "
-          "| palpate: forces | rms | largest | linear off by more |\n"
+    print("| bodies | forces | linear: rms | with the factor: rms | largest | stated: mean | covers"
+          " | palpate: forces | rms | largest | linear off by more |\n"
           "|---|---|---|---|---|---|---|---|---|---|---|")
     for kind in ("disc", "dome", "dish", "ball", "layers"):
         for which in (0, 1, 2):
