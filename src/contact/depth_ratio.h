@@ -1,0 +1,85 @@
+// The force of a deep press in finite strain, as a factor of the force in linear elasticity.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "contact/layer_integral.h"
+
+namespace palpate::contact {
+
+// Under the contact: one, bonded layers, or one with a ball of another.
+enum class Tissues { one, layers, inclusion };
+
+// What the factor depends on besides the depth. Lengths in m.
+struct DeepPress {
+  double radius = 0.0;            // R of the rigid sphere
+  double effective_radius = 0.0;  // R_e of the contact: R on a flat body, less on a convex one
+  double thickness = 0.0;         // t under the contact; infinite where there is no base
+  double poisson_ratio = 0.0;     // of the tissue at the contact
+  LayerBase base = LayerBase::bonded;
+  // What affects the stated error only:
+  double half_width = std::numeric_limits<double>::infinity();  // W to the nearest side
+  Tissues tissues = Tissues::one;
+};
+
+// F / F_linear at the depth h. F is the force of a rigid frictionless sphere on neo-Hookean tissue
+// with W = mu/2 (I1bar - 3) + kappa/2 (J - 1)^2, and F_linear that of linear elasticity where the
+// sphere is a paraboloid (`hertz`, `layer`, `coupled_springs`). A polynomial in sqrt(h) that is 1
+// at h = 0 and needs nothing but + * and sqrt, so that a step may evaluate it.
+//   1 + sum c_ijm x^(i/2) y^j q^m + K y (d_1 y + d_2 q)     where K >= 0
+//                                 + K y^2 (d_3 + d_4 y)     where K < 0
+//   x = R_e h / R^2,  y = h / t,  q = (1 - 2 nu) / (1 - nu),  K = R / R_e - 1
+// On wide layers this is the finite elements to 0.2 %.            tests/elasticity/deep_ratio.py
+class DepthRatio {
+ public:
+  static constexpr double deepest_x = 0.8, deepest_y = 0.5;
+  static constexpr double thinnest = 0.3;  // t / R of the thinnest layer that was computed
+  static constexpr double least_curved = -0.49, most_curved = 0.61;  // K
+
+  // Where the formula ends, m: at `deepest_x` or `deepest_y`, whichever comes first. Beyond the
+  // latter, bonded layers with nu from 0.45 on fold.
+  [[nodiscard]] double last_depth() const { return last_depth_; }
+
+  // The factor; 1 for h <= 0, empty beyond last_depth().
+  [[nodiscard]] std::optional<double> value(double depth) const;
+
+  // h d(factor)/dh. The stiffness is dF/dh = value dF_linear/dh + slope F_linear / h.
+  [[nodiscard]] std::optional<double> slope(double depth) const;
+
+  // The relative error of the factor, without that of the linear force. On random bodies that had
+  // no part in choosing its constants it covers 90 % (hollow) to 100 % (flat, convex) of the
+  // errors.
+  //   e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.27 y (layers) + 0.064 x (inclusion),   a^2 = R_e h
+  [[nodiscard]] std::optional<double> error(double depth) const;
+
+ private:
+  friend std::optional<DepthRatio> depth_ratio(const DeepPress& press);
+  static constexpr std::size_t highest = 9;     // power of sqrt(h)
+  std::array<double, highest> coefficients_{};  // of s, s^2 ...; s = sqrt(h/R)
+  double radius_ = 1.0, last_depth_ = 0.0;
+  double least_error_ = 0.0, error_by_depth_ = 0.0;  // 1 and 1/m
+};
+
+// For one place and sphere. Empty where nothing was computed: nu outside [0, 1/2], tissue thinner
+// than 0.3 R, a body whose curvature is outside [-0.49, 0.61] / R, or no width.
+[[nodiscard]] std::optional<DepthRatio> depth_ratio(const DeepPress& press);
+
+// One of the bonded tissues under the contact, from the top.
+struct Stratum {
+  double thickness = 0.0;      // m
+  double young_modulus = 0.0;  // Pa
+  double poisson_ratio = 0.0;  // less than 1/2
+};
+
+// The `thickness` (m) that stands for several layers: the mean of 1/t_k, weighted with the squares
+// of shares s_k of the compliance, which are less unequal than the compliances themselves. The
+// ratio of the top layer goes with it. Chosen on random stacks of two and three layers.
+//   1/t = sum s_k^2 / t_k,   s_k = (t_k / M_k^0.7) / sum (t_k / M_k^0.7),
+//   M = E (1 - nu) / ((1 + nu) (1 - 2 nu))
+[[nodiscard]] double effective_thickness(std::span<const Stratum> strata);
+
+}  // namespace palpate::contact

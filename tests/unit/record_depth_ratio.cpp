@@ -1,0 +1,143 @@
+// The factor of deep presses against the finite elements that it was fitted to.
+#include "contact/depth_ratio.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "record/csv.h"
+
+namespace palpate::contact {
+namespace {
+
+constexpr double radius = 0.011;  // m
+constexpr double half_space = std::numeric_limits<double>::infinity();
+
+DepthRatio ratio_of(double nu, double thickness, LayerBase base = LayerBase::bonded,
+                    double effective_radius = radius) {
+  const auto found = depth_ratio({.radius = radius,
+                                  .effective_radius = effective_radius,
+                                  .thickness = thickness,
+                                  .poisson_ratio = nu,
+                                  .base = base});
+  EXPECT_TRUE(found.has_value()) << nu << " " << thickness;
+  return found.value_or(DepthRatio{});
+}
+
+TEST(DepthRatio, IsThatOfTheFiniteElements) {
+  const record::Table table =
+      record::read_csv(PALPATE_SOURCE_DIR "/tests/elasticity/deep_layers.csv");
+  const auto number = [&](const auto& row, const char* name) {
+    return std::get<double>(row[static_cast<std::size_t>(table.find(name))]);
+  };
+  const auto base_column = static_cast<std::size_t>(table.find("base"));
+  std::size_t rows = 0;
+  for (const auto& row : table.rows) {
+    const double depth = number(row, "depth"), thickness = number(row, "thickness");
+    const double deepest = std::min(0.8, 0.6 * thickness);
+    // The shallowest contacts are only a few elements wide; the deepest are beyond the formula.
+    if (depth < 0.02 * deepest || depth > DepthRatio::deepest_y * thickness) continue;
+    const auto base = std::get<std::string>(row[base_column]) == "bonded" ? LayerBase::bonded
+                                                                          : LayerBase::frictionless;
+    const double computed = number(row, "ratio");
+    const auto got =
+        ratio_of(number(row, "poisson"), thickness * radius, base).value(depth * radius);
+    ASSERT_TRUE(got.has_value());
+    // The fit's largest error, 0.2 %.
+    EXPECT_NEAR(*got, computed, 0.0025 * computed) << depth << " " << thickness;
+    ++rows;
+  }
+  EXPECT_GT(rows, 4000U);
+}
+
+// Cases of group `large`: another program on a half-space, 0.3 %, and this formula's 0.2 %.
+TEST(DepthRatio, CasesOnAHalfSpace) {
+  const auto expect = [](const char* id, double nu, double x, double value) {
+    EXPECT_NEAR(ratio_of(nu, half_space).value(x * radius).value(), value, 0.005 * value) << id;
+  };
+  expect("large-01", 0.27, 0.1, 1.0217802);
+  expect("large-03", 0.27, 0.5, 1.0297139);
+  expect("large-04", 0.33, 0.1, 1.0114491);
+  expect("large-08", 0.40, 0.3, 0.98321556);
+  expect("large-12", 0.45, 0.5, 0.93662035);
+  expect("large-13", 0.49, 0.1, 0.97304673);
+  expect("large-15", 0.49, 0.5, 0.90849821);
+  expect("large-16", 0.4995, 0.1, 0.96972309);
+  expect("large-18", 0.4995, 0.5, 0.90123217);
+}
+
+TEST(DepthRatio, SlopeIsTheDerivative) {
+  for (const double effective_radius : {0.8 * radius, radius, 1.5 * radius})
+    for (const double thickness : {0.4 * radius, 2.0 * radius, half_space})
+      for (const double share : {0.05, 0.4, 0.9}) {
+        const DepthRatio ratio = ratio_of(0.3, thickness, LayerBase::bonded, effective_radius);
+        const double h = share * ratio.last_depth(), step = 1e-5 * h;
+        const double slope =
+            (ratio.value(h + step).value() - ratio.value(h - step).value()) / (2e-5);
+        EXPECT_NEAR(ratio.slope(h).value(), slope, 1e-8);  // rounding 1e-11, curvature 1e-9
+      }
+}
+
+TEST(DepthRatio, IsEmptyWhereNothingWasComputed) {
+  const auto exists = [](double nu, double thickness, double effective_radius) {
+    return depth_ratio({.radius = radius,
+                        .effective_radius = effective_radius,
+                        .thickness = thickness,
+                        .poisson_ratio = nu})
+        .has_value();
+  };
+  EXPECT_TRUE(exists(0.5, half_space, radius));
+  for (const double nu : {-0.01, 0.501, std::nan("")})
+    EXPECT_FALSE(exists(nu, half_space, radius)) << nu;
+  for (const double thickness : {0.29 * radius, 0.0, -1.0, std::nan("")})
+    EXPECT_FALSE(exists(0.3, thickness, radius)) << thickness;
+  for (const double effective_radius : {2.0 * radius, 0.62 * radius, std::nan("")})
+    EXPECT_FALSE(exists(0.3, half_space, effective_radius)) << effective_radius;
+
+  const DepthRatio thick = ratio_of(0.3, half_space);
+  EXPECT_DOUBLE_EQ(thick.last_depth(), 0.8 * radius);
+  EXPECT_DOUBLE_EQ(ratio_of(0.3, radius).last_depth(), 0.5 * radius);
+  EXPECT_FALSE(thick.value(0.81 * radius).has_value());
+  EXPECT_FALSE(thick.slope(0.81 * radius).has_value());
+  EXPECT_FALSE(thick.value(std::nan("")).has_value());
+  for (const double depth : {0.0, -1.0}) {
+    EXPECT_EQ(thick.value(depth).value(), 1.0);
+    EXPECT_EQ(thick.slope(depth).value(), 0.0);
+    EXPECT_EQ(thick.error(depth).value(), 0.0);
+  }
+}
+
+// e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.27 y (layers) + 0.064 x (inclusion)
+TEST(DepthRatio, StatesItsError) {
+  DeepPress press{.radius = radius,
+                  .effective_radius = 0.8 * radius,
+                  .thickness = 2.0 * radius,
+                  .poisson_ratio = 0.4};
+  const auto error = [&] { return depth_ratio(press).value().error(0.5 * radius).value(); };
+  const double wide = 0.004 + 0.034 * 0.25;
+  EXPECT_NEAR(error(), wide, 1e-15);  // rounding
+  press.half_width = 2.0 * radius;
+  const double one = wide + 0.2 * 0.4 / 4.0;
+  EXPECT_NEAR(error(), one, 1e-15);
+  press.tissues = Tissues::layers;
+  EXPECT_NEAR(error(), one + 0.27 * 0.25, 1e-15);
+  press.tissues = Tissues::inclusion;
+  EXPECT_NEAR(error(), one + 0.064 * 0.4, 1e-15);
+}
+
+TEST(EffectiveThickness, IsThatOfTheSoftLayer) {
+  const Stratum soft{0.01, 1e4, 0.45}, rigid{0.02, 1e14, 0.3};
+  const std::array one{soft};
+  const std::array parts{Stratum{0.004, 1e4, 0.45}, Stratum{0.006, 1e4, 0.45}};
+  const std::array both{soft, rigid}, turned{rigid, soft};
+  EXPECT_DOUBLE_EQ(effective_thickness(one), 0.01);
+  EXPECT_NEAR(effective_thickness(parts), 0.01, 1e-16);  // rounding
+  // The stiff layer's share is 4e-7.
+  EXPECT_NEAR(effective_thickness(both), 0.01, 1e-6 * 0.01);
+  EXPECT_NEAR(effective_thickness(turned), 0.01, 1e-6 * 0.01);
+}
+
+}  // namespace
+}  // namespace palpate::contact
