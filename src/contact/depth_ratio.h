@@ -53,7 +53,7 @@ class DepthRatio {
   // The relative error of the factor, without that of the linear force. On random bodies that had
   // no part in choosing its constants it covers 90 % (hollow) to 100 % (flat, convex) of the
   // errors.
-  //   e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.27 y (layers) + 0.064 x (inclusion),   a^2 = R_e h
+  //   e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.35 y (layers) + 0.064 x (inclusion),   a^2 = R_e h
   [[nodiscard]] std::optional<double> error(double depth) const;
 
  private:
@@ -81,5 +81,15 @@ struct Stratum {
 //   1/t = sum s_k^2 / t_k,   s_k = (t_k / M_k^0.7) / sum (t_k / M_k^0.7),
 //   M = E (1 - nu) / ((1 + nu) (1 - 2 nu))
 [[nodiscard]] double effective_thickness(std::span<const Stratum> strata);
+
+// What is added to the factor, and to its relative error, where the top layer is stiff: as the
+// press grows deep the skin is stretched, which linear elasticity does not know.
+//   d_5 (1 - f)^3 (z / (1 + z))^2, 0 where f >= 1       tests/elasticity/deep_ratio.py
+// f is the linear force divided by Hertz's force on the tissue of the top layer alone, and z the
+// depth divided by the thickness of that layer.
+struct SkinStretch {
+  double value = 0.0, error = 0.0;
+};
+[[nodiscard]] SkinStretch skin_stretch(double force_over_hertz, double depth_over_skin);
 
 }  // namespace palpate::contact

@@ -2,7 +2,7 @@
 
 Discs, domes (half ellipsoids), layered discs and discs with a ball on the axis, and from number 200
 to 299 discs with a hollow top, pressed on the axis up to half the sphere's radius; from number 300
-on up to 0.8 radii. Body k is drawn with the seed k, so that the file can be
+on up to 0.8 radii. Numbers from 400 on are layers under a thin stiff skin, to half a radius. Body k is drawn with the seed k, so that the file can be
 extended and a stopped run goes on. Lengths in mm, moduli in kPa, forces in mN.
     random_bodies.py FIRST LAST
 """
@@ -32,6 +32,8 @@ def draw(number):
     kind = ("disc", "dome", "layers", "ball", "disc", "dome")[number % 6]
     if 200 <= number < 300:
         kind = "dish"
+    elif number >= 400:
+        kind = "layers"
     radius = random.uniform(6.0, 14.0)
     youngs = random.uniform(5.0, 80.0)
     poisson = random.uniform(0.0, 0.49) if random.random() < 0.5 else random.uniform(0.4, 0.49)
@@ -54,6 +56,11 @@ def draw(number):
         layers = radius * np.exp(random.uniform(np.log(0.15), np.log(1.5), count))
         moduli = list(youngs * np.exp(random.uniform(np.log(0.1), np.log(10.0), count)))
         ratios = list(random.uniform(0.3, 0.49, count))
+        if number >= 400:
+            layers[0] = radius * random.uniform(0.08, 0.4)
+            layers[1:] = radius * random.uniform(0.5, 2.0, count - 1)
+            moduli = [youngs] + list(youngs / np.exp(random.uniform(np.log(2.0), np.log(20.0),
+                                                                    count - 1)))
         height = layers.sum()
         shape = {"radius": radius * 5.0, "layers": layers}
     else:
@@ -63,7 +70,7 @@ def draw(number):
         shape = {"radius": radius * 4.0, "height": height, "ball": ball, "centre": centre}
         moduli = [youngs, youngs * np.exp(random.uniform(np.log(0.2), np.log(20.0)))]
         ratios = [poisson, poisson]
-    deepest = min((0.5 if number < 300 else 0.8) * radius, 0.45 * height)
+    deepest = min((0.8 if 300 <= number < 400 else 0.5) * radius, 0.45 * height)
     if kind == "ball":
         deepest = min(deepest, 0.6 * (shape["centre"] - shape["ball"]))
     shape = {name: np.round(value, 3).tolist() for name, value in shape.items()}

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "contact/hertz.h"
 #include "record/csv.h"
 
 namespace palpate::contact {
@@ -109,7 +110,7 @@ TEST(DepthRatio, IsEmptyWhereNothingWasComputed) {
   }
 }
 
-// e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.27 y (layers) + 0.064 x (inclusion)
+// e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.35 y (layers) + 0.064 x (inclusion)
 TEST(DepthRatio, StatesItsError) {
   DeepPress press{.radius = radius,
                   .effective_radius = 0.8 * radius,
@@ -122,7 +123,7 @@ TEST(DepthRatio, StatesItsError) {
   const double one = wide + 0.2 * 0.4 / 4.0;
   EXPECT_NEAR(error(), one, 1e-15);
   press.tissues = Tissues::layers;
-  EXPECT_NEAR(error(), one + 0.27 * 0.25, 1e-15);
+  EXPECT_NEAR(error(), one + 0.35 * 0.25, 1e-15);
   press.tissues = Tissues::inclusion;
   EXPECT_NEAR(error(), one + 0.064 * 0.4, 1e-15);
 }
@@ -137,6 +138,22 @@ TEST(EffectiveThickness, IsThatOfTheSoftLayer) {
   // The stiff layer's share is 4e-7.
   EXPECT_NEAR(effective_thickness(both), 0.01, 1e-6 * 0.01);
   EXPECT_NEAR(effective_thickness(turned), 0.01, 1e-6 * 0.01);
+}
+
+// Skin, fat and muscle of bodies.csv at 2 mm: layers of 2, 8 and 20 mm with 70, 5 and 30 kPa.
+TEST(SkinStretch, OfSkinOnFat) {
+  const std::array layers{Stratum{0.002, 70e3, 0.45}, Stratum{0.008, 5e3, 0.45},
+                          Stratum{0.020, 30e3, 0.45}};
+  const double depth = 0.002, linear = 0.19248;  // N, a paraboloid by tests/elasticity
+  const double hertzian = hertz::force(depth, radius, 70e3 / (1.0 - 0.45 * 0.45));
+  const double flat = ratio_of(0.45, effective_thickness(layers)).value(depth).value();
+  const SkinStretch skin = skin_stretch(linear / hertzian, depth / layers[0].thickness);
+  // The finite elements' 0.2073 N; 9.6 % without the skin's stretching.
+  EXPECT_NEAR(linear * (flat + skin.value), 0.207336, 0.04 * 0.207336);
+  EXPECT_GT(skin.error, 0.02);
+  for (const double f : {1.0, 2.5}) EXPECT_EQ(skin_stretch(f, 1.0).value, 0.0);
+  EXPECT_EQ(skin_stretch(0.2, 0.0).value, 0.0);
+  EXPECT_EQ(skin_stretch(0.2, -1.0).error, 0.0);
 }
 
 }  // namespace
