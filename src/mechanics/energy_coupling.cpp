@@ -108,7 +108,7 @@ class EnergyCoupling::Loads {
         point = local(skin_->position(at));
         normal = axes_.transpose() * skin_->normal(at);
       }
-      if (!face.interface && std::abs(point.z()) < patch_->a) {
+      if (!face.interface && normal.z() > 0.0 && std::abs(point.z()) < patch_->a) {
         const double x = point.x() / patch_->a;
         const double y = point.y() / patch_->b;
         if (x * x + y * y < under_finger * under_finger) continue;

@@ -29,11 +29,13 @@ contact::Layer layers_of(const scenario::Resolved& scenario, double share) {
   for (const auto& region : scenario.regions)
     if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
       slabs.emplace_back(slab, &region);
-  if (slabs.empty()) return layer;
+  // The height of a body from a file is not known here: one layer.
+  const auto shape = parametric(tissue.shape);
+  if (slabs.empty() || !shape) return layer;
   std::sort(slabs.begin(), slabs.end(), [](const Layered& one, const Layered& other) {
     return one.first->top > other.first->top;
   });
-  const double height = geometry::extent(*parametric(tissue.shape)).z();
+  const double height = geometry::extent(*shape).z();
   const double own = tissue.young_modulus / (1.0 + layer.poisson_ratio);
   double reached = slabs.front().first->top;
   for (const auto& [slab, substance] : slabs) {

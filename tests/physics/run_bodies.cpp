@@ -78,6 +78,23 @@ TEST(ByDefault, BodiesOnTheirWholeUndersideAreNoHalfSpaces) {
   }
 }
 
+// Body 54 of tests/elasticity/random_bodies.csv (its column `paraboloid`): the contact becomes
+// wider than the disc is thick.
+TEST(ThinDisc, IsPressedByWideContacts) {
+  const test::TemporaryFolder folder;
+  const test::fs::path file = folder.path() / "disc.off";
+  (void)test::write_surface(test::disc(25.338, 3.794, 2.0), 2.0, file);
+  const record::CaseRecord record = test::run_text(
+      "[tissue]\nyoung_modulus = \"43.893 kPa\"\npoisson_ratio = 0.2829\nshape = { file = \"" +
+      file.string() +
+      "\", unit = \"mm\" }\n[finger]\nmaterial = \"rigid\"\nradius = \"7.78 "
+      "mm\"\n[contact]\nviscosity = \"none\"\n[output]\ninterval = \"50 ms\"\npressure_maps = "
+      "false\n[[step]]\nkind = \"indent\"\nto = \"1.7075 mm\"\nrate = \"1.7075 mm/s\"\n");
+  const record::ContactRow& last = record.contact.back();
+  EXPECT_GT(last.contact_radius, 1.1 * 0.003794);
+  EXPECT_NEAR(1e3 * last.contact_force / 1097.86, 1.0, 0.04);
+}
+
 // Presses a disc from a file with edges of `spacing` (mm) on a mesh of `nodes` nodes.
 record::CaseRecord pressed_disc(double spacing, int nodes) {
   const test::TemporaryFolder folder;
