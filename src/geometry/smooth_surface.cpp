@@ -257,6 +257,18 @@ SmoothSurface::Foot SmoothSurface::crease_foot(const Vec3& point, const SurfaceP
 }
 
 SmoothSurface::Foot SmoothSurface::foot(const Vec3& point, const Near& start) const {
+  const Foot found = followed_foot(point, start);
+  const Foot flat = flat_foot(point, start);
+  // Beyond a rim, Newton's method can end below a wall: the point is behind the wall's plane, but
+  // outside the body. The smooth surface is nearer to its triangles than their edges are long.
+  const auto& [a, b, c] = surface_.triangles[as_index(start.triangle)];
+  const Vec3& corner = surface_.vertices[as_index(a)];
+  const double size = (surface_.vertices[as_index(b)] - corner).norm() +
+                      (surface_.vertices[as_index(c)] - corner).norm();
+  return std::abs(found.height - flat.height) <= size ? found : flat;
+}
+
+SmoothSurface::Foot SmoothSurface::followed_foot(const Vec3& point, const Near& start) const {
   constexpr int most_moves = 60;
   constexpr double nudge = 1e-6;  // of the weights, for the derivative
   SurfacePoint here{start.triangle, start.weights};

@@ -59,6 +59,7 @@ class SmoothSurface {
   [[nodiscard]] Foot foot(const Vec3& point, const Near& start) const;
 
  private:
+  [[nodiscard]] Foot followed_foot(const Vec3& point, const Near& start) const;
   [[nodiscard]] Foot flat_foot(const Vec3& point, const Near& start) const;
   // The smooth curve of the crease at edge `edge` of a triangle, and its point nearest to `point`.
   struct Crease;
