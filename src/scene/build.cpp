@@ -246,6 +246,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   }
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height);
   specimen->skin = shape.skin;
+  if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape))
+    specimen->of_file = shapes.surface(*file, folder).surface;
   specimen->remark = shape.remark;
   specimen->surface.emplace(shape.surface);
   return specimen;

@@ -110,6 +110,8 @@ struct Specimen {
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
+  // The surface of the file; null for other shapes. The mesh may have a coarser one.
+  std::shared_ptr<const geometry::SmoothSurface> of_file;
   std::string remark;                      // that of meshing::FileMesh, or empty
   tissue::Uniaxial measured;               // E and nu of the network with the tissue everywhere
   tissue::Uniaxial pressed;                // response to platens, for a uniform test

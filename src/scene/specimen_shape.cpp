@@ -141,7 +141,7 @@ const SpecimenShapes::FileSurface& SpecimenShapes::surface(const scenario::Surfa
   const std::lock_guard lock(known.reading);
   if (known.surface || !known.fault.empty()) return known;
   try {
-    known.surface.emplace(surface_of(file, folder));
+    known.surface = std::make_shared<const geometry::SmoothSurface>(surface_of(file, folder));
   } catch (const MeshError& error) {
     known.fault = error.what();
   } catch (const InputError& error) {

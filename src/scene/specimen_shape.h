@@ -61,7 +61,7 @@ class SpecimenShapes {
   // The surface of a file for closed forms, or a sentence on why there is none.
   struct FileSurface {
     std::mutex reading;
-    std::optional<geometry::SmoothSurface> surface;
+    std::shared_ptr<const geometry::SmoothSurface> surface;
     std::string fault;
   };
   [[nodiscard]] const FileSurface& surface(const scenario::SurfaceFile& file,

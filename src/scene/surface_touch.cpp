@@ -120,37 +120,6 @@ geometry::CurvatureEstimate curvature_over(const geometry::SmoothSurface& whole,
                            {at.weights[0], at.weights[1], at.weights[2]});
 }
 
-// The fit spans the contact at the deepest travel, so that it does not take the grain of a fine
-// surface for curvature, but at least `contact.curvature_rings`.
-geometry::CurvatureEstimate measured(const geometry::SmoothSurface& surface,
-                                     const geometry::SurfacePoint& at, const Scenario& scenario) {
-  constexpr int most_rings = 20;
-  const double edge = edges_around(surface, at.triangle);
-  const double modulus = scenario.tissue.young_modulus;  // that of the finger changes little here
-  contact::SphereLaw law{
-      scenario.finger.radius,
-      contact::hertz::effective_modulus(
-          0.0, contact::Elastic{modulus, scenario.tissue.poisson_ratio}.compliance())};
-  const int least = scenario.contact.curvature_rings;
-  geometry::CurvatureOptions options;
-  options.method = scenario.contact.curvature;
-  geometry::CurvatureEstimate estimate;
-  for (int before = most_rings + 1;; before = options.rings) {
-    const double span = contact::hertz::contact_radius(deepest_travel(scenario, law), law.radius);
-    options.rings =
-        std::clamp(static_cast<int>(std::lround(span / edge)), least, std::max(least, most_rings));
-    // A surface that is rounder than the flat of the first guess has a smaller contact.
-    if (options.rings >= before) return estimate;
-    estimate = curvature_over(surface, at, options);
-    if (!estimate.known()) return estimate;
-    const auto& [kappa_1, kappa_2] =
-        std::pair(estimate.curvature.kappa_1, estimate.curvature.kappa_2);
-    const double inverse = 1.0 / scenario.finger.radius;
-    if (!(inverse + kappa_2 > 0.0)) return estimate;
-    law.radius = contact::geometric_radius(scenario.finger.radius, kappa_1, kappa_2);
-  }
-}
-
 SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
   SurfaceTouch touch;
   const auto& vertices = surface.surface().vertices;
@@ -179,7 +148,7 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
     touch.cannot = on_an_edge;
     return touch;
   }
-  const geometry::CurvatureEstimate found = measured(surface, first.at, scenario);
+  const geometry::CurvatureEstimate found = curvature_of_file(surface, first.at, scenario);
   if (!found.known()) {
     touch.cannot = "the surface's curvature at the contact cannot be estimated: " +
                    std::string(geometry::explanation(found.status));
@@ -194,6 +163,36 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
 }
 
 }  // namespace
+
+geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& surface,
+                                              const geometry::SurfacePoint& at,
+                                              const Scenario& scenario) {
+  constexpr int most_rings = 20;
+  const double edge = edges_around(surface, at.triangle);
+  const double modulus = scenario.tissue.young_modulus;  // that of the finger changes little here
+  contact::SphereLaw law{
+      scenario.finger.radius,
+      contact::hertz::effective_modulus(
+          0.0, contact::Elastic{modulus, scenario.tissue.poisson_ratio}.compliance())};
+  const int least = scenario.contact.curvature_rings;
+  geometry::CurvatureOptions options;
+  options.method = scenario.contact.curvature;
+  geometry::CurvatureEstimate estimate;
+  for (int before = most_rings + 1;; before = options.rings) {
+    const double span = contact::hertz::contact_radius(deepest_travel(scenario, law), law.radius);
+    options.rings =
+        std::clamp(static_cast<int>(std::lround(span / edge)), least, std::max(least, most_rings));
+    // A surface that is rounder than the flat of the first guess has a smaller contact.
+    if (options.rings >= before) return estimate;
+    estimate = curvature_over(surface, at, options);
+    if (!estimate.known()) return estimate;
+    const auto& [kappa_1, kappa_2] =
+        std::pair(estimate.curvature.kappa_1, estimate.curvature.kappa_2);
+    const double inverse = 1.0 / scenario.finger.radius;
+    if (!(inverse + kappa_2 > 0.0)) return estimate;
+    law.radius = contact::geometric_radius(scenario.finger.radius, kappa_1, kappa_2);
+  }
+}
 
 SurfaceTouch::Pressed SurfaceTouch::pressed(double radius, double travel) const {
   // The distance from the surface has the second derivatives kappa / (1 + kappa R) at the centre.

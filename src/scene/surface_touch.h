@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/curvature.h"
+#include "geometry/smooth_surface.h"
 #include "scenario/resolved.h"
 
 namespace palpate::scene {
@@ -36,6 +37,13 @@ struct SurfaceTouch {
   };
   [[nodiscard]] Pressed pressed(double radius, double travel) const;
 };
+
+// The curvature of a file's surface at a point, as the contact at the deepest travel meets it: the
+// fit spans that contact, so that it does not take the grain of a fine surface for curvature, but
+// at least `contact.curvature_rings`.
+[[nodiscard]] geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& surface,
+                                                            const geometry::SurfacePoint& at,
+                                                            const scenario::Resolved& scenario);
 
 // The touch of one sphere of `finger.radius` at `finger.x`, `finger.y`: in closed form for a
 // parametric shape; for a file, on the file's triangles, with the quadric fit of the skin of a

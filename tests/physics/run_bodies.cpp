@@ -78,6 +78,38 @@ TEST(ByDefault, BodiesOnTheirWholeUndersideAreNoHalfSpaces) {
   }
 }
 
+// Body 204 of tests/elasticity/random_bodies.csv: a disc whose top is a hollow of radius 21.009 mm.
+// Its fine surface is coarsened for the mesh. The force is the one for a paraboloid, the curvature
+// is the file's, and the rim is not taken for the inside of the body.
+TEST(Dish, IsPressedInItsHollow) {
+  constexpr double width = 16.807, thickness = 7.386, hollow = 21.009, spacing = 1.2;  // mm
+  test::Profile profile;
+  const double rim = std::asin(width / hollow);
+  const int parts = static_cast<int>(std::ceil(rim * hollow / spacing));
+  for (int i = 0; i < parts; ++i) {
+    const double angle = rim * i / parts;
+    profile.push_back({hollow * std::sin(angle), thickness + hollow * (1.0 - std::cos(angle))});
+  }
+  test::add_line(profile, {width, thickness + hollow * (1.0 - std::cos(rim))}, {width, 0.0},
+                 spacing);
+  test::add_base(profile, width, spacing);
+  const test::TemporaryFolder folder;
+  const test::fs::path file = folder.path() / "body.off";
+  (void)test::write_surface(profile, spacing, file);
+  const record::CaseRecord record = test::run_text(
+      "[tissue]\nyoung_modulus = \"65.898 kPa\"\npoisson_ratio = 0.4202\nbase = \"bonded\"\n"
+      "shape = { file = \"" +
+      file.string() +
+      "\", unit = \"mm\" }\n[finger]\nmaterial = \"rigid\"\nradius = \"10.291 mm\"\n"
+      "x = \"0 mm\"\ny = \"0 mm\"\n[contact]\nviscosity = \"none\"\ndepth = \"hertz\"\n"
+      "[output]\ninterval = \"100 ms\"\npressure_maps = false\n"
+      "[[step]]\nkind = \"indent\"\nto = \"0.4985 mm\"\nrate = \"0.4985 mm/s\"\n");
+  ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+  EXPECT_NEAR(std::get<double>(test::finding(record, "peak_force_N")), 0.287761, 0.035 * 0.287761);
+  EXPECT_NEAR(std::get<double>(test::finding(record, "local_curvature_per_m")), -1e3 / hollow,
+              0.01 * 1e3 / hollow);
+}
+
 // Body 54 of tests/elasticity/random_bodies.csv (its column `paraboloid`): the contact becomes
 // wider than the disc is thick.
 TEST(ThinDisc, IsPressedByWideContacts) {
