@@ -39,6 +39,8 @@ SkinCurvature::Corners SkinCurvature::on_file(int triangle) const {
     const geometry::Near near = of_file_->nearest(corner + inwards * (middle - corner));
     const geometry::SurfacePoint at{near.triangle, near.weights};
     corners[i] = scene::curvature_of_file(file, at, part_->scene->scenario);
+    // A coarse file, as a box of twelve triangles, has too few neighbours.
+    if (!corners[i].known()) return stars_.at_corners(*skin_, triangle);
     corners[i].curvature = geometry::turned_to(corners[i].curvature, file.normal(at));
   }
   return corners;
