@@ -308,8 +308,11 @@ Integrator base_integrator(const scenario::Case& one) {
 }
 
 Asked read_for_chart(const std::string& path, const Settings& settings) {
-  Asked asked{path, read_text(path), settings, {}};
-  asked.family = scenario::parse(asked.text, path, settings);
+  return read_for_chart(path, read_text(path), settings);
+}
+
+Asked read_for_chart(const std::string& path, const std::string& text, const Settings& settings) {
+  Asked asked{path, text, settings, scenario::parse(text, path, settings)};
   const scenario::Family& family = asked.family;
   if (family.cases.size() > most_cases)
     throw InputError(place_of(family.document, "sweep"),
@@ -321,6 +324,12 @@ Asked read_for_chart(const std::string& path, const Settings& settings) {
       family, family.base.steps,
       "a step to a force ends elsewhere in every variant, and `palpate chart` compares forces at "
       "equal travels; give a travel");
+  for (const scenario::Case& one : family.cases) {
+    const scene::Choice choice = scene::choose(one);
+    // The reference of a press with inertia is linear elasticity on a mesh.
+    const bool still = !choice.chosen.meshed() || !about(choice.chosen.solver.integrator).inertia;
+    asked.depths.push_back(still ? choice.chosen.contact.depth : scenario::Contact::Depth::hertz);
+  }
   return asked;
 }
 
@@ -329,6 +338,9 @@ scenario::Family with_settings(const Asked& asked, std::size_t of_case, const Se
   all.insert(all.end(), settings.begin(), settings.end());
   scenario::Family family = scenario::parse_case(asked.text, asked.path, all, of_case);
   family.cases.front().name = asked.family.cases[of_case].name;
+  scenario::Contact& contact = family.cases.front().scenario.contact;
+  if (!contact.depth && !contact::mesh_is_tissue(contact.coupling))
+    contact.depth = asked.depths[of_case];
   return family;
 }
 

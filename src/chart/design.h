@@ -28,11 +28,16 @@ struct Asked {
   std::string text;
   std::vector<std::string> settings;
   scenario::Family family;
+  // What `contact.depth = "auto"` becomes in the cases, for every variant and the reference alike.
+  std::vector<scenario::Contact::Depth> depths = {};
 };
 
 // Reads a scenario for a chart. Throws InputError if it is invalid, has more than 8 cases, sweeps a
 // key that the chart varies, or presses to a force (every variant would end at another travel).
 [[nodiscard]] Asked read_for_chart(const std::string& path,
+                                   const std::vector<std::string>& settings);
+// The same, of a text that was read from `path`.
+[[nodiscard]] Asked read_for_chart(const std::string& path, const std::string& text,
                                    const std::vector<std::string>& settings);
 
 // Throws InputError with `sentence` at the first step to a force, which would end at another travel

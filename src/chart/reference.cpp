@@ -137,7 +137,11 @@ class Refinement {
     solver.substeps.reset();
     solver.rings.reset();
     scenario.contact.coupling = resolved_ ? Coupling::resolved : Coupling::consistent;
-    if (resolved_) scenario.contact.viscosity = scenario::Contact::Viscosity::none;
+    scenario.contact.depth = given_.contact.depth;
+    if (resolved_) {
+      scenario.contact.viscosity = scenario::Contact::Viscosity::none;
+      scenario.contact.depth = scenario::Contact::Depth::hertz;
+    }
     scenario.output.keep_rows_only();
     if (!dynamic_ && scenario.tissue.viscosity == tissue::Viscosity::none) thin_out();
   }

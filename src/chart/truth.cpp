@@ -73,19 +73,25 @@ class Finder {
     return Truth{kind, sentence + "; its own error is about " + percent_text(error), *moments};
   }
 
+  // What all variants have in common, so that no difference shows it.
+  [[nodiscard]] std::string depth_text(const scene::Estimates& found) const {
+    if (scenario_.contact.depth == scenario::Contact::Depth::neo_hookean)
+      return " times the factor of a deep press, which all variants share; its error of " +
+             percent_text(found.deep_error) + " is not included";
+    return " in linear elasticity, like all variants; finite strain, which would change it by " +
+           percent_text(std::abs(found.deep)) + ", is not included";
+  }
+
   std::optional<Truth> half_space(const scene::Estimates& found) const {
-    const bool deep = found.deep >= scenario_.solver.tolerance;
-    return vouched(
-        "closed form", deep ? "Hertz, times the factor of a deep press" : "Hertz",
-        {model_setting(Model::hertz), deep ? "contact.depth=neo_hookean" : "contact.depth=hertz"},
-        (deep ? contact::DeepLaw::error : found.deep) + found.inertia);
+    return vouched("closed form", "Hertz" + depth_text(found), {model_setting(Model::hertz)},
+                   found.inertia);
   }
 
   std::optional<Truth> layer(const scene::Estimates& found) const {
     return vouched("closed form",
-                   "an infinite flat layer; the estimated effect of the sides is " +
-                       percent_text(found.sides) + ", that of inertia " +
-                       percent_text(found.inertia),
+                   "an infinite flat layer" + depth_text(found) +
+                       "; the estimated effect of the sides is " + percent_text(found.sides) +
+                       ", that of inertia " + percent_text(found.inertia),
                    {model_setting(Model::layer)}, found.sides + found.inertia);
   }
 
@@ -138,6 +144,7 @@ class Finder {
                          : "coupled springs on meshes that follow their error (`palpate "
                            "reference`), without inertia, whose estimated effect is " +
                                percent_text(found.inertia);
+    truth.sentence += "; forces" + depth_text(found);
     const double own = own_error(scenario_, truth.moments).greatest;
     truth.sentence += "; its own error is about " + percent_text(own);
     if (turned > 0.0 && peak > 0.0)

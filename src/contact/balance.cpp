@@ -3,24 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palpate::contact {
 
 double PointLaw::force(double depth) const {
   if (depth <= 0.0) return 0.0;
   if (layer != nullptr) return share * part * layer->force(depth);
-  const double root = std::sqrt(depth);
-  return part * coefficient * depth * root * (1.0 + deep_root * root + deep * depth);
+  return part * coefficient * depth * std::sqrt(depth);
 }
 
 double PointLaw::stiffness(double depth) const {
   if (depth <= 0.0) return 0.0;
   if (layer != nullptr) return share * part * layer->stiffness(depth);
-  const double root = std::sqrt(depth);
-  return part * coefficient * root * (1.5 + 2.0 * deep_root * root + 2.5 * deep * depth);
+  return 1.5 * part * coefficient * std::sqrt(depth);
 }
 
-double PointLaw::last_depth() const { return layer != nullptr ? layer->last_depth() : deepest; }
+double PointLaw::last_depth() const {
+  return layer != nullptr ? layer->last_depth() : std::numeric_limits<double>::infinity();
+}
 
 namespace {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,13 +11,11 @@
 namespace palpate::contact {
 
 // Force of a contact as a function of its depth, 0 for h <= 0: either
-//   coefficient * h^(3/2) (1 + deep_root sqrt(h) + deep h)              docs/theory.md (3), (62)
+//   coefficient * h^(3/2)                                                   docs/theory.md (3)
 // or the force of a flat layer times `share`; both times `part`, which is below 1 where several
-// contacts share one place.
+// contacts share one place, and is the factor (62) in a deep press.
 struct PointLaw {
-  double coefficient = 0.0;                                  // N/m^(3/2)
-  double deep_root = 0.0, deep = 0.0;                        // 1/sqrt(m), 1/m
-  double deepest = std::numeric_limits<double>::infinity();  // m, the validity limit of the factor
+  double coefficient = 0.0;  // N/m^(3/2)
   const LayerContact* layer =
       nullptr;  // replaces the other force if not null; must outlive the law
   double share = 1.0;

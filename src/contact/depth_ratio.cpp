@@ -55,8 +55,8 @@ constexpr double hollow_square = 5.6, hollow_cube = -9.12;
 
 // The stated error, chosen on one half of those bodies; the least is that of the terms above and of
 // the finite elements, 0.2 % each.
-constexpr double least_error = 0.004, side_error = 0.2, curved_error = 0.034;
-constexpr double layers_error = 0.35, inclusion_error = 0.064;
+constexpr double least_error = 0.004, side_error = 0.25, curved_error = 0.034;
+constexpr double layers_error = 0.35, inclusion_error = 0.064, hollow_error = 5.0;
 
 // d_5 S of a stiff skin, fitted to one half of the stacks of layers, and the error for each S.
 constexpr double skin_stretched = 0.461, skin_error = 0.22;
@@ -95,41 +95,20 @@ std::optional<DepthRatio> depth_ratio(const DeepPress& press) {
   }
 
   ratio.radius_ = press.radius;
+  ratio.tissue_share_ = press.tissue_share;
+  ratio.skin_ = press.skin;
+  ratio.force_over_hertz_ = press.force_over_hertz;
   ratio.last_depth_ = std::min(DepthRatio::deepest_x * press.radius / round,
-                               DepthRatio::deepest_y * press.thickness);
+                               DepthRatio::deepest_y * press.thickness) /
+                      press.tissue_share;
   const double by_x = round / press.radius, by_y = 1.0 / press.thickness;
   ratio.least_error_ = least_error + curved_error * std::abs(curved);
   ratio.error_by_depth_ =
       side_error * press.effective_radius / (press.half_width * press.half_width);
   if (press.tissues == Tissues::layers) ratio.error_by_depth_ += layers_error * by_y;
   if (press.tissues == Tissues::inclusion) ratio.error_by_depth_ += inclusion_error * by_x;
+  if (curved < 0.0) ratio.error_of_hollow_ = hollow_error * -curved * by_y * std::sqrt(by_y);
   return ratio;
-}
-
-std::optional<double> DepthRatio::error(double depth) const {
-  if (depth <= 0.0) return 0.0;
-  if (!(depth <= last_depth_)) return std::nullopt;
-  return least_error_ + error_by_depth_ * depth;
-}
-
-std::optional<double> DepthRatio::value(double depth) const {
-  if (depth <= 0.0) return 1.0;
-  if (!(depth <= last_depth_)) return std::nullopt;
-  const double s = std::sqrt(depth / radius_);
-  double sum = 0.0;
-  for (std::size_t n = highest; n > 0; --n) sum = (sum + coefficients_[n - 1]) * s;
-  return 1.0 + sum;
-}
-
-std::optional<double> DepthRatio::slope(double depth) const {
-  if (depth <= 0.0) return 0.0;
-  if (!(depth <= last_depth_)) return std::nullopt;
-  // h d(s^n)/dh = n/2 s^n
-  const double s = std::sqrt(depth / radius_);
-  double sum = 0.0;
-  for (std::size_t n = highest; n > 0; --n)
-    sum = (sum + 0.5 * static_cast<double>(n) * coefficients_[n - 1]) * s;
-  return sum;
 }
 
 SkinStretch skin_stretch(double force_over_hertz, double depth_over_skin) {
@@ -138,6 +117,24 @@ SkinStretch skin_stretch(double force_over_hertz, double depth_over_skin) {
   const double z = std::max(0.0, depth_over_skin);
   const double share = soft * soft * soft * (z / (1.0 + z)) * (z / (1.0 + z));
   return {.value = skin_stretched * share, .error = skin_error * share};
+}
+
+double DepthRatio::value(double depth) const {
+  if (!(depth > 0.0)) return 1.0;
+  const double yielded = tissue_share_ * std::min(depth, last_depth_);
+  const double s = std::sqrt(yielded / radius_);
+  double sum = 0.0;
+  for (std::size_t n = highest; n > 0; --n) sum = (sum + coefficients_[n - 1]) * s;
+  return 1.0 + sum + skin_stretch(force_over_hertz_, yielded / skin_).value;
+}
+
+double DepthRatio::error(double depth) const {
+  if (!(depth > 0.0)) return 0.0;
+  const double known = std::min(depth, last_depth_);
+  const double yielded = tissue_share_ * known;
+  return least_error_ + (error_by_depth_ + error_of_hollow_ * std::sqrt(yielded)) * yielded +
+         skin_stretch(force_over_hertz_, yielded / skin_).error +
+         std::abs(value(known) - 1.0) * (depth - known) / known;
 }
 
 double effective_thickness(std::span<const Stratum> strata) {

@@ -21,6 +21,12 @@ struct DeepPress {
   double thickness = 0.0;         // t under the contact; infinite where there is no base
   double poisson_ratio = 0.0;     // of the tissue at the contact
   LayerBase base = LayerBase::bonded;
+  // The share of the depth by which the tissue yields; the rest is that of an elastic finger.
+  double tissue_share = 1.0;
+  // Of the top layer of a stack: its thickness, and the linear force divided by Hertz's force on
+  // its tissue alone.
+  double skin = std::numeric_limits<double>::infinity();
+  double force_over_hertz = 1.0;
   // What affects the stated error only:
   double half_width = std::numeric_limits<double>::infinity();  // W to the nearest side
   Tissues tissues = Tissues::one;
@@ -29,9 +35,10 @@ struct DeepPress {
 // F / F_linear at the depth h. F is the force of a rigid frictionless sphere on neo-Hookean tissue
 // with W = mu/2 (I1bar - 3) + kappa/2 (J - 1)^2, and F_linear that of linear elasticity where the
 // sphere is a paraboloid (`hertz`, `layer`, `coupled_springs`). A polynomial in sqrt(h) that is 1
-// at h = 0 and needs nothing but + * and sqrt, so that a step may evaluate it.
+// at h = 0 and needs nothing but + * / and sqrt, so that a step may evaluate it.
 //   1 + sum c_ijm x^(i/2) y^j q^m + K y (d_1 y + d_2 q)     where K >= 0
 //                                 + K y^2 (d_3 + d_4 y)     where K < 0
+//                                 + the stretch of a stiff skin
 //   x = R_e h / R^2,  y = h / t,  q = (1 - 2 nu) / (1 - nu),  K = R / R_e - 1
 // On wide layers this is the finite elements to 0.2 %.            tests/elasticity/deep_ratio.py
 class DepthRatio {
@@ -44,24 +51,26 @@ class DepthRatio {
   // latter, bonded layers with nu from 0.45 on fold.
   [[nodiscard]] double last_depth() const { return last_depth_; }
 
-  // The factor; 1 for h <= 0, empty beyond last_depth().
-  [[nodiscard]] std::optional<double> value(double depth) const;
-
-  // h d(factor)/dh. The stiffness is dF/dh = value dF_linear/dh + slope F_linear / h.
-  [[nodiscard]] std::optional<double> slope(double depth) const;
+  // The factor; 1 for h <= 0, and beyond last_depth() that of last_depth().
+  [[nodiscard]] double value(double depth) const;
 
   // The relative error of the factor, without that of the linear force. On random bodies that had
   // no part in choosing its constants it covers 90 % (hollow) to 100 % (flat, convex) of the
   // errors.
-  //   e = 0.004 + 0.2 (a/W)^2 + 0.034 |K| + 0.35 y (layers) + 0.064 x (inclusion),   a^2 = R_e h
-  [[nodiscard]] std::optional<double> error(double depth) const;
+  //   e = 0.004 + 0.25 (a/W)^2 + 0.034 |K| + 0.35 y (layers) + 0.064 x (inclusion)
+  //       + 5 |K| y^(3/2) (hollow) + that of the stretch of a stiff skin,   a^2 = R_e h
+  // The term of hollow bodies is what the linear force of a mesh adds where the sphere conforms.
+  // Beyond last_depth() the factor's distance from 1 is added as often as it fits into the excess.
+  [[nodiscard]] double error(double depth) const;
 
  private:
   friend std::optional<DepthRatio> depth_ratio(const DeepPress& press);
   static constexpr std::size_t highest = 9;     // power of sqrt(h)
   std::array<double, highest> coefficients_{};  // of s, s^2 ...; s = sqrt(h/R)
-  double radius_ = 1.0, last_depth_ = 0.0;
-  double least_error_ = 0.0, error_by_depth_ = 0.0;  // 1 and 1/m
+  double radius_ = 1.0, last_depth_ = 0.0, tissue_share_ = 1.0;
+  double skin_ = std::numeric_limits<double>::infinity(), force_over_hertz_ = 1.0;
+  // 1, 1/m and 1/m^(3/2)
+  double least_error_ = 0.0, error_by_depth_ = 0.0, error_of_hollow_ = 0.0;
 };
 
 // For one place and sphere. Empty where nothing was computed: nu outside [0, 1/2], tissue thinner

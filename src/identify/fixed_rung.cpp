@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "contact/deep.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
 
@@ -59,18 +58,19 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
   const bool still_flow = scenario.uniform() &&
                           scenario.tissue.viscosity != tissue::Viscosity::nodal_drag &&
                           scenario.tissue.viscosity != tissue::Viscosity::none;
-  bool deep_known = true;  // the factor of deep presses exists for every Poisson's ratio tried
+  bool deep_known = true;  // the factor of deep presses exists for all values tried
   for (const std::vector<double>& u : places(unknowns.size())) {
     std::vector<double> values;
     for (std::size_t i = 0; i < u.size(); ++i) values.push_back(unknowns[i].value(u[i]));
     const scenario::Case at = fixed.at(unknowns, values);
     std::vector<Problem> problems;
     scenario::check(at, document, problems);
-    deep_known = deep_known && contact::deep_law(scenario::poisson_ratio(at)).has_value();
-    if (problems.empty())
+    if (problems.empty()) {
       choices.push_back(scene::choose(at, shapes));
-    else if (wrong.empty())
+      deep_known = deep_known && choices.back().depth_ratio.has_value();
+    } else if (wrong.empty()) {
       wrong = problems;
+    }
   }
   if (choices.empty()) throw InputError(wrong);
 

@@ -123,11 +123,9 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
   record::CaseRecord record;
   try {
     scene::SpecimenShapes fresh;
-    scene::Choice choice;  // the model is already chosen
-    choice.chosen = scenario::resolve(one, rung_.model);
-    choice.given = true;
+    scene::SpecimenShapes& shapes = shape_varies_ ? fresh : shapes_;
     const scene::Scene scene =
-        run::build_scene(one, *family_, shape_varies_ ? fresh : shapes_, std::move(choice));
+        run::build_scene(one, *family_, shapes, scene::given_choice(one, rung_.model, shapes));
     record = run::run_case(scene, *stop_);
   } catch (const InputError& error) {
     failure_ = error.problems().front().message;

@@ -33,6 +33,7 @@ struct SphereContact {
   double force = 0.0;           // N, along the patch's normal
   double elastic = 0.0;         // N, the part of `force` that the law gives for relaxed tissue
   double radiated = 0.0;        // N, the part of `force` for waves that the mesh cannot resolve
+  double deep = 1.0;            // the factor (62) of a deep press, in the law's `part` too
   double compliance = 0.0;      // m/N, C_ii of docs/theory.md (15)
   double sinking_error = 0.0;   // m/N, e of docs/theory.md (12)
   double sinking_doubt = 0.0;   // m/N, of the boundary's flat faces

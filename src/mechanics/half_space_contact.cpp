@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/elliptic.h"
-
 namespace palpate::mechanics {
 
 std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec3& top,
@@ -16,21 +14,11 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
                                   {scene.finger.sphere_radius, scene.finger.sphere_modulus},
                                   curvature, scene.layer ? &*scene.layer : nullptr);
   if (!law) return hollow_text(curvature.kappa_2);
-  if (scene.deep) {
-    const double round =
-        contact::geometric_radius(scene.finger.sphere_radius, curvature.kappa_1, curvature.kappa_2);
-    law->point.deep_root = scene.deep->p / std::sqrt(round);
-    law->point.deep = scene.deep->q / round;
-    law->point.deepest = contact::DeepLaw::deepest * round;
-  }
   const double radius = scene.finger.sphere_radius;
   const auto [depth, normal] = surface.pressed(radius, touch.travel);
   if (depth > law->point.last_depth())
-    return scene.layer
-               ? "the layer is too thin for this depth: its law is known up to sqrt(R h) = 3 H"
-               : "the press is deeper than half the radius, where the factor for deep presses "
-                 "ends; "
-                 "set `contact.depth = \"hertz\"`";
+    return "the layer is too thin for this depth: its law is known up to sqrt(R h) = 3 H";
+  if (scene.depth_ratio) law->point.part = scene.depth_ratio->value(depth);
   const Vec3 before = touch.finger;
   touch.finger = top + (radius - touch.travel) * Vec3::UnitZ();
   const Vec3 move = touch.finger - before;

@@ -99,6 +99,7 @@ std::optional<std::string> SkinContacts::give_law(SphereContact& contact) {
       here, scene_->layer ? &*scene_->layer : nullptr);
   if (!law) return hollow_text(here.kappa_2);
   contact.law = *law;
+  if (scene_->depth_ratio) contact.deep = scene_->depth_ratio->value(contact.approach);
   if (contact.law.point.layer != nullptr && presses_as_one(*scene_)) {
     // The law of the single sphere that these spheres represent; a^2 = R h with its R, which is
     // n^(1/3) times the radius of a sphere.
@@ -179,7 +180,8 @@ void SkinContacts::share_places(KeptList<SphereContact>& contacts) {
       const double overlap = 1.0 - apart / reach;
       parts_[i] += overlap * overlap;
     }
-  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].law.point.part = 1.0 / parts_[i];
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    contacts[i].law.point.part = contacts[i].deep / parts_[i];
 }
 
 // The width depends on the finger's position alone. If it depended on the force, loading and

@@ -18,9 +18,9 @@ class SkinCurvature {
   explicit SkinCurvature(const MovingPart& part);
 
   // Sets `here` (1/m) to the curvature at a point: of the mesh's skin or, for a surface file, of
-  // its triangles where they suffice, which a mesh may have coarsened. With `contact.curvature_on = "deformed"` it is
-  // that of the displaced skin. Sets `one_sided` if its estimate is StarStatus::one_sided. Returns
-  // a sentence if it cannot be estimated.
+  // its triangles where they suffice, which a mesh may have coarsened. With `contact.curvature_on =
+  // "deformed"` it is that of the displaced skin. Sets `one_sided` if its estimate is
+  // StarStatus::one_sided. Returns a sentence if it cannot be estimated.
   [[nodiscard]] std::optional<std::string> find(const geometry::SurfacePoint& at, bool& one_sided,
                                                 geometry::Curvature& here);
   void make_room();  // after which find() allocates nothing

@@ -133,12 +133,13 @@ void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd
                                   : 0.75 * own.law.point.coefficient / radius_per_root(own.law);
     const double stiffening =
         std::min(most_stiffening, 5.0 / 3.0 * modulus * radius * radius * value.slope);
-    own.sinking_error = value.error;
-    own.sinking_doubt = value.boundary;
-    double sinking = value.sinking;
+    // The mesh is linear: it sinks by the force without the factor of a deep press.
+    own.sinking_error = value.error / own.deep;
+    own.sinking_doubt = value.boundary / own.deep;
+    double sinking = value.sinking / own.deep;
     if (own.law.point.layer == nullptr) {
       own.law.point.part /= 1.0 - stiffening;
-      sinking += radius * value.slope;
+      sinking += radius * value.slope / own.deep;
     }
     if (as_one) {
       compliance.row(i).head(count).setConstant(sinking);
@@ -154,8 +155,8 @@ void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd
               contact::half_space_sinking((own.patch.position - other.patch.position).norm(), 1.0,
                                           other.patch.radius(), plane_modulus) +
           beyond_->rest(own.patch.normal, own.load, part->nodes, other.patch);
-      compliance(i, j) += 0.5 * between;
-      compliance(j, i) += 0.5 * between;
+      compliance(i, j) += 0.5 * between / other.deep;
+      compliance(j, i) += 0.5 * between / own.deep;
     }
   }
 }

@@ -7,7 +7,6 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "contact/deep.h"
 #include "run/known_failures.h"
 #include "run/readings.h"
 #include "scenario/integrators.h"
@@ -175,7 +174,12 @@ class Findings {
     add("viscous_effect", expected_.viscous);
     add("inertia_effect", expected_.inertia);
     add("curvature_ratio", expected_.curvature_ratio);
-    if (const auto* forecast = scene_.choice.taken()) add("predicted_error", forecast->error);
+    if (const auto* forecast = scene_.choice.taken()) {
+      add("predicted_error", forecast->error);
+      add("stated_error", peak.mesh_error > 0.0
+                              ? forecast->error - forecast->of_mesh + peak.mesh_error
+                              : forecast->error);
+    }
     if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     if (!touch.known() || peak.travel <= 0.0) return;
@@ -195,16 +199,20 @@ class Findings {
     const double tolerance = scene_.scenario.solver.tolerance;
     const bool mesh = rung_.meshed();
     const double depth = peak.indentation / scene_.law().radius;
-    if (depth > contact::DeepLaw::deepest && coupling != contact::Coupling::resolved)
-      remark("the indentation reached " + rounded_text(depth, 2) +
-             " of the sphere's radius: beyond half of it no factor for deep presses is known, and "
-             "Hertz's law is a guess; press less deep, or use `coupling = \"resolved\"`");
-    else if (depth > 0.1 && !scene_.deep && coupling != contact::Coupling::resolved)
-      remark("the indentation reached " + rounded_text(depth, 2) +
-             " of the sphere's radius: Hertz assumes far less, and at a quarter of the radius true "
-             "forces differ by up to 6 % (docs/paper.md, 13)" +
-             (e.deep > 0.0 ? "; in neo-Hookean tissue this one by about " + percent_text(e.deep)
-                           : ""));
+    const auto& ratio = scene_.choice.depth_ratio;
+    if (!contact::mesh_is_tissue(coupling)) {
+      if (ratio && peak.travel > ratio->last_depth() && depth > 0.1)
+        remark("the travel reached " + quantity_text(peak.travel, unit::mm) +
+               ", and the factor for deep presses is known up to " +
+               quantity_text(ratio->last_depth(), unit::mm) + " here: the force is off by about " +
+               percent_text(std::abs(e.deep) + e.deep_error) +
+               "; press less deep, or compare with `coupling = \"resolved\"`");
+      else if (depth > 0.1 && !scene_.depth_ratio)
+        remark("the indentation reached " + rounded_text(depth, 2) +
+               " of the sphere's radius: in neo-Hookean tissue the force would be " +
+               (e.deep < 0.0 ? "lower" : "higher") + " by about " + percent_text(std::abs(e.deep)) +
+               (ratio ? "; `contact.depth = \"neo_hookean\"` takes this into account" : ""));
+    }
     if (!rung_.thickness || coupling == contact::Coupling::one_way) {
       if (e.thickness * e.tissue_share > tolerance)
         remark("the force is that of a half-space: at this thickness it would be higher by about " +

@@ -243,10 +243,10 @@ class Checker {
                                   models_that(std::mem_fn(&Rung::uniform)));
     viscosity();
     if (scenario_.contact.depth == Contact::Depth::neo_hookean && !scenario_.uniform() &&
-        (given == nullptr || !given->deep_factor))
-      problem("contact.depth", "`neo_hookean` is the factor of a half-space; set " +
-                                   models_that(std::mem_fn(&Rung::deep_factor)) +
-                                   ", or `depth = \"auto\"`");
+        contact::mesh_is_tissue(scenario_.contact.coupling))
+      problem("contact.depth",
+              "with this `coupling` the mesh is the tissue, and the factor is that of a contact "
+              "law; write `coupling = \"consistent\"`, or `depth = \"hertz\"`");
     if (!scenario_.meshed()) return;
     if (given != nullptr) springs(*given);
     if (scenario_.contact.coupling == contact::Coupling::resolved && solver.integrator &&

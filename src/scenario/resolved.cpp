@@ -33,15 +33,15 @@ tissue::ViscousLaw viscous_law(const Tissue& tissue) {
   return law;
 }
 
-Resolved::Contact resolve_contact(const Scenario& asked, const Rung& rung, const Found& found) {
+Resolved::Contact resolve_contact(const Scenario& asked, const Found& found) {
   using Viscosity = Contact::Viscosity;
   const Contact& contact = asked.contact;
-  const bool deep = found.depth_matters && rung.deep_factor;
   const bool linear = asked.solver.kinematics == Solver::Kinematics::linear;
   return {
       contact,
       found.viscosity_matters ? contact.viscosity.value_or(Viscosity::none) : Viscosity::none,
-      contact.depth.value_or(deep ? Contact::Depth::neo_hookean : Contact::Depth::hertz),
+      contact.depth.value_or(found.depth_matters ? Contact::Depth::neo_hookean
+                                                 : Contact::Depth::hertz),
       contact.direction.value_or(linear ? Contact::Direction::skin : Contact::Direction::sphere)};
 }
 
@@ -101,7 +101,7 @@ Resolved resolve(const Case& one, Model model, const Found& found) {
                      tissue.base.value_or(base)},
                     {},
                     {all.finger, all.finger.density.value_or(0.0), {}},
-                    resolve_contact(all, rung(model), found),
+                    resolve_contact(all, found),
                     resolve_solver(all, rung(model), found)};
   for (const Region& region : all.regions)
     resolved.regions.push_back({region,

@@ -43,13 +43,12 @@ struct Rung {
   tissue::Volume volume = tissue::Volume::none;  // the default of `solver.volume`
 
   // What it represents. Every rung represents both curvatures and the viscosity of the tissue.
-  bool thickness = false;    // of the specimen, and its base
-  bool sides = false;        // of the specimen: any shape
-  bool inertia = false;      // of the tissue
-  bool uniform = false;      // creep and relaxation between platens
-  bool own_ratio = false;    // the tissue's Poisson's ratio, away from the contact too
-  bool deep_factor = false;  // of a deep press into neo-Hookean tissue
-  bool eq_2 = false;         // its elastic force on a flat is exactly eq. (2)
+  bool thickness = false;  // of the specimen, and its base
+  bool sides = false;      // of the specimen: any shape
+  bool inertia = false;    // of the tissue
+  bool uniform = false;    // creep and relaxation between platens
+  bool own_ratio = false;  // the tissue's Poisson's ratio, away from the contact too
+  bool eq_2 = false;       // its elastic force on a flat is exactly eq. (2)
 
   MeshError error = {};  // of a mesh; for closed forms see scene::choose()
   Cost cost = {};
@@ -65,7 +64,6 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .meaning = "eq. (1)-(4), no mesh",
      .springs = Rung::Springs::none,
      .own_ratio = true,
-     .deep_factor = true,
      .eq_2 = true,
      .cost = {.once = 1e-6}},
     {.of = Model::layer,

@@ -56,7 +56,7 @@ inline constexpr Word auto_depths{"auto",
                                   "`neo_hookean` where `model = \"auto\"` finds that it matters"};
 inline constexpr auto depths = words_of<Contact::Depth>(
     {{"hertz", "h^(3/2), however deep"},
-     {"neo_hookean", "h^(3/2) times the factor of a deep press into neo-Hookean tissue"}});
+     {"neo_hookean", "the force times the factor of a deep press into neo-Hookean tissue"}});
 inline constexpr Word auto_directions{
     "auto", "`skin` with linear kinematics, `sphere` with nonlinear ones"};
 inline constexpr auto directions = words_of<Contact::Direction>(

@@ -266,15 +266,17 @@ void set_layer(Scene& scene, SpecimenShapes& shapes) {
   if (scene.scenario.output.pressure_maps) scene.layer_sinking = shapes.layer_sinking(layer);
 }
 
-void set_deep_factor(Scene& scene, const scenario::Family& family) {
+void set_depth_ratio(Scene& scene, const scenario::Family& family) {
+  using contact::DepthRatio;
   if (scene.scenario.contact.depth != scenario::Contact::Depth::neo_hookean) return;
-  const double ratio = scene.scenario.tissue.poisson_ratio;
-  scene.deep = contact::deep_law(ratio);
-  if (!scene.deep)
-    throw InputError(place_of(family.document, "contact.depth"),
-                     "`neo_hookean` is known for a Poisson's ratio of 0.27 to 0.5, and the "
-                     "tissue's is " +
-                         rounded_text(ratio) + "; write `depth = \"hertz\"`");
+  scene.depth_ratio = scene.choice.depth_ratio;
+  if (!scene.depth_ratio)
+    throw InputError(
+        place_of(family.document, "contact.depth"),
+        "`neo_hookean` is known for tissue at least " + rounded_text(DepthRatio::thinnest) +
+            " finger radii thick, with curvatures from " + rounded_text(DepthRatio::least_curved) +
+            " to " + rounded_text(DepthRatio::most_curved) +
+            " over the finger's radius, beside no edge; write `depth = \"hertz\"`");
 }
 
 void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
@@ -332,8 +334,9 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   if (!scenario.uniform()) scene.finger = make_finger(scenario);
   scene.relaxation = contact_relaxation(scenario, scene.finger);
   refuse_beyond(scene, family);
+  if (!scenario.uniform()) set_depth_ratio(scene, family);
   switch (scenario.solver.model) {
-    case Model::hertz: set_deep_factor(scene, family); break;
+    case Model::hertz: break;
     case Model::layer: set_layer(scene, shapes); break;
     case Model::mass_spring:
     case Model::coupled_springs: set_specimen(scene, family, shapes); break;

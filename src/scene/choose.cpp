@@ -40,8 +40,8 @@ constexpr auto question_table = std::to_array<QuestionRow>({
      "yes: the specimen's size does not matter", ""},
     {"layer", "layer?", "decrease of the force by the sides",
      "yes: flat tissue of known thickness, exactly known", ""},
-    {"deep", "deep?", "|F / F_Hertz - 1| of neo-Hookean tissue", "no: h^(3/2) holds",
-     "yes: `hertz` times the factor of a deep press"},
+    {"deep", "deep?", "change of the force in neo-Hookean tissue", "no: linear elasticity holds",
+     ""},
     {"curved", "curved?", "(1/R + kappa_1) / (1/R + kappa_2) - 1", "no: one curvature is enough",
      "yes: both curvatures matter, the contact is elliptic"},
     {"time_dependent", "time dependent?", "increase of the force by viscosity",
@@ -150,6 +150,7 @@ class Chooser {
 
   void pressed() {
     const Estimates e = estimate(asked_, choice_.touch);
+    choice_.depth_ratio = e.depth_ratio;
     const double limit = tolerance();
     // The reason why no formula is applicable, if none is.
     std::optional<std::string> reason = beyond(Model::hertz, asked_, choice_.touch);
@@ -171,7 +172,8 @@ class Chooser {
                  : ", the body's width changes up to " + percent_text(e.curved_body)));
     ask(Asked::layer, box ? e.sides : 1.0, limit,
         box ? "no: the sides matter" : "no: the tissue is not flat");
-    ask(Asked::deep, e.deep, limit);
+    // A fifth of the tolerance, because depth that is left out adds to the model's error.
+    ask(Asked::deep, std::abs(e.deep), 0.2 * limit, deep_answer(e));
     ask(Asked::curved, e.curvature_ratio - 1.0, 0.1);
     // A fifth of the tolerance, because viscosity that is left out adds to the model's error.
     ask(Asked::time_dependent, e.viscous, 0.2 * limit, viscous_answer());
@@ -180,8 +182,8 @@ class Chooser {
 
     choice_.found = {.viscosity_matters = e.viscous >= 0.2 * limit,
                      .inertia_matters = e.inertia >= limit,
-                     .depth_matters = e.deep >= limit};
-    for (const Rung& rung : scenario::ladder) add(rung, error_of(rung, e));
+                     .depth_matters = std::abs(e.deep) >= 0.2 * limit && has_depth_ratio()};
+    for (const Rung& rung : scenario::ladder) add(rung, error_of(rung, e), error_of_mesh(rung, e));
     take_cheapest();
   }
 
@@ -192,19 +194,49 @@ class Chooser {
     switch (rung.of) {
       case Model::hertz:
         return std::abs(1.0 / (1.0 + change_by_size(e)) - 1.0) + doubt * narrow_ + still +
-               (found.depth_matters ? contact::DeepLaw::error : e.deep);
+               depth_error(e);
       case Model::layer:
-        return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt * e.sides + still;
+        return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt * e.sides + still +
+               depth_error(e);
       case Model::mass_spring:
       case Model::coupled_springs: break;
     }
-    const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
     const double waves =
         found.inertia_matters ? (moves() ? rung.error.waves : 1.0) * e.inertia : 0.0;
-    return waves + coarseness(asked_, choice_.touch) + rung.error.flat +
-           rung.error.sides * e.sides +
+    return waves + depth_error(e) + error_of_mesh(rung, e);
+  }
+
+  // What the mesh of a rung costs; 0 without one.
+  [[nodiscard]] double error_of_mesh(const Rung& rung, const Estimates& e) const {
+    if (!rung.meshed()) return 0.0;
+    const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
+    return coarseness(asked_, choice_.touch) + rung.error.flat + rung.error.sides * e.sides +
            (box ? 0.0 : rung.error.curved + rung.error.size * e.curved_body) +
            (all_slabs(asked_) ? 0.0 : rung.error.mixed);
+  }
+
+  // Whether the rungs of this scenario can use the factor of a deep press.
+  [[nodiscard]] bool has_depth_ratio() const {
+    return choice_.depth_ratio && !contact::mesh_is_tissue(asked_.contact.coupling);
+  }
+
+  // What the depth leaves open: the error of its factor, or the effect that is left out. At least
+  // 0.1 %, for a contact that is never quite as small as a contact law assumes.
+  [[nodiscard]] double depth_error(const Estimates& e) const {
+    constexpr double least = 1e-3;
+    const bool found = !choice_.given && choice_.found.depth_matters;
+    const auto depth = case_.scenario.contact.depth.value_or(
+        found ? scenario::Contact::Depth::neo_hookean : scenario::Contact::Depth::hertz);
+    const bool used = depth == scenario::Contact::Depth::neo_hookean && has_depth_ratio();
+    return std::max(least, used ? e.deep_error : std::abs(e.deep) + e.deep_error);
+  }
+
+  [[nodiscard]] std::string deep_answer(const Estimates& e) const {
+    const std::string change = "finite strain " + std::string(e.deep < 0.0 ? "lowers" : "raises") +
+                               " the force by " + percent_text(std::abs(e.deep));
+    if (!choice_.depth_ratio)
+      return "yes: near this place " + change + ", but its factor is not known here";
+    return "yes: " + change + ", and a factor takes this into account";
   }
 
   // The change of the half-space's force by the size of the body. A narrow base lets a curved body
@@ -236,7 +268,7 @@ class Chooser {
            "`resolved`";
   }
 
-  void add(const Rung& rung, double error) {
+  void add(const Rung& rung, double error, double of_mesh = 0.0) {
     if (!asked_.uniform())
       if (auto cannot = beyond(rung.of, asked_, choice_.touch)) {
         choice_.rungs.push_back({.model = rung.of, .cannot = *cannot});
@@ -247,6 +279,7 @@ class Chooser {
     const double factorisation = 0.4 * std::pow(nodes / 2200.0, 2.27) + 1e-4 * nodes;
     choice_.rungs.push_back({.model = rung.of,
                              .error = error,
+                             .of_mesh = of_mesh,
                              .seconds = rung.cost.once +
                                         (asked_.regions.empty() ? 0.0 : rung.cost.layered) +
                                         rung.cost.factorisations * factorisation});
@@ -299,6 +332,17 @@ Choice choose(const scenario::Case& one) {
 
 Choice choose(const scenario::Case& one, SpecimenShapes& shapes) {
   return Chooser(one, shapes).choose();
+}
+
+Choice given_choice(const scenario::Case& one, Model model, SpecimenShapes& shapes) {
+  Choice choice;
+  choice.given = true;
+  choice.chosen = scenario::resolve(one, model);
+  if (choice.chosen.uniform()) return choice;
+  choice.touch = surface_touch(choice.chosen, one.folder, shapes);
+  if (choice.chosen.contact.depth == scenario::Contact::Depth::neo_hookean)
+    choice.depth_ratio = estimate(choice.chosen, choice.touch).depth_ratio;
+  return choice;
 }
 
 }  // namespace palpate::scene

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "contact/deep.h"
 #include "contact/hertz.h"
 #include "scenario/programme.h"
 #include "scene/specimen_mesh.h"
@@ -72,6 +71,59 @@ double inertia_effect(const scenario::Resolved::Tissue& tissue, const contact::S
   return std::numbers::pi * law.radius * travel * tissue.density * speed * rate / force;
 }
 
+// The layers under the finger, from the top.
+std::vector<contact::Stratum> strata(const scenario::Resolved::Tissue& tissue,
+                                     const contact::Layer& layer, double thickness) {
+  const double shear = tissue.young_modulus / (1.0 + layer.poisson_ratio);
+  std::vector<contact::Stratum> all{
+      {layer.top() * thickness, tissue.young_modulus, tissue.poisson_ratio}};
+  for (const contact::Sublayer& below : layer.below)
+    all.push_back({below.thickness * thickness,
+                   below.stiffness * shear * (1.0 + below.poisson_ratio), below.poisson_ratio});
+  return all;
+}
+
+// Sets the effect of the depth, from the other estimates.
+void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
+                const contact::SphereLaw& law, Estimates& found) {
+  const scenario::Resolved::Tissue& tissue = scenario.tissue;
+  const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
+  contact::DeepPress press{.radius = scenario.finger.radius,
+                           .effective_radius = law.radius,
+                           .thickness = touch.thickness,
+                           .poisson_ratio = tissue.poisson_ratio,
+                           .tissue_share = found.tissue_share};
+  const contact::Layer layer = layers_of(scenario, found.tissue_share);
+  press.base = layer.base;
+  if (box != nullptr) {
+    const std::array<double, 4> all = sides(scenario, *box);
+    press.half_width = *std::min_element(all.begin(), all.end());
+  } else if (touch.size.allFinite()) {
+    press.half_width = 0.5 * touch.size.head<2>().minCoeff();
+  }
+  if (!layer.below.empty()) {
+    press.tissues = contact::Tissues::layers;
+    press.thickness = contact::effective_thickness(strata(tissue, layer, touch.thickness));
+    press.skin = layer.top() * touch.thickness;
+    press.force_over_hertz = 1.0 + found.thickness;
+  } else if (!scenario.regions.empty()) {
+    press.tissues = contact::Tissues::inclusion;
+  }
+  found.depth_ratio = contact::depth_ratio(press);
+  std::optional<contact::DepthRatio> near = found.depth_ratio;
+  if (!near) {
+    const double least = 1.0 / (1.0 + contact::DepthRatio::most_curved);
+    const double most = 1.0 / (1.0 + contact::DepthRatio::least_curved);
+    press.effective_radius = press.radius * std::clamp(law.radius / press.radius, least, most);
+    press.thickness = std::max(press.thickness, contact::DepthRatio::thinnest * press.radius);
+    press.half_width = std::max(press.half_width, found.contact_radius);
+    near = contact::depth_ratio(press);
+  }
+  if (!near) return;
+  found.deep = near->value(found.travel) - 1.0;
+  found.deep_error = near->error(found.travel);
+}
+
 }  // namespace
 
 Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
@@ -122,9 +174,7 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
     found.curved_body =
         found.tissue_share * found.contact_radius / (0.5 * touch.size.minCoeff() * cosine * cosine);
   }
-  const double x = found.travel / law.radius;
-  if (const auto deep = contact::deep_law(tissue.poisson_ratio))
-    found.deep = std::abs(deep->force_factor(std::min(x, 0.5)).value_or(1.0) - 1.0);
+  press_deep(scenario, touch, law, found);
   found.viscous = found.tissue_share *
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
   found.inertia = found.tissue_share * inertia_effect(tissue, law, found.travel, found.rate);

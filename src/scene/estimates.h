@@ -16,10 +16,13 @@ struct Estimates {
   double thickness = 0.0;        // increase by the finite thickness
   double sides = 0.0;            // decrease by free sides near the contact
   double curved_body = 0.0;      // bound for the effect of the finite size of a curved body
-  double deep = 0.0;             // |F / F_Hertz - 1| of a deep press into neo-Hookean tissue
+  double deep = 0.0;             // change in neo-Hookean tissue, of either sign; (62)
+  double deep_error = 0.0;       // of 1 + `deep`, relative
   double viscous = 0.0;          // increase by the tissue's viscosity
   double inertia = 0.0;          // increase by the waves that the contact radiates
   double curvature_ratio = 1.0;  // (1/R + kappa_1) / (1/R + kappa_2)
+  // Empty where it is not known: `deep` is then that of the nearest place where it is.
+  std::optional<contact::DepthRatio> depth_ratio;
 };
 
 // The estimates for a scenario with a finger, from what is known of the surface. Thickness and

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/deep.h"
+#include "contact/depth_ratio.h"
 #include "contact/law.h"
 #include "contact/layer.h"
 #include "contact/layer_sinking.h"
@@ -50,6 +50,7 @@ struct Question {
 struct Forecast {
   scenario::Model model = scenario::Model::hertz;
   double error = 0.0;       // relative, of the force; of the strain in a uniform test
+  double of_mesh = 0.0;     // the part of it that a mesh knows better once it is made
   double seconds = 0.0;     // rough time to set up and run on one core
   std::string cannot = {};  // the reason why the model is not applicable; empty if it is
 };
@@ -62,6 +63,8 @@ struct Choice {
   std::vector<Forecast> rungs;  // cheapest first; empty if `one_way` alone decides the model
   scenario::Found found;
   SurfaceTouch touch;  // what closed forms know of the surface; not in a uniform test
+  // Of the place and the finger, whether it is used or not; empty where it is not known.
+  std::optional<contact::DepthRatio> depth_ratio;
 
   // The forecast for a model; null if there is none, or the model is not applicable.
   [[nodiscard]] const Forecast* forecast(scenario::Model model) const;
@@ -75,6 +78,10 @@ struct Choice {
 // The same; reuses the surface files that `shapes` contains, and adds those that it reads.
 class SpecimenShapes;
 [[nodiscard]] Choice choose(const scenario::Case& one, SpecimenShapes& shapes);
+
+// The given model as the choice, with no questions and no forecasts.
+[[nodiscard]] Choice given_choice(const scenario::Case& one, scenario::Model model,
+                                  SpecimenShapes& shapes);
 
 // The finger: equal spheres around a reference point that travels.
 struct Finger {
@@ -127,8 +134,8 @@ struct Scene {
   scenario::Resolved scenario;
   Choice choice;
   Finger finger;
-  contact::Relaxation relaxation;              // of the contact's modulus; empty if elastic
-  std::optional<contact::DeepLaw> deep;        // for `hertz` with `contact.depth = "neo_hookean"`
+  contact::Relaxation relaxation;                  // of the contact's modulus; empty if elastic
+  std::optional<contact::DepthRatio> depth_ratio;  // with `contact.depth = "neo_hookean"`
   std::optional<contact::LayerContact> layer;  // for `layer`, and for `consistent` on flat layers
   std::optional<contact::LayerSinking> layer_sinking;  // around a contact, for maps
   std::unique_ptr<Specimen> specimen;                  // null for `hertz` and `layer`

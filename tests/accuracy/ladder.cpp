@@ -242,7 +242,6 @@ void auto_table() {
           scenario::Scenario& asked = as_taken.cases.front().scenario;
           asked = scenario::answered(as_taken.cases.front(), chosen.scenario);
           asked.solver.model = each.of;
-          if (!each.deep_factor) asked.contact.depth = scenario::Contact::Depth::hertz;
           error = measure(test::run_scene(run::build_scene(as_taken.cases.front(), as_taken))) /
                       truth.value -
                   1.0;

@@ -120,8 +120,9 @@ TEST(ThinDisc, IsPressedByWideContacts) {
       "[tissue]\nyoung_modulus = \"43.893 kPa\"\npoisson_ratio = 0.2829\nshape = { file = \"" +
       file.string() +
       "\", unit = \"mm\" }\n[finger]\nmaterial = \"rigid\"\nradius = \"7.78 "
-      "mm\"\n[contact]\nviscosity = \"none\"\n[output]\ninterval = \"50 ms\"\npressure_maps = "
-      "false\n[[step]]\nkind = \"indent\"\nto = \"1.7075 mm\"\nrate = \"1.7075 mm/s\"\n");
+      "mm\"\n[contact]\nviscosity = \"none\"\ndepth = \"hertz\"\n[output]\ninterval = \"50 "
+      "ms\"\npressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"1.7075 mm\"\nrate = "
+      "\"1.7075 mm/s\"\n");
   const record::ContactRow& last = record.contact.back();
   EXPECT_GT(last.contact_radius, 1.1 * 0.003794);
   EXPECT_NEAR(1e3 * last.contact_force / 1097.86, 1.0, 0.04);

@@ -16,9 +16,7 @@ namespace {
 
 const std::atomic<bool> never = false;
 
-Asked asked(const std::string& text) {
-  return {"scene.toml", text, {}, scenario::parse(text, "scene.toml", {})};
-}
+Asked asked(const std::string& text) { return read_for_chart("scene.toml", text, {}); }
 
 Truth truth(const std::string& text, std::size_t of_case = 0) {
   return find_truth(asked(text), of_case, never, [](const std::string&) {}).value();
@@ -27,14 +25,14 @@ Truth truth(const std::string& text, std::size_t of_case = 0) {
 TEST(ChartReference, AHalfSpaceHasHertz) {
   const Truth found = truth(scenario::press +
                             "[tissue]\nshape = { kind = \"half_space\" }\n[contact]\nviscosity = "
-                            "\"none\"\n");
+                            "\"none\"\ndepth = \"hertz\"\n");
   EXPECT_EQ(found.kind, "closed form");
   const scenario::Case one =
       scenario::read_case(scenario::press + "[tissue]\nshape = { kind = \"half_space\" }\n");
   const scene::Finger finger = scene::make_finger(scene::choose(one).chosen);
   const double force = contact::hertz::force(0.002, finger.whole.radius, finger.whole.modulus);
   EXPECT_NEAR(found.moments.back().value, force, 1e-12 * force);  // rounding of the travel
-  EXPECT_GT(found.moments.back().error, 0.0) << "a deep press is not Hertz's";
+  EXPECT_NE(found.sentence.find("finite strain, which would change it"), std::string::npos);
 }
 
 TEST(ChartReference, AWideFlatHasTheLayer) {

@@ -11,7 +11,8 @@ namespace {
 
 const std::string scenario =
     "[tissue]\nshape = { kind = \"half_space\" }\npoisson_ratio = 0.45\n[finger]\nmaterial = "
-    "\"rigid\"\n[[step]]\nkind = \"indent\"\nto = \"2 mm\"\nrate = \"5 mm/s\"\n[output]\ninterval "
+    "\"rigid\"\n[contact]\ndepth = \"hertz\"\n[[step]]\nkind = \"indent\"\nto = \"2 mm\"\nrate = "
+    "\"5 mm/s\"\n[output]\ninterval "
     "= \"10 ms\"\nfigures = false\nfits = false\npressure_maps = false\n";
 
 // 4/3 E / (1 - nu^2) sqrt(R) h^(3/2) of 60 kPa, 0.45 and 11 mm, in mm and mN, with a ripple.

@@ -94,7 +94,9 @@ TEST(LiveModel, GoesSidewaysAndAway) {
 
 TEST(LiveModel, StaysWrongWhereItEnds) {
   const scene::Scene scene = test::scene_of(
-      viscous + "[contact]\ndepth = \"neo_hookean\"\nviscosity = \"none\"\n" + programme);
+      "schema = 1\n[tissue]\nmaterial = \"skin\"\nshape = { kind = \"cuboid\", size = [\"60 mm\", "
+      "\"60 mm\", \"1 mm\"] }\n[solver]\nmodel = \"layer\"\n[[step]]\nkind = \"indent\"\n"
+      "to = \"0.5 mm\"\nrate = \"10 mm/s\"\n");
   LiveModel model(scene);
   ASSERT_FALSE(model.follow(Vec3::Zero(), 0.0));
   EXPECT_TRUE(model.follow(Vec3(0.0, 0.0, -4e-3), 0.1)) << "deeper than the law goes";

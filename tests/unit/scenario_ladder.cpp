@@ -70,9 +70,9 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "\"mass_spring\"\n",
        "press.toml:5:13: with this `coupling` the mesh carries the tissue's viscosity to the "
        "contact already; write `viscosity = \"none\"`"},
-      {"[contact]\ndepth = \"neo_hookean\"\n[solver]\nmodel = \"layer\"\n",
-       "press.toml:5:9: `neo_hookean` is the factor of a half-space; set `solver.model = "
-       "\"hertz\"`, or `depth = \"auto\"`"},
+      {"[contact]\ndepth = \"neo_hookean\"\ncoupling = \"resolved\"\n",
+       "press.toml:5:9: with this `coupling` the mesh is the tissue, and the factor is that of a "
+       "contact law; write `coupling = \"consistent\"`, or `depth = \"hertz\"`"},
       {"[solver]\nmodel = \"coupled_springs\"\nvolume = \"none\"\n",
        "press.toml:6:10: `coupled_springs` always resist a change of volume; set `solver.volume = "
        "\"nodal\"`, or `solver.model = \"mass_spring\"`"},

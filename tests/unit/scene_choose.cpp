@@ -151,8 +151,14 @@ TEST(Estimates, OfTheDefaultBlock) {
   EXPECT_NEAR(found.thickness, law.force_factor(found.chi) - 1.0, 1e-6);
   EXPECT_EQ(found.tissue_share, 1.0);
   EXPECT_EQ(found.curvature_ratio, 1.0);
-  // h/R = 1/11: 1 + 0.0628 sqrt(x) - 0.0841 x
-  EXPECT_NEAR(found.deep, 0.0628 * std::sqrt(1.0 / 11) - 0.0841 / 11, 1e-4);
+  ASSERT_TRUE(found.depth_ratio.has_value());
+  const auto ratio = contact::depth_ratio({.radius = 0.011,
+                                           .effective_radius = 0.011,
+                                           .thickness = 0.030,
+                                           .poisson_ratio = 0.33,
+                                           .half_width = 0.030});
+  EXPECT_DOUBLE_EQ(found.deep, ratio.value().value(1e-3) - 1.0);
+  EXPECT_DOUBLE_EQ(found.deep_error, ratio.value().error(1e-3));
 }
 
 }  // namespace
