@@ -1,9 +1,11 @@
-"""Reference forces on random bodies of revolution: fills random_bodies.csv.
+"""Reference forces on random bodies of revolution: fills random_bodies.csv and unseen_bodies.csv.
 
 Discs, domes (half ellipsoids), layered discs and discs with a ball on the axis, and from number 200
 to 299 discs with a hollow top, pressed on the axis up to half the sphere's radius; from number 300
-on up to 0.8 radii. Numbers from 400 on are layers under a thin stiff skin, to half a radius. Body k is drawn with the seed k, so that the file can be
-extended and a stopped run goes on. Lengths in mm, moduli in kPa, forces in mN.
+on up to 0.8 radii. Numbers from 400 on are layers under a thin stiff skin, to half a radius. Those
+from 500 on are of all kinds and go to unseen_bodies.csv: no formula is fitted to them. Body k is
+drawn with the seed k, so that the files can be extended and a stopped run goes on. Lengths in mm,
+moduli in kPa, forces in mN.
     random_bodies.py FIRST LAST
 """
 import csv
@@ -34,6 +36,9 @@ def draw(number):
         kind = "dish"
     elif number >= 400:
         kind = "layers"
+    if number >= 500:
+        kind = ("disc", "dome", "layers", "ball", "dish", "layers")[number % 6]
+    under_skin = 400 <= number and (number < 500 or number % 6 == 5)
     radius = random.uniform(6.0, 14.0)
     youngs = random.uniform(5.0, 80.0)
     poisson = random.uniform(0.0, 0.49) if random.random() < 0.5 else random.uniform(0.4, 0.49)
@@ -56,7 +61,7 @@ def draw(number):
         layers = radius * np.exp(random.uniform(np.log(0.15), np.log(1.5), count))
         moduli = list(youngs * np.exp(random.uniform(np.log(0.1), np.log(10.0), count)))
         ratios = list(random.uniform(0.3, 0.49, count))
-        if number >= 400:
+        if under_skin:
             layers[0] = radius * random.uniform(0.08, 0.4)
             layers[1:] = radius * random.uniform(0.5, 2.0, count - 1)
             moduli = [youngs] + list(youngs / np.exp(random.uniform(np.log(2.0), np.log(20.0),
@@ -128,7 +133,7 @@ def rows(body):
 
 def main():
     first, last = int(sys.argv[1]), int(sys.argv[2])
-    path = os.path.join(HERE, "random_bodies.csv")
+    path = os.path.join(HERE, "random_bodies.csv" if last < 500 else "unseen_bodies.csv")
     done = set()
     if os.path.exists(path):
         with open(path, newline="") as file:
