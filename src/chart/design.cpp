@@ -132,12 +132,12 @@ class Designer {
     add("base", "auto", open);
     if (!open.empty()) add("base", "as it stands", {});
     for (const scenario::Rung& rung : scenario::ladder)
-      if (rung.meshed())
+      if (rung.meshed() && !rung.solid)
         meshes(rung.of);
-      else
+      else if (!rung.solid)
         add("rung x mesh", rung.word, {model_setting(rung.of)});
     for (const scenario::Rung& rung : scenario::ladder)
-      if (rung.meshed() && !base_.uniform()) couplings(rung.of);
+      if (rung.meshed() && !rung.solid && !base_.uniform()) couplings(rung.of);
     integrators();
     if (!base_.uniform())
       for (const int rings : ring_counts)

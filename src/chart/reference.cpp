@@ -68,6 +68,10 @@ class Refinement {
     resolved_ = box != nullptr && case_.scenario.regions.empty() &&
                 case_.scenario.finger.spheres == 1 &&
                 (dynamic_ || case_.scenario.contact.coupling == Coupling::resolved);
+    if (solid() && !resolved_)
+      refuse_at("solver.model",
+                "of `neo_hookean` only a cuboid of one tissue under one sphere is refined; give "
+                "another model");
     strengthen();
     if (resolved_) cut(std::get<scenario::Cuboid>(case_.scenario.tissue.shape));
   }
@@ -93,6 +97,7 @@ class Refinement {
   [[nodiscard]] bool follows_error() const { return !resolved_ && !dynamic_; }
   [[nodiscard]] Part part() const { return part_; }
   [[nodiscard]] bool dynamic() const { return dynamic_; }
+  [[nodiscard]] bool solid() const { return scenario::rung(given_.solver.model).solid; }
   [[nodiscard]] const Scenario& scenario() const { return case_.scenario; }
   [[nodiscard]] const scene::Estimates& estimates() const { return found_; }
 
@@ -118,6 +123,7 @@ class Refinement {
 
   [[nodiscard]] bool moves() const {
     const scenario::Solver& solver = case_.scenario.solver;
+    if (solid()) return false;
     return solver.integrator ? about(*solver.integrator).inertia
                              : found_.inertia >= solver.tolerance;
   }
@@ -130,7 +136,7 @@ class Refinement {
     if (scenario.contact.viscosity == scenario::Contact::Viscosity::none &&
         !contact::mesh_is_tissue(scenario.contact.coupling))
       scenario.tissue.viscosity = tissue::Viscosity::none;
-    solver.model = scenario::strongest.of;
+    if (!solid()) solver.model = scenario::strongest.of;
     solver.volume = scenario::Solver::Volume::nodal;
     solver.integrator = dynamic_ ? Integrator::backward_difference : Integrator::quasi_static;
     solver.time_step.reset();
@@ -240,8 +246,9 @@ class Refinement {
 
 void remark(const Refinement& refinement, Reference& reference) {
   const Scenario& scenario = refinement.scenario();
-  std::string how = refinement.resolved() ? "coupled springs, contact resolved node by node"
-                                          : "coupled springs with `consistent` contact";
+  std::string how = refinement.solid() ? "neo-Hookean tetrahedra, contact resolved node by node"
+                    : refinement.resolved() ? "coupled springs, contact resolved node by node"
+                                            : "coupled springs with `consistent` contact";
   if (refinement.follows_error()) how += ", on meshes refined where their own error comes from";
   if (refinement.part() != Part::whole)
     how += refinement.part() == Part::quarter ? ", on a quarter of the body, by symmetry"
@@ -258,7 +265,7 @@ void remark(const Refinement& refinement, Reference& reference) {
                                 percent_text(worst->error / worst->force));
   }
   const double depth = refinement.estimates().travel / scenario.finger.radius;
-  if (!refinement.resolved()) return;
+  if (!refinement.resolved() || refinement.solid()) return;
   double turned = 0.0;
   for (const ReferenceRow& row : reference.rows)
     turned = std::max(turned, std::abs(row.by_sphere - 1.0));
@@ -319,7 +326,7 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
     row.error = found.error;
     row.order = found.order;
   }
-  if (refinement.resolved()) {
+  if (refinement.resolved() && !refinement.solid()) {
     const record::CaseRecord turned =
         run_level(0, direction == Direction::skin ? Direction::sphere : Direction::skin);
     for (std::size_t i = 0; i < std::min(turned.contact.size(), reference.rows.size()); ++i) {

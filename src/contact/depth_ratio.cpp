@@ -53,13 +53,19 @@ constexpr Terms frictionless{{
 constexpr double convex_square = 2.14, convex_ratio = -1.46;
 constexpr double hollow_square = 5.6, hollow_cube = -9.12;
 
+// (a/W)^2 h/W (d_6 + d_7 q) of the sides of flat bodies, fitted to every second disc.
+constexpr double sides_plain = 1.07, sides_ratio = -1.63;
+constexpr double most_flat = 0.01;        // |K|
+constexpr double nearest_side = 1.8;      // W / R of the narrowest disc
+constexpr double near_side_error = 0.25;  // for what is nearer
+
 // The stated error, chosen on one half of those bodies; the least is that of the terms above and of
 // the finite elements, 0.2 % each.
-constexpr double least_error = 0.004, side_error = 0.25, curved_error = 0.034;
-constexpr double layers_error = 0.35, inclusion_error = 0.064, hollow_error = 5.0;
+constexpr double least_error = 0.004, side_error = 0.15, curved_error = 0.056;
+constexpr double layers_error = 0.36, inclusion_error = 0.073, hollow_error = 5.0;
 
 // d_5 S of a stiff skin, fitted to one half of the stacks of layers, and the error for each S.
-constexpr double skin_stretched = 0.461, skin_error = 0.22;
+constexpr double skin_stretched = 0.457, skin_error = 0.22;
 
 }  // namespace
 
@@ -94,6 +100,11 @@ std::optional<DepthRatio> depth_ratio(const DeepPress& press) {
     add(6, curved * hollow_cube * thin * thin * thin);
   }
 
+  if (std::abs(curved) < most_flat) {
+    const double near = std::min(press.radius / press.side_distance, 1.0 / nearest_side);
+    add(4, round * near * near * near * (sides_plain + sides_ratio * q));
+  }
+
   ratio.radius_ = press.radius;
   ratio.tissue_share_ = press.tissue_share;
   ratio.skin_ = press.skin;
@@ -104,7 +115,8 @@ std::optional<DepthRatio> depth_ratio(const DeepPress& press) {
   const double by_x = round / press.radius, by_y = 1.0 / press.thickness;
   ratio.least_error_ = least_error + curved_error * std::abs(curved);
   ratio.error_by_depth_ =
-      side_error * press.effective_radius / (press.half_width * press.half_width);
+      (press.half_width < nearest_side * press.radius ? near_side_error : side_error) *
+      press.effective_radius / (press.half_width * press.half_width);
   if (press.tissues == Tissues::layers) ratio.error_by_depth_ += layers_error * by_y;
   if (press.tissues == Tissues::inclusion) ratio.error_by_depth_ += inclusion_error * by_x;
   if (curved < 0.0) ratio.error_of_hollow_ = hollow_error * -curved * by_y * std::sqrt(by_y);

@@ -27,6 +27,8 @@ struct DeepPress {
   // its tissue alone.
   double skin = std::numeric_limits<double>::infinity();
   double force_over_hertz = 1.0;
+  // W to the sides: the mean of 1/W^3 over all directions is that of this distance.
+  double side_distance = std::numeric_limits<double>::infinity();
   // What affects the stated error only:
   double half_width = std::numeric_limits<double>::infinity();  // W to the nearest side
   Tissues tissues = Tissues::one;
@@ -36,10 +38,11 @@ struct DeepPress {
 // with W = mu/2 (I1bar - 3) + kappa/2 (J - 1)^2, and F_linear that of linear elasticity where the
 // sphere is a paraboloid (`hertz`, `layer`, `coupled_springs`). A polynomial in sqrt(h) that is 1
 // at h = 0 and needs nothing but + * / and sqrt, so that a step may evaluate it.
-//   1 + sum c_ijm x^(i/2) y^j q^m + K y (d_1 y + d_2 q)     where K >= 0
+//   1 + sum c_ijm x^(i/2) y^j q^m + (a/W)^2 h/W (d_6 + d_7 q)   on flat bodies
+//                                 + K y (d_1 y + d_2 q)     where K >= 0
 //                                 + K y^2 (d_3 + d_4 y)     where K < 0
 //                                 + the stretch of a stiff skin
-//   x = R_e h / R^2,  y = h / t,  q = (1 - 2 nu) / (1 - nu),  K = R / R_e - 1
+//   x = R_e h / R^2,  a^2 = R_e h,  y = h / t,  q = (1 - 2 nu) / (1 - nu),  K = R / R_e - 1
 // On wide layers this is the finite elements to 0.2 %.            tests/elasticity/deep_ratio.py
 class DepthRatio {
  public:
@@ -57,8 +60,9 @@ class DepthRatio {
   // The relative error of the factor, without that of the linear force. On random bodies that had
   // no part in choosing its constants it covers 90 % (hollow) to 100 % (flat, convex) of the
   // errors.
-  //   e = 0.004 + 0.25 (a/W)^2 + 0.034 |K| + 0.35 y (layers) + 0.064 x (inclusion)
-  //       + 5 |K| y^(3/2) (hollow) + that of the stretch of a stiff skin,   a^2 = R_e h
+  //   e = 0.004 + 0.15 (a/W)^2 + 0.056 |K| + 0.36 y (layers) + 0.073 x (inclusion)
+  //       + 5 |K| y^(3/2) (hollow) + that of the stretch of a stiff skin
+  // with 0.25 (a/W)^2 where a side is nearer than the 1.8 R that were computed.
   // The term of hollow bodies is what the linear force of a mesh adds where the sphere conforms.
   // Beyond last_depth() the factor's distance from 1 is added as often as it fits into the excess.
   [[nodiscard]] double error(double depth) const;

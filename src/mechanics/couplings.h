@@ -12,6 +12,7 @@
 #include "mechanics/crept_load.h"
 #include "mechanics/resolved_contact.h"
 #include "mechanics/skin_contacts.h"
+#include "mechanics/solid_contact.h"
 
 namespace palpate::mechanics {
 
@@ -158,7 +159,19 @@ class Resolved : public FromMesh {
   ResolvedContact contact_;
 };
 
+// `resolved` on a neo-Hookean solid, which is in equilibrium at the end of every step.
+class OnSolid : public OnMesh {
+ public:
+  OnSolid(SkinContacts& contacts, MovingPart& moving)
+      : OnMesh(contacts, moving), contact_(moving) {}
+  [[nodiscard]] std::optional<std::string> step(const StepTo& to);
+  [[nodiscard]] double stored() const { return contact_.stored(); }  // J
+
+ private:
+  SolidContact contact_;
+};
+
 // The coupling of a scene, chosen once.
-using Coupling = std::variant<OneWay, Consistent, ConsistentWithInertia, Series, Resolved>;
+using Coupling = std::variant<OneWay, Consistent, ConsistentWithInertia, Series, Resolved, OnSolid>;
 
 }  // namespace palpate::mechanics

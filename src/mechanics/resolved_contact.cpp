@@ -21,8 +21,7 @@ ResolvedContact::ResolvedContact(const MovingPart& part)
       scene_(part.scene),
       surface_(&*scene_->specimen->surface),
       skin_(*surface_),
-      tree_(surface_->surface()),
-      stars_(surface_->surface(), surface_->neighbours(), {}),
+      touches_(*scene_),
       finger_compliance_(scene_->finger.compliance_share / scene_->finger.whole.modulus) {
   for (const Vec3& centre : scene_->finger.centres)
     balls_.push_back({centre, scene_->finger.sphere_radius});
@@ -58,8 +57,11 @@ void ResolvedContact::look(const Vec3& finger, const integrate::Vector& displace
     if (sphere < 0) continue;
     const auto skin = skin_.facing(v, balls_[as_index(sphere)]);
     if (!skin) continue;
-    Candidate one{.skin = *skin, .node = node, .base = base, .moved = base};
+    Candidate one;
+    one.skin = *skin;
     one.skin.sphere = sphere;
+    one.node = node;
+    one.base = one.moved = base;
     one.sought = pressed.contains(v);
     candidates_.push_back(one);
   }
@@ -194,71 +196,12 @@ std::optional<std::string> ResolvedContact::press(Influence& influence) {
   return "the sphere's normals did not settle in 100 iterations";
 }
 
-// Hertz's law at the pressed place, for estimates; the forces of `resolved` do not use it.
-contact::ContactLaw ResolvedContact::law_for_estimates(const geometry::SurfacePoint& at) const {
-  const contact::SphereLaw sphere{scene_->finger.sphere_radius, scene_->finger.sphere_modulus};
-  const auto corners = stars_.at_corners(surface_->surface(), at.triangle);
-  const auto found = geometry::between(corners, {at.weights[0], at.weights[1], at.weights[2]});
-  if (found.known())
-    if (const auto law =
-            contact::contact_law(scene_->scenario.contact.law, sphere, found.curvature))
-      return *law;
-  return *contact::contact_law(scene_->scenario.contact.law, sphere, {});
-}
-
-// Adds the contact of one sphere, from the forces on its nodes; nothing if all are zero.
-void ResolvedContact::fill(int sphere, const Touch& before, Touch& touch) const {
-  SphereContact& contact = touch.contacts.add();
-  contact.sphere = sphere;
-  Vec3 sum = Vec3::Zero();
-  Vec3 centre = Vec3::Zero();
-  double total = 0.0;
-  double area = 0.0;
-  for (const Candidate& one : candidates_) {
-    if (one.skin.sphere != sphere) continue;
-    contact.nodal.vertices.push_back(one.skin.vertex);
-    contact.nodal.gap.push_back(std::max(0.0, one.left));
-    if (one.force <= 0.0) continue;
-    contact.load.vertices.push_back(one.skin.vertex);
-    contact.load.shares.push_back(one.force);
-    contact.nodal.push.push_back(one.force * one.push);
-    sum += one.force * one.push;
-    centre += one.force * one.skin.place;
-    contact.nodal.peak_pressure = std::max(contact.nodal.peak_pressure, one.force / one.skin.area);
-    total += one.force;
-    area += one.skin.area;
-  }
-  if (total <= 0.0) {
-    touch.contacts.erase(touch.contacts.size() - 1);
-    return;
-  }
-  contact.force = sum.norm();
-  for (double& share : contact.load.shares) share /= total;
-  for (Vec3& push : contact.nodal.push) push /= contact.force;
-  const Ball& ball = balls_[as_index(sphere)];
-  const auto foot = surface_->foot(ball.centre, tree_.nearest(ball.centre));
-  contact.patch.at = foot.at;
-  contact.patch.position = centre / total;
-  contact.patch.normal = -sum / contact.force;
-  contact.patch.axis = contact.patch.normal.unitOrthogonal();
-  contact.patch.a = contact.patch.b = std::sqrt(area / std::numbers::pi);
-  contact.approach = contact.depth = ball.radius - foot.height;
-  contact.law = law_for_estimates(foot.at);
-  for (const SphereContact& old : before.contacts)
-    if (old.sphere == sphere) contact.stretch = old.stretch;
-}
-
 std::optional<std::string> ResolvedContact::find(const Vec3& finger,
                                                  const integrate::Vector& displacement,
                                                  Influence& influence, Touch& touch) {
   look(finger, displacement, touch);
   if (auto wrong = press(influence)) return wrong;
-  Touch next = touch;
-  next.finger = finger;
-  next.contacts.clear();
-  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) fill(i, touch, next);
-  rub(*scene_, finger - touch.finger, next);
-  touch = std::move(next);
+  touches_.meet(finger, balls_, {candidates_.begin(), candidates_.end()}, touch);
   return std::nullopt;
 }
 

@@ -5,10 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/box_tree.h"
-#include "geometry/curvature.h"
 #include "mechanics/influence.h"
-#include "mechanics/pressed_nodes.h"
+#include "mechanics/nodal_touches.h"
 
 namespace palpate::mechanics {
 
@@ -28,15 +26,11 @@ class ResolvedContact {
 
  private:
   // A node that may be in contact.
-  struct Candidate {
-    PressedNode skin;
+  struct Candidate : PushedNode {
     int node = -1;              // of the moving mesh; -1: does not move
     Vec3 base = Vec3::Zero();   // m, displacement without contact forces
     Vec3 moved = Vec3::Zero();  // m, displacement with contact forces
-    Vec3 push = Vec3::Zero();   // unit, direction of the force on the node
     double gap = 0.0;           // m, without contact forces
-    double left = 0.0;          // m, gap with contact forces
-    double force = 0.0;         // N
     bool sought = false;        // the force is an unknown of the current problem
   };
 
@@ -47,15 +41,12 @@ class ResolvedContact {
   [[nodiscard]] Eigen::Matrix3Xd answer(Influence& influence, const Candidate& loaded) const;
   [[nodiscard]] double finger_sinking(const Candidate& at, const Candidate& pressed) const;
   [[nodiscard]] bool sphere_normals() const;
-  void fill(int sphere, const Touch& before, Touch& touch) const;
-  [[nodiscard]] contact::ContactLaw law_for_estimates(const geometry::SurfacePoint& at) const;
 
   const MovingPart* part_;
   const scene::Scene* scene_;
   const geometry::SmoothSurface* surface_;
   SkinNodes skin_;
-  geometry::BoxTree tree_;
-  geometry::CurvatureStars stars_;
+  NodalTouches touches_;
   double finger_compliance_ = 0.0;  // 1/Pa, lambda_1
   std::vector<Ball> balls_;
   std::vector<Candidate> candidates_;

@@ -176,9 +176,10 @@ class Findings {
     add("curvature_ratio", expected_.curvature_ratio);
     if (const auto* forecast = scene_.choice.taken()) {
       add("predicted_error", forecast->error);
-      add("stated_error", peak.mesh_error > 0.0
-                              ? forecast->error - forecast->of_mesh + peak.mesh_error
-                              : forecast->error);
+      const bool states =
+          scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent;
+      add("stated_error",
+          states ? forecast->error - forecast->of_mesh + peak.mesh_error : forecast->error);
     }
     if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
     const scene::SurfaceTouch& touch = scene_.choice.touch;
@@ -229,13 +230,14 @@ class Findings {
     if (rung_.thickness && !rung_.sides && e.sides > tolerance)
       remark("the layer has no sides: free sides this near would lower the force by about " +
              percent_text(e.sides));
-    if (scene_.relaxation.elastic() && !contact::mesh_is_tissue(coupling) &&
+    if (scene_.relaxation.elastic() && (!contact::mesh_is_tissue(coupling) || rung_.solid) &&
         e.viscous > 0.2 * tolerance)
       remark(
           "the contact force is that of the relaxed tissue; with the tissue's viscosity it would "
           "be "
           "higher by about " +
-          percent_text(e.viscous) + " while it is pressed: give `contact.viscosity = \"tissue\"`");
+          percent_text(e.viscous) + " while it is pressed" +
+          (rung_.solid ? "" : ": give `contact.viscosity = \"tissue\"`"));
     if (!rung_.inertia && e.inertia > tolerance)
       remark("the formula leaves out the tissue's mass: waves would add about " +
              percent_text(e.inertia) + " to the force of a press this fast");

@@ -249,6 +249,7 @@ class Checker {
               "law; write `coupling = \"consistent\"`, or `depth = \"hertz\"`");
     if (!scenario_.meshed()) return;
     if (given != nullptr) springs(*given);
+    if (given != nullptr && given->solid) solid();
     if (scenario_.contact.coupling == contact::Coupling::resolved && solver.integrator &&
         (about(*solver.integrator).explicit_steps || solver.integrator == Integrator::modal))
       problem("solver.integrator",
@@ -296,6 +297,25 @@ class Checker {
                                    "` always resist a change of volume; "
                                    "set `solver.volume = \"nodal\"`, or " +
                                    independent);
+  }
+
+  // Checks `neo_hookean`, which is solved at rest, node by node.
+  void solid() {
+    const Solver& solver = scenario_.solver;
+    if (scenario_.contact.coupling != contact::Coupling::resolved && !scenario_.uniform())
+      problem("contact.coupling",
+              "`neo_hookean` meets the finger node by node; write `coupling = \"resolved\"`");
+    if (!scenario_.finger.rigid() && !scenario_.uniform())
+      problem("finger.material",
+              "`neo_hookean` knows a rigid finger only; write `material = \"rigid\"`");
+    if (solver.integrator && *solver.integrator != Integrator::quasi_static)
+      problem("solver.integrator",
+              "`neo_hookean` is solved at rest; write `integrator = \"quasi_static\"`");
+    if (solver.rings)
+      problem("solver.rings", "`neo_hookean` moves the whole specimen; leave `rings` out");
+    if (solver.kinematics == Solver::Kinematics::nonlinear)
+      problem("solver.kinematics",
+              "`neo_hookean` has kinematics of its own; leave `kinematics` out");
   }
 
   // Whether the scenario itself contains a dotted path.

@@ -110,14 +110,6 @@ std::vector<double> densities_of(const scenario::Resolved& scenario) {
   return densities;
 }
 
-// The tissues' elastic properties. A mesh has no solution at nu = 1/2, so nu is at most 0.4995.
-std::vector<tissue::Isotropic> tissues_of(const scenario::Resolved& scenario) {
-  std::vector<tissue::Isotropic> tissues;
-  for (const auto& one : substances_of(scenario))
-    tissues.push_back({one.young_modulus, std::min(one.poisson_ratio, most_poisson_ratio)});
-  return tissues;
-}
-
 void measure_size(Specimen& specimen) {
   specimen.low = specimen.high = specimen.mesh.nodes.front();
   for (const Vec3& node : specimen.mesh.nodes) {
@@ -125,6 +117,17 @@ void measure_size(Specimen& specimen) {
     specimen.high = specimen.high.cwiseMax(node);
   }
 }
+
+}  // namespace
+
+std::vector<tissue::Isotropic> tissues_of(const scenario::Resolved& scenario) {
+  std::vector<tissue::Isotropic> tissues;
+  for (const auto& one : substances_of(scenario))
+    tissues.push_back({one.young_modulus, std::min(one.poisson_ratio, most_poisson_ratio)});
+  return tissues;
+}
+
+namespace {
 
 // Makes the network of springs for one or several tissues.
 struct SpringMaker {
@@ -210,8 +213,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   const SpecimenShape& shape = shapes.shape(scenario, folder);
   specimen->mesh = shape.mesh;
   specimen->refined = shape.refined;
-  specimen->law = scenario.tissue.law;
   const scenario::Rung& rung = scenario::rung(scenario.solver.model);
+  if (!rung.solid) specimen->law = scenario.tissue.law;
   if (scenario.solver.kinematics == scenario::Solver::Kinematics::nonlinear)
     specimen->kinematics =
         rung.coupled() ? tissue::Kinematics::squared : tissue::Kinematics::nonlinear;
@@ -339,7 +342,8 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
     case Model::hertz: break;
     case Model::layer: set_layer(scene, shapes); break;
     case Model::mass_spring:
-    case Model::coupled_springs: set_specimen(scene, family, shapes); break;
+    case Model::coupled_springs:
+    case Model::neo_hookean: set_specimen(scene, family, shapes); break;
   }
   return scene;
 }

@@ -200,6 +200,7 @@ class Chooser {
                depth_error(e);
       case Model::mass_spring:
       case Model::coupled_springs: break;
+      case Model::neo_hookean: return error_of_mesh(rung, e) + still;
     }
     const double waves =
         found.inertia_matters ? (moves() ? rung.error.waves : 1.0) * e.inertia : 0.0;
@@ -210,9 +211,20 @@ class Chooser {
   [[nodiscard]] double error_of_mesh(const Rung& rung, const Estimates& e) const {
     if (!rung.meshed()) return 0.0;
     const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
+    if (rung.solid)
+      return rung.error.flat + coarseness_of_solid() + (box ? 0.0 : rung.error.curved);
     return coarseness(asked_, choice_.touch) + rung.error.flat + rung.error.sides * e.sides +
            (box ? 0.0 : rung.error.curved + rung.error.size * e.curved_body) +
            (all_slabs(asked_) ? 0.0 : rung.error.mixed);
+  }
+
+  // What cells cost nearly incompressible tetrahedra: measured on a block of 60 x 60 x 30 mm,
+  // pressed by 8 mm, on 726 to 3179 nodes, with nu from 0.33 to 0.49.
+  [[nodiscard]] double coarseness_of_solid() const {
+    const Vec3& size = choice_.touch.size;
+    const double cell = std::cbrt(size.prod() / expected_nodes(asked_.tissue.mesh));
+    const double ratio = std::min(1.0, cell / size.z());
+    return 30.0 * ratio * ratio * std::max(0.0, asked_.tissue.poisson_ratio - 0.4);
   }
 
   // Whether the rungs of this scenario can use the factor of a deep press.
@@ -269,6 +281,7 @@ class Chooser {
   }
 
   void add(const Rung& rung, double error, double of_mesh = 0.0) {
+    if (rung.solid && model_ != rung.of) return;
     if (!asked_.uniform())
       if (auto cannot = beyond(rung.of, asked_, choice_.touch)) {
         choice_.rungs.push_back({.model = rung.of, .cannot = *cannot});

@@ -98,8 +98,13 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   if (box != nullptr) {
     const std::array<double, 4> all = sides(scenario, *box);
     press.half_width = *std::min_element(all.begin(), all.end());
+    // A side at the distance w has w / cos t in the direction t, up to 45 degrees.
+    constexpr double over_directions = 0.750;  // mean of cos^3 t
+    double cubes = 0.0;
+    for (const double side : all) cubes += 0.25 * over_directions / (side * side * side);
+    press.side_distance = 1.0 / std::cbrt(cubes);
   } else if (touch.size.allFinite()) {
-    press.half_width = 0.5 * touch.size.head<2>().minCoeff();
+    press.half_width = press.side_distance = 0.5 * touch.size.head<2>().minCoeff();
   }
   if (!layer.below.empty()) {
     press.tissues = contact::Tissues::layers;

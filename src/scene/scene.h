@@ -102,6 +102,10 @@ struct Finger {
                                     const contact::SphereLaw& law);
 
 constexpr double most_poisson_ratio = 0.4995;  // in a mesh; larger values are reduced to it
+// The elastic properties of the tissue and of the regions, in the order of a mesh's numbers. A mesh
+// has no solution at nu = 1/2, so that nu is at most most_poisson_ratio.
+[[nodiscard]] std::vector<tissue::Isotropic> tissues_of(const scenario::Resolved& scenario);
+
 constexpr double own_share = 0.05;  // bulk modulus of single tetrahedra over shear modulus; (66)
 
 // The specimen as springs, with all data that its steps need.

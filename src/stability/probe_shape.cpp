@@ -144,7 +144,7 @@ void probe_locking(Survey& survey) {
   constexpr std::array ratios{0.3, 0.4995};
   constexpr double much = 1.5;  // times the ratio of the half-space
   for (const scenario::Rung& model : scenario::ladder) {
-    if (!model.meshed()) continue;
+    if (!model.meshed() || model.solid) continue;
     for (const auto volume : {Solver::Volume::tetrahedron, Solver::Volume::nodal}) {
       if (!survey.go_on("locking")) return;
       std::array<double, 2> stiffness{};

@@ -62,7 +62,7 @@ constexpr std::array volumes{Solver::Volume::none, Solver::Volume::tetrahedron,
 
 void survey_rungs(Survey& survey) {
   for (const scenario::Rung& model : scenario::ladder) {
-    if (!model.meshed()) continue;
+    if (!model.meshed() || model.solid) continue;
     for (const Solver::Volume volume : volumes) {
       const RungOf rung{model.of, volume};
       const bool own = rung == survey.rung;

@@ -224,16 +224,19 @@ void auto_table() {
       "the reference are\nin percent of the largest force, or of the largest strain of a uniform "
       "test. Predicted errors are in brackets.\n\n"
       "| scene | reference | its error |");
-  for (const scenario::Rung& rung : scenario::ladder) std::printf(" %s |", rung.word);
+  std::vector<scenario::Rung> rungs;
+  std::copy_if(scenario::ladder.begin(), scenario::ladder.end(), std::back_inserter(rungs),
+               [](const scenario::Rung& rung) { return !rung.solid; });
+  for (const scenario::Rung& rung : rungs) std::printf(" %s |", rung.word);
   std::printf(" taken |\n|---|---|---|");
-  for (std::size_t i = 0; i < scenario::ladder.size(); ++i) std::printf("---|");
+  for (std::size_t i = 0; i < rungs.size(); ++i) std::printf("---|");
   std::printf("---|\n");
   for (const test::AutoScene& one : test::auto_scenes()) {
     const auto family = scenario::parse(one.text, "scene.toml", {});
     const auto chosen = run::build_scene(family.cases.front(), family);
     const Reference truth = reference(one, chosen);
     std::printf("| %s | %s | %s |", one.name, truth.kind, percent(truth.error).c_str());
-    for (const scenario::Rung& each : scenario::ladder) {
+    for (const scenario::Rung& each : rungs) {
       const scene::Forecast* rung = chosen.choice.forecast(each.of);
       std::optional<double> error;
       if (rung != nullptr) {

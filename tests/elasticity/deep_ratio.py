@@ -3,10 +3,11 @@
 With x = (a/R)^2, a^2 = R_e h the squared radius of Hertz's contact, R_e the effective radius (R on
 a flat body), y = h/t the depth over the thickness, q = (1 - 2 nu)/(1 - nu) and K = R/R_e - 1 the
 body's curvature times R,
-    F / F_linear = 1 + sum c_ijm x^(i/2) y^j q^m + K y (d_1 y + d_2 q)       K >= 0, convex
+    F / F_linear = 1 + sum c_ijm x^(i/2) y^j q^m + (a/W)^2 h/W (d_6 + d_7 q) K = 0, flat
+                                                 + K y (d_1 y + d_2 q)       K >= 0, convex
                                                  + K y^2 (d_3 + d_4 y)       K < 0, hollow
-c is fitted to wide layers (deep_layers.csv), d to every second dome and hollow disc of
-random_bodies.csv; all of them are written to deep_ratio.csv. Where layers of several tissues lie
+with W the distance to the sides. c is fitted to wide layers (deep_layers.csv), d to every second
+disc, dome and hollow disc of random_bodies.csv; all of them are written to deep_ratio.csv. Where layers of several tissues lie
 on each other,
     1/t = sum s_k^2 / t_k,   s_k = (t_k / M_k^0.7) / sum (t_k / M_k^0.7)
 with each layer's modulus M of uniaxial strain, and nu is that of the top layer. The power is the
@@ -15,7 +16,7 @@ best of 0.5, 0.6 ... 1 on every second stack. A stiff skin on soft tissue is str
 with t_1 the skin's thickness and f < 1 the linear force over Hertz's force on the skin's tissue;
 S = 0 where f >= 1. The error that the formula states is
     e = 0.004 + e_1 (a/W)^2 + e_2 |K| + e_3 y + e_4 S (several layers) + e_5 x (a ball inside),
-with W the distance to the nearest side; its constants are such that it covers all errors of discs
+its constants are such that it covers all errors of discs
 and then 95 or 98 % of those of the other kinds, on one half of the bodies.
     deep_ratio.py           fits, writes deep_ratio.csv and prints the errors
     deep_ratio.py --cpp     prints the table of src/contact/depth_ratio.cpp
@@ -122,8 +123,23 @@ def effective_thickness(layers, youngs, poisson):
 
 
 def flat_ratio(table, body):
+    """Of a flat body; `table` has the sides' constants once they are fitted."""
     q = shift(body["poisson"])
-    return 1.0 + layer_terms(np.array(body["x"]), np.array(body["y"]), q) @ table[body["base"]]
+    return 1.0 + layer_terms(np.array(body["x"]), np.array(body["y"]), q) @ table[body["base"]] \
+        + side_terms(body) @ table.get("sides", np.zeros(2))
+
+
+def side_terms(body):
+    near = body["radius"] / body["width"] * (body["curved"] == 0.0)
+    return body["x"] * near ** 2 * body["depth"] / body["width"] \
+        * np.array([1.0, shift(body["poisson"])])
+
+
+def fit_sides(table, all_bodies):
+    chosen = [b for b in all_bodies if b["kind"] == "disc" and half(b) == 0 and usable(b)]
+    matrix = np.array([side_terms(b) / b["ratio"] for b in chosen])
+    values = np.array([1.0 - flat_ratio(table, b) / b["ratio"] for b in chosen])
+    return np.linalg.lstsq(matrix, values, rcond=None)[0]
 
 
 def bend_terms(body):
@@ -240,6 +256,7 @@ def main():
     table = {base: np.array([float(f"{value:.5g}") for value in fit_layers(base)])
              for base in BASES}
     all_bodies = bodies()
+    table["sides"] = np.array([float(f"{value:.3g}") for value in fit_sides(table, all_bodies)])
     bend = [[float(f"{value:.3g}") for value in fit_bend(table, all_bodies, kind)]
             for kind in ("dome", "dish")]
     bend.append([float(f"{value:.3g}") for value in fit_skin(table, all_bodies)])
@@ -248,13 +265,14 @@ def main():
         for base in BASES:
             for (i, j), row in zip(TERMS, table[base].reshape(-1, POWERS)):
                 file.writelines(f"{base},{i},{j},{m},{value:.5g}\n" for m, value in enumerate(row))
-        for name, pair in zip(("convex", "hollow", "skin"), bend):
+        for name, pair in zip(("convex", "hollow", "skin", "sides"), [*bend, table["sides"]]):
             file.writelines(f"{name},,,{m},{value:.3g}\n" for m, value in enumerate(pair))
     constants = fit_stated(table, bend, all_bodies)
     if "--cpp" in sys.argv:
         print_cpp(table)
     else:
-        print("convex:", *bend[0], "hollow:", *bend[1], "skin:", *bend[2], "stated:", *constants)
+        print("sides:", *table["sides"], "convex:", *bend[0], "hollow:", *bend[1], "skin:",
+              *bend[2], "stated:", *constants)
         print_errors(table, bend, constants, all_bodies)
 
 

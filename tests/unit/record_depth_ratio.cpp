@@ -52,6 +52,30 @@ TEST(DepthRatio, IsThatOfTheFiniteElements) {
   EXPECT_GT(rows, 4000U);
 }
 
+// Forces of tests/elasticity/axisymmetric.py on a disc of radius 33.851 mm and 30 mm height (the
+// area of a block of 60 x 60 mm) under a sphere of 11 mm, in mN: neo-Hookean, and those of linear
+// elasticity under a paraboloid. The wide layer's ratio is 3.3 % too low for the last one.
+TEST(DepthRatio, KnowsTheSides) {
+  struct Row {
+    double nu, depth, neo_hookean, paraboloid;
+  };
+  for (const Row& row : {Row{0.33, 0.005, 5153.64, 5059.83}, Row{0.45, 0.005, 5386.0, 5766.36},
+                         Row{0.45, 0.008, 11105.0, 12529.2}, Row{0.49, 0.003, 2495.95, 2671.36},
+                         Row{0.49, 0.005, 5497.79, 6112.28}, Row{0.49, 0.008, 11197.3, 13314.7}}) {
+    const auto found = depth_ratio({.radius = radius,
+                                    .effective_radius = radius,
+                                    .thickness = 0.030,
+                                    .poisson_ratio = row.nu,
+                                    .side_distance = 0.033851,
+                                    .half_width = 0.033851});
+    ASSERT_TRUE(found);
+    const double ratio = row.neo_hookean / row.paraboloid;
+    const double left = std::abs(found->value(row.depth) / ratio - 1.0);
+    EXPECT_LE(left, 0.008) << row.nu << " " << row.depth;
+    EXPECT_LE(left, found->error(row.depth)) << row.nu << " " << row.depth;
+  }
+}
+
 // Cases of group `large`: another program on a half-space, 0.3 %, and this formula's 0.2 %.
 TEST(DepthRatio, CasesOnAHalfSpace) {
   const auto expect = [](const char* id, double nu, double x, double value) {
