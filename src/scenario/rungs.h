@@ -126,12 +126,13 @@ static_assert(is_complete<Model>(ladder), "the ladder has a row for every model,
 // The most complete rung of any scenario, with which the others are compared.
 inline constexpr const Rung& strongest = rung(Model::coupled_springs);
 
-// The rungs that satisfy `serves`, as part of a sentence: `solver.model = "a"` or `"b"`.
+// The rungs for any scenario that satisfy `serves`, as part of a sentence: `solver.model = "a"` or
+// `"b"`.
 template <class Serves>
 [[nodiscard]] std::string models_that(const Serves& serves) {
   std::string text;
   for (const Rung& rung : ladder)
-    if (serves(rung))
+    if (serves(rung) && !rung.solid)
       text += (text.empty() ? "`solver.model = \"" : " or `\"") + std::string(rung.word) + "\"`";
   return text;
 }

@@ -308,7 +308,7 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family) {
   if (touch.nowhere) throw MeshError(*reason);
   const scenario::Rung* remedy = &scenario::strongest;
   for (const scenario::Rung& other : scenario::ladder)
-    if (!beyond(other.of, scenario, touch)) remedy = &other;
+    if (!other.solid && !beyond(other.of, scenario, touch)) remedy = &other;
   throw InputError(place_of(family.document, "solver.model"),
                    "`" + std::string(scenario::rung(scenario.solver.model).word) +
                        "` cannot compute this scene: " + *reason + "; set `solver.model = \"" +

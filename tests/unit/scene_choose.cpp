@@ -156,6 +156,7 @@ TEST(Estimates, OfTheDefaultBlock) {
                                            .effective_radius = 0.011,
                                            .thickness = 0.030,
                                            .poisson_ratio = 0.33,
+                                           .side_distance = 0.030 / std::cbrt(0.750),
                                            .half_width = 0.030});
   EXPECT_DOUBLE_EQ(found.deep, ratio.value().value(1e-3) - 1.0);
   EXPECT_DOUBLE_EQ(found.deep_error, ratio.value().error(1e-3));
