@@ -314,7 +314,7 @@ def deep_cases():
 
 
 def deep_table(program):
-    print("## Deep presses\n\nForces by the defaults against an independent neo-Hookean program "
+    print("\n## Deep presses\n\nForces by the defaults against an independent neo-Hookean program "
           "([tests/cases/bodies.csv](../tests/cases/bodies.csv), and for nu 0.49\n"
           "[tests/elasticity/axisymmetric.py](../tests/elasticity/axisymmetric.py)). The blocks of "
           "60 x 60 x 30 mm are computed there as discs of their area.\n\n"
