@@ -58,27 +58,34 @@ BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
 Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch) {
   const Vec3 x = patch.axis;
   const Vec3 y = patch.normal.cross(x);
-  const auto along = [&](const Vec3& load) {
-    return corrected(coupling_.beyond(patch, load),
-                     least_corrected * 0.15 * shear_compliance_ / patch.a);
+  const auto beyond = coupling_.beyond(
+      std::array<EnergyCoupling::Press, 3>{{{patch, x}, {patch, y}, {patch, (x + y).normalized()}}});
+  const auto along = [&](std::size_t load) {
+    return corrected(beyond[load], least_corrected * 0.15 * shear_compliance_ / patch.a);
   };
-  const double of_x = along(x);
-  const double of_y = along(y);
-  const double of_both = along((x + y).normalized()) - 0.5 * (of_x + of_y);
+  const double of_x = along(0);
+  const double of_y = along(1);
+  const double of_both = along(2) - 0.5 * (of_x + of_y);
   return of_x * x * x.transpose() + of_y * y * y.transpose() +
          of_both * (x * y.transpose() + y * x.transpose());
 }
 
 BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
   Place place;
-  contact::Patch patch = like;
-  patch.axis = patch.normal.unitOrthogonal();
-  place.normal = patch.normal;
+  place.normal = like.normal;
+  std::vector<EnergyCoupling::Press> presses(radii, {like, -like.normal});
   for (std::size_t k = 0; k < radii; ++k) {
-    patch.a = patch.b = steps[k] * largest_;
-    BeyondHalfSpace beyond = coupling_.beyond(patch, -patch.normal);
+    presses[k].patch.axis = like.normal.unitOrthogonal();
+    presses[k].patch.a = presses[k].patch.b = steps[k] * largest_;
+  }
+  std::vector<BeyondHalfSpace> all = coupling_.beyond(presses);
+  std::vector<BeyondHalfSpace> sliding;
+  if (sliding_) sliding = sliding_->beyond(presses);
+  for (std::size_t k = 0; k < radii; ++k) {
+    const contact::Patch& patch = presses[k].patch;
+    BeyondHalfSpace& beyond = all[k];
     if (sliding_) {
-      const BeyondHalfSpace slides = sliding_->beyond(patch, -patch.normal);
+      const BeyondHalfSpace& slides = sliding[k];
       beyond.sinking = 0.5 * (beyond.sinking - slides.sinking);
       beyond.error = 0.5 * std::abs(beyond.error - slides.error);
       beyond.boundary = 0.0;  // a block is flat

@@ -1,6 +1,7 @@
 // What the body sinks beyond a half-space at any place of the skin and for any contact radius.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -37,6 +38,11 @@ class BodySinking {
 
   // The error of the sinking under a circular patch per tetrahedron of the part, m/N.
   [[nodiscard]] std::vector<double> errors(const contact::Patch& patch);
+
+  // SymmetricSolver::error() of all evaluations so far.
+  [[nodiscard]] double solution_error() const {
+    return std::max(coupling_.solution_error(), sliding_ ? sliding_->solution_error() : 0.0);
+  }
 
   // The sinking of the rest w under the vertices of `read`, along `normal`, per newton on
   // `pressed`, m/N.

@@ -69,6 +69,8 @@ class Consistent : public OnMesh {
   [[nodiscard]] BodySinking* body() { return &*beyond_; }
   // The error of the sinking under a contact per tetrahedron of the part, m/N.
   [[nodiscard]] std::vector<double> errors(const SphereContact& contact);
+  // SymmetricSolver::error() of the sinking.
+  [[nodiscard]] double solution_error() const { return beyond_->solution_error(); }
   // Stores finer_load() of `touch`; displacement() of the part (m) adds its static displacement.
   void load_finely(const Touch& touch) { finer_load(touch, *part, finer_); }
   [[nodiscard]] integrate::Vector displacement();

@@ -7,20 +7,30 @@ using integrate::Vector;
 
 void CreptLoad::set_step(double time_step) {
   steps_.clear();
-  for (const tissue::Branch& branch : law_.branches)
+  const auto add = [&](double time) {
     steps_.push_back(rule_ == integrate::MemoryRule::first_order
-                         ? tissue::MemoryStep::first_order(time_step, branch.time)
-                         : tissue::MemoryStep::exact(time_step, branch.time));
+                         ? tissue::MemoryStep::first_order(time_step, time)
+                         : tissue::MemoryStep::exact(time_step, time));
+  };
+  if (law_.kind == tissue::Viscosity::kelvin_voigt) add(law_.time);
+  for (const tissue::Branch& branch : law_.branches) add(branch.time);
 }
 
 void CreptLoad::pass(const Vector& load) {
-  if (law_.branches.empty()) {
+  if (steps_.empty()) {
     crept_ = load;
     return;
   }
   if (crept_.size() == 0) {
     crept_ = Vector::Zero(load.size());
-    memory_.assign(law_.branches.size(), crept_);
+    memory_.assign(steps_.size(), crept_);
+  }
+  if (law_.branches.empty()) {
+    // tau J' + J = L; the memory is the load before.                       docs/theory.md (35)
+    const tissue::MemoryStep& step = steps_.front();
+    crept_ = step.keep * crept_ + step.begin * memory_.front() + step.end * load;
+    memory_.front() = load;
+    return;
   }
   // L_1 = J_1 + sum b (J_1 - q_1),  q_1 = keep q_0 + begin J_0 + end J_1   docs/theory.md (37)
   double stiffness = 1.0;

@@ -9,8 +9,9 @@
 namespace palpate::mechanics {
 
 // All springs relax by the same function, so that K (1 + sum b_k) u - K sum b_k q_k = L has the
-// solution u = K^-1 J[L], where J[L] is the creep of L, degree of freedom by degree of freedom.
-// Without branches J[L] is L.                     docs/theory.md, inertia in the contact; (37)
+// solution u = K^-1 J[L], where J[L] is the creep of L, degree of freedom by degree of freedom. With
+// Kelvin-Voigt's dashpots J[L] obeys tau J' + J = L, and in elastic bodies it is L.
+//                                                 docs/theory.md, inertia in the contact; (37)
 class CreptLoad {
  public:
   // `rule` is the memory rule of the mesh; any other than `first_order` is taken as `exact`.
@@ -33,7 +34,7 @@ class CreptLoad {
   integrate::MemoryRule rule_;
   std::vector<tissue::MemoryStep> steps_;
   integrate::Vector crept_;                // J[L]
-  std::vector<integrate::Vector> memory_;  // N, one per branch
+  std::vector<integrate::Vector> memory_;  // N, one per branch; of Kelvin-Voigt the load
   integrate::Vector right_;                // N
 };
 

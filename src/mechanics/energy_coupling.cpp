@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "base/error.h"
 #include "scenario/rungs.h"
 #include "tissue/coupled.h"
-#include "tissue/springs.h"
 
 namespace palpate::mechanics {
 namespace {
@@ -148,6 +148,7 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
                                std::span<const char> held)
     : skin_(&*scene.specimen->surface),
       held_(held.begin(), held.end()),
+      pairs_(part.network.ends),
       volume_(scenario::rung(scene.scenario.solver.model).coupled() ? scene.scenario.solver.volume
                                                                     : tissue::Volume::nodal) {
   const scene::Specimen& specimen = *scene.specimen;
@@ -197,24 +198,62 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
   }
   find_tissues(scene);
   homes_.resize(tissues_.size());
-  const tissue::Network network = elements_of(mesh_);
-  stiffness_ = tissue::stiffness_matrix(network, std::vector<char>(held.size(), 0));
-  // The tetrahedra have been checked, and the base is held.
-  [[maybe_unused]] const bool factored = factors_.factor(tissue::stiffness_matrix(network, held_));
-  eigen_assert(factored);
+  if (!solver_.prepare(stiffness([](int) { return true; }), held_)) throw MeshError(tissue::not_held);
 }
 
-// The linear finite elements of a mesh as coupled springs.
-tissue::Network EnergyCoupling::elements_of(const geometry::TetMesh& mesh) const {
-  std::vector<tissue::Isotropic> tissues;
-  for (const Tissue& one : tissues_) tissues.push_back(one.elastic);
-  tissue::Network network =
-      tissue::make_network(mesh, std::vector<double>(tissues.size(), 1.0),
-                           std::vector<double>(geometry::edges(mesh).size(), 0.0));
-  tissue::couple(network, mesh, tissues,
-                 volume_ == tissue::Volume::none ? tissue::Volume::tetrahedron : volume_,
-                 scene::own_share);
-  return network;
+// Linear finite elements, whose pressure is partly that of volumes averaged around nodes.
+template <class Takes>
+BlockMatrix EnergyCoupling::stiffness(const Takes& takes) const {
+  BlockMatrix matrix(static_cast<int>(mesh_.nodes.size()), pairs_);
+  std::vector<std::vector<std::pair<int, Vec3>>> changes(count_around_.size());
+  std::vector<double> volumes(count_around_.size(), 0.0);
+  std::vector<double> weights(count_around_.size(), 0.0);
+  for (std::size_t t = 0; t < elements_.size(); ++t) {
+    if (!takes(mesh_.regions[t])) continue;
+    const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
+    const auto& [gradients, volume] = elements_[t];
+    const double lame = tissue.own_bulk - 2.0 / 3.0 * tissue.shear_modulus;
+    const Eigen::Matrix4d products = gradients * gradients.transpose();
+    for (Eigen::Index i = 0; i < 4; ++i)
+      for (Eigen::Index j = 0; j < 4; ++j) {
+        const Vec3 own = volume * gradients.row(i).transpose();
+        const Eigen::RowVector3d other = gradients.row(j);
+        BlockMatrix::Block& block =
+            matrix.at(mesh_.tetrahedra[t][as_index(i)], mesh_.tetrahedra[t][as_index(j)]);
+        block += lame * own * other +
+                 tissue.shear_modulus * other.transpose() * own.transpose();
+        block.diagonal().array() += volume * tissue.shear_modulus * products(i, j);
+      }
+    if (tissue.shared_bulk <= 0.0) continue;
+    for (const int at : around_[t]) {
+      volumes[as_index(at)] += volume;
+      weights[as_index(at)] += 0.25 * volume * tissue.shared_bulk;
+      auto& row = changes[as_index(at)];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const int node = mesh_.tetrahedra[t][k];
+        const Vec3 change = volume * gradients.row(static_cast<Eigen::Index>(k)).transpose();
+        const auto known =
+            std::find_if(row.begin(), row.end(), [&](const auto& one) { return one.first == node; });
+        if (known == row.end())
+          row.emplace_back(node, change);
+        else
+          known->second += change;
+      }
+    }
+  }
+  for (std::size_t v = 0; v < changes.size(); ++v) {
+    if (changes[v].empty()) continue;
+    std::sort(changes[v].begin(), changes[v].end(),
+              [](const auto& one, const auto& other) { return one.first < other.first; });
+    for (const auto& [node, change] : changes[v]) {
+      matrix.volumes.column.push_back(node);
+      matrix.changes.emplace_back(change / volumes[v]);
+    }
+    matrix.volumes.start.push_back(static_cast<int>(matrix.changes.size()));
+    matrix.weights.push_back(weights[v]);
+  }
+  if (!matrix.weights.empty()) matrix.end_volumes();
+  return matrix;
 }
 
 void EnergyCoupling::find_tissues(const scene::Scene& scene) {
@@ -278,55 +317,73 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
     here.faces.push_back(face);
   }
   here.other.assign(mesh_.nodes.size(), 0);
-  geometry::TetMesh rest{.nodes = mesh_.nodes, .tetrahedra = {}, .regions = {}};
+  bool several = false;
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
     if (mesh_.regions[t] == region) continue;
-    rest.tetrahedra.push_back(mesh_.tetrahedra[t]);
-    rest.regions.push_back(mesh_.regions[t]);
+    several = true;
     for (const int node : mesh_.tetrahedra[t]) here.other[as_index(node)] = 1;
   }
-  if (rest.tetrahedra.empty()) return here;
-  const tissue::Network network = elements_of(rest);
-  here.others = tissue::stiffness_matrix(network, std::vector<char>(held_.size(), 0));
+  if (several) here.others = stiffness([&](int other) { return other != region; });
   return here;
 }
 
 BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, const Vec3& along, int finer) {
-  const int region = region_under(patch.at.triangle);
-  const Home& here = home(region);
-  Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer, along);
+  const Press press{patch, along};
+  return std::move(beyond(std::span(&press, 1), finer).front());
+}
+
+std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> presses, int finer) {
+  struct Case {
+    int region;
+    Vector loads;         // N/N, g
+    double known;         // m/N, c
+    Vector interpolated;  // m/N, of the half-space in other tissues
+    Vector held_by;       // m/N, w on supports: minus the half-space's
+  };
   const Eigen::Index freedoms = static_cast<Eigen::Index>(held_.size());
-
-  Vector interpolated = Vector::Zero(freedoms);  // of the half-space in other tissues, m/N
-  Vector held_by = Vector::Zero(freedoms);       // w on supports: minus the half-space's
-  for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
-    const bool supported = held_[3 * n] != 0 || held_[3 * n + 1] != 0 || held_[3 * n + 2] != 0;
-    if (!supported && here.other[n] == 0) continue;
-    const auto first = 3 * static_cast<Eigen::Index>(n);
-    const Vec3 moved = loads.displacement(static_cast<int>(n));
-    if (here.other[n] != 0) interpolated.segment<3>(first) = moved;
-    for (int axis = 0; axis < 3; ++axis)
-      if (held_[3 * n + as_index(axis)] != 0) held_by[first + axis] = -moved[axis];
+  std::vector<Case> cases;
+  std::vector<Vector> right;
+  for (const auto& [patch, along] : presses) {
+    const int region = region_under(patch.at.triangle);
+    const Home& here = home(region);
+    Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer, along);
+    Case& one = cases.emplace_back(
+        Case{region, {}, 0.0, Vector::Zero(freedoms), Vector::Zero(freedoms)});
+    for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
+      const bool supported = held_[3 * n] != 0 || held_[3 * n + 1] != 0 || held_[3 * n + 2] != 0;
+      if (!supported && here.other[n] == 0) continue;
+      const auto first = 3 * static_cast<Eigen::Index>(n);
+      const Vec3 moved = loads.displacement(static_cast<int>(n));
+      if (here.other[n] != 0) one.interpolated.segment<3>(first) = moved;
+      for (int axis = 0; axis < 3; ++axis)
+        if (held_[3 * n + as_index(axis)] != 0) one.held_by[first + axis] = -moved[axis];
+    }
+    for (const Face& face : here.faces) loads.add(face, one.interpolated);
+    if (here.others) {
+      const Vector pull = *here.others * one.interpolated;
+      loads.nodal -= pull;
+      loads.known -= one.interpolated.dot(pull);
+    }
+    one.loads = std::move(loads.nodal);
+    one.known = loads.known;
+    right.push_back(one.loads - solver_.matrix() * one.held_by);
   }
-  for (const Face& face : here.faces) loads.add(face, interpolated);
-  if (here.others) {
-    const Vector pull = *here.others * interpolated;
-    loads.nodal -= pull;
-    loads.known -= interpolated.dot(pull);
-  }
 
-  BeyondHalfSpace result;
-  Vector right = loads.nodal - stiffness_ * held_by;
-  for (Eigen::Index d = 0; d < freedoms; ++d)
-    if (held_[as_index(d)] != 0) right[d] = 0.0;
-  factors_.solve(right, result.rest);
-  result.rest += held_by;
-  const Vector reaction = stiffness_ * result.rest - loads.nodal;
-  result.sinking = loads.known + loads.nodal.dot(result.rest);
-  for (Eigen::Index d = 0; d < freedoms; ++d)
-    if (held_[as_index(d)] != 0) result.sinking -= reaction[d] * held_by[d];
-  find_errors(interpolated, region, here, result);
-  return result;
+  std::vector<Vector> rest(presses.size());
+  if (!solver_.solve(right, rest)) throw MeshError(tissue::not_held);
+  std::vector<BeyondHalfSpace> results(presses.size());
+  for (std::size_t i = 0; i < presses.size(); ++i) {
+    const Case& one = cases[i];
+    BeyondHalfSpace& result = results[i];
+    result.rest = std::move(rest[i]);
+    result.rest += one.held_by;
+    const Vector reaction = solver_.matrix() * result.rest - one.loads;
+    result.sinking = one.known + one.loads.dot(result.rest);
+    for (Eigen::Index d = 0; d < freedoms; ++d)
+      if (held_[as_index(d)] != 0) result.sinking -= reaction[d] * one.held_by[d];
+    find_errors(one.interpolated, one.region, home(one.region), result);
+  }
+  return results;
 }
 
 }  // namespace palpate::mechanics

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "base/cholesky.h"
+#include "base/symmetric_solver.h"
 #include "contact/patch.h"
 #include "contact/patch_field.h"
 #include "scene/scene.h"
@@ -37,10 +37,20 @@ class EnergyCoupling {
   // `held` has the supports' flags, one per degree of freedom of the part.
   EnergyCoupling(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held);
 
-  // Both semi-axes of the patch are above 0. The load is along the unit vector `along`: against the
-  // patch's normal, or tangential. `finer` refines the quadrature of the loads.
+  // A load along the unit vector `along`, against the patch's normal or tangential, over a patch
+  // whose semi-axes are both above 0.
+  struct Press {
+    contact::Patch patch;
+    Vec3 along;
+  };
+  // One result per load; their equations are solved together. `finer` refines the quadrature of the
+  // loads.
+  [[nodiscard]] std::vector<BeyondHalfSpace> beyond(std::span<const Press> presses, int finer = 1);
   [[nodiscard]] BeyondHalfSpace beyond(const contact::Patch& patch, const Vec3& along,
                                        int finer = 1);
+
+  // SymmetricSolver::error() of its solutions.
+  [[nodiscard]] double solution_error() const { return solver_.error(); }
 
  private:
   // A boundary face of the tissue at the contact, and between it and another tissue.
@@ -58,7 +68,7 @@ class EnergyCoupling {
   struct Home {
     std::vector<Face> faces;
     std::vector<char> other;            // per node: 1 at tetrahedra of other tissues
-    std::optional<SplitMatrix> others;  // N/m, stiffness of these tetrahedra alone
+    std::optional<BlockMatrix> others;  // N/m, stiffness of these tetrahedra alone
   };
   struct Tissue {
     tissue::Isotropic elastic;
@@ -73,7 +83,9 @@ class EnergyCoupling {
   class Loads;
 
   void find_tissues(const scene::Scene& scene);
-  [[nodiscard]] tissue::Network elements_of(const geometry::TetMesh& mesh) const;
+  // The stiffness (N/m) of the tetrahedra that `takes` accepts by the number of their region.
+  template <class Takes>
+  [[nodiscard]] BlockMatrix stiffness(const Takes& takes) const;
   [[nodiscard]] int region_under(int triangle) const;
   [[nodiscard]] const Home& home(int region);
   [[nodiscard]] double cut_off(const Face& face) const;
@@ -93,8 +105,8 @@ class EnergyCoupling {
   std::vector<char> held_;
   std::vector<std::array<int, 4>> around_;  // per tetrahedron and corner: number of (node, region)
   std::vector<int> count_around_;           // tetrahedra per (node, region)
-  SplitMatrix stiffness_;                   // N/m, without supports
-  Cholesky factors_;                        // of it with supports
+  std::vector<std::array<int, 2>> pairs_;   // of nodes with a common tetrahedron
+  SymmetricSolver solver_;                  // of the whole stiffness
   tissue::Volume volume_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "scenario/integrators.h"
 #include "scene/first_touch.h"
 
@@ -93,7 +94,7 @@ std::vector<Eigen::Index> MovingPart::take(tissue::Part next) {
     body->inherit(old.memory, s, as_index(now - part.springs.begin()), state.memory);
   }
   load = Vector::Zero(freedoms);
-  factored = false;
+  statics = SymmetricSolver();
   if (monitor)
     monitor->go_on(*body, state);
   else
@@ -106,6 +107,7 @@ std::vector<Eigen::Index> MovingPart::take(tissue::Part next) {
 void MovingPart::set_step(double size) {
   time_step = size;
   stepper->set_step(size);
+  if (still) still->set_step(size);
 }
 
 std::optional<std::string> MovingPart::move(const Touch& touch) {
@@ -118,6 +120,12 @@ std::optional<std::string> MovingPart::move(const Touch& touch) {
     shown = false;
     return std::nullopt;
   }
+  if (still) {
+    contact_load(touch, *this, load);
+    still->pass(load);
+    shown = false;
+    return std::nullopt;
+  }
   contact_load(touch, *this, other_load);
   auto wrong = stepper->step(state, load, other_load, integrate::MemoryRule::exact);
   load.swap(other_load);
@@ -126,11 +134,12 @@ std::optional<std::string> MovingPart::move(const Touch& touch) {
 
 void MovingPart::show() {
   if (shown) return;
+  shown = true;
+  if (still) return respond(Response::statics, still->load(), state.displacement);
   const auto& modal = std::get<integrate::Modal>(stepper->method());
   modal.show(state);
   const auto energies = modal.energies();
   monitor->take_over(energies.work, energies.lost, energies.held);
-  shown = true;
 }
 
 bool MovingPart::keeps_responses() const {
@@ -139,13 +148,12 @@ bool MovingPart::keeps_responses() const {
 
 void MovingPart::respond(Response response, const Vector& given, Vector& moved) {
   if (response == Response::statics) {
-    // Positive definite, as the measurement of the network's modulus has shown.
-    if (!factored) factored = factors.factor(body->stiffness());
-    eigen_assert(factored);
-    moved = given;
-    for (Eigen::Index d = 0; d < moved.size(); ++d)
-      if (body->held()[as_index(d)] != 0) moved[d] = 0.0;
-    factors.solve(moved, moved);
+    moved.setZero(given.size());  // the result must not depend on what was asked before
+    const bool positive =
+        (statics.prepared() || statics.prepare(tissue::stiffness_matrix(body->network()),
+                                               {body->held().begin(), body->held().end()})) &&
+        statics.solve(given, moved);
+    if (!positive) throw MeshError(tissue::not_held);
     return;
   }
   auto* modal = std::get_if<integrate::Modal>(&stepper->method());

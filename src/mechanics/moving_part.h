@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/cholesky.h"
+#include "base/symmetric_solver.h"
 #include "mechanics/contacts.h"
+#include "mechanics/crept_load.h"
 #include "mechanics/monitor.h"
 #include "mechanics/stepper.h"
 #include "tissue/part.h"
@@ -36,12 +37,12 @@ struct MovingPart {
   // One step under the forces of `touch`. Returns a sentence if its equations have no solution.
   [[nodiscard]] std::optional<std::string> move(const Touch& touch);
 
-  // The displacement (m) that a load (N) adds; in statics the stiffness is factored once.
+  // The displacement (m) that a load (N) adds.
   void respond(Response response, const integrate::Vector& load, integrate::Vector& moved);
   // Whether the responses of a step serve all steps of one size.
   [[nodiscard]] bool keeps_responses() const;
 
-  // Computes `state` and the energies, if steps are computed in modal coordinates alone.
+  // Computes `state`, and in modal steps the energies, if steps leave this to be done on request.
   void show();
 
   [[nodiscard]] int node_of(int vertex) const { return nodes[as_index(vertex)]; }
@@ -59,12 +60,14 @@ struct MovingPart {
   integrate::Vector load_before;  // N, at the start of the step
   integrate::Vector other_load;   // N, a temporary
   integrate::Vector unloaded;     // m, a temporary
-  Cholesky factors;               // of the static stiffness, if `factored`
-  bool factored = false;
+  SymmetricSolver statics;        // of the stiffness at rest, when first needed
   double time_step = 0.0;  // s
   // Whether steps are computed in modal coordinates alone, and whether `state` is up to date with
   // them.                                                                    docs/theory.md (41)
   bool in_modes = false;
+  // The load whose static displacement is `state`, if steps of a linear body without inertia keep
+  // only this load, because the forces do not depend on the mesh.
+  std::optional<CreptLoad> still;
   bool shown = true;
 };
 

@@ -38,6 +38,13 @@ void PressedMesh::set_step(double time_step) {
   part_.in_modes = modal != nullptr && modal->passes_alone() && forces_follow_finger() &&
                    !scenario.solver.rings &&
                    scenario.contact.curvature_on == scenario::Contact::CurvatureOn::rest;
+  const bool still = scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
+                     part_.body->linear() && forces_follow_finger() && !scenario.solver.rings &&
+                     scenario.contact.curvature_on == scenario::Contact::CurvatureOn::rest;
+  if (still && !part_.still) {
+    part_.still.emplace(part_.body->law(), integrate::MemoryRule::exact);
+    part_.still->set_step(time_step);
+  }
 }
 
 // Steps still allocate
@@ -90,7 +97,7 @@ std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
         },
         coupling_);
   };
-  if (part_.in_modes) {
+  if (part_.in_modes || part_.still) {
     part_.state.time = time;
     return go(finger, part_.time_step);
   }
@@ -178,9 +185,20 @@ double PressedMesh::edge_reaction() {
   return sum.norm();
 }
 
-double PressedMesh::imbalance() {
+std::optional<double> PressedMesh::imbalance() {
+  if (part_.still) return std::nullopt;
   part_.show();
   return part_.monitor->imbalance();
+}
+
+bool PressedMesh::shows_slowly() const {
+  return part_.still && part_.freedoms() >= SymmetricSolver::large;
+}
+
+double PressedMesh::solution_error() {
+  const Consistent* consistent = statics();
+  return std::max(part_.statics.error(),
+                  consistent != nullptr ? consistent->solution_error() : 0.0);
 }
 
 }  // namespace palpate::mechanics

@@ -52,8 +52,13 @@ class PressedMesh {
   // The magnitude of the force on the fixed edge of the moving part, N; 0 if the whole moves.
   [[nodiscard]] double edge_reaction();
 
-  // EnergyMonitor::imbalance().
-  [[nodiscard]] double imbalance();
+  // EnergyMonitor::imbalance(); nothing where steps keep only the load, without energies.
+  [[nodiscard]] std::optional<double> imbalance();
+
+  // Whether displacement() and inverted() solve equations by iterations, which takes long.
+  [[nodiscard]] bool shows_slowly() const;
+  // The largest estimated error of equations solved by iterations, in the energy norm; else 0.
+  [[nodiscard]] double solution_error();
 
   [[nodiscard]] const scene::SpringBody& body() const { return *part_.body; }
   [[nodiscard]] const integrate::State& state();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/cholesky.h"
+#include "base/symmetric_solver.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "contact/hertz.h"
@@ -83,8 +83,8 @@ class KnownFailures {
   // Mean static displacement of the skin under a Hertz pressure of 1 N, m/N; 0 if not rigid.
   [[nodiscard]] double sinking(const tissue::Network& network) const {
     const scene::Specimen& specimen = *scene_.specimen;
-    Cholesky factors;
-    if (!factors.factor(tissue::stiffness_matrix(network, specimen.held))) return 0.0;
+    SymmetricSolver solver;
+    if (!solver.prepare(tissue::stiffness_matrix(network), specimen.held)) return 0.0;
     contact::Patch patch;
     patch.at = scene::first_touch(scene_).at;
     patch.position = specimen.surface->position(patch.at);
@@ -97,9 +97,8 @@ class KnownFailures {
     for (std::size_t k = 0; k < spread.vertices.size(); ++k)
       load.segment<3>(3 * specimen.skin[as_index(spread.vertices[k])]) -=
           spread.shares[k] * patch.normal;
-    for (std::size_t d = 0; d < specimen.held.size(); ++d)
-      if (specimen.held[d] != 0) load[static_cast<Eigen::Index>(d)] = 0.0;
-    return load.dot(factors.solve(load));
+    Eigen::VectorXd moved;
+    return solver.solve(load, moved) ? load.dot(moved) : 0.0;
   }
 
   // Compares with the same mesh with volumes averaged at nodes.

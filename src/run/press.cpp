@@ -94,7 +94,12 @@ class Press {
       if (scene_.scenario.output.pressure_maps) add_map();
       if (scene_.scenario.output.tissue && mesh_) add_frame();
     }
-    if (mesh_) record_.findings.push_back({"energy_imbalance", mesh_->imbalance()});
+    if (mesh_) {
+      if (const auto imbalance = mesh_->imbalance())
+        record_.findings.push_back({"energy_imbalance", *imbalance});
+      if (const double error = mesh_->solution_error(); error > 0.0)
+        record_.findings.push_back({"solution_error", error});
+    }
     if (mesh_ && scene_.scenario.solver.rings)
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
     if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
@@ -162,7 +167,8 @@ class Press {
       }
       time_ = start + pace.time(row + 1, 0);
       write_row();
-      if (mesh_ && folded_at_ < 0.0 && mesh_->inverted()) {
+      const bool looks = row + 1 == pace.rows || (mesh_ && !mesh_->shows_slowly());
+      if (mesh_ && looks && folded_at_ < 0.0 && mesh_->inverted()) {
         if (!mesh_->forces_follow_finger())
           return diverged(
               "a tetrahedron has turned inside out; press less deep, or set `solver.kinematics = "

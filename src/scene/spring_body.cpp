@@ -65,14 +65,16 @@ void SpringBody::force(const Vector& displacement, std::span<const double> memor
   fast_.force(force);
 }
 
-SplitMatrix SpringBody::stiffness() const { return tissue::stiffness_matrix(*network_, held_); }
+SplitMatrix SpringBody::stiffness() const {
+  return tissue::stiffness_matrix(*network_).split(held_);
+}
 
 bool SpringBody::has_dashpots() const { return law_.kind == Viscosity::kelvin_voigt; }
 
 SplitMatrix SpringBody::dashpots(const Vector& displacement) const {
   // tau times the stiffness in the present directions; at rest D = tau K.
   std::fill(tension_.begin(), tension_.end(), 0.0);
-  return tissue::tangent(*network_, kinematics_, displacement, law_.time, tension_, held_);
+  return tissue::tangent(*network_, kinematics_, displacement, law_.time, tension_).split(held_);
 }
 
 void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocity,
@@ -124,7 +126,8 @@ SplitMatrix SpringBody::step_stiffness(const Vector& displacement, std::span<con
   tissue::effective_elongations(law_, steps_, memory, elongation_, effective_);
   tissue::tensions(*network_, effective_, tension_);
   return tissue::tangent(*network_, kinematics_, displacement,
-                         tissue::effective_slope(law_, steps_), tension_, held_);
+                         tissue::effective_slope(law_, steps_), tension_)
+      .split(held_);
 }
 
 void SpringBody::inherit(std::span<const double> other, std::size_t from, std::size_t to,

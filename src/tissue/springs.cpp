@@ -3,7 +3,9 @@
 #include "tissue/springs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace palpate::tissue {
 namespace {
@@ -119,112 +121,111 @@ void directions(const Network& network, Kinematics kinematics, const Vector& dis
 
 namespace {
 
-// Collects the entries of a matrix between free degrees of freedom.
-class Entries {
- public:
-  Entries(std::span<const char> held, std::size_t expected) : held_(held) {
-    entries_.reserve(expected + held.size());
+// Adds the 3 x 3 block of two springs: the forces on the first one's ends as the second stretches.
+void add_springs(const std::array<int, 2>& ends, const std::array<int, 2>& others,
+                 const Eigen::Matrix3d& block, BlockMatrix& matrix) {
+  for (std::size_t p = 0; p < 2; ++p)
+    for (std::size_t q = 0; q < 2; ++q) {
+      if (p == q)
+        matrix.at(ends[p], others[q]) += block;
+      else
+        matrix.at(ends[p], others[q]) -= block;
+    }
+}
+
+// Adds the springs of a tetrahedron: first the blocks of its four corners, then these to `matrix`.
+void add_tetrahedron(const Network& network, const CoupledSprings& six,
+                     const std::array<Vec3, 6>& along, double factor, BlockMatrix& matrix) {
+  std::array<int, 4> corners{};
+  std::array<std::array<std::size_t, 2>, 6> ends{};  // of the springs, as corners
+  std::size_t found = 0;
+  for (std::size_t s = 0; s < 6; ++s)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const int node = network.ends[as_index(six.springs[s])][end];
+      std::size_t c = 0;
+      while (c < found && corners[c] != node) ++c;
+      if (c == found) corners[found++] = node;
+      ends[s][end] = c;
+    }
+  Eigen::Matrix<double, 12, 6> pulls = Eigen::Matrix<double, 12, 6>::Zero();
+  for (std::size_t s = 0; s < 6; ++s) {
+    const auto column = static_cast<Eigen::Index>(s);
+    pulls.block<3, 1>(3 * static_cast<Eigen::Index>(ends[s][0]), column) = -along[s];
+    pulls.block<3, 1>(3 * static_cast<Eigen::Index>(ends[s][1]), column) = along[s];
   }
+  const Eigen::Matrix<double, 12, 6> forces = factor * (pulls * six.stiffness);
+  for (Eigen::Index i = 0; i < 4; ++i)
+    for (Eigen::Index j = 0; j < 4; ++j)
+      matrix.at(corners[as_index(i)], corners[as_index(j)]) +=
+          forces.middleRows<3>(3 * i) * pulls.middleRows<3>(3 * j).transpose();
+}
 
-  // The 3 x 3 block of two springs: the forces on the first one's ends as the second one stretches.
-  void add_springs(const std::array<int, 2>& ends, const std::array<int, 2>& others,
-                   const Eigen::Matrix3d& block) {
-    for (std::size_t p = 0; p < 2; ++p)
-      for (std::size_t q = 0; q < 2; ++q) add_block(ends[p], others[q], p == q ? 1.0 : -1.0, block);
-  }
-
-  [[nodiscard]] Eigen::SparseMatrix<double> matrix() {
-    for (std::size_t d = 0; d < held_.size(); ++d)
-      if (held_[d] != 0) entries_.emplace_back(static_cast<int>(d), static_cast<int>(d), 1.0);
-    const auto size = static_cast<Eigen::Index>(held_.size());
-    Eigen::SparseMatrix<double> matrix(size, size);
-    matrix.setFromTriplets(entries_.begin(), entries_.end());
-    return matrix;
-  }
-
- private:
-  void add_block(int row_node, int column_node, double sign, const Eigen::Matrix3d& block) {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const int row = 3 * row_node + i;
-        const int column = 3 * column_node + j;
-        if (held_[as_index(row)] == 0 && held_[as_index(column)] == 0)
-          entries_.emplace_back(row, column, sign * block(i, j));
-      }
-  }
-
-  std::span<const char> held_;
-  std::vector<Eigen::Triplet<double>> entries_;
-};
-
-// Sets `shared`, one row per volume with its change per displacement, and `weights`, its stiffness.
-void add_volumes(const Network& network, Kinematics kinematics, const Vector& displacement,
-                 double factor, std::span<const char> held, SplitMatrix& matrix) {
-  std::vector<Eigen::Triplet<double>> entries;
-  matrix.weights.resize(static_cast<Eigen::Index>(network.volumes.size()));
-  for (std::size_t v = 0; v < network.volumes.size(); ++v) {
-    const SharedVolume& volume = network.volumes[v];
-    matrix.weights[static_cast<Eigen::Index>(v)] = factor * volume.stiffness;
+// One row per volume with its change per displacement, and its stiffness as weight.
+void add_volumes(const Network& network, std::span<const Vec3> along, double factor,
+                 BlockMatrix& matrix) {
+  std::vector<std::pair<int, Vec3>> row;
+  for (const SharedVolume& volume : network.volumes) {
+    row.clear();
     for (std::size_t k = 0; k < volume.springs.size(); ++k) {
       const std::size_t s = as_index(volume.springs[k]);
-      const Vec3 pull = volume.dilation[k] * direction_of(network, kinematics, displacement, s);
-      for (int i = 0; i < 3; ++i)
-        for (std::size_t end = 0; end < 2; ++end) {
-          const int freedom = 3 * network.ends[s][end] + i;
-          if (held[as_index(freedom)] == 0)
-            entries.emplace_back(static_cast<int>(v), freedom, end == 0 ? -pull[i] : pull[i]);
-        }
+      const Vec3 pull = volume.dilation[k] * along[s];
+      row.emplace_back(network.ends[s][0], -pull);
+      row.emplace_back(network.ends[s][1], pull);
     }
+    std::stable_sort(row.begin(), row.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [node, change] : row) {
+      if (static_cast<std::size_t>(matrix.volumes.start.back()) < matrix.changes.size() &&
+          matrix.volumes.column.back() == node) {
+        matrix.changes.back() += change;
+        continue;
+      }
+      matrix.volumes.column.push_back(node);
+      matrix.changes.push_back(change);
+    }
+    matrix.volumes.start.push_back(static_cast<int>(matrix.changes.size()));
+    matrix.weights.push_back(factor * volume.stiffness);
   }
-  matrix.shared.resize(matrix.weights.size(), matrix.local.cols());
-  matrix.shared.setFromTriplets(entries.begin(), entries.end());
+  matrix.end_volumes();
 }
 
 }  // namespace
 
-SplitMatrix tangent(const Network& network, Kinematics kinematics, const Vector& displacement,
-                    double factor, std::span<const double> tension, std::span<const char> held) {
-  Entries entries(held, 36 * network.ends.size() + 324 * network.coupled.size());
+BlockMatrix tangent(const Network& network, Kinematics kinematics, const Vector& displacement,
+                    double factor, std::span<const double> tension) {
+  BlockMatrix matrix(network.nodes(), network.ends);
+  std::vector<Vec3> along(network.ends.size());
+  directions(network, kinematics, displacement, along);
   for (std::size_t s = 0; s < network.ends.size(); ++s) {
-    const Vec3 n = direction_of(network, kinematics, displacement, s);
+    const Vec3& n = along[s];
     // d(tension n)/dr = k n n^T + tension / |r| (I - n n^T), or, with n = r / l of squared lengths,
     // k n n^T + tension / l I
     double across = 0.0;
-    double along = factor * network.stiffness[s];
+    double stretching = factor * network.stiffness[s];
     if (kinematics == Kinematics::nonlinear) {
       across =
           std::max(0.0, tension[s]) * stretched(network, kinematics, displacement, s).per_length;
-      along -= across;
+      stretching -= across;
     } else if (kinematics == Kinematics::squared) {
       across = std::max(0.0, tension[s]) / network.rest_length[s];
     }
-    if (along == 0.0 && across == 0.0) continue;
+    if (stretching == 0.0 && across == 0.0) continue;
     Eigen::Matrix3d block;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) block(i, j) = along * n[i] * n[j] + (i == j ? across : 0.0);
-    entries.add_springs(network.ends[s], network.ends[s], block);
+      for (int j = 0; j < 3; ++j) block(i, j) = stretching * n[i] * n[j] + (i == j ? across : 0.0);
+    add_springs(network.ends[s], network.ends[s], block, matrix);
   }
-  for (const CoupledSprings& six : network.coupled)
-    for (std::size_t p = 0; p < 6; ++p)
-      for (std::size_t q = 0; q < 6; ++q) {
-        const std::size_t first = as_index(six.springs[p]);
-        const std::size_t second = as_index(six.springs[q]);
-        const double k = factor * six.stiffness(static_cast<int>(p), static_cast<int>(q));
-        entries.add_springs(
-            network.ends[first], network.ends[second],
-            k * direction_of(network, kinematics, displacement, first) *
-                direction_of(network, kinematics, displacement, second).transpose());
-      }
-  SplitMatrix matrix;
-  matrix.local = entries.matrix();
-  if (!network.volumes.empty())
-    add_volumes(network, kinematics, displacement, factor, held, matrix);
+  for (const CoupledSprings& six : network.coupled) {
+    std::array<Vec3, 6> own;
+    for (std::size_t s = 0; s < 6; ++s) own[s] = along[as_index(six.springs[s])];
+    add_tetrahedron(network, six, own, factor, matrix);
+  }
+  if (!network.volumes.empty()) add_volumes(network, along, factor, matrix);
   return matrix;
 }
 
-SplitMatrix stiffness_matrix(const Network& network, std::span<const char> held) {
-  const std::vector<double> none(network.ends.size(), 0.0);
-  return tangent(network, Kinematics::linear, Vector::Zero(3 * network.nodes()), 1.0, none, held);
+BlockMatrix stiffness_matrix(const Network& network) {
+  return tangent(network, Kinematics::linear, Vector(), 1.0, {});
 }
 
 bool inverted(const geometry::TetMesh& mesh, const Vector& displacement) {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "base/split_matrix.h"
+#include "base/block_matrix.h"
 #include "tissue/network.h"
 
 namespace palpate::tissue {
@@ -42,16 +42,16 @@ void gather_forces(const Network& network, Kinematics kinematics, const Vector& 
 void directions(const Network& network, Kinematics kinematics, const Vector& displacement,
                 std::span<Vec3> direction);
 
-// The tangent matrix (34), N/m: a change of elongations changes the tensions by `factor` times its
-// tensions(). Unless kinematics are linear, `tension` (N) adds the geometric term of stretched
-// springs; compressed springs add none, so that the matrix stays positive definite. Rows and
-// columns of `held` degrees of freedom are those of the identity.
-[[nodiscard]] SplitMatrix tangent(const Network& network, Kinematics kinematics,
+// The tangent matrix (34), N/m, without supports: a change of elongations changes the tensions by
+// `factor` times its tensions(). Unless kinematics are linear, which need neither `displacement`
+// nor `tension` (N), the latter adds the geometric term of stretched springs; compressed springs
+// add none, so that the matrix stays positive definite.
+[[nodiscard]] BlockMatrix tangent(const Network& network, Kinematics kinematics,
                                   const Vector& displacement, double factor,
-                                  std::span<const double> tension, std::span<const char> held);
+                                  std::span<const double> tension);
 
 // The stiffness at rest, N/m.
-[[nodiscard]] SplitMatrix stiffness_matrix(const Network& network, std::span<const char> held);
+[[nodiscard]] BlockMatrix stiffness_matrix(const Network& network);
 
 // Whether a tetrahedron is turned inside out by the displacement.
 [[nodiscard]] bool inverted(const geometry::TetMesh& mesh, const Vector& displacement);

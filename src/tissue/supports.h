@@ -11,6 +11,11 @@ namespace palpate::tissue {
 // bonded: the base does not move. frictionless: the base slides on the table but does not lift off.
 enum class Base { bonded, frictionless };
 
+// The message where supports leave a part of a mesh free.
+inline constexpr const char* not_held =
+    "the base does not hold all tetrahedra of the mesh: its stiffness is singular; check "
+    "`tissue.base_height`, and whether all parts of the mesh share nodes";
+
 // One flag per degree of freedom, 1 where it is held. The base is the lowest plane or, if
 // `base_height` (m) is positive, the skin up to this height above it. With a frictionless base one
 // node is kept from sliding and a second one from turning the body about the first.

@@ -1,8 +1,8 @@
 // Each test is one linear solve: with the top lowered by the height, or under tractions.
 #include "tissue/uniaxial.h"
 
-#include "base/cholesky.h"
 #include "base/error.h"
+#include "base/symmetric_solver.h"
 #include "geometry/surface.h"
 
 namespace palpate::tissue {
@@ -34,6 +34,15 @@ double widening(const geometry::TetMesh& mesh, const Vector& displacement, int a
 constexpr const char* not_rigid =
     "the spring network is not rigid: some nodes can move without stretching a spring; use more "
     "cells or another mesh kind";
+
+// The static displacement under a load; of `held` degrees of freedom none.
+Vector solve(const Network& network, const std::vector<char>& held, const Vector& load) {
+  SymmetricSolver solver;
+  Vector displacement;
+  if (!solver.prepare(stiffness_matrix(network), held) || !solver.solve(load, displacement))
+    throw MeshError(not_rigid);
+  return displacement;
+}
 
 // Six degrees of freedom that prevent exactly the rigid motions of a body.
 std::vector<char> held_lightly(const geometry::TetMesh& mesh) {
@@ -74,11 +83,8 @@ Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh) {
     const Vec3 face = 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t));
     for (const int vertex : skin.surface.triangles[t]) load[3 * node(vertex) + 2] += face.z() / 3.0;
   }
-  for (std::size_t d = 0; d < held.size(); ++d)  // the tractions balance: no reaction is lost here
-    if (held[d] != 0) load[static_cast<Eigen::Index>(d)] = 0.0;
-  Cholesky factors;
-  if (!factors.factor(stiffness_matrix(network, held))) throw MeshError(not_rigid);
-  const Vector displacement = factors.solve(load);
+  // The tractions balance, so that the supports bear nothing.
+  const Vector displacement = solve(network, held, load);
   // mean strain = 1/V sum over the skin of (mean displacement) x (area vector)  docs/theory.md (46)
   Vec3 stretch = Vec3::Zero();
   for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
@@ -107,8 +113,6 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
   for (const int node : result.top) prescribed[3 * node + 2] = -result.height;
 
   // K u = 0 at the free degrees of freedom: u = prescribed - K_ff^-1 (K prescribed)_f
-  Cholesky factors;
-  if (!factors.factor(stiffness_matrix(network, held))) throw MeshError(not_rigid);
   std::vector<double> elongation(network.ends.size());
   std::vector<double> tension(network.ends.size());
   Vector force;
@@ -118,9 +122,7 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
     gather_forces(network, Kinematics::linear, displacement, tension, force);
   };
   forces_at(prescribed);
-  for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] != 0) force[static_cast<Eigen::Index>(d)] = 0.0;
-  result.displacement = prescribed - factors.solve(force);
+  result.displacement = prescribed - solve(network, held, force);
 
   forces_at(result.displacement);
   double reaction = 0.0;

@@ -75,7 +75,7 @@ class PlainStep {
   void factor(const Vector& displacement) {
     std::fill(tension_.begin(), tension_.end(), 0.0);
     dashpots_ = tissue::tangent(*form_.network, form_.kinematics, displacement, form_.law.time,
-                                tension_, held_)
+                                tension_).split(held_)
                     .local;
     Eigen::SparseMatrix<double> left = dt_ * dashpots_;
     left.diagonal() += 2.0 * mass_;

@@ -123,7 +123,7 @@ TEST(Coupled, AreTheLinearTetrahedron) {
       const Isotropic tissue{3e4, nu};
       const Network network = test::coupled_network(mesh, {tissue}, volume, own_share);
       const Eigen::MatrixXd got =
-          test::dense(tissue::stiffness_matrix(network, test::nothing_held(network)));
+          test::dense(tissue::stiffness_matrix(network).split(test::nothing_held(network)));
       const Eigen::MatrixXd want = by_elements(mesh, {tissue}, volume, own_share);
       // rounding of some ten products, the largest of which cancel near nu = 1/2 and -1
       EXPECT_LT((got - want).cwiseAbs().maxCoeff(), 1e-13 * want.cwiseAbs().maxCoeff())
@@ -137,7 +137,7 @@ TEST(Coupled, AverageEveryRegionByItself) {
   const Network network = test::coupled_network(mesh, tissues, Volume::nodal, own_share);
   const Eigen::MatrixXd want = by_elements(mesh, tissues, Volume::nodal, own_share);
   const Eigen::MatrixXd got =
-      test::dense(tissue::stiffness_matrix(network, test::nothing_held(network)));
+      test::dense(tissue::stiffness_matrix(network).split(test::nothing_held(network)));
   EXPECT_LT((got - want).cwiseAbs().maxCoeff(), 1e-13 * want.cwiseAbs().maxCoeff());  // rounding
   // The middle plane has 9 nodes with both regions around them.
   EXPECT_EQ(network.volumes.size(), mesh.nodes.size() + 9);
@@ -178,7 +178,7 @@ TEST(Coupled, PassThePatchTest) {
       for (std::size_t d = 0; d < held.size(); ++d)
         if (held[d] != 0) residual[static_cast<Eigen::Index>(d)] = 0.0;
       Cholesky factors;
-      ASSERT_TRUE(factors.factor(tissue::stiffness_matrix(network, held)));
+      ASSERT_TRUE(factors.factor(tissue::stiffness_matrix(network).split(held)));
       const Vector solved = prescribed - factors.solve(residual);
       // rounding times the matrix's condition: K/mu is 1000 at nu = .4995
       const double worst = 1e-12 * std::max(1.0, bulk(tissue) / tissue.young_modulus);
@@ -271,7 +271,7 @@ TEST(Coupled, TangentIsTheSlopeOfTheForce) {
         tissue::elongations(network, kinematics, place, elongation);
         tissue::tensions(network, elongation, tension);
         const Eigen::MatrixXd tangent = test::dense(
-            tissue::tangent(network, kinematics, place, 1.0, tension, test::nothing_held(network)));
+            tissue::tangent(network, kinematics, place, 1.0, tension).split(test::nothing_held(network)));
         const double h = 1e-7;
         for (Eigen::Index d = 0; d < place.size(); d += 7) {
           Vector more = place;
@@ -302,7 +302,7 @@ TEST(Coupled, TangentStaysPositiveDefiniteUnderPressure) {
       for (int axis = 0; axis < 3; ++axis) held[index(3 * node + axis)] = 1;
     Cholesky factors;
     EXPECT_TRUE(factors.factor(
-        tissue::tangent(network, Kinematics::squared, squeezed, 1.0, tension, held)));
+        tissue::tangent(network, Kinematics::squared, squeezed, 1.0, tension).split(held)));
   }
 }
 

@@ -74,7 +74,7 @@ struct Statics {
 
   Statics(const Network& of, const ViscousLaw& with, const std::vector<char>& held)
       : network(&of), law(&with), memory(tissue::memory_size(with) * of.ends.size(), 0.0) {
-    EXPECT_TRUE(factors.factor(tissue::stiffness_matrix(of, held)));
+    EXPECT_TRUE(factors.factor(tissue::stiffness_matrix(of).split(held)));
     displacement = Vector::Zero(3 * of.nodes());
   }
 
@@ -249,7 +249,7 @@ TEST(CoupledInTime, EnergyNeverGrowsUnloaded) {
                      drag * mass.cwiseProduct(end - u) / dt;
             SplitMatrix matrix =
                 tissue::tangent(network, kinematics, end, tissue::effective_slope(law, steps),
-                                tension, test::nothing_held(network));
+                                tension).split(test::nothing_held(network));
             for (Eigen::Index d = 0; d < mass.size(); ++d)
               matrix.local.coeffRef(d, d) += mass[d] * (1.0 / (dt * dt) + drag / dt);
             Cholesky factors;
@@ -310,7 +310,7 @@ TEST(CoupledInTime, SafeBoundIsAboveTheHighestFrequency) {
         const double found =
             tissue::largest_frequency_squared(network, test::nothing_held(network));
         Eigen::MatrixXd matrix =
-            test::dense(tissue::stiffness_matrix(network, test::nothing_held(network)));
+            test::dense(tissue::stiffness_matrix(network).split(test::nothing_held(network)));
         for (Eigen::Index i = 0; i < matrix.rows(); ++i)
           for (Eigen::Index j = 0; j < matrix.cols(); ++j)
             matrix(i, j) /= std::sqrt(network.node_mass[static_cast<std::size_t>(i / 3)] *

@@ -180,7 +180,7 @@ TEST(Volume, LeavesSpringsDefiniteOnlyNearAQuarter) {
         tissue::van_gelder_stiffness(mesh, std::array{tissue::spring_modulus(tissue)});
     for (const Volume volume : both_volumes) {
       const SplitMatrix matrix =
-          tissue::stiffness_matrix(hybrid(mesh, stiffness, {tissue}, volume), held);
+          tissue::stiffness_matrix(hybrid(mesh, stiffness, {tissue}, volume)).split(held);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(test::dense(matrix));
       EXPECT_EQ(dense.eigenvalues()[0] > 0.0, nu > 0.1) << nu << " " << static_cast<int>(volume);
       Cholesky factors;
@@ -197,7 +197,7 @@ TEST(Volume, OneStiffnessForARegularTetrahedron) {
   mesh.tetrahedra = {{0, 1, 2, 3}};
   ASSERT_NEAR(geometry::signed_volume(mesh, 0), std::sqrt(2.0) / 12.0, 1e-15);  // rounding
   const auto matrix = [](const Network& network) {
-    return test::dense(tissue::stiffness_matrix(network, test::nothing_held(network)));
+    return test::dense(tissue::stiffness_matrix(network).split(test::nothing_held(network)));
   };
   const Eigen::MatrixXd element =
       matrix(test::coupled_network(mesh, {{1.0, 0.25}}, Volume::tetrahedron, 0.0));
