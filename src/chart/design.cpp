@@ -218,7 +218,7 @@ class Designer {
       if (plan && cut_by_limit(settings, *plan))
         add("integrator x time step", name + ", half the limit",
             joined_to(settings, {"solver.substeps=" +
-                                 number_text(std::ceil(plan->time_step / (0.5 * plan->limit)))}));
+                                 number_text(std::ceil(plan->time_step / (0.5 * *plan->limit)))}));
       for (const double step : time_steps_ms) {
         const bool own = plan && std::abs(1e3 * plan->substep - step) < 1e-9 * step;
         if (!own)
@@ -242,9 +242,10 @@ class Designer {
 
   // Whether the stability limit determines the default substeps: a step well above it is refused.
   [[nodiscard]] bool cut_by_limit(const Settings& settings, const scene::TimePlan& plan) const {
-    if (plan.substeps != static_cast<int>(std::ceil(plan.time_step / (0.9 * plan.limit))))
+    if (!plan.limit ||
+        plan.substeps != static_cast<int>(std::ceil(plan.time_step / (0.9 * *plan.limit))))
       return false;
-    const std::string bold = number_text(4e3 * plan.limit) + " ms";
+    const std::string bold = number_text(4e3 * *plan.limit) + " ms";
     return !plan_of(joined_to(
         settings, {"solver.time_step=" + bold, "solver.substeps=1", "output.interval=" + bold}));
   }

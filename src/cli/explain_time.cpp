@@ -43,9 +43,12 @@ double literal_step(const std::string& material) {
 std::vector<std::string> explain_time(const scene::Scene& scene) {
   const scene::TimePlan& plan = scene.specimen->plan;
   const Solver& solver = scene.scenario.solver;
+  const double limit =
+      plan.limit ? *plan.limit
+                 : scene::stability_limit(scene.scenario, *scene.specimen, plan.contact);
   std::vector<std::string> lines;
   lines.push_back(std::string("  time         ") + about(solver.integrator).told);
-  lines.push_back("  stability    " + limit_word(solver) + milliseconds(plan.limit) +
+  lines.push_back("  stability    " + limit_word(solver) + milliseconds(limit) +
                   limit_formula(solver));
   lines.push_back("  steps        time step " + milliseconds(plan.time_step) + " in " +
                   std::to_string(plan.substeps) +
@@ -53,15 +56,14 @@ std::vector<std::string> explain_time(const scene::Scene& scene) {
                   milliseconds(plan.substep) + ", " +
                   rounded_text(scene.specimen->network.springs() / plan.substep, 2) +
                   " spring updates a second of motion");
-  const bool is_explicit = about(solver.integrator).explicit_steps;
-  if (solver.allow_unstable && !plan.stable() && is_explicit)
+  if (solver.allow_unstable && !plan.stable())
     lines.emplace_back(
         "  warning      the step is above the stability limit and will diverge; "
         "`allow_unstable` permits it");
   const double literal = literal_step(scene.scenario.tissue.material);
-  if (literal > plan.limit)
+  if (literal > limit)
     lines.push_back("  the paper    its literal time step of " + milliseconds(literal) + " is " +
-                    rounded_text(literal / plan.limit, 3) +
+                    rounded_text(literal / limit, 3) +
                     " times the limit: central differences would have diverged");
   return lines;
 }

@@ -53,6 +53,10 @@ class Body {
   // Dashpots between nodes: their matrix (N s/m; held rows as above) and their force (N).
   [[nodiscard]] virtual bool has_dashpots() const = 0;
   [[nodiscard]] virtual SplitMatrix dashpots(const Vector& displacement) const = 0;
+  // The diagonal of this matrix; only asked of large bodies.
+  [[nodiscard]] virtual Vector dashpot_diagonal(const Vector& displacement) const {
+    return dashpots(displacement).local.diagonal();
+  }
   virtual void dashpot_force(const Vector& displacement, const Vector& velocity,
                              Vector& force) const = 0;
 

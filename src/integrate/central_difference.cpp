@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/index.h"
+#include "base/symmetric_solver.h"
 #include "tissue/fast_vectors.h"
 
 namespace palpate::integrate {
@@ -59,22 +60,30 @@ void CentralDifference::solve_dashpots(const State& state, double lag) {
     before_ = inverse_.cwiseProduct(right_);
     return;
   }
-  if (!has_factors_) factor(state.displacement);
+  const bool large = right_.size() >= SymmetricSolver::large;
+  if (!has_factors_ && !large) factor(state.displacement);
   clear_held(body_->held(), right_);
-  if (body_->linear())
+  if (body_->linear() && !large)
     factors_.solve(right_, before_);
   else
-    solve_turned(state.displacement);
+    solve_turned(state.displacement, large);
   clear_held(body_->held(), before_);
 }
 
 // For dashpots that have rotated since they were factored: conjugate gradients, preconditioned by
 // the old factors and started from the previous step. They stop at an error in the energy norm of
-// |w - w_exact|_A <= 1e-10 |w|_A.
-void CentralDifference::solve_turned(const Vector& displacement) {
-  constexpr double tolerance = 1e-10;
+// |w - w_exact|_A <= 1e-10 |w|_A. Large bodies have no factors, but the diagonal, and a tolerance
+// that is still far below the step's own error.
+void CentralDifference::solve_turned(const Vector& displacement, bool large) {
+  const double tolerance = large ? 1e-6 : 1e-10;
   constexpr int worth_factoring = 12;
-  constexpr int most = 200;
+  const int most = large ? 10000 : 200;
+  const auto precondition = [&] {
+    if (large)
+      refined_ = dashpot_diagonal(displacement).cwiseProduct(residual_);
+    else
+      factors_.solve(residual_, refined_);
+  };
   const auto count = as_index(right_.size());
   const auto dot = [count](const Vector& a, const Vector& b) {
     return tissue::sum_of_products(count, a.data(), b.data());
@@ -87,7 +96,7 @@ void CentralDifference::solve_turned(const Vector& displacement) {
   clear_held(body_->held(), before_);
   multiply(before_);
   residual_ = right_ - image_;
-  factors_.solve(residual_, refined_);
+  precondition();
   direction_ = refined_;
   double size = dot(residual_, refined_);
   int i = 0;
@@ -96,7 +105,7 @@ void CentralDifference::solve_turned(const Vector& displacement) {
     const double length = size / dot(direction_, image_);
     before_ += length * direction_;
     residual_ -= length * image_;
-    factors_.solve(residual_, refined_);
+    precondition();
     const double next = dot(residual_, refined_);
     direction_ = refined_ + (next / size) * direction_;
     size = next;
@@ -104,7 +113,16 @@ void CentralDifference::solve_turned(const Vector& displacement) {
   }
   // Without convergence there is no result: NaN ends the run as diverged.
   if (i == most) before_.setConstant(std::numeric_limits<double>::quiet_NaN());
-  has_factors_ = i <= worth_factoring;
+  has_factors_ = has_factors_ && i <= worth_factoring;
+}
+
+// The inverse of the diagonal of 2 M + left_rate_ D for the dashpots as they first were; 0 where
+// held.
+const Vector& CentralDifference::dashpot_diagonal(const Vector& displacement) {
+  if (large_inverse_.size() > 0) return large_inverse_;
+  large_inverse_ = (diagonal_ + left_rate_ * body_->dashpot_diagonal(displacement)).cwiseInverse();
+  clear_held(body_->held(), large_inverse_);
+  return large_inverse_;
 }
 
 void CentralDifference::step(State& state, const Vector& load) {

@@ -47,7 +47,8 @@ class CentralDifference {
  private:
   void factor(const Vector& displacement);
   void solve_dashpots(const State& state, double lag);
-  void solve_turned(const Vector& displacement);
+  void solve_turned(const Vector& displacement, bool large);
+  [[nodiscard]] const Vector& dashpot_diagonal(const Vector& displacement);
 
   const Body* body_;
   double time_step_;
@@ -63,6 +64,7 @@ class CentralDifference {
   Vector keep_;           // 2 M - right_rate_ D, with D the drag alone
   Vector keep_first_;     // the same for a consistent first step
   PanelFactors factors_;  // of the matrix on the left, if dashpots join nodes
+  Vector large_inverse_;  // dashpot_diagonal(), when first needed
   Vector force_;
   Vector right_;
   Vector image_;     // product of a vector with D or with the matrix on the left

@@ -68,12 +68,13 @@ class Findings {
     add("young_modulus_kPa", unit::kPa.from_si(table_modulus));
     add("network_young_modulus_kPa", unit::kPa.from_si(modulus));
     add("network_poisson_ratio", specimen.measured.poisson_ratio);
-    add("stable_time_step_ms", unit::ms.from_si(specimen.plan.limit));
+    if (specimen.plan.limit)
+      add("stable_time_step_ms", unit::ms.from_si(*specimen.plan.limit));
     add("time_step_ms", unit::ms.from_si(specimen.plan.substep));
     add("substeps", static_cast<double>(specimen.plan.substeps));
     add("damping_ratio", damping_ratio(specimen));
-    if (!specimen.plan.stable() && about(scene_.scenario.solver.integrator).explicit_steps)
-      remark("the step is " + rounded_text(specimen.plan.substep / specimen.plan.limit, 3) +
+    if (!specimen.plan.stable())
+      remark("the step is " + rounded_text(specimen.plan.substep / *specimen.plan.limit, 3) +
              " times the stability limit: this motion grows from rounding, do not trust it");
     if (std::abs(modulus / table_modulus - 1.0) > 0.05)
       remark("the spring network is " + percent_text(std::abs(modulus / table_modulus - 1.0)) +

@@ -76,12 +76,12 @@ ContactRate contact_rate(const Scene& scene) {
 void refuse_unstable(const Scene& scene, const scenario::Family& family) {
   const scenario::Resolved::Solver& solver = scene.scenario.solver;
   const TimePlan& plan = scene.specimen->plan;
-  if (!about(solver.integrator).explicit_steps || plan.stable() || solver.allow_unstable) return;
-  const double needed = std::ceil(plan.time_step / (0.9 * plan.limit));
+  if (plan.stable() || solver.allow_unstable) return;
+  const double needed = std::ceil(plan.time_step / (0.9 * *plan.limit));
   throw InputError(place_of(family.document, "solver.substeps"),
                    "`substeps` of " + std::to_string(plan.substeps) + " makes steps of " +
                        rounded_text(1e3 * plan.substep) + " ms, above the stability limit of " +
-                       rounded_text(1e3 * plan.limit) + " ms (case " + scene.name +
+                       rounded_text(1e3 * *plan.limit) + " ms (case " + scene.name +
                        "); set `solver.substeps = \"auto\"` (" + rounded_text(needed) +
                        " here), or `solver.allow_unstable = true` to see it fail");
 }
@@ -181,19 +181,25 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
   specimen.network = maker.springs(tissues);
   tissue::Network alone = several ? maker.springs(alike) : specimen.network;
   double factor = 1.0;
-  if (maker.scenario->solver.stiffness == tissue::StiffnessRule::fitted) {
+  const bool fitted = maker.scenario->solver.stiffness == tissue::StiffnessRule::fitted;
+  if (fitted) {
     // The fit makes neighbourhoods isotropic; the factor gives the specimen as a whole the modulus
     // that its springs should have in uniaxial compression (31).
     const double wanted = maker.volume() == tissue::Volume::none
                               ? tissues.front().young_modulus
                               : tissue::spring_modulus(tissues.front());
-    factor = wanted / measure(alone).young_modulus;
+    specimen.measured = measure(alone);
+    factor = wanted / specimen.measured.young_modulus;
+    if (maker.volume() == tissue::Volume::none) {
+      // The stiffness of all springs times a factor changes the modulus by it, and not the ratio.
+      specimen.measured.young_modulus = wanted;
+      return maker.finish(specimen.network, tissues, factor);
+    }
   }
   const tissue::Network bare = alone;
   maker.finish(alone, alike, factor);
   specimen.measured = measure(alone);
-  if (maker.scenario->solver.stiffness == tissue::StiffnessRule::fitted &&
-      maker.volume() != tissue::Volume::none) {
+  if (fitted) {
     // The volume term changes the modulus, so the factor is corrected; the modulus is nearly
     // proportional to it.
     constexpr int rounds = 3;

@@ -77,6 +77,11 @@ SplitMatrix SpringBody::dashpots(const Vector& displacement) const {
   return tissue::tangent(*network_, kinematics_, displacement, law_.time, tension_).split(held_);
 }
 
+integrate::Vector SpringBody::dashpot_diagonal(const Vector& displacement) const {
+  std::fill(tension_.begin(), tension_.end(), 0.0);
+  return tissue::tangent(*network_, kinematics_, displacement, law_.time, tension_).diagonal();
+}
+
 void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocity,
                                Vector& force) const {
   // tau times the forces of the elongations per second that the velocity gives.

@@ -33,23 +33,28 @@ double limit_of_explicit_steps(const scenario::Resolved::Solver& solver,
 
 }  // namespace
 
+double stability_limit(const scenario::Resolved& scenario, const Specimen& specimen,
+                       const ContactRate& contact) {
+  const double squared = specimen.law.instantaneous_ratio() *
+                         tissue::largest_frequency_squared(specimen.network, specimen.held);
+  return limit_of_explicit_steps(scenario.solver, specimen.law, squared, contact);
+}
+
 TimePlan plan_time(const scenario::Resolved& scenario, const Specimen& specimen,
                    const ContactRate& contact) {
   using Integrator = scenario::Solver::Integrator;
   const scenario::Resolved::Solver& solver = scenario.solver;
   TimePlan plan;
+  plan.contact = contact;
   plan.time_step = solver.time_step.value_or(scenario.output.interval);
-  const double squared = specimen.law.instantaneous_ratio() *
-                         tissue::largest_frequency_squared(specimen.network, specimen.held);
-  plan.limit = limit_of_explicit_steps(solver, specimen.law, squared, contact);
-  plan.frequency_squared = 4.0 / (plan.limit * plan.limit);
 
   constexpr double safety = 0.9;
   // Methods of first order have an error of about x/2 e^-1 after one viscous time, x = dt / tau.
   constexpr double euler_steps_a_time = 50.0;
   double wanted = plan.time_step;
   if (about(solver.integrator).explicit_steps) {
-    wanted = safety * plan.limit;
+    plan.limit = stability_limit(scenario, specimen, contact);
+    wanted = safety * *plan.limit;
     // With `ahead`, Kelvin-Voigt is stable in steps far longer than its motion lasts.
     if (scenario::damping_velocity(solver) == DampingVelocity::ahead &&
         specimen.law.kind == tissue::Viscosity::kelvin_voigt)

@@ -1,6 +1,8 @@
 // The stability limit of a specimen, and its time steps.
 #pragma once
 
+#include <optional>
+
 #include "scenario/resolved.h"
 
 namespace palpate::scene {
@@ -15,14 +17,19 @@ struct ContactRate {
   double damping = 0.0;  // 1/s
 };
 
+// The time step (s) below which the chosen method is stable if it is explicit, or else central
+// differences.                                                              docs/theory.md (42)
+[[nodiscard]] double stability_limit(const scenario::Resolved& scenario, const Specimen& specimen,
+                                     const ContactRate& contact);
+
 struct TimePlan {
-  double frequency_squared = 0.0;  // 1/s^2, 4 / limit^2; omega_max^2 without dashpots
-  double limit = 0.0;      // s, of the chosen explicit method, or else of central differences
+  ContactRate contact;
+  std::optional<double> limit;  // s, of the stability of the chosen method, if that is explicit
   double time_step = 0.0;  // s, of the scenario
   int substeps = 1;        // of a time step
   double substep = 0.0;    // s, the length of a solver step
 
-  [[nodiscard]] bool stable() const { return substep < limit; }
+  [[nodiscard]] bool stable() const { return !limit || substep < *limit; }
 };
 
 // Substeps of a time step: for explicit methods as many as keep it below 0.9 of the stability

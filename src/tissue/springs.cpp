@@ -133,33 +133,6 @@ void add_springs(const std::array<int, 2>& ends, const std::array<int, 2>& other
     }
 }
 
-// Adds the springs of a tetrahedron: first the blocks of its four corners, then these to `matrix`.
-void add_tetrahedron(const Network& network, const CoupledSprings& six,
-                     const std::array<Vec3, 6>& along, double factor, BlockMatrix& matrix) {
-  std::array<int, 4> corners{};
-  std::array<std::array<std::size_t, 2>, 6> ends{};  // of the springs, as corners
-  std::size_t found = 0;
-  for (std::size_t s = 0; s < 6; ++s)
-    for (std::size_t end = 0; end < 2; ++end) {
-      const int node = network.ends[as_index(six.springs[s])][end];
-      std::size_t c = 0;
-      while (c < found && corners[c] != node) ++c;
-      if (c == found) corners[found++] = node;
-      ends[s][end] = c;
-    }
-  Eigen::Matrix<double, 12, 6> pulls = Eigen::Matrix<double, 12, 6>::Zero();
-  for (std::size_t s = 0; s < 6; ++s) {
-    const auto column = static_cast<Eigen::Index>(s);
-    pulls.block<3, 1>(3 * static_cast<Eigen::Index>(ends[s][0]), column) = -along[s];
-    pulls.block<3, 1>(3 * static_cast<Eigen::Index>(ends[s][1]), column) = along[s];
-  }
-  const Eigen::Matrix<double, 12, 6> forces = factor * (pulls * six.stiffness);
-  for (Eigen::Index i = 0; i < 4; ++i)
-    for (Eigen::Index j = 0; j < 4; ++j)
-      matrix.at(corners[as_index(i)], corners[as_index(j)]) +=
-          forces.middleRows<3>(3 * i) * pulls.middleRows<3>(3 * j).transpose();
-}
-
 // One row per volume with its change per displacement, and its stiffness as weight.
 void add_volumes(const Network& network, std::span<const Vec3> along, double factor,
                  BlockMatrix& matrix) {
@@ -191,6 +164,23 @@ void add_volumes(const Network& network, std::span<const Vec3> along, double fac
 
 }  // namespace
 
+ElementPulls element_pulls(const Network& network, const CoupledSprings& six,
+                           std::span<const Vec3> direction) {
+  ElementPulls pulls;
+  Eigen::Index found = 0;
+  for (Eigen::Index s = 0; s < 6; ++s) {
+    const auto spring = as_index(six.springs[as_index(s)]);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const int node = network.ends[spring][end];
+      Eigen::Index c = 0;
+      while (c < found && pulls.corners[as_index(c)] != node) ++c;
+      if (c == found) pulls.corners[as_index(found++)] = node;
+      pulls.along.block<3, 1>(3 * c, s) = end == 0 ? Vec3(-direction[spring]) : direction[spring];
+    }
+  }
+  return pulls;
+}
+
 BlockMatrix tangent(const Network& network, Kinematics kinematics, const Vector& displacement,
                     double factor, std::span<const double> tension) {
   BlockMatrix matrix(network.nodes(), network.ends);
@@ -216,9 +206,12 @@ BlockMatrix tangent(const Network& network, Kinematics kinematics, const Vector&
     add_springs(network.ends[s], network.ends[s], block, matrix);
   }
   for (const CoupledSprings& six : network.coupled) {
-    std::array<Vec3, 6> own;
-    for (std::size_t s = 0; s < 6; ++s) own[s] = along[as_index(six.springs[s])];
-    add_tetrahedron(network, six, own, factor, matrix);
+    const ElementPulls pulls = element_pulls(network, six, along);
+    const Eigen::Matrix<double, 12, 6> forces = factor * (pulls.along * six.stiffness);
+    for (Eigen::Index i = 0; i < 4; ++i)
+      for (Eigen::Index j = 0; j < 4; ++j)
+        matrix.at(pulls.corners[as_index(i)], pulls.corners[as_index(j)]) +=
+            forces.middleRows<3>(3 * i) * pulls.along.middleRows<3>(3 * j).transpose();
   }
   if (!network.volumes.empty()) add_volumes(network, along, factor, matrix);
   return matrix;

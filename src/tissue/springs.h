@@ -1,6 +1,7 @@
 // Spring mechanics: elongations from displacements, forces and stiffness from tensions.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,15 @@ void gather_forces(const Network& network, Kinematics kinematics, const Vector& 
 // The directions of the spring forces: unit vectors; with squared lengths, span over rest length.
 void directions(const Network& network, Kinematics kinematics, const Vector& displacement,
                 std::span<Vec3> direction);
+
+// The forces of a tetrahedron's springs on its corners per tension, three rows per corner and one
+// column per spring, for given directions of all springs of the network.
+struct ElementPulls {
+  std::array<int, 4> corners{};
+  Eigen::Matrix<double, 12, 6> along = Eigen::Matrix<double, 12, 6>::Zero();
+};
+[[nodiscard]] ElementPulls element_pulls(const Network& network, const CoupledSprings& six,
+                                         std::span<const Vec3> direction);
 
 // The tangent matrix (34), N/m, without supports: a change of elongations changes the tensions by
 // `factor` times its tensions(). Unless kinematics are linear, which need neither `displacement`

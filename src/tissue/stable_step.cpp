@@ -1,11 +1,12 @@
 // Lanczos iterations for the mass-scaled stiffness without an assembled matrix.
 #include "tissue/stable_step.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include "tissue/fast_springs.h"
 
 namespace palpate::tissue {
 
@@ -23,18 +24,6 @@ std::vector<int> nodes_of(const Network& network, Springs springs) {
   return nodes;
 }
 
-// The elongation of each spring per displacement of a node: 3 x springs, one column per spring.
-Eigen::Matrix3Xd lengthening(const Network& network, Springs springs, int node) {
-  Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(springs.size()));
-  for (std::size_t k = 0; k < springs.size(); ++k) {
-    const auto spring = as_index(springs[k]);
-    const auto& [a, b] = network.ends[spring];
-    if (node == b) columns.col(static_cast<Eigen::Index>(k)) = network.direction[spring];
-    if (node == a) columns.col(static_cast<Eigen::Index>(k)) = -network.direction[spring];
-  }
-  return columns;
-}
-
 }  // namespace
 
 double safe_frequency_squared(const Network& network) {
@@ -45,25 +34,29 @@ double safe_frequency_squared(const Network& network) {
   for (std::size_t s = 0; s < network.ends.size(); ++s)
     for (const int node : network.ends[s]) add(node, 2.0 * network.stiffness[s]);
   for (const CoupledSprings& six : network.coupled) {
-    const std::vector<int> corners = nodes_of(network, six.springs);
-    for (const int i : corners)
-      for (const int j : corners)
-        add(i, (lengthening(network, six.springs, i) * six.stiffness *
-                lengthening(network, six.springs, j).transpose())
-                   .norm());
+    const ElementPulls pulls = element_pulls(network, six, network.direction);
+    const Eigen::Matrix<double, 12, 6> forces = pulls.along * six.stiffness;
+    for (Eigen::Index i = 0; i < 4; ++i)
+      for (Eigen::Index j = 0; j < 4; ++j)
+        add(pulls.corners[as_index(i)],
+            (forces.middleRows<3>(3 * i) * pulls.along.middleRows<3>(3 * j).transpose()).norm());
   }
   for (const SharedVolume& volume : network.volumes) {
-    const Eigen::Map<const Vector> dilation(volume.dilation.data(),
-                                            static_cast<Eigen::Index>(volume.dilation.size()));
     const std::vector<int> nodes = nodes_of(network, volume.springs);
-    std::vector<double> size;  // of the volume's gradient at each node, 1/m
-    double all = 0.0;
-    for (const int node : nodes) {
-      size.push_back((lengthening(network, volume.springs, node) * dilation).norm());
-      all += size.back();
+    std::vector<Vec3> gradients(nodes.size(), Vec3::Zero());  // of the volume, 1/m
+    for (std::size_t k = 0; k < volume.springs.size(); ++k) {
+      const auto spring = as_index(volume.springs[k]);
+      const Vec3 pull = volume.dilation[k] * network.direction[spring];
+      for (std::size_t end = 0; end < 2; ++end) {
+        const auto node = std::lower_bound(nodes.begin(), nodes.end(), network.ends[spring][end]);
+        Vec3& gradient = gradients[as_index(node - nodes.begin())];
+        gradient += end == 0 ? Vec3(-pull) : pull;
+      }
     }
+    double all = 0.0;
+    for (const Vec3& gradient : gradients) all += gradient.norm();
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      add(nodes[k], std::abs(volume.stiffness) * size[k] * all);
+      add(nodes[k], std::abs(volume.stiffness) * gradients[k].norm() * all);
   }
   double bound = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i)
@@ -84,53 +77,81 @@ Vector scattered(Eigen::Index size) {
   return vector;
 }
 
+// The largest eigenvalue of a symmetric tridiagonal matrix with this diagonal and these positive
+// numbers beside it, and the last component of its unit eigenvector.
+struct LargestPair {
+  double value = 0.0;
+  double last = 1.0;
+};
+LargestPair largest_pair(const std::vector<double>& alpha, const std::vector<double>& beta) {
+  const std::size_t size = alpha.size();
+  // Above all eigenvalues exactly if all pivots of `value` minus the matrix are positive.
+  const auto above = [&](double value) {
+    double pivot = value - alpha[0];
+    for (std::size_t i = 1; i < size && pivot > 0.0; ++i)
+      pivot = value - alpha[i] - beta[i - 1] * beta[i - 1] / pivot;
+    return pivot > 0.0;
+  };
+  double low = *std::max_element(alpha.begin(), alpha.end());
+  double high = low;
+  for (std::size_t i = 0; i < size; ++i)
+    high = std::max(high, alpha[i] + (i > 0 ? beta[i - 1] : 0.0) + (i + 1 < size ? beta[i] : 0.0));
+  while (high - low > 1e-12 * high) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (above(middle) ? high : low) = middle;
+  }
+  LargestPair pair{.value = high};
+  // The components have one sign, and each follows from the one before by a positive factor.
+  double squares = 1.0;
+  double pivot = high - alpha[0];
+  for (std::size_t i = 1; i < size; ++i) {
+    pair.last *= pivot / beta[i - 1];
+    squares += pair.last * pair.last;
+    pivot = high - alpha[i] - beta[i - 1] * beta[i - 1] / pivot;
+  }
+  pair.last /= std::sqrt(squares);
+  return pair;
+}
+
 }  // namespace
 
+// Without reorthogonalisation: rounding makes Lanczos find an eigenvalue several times, but none
+// above the largest.                                                               Paige 1980
 double largest_frequency_squared(const Network& network, std::span<const char> held) {
   const Eigen::Index size = 3 * network.nodes();
   Vector scale(size);  // 1 / sqrt(m), 0 where held
   for (Eigen::Index d = 0; d < size; ++d)
     scale[d] = held[as_index(d)] != 0 ? 0.0 : 1.0 / std::sqrt(network.node_mass[as_index(d / 3)]);
 
-  std::vector<double> elongation(network.ends.size());
-  std::vector<double> tension(network.ends.size());
-  Vector force;
-  const auto multiply = [&](const Vector& x) -> Vector {
-    const Vector u = scale.cwiseProduct(x);
-    elongations(network, Kinematics::linear, u, elongation);
-    tensions(network, elongation, tension);
-    gather_forces(network, Kinematics::linear, u, tension, force);
-    return scale.cwiseProduct(force);
-  };
-
+  FastSprings springs(network, Kinematics::linear, ViscousLaw{});
   const double safe = safe_frequency_squared(network);
-  constexpr Eigen::Index most_steps = 300;
-  const Eigen::Index steps = std::min(size, most_steps);
-  // Every step is made orthogonal to all earlier ones, so large bodies stop sooner; the residual,
-  // which is added, shortens their time step by at most half of `enough`.
-  constexpr Eigen::Index large = 30000;
-  const double enough = size < large ? 1e-10 : 1e-4;
-  std::vector<Vector> basis;
-  Vector alpha(steps);
-  Vector beta(steps);
+  constexpr std::size_t most_steps = 1000;
+  constexpr double enough = 1e-4;  // of the eigenvalue: shortens the step by half of it
+  std::vector<double> alpha;
+  std::vector<double> beta;
+  Vector before;
+  Vector scaled;
+  Vector image;
   Vector next = scattered(size).cwiseProduct(scale);
   next.normalize();
-  for (Eigen::Index k = 0; k < steps; ++k) {
-    basis.push_back(next);
-    Vector image = multiply(next);
-    alpha[k] = next.dot(image);
-    for (int twice = 0; twice < 2; ++twice)
-      for (const Vector& one : basis) image -= one.dot(image) * one;
-    beta[k] = image.norm();
-    const bool last = k + 1 == steps || beta[k] <= 1e-14 * safe;
-    if (k % 10 == 9 || last) {
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-      ritz.computeFromTridiagonal(alpha.head(k + 1), beta.head(k));
-      const double largest = ritz.eigenvalues()[k];
-      const double residual = beta[k] * std::abs(ritz.eigenvectors()(k, k));
-      if (residual <= enough * largest || last) return std::min(safe, largest + residual);
+  for (std::size_t k = 0; k < most_steps; ++k) {
+    scaled = scale.cwiseProduct(next);
+    springs.look(scaled, {});
+    springs.force(image);
+    image = scale.cwiseProduct(image);
+    if (k > 0) image -= beta.back() * before;
+    alpha.push_back(next.dot(image));
+    image -= alpha.back() * next;
+    beta.push_back(image.norm());
+    const bool last = beta.back() <= 1e-14 * safe;
+    if (k % 5 == 4 || last) {
+      const LargestPair ritz = largest_pair(alpha, beta);
+      const double residual = beta.back() * ritz.last;
+      if (residual <= enough * ritz.value || last) return std::min(safe, ritz.value + residual);
     }
-    next = image / beta[k];
+    before = next;
+    next = image / beta.back();
   }
   return safe;
 }

@@ -240,7 +240,7 @@ TEST(Press, UnstableStepIsDetectedAndTheRestKept) {
 TEST(Press, StableJustBelowTheLimitAndNotAbove) {
   // 0.95 and 1.05 of 2 / omega_max by the output interval, one substep.
   const double limit = test::scene_of(press, {"tissue.viscosity=none", "contact.coupling=one_way"})
-                           .specimen->plan.limit;
+                           .specimen->plan.limit.value();
   for (const double part : {0.95, 1.05}) {
     const auto record =
         run_text(press, {"tissue.viscosity=none", "contact.coupling=one_way", "solver.substeps=1",

@@ -56,7 +56,7 @@ void expect_limit(const std::vector<std::string>& settings, const std::string& w
   const scenario::Resolved::Solver& solver = scene.scenario.solver;
   // Within 2 % on both sides: there is no more to choose than where in the bracket the limit is.
   for (const double part : {0.98, 1.02}) {
-    const double dt = part * specimen.plan.limit;
+    const double dt = part * specimen.plan.limit.value();
     const double grown =
         solver.integrator == scenario::Solver::Integrator::semi_implicit_euler
             ? growth(integrate::SemiImplicitEuler(springs, dt), springs)
@@ -96,7 +96,7 @@ TEST(ExplicitLimits, KnowTheContactsSpring) {
       "schema = 1\n[tissue]\nmaterial = \"skin\"\n[contact]\ncoupling = \"series\"\n[solver]\n"
       "model = \"mass_spring\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
   const auto limit = [&](const std::vector<std::string>& settings) {
-    return test::scene_of(press, settings).specimen->plan.limit;
+    return test::scene_of(press, settings).specimen->plan.limit.value();
   };
   const double alone = limit({"contact.coupling=one_way", "tissue.viscosity=none"});
   const double both = limit({"tissue.viscosity=none"});

@@ -100,8 +100,8 @@ TEST_F(Design, ExplicitMethodsAlsoAtHalfTheirLimit) {
   ASSERT_NE(half, nullptr);
   const auto family = with_settings(scene, 0, half->settings);
   const auto plan = test::first_scene(family).specimen->plan;
-  EXPECT_LE(plan.substep, 0.5 * plan.limit);
-  EXPECT_GT(plan.time_step / (plan.substeps - 1), 0.5 * plan.limit);
+  EXPECT_LE(plan.substep, 0.5 * plan.limit.value());
+  EXPECT_GT(plan.time_step / (plan.substeps - 1), 0.5 * plan.limit.value());
   EXPECT_EQ(find(variants, "mass_spring, backward_difference, half the limit"), nullptr);
   EXPECT_EQ(find(variants, "mass_spring, modal, half the limit"), nullptr);
 }
