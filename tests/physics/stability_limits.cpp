@@ -69,8 +69,8 @@ TEST(Limits, HighestModeIsTheNetworks) {
     const auto probed = small(rung, family);
     const scene::Specimen& specimen = *probed->scene.specimen;
     const double squared = tissue::largest_frequency_squared(specimen.network, specimen.held);
-    // Another iteration, to 1e-9 of the square.
-    EXPECT_NEAR(probed->highest.frequency, std::sqrt(squared), 1e-8 * std::sqrt(squared));
+    // Another iteration, to 1e-9 of the square; the network's adds up to 1e-6 of it.
+    EXPECT_NEAR(probed->highest.frequency, std::sqrt(squared), 1e-6 * std::sqrt(squared));
     // K phi = omega^2 M phi
     const integrate::Vector& shape = probed->highest.shape;
     integrate::Vector force;

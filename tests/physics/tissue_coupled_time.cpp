@@ -317,7 +317,8 @@ TEST(CoupledInTime, SafeBoundIsAboveTheHighestFrequency) {
                                       network.node_mass[static_cast<std::size_t>(j / 3)]);
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
         const double highest = solver.eigenvalues()[matrix.rows() - 1];
-        EXPECT_NEAR(found, highest, 1e-9 * highest) << nu;  // Lanczos stops at 1e-10
+        EXPECT_GT(found, highest * (1.0 - 1e-9)) << nu;
+        EXPECT_LT(found, highest * (1.0 + 1e-6)) << nu;  // the residual that is added
         const double safe = tissue::safe_frequency_squared(network);
         EXPECT_GT(safe, highest) << nu;
         EXPECT_LT(safe, 6.0 * highest) << nu;  // measured up to 4.7, and 400 by elongations

@@ -375,7 +375,8 @@ TEST_P(OurScenario, builds_its_first_case) {
   const bool noted = GetParam() == "eight_spheres" || GetParam() == "sweep_modulus_ratio";
   EXPECT_NE(family.notes.empty(), noted);
   if (!scene.specimen) return;
-  EXPECT_GT(scene.specimen->plan.limit, 0.0);
+  EXPECT_GT(scene::stability_limit(scene.scenario, *scene.specimen, scene.specimen->plan.contact),
+            0.0);
   EXPECT_GT(scene.specimen->measured.young_modulus, 0.0);
   if (!scene.scenario.uniform()) {
     EXPECT_GT(scene::first_touch(scene).finger.z(), 0.0);
