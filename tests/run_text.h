@@ -23,6 +23,11 @@ inline record::CaseRecord run_text(const std::string& text, const Settings& sett
   return run_scene(run::build_scene(family.cases.front(), family));
 }
 
+inline bool has_finding(const record::CaseRecord& record, const std::string& name) {
+  return std::any_of(record.findings.begin(), record.findings.end(),
+                     [&](const auto& finding) { return finding.name == name; });
+}
+
 inline record::Cell finding(const record::CaseRecord& record, const std::string& name) {
   for (const auto& finding : record.findings)
     if (finding.name == name) return finding.value;

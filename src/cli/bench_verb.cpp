@@ -188,7 +188,11 @@ bool measure_scenario(const std::string& path, std::vector<std::string> settings
   for (const char* fixed :
        {"solver.model=mass_spring", "solver.time_step=1 ms", "output.interval=1 ms"})
     settings.emplace_back(fixed);
-  const scenario::Family family = scenario::read(path, settings);
+  scenario::Family family = scenario::read(path, settings);
+  if (!family.cases.front().scenario.solver.integrator) {  // steps are timed, not statics
+    settings.emplace_back("solver.integrator=central_difference");
+    family = scenario::read(path, settings);
+  }
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   bool all = true;
   for (const scenario::Case& one : family.cases) {

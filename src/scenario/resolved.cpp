@@ -45,11 +45,28 @@ Resolved::Contact resolve_contact(const Scenario& asked, const Found& found) {
       contact.direction.value_or(linear ? Contact::Direction::skin : Contact::Direction::sphere)};
 }
 
+// Whether the mesh's motion cannot reach the force of a press, whatever the integrator, so that it
+// is computed for pictures alone. Keys of explicit steps ask for these.
+bool motion_is_for_show(const Scenario& asked) {
+  const Solver& solver = asked.solver;
+  const bool explicit_steps = solver.substeps || solver.allow_unstable ||
+                              solver.start != PlainSolver{}.start ||
+                              solver.damping != PlainSolver{}.damping;
+  if (asked.uniform() || solver.kinematics != Solver::Kinematics::linear || solver.rings ||
+      explicit_steps)
+    return false;
+  return asked.contact.coupling == contact::Coupling::one_way ||
+         (asked.contact.coupling == contact::Coupling::consistent &&
+          asked.tissue.viscosity == tissue::Viscosity::kelvin_voigt);
+}
+
 Resolved::Solver resolve_solver(const Scenario& asked, const Rung& rung, const Found& found) {
   using Integrator = Solver::Integrator;
   const bool drag = asked.tissue.viscosity == tissue::Viscosity::nodal_drag;
-  const bool still = rung.meshed() && (asked.contact.coupling == contact::Coupling::resolved ||
-                                       (!found.inertia_matters && !drag));
+  const bool still =
+      rung.meshed() &&
+      (asked.contact.coupling == contact::Coupling::resolved ||
+       (!drag && (!found.inertia_matters || motion_is_for_show(asked))));
   return {asked.solver, rung.of, asked.solver.volume.value_or(rung.volume),
           asked.solver.integrator.value_or(still ? Integrator::quasi_static
                                                  : Integrator::central_difference)};

@@ -71,8 +71,9 @@ inline constexpr auto volumes =
                               {"tetrahedron", "of every tetrahedron; locks towards nu = 1/2"},
                               {"nodal", "averaged over the tetrahedra around every node"}});
 inline constexpr Word auto_integrators{"auto",
-                                       "`quasi_static` where `model = \"auto\"` finds that "
-                                       "inertia does not matter, else `central_difference`"};
+                                       "`quasi_static` where the mesh's motion cannot reach the "
+                                       "force, or `model = \"auto\"` finds that inertia does not "
+                                       "matter; else `central_difference`"};
 inline constexpr Words<Solver::Integrator, integrator_table.size()> integrators(integrator_table);
 inline constexpr auto starts = words_of<integrate::Start>(
     {{"consistent", "second order"}, {"paper", "U(-dt) = U(0), first order"}});

@@ -79,7 +79,11 @@ TEST(Press, IntegratorsAgree) {
         // what u takes part in h.
         EXPECT_NEAR(force_at(record, travel) / force_at(exact, travel), 1.0, 1e-3)
             << coupling << " " << integrator;
-      EXPECT_LT(found(record, "energy_imbalance"), 5e-3) << coupling << " " << integrator;
+      // Statics keep no energies where the mesh's motion cannot reach the force.
+      if (integrator == "quasi_static" && coupling != "series")
+        EXPECT_FALSE(test::has_finding(record, "energy_imbalance")) << coupling;
+      else
+        EXPECT_LT(found(record, "energy_imbalance"), 5e-3) << coupling << " " << integrator;
     }
   }
 }
@@ -200,7 +204,7 @@ TEST(Press, QuasiStaticsHasNoKineticEnergy) {
   // Rows far shorter than a wave takes: a velocity would count as energy from nowhere.
   const auto record =
       run_text(press, {"solver.integrator=quasi_static", "tissue.viscosity=none",
-                       "contact.coupling=one_way", "step.1.to=0.1 mm", "output.interval=0.1 ms"});
+                       "contact.coupling=series", "step.1.to=0.1 mm", "output.interval=0.1 ms"});
   EXPECT_EQ(record.outcome, record::Outcome::completed);
   EXPECT_LT(found(record, "energy_imbalance"), 1e-3);  // the trapezoid of the first rows
 }
@@ -239,11 +243,13 @@ TEST(Press, UnstableStepIsDetectedAndTheRestKept) {
 
 TEST(Press, StableJustBelowTheLimitAndNotAbove) {
   // 0.95 and 1.05 of 2 / omega_max by the output interval, one substep.
-  const double limit = test::scene_of(press, {"tissue.viscosity=none", "contact.coupling=one_way"})
+  const double limit = test::scene_of(press, {"tissue.viscosity=none", "contact.coupling=one_way",
+                                              "solver.integrator=central_difference"})
                            .specimen->plan.limit.value();
   for (const double part : {0.95, 1.05}) {
     const auto record =
         run_text(press, {"tissue.viscosity=none", "contact.coupling=one_way", "solver.substeps=1",
+                         "solver.integrator=central_difference",
                          "solver.allow_unstable=true", "step.1.to=5 mm", "step.1.rate=2 mm/s",
                          "output.interval=" + std::to_string(1e3 * part * limit) + " ms"});
     EXPECT_EQ(record.outcome == record::Outcome::completed, part < 1.0) << part;

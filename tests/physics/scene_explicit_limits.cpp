@@ -94,7 +94,8 @@ TEST(ExplicitLimits, AreWhatIsDeclared) {
 TEST(ExplicitLimits, KnowTheContactsSpring) {
   const std::string press =
       "schema = 1\n[tissue]\nmaterial = \"skin\"\n[contact]\ncoupling = \"series\"\n[solver]\n"
-      "model = \"mass_spring\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+      "model = \"mass_spring\"\nintegrator = \"central_difference\"\n[[step]]\nkind = \"indent\"\n"
+      "to = \"1 mm\"\n";
   const auto limit = [&](const std::vector<std::string>& settings) {
     return test::scene_of(press, settings).specimen->plan.limit.value();
   };

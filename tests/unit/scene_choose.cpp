@@ -116,7 +116,14 @@ TEST(Choose, AGivenModelIsKeptAndStillAsked) {
   const Choice choice = choose(read(press + "[solver]\nmodel = \"mass_spring\"\n"));
   EXPECT_TRUE(choice.given);
   EXPECT_EQ(choice.chosen.solver.model, Model::mass_spring);
-  EXPECT_EQ(choice.chosen.solver.integrator, Integrator::central_difference);
+  // Its Kelvin-Voigt springs move for show; keys of explicit steps ask for such steps.
+  EXPECT_EQ(choice.chosen.solver.integrator, Integrator::quasi_static);
+  for (const char* key : {"substeps = 2", "start = \"paper\"", "damping = \"lagged\"",
+                          "allow_unstable = true", "rings = 3", "kinematics = \"nonlinear\""})
+    EXPECT_EQ(choose(read(press + "[solver]\nmodel = \"mass_spring\"\n" + key + "\n"))
+                  .chosen.solver.integrator,
+              Integrator::central_difference)
+        << key;
   EXPECT_GE(choice.questions.size(), 8U);
   EXPECT_EQ(choice.rungs.size(), 4U);
 }
