@@ -10,7 +10,7 @@ namespace {
 // A quick case, then one of minutes, by one worker. Rows come every few milliseconds.
 const std::string slow_given =
     "[tissue]\nmesh = { kind = \"kuhn\", cells = [3, 4, 6] }\n"
-    "[solver]\nmodel = \"mass_spring\"\n"
+    "[solver]\nmodel = \"mass_spring\"\nintegrator = \"central_difference\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"0.005 mm\"\nrate = \"0.005 mm/s\"\n"
     "[output]\ninterval = \"10 ms\"\nfigures = false\nfits = false\n"
     "[sweep]\n\"step.1.to\" = [\"0.005 mm\", \"5 mm\"]\n";
