@@ -6,6 +6,8 @@
 
 #include "base/index.h"
 
+// Vectors of four lanes need no instructions of their own: both kinds of processor give the same
+// bits.
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wpsabi"  // all functions that take vectors of four are inlined
 #endif
@@ -16,25 +18,33 @@ namespace {
 // A value per lane.
 using Four = double __attribute__((vector_size(32)));
 
-inline Four load(const double* from) {
+// Inlined into functions for different kinds of processors.
+#define PALPATE_ALWAYS [[gnu::always_inline]] inline
+
+PALPATE_ALWAYS Four load(const double* from) {
   Four values;
   __builtin_memcpy(&values, from, sizeof values);
   return values;
 }
-inline void store(double* to, const Four& values) { __builtin_memcpy(to, &values, sizeof values); }
+PALPATE_ALWAYS void store(double* to, const Four& values) {
+  __builtin_memcpy(to, &values, sizeof values);
+}
 
 // y = A x. `Value` is a number or one per lane: `get` reads it from x, `put` writes it to y.
 template <class Value, class Get, class Put>
-void multiply(const BlockMatrix& matrix, const Get& get, const Put& put) {
-  std::vector<Value> pressures(matrix.weights.size());
-  for (std::size_t v = 0; v < pressures.size(); ++v) {
+PALPATE_ALWAYS void multiply(const BlockMatrix& matrix, const Get& get, const Put& put) {
+  // Not a vector of values, whose allocator would not know how four of them are aligned.
+  constexpr std::size_t width = sizeof(Value) / sizeof(double);
+  std::vector<double> pressures(width * matrix.weights.size());
+  for (std::size_t v = 0; v < matrix.weights.size(); ++v) {
     Value sum{};
     for (int k = matrix.volumes.start[v]; k < matrix.volumes.start[v + 1]; ++k) {
       const Vec3& change = matrix.changes[as_index(k)];
       const std::size_t first = 3 * as_index(matrix.volumes.column[as_index(k)]);
       sum += change.x() * get(first) + change.y() * get(first + 1) + change.z() * get(first + 2);
     }
-    pressures[v] = matrix.weights[v] * sum;
+    sum *= matrix.weights[v];
+    __builtin_memcpy(&pressures[width * v], &sum, sizeof sum);
   }
   const std::size_t nodes = as_index(matrix.nodes());
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -54,7 +64,9 @@ void multiply(const BlockMatrix& matrix, const Get& get, const Put& put) {
     if (!pressures.empty())
       for (int k = matrix.around.start[n]; k < matrix.around.start[n + 1]; ++k) {
         const Vec3& change = matrix.changes[as_index(matrix.entries[as_index(k)])];
-        const Value& pressure = pressures[as_index(matrix.around.column[as_index(k)])];
+        Value pressure;
+        __builtin_memcpy(&pressure, &pressures[width * as_index(matrix.around.column[as_index(k)])],
+                         sizeof pressure);
         a += change.x() * pressure;
         b += change.y() * pressure;
         c += change.z() * pressure;
@@ -64,6 +76,27 @@ void multiply(const BlockMatrix& matrix, const Get& get, const Put& put) {
     put(3 * n + 2, c);
   }
 }
+
+PALPATE_ALWAYS void multiply_four(const BlockMatrix& matrix, const double* x, double* y) {
+  struct Get {
+    const double* x;
+    [[gnu::always_inline]] Four operator()(std::size_t d) const { return load(x + block_lanes * d); }
+  };
+  struct Put {
+    double* y;
+    [[gnu::always_inline]] void operator()(std::size_t d, const Four& values) const {
+      store(y + block_lanes * d, values);
+    }
+  };
+  multiply<Four>(matrix, Get{x}, Put{y});
+}
+
+void portable(const BlockMatrix& matrix, const double* x, double* y) { multiply_four(matrix, x, y); }
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) void avx2(const BlockMatrix& matrix, const double* x, double* y) {
+  multiply_four(matrix, x, y);
+}
+#endif
 
 }  // namespace
 
@@ -122,9 +155,10 @@ Eigen::VectorXd BlockMatrix::operator*(const Eigen::VectorXd& x) const {
 void multiply_lanes(const BlockMatrix& matrix, const std::vector<double>& x,
                     std::vector<double>& y) {
   y.resize(x.size());
-  multiply<Four>(
-      matrix, [&](std::size_t d) { return load(&x[block_lanes * d]); },
-      [&](std::size_t d, const Four& values) { store(&y[block_lanes * d], values); });
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) return avx2(matrix, x.data(), y.data());
+#endif
+  portable(matrix, x.data(), y.data());
 }
 
 Eigen::VectorXd BlockMatrix::diagonal() const {
