@@ -38,6 +38,7 @@ void ContactInertia::make_room(std::size_t contacts) {
   near_.reserve(contacts);
   past_.reserve(2 * contacts);
   parted_.reserve(contacts);
+  pressed_.reserve(3 * contacts * contact::most_shares);
 }
 
 double ContactInertia::sunk(const integrate::Vector& displacement,
@@ -86,6 +87,13 @@ void ContactInertia::begin(const Motion& motion, const KeptList<SphereContact>& 
       near_[i].past = one;
     }
   }
+  pressed_.clear();
+  for (const SphereContact& own : contacts)
+    for (const int vertex : own.wide.vertices)
+      for (int axis = 0; axis < 3; ++axis)
+        if (part_->node_of(vertex) >= 0 && own.patch.normal[axis] != 0.0)
+          pressed_.push_back(3 * part_->node_of(vertex) + axis);
+  statics.ask(pressed_);
   for (Eigen::Index i = 0; i < count; ++i) {
     const SphereContact& own = contacts[as_index(i)];
     motion_[i] = sunk(motion.displacement, own);

@@ -72,6 +72,7 @@ class ContactInertia {
 
   const MovingPart* part_;
   double radiation_;  // m s/N, D of docs/theory.md (75)
+  std::vector<int> pressed_;  // degrees of freedom under the wide patches
   // The first entries belong to the contacts; the rest is spare memory.
   Eigen::VectorXd motion_;            // m, `m` of docs/theory.md (74)
   Eigen::MatrixXd moving_by_force_;   // m/N, response at the end of the step

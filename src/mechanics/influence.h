@@ -1,6 +1,7 @@
 // The part's displacements under unit loads, each computed when first needed and then stored.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "contact/patch.h"
@@ -36,6 +37,30 @@ class Influence {
     return known;
   }
 
+  // Computes the columns of these degrees of freedom together, which for large bodies in statics
+  // takes a quarter of the time; allocates nothing if they are known.
+  void ask(const std::vector<int>& freedoms) {
+    if (known_.empty()) known_.resize(as_index(part_->freedoms()));
+    const auto missing = [&](int freedom) { return known_[as_index(freedom)].size() == 0; };
+    if (response_ != Response::statics || std::none_of(freedoms.begin(), freedoms.end(), missing))
+      return;
+    std::vector<int> asked;
+    std::vector<integrate::Vector> units;
+    for (std::size_t i = 0; i < freedoms.size(); ++i) {
+      if (missing(freedoms[i])) {
+        asked.push_back(freedoms[i]);
+        units.emplace_back(integrate::Vector::Zero(part_->freedoms()))[freedoms[i]] = 1.0;
+      }
+      if (asked.empty() || (asked.size() < block_lanes && i + 1 < freedoms.size())) continue;
+      std::vector<integrate::Vector> moved(asked.size());
+      part_->respond(units, moved);
+      for (std::size_t k = 0; k < asked.size(); ++k)
+        known_[as_index(asked[k])] = std::move(moved[k]);
+      asked.clear();
+      units.clear();
+    }
+  }
+
   // Computes the columns of all nodes of the skin, so that loads on the skin allocate and solve
   // nothing until forget(). Columns that would take more than 1 GB together are left to be computed
   // when needed.
@@ -45,8 +70,11 @@ class Influence {
     kept.make_room(nodes.size());
     const double each = sizeof(double) * static_cast<double>(part_->freedoms());
     if (3.0 * static_cast<double>(nodes.size()) * each > most_bytes) return;
+    std::vector<int> freedoms;
     for (const int node : nodes)
-      for (int axis = 0; node >= 0 && axis < 3; ++axis) (void)column(3 * node + axis);
+      for (int axis = 0; node >= 0 && axis < 3; ++axis) freedoms.push_back(3 * node + axis);
+    ask(freedoms);
+    for (const int freedom : freedoms) (void)column(freedom);
   }
 
   // Writes the displacement (m) under `load` (N) to `sum`; cheap if the load has few entries.

@@ -149,12 +149,7 @@ bool MovingPart::keeps_responses() const {
 void MovingPart::respond(Response response, const Vector& given, Vector& moved) {
   if (response == Response::statics) {
     moved.setZero(given.size());  // the result must not depend on what was asked before
-    const bool positive =
-        (statics.prepared() || statics.prepare(tissue::stiffness_matrix(body->network()),
-                                               {body->held().begin(), body->held().end()})) &&
-        statics.solve(given, moved);
-    if (!positive) throw MeshError(tissue::not_held);
-    return;
+    return respond(std::span(&given, 1), std::span(&moved, 1));
   }
   auto* modal = std::get_if<integrate::Modal>(&stepper->method());
   if (modal != nullptr && response == Response::whole_step) {
@@ -171,6 +166,14 @@ void MovingPart::respond(Response response, const Vector& given, Vector& moved) 
         if constexpr (requires { method.response(given, moved); }) method.response(given, moved);
       },
       stepper->method());
+}
+
+void MovingPart::respond(std::span<const Vector> loads, std::span<Vector> moved) {
+  const bool positive =
+      (statics.prepared() || statics.prepare(tissue::stiffness_matrix(body->network()),
+                                             {body->held().begin(), body->held().end()})) &&
+      statics.solve(loads, moved);
+  if (!positive) throw MeshError(tissue::not_held);
 }
 
 void contact_load(const Touch& touch, const MovingPart& part, Vector& load) {

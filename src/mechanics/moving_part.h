@@ -39,6 +39,8 @@ struct MovingPart {
 
   // The displacement (m) that a load (N) adds.
   void respond(Response response, const integrate::Vector& load, integrate::Vector& moved);
+  // The same in statics for several loads at once.
+  void respond(std::span<const integrate::Vector> loads, std::span<integrate::Vector> moved);
   // Whether the responses of a step serve all steps of one size.
   [[nodiscard]] bool keeps_responses() const;
 
