@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cassert>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include "base/index.h"
@@ -37,11 +39,17 @@ double missing_sinking(double u, const Layer& layer) {
   return q * (2.0 * k * q + c + 4.0 * u) / (k * (1.0 + q * q) + c * q);
 }
 
-// Gauss-Legendre points on [0, end], by Newton's method on the Legendre polynomial; the start
-// values are cosines close to its roots.            Abramowitz & Stegun 1964, 25.4.30, 22.16.6
-void gauss_legendre(std::span<double> nodes, std::span<double> weights, double end) {
-  const auto n = static_cast<double>(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+struct GaussPoint {
+  double x = 0.0;        // on [-1, 1]
+  double inverse = 0.0;  // 2 over the weight there
+};
+
+// Gauss-Legendre points by Newton's method on the Legendre polynomial; the start values are cosines
+// close to its roots.                               Abramowitz & Stegun 1964, 25.4.30, 22.16.6
+std::vector<GaussPoint> gauss_points(std::size_t count) {
+  const auto n = static_cast<double>(count);
+  std::vector<GaussPoint> points;
+  for (std::size_t i = 0; i < count; ++i) {
     double x = -std::cos(pi * (static_cast<double>(i) + 0.75) / (n + 0.5));
     double slope = 1.0;
     double change = 1.0;
@@ -56,8 +64,21 @@ void gauss_legendre(std::span<double> nodes, std::span<double> weights, double e
       change = p / slope;
       x -= change;
     }
-    nodes[i] = 0.5 * end * (1.0 + x);
-    weights[i] = end / ((1.0 - x * x) * slope * slope);
+    points.push_back({x, (1.0 - x * x) * slope * slope});
+  }
+  return points;
+}
+
+// The rule on [0, end]. Every number of points is computed once in a process.
+void gauss_legendre(std::span<double> nodes, std::span<double> weights, double end) {
+  static std::mutex looking_up;
+  static std::map<std::size_t, std::vector<GaussPoint>> known;
+  const std::lock_guard lock(looking_up);
+  std::vector<GaussPoint>& points = known[nodes.size()];
+  if (points.empty()) points = gauss_points(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes[i] = 0.5 * end * (1.0 + points[i].x);
+    weights[i] = end / points[i].inverse;
   }
 }
 
@@ -232,10 +253,21 @@ double chebyshev_node(std::size_t i, std::size_t n) {
 void chebyshev_fit(std::span<const double> values, std::span<double> coefficients) {
   assert(values.size() == coefficients.size());
   const auto n = static_cast<double>(values.size());
+  const auto cosine = [](std::size_t k, std::size_t i, double of) {
+    return std::cos(pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / of);
+  };
+  // The cosines of a pressure profile, which every solution fits twice.
+  constexpr std::size_t usual = PressureProfile::terms;
+  static const auto usual_cosines = [&] {
+    std::array<std::array<double, usual>, usual> cosines{};
+    for (std::size_t k = 0; k < usual; ++k)
+      for (std::size_t i = 0; i < usual; ++i) cosines[k][i] = cosine(k, i, usual);
+    return cosines;
+  }();
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
     double sum = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i)
-      sum += values[i] * std::cos(pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / n);
+      sum += values[i] * (values.size() == usual ? usual_cosines[k][i] : cosine(k, i, n));
     coefficients[k] = (k == 0 ? 1.0 : 2.0) / n * sum;
   }
 }

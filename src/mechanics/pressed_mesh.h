@@ -55,6 +55,8 @@ class PressedMesh {
   // EnergyMonitor::imbalance(); nothing where steps keep only the load, without energies.
   [[nodiscard]] std::optional<double> imbalance();
 
+  // Whether steps keep only the load, and displacement() is computed from it on request.
+  [[nodiscard]] bool keeps_load_alone() const { return part_.still.has_value(); }
   // Whether displacement() and inverted() solve equations by iterations, which takes long.
   [[nodiscard]] bool shows_slowly() const;
   // The largest estimated error of equations solved by iterations, in the energy norm; else 0.

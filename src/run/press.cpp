@@ -179,11 +179,12 @@ class Press {
     return true;
   }
 
-  // Where the displacement takes long to compute and does not reach the force, inverted tetrahedra
-  // are looked for only before a picture.
+  // Where the displacement does not reach the force, inverted tetrahedra are looked for only if
+  // there will be pictures of it; where it takes long to compute, only before them.
   [[nodiscard]] bool looks_for_folds(bool last_row) const {
     const auto& output = scene_.scenario.output;
-    return !mesh_->shows_slowly() || (last_row && (output.tissue || output.picture));
+    if (!mesh_->keeps_load_alone()) return true;
+    return (output.tissue || output.picture) && (last_row || !mesh_->shows_slowly());
   }
 
   // Advances to the finger's position after `time` s of the motion, at `now` (s).

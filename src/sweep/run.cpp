@@ -98,6 +98,7 @@ class Runner {
     std::uint32_t number = 0;
     std::optional<scenario::Case> one;
     scene::Scene scene;
+    bool tried = false;
     bool built = false;
   };
 
@@ -189,25 +190,38 @@ class Runner {
         if (made.one && made.one->scenario.meshed())
           nodes += scene::expected_nodes(made.one->scenario.tissue.mesh);
       }
-      run_part(std::span(block).subspan(at, end - at));
+      for (const std::span part = std::span(block).subspan(at, end - at);
+           !stop_.no_more() && std::any_of(part.begin(), part.end(), waits);)
+        run_part(part);
       at = end;
     }
   }
 
-  void run_part(std::span<Made> part) {
+  static bool waits(const Made& made) { return made.one && !made.tried; }
+
+  // Builds cases that have not been tried for a while, at least one per worker, and runs them: rows
+  // must reach the disk long before a job's time is over. Lanes give the same bits in any group.
+  void run_part(std::span<Made> all) {
+    constexpr double longest = 0.3;  // s
     if (shapes_->size() > most_shapes) shapes_ = std::make_unique<scene::SpecimenShapes>();
+    std::vector<Made*> part;
+    for (Made& made : all)
+      if (waits(made)) part.push_back(&made);
+    const Clock::time_point start = Clock::now();
     run::share_out(part.size(), task_.workers, [&](std::size_t i) {
-      Made& made = part[i];
-      if (!made.one || stop_.no_more()) return;
+      Made& made = *part[i];
+      const bool late = i >= as_index(task_.workers) && seconds_since(start) > longest;
+      if (late || stop_.no_more()) return;
+      made.tried = true;
       made.built =
           attempt(made, [&] { made.scene = run::build_scene(*made.one, plan_.family, *shapes_); });
     });
     std::vector<scene::Scene> scenes;
     std::vector<const Made*> of_scene;
-    for (Made& made : part) {
-      if (!made.built) continue;
-      scenes.push_back(std::move(made.scene));
-      of_scene.push_back(&made);
+    for (Made* made : part) {
+      if (!made->built) continue;
+      scenes.push_back(std::move(made->scene));
+      of_scene.push_back(made);
     }
     std::vector<char> ended(scenes.size(), 0);
     const auto keep_record = [&](std::size_t i, const record::CaseRecord& record) {
@@ -224,7 +238,8 @@ class Runner {
     for (std::size_t i = 0; i < scenes.size(); ++i)
       if (ended[i] == 0 && !stop_.no_more())
         attempt(*of_scene[i], [&] { keep_record(i, run::run_case(scenes[i], stop_.end_now)); });
-    for (Made& made : part) made.one.reset();
+    for (Made* made : part)
+      if (made->tried) made->one.reset();
   }
 
   [[nodiscard]] SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record) const {
