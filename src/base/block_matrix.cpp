@@ -80,7 +80,9 @@ PALPATE_ALWAYS void multiply(const BlockMatrix& matrix, const Get& get, const Pu
 PALPATE_ALWAYS void multiply_four(const BlockMatrix& matrix, const double* x, double* y) {
   struct Get {
     const double* x;
-    [[gnu::always_inline]] Four operator()(std::size_t d) const { return load(x + block_lanes * d); }
+    [[gnu::always_inline]] Four operator()(std::size_t d) const {
+      return load(x + block_lanes * d);
+    }
   };
   struct Put {
     double* y;
@@ -91,7 +93,9 @@ PALPATE_ALWAYS void multiply_four(const BlockMatrix& matrix, const double* x, do
   multiply<Four>(matrix, Get{x}, Put{y});
 }
 
-void portable(const BlockMatrix& matrix, const double* x, double* y) { multiply_four(matrix, x, y); }
+void portable(const BlockMatrix& matrix, const double* x, double* y) {
+  multiply_four(matrix, x, y);
+}
 #if defined(__x86_64__)
 __attribute__((target("avx2"))) void avx2(const BlockMatrix& matrix, const double* x, double* y) {
   multiply_four(matrix, x, y);
@@ -208,8 +212,8 @@ SplitMatrix BlockMatrix::split(std::span<const char> held) const {
     if (!fills) local.resizeNonZeros(next);
   }
   if (weights.empty()) return result;
-  result.weights = Eigen::Map<const Eigen::VectorXd>(weights.data(),
-                                                     static_cast<Eigen::Index>(weights.size()));
+  result.weights =
+      Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(3 * changes.size());
   for (int v = 0; v < static_cast<int>(weights.size()); ++v)

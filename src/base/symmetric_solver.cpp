@@ -106,7 +106,8 @@ bool SymmetricSolver::iterate(std::span<const Vector> b, std::span<Vector> x) {
     if (i == most) return false;
     multiply_lanes(matrix_, p_, image_);
     Lanes work{};
-    for_each(size, [&](std::size_t, std::size_t l, std::size_t k) { work[l] += p_[k] * image_[k]; });
+    for_each(size,
+             [&](std::size_t, std::size_t l, std::size_t k) { work[l] += p_[k] * image_[k]; });
     Lanes length{};
     for (std::size_t l = 0; l < block_lanes; ++l) {
       if (done[l]) continue;

@@ -17,9 +17,9 @@ class SymmetricSolver {
  public:
   using Vector = Eigen::VectorXd;
 
-  // Degrees of freedom from which a matrix counts as large. Measured on blocks, time of factors over
-  // that of four solutions: 1.2 at 3000, 8 at 19 000, 70 at 66 000.
-  static constexpr Eigen::Index large = 6000;
+  // Degrees of freedom from which a matrix counts as large. Measured on presses of blocks, time
+  // with factors over that with iterations: 1 at 2000, 4 at 6000, more than 30 at 19 000.
+  static constexpr Eigen::Index large = 3000;
 
   // `tolerance` is the error of a solution at which iterations end, as a fraction of its energy
   // norm.

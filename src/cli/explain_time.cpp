@@ -43,9 +43,9 @@ double literal_step(const std::string& material) {
 std::vector<std::string> explain_time(const scene::Scene& scene) {
   const scene::TimePlan& plan = scene.specimen->plan;
   const Solver& solver = scene.scenario.solver;
-  const double limit =
-      plan.limit ? *plan.limit
-                 : scene::stability_limit(scene.scenario, *scene.specimen, plan.contact);
+  const double limit = plan.limit
+                           ? *plan.limit
+                           : scene::stability_limit(scene.scenario, *scene.specimen, plan.contact);
   std::vector<std::string> lines;
   lines.push_back(std::string("  time         ") + about(solver.integrator).told);
   lines.push_back("  stability    " + limit_word(solver) + milliseconds(limit) +

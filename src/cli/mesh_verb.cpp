@@ -246,7 +246,9 @@ int perform(const Mesh& command, const Arguments&, const Talk& talk) {
     mesh = scene.specimen->mesh;
     report.mesh(mesh, &scene.scenario);
     report.count("springs", as_index(scene.specimen->network.springs()));
-    report.add("stable_step_ms", unit::ms.from_si(scene::stability_limit(scene.scenario, *scene.specimen, scene.specimen->plan.contact)));
+    report.add("stable_step_ms",
+               unit::ms.from_si(scene::stability_limit(scene.scenario, *scene.specimen,
+                                                       scene.specimen->plan.contact)));
   } else {
     if (kind == Kind::surface) {
       mesh = mesh_of_surface(command, talk);

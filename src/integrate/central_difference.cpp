@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/index.h"
-#include "base/symmetric_solver.h"
 #include "tissue/fast_vectors.h"
 
 namespace palpate::integrate {
@@ -60,7 +59,8 @@ void CentralDifference::solve_dashpots(const State& state, double lag) {
     before_ = inverse_.cwiseProduct(right_);
     return;
   }
-  const bool large = right_.size() >= SymmetricSolver::large;
+  constexpr Eigen::Index too_large_to_factor = 9000;
+  const bool large = right_.size() >= too_large_to_factor;
   if (!has_factors_ && !large) factor(state.displacement);
   clear_held(body_->held(), right_);
   if (body_->linear() && !large)

@@ -58,8 +58,8 @@ BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
 Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch) {
   const Vec3 x = patch.axis;
   const Vec3 y = patch.normal.cross(x);
-  const auto beyond = coupling_.beyond(
-      std::array<EnergyCoupling::Press, 3>{{{patch, x}, {patch, y}, {patch, (x + y).normalized()}}});
+  const auto beyond = coupling_.beyond(std::array<EnergyCoupling::Press, 3>{
+      {{patch, x}, {patch, y}, {patch, (x + y).normalized()}}});
   const auto along = [&](std::size_t load) {
     return corrected(beyond[load], least_corrected * 0.15 * shear_compliance_ / patch.a);
   };

@@ -71,7 +71,7 @@ class ContactInertia {
   void damp(double time_step, const Eigen::MatrixXd& known, std::vector<double>& approaches);
 
   const MovingPart* part_;
-  double radiation_;  // m s/N, D of docs/theory.md (75)
+  double radiation_;          // m s/N, D of docs/theory.md (75)
   std::vector<int> pressed_;  // degrees of freedom under the wide patches
   // The first entries belong to the contacts; the rest is spare memory.
   Eigen::VectorXd motion_;            // m, `m` of docs/theory.md (74)

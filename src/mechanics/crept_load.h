@@ -9,8 +9,8 @@
 namespace palpate::mechanics {
 
 // All springs relax by the same function, so that K (1 + sum b_k) u - K sum b_k q_k = L has the
-// solution u = K^-1 J[L], where J[L] is the creep of L, degree of freedom by degree of freedom. With
-// Kelvin-Voigt's dashpots J[L] obeys tau J' + J = L, and in elastic bodies it is L.
+// solution u = K^-1 J[L], where J[L] is the creep of L, degree of freedom by degree of freedom.
+// With Kelvin-Voigt's dashpots J[L] obeys tau J' + J = L, and in elastic bodies it is L.
 //                                                 docs/theory.md, inertia in the contact; (37)
 class CreptLoad {
  public:

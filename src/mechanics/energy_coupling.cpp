@@ -198,7 +198,8 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
   }
   find_tissues(scene);
   homes_.resize(tissues_.size());
-  if (!solver_.prepare(stiffness([](int) { return true; }), held_)) throw MeshError(tissue::not_held);
+  if (!solver_.prepare(stiffness([](int) { return true; }), held_))
+    throw MeshError(tissue::not_held);
 }
 
 // Linear finite elements, whose pressure is partly that of volumes averaged around nodes.
@@ -220,8 +221,7 @@ BlockMatrix EnergyCoupling::stiffness(const Takes& takes) const {
         const Eigen::RowVector3d other = gradients.row(j);
         BlockMatrix::Block& block =
             matrix.at(mesh_.tetrahedra[t][as_index(i)], mesh_.tetrahedra[t][as_index(j)]);
-        block += lame * own * other +
-                 tissue.shear_modulus * other.transpose() * own.transpose();
+        block += lame * own * other + tissue.shear_modulus * other.transpose() * own.transpose();
         block.diagonal().array() += volume * tissue.shear_modulus * products(i, j);
       }
     if (tissue.shared_bulk <= 0.0) continue;
@@ -232,8 +232,8 @@ BlockMatrix EnergyCoupling::stiffness(const Takes& takes) const {
       for (std::size_t k = 0; k < 4; ++k) {
         const int node = mesh_.tetrahedra[t][k];
         const Vec3 change = volume * gradients.row(static_cast<Eigen::Index>(k)).transpose();
-        const auto known =
-            std::find_if(row.begin(), row.end(), [&](const auto& one) { return one.first == node; });
+        const auto known = std::find_if(row.begin(), row.end(),
+                                        [&](const auto& one) { return one.first == node; });
         if (known == row.end())
           row.emplace_back(node, change);
         else
@@ -347,8 +347,8 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
     const int region = region_under(patch.at.triangle);
     const Home& here = home(region);
     Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer, along);
-    Case& one = cases.emplace_back(
-        Case{region, {}, 0.0, Vector::Zero(freedoms), Vector::Zero(freedoms)});
+    Case& one =
+        cases.emplace_back(Case{region, {}, 0.0, Vector::Zero(freedoms), Vector::Zero(freedoms)});
     for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
       const bool supported = held_[3 * n] != 0 || held_[3 * n + 1] != 0 || held_[3 * n + 2] != 0;
       if (!supported && here.other[n] == 0) continue;

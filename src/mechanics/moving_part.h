@@ -63,7 +63,7 @@ struct MovingPart {
   integrate::Vector other_load;   // N, a temporary
   integrate::Vector unloaded;     // m, a temporary
   SymmetricSolver statics;        // of the stiffness at rest, when first needed
-  double time_step = 0.0;  // s
+  double time_step = 0.0;         // s
   // Whether steps are computed in modal coordinates alone, and whether `state` is up to date with
   // them.                                                                    docs/theory.md (41)
   bool in_modes = false;

@@ -68,8 +68,7 @@ class Findings {
     add("young_modulus_kPa", unit::kPa.from_si(table_modulus));
     add("network_young_modulus_kPa", unit::kPa.from_si(modulus));
     add("network_poisson_ratio", specimen.measured.poisson_ratio);
-    if (specimen.plan.limit)
-      add("stable_time_step_ms", unit::ms.from_si(*specimen.plan.limit));
+    if (specimen.plan.limit) add("stable_time_step_ms", unit::ms.from_si(*specimen.plan.limit));
     add("time_step_ms", unit::ms.from_si(specimen.plan.substep));
     add("substeps", static_cast<double>(specimen.plan.substeps));
     add("damping_ratio", damping_ratio(specimen));

@@ -64,9 +64,8 @@ Resolved::Solver resolve_solver(const Scenario& asked, const Rung& rung, const F
   using Integrator = Solver::Integrator;
   const bool drag = asked.tissue.viscosity == tissue::Viscosity::nodal_drag;
   const bool still =
-      rung.meshed() &&
-      (asked.contact.coupling == contact::Coupling::resolved ||
-       (!drag && (!found.inertia_matters || motion_is_for_show(asked))));
+      rung.meshed() && (asked.contact.coupling == contact::Coupling::resolved ||
+                        (!drag && (!found.inertia_matters || motion_is_for_show(asked))));
   return {asked.solver, rung.of, asked.solver.volume.value_or(rung.volume),
           asked.solver.integrator.value_or(still ? Integrator::quasi_static
                                                  : Integrator::central_difference)};

@@ -25,9 +25,9 @@ struct ContactRate {
 struct TimePlan {
   ContactRate contact;
   std::optional<double> limit;  // s, of the stability of the chosen method, if that is explicit
-  double time_step = 0.0;  // s, of the scenario
-  int substeps = 1;        // of a time step
-  double substep = 0.0;    // s, the length of a solver step
+  double time_step = 0.0;       // s, of the scenario
+  int substeps = 1;             // of a time step
+  double substep = 0.0;         // s, the length of a solver step
 
   [[nodiscard]] bool stable() const { return !limit || substep < *limit; }
 };

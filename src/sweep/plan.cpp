@@ -140,7 +140,8 @@ void refuse_many(const scenario::Family& family, const std::string& forecast) {
 
 // Estimates the time from the models' estimates for the first, the middle and the last case.
 std::string forecast(const scenario::Family& family, SweepOrder::Curves curves) {
-  constexpr double bytes = 2400.0;  // per row, about; docs/sweeps.md
+  constexpr double bytes = 2400.0;        // per row, about; docs/sweeps.md
+  constexpr double seconds_a_row = 6e-4;  // to read, check, report and keep a case
   const std::size_t count = family.design.count();
   double seconds = 0.0;
   scene::SpecimenShapes shapes;
@@ -148,7 +149,7 @@ std::string forecast(const scenario::Family& family, SweepOrder::Curves curves) 
     for (const std::size_t i : {std::size_t{0}, count / 2, count - 1}) {
       const scene::Choice choice = scene::choose(scenario::make_case(family, i), shapes);
       if (choice.taken() == nullptr) return {};
-      seconds += choice.taken()->seconds * static_cast<double>(count) / 3.0;
+      seconds += (seconds_a_row + choice.taken()->seconds) * static_cast<double>(count) / 3.0;
     }
   } catch (const InputError&) {  // write_cases() reports invalid cases
     return {};

@@ -109,15 +109,15 @@ LargestPair largest_pair(const std::vector<double>& alpha, const std::vector<dou
   std::vector<double> from_top(size);
   std::vector<double> from_bottom(size);
   for (std::size_t i = 0; i < size; ++i)
-    from_top[i] =
-        high - alpha[i] - (i > 0 ? beta[i - 1] * beta[i - 1] / from_top[i - 1] : 0.0);
+    from_top[i] = high - alpha[i] - (i > 0 ? beta[i - 1] * beta[i - 1] / from_top[i - 1] : 0.0);
   for (std::size_t i = size; i-- > 0;)
     from_bottom[i] =
         high - alpha[i] - (i + 1 < size ? beta[i] * beta[i] / from_bottom[i + 1] : 0.0);
   std::size_t twist = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size; ++i)
-    if (const double gap = std::abs(from_top[i] + from_bottom[i] - (high - alpha[i])); gap < least) {
+    if (const double gap = std::abs(from_top[i] + from_bottom[i] - (high - alpha[i]));
+        gap < least) {
       least = gap;
       twist = i;
     }

@@ -115,8 +115,7 @@ SpringFit fit_springs(const geometry::TetMesh& mesh) {
       for (const int node : edges[e])
         for (std::size_t c = 0; c < target.size(); ++c)
           slope += 0.5 * missing[as_index(node)][c] * powers[e][c];
-      const double change =
-          std::max(least * start[e], y[e] + beyond * slope / (0.5 + pull)) - y[e];
+      const double change = std::max(least * start[e], y[e] + beyond * slope / (0.5 + pull)) - y[e];
       if (change == 0.0) continue;
       y[e] += change;
       add(e, change);

@@ -74,9 +74,10 @@ class PlainStep {
   }
   void factor(const Vector& displacement) {
     std::fill(tension_.begin(), tension_.end(), 0.0);
-    dashpots_ = tissue::tangent(*form_.network, form_.kinematics, displacement, form_.law.time,
-                                tension_).split(held_)
-                    .local;
+    dashpots_ =
+        tissue::tangent(*form_.network, form_.kinematics, displacement, form_.law.time, tension_)
+            .split(held_)
+            .local;
     Eigen::SparseMatrix<double> left = dt_ * dashpots_;
     left.diagonal() += 2.0 * mass_;
     if (!factored_) factors_.analyzePattern(left);

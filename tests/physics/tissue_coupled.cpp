@@ -270,8 +270,9 @@ TEST(Coupled, TangentIsTheSlopeOfTheForce) {
         std::vector<double> tension(network.ends.size());
         tissue::elongations(network, kinematics, place, elongation);
         tissue::tensions(network, elongation, tension);
-        const Eigen::MatrixXd tangent = test::dense(
-            tissue::tangent(network, kinematics, place, 1.0, tension).split(test::nothing_held(network)));
+        const Eigen::MatrixXd tangent =
+            test::dense(tissue::tangent(network, kinematics, place, 1.0, tension)
+                            .split(test::nothing_held(network)));
         const double h = 1e-7;
         for (Eigen::Index d = 0; d < place.size(); d += 7) {
           Vector more = place;

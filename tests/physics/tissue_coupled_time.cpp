@@ -247,9 +247,9 @@ TEST(CoupledInTime, EnergyNeverGrowsUnloaded) {
             tissue::gather_forces(network, kinematics, end, tension, force);
             force += mass.cwiseProduct(end - u - dt * v) / (dt * dt) +
                      drag * mass.cwiseProduct(end - u) / dt;
-            SplitMatrix matrix =
-                tissue::tangent(network, kinematics, end, tissue::effective_slope(law, steps),
-                                tension).split(test::nothing_held(network));
+            SplitMatrix matrix = tissue::tangent(network, kinematics, end,
+                                                 tissue::effective_slope(law, steps), tension)
+                                     .split(test::nothing_held(network));
             for (Eigen::Index d = 0; d < mass.size(); ++d)
               matrix.local.coeffRef(d, d) += mass[d] * (1.0 / (dt * dt) + drag / dt);
             Cholesky factors;

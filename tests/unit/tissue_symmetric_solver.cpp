@@ -58,16 +58,15 @@ TEST(BlockMatrix, MultipliesAsTheSplitMatrixDoes) {
     }
     Vector diagonal = split.local.diagonal();
     if (split.weights.size() > 0)
-      diagonal += (split.shared.transpose() * split.weights.asDiagonal() * split.shared)
-                      .eval()
-                      .diagonal();
+      diagonal +=
+          (split.shared.transpose() * split.weights.asDiagonal() * split.shared).eval().diagonal();
     EXPECT_LT((block.matrix.diagonal() - diagonal).norm(), 1e-13 * diagonal.norm());
   }
 }
 
 TEST(SymmetricSolver, IteratesToTheFactorsSolutionWithinItsStatedError) {
-  for (const auto& [nu, volume] : {std::pair(0.3, tissue::Volume::tetrahedron),
-                                   std::pair(0.49, tissue::Volume::nodal)}) {
+  for (const auto& [nu, volume] :
+       {std::pair(0.3, tissue::Volume::tetrahedron), std::pair(0.49, tissue::Volume::nodal)}) {
     const Body block = body({12, 12, 13}, nu, volume);
     const auto size = static_cast<Eigen::Index>(block.held.size());
     ASSERT_GE(size, SymmetricSolver::large);
