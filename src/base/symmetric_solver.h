@@ -38,11 +38,15 @@ class SymmetricSolver {
     return solve(std::span(&b, 1), std::span(&x, 1));
   }
 
+  [[nodiscard]] double tolerance() const { return tolerance_; }
+  void set_tolerance(double tolerance) { tolerance_ = tolerance; }
+
   // Without supports.
   [[nodiscard]] const BlockMatrix& matrix() const { return matrix_; }
-  // The largest estimated error of any solution so far, a fraction of its energy norm; 0 if the
+  // The largest estimated error of any solution since forget_error(), a fraction of its energy norm; 0 if the
   // matrix was factored.
   [[nodiscard]] double error() const { return error_; }
+  void forget_error() { error_ = 0.0; }
 
  private:
   [[nodiscard]] bool iterate(std::span<const Vector> b, std::span<Vector> x);

@@ -22,7 +22,7 @@ using scenario::Model;
 
 // Meshes that follow their error state about this.
 constexpr double refined_error = 0.004;
-constexpr double most_modal_nodes = 1000.0;    // of the integrator `modal`
+constexpr double most_modal_nodes = 1000.0;    // of `modal` with all modes
 constexpr double most_moments = 20.0;          // of a press without memory
 constexpr double most_moments_in_time = 50.0;  // of a press with viscosity or inertia
 
@@ -343,6 +343,9 @@ std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
                          number_text(std::max(1.0, std::round(interval / step))));
       const auto family = with_settings(asked, variant.of_case, settings);
       scene::Scene scene = run::build_scene(family.cases.front(), family);
+      if (!scene.specimen || scene.specimen->network.nodes() > most_modal_nodes)
+        return std::nullopt;
+      scene.scenario.solver.modes = 3 * scene.specimen->network.nodes();  // all
       scene.scenario.output.keep_rows_only();
       const record::CaseRecord record = run::run_case(scene, stop);
       if (record.outcome != record::Outcome::completed) return std::nullopt;

@@ -20,42 +20,91 @@ double layer_chi(double depth, double radius, double thickness) {
 }
 
 // The factors, continued to negative chi, have their nearest singularities off the real axis, where
-// a is about +-i top layer thicknesses. In t = chi / (top + chi) these are farther from the
-// interval: 24 terms are as accurate as 32 terms in chi. t is scaled so that last_chi is at 1.
-double LayerLaw::place(double chi) const {
-  return (top_ + last_chi_) / last_chi_ * chi / (top_ + chi);
+// a is about +-i top layer thicknesses. In t = x / (top + x), x = chi or a/H, these are farther
+// from the interval: 24 terms are as accurate as 32 terms in chi. t is scaled so that `last` is
+// at 1.
+double LayerLaw::Scale::place(double x) const { return (top + last) / last * x / (top + x); }
+double LayerLaw::Scale::slope(double x) const {
+  return (top + last) / last * top / ((top + x) * (top + x));
 }
-double LayerLaw::place_slope(double chi) const {
-  return (top_ + last_chi_) / last_chi_ * top_ / ((top_ + chi) * (top_ + chi));
+double LayerLaw::Scale::value(double place) const {
+  return top * place / ((top + last) / last - place);
 }
 
-LayerLaw::LayerLaw(const Layer& layer) : top_(layer.top()), last_chi_(std::min(3.0, 12.0 * top_)) {
-  const std::size_t nodes = layer.below.empty() ? 24 : 40;
-  // D > 1/4 even in very thin layers, so that a/H = chi / sqrt(D) stays below 2 last_chi.
-  const LayerEquation equation(layer, layer_resolution(2.0 * last_chi_ / top_));
-  Series force(nodes), radius(nodes);
-  std::array<Series, PressureProfile::terms> pressure;
-  pressure.fill(Series(nodes));
-  force_ = radius_ = force;
-  pressure_ = pressure;
+// D > 1/4 even in very thin layers, so that a/H = chi / sqrt(D) stays below 2 last_chi.
+LayerTable::LayerTable(const Layer& layer)
+    : top_(layer.top()),
+      last_chi_(std::min(3.0, 12.0 * top_)),
+      terms_(layer.below.empty() ? 24 : 40) {
+  const LayerLaw::Scale scale{top_, 2.0 * last_chi_};
+  const LayerEquation equation(layer, layer_resolution(scale.last / top_));
+  const std::size_t nodes = terms_ + 4;  // the interval is longer
   for (std::size_t i = 0; i < nodes; ++i) {
-    const double stretched = chebyshev_node(i, nodes);
-    const double chi = top_ * stretched / ((top_ + last_chi_) / last_chi_ - stretched);
-    const LayerSolution solution = equation.solve_chi(chi);
-    force[i] = (solution.force_factor() - 1.0) / chi;
-    radius[i] = (solution.radius_factor() - 1.0) / chi;
-    for (std::size_t k = 0; k < pressure.size(); ++k)
-      pressure[k][i] = (solution.pressure.coefficients[k] - (k == 0 ? 1.5 : 0.0)) / chi;
+    ratios_.push_back(scale.value(chebyshev_node(i, nodes)));
+    systems_.push_back(equation.system(ratios_.back(), LayerEquation::Wanted::pressure));
   }
-  chebyshev_fit(force, force_);
-  chebyshev_fit(radius, radius_);
-  for (std::size_t k = 0; k < pressure.size(); ++k) chebyshev_fit(pressure[k], pressure_[k]);
+}
+
+LayerLaw::LayerLaw(const Layer& layer) : LayerLaw(LayerTable(layer), layer.share) {}
+
+// First the depth, the force and the pressure over a/H, then the factors over chi.
+LayerLaw::LayerLaw(const LayerTable& table, double share) : scale_{table.top_, table.last_chi_} {
+  constexpr std::size_t profile = PressureProfile::terms;
+  const std::size_t nodes = table.ratios_.size();
+  Series depth(nodes), force(nodes);
+  std::array<Series, profile> pressure;
+  pressure.fill(Series(nodes));
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const LayerSolution solution = table.systems_[i].solve(share);
+    depth[i] = (solution.depth - 1.0) / solution.ratio;
+    force[i] = (solution.force - 1.0) / solution.ratio;
+    for (std::size_t k = 0; k < profile; ++k)
+      pressure[k][i] = (solution.pressure.coefficients[k] - (k == 0 ? 1.5 : 0.0)) / solution.ratio;
+  }
+  const auto fitted = [](const Series& values) {
+    Series series(values.size());
+    chebyshev_fit(values, series);
+    return series;
+  };
+  depth = fitted(depth);
+  force = fitted(force);
+  for (Series& one : pressure) one = fitted(one);
+
+  const Scale of_ratio{scale_.top, 2.0 * scale_.last};
+  Series force_factor(table.terms_), radius_factor(table.terms_);
+  std::array<Series, profile> pressures;
+  pressures.fill(Series(table.terms_));
+  for (std::size_t i = 0; i < table.terms_; ++i) {
+    const double chi = scale_.value(chebyshev_node(i, table.terms_));
+    // chi = a/H sqrt(D) by Newton's method, as LayerEquation::solve_chi() has it.
+    double ratio = chi;
+    double deep = 1.0;  // D
+    for (int pass = 0; pass < 50; ++pass) {
+      const ChebyshevSum sum = chebyshev_sum(depth, of_ratio.place(ratio));
+      deep = 1.0 + ratio * sum.value;
+      const double root = std::sqrt(deep);
+      const double slope =
+          root + 0.5 * ratio / root * (sum.value + ratio * sum.slope * of_ratio.slope(ratio));
+      const double change = (chi - ratio * root) / slope;
+      if (std::abs(change) <= 1e-14 * chi) break;
+      ratio = std::clamp(ratio + change, 0.0, of_ratio.last);
+    }
+    const double at = of_ratio.place(ratio);
+    const double load = 1.0 + ratio * chebyshev_sum(force, at).value;
+    force_factor[i] = (load / (deep * std::sqrt(deep)) - 1.0) / chi;
+    radius_factor[i] = (1.0 / std::sqrt(deep) - 1.0) / chi;
+    for (std::size_t k = 0; k < profile; ++k)
+      pressures[k][i] = ratio / chi * chebyshev_sum(pressure[k], at).value;
+  }
+  force_ = fitted(force_factor);
+  radius_ = fitted(radius_factor);
+  for (std::size_t k = 0; k < profile; ++k) pressure_[k] = fitted(pressures[k]);
 }
 
 LayerLaw::Factor LayerLaw::factor(double chi) const {
   if (!known(chi)) return {.value = unknown, .slope = unknown};
-  const ChebyshevSum sum = chebyshev_sum(force_, place(chi));
-  return {.value = 1.0 + chi * sum.value, .slope = sum.value + chi * sum.slope * place_slope(chi)};
+  const ChebyshevSum sum = chebyshev_sum(force_, scale_.place(chi));
+  return {.value = 1.0 + chi * sum.value, .slope = sum.value + chi * sum.slope * scale_.slope(chi)};
 }
 
 double LayerLaw::force_factor(double chi) const { return factor(chi).value; }
@@ -69,7 +118,7 @@ double LayerLaw::stiffness_factor(double chi) const {
 }
 
 double LayerLaw::radius_factor(double chi) const {
-  return known(chi) ? 1.0 + chi * chebyshev_sum(radius_, place(chi)).value : unknown;
+  return known(chi) ? 1.0 + chi * chebyshev_sum(radius_, scale_.place(chi)).value : unknown;
 }
 
 PressureProfile LayerLaw::pressure(double chi) const {
@@ -79,22 +128,23 @@ PressureProfile LayerLaw::pressure(double chi) const {
     return profile;
   }
   for (std::size_t k = 0; k < pressure_.size(); ++k)
-    profile.coefficients[k] = chi * chebyshev_sum(pressure_[k], place(chi)).value;
+    profile.coefficients[k] = chi * chebyshev_sum(pressure_[k], scale_.place(chi)).value;
   profile.coefficients[0] += 1.5;
   return profile;
 }
 
 std::optional<double> LayerLaw::chi(double load) const {
   if (load <= 0.0) return 0.0;
-  if (!(load <= last_chi_ * last_chi_ * last_chi_ * force_factor(last_chi_))) return std::nullopt;
+  if (!(load <= last_chi() * last_chi() * last_chi() * force_factor(last_chi())))
+    return std::nullopt;
   // If f >= 1, chi is at most load^(1/3), hence below the larger of load^(1/4) and load^(1/2), and
   // Newton's method converges from above on the convex chi^3 f(chi) - load. Over softer layers chi
   // may be larger and the function not convex; then bisection replaces steps out of the bracket.
   const double root = std::sqrt(load);
   const double above = std::max(root, std::sqrt(root));
   double low = 0.0;
-  double high = last_chi_;
-  double chi = std::min(last_chi_, above);
+  double high = last_chi();
+  double chi = std::min(last_chi(), above);
   for (int pass = 0; pass < 60; ++pass) {
     const Factor f = factor(chi);
     const double excess = chi * chi * chi * f.value - load;

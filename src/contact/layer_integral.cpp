@@ -82,17 +82,26 @@ void gauss_legendre(std::span<double> nodes, std::span<double> weights, double e
   }
 }
 
-// Replaces values w(z) of a polynomial at Chebyshev nodes by int_0^1 w(z (1 - tau^2)) dtau there.
-void mean_along_chord(std::span<double> values) {
-  std::array<double, PressureProfile::terms> series{}, tau{}, weights{};
-  chebyshev_fit(values, series);
+// The Chebyshev coefficients of int_0^1 w(z (1 - tau^2)) dtau from the values w(z) of a polynomial
+// at Chebyshev nodes: a linear map, one row per coefficient.
+using ProfileMap = std::array<std::array<double, PressureProfile::terms>, PressureProfile::terms>;
+ProfileMap mean_along_chord() {
+  constexpr std::size_t terms = PressureProfile::terms;
+  ProfileMap map{};
+  std::array<double, terms> tau{}, weights{};
   gauss_legendre(tau, weights, 1.0);  // exact, because the degree in tau is 2 terms - 2
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double z = chebyshev_node(i, values.size());
-    values[i] = 0.0;
-    for (std::size_t j = 0; j < tau.size(); ++j)
-      values[i] += weights[j] * chebyshev_sum(series, z * (1.0 - tau[j] * tau[j])).value;
+  for (std::size_t of = 0; of < terms; ++of) {
+    std::array<double, terms> unit{}, series{}, means{}, coefficients{};
+    unit[of] = 1.0;
+    chebyshev_fit(unit, series);
+    for (std::size_t i = 0; i < terms; ++i)
+      for (std::size_t j = 0; j < terms; ++j)
+        means[i] += weights[j] *
+                    chebyshev_sum(series, chebyshev_node(i, terms) * (1.0 - tau[j] * tau[j])).value;
+    chebyshev_fit(means, coefficients);
+    for (std::size_t k = 0; k < terms; ++k) map[k][of] = coefficients[k];
   }
+  return map;
 }
 
 }  // namespace
@@ -118,20 +127,23 @@ LayerResolution layer_resolution(double greatest_ratio) {
           .waves = 50 + static_cast<int>(std::ceil(10.0 * greatest_ratio))};
 }
 
-LayerEquation::LayerEquation(const Layer& layer, const LayerResolution& resolution) {
+LayerEquation::LayerEquation(const Layer& layer, const LayerResolution& resolution)
+    : share_(layer.share) {
   assert(layer.poisson_ratio > -1.0 && layer.poisson_ratio <= 0.5);
   assert(layer.share >= 0.0 && layer.share <= 1.0);
   assert(resolution.points > 0 && resolution.waves > 0);
   points_.nodes.resize(as_index(resolution.points));
   points_.weights.resize(points_.nodes.size());
   gauss_legendre(points_.nodes, points_.weights, 1.0);
-  for (const LayerWave& wave : layer_waves(layer, resolution.waves)) {
+  Layer whole = layer;
+  whole.share = 1.0;
+  for (const LayerWave& wave : layer_waves(whole, resolution.waves)) {
     waves_.nodes.push_back(wave.number);
     waves_.weights.push_back(2.0 / pi * wave.missing);
   }
 }
 
-LayerSolution LayerEquation::solve(double ratio) const {
+LayerSystem LayerEquation::system(double ratio, Wanted wanted) const {
   assert(ratio >= 0.0);
   const auto n = static_cast<Eigen::Index>(points_.nodes.size());
   const auto m = static_cast<Eigen::Index>(waves_.nodes.size());
@@ -142,64 +154,101 @@ LayerSolution LayerEquation::solve(double ratio) const {
   const VectorXd x = ratio * VectorXd::Map(waves_.nodes.data(), m);
   const VectorXd q = ratio * VectorXd::Map(waves_.weights.data(), m);
   const MatrixXd cosines = (x * s.transpose()).array().cos();
+  LayerSystem system;
+  system.ratio_ = ratio;
+  system.roots_.assign(root.begin(), root.end());
+  system.squares_.resize(as_index(n));
+  VectorXd::Map(system.squares_.data(), n) = s.cwiseAbs2();
 
-  // With sqrt(w) g as the unknown the matrix is symmetric, and positive definite because 1 - M = L
-  // > 0. The solutions g_1 and g_2 for the right-hand sides 1 and s^2 give g = D g_1 - g_2.
-  MatrixXd matrix = MatrixXd::Identity(n, n);
+  // With sqrt(w) g as the unknown the matrix is symmetric.
+  system.matrix_.resize(as_index(n * n));
+  auto matrix = MatrixXd::Map(system.matrix_.data(), n, n);
+  matrix.setZero();
   const auto add_waves = [&](const VectorXd& amounts, double sign) {
     const MatrixXd waved = amounts.cwiseSqrt().asDiagonal() * cosines * root.asDiagonal();
     matrix.selfadjointView<Eigen::Lower>().rankUpdate(waved.transpose(), sign);
   };
-  add_waves(q.cwiseMax(0.0), -1.0);
-  if (q.minCoeff() < 0.0) add_waves((-q).cwiseMax(0.0), 1.0);  // over softer layers, where M < 0
+  add_waves(q.cwiseMax(0.0), 1.0);
+  if (q.minCoeff() < 0.0) add_waves((-q).cwiseMax(0.0), -1.0);  // over softer layers, where M < 0
+
+  // Between the quadrature points
+  //   g_i(s) = 1 or s^2, + sum_k q_k cos(x_k s) v_ki,   v_ki = int_0^1 cos(x_k t) g_i(t) dt
+  //   -g_i'(s) / (2s) = 0 or -1, + 1/2 sum_k q_k x_k v_ki sin(x_k s) / s
+  // of which the sums are needed at the edge s = 1, and the second ones for the pressure.
+  const std::size_t places = wanted == Wanted::pressure ? PressureProfile::terms : 0;
+  MatrixXd sums(static_cast<Eigen::Index>(2 + places), m);
+  sums.row(0) = q.array() * x.array().cos();
+  const VectorXd tilt = 0.5 * q.cwiseProduct(x);
+  const auto slope = [&](double at) {
+    return (tilt.array() * (at * x.array()).sin() / at).matrix();
+  };
+  sums.row(1) = slope(1.0);
+  for (std::size_t i = 0; i < places; ++i)
+    sums.row(static_cast<Eigen::Index>(2 + i)) = slope(std::sqrt(1.0 - chebyshev_node(i, places)));
+  system.sums_.resize(as_index(sums.rows() * n));
+  MatrixXd::Map(system.sums_.data(), sums.rows(), n) = sums * cosines;
+  return system;
+}
+
+LayerSolution LayerSystem::solve(double share) const {
+  const auto n = static_cast<Eigen::Index>(roots_.size());
+  const auto rows = static_cast<Eigen::Index>(sums_.size()) / n;
+  const auto root = VectorXd::Map(roots_.data(), n);
+  // Positive definite because 1 - share M > 0. The solutions g_1 and g_2 for the right-hand sides 1
+  // and s^2 give g = D g_1 - g_2.
+  MatrixXd matrix = -share * MatrixXd::Map(matrix_.data(), n, n);
+  matrix.diagonal().array() += 1.0;
   MatrixXd g(n, 2);
   g.col(0) = root;
-  g.col(1) = root.cwiseProduct(s.cwiseAbs2());
+  g.col(1) = root.cwiseProduct(VectorXd::Map(squares_.data(), n));
   matrix.selfadjointView<Eigen::Lower>().llt().solveInPlace(g);
   g = root.asDiagonal() * g;  // w g from here on
+  const MatrixXd sums = share * (MatrixXd::Map(sums_.data(), rows, n) * g);
 
-  // g(1) = D g_1(1) - g_2(1) = 0 determines D. Between the quadrature points
-  // g_i(s) = 1 or s^2, + sum_k q_k cos(x_k s) v_ki,   v_ki = int_0^1 cos(x_k t) g_i(t) dt
-  const MatrixXd moments = cosines * g;
-  const VectorXd at_edge = q.array() * x.array().cos();
-  const double punch_edge = 1.0 + at_edge.dot(moments.col(0));
-
+  // g(1) = D g_1(1) - g_2(1) = 0 determines D.
+  const double punch_edge = 1.0 + sums(0, 0);
   LayerSolution solution;
-  solution.ratio = ratio;
-  solution.depth = (1.0 + at_edge.dot(moments.col(1))) / punch_edge;
+  solution.ratio = ratio_;
+  solution.depth = (1.0 + sums(0, 1)) / punch_edge;
   solution.punch = g.col(0).sum();
   // F = 2 E* a^3/R int_0^1 g ds
   const double mean = solution.depth * g.col(0).sum() - g.col(1).sum();
   solution.force = 1.5 * mean;
-  solution.chi = ratio * std::sqrt(solution.depth);
+  solution.chi = ratio_ * std::sqrt(solution.depth);
 
-  // -g'(s) / (2s) = 1 + 1/2 sum_k q_k x_k v_k sin(x_k s) / s
-  const VectorXd v = solution.depth * moments.col(0) - moments.col(1);
-  const ArrayXd tilt = 0.5 * q.array() * x.array() * v.array();
-  const auto slope = [&](double at) { return 1.0 + (tilt * (at * x.array()).sin()).sum() / at; };
+  const auto slope = [&](Eigen::Index row) {  // -g'(s) / (2s)
+    return 1.0 + solution.depth * sums(row, 0) - sums(row, 1);
+  };
   // The contact grows by da as if a flat punch of its size were pressed deeper by dh. With G(x) =
   // a^2/R g(x/a) this is dG = dh g_1, and G stays 0 at the edge: dh/da = -G'(a) / g_1(1).
-  solution.chi_slope = slope(1.0) / (punch_edge * std::sqrt(solution.depth));
+  solution.chi_slope = slope(1) / (punch_edge * std::sqrt(solution.depth));
+  if (rows == 2) return solution;
 
   // p(r) = -E*/pi int_r^a G'(x) / sqrt(x^2 - r^2) dx is smooth except for a factor sqrt(z): with
   // x^2/a^2 = 1 - z (1 - tau^2), z = 1 - r^2/a^2, and w(1 - s^2) = -g'(s) / (2s)
   // p(r) = 2 E* a/(pi R) sqrt(z) int_0^1 w(z (1 - tau^2)) dtau,  F/(pi a^2) = 2 E* a/(pi R) `mean`
-  std::array<double, PressureProfile::terms> values{};
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = slope(std::sqrt(1.0 - chebyshev_node(i, values.size()))) / mean;
-  mean_along_chord(values);
-  chebyshev_fit(values, solution.pressure.coefficients);
+  static const ProfileMap profile = mean_along_chord();
+  for (std::size_t k = 0; k < PressureProfile::terms; ++k) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < PressureProfile::terms; ++i)
+      sum += profile[k][i] * slope(static_cast<Eigen::Index>(2 + i));
+    solution.pressure.coefficients[k] = sum / mean;
+  }
   return solution;
 }
 
-LayerSolution LayerEquation::solve_chi(double chi) const {
+LayerSolution LayerEquation::solve(double ratio, Wanted wanted) const {
+  return system(ratio, wanted).solve(share_);
+}
+
+LayerSolution LayerEquation::solve_chi(double chi, Wanted wanted) const {
   // chi grows almost linearly with the ratio (slope 1 on thick layers, 1/2 on thin ones), so that
   // Newton's method needs two to four steps.
-  LayerSolution solution = solve(chi);
+  LayerSolution solution = solve(chi, wanted);
   for (int pass = 0; pass < 20; ++pass) {
     const double change = (chi - solution.chi) / solution.chi_slope;
     if (std::abs(change) <= 1e-14 * chi) break;
-    solution = solve(solution.ratio + change);
+    solution = solve(solution.ratio + change, wanted);
     // The next error is about change^2.
     if (std::abs(change) < 1e-8 * chi) break;
   }

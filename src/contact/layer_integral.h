@@ -64,23 +64,42 @@ struct LayerSolution {
   [[nodiscard]] double radius_factor() const;  // a / sqrt(R h)
 };
 
+// The equation below for one ratio a/H, without the layer's `share`.
+class LayerSystem {
+ public:
+  // The solution for this `share`, 0 to 1; its pressure is Hertz's unless that was wanted.
+  [[nodiscard]] LayerSolution solve(double share) const;
+
+ private:
+  friend class LayerEquation;
+  double ratio_ = 0.0;
+  std::vector<double> roots_, squares_;  // sqrt(w) and s^2 at the quadrature points
+  std::vector<double> matrix_;           // sqrt(w) Q sqrt(w), its lower triangle, by columns
+  std::vector<double> sums_;             // rows that a solution is multiplied with, by columns
+};
+
 // The integral equation of one layer, prepared for any ratio a/H:
 //   g(s) - int_0^1 Q(s,t) g(t) dt = D - s^2,   g(1) = 0,   0 <= s <= 1
 // Hayes and others 1972, J. Biomech. 5, 541-551; docs/theory.md (56), (57). Solved by Nystrom's
 // method; one solution takes a quarter of a millisecond at the resolution of a/H = 6.
 class LayerEquation {
  public:
+  enum class Wanted { force, pressure };  // without the pressure it takes a third of the time
+
   LayerEquation(const Layer& layer, const LayerResolution& resolution);
 
-  [[nodiscard]] LayerSolution solve(double ratio) const;    // ratio = a / H >= 0
-  [[nodiscard]] LayerSolution solve_chi(double chi) const;  // chi >= 0; takes several solutions
+  [[nodiscard]] LayerSystem system(double ratio, Wanted wanted) const;  // ratio = a / H >= 0
+  [[nodiscard]] LayerSolution solve(double ratio, Wanted wanted = Wanted::pressure) const;
+  // chi >= 0; takes several solutions.
+  [[nodiscard]] LayerSolution solve_chi(double chi, Wanted wanted = Wanted::pressure) const;
 
  private:
   struct Rule {
     std::vector<double> nodes, weights;
   };
+  double share_;
   Rule points_;  // s and t over [0, 1]
-  Rule waves_;   // u over [0, 20 H / top]; the weights include 2/pi M(u) `share`
+  Rule waves_;   // u over [0, 20 H / top]; the weights include 2/pi M(u)
 };
 
 // One solution with the resolution that the ratio a/H needs.

@@ -151,7 +151,7 @@ void Spreader::spread(const Patch& patch, Spread& spread) {
     if (other < 0) {
       part = 0.0;
       double off = 1.0;
-      for (int halving = 0; halving < 50; ++halving) {
+      for (int halving = 0; halving < 24; ++halving) {
         const double middle = 0.5 * (part + off);
         const bool on =
             triangle_at(middle * x, middle * y) >= 0 && triangle_at(-middle * x, -middle * y) >= 0;

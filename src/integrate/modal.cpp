@@ -1,28 +1,87 @@
 // Computes the eigenmodes once; a step then multiplies every mode by its exact propagator.
 #include "integrate/modal.h"
 
+#include <Spectra/SymEigsSolver.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "base/error.h"
 #include "base/index.h"
 #include "integrate/mode_loops.h"
+#include "tissue/supports.h"
 
 namespace palpate::integrate {
 
-Modal::Modal(const Body& body) : body_(&body) {
+namespace {
+
+// M^1/2 K^-1 M^1/2 over the free degrees of freedom, as Spectra's Lanczos method asks for it: its
+// largest eigenvalues are 1 / omega^2 of the lowest modes.
+class Softness {
+ public:
+  using Scalar = double;
+
+  Softness(const Vector& mass, const std::vector<Eigen::Index>& free, SymmetricSolver& statics)
+      : free_(&free), statics_(&statics), load_(Vector::Zero(mass.size())) {
+    root_mass_.resize(static_cast<Eigen::Index>(free.size()));
+    for (Eigen::Index i = 0; i < root_mass_.size(); ++i)
+      root_mass_[i] = std::sqrt(mass[free[as_index(i)]]);
+  }
+  [[nodiscard]] Eigen::Index rows() const { return root_mass_.size(); }
+  [[nodiscard]] Eigen::Index cols() const { return root_mass_.size(); }
+  [[nodiscard]] const Vector& root_mass() const { return root_mass_; }
+
+  void perform_op(const double* from, double* to) const {
+    for (Eigen::Index i = 0; i < rows(); ++i) load_[free()[as_index(i)]] = root_mass_[i] * from[i];
+    moved_.resize(0);  // the result must not depend on the vectors before
+    if (!statics_->solve(load_, moved_)) throw MeshError(tissue::not_held);
+    for (Eigen::Index i = 0; i < rows(); ++i) to[i] = root_mass_[i] * moved_[free()[as_index(i)]];
+  }
+
+ private:
+  [[nodiscard]] const std::vector<Eigen::Index>& free() const { return *free_; }
+
+  const std::vector<Eigen::Index>* free_;
+  SymmetricSolver* statics_;
+  Vector root_mass_;  // kg^1/2
+  mutable Vector load_, moved_;
+};
+
+}  // namespace
+
+Modal::Modal(const Body& body, SymmetricSolver* statics) : body_(&body), statics_(statics) {
   const auto held = body.held();
-  for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] == 0) free_.push_back(static_cast<Eigen::Index>(d));
-  const SplitMatrix stiffness = body.stiffness();
+  row_.assign(held.size(), -1);
+  for (std::size_t d = 0; d < held.size(); ++d) {
+    if (held[d] != 0) continue;
+    row_[d] = static_cast<Eigen::Index>(free_.size());
+    free_.push_back(static_cast<Eigen::Index>(d));
+  }
+}
+
+Modal::Modal(const Body& body) : Modal(body, nullptr) { find_all(); }
+
+Modal::Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics)
+    : Modal(body, &statics) {
+  // Lanczos iterations need a basis of at least twice as many vectors as there are modes.
+  if (const auto size = static_cast<Eigen::Index>(free_.size()); 3 * most > size) {
+    find_all();
+    if (most < size) {
+      omega_ = Vector(omega_.head(most));
+      shapes_ = Shapes(shapes_.leftCols(most));
+    }
+  } else {
+    find_lowest(most);
+  }
+}
+
+void Modal::find_all() {
+  const SplitMatrix stiffness = body_->stiffness();
   const auto size = static_cast<Eigen::Index>(free_.size());
   Vector scale(size);
-  row_.assign(held.size(), -1);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    scale[i] = 1.0 / std::sqrt(body.mass()[free_[as_index(i)]]);
-    row_[as_index(free_[as_index(i)])] = i;
-  }
+  for (Eigen::Index i = 0; i < size; ++i)
+    scale[i] = 1.0 / std::sqrt(body_->mass()[free_[as_index(i)]]);
   Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(size, size);
   const auto add = [&](const Eigen::SparseMatrix<double>& matrix) {
     for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
@@ -38,6 +97,38 @@ Modal::Modal(const Body& body) : body_(&body) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposition(scaled);
   omega_ = decomposition.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   shapes_ = scale.asDiagonal() * decomposition.eigenvectors();
+}
+
+void Modal::find_lowest(Eigen::Index count) {
+  constexpr double residual = 1e-9;  // of an eigenvector, as a fraction of its eigenvalue
+  constexpr int restarts = 100;      // fewer than ten were ever needed
+  Softness softness(body_->mass(), free_, *statics_);
+  const double usual = statics_->tolerance();
+  statics_->set_tolerance(residual);
+  Spectra::SymEigsSolver<Softness> lanczos(softness, count, 2 * count + count / 2);
+  lanczos.init();
+  (void)lanczos.compute(Spectra::SortRule::LargestAlge, restarts, residual);
+  statics_->set_tolerance(usual);
+  if (lanczos.info() != Spectra::CompInfo::Successful)
+    throw MeshError("the lowest modes of the mesh were not found; set `solver.modes` lower");
+  omega_ = lanczos.eigenvalues().cwiseInverse().cwiseSqrt();
+  shapes_ = softness.root_mass().cwiseInverse().asDiagonal() * lanczos.eigenvectors();
+}
+
+void Modal::kept(const Vector& load, Vector& moved) const {
+  modal_force(load, force_);
+  amplitudes_ = force_.cwiseQuotient(omega_.cwiseAbs2());
+  moved.setZero(load.size());
+  add_shapes(amplitudes_, moved);
+}
+
+void Modal::dropped(const Vector& load, Vector& moved) const {
+  moved.setZero(load.size());
+  if (keeps_all()) return;
+  Vector of_modes;
+  kept(load, of_modes);
+  if (!statics_->solve(load, moved)) throw MeshError(tissue::not_held);
+  moved -= of_modes;
 }
 
 void Modal::prepare(double time_step) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "base/symmetric_solver.h"
 #include "integrate/body.h"
 
 namespace palpate::integrate {
@@ -12,11 +13,28 @@ namespace palpate::integrate {
 // Has the same interface as Implicit: the displacement at the end of a step is base +
 // response(load). If the load is known in advance, press() and pass() advance the modes alone, and
 // show() computes the displacement when it is needed.                   docs/theory.md (41)
+//
+// Where only the lowest modes are kept, all displacements, velocities and energies here are those
+// of these modes; dropped() is the static displacement of the others.   docs/theory.md (98)
 class Modal {
  public:
-  // Solves K phi = omega^2 M phi for the body at rest by a dense solver, whose time grows with the
-  // cube of the degrees of freedom. The body must be linear and its damping proportional.
+  // Solves K phi = omega^2 M phi for all modes of the body at rest by a dense solver, whose time
+  // grows with the cube of the degrees of freedom. The body must be linear and its damping
+  // proportional.
   explicit Modal(const Body& body);
+  // Keeps the `most` lowest modes (1 or more), found by Lanczos iterations on the inverse of K.
+  // `statics` must be prepared for K and the body's held degrees of freedom, and outlive this.
+  // Throws MeshError if K is not positive definite.
+  Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics);
+
+  [[nodiscard]] bool keeps_all() const {
+    return omega_.size() == static_cast<Eigen::Index>(free_.size());
+  }
+  [[nodiscard]] Eigen::Index modes() const { return omega_.size(); }
+  [[nodiscard]] double highest() const { return omega_[omega_.size() - 1]; }  // 1/s, of those kept
+  // The static displacement (m) under `load` (N) of the modes that are kept, and of the others.
+  void kept(const Vector& load, Vector& moved) const;
+  void dropped(const Vector& load, Vector& moved) const;
 
   // The rule `held` means that the load jumps to its final value at the start of the step.
   void begin(const State& state, double time_step, MemoryRule rule);
@@ -54,6 +72,9 @@ class Modal {
   };
   using Shapes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+  explicit Modal(const Body& body, SymmetricSolver* statics);
+  void find_all();
+  void find_lowest(Eigen::Index count);
   void start(const State& state);
   void prepare(double time_step);
   void modal_force(const Vector& load, Vector& sum) const;
@@ -61,7 +82,8 @@ class Modal {
   void add_shapes(const Vector& amplitudes, Vector& all) const;
 
   const Body* body_;
-  Vector omega_;   // 1/s, the modes' angular frequencies, ascending
+  SymmetricSolver* statics_;  // null if all modes are kept
+  Vector omega_;              // 1/s, the modes' angular frequencies, ascending
   Shapes shapes_;  // columns phi with phi^T M phi = 1, rows of the free degrees of freedom
   std::vector<Eigen::Index> free_;
   std::vector<Eigen::Index> row_;  // of every degree of freedom; -1 where held

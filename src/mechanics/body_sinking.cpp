@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "contact/hertz.h"
 #include "scene/first_touch.h"
+#include "scene/refining_press.h"
+#include "scene/specimen_shape.h"
 
 namespace palpate::mechanics {
 namespace {
@@ -28,37 +31,66 @@ double corrected(const BeyondHalfSpace& beyond, double known) {
 
 BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
                          std::span<const char> held, double deepest)
-    : surface_(&*scene.specimen->surface),
-      coupling_(scene, part, held),
+    : scene_(&scene),
+      part_(&part),
+      held_(held.begin(), held.end()),
+      surface_(&*scene.specimen->surface),
       largest_(widest * contact::hertz::contact_radius(deepest, scene.law().radius)),
+      modulus_(scene.scenario.tissue.young_modulus),
       plane_modulus_(
-          scene.scenario.tissue.young_modulus /
-          (1.0 - scene.scenario.tissue.poisson_ratio * scene.scenario.tissue.poisson_ratio)),
+          1.0 / (1.0 - scene.scenario.tissue.poisson_ratio * scene.scenario.tissue.poisson_ratio)),
       shear_compliance_((2.0 - scene.scenario.tissue.poisson_ratio) * 2.0 *
-                        (1.0 + scene.scenario.tissue.poisson_ratio) /
-                        scene.scenario.tissue.young_modulus),
+                        (1.0 + scene.scenario.tissue.poisson_ratio)),
       rubs_(scene.scenario.contact.friction > 0.0 && !scene.layer &&
             scene.scenario.contact.slip == scenario::Contact::Slip::mindlin &&
             scene.specimen->base == tissue::Base::bonded),
       first_(scene::first_touch(scene).at) {
-  if (!scene.layer) return;
-  const scene::Specimen& specimen = *scene.specimen;
-  std::vector<char> slides(held.begin(), held.end());
+  if (scene.sinkings != nullptr && !scene.scenario.solver.rings) key_ = key();
+}
+
+// All that a Place depends on, except for its vertex and normal.
+std::string BodySinking::key() const {
+  const scenario::Resolved& scenario = scene_->scenario;
+  std::string key = scene::shape_key(scenario);
+  if (scene::refines(scenario)) key += scene::refining_key(scenario);
+  const auto add = [&](double number) { key += " " + number_text(number); };
+  add(scenario.tissue.poisson_ratio);
+  for (const auto& region : scenario.regions) {
+    add(region.young_modulus / modulus_);
+    add(region.poisson_ratio);
+  }
+  add(as_index(scenario.solver.model));
+  add(as_index(scenario.solver.volume));
+  add(scene_->specimen->base == tissue::Base::bonded ? 1.0 : 0.0);
+  add(scene_->layer ? 1.0 : 0.0);
+  add(rubs_ ? 1.0 : 0.0);
+  add(largest_);
+  const Vec3 first = surface_->position(first_);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) add(first[axis]);
+  return key;
+}
+
+void BodySinking::make_couplings() {
+  if (coupling_) return;
+  coupling_.emplace(*scene_, *part_, held_, modulus_);
+  if (!scene_->layer) return;
+  const scene::Specimen& specimen = *scene_->specimen;
+  std::vector<char> slides = held_;
   const double close = 1e-9 * specimen.height();
-  for (std::size_t n = 0; n < part.network.rest.size(); ++n)
+  for (std::size_t n = 0; n < part_->network.rest.size(); ++n)
     for (Eigen::Index axis = 0; axis < 2; ++axis) {
-      const double place = part.network.rest[n][axis];
+      const double place = part_->network.rest[n][axis];
       if (place <= specimen.low[axis] + close || place >= specimen.high[axis] - close)
         slides[3 * n + as_index(axis)] = 1;
     }
-  sliding_.emplace(scene, part, slides);
+  sliding_.emplace(*scene_, *part_, slides, modulus_);
 }
 
 // From loads along two axes and between them. The half-space's own is 3 q / (20 a), q = (2 - nu)/G.
 Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch) {
   const Vec3 x = patch.axis;
   const Vec3 y = patch.normal.cross(x);
-  const auto beyond = coupling_.beyond(std::array<EnergyCoupling::Press, 3>{
+  const auto beyond = coupling_->beyond(std::array<EnergyCoupling::Press, 3>{
       {{patch, x}, {patch, y}, {patch, (x + y).normalized()}}});
   const auto along = [&](std::size_t load) {
     return corrected(beyond[load], least_corrected * 0.15 * shear_compliance_ / patch.a);
@@ -71,6 +103,7 @@ Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch) {
 }
 
 BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
+  make_couplings();
   Place place;
   place.normal = like.normal;
   std::vector<EnergyCoupling::Press> presses(radii, {like, -like.normal});
@@ -78,7 +111,7 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
     presses[k].patch.axis = like.normal.unitOrthogonal();
     presses[k].patch.a = presses[k].patch.b = steps[k] * largest_;
   }
-  std::vector<BeyondHalfSpace> all = coupling_.beyond(presses);
+  std::vector<BeyondHalfSpace> all = coupling_->beyond(presses);
   std::vector<BeyondHalfSpace> sliding;
   if (sliding_) sliding = sliding_->beyond(presses);
   for (std::size_t k = 0; k < radii; ++k) {
@@ -99,7 +132,22 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
     place.boundary[k] = beyond.boundary;
     if (k == 2) place.rest = std::move(beyond.rest);
   }
+  place.solution_error = coupling_->take_solution_error();
+  if (sliding_)
+    place.solution_error = std::max(place.solution_error, sliding_->take_solution_error());
   return place;
+}
+
+// From the store, or evaluated.
+BodySinking::Place BodySinking::place_at(const contact::Patch& like, int vertex) {
+  std::optional<Place> place;
+  if (!key_.empty()) place = scene_->sinkings->find(key_, vertex, like.normal);
+  if (!place) {
+    place = evaluate(like);
+    if (!key_.empty()) scene_->sinkings->keep(key_, vertex, *place);
+  }
+  solution_error_ = std::max(solution_error_, place->solution_error);
+  return std::move(*place);
 }
 
 const BodySinking::Place& BodySinking::at_vertex(const contact::Patch& patch, std::size_t corner) {
@@ -113,7 +161,7 @@ const BodySinking::Place& BodySinking::at_vertex(const contact::Patch& patch, st
   here.at.weights = Vec3::Unit(static_cast<Eigen::Index>(corner));
   here.position = surface_->surface().vertices[as_index(vertex)];
   here.normal = normal;
-  return sides.emplace_back(normal, evaluate(here)).second;
+  return sides.emplace_back(normal, place_at(here, vertex)).second;
 }
 
 // Fills shares_: linear weights of the corners or, in the triangle of the first touch, of that
@@ -136,7 +184,7 @@ void BodySinking::spread(const contact::Patch& patch) {
         here.at = first_;
         here.position = surface_->position(first_);
         here.normal = surface_->normal(first_);
-        at_first_ = evaluate(here);
+        at_first_ = place_at(here, -1);
       }
       shares_[3] = {&*at_first_, part};
     }
@@ -183,10 +231,11 @@ BodySinking::Value BodySinking::at(const contact::Patch& patch) {
   Value value;
   at_radius(patch, [&](const Place& place, std::size_t k, double weight, double product,
                        double slope, double fading) {
-    value.sinking += weight * (product + slope * (1.0 - fading)) * place.sinking[k];
-    value.slope += weight * slope * fading / largest_ * place.sinking[k];
-    value.error += weight * product * place.error[k];
-    value.boundary += weight * product * place.boundary[k];
+    const double sinking = place.sinking[k] / modulus_;
+    value.sinking += weight * (product + slope * (1.0 - fading)) * sinking;
+    value.slope += weight * slope * fading / largest_ * sinking;
+    value.error += weight * product * place.error[k] / modulus_;
+    value.boundary += weight * product * place.boundary[k] / modulus_;
   });
   return value;
 }
@@ -202,14 +251,19 @@ Eigen::Matrix3d BodySinking::shear(const contact::Patch& patch) {
                                           (1.0 + patch.normal.dot(place.normal));
     sum += weight * (product + slope * (1.0 - fading)) * turn * place.shear[k] * turn.transpose();
   });
+  sum /= modulus_;
   return sum;
 }
 
 std::vector<double> BodySinking::errors(const contact::Patch& patch) {
-  std::vector<double> errors = coupling_.beyond(patch, -patch.normal).errors;
-  if (!sliding_) return errors;
-  const std::vector<double> slides = sliding_->beyond(patch, -patch.normal).errors;
-  for (std::size_t t = 0; t < errors.size(); ++t) errors[t] = 0.5 * std::abs(errors[t] - slides[t]);
+  make_couplings();
+  std::vector<double> errors = coupling_->beyond(patch, -patch.normal).errors;
+  if (sliding_) {
+    const std::vector<double> slides = sliding_->beyond(patch, -patch.normal).errors;
+    for (std::size_t t = 0; t < errors.size(); ++t)
+      errors[t] = 0.5 * std::abs(errors[t] - slides[t]);
+  }
+  for (double& error : errors) error /= modulus_;
   return errors;
 }
 
@@ -223,7 +277,7 @@ double BodySinking::rest(const Vec3& normal, const contact::Spread& read,
       if (const int node = nodes[as_index(read.vertices[k])]; node >= 0)
         sum -= weight * read.shares[k] * normal.dot(place->rest.segment<3>(3 * node));
   }
-  return sum;
+  return sum / modulus_;
 }
 
 void BodySinking::make_ready(double reach) {

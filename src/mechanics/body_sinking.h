@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mechanics/energy_coupling.h"
+#include "scene/sinking_store.h"
 
 namespace palpate::mechanics {
 
@@ -39,10 +40,8 @@ class BodySinking {
   // The error of the sinking under a circular patch per tetrahedron of the part, m/N.
   [[nodiscard]] std::vector<double> errors(const contact::Patch& patch);
 
-  // SymmetricSolver::error() of all evaluations so far.
-  [[nodiscard]] double solution_error() const {
-    return std::max(coupling_.solution_error(), sliding_ ? sliding_->solution_error() : 0.0);
-  }
+  // SymmetricSolver::error() of all places so far.
+  [[nodiscard]] double solution_error() const { return solution_error_; }
 
   // The sinking of the rest w under the vertices of `read`, along `normal`, per newton on
   // `pressed`, m/N.
@@ -54,38 +53,41 @@ class BodySinking {
   void make_ready(double reach);
 
  private:
-  static constexpr std::size_t radii = 4;
+  using Place = scene::SunkPlace;
+  static constexpr std::size_t radii = Place::radii;
   // The places of the table in which a radius lies, relative to the largest.
   static constexpr std::array<double, radii> steps{0.2, 0.45, 0.75, 1.0};
-  struct Place {
-    std::array<double, radii> sinking{};         // m/N, s + e
-    std::array<double, radii> error{};           // m/N
-    std::array<double, radii> boundary{};        // m/N
-    std::array<Eigen::Matrix3d, radii> shear{};  // m/N, as shear()
-    Vec3 normal = Vec3::Zero();                  // of the patch
-    integrate::Vector rest;                      // m/N, w for the third radius
-  };
   struct Share {
     const Place* place = nullptr;
     double weight = 0.0;
   };
   template <class Add>
   void at_radius(const contact::Patch& patch, const Add& add);
+  [[nodiscard]] std::string key() const;
+  void make_couplings();
   [[nodiscard]] Eigen::Matrix3d find_shear(const contact::Patch& patch);
   void spread(const contact::Patch& patch);
   [[nodiscard]] Place evaluate(const contact::Patch& like);
+  [[nodiscard]] Place place_at(const contact::Patch& like, int vertex);
   [[nodiscard]] const Place& at_vertex(const contact::Patch& patch, std::size_t corner);
 
+  const scene::Scene* scene_;
+  const tissue::Part* part_;
+  std::vector<char> held_;
   const geometry::SmoothSurface* surface_;
-  EnergyCoupling coupling_;
+  // Made when first needed, of unit modulus.
+  std::optional<EnergyCoupling> coupling_;
   // Where the contact's law is that of flat layers, the mesh gives the effect of the sides alone:
   // half the difference between free sides and these, which only slide.
   std::optional<EnergyCoupling> sliding_;
-  double largest_;                // m, the largest contact radius of the table
-  double plane_modulus_;          // Pa, E / (1 - nu^2) of the tissue
-  double shear_compliance_;       // 1/Pa, (2 - nu) / G of the tissue
+  double largest_;           // m, the largest contact radius of the table
+  double modulus_;           // Pa, E of the tissue
+  double plane_modulus_;     // E' / E = 1 / (1 - nu^2) of the tissue
+  double shear_compliance_;  // (2 - nu) E / G of the tissue
+  double solution_error_ = 0.0;
   bool rubs_;                     // tangential loads are evaluated
   geometry::SurfacePoint first_;  // where the finger touches first
+  std::string key_;               // of the body in scene::SinkingStore, if there is one
   std::optional<Place> at_first_;
   // Per vertex, one place for each smooth side of its creases.
   std::map<int, std::vector<std::pair<Vec3, Place>>> at_vertices_;

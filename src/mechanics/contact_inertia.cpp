@@ -25,7 +25,7 @@ double over_nodes(const MovingPart& part, const contact::Spread& spread, const O
 }  // namespace
 
 ContactInertia::ContactInertia(MovingPart& part)
-    : statics(part, Response::statics),
+    : statics(part, Response::moving_statics),
       response(part, Response::whole_step),
       part_(&part),
       radiation_(scene::radiation_compliance(*part.scene)) {}

@@ -6,10 +6,10 @@
 #include <variant>
 #include <vector>
 
+#include "integrate/crept_load.h"
 #include "mechanics/body_sinking.h"
 #include "mechanics/contact_history.h"
 #include "mechanics/contact_inertia.h"
-#include "mechanics/crept_load.h"
 #include "mechanics/resolved_contact.h"
 #include "mechanics/skin_contacts.h"
 #include "mechanics/solid_contact.h"
@@ -93,6 +93,11 @@ class ConsistentWithInertia : public OnMesh {
   void forget_steps() { inertia_.response.forget(); }
   void make_ready();
 
+  // The load whose static displacement a mesh without inertia would have now, N.
+  [[nodiscard]] const integrate::Vector& crept_load() const {
+    return crept_.load().size() > 0 ? crept_.load() : part->load;
+  }
+
   Consistent statics;
 
  private:
@@ -104,7 +109,7 @@ class ConsistentWithInertia : public OnMesh {
   void set_stage(double duration);
 
   ContactInertia inertia_;
-  CreptLoad crept_;
+  integrate::CreptLoad crept_;
   double stage_ = 0.0;                 // s, from one solution of the contacts to the next
   double slope_ = 1.0;                 // Motion::slope
   integrate::Vector drag_, acting_;    // N, of friction; during the step

@@ -145,7 +145,7 @@ class EnergyCoupling::Loads {
 };
 
 EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& part,
-                               std::span<const char> held)
+                               std::span<const char> held, double unit)
     : skin_(&*scene.specimen->surface),
       held_(held.begin(), held.end()),
       pairs_(part.network.ends),
@@ -196,7 +196,7 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
     }
     around_.push_back(numbers);
   }
-  find_tissues(scene);
+  find_tissues(scene, unit);
   homes_.resize(tissues_.size());
   if (!solver_.prepare(stiffness([](int) { return true; }), held_))
     throw MeshError(tissue::not_held);
@@ -256,9 +256,9 @@ BlockMatrix EnergyCoupling::stiffness(const Takes& takes) const {
   return matrix;
 }
 
-void EnergyCoupling::find_tissues(const scene::Scene& scene) {
+void EnergyCoupling::find_tissues(const scene::Scene& scene, double unit) {
   const auto add = [&](const scenario::Resolved::Substance& substance) {
-    const tissue::Isotropic elastic{substance.young_modulus,
+    const tissue::Isotropic elastic{substance.young_modulus / unit,
                                     std::min(substance.poisson_ratio, scene::most_poisson_ratio)};
     Tissue tissue{.elastic = elastic,
                   .shear_modulus = tissue::shear_modulus(elastic),

@@ -34,8 +34,10 @@ struct BeyondHalfSpace {
 //                                                              docs/theory.md (11)-(12)
 class EnergyCoupling {
  public:
-  // `held` has the supports' flags, one per degree of freedom of the part.
-  EnergyCoupling(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held);
+  // `held` has the supports' flags, one per degree of freedom of the part. All moduli are divided
+  // by `unit` (Pa), so that all results are multiplied by it.
+  EnergyCoupling(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held,
+                 double unit = 1.0);
 
   // A load along the unit vector `along`, against the patch's normal or tangential, over a patch
   // whose semi-axes are both above 0.
@@ -49,8 +51,12 @@ class EnergyCoupling {
   [[nodiscard]] BeyondHalfSpace beyond(const contact::Patch& patch, const Vec3& along,
                                        int finer = 1);
 
-  // SymmetricSolver::error() of its solutions.
-  [[nodiscard]] double solution_error() const { return solver_.error(); }
+  // SymmetricSolver::error() of its solutions since the last call.
+  [[nodiscard]] double take_solution_error() {
+    const double error = solver_.error();
+    solver_.forget_error();
+    return error;
+  }
 
  private:
   // A boundary face of the tissue at the contact, and between it and another tissue.
@@ -82,7 +88,7 @@ class EnergyCoupling {
   };
   class Loads;
 
-  void find_tissues(const scene::Scene& scene);
+  void find_tissues(const scene::Scene& scene, double unit);
   // The stiffness (N/m) of the tetrahedra that `takes` accepts by the number of their region.
   template <class Takes>
   [[nodiscard]] BlockMatrix stiffness(const Takes& takes) const;

@@ -42,7 +42,8 @@ class Influence {
   void ask(const std::vector<int>& freedoms) {
     if (known_.empty()) known_.resize(as_index(part_->freedoms()));
     const auto missing = [&](int freedom) { return known_[as_index(freedom)].size() == 0; };
-    if (response_ != Response::statics || std::none_of(freedoms.begin(), freedoms.end(), missing))
+    if ((response_ != Response::statics && response_ != Response::moving_statics) ||
+        std::none_of(freedoms.begin(), freedoms.end(), missing))
       return;
     std::vector<int> asked;
     std::vector<integrate::Vector> units;
@@ -53,7 +54,7 @@ class Influence {
       }
       if (asked.empty() || (asked.size() < block_lanes && i + 1 < freedoms.size())) continue;
       std::vector<integrate::Vector> moved(asked.size());
-      part_->respond(units, moved);
+      part_->respond(response_, units, moved);
       for (std::size_t k = 0; k < asked.size(); ++k)
         known_[as_index(asked[k])] = std::move(moved[k]);
       asked.clear();

@@ -99,7 +99,7 @@ std::vector<Eigen::Index> MovingPart::take(tissue::Part next) {
     monitor->go_on(*body, state);
   else
     monitor.emplace(*body);
-  stepper.emplace(*scene, *body);
+  stepper.emplace(*scene, *body, &statics);
   if (time_step > 0.0) stepper->set_step(time_step);
   return freedom_before;
 }
@@ -107,7 +107,7 @@ std::vector<Eigen::Index> MovingPart::take(tissue::Part next) {
 void MovingPart::set_step(double size) {
   time_step = size;
   stepper->set_step(size);
-  if (still) still->set_step(size);
+  if (crept) crept->set_step(size);
 }
 
 std::optional<std::string> MovingPart::move(const Touch& touch) {
@@ -117,12 +117,12 @@ std::optional<std::string> MovingPart::move(const Touch& touch) {
       for (int axis = 0; axis < 3; ++axis) modal.press(3 * node + axis, force[axis]);
     });
     modal.pass(state, time_step);
-    shown = false;
-    return std::nullopt;
   }
-  if (still) {
+  if (crept) {
     contact_load(touch, *this, load);
-    still->pass(load);
+    crept->pass(load);
+  }
+  if (in_modes || still) {
     shown = false;
     return std::nullopt;
   }
@@ -135,9 +135,13 @@ std::optional<std::string> MovingPart::move(const Touch& touch) {
 void MovingPart::show() {
   if (shown) return;
   shown = true;
-  if (still) return respond(Response::statics, still->load(), state.displacement);
+  if (still) return respond(Response::statics, crept->load(), state.displacement);
   const auto& modal = std::get<integrate::Modal>(stepper->method());
   modal.show(state);
+  if (crept) {
+    add_dropped(crept->load(), state.displacement);
+    body->memory_at(state.displacement, state.memory);
+  }
   const auto energies = modal.energies();
   monitor->take_over(energies.work, energies.lost, energies.held);
 }
@@ -147,9 +151,9 @@ bool MovingPart::keeps_responses() const {
 }
 
 void MovingPart::respond(Response response, const Vector& given, Vector& moved) {
-  if (response == Response::statics) {
+  if (response == Response::statics || response == Response::moving_statics) {
     moved.setZero(given.size());  // the result must not depend on what was asked before
-    return respond(std::span(&given, 1), std::span(&moved, 1));
+    return respond(response, std::span(&given, 1), std::span(&moved, 1));
   }
   auto* modal = std::get_if<integrate::Modal>(&stepper->method());
   if (modal != nullptr && response == Response::whole_step) {
@@ -168,12 +172,22 @@ void MovingPart::respond(Response response, const Vector& given, Vector& moved) 
       stepper->method());
 }
 
-void MovingPart::respond(std::span<const Vector> loads, std::span<Vector> moved) {
-  const bool positive =
-      (statics.prepared() || statics.prepare(tissue::stiffness_matrix(body->network()),
-                                             {body->held().begin(), body->held().end()})) &&
-      statics.solve(loads, moved);
-  if (!positive) throw MeshError(tissue::not_held);
+void MovingPart::respond(Response response, std::span<const Vector> loads,
+                         std::span<Vector> moved) {
+  const auto* modal = std::get_if<integrate::Modal>(&stepper->method());
+  if (response == Response::moving_statics && modal != nullptr && !modal->keeps_all()) {
+    for (std::size_t k = 0; k < loads.size(); ++k) modal->kept(loads[k], moved[k]);
+    return;
+  }
+  prepare(statics, *body);
+  if (!statics.solve(loads, moved)) throw MeshError(tissue::not_held);
+}
+
+void MovingPart::add_dropped(const Vector& crept_load, Vector& moved) {
+  const auto* modal = std::get_if<integrate::Modal>(&stepper->method());
+  if (modal == nullptr || modal->keeps_all() || crept_load.size() == 0) return;
+  modal->dropped(crept_load, unloaded);
+  moved += unloaded;
 }
 
 void contact_load(const Touch& touch, const MovingPart& part, Vector& load) {

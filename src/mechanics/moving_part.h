@@ -6,17 +6,18 @@
 #include <vector>
 
 #include "base/symmetric_solver.h"
+#include "integrate/crept_load.h"
 #include "mechanics/contacts.h"
-#include "mechanics/crept_load.h"
 #include "mechanics/monitor.h"
 #include "mechanics/stepper.h"
 #include "tissue/part.h"
 
 namespace palpate::mechanics {
 
-// What a response to a load is: in statics; at the end of an implicit or modal step, in which the
+// What a response to a load is: in statics; the part of it that has inertia, which is less where
+// modal steps keep the lowest modes only; at the end of an implicit or modal step, in which the
 // load grows in modal steps; or where it acts during whole modal steps.
-enum class Response { statics, step, whole_step };
+enum class Response { statics, moving_statics, step, whole_step };
 
 // With `solver.rings` only nodes around the contact move; otherwise the part is the whole specimen.
 // Its members refer to each other: a part is neither copied nor moved.
@@ -39,8 +40,11 @@ struct MovingPart {
 
   // The displacement (m) that a load (N) adds.
   void respond(Response response, const integrate::Vector& load, integrate::Vector& moved);
-  // The same in statics for several loads at once.
-  void respond(std::span<const integrate::Vector> loads, std::span<integrate::Vector> moved);
+  // The same for several loads at once, of a response in statics.
+  void respond(Response response, std::span<const integrate::Vector> loads,
+               std::span<integrate::Vector> moved);
+  // Adds the static displacement under `crept_load` (N) of the modes that modal steps do not keep.
+  void add_dropped(const integrate::Vector& crept_load, integrate::Vector& moved);
   // Whether the responses of a step serve all steps of one size.
   [[nodiscard]] bool keeps_responses() const;
 
@@ -64,13 +68,13 @@ struct MovingPart {
   integrate::Vector unloaded;     // m, a temporary
   SymmetricSolver statics;        // of the stiffness at rest, when first needed
   double time_step = 0.0;         // s
-  // Whether steps are computed in modal coordinates alone, and whether `state` is up to date with
-  // them.                                                                    docs/theory.md (41)
+  // How a step moves a linear body on whose motion the forces do not depend: in modal coordinates
+  // alone (41), or, without inertia, by keeping only the load whose static displacement it is.
   bool in_modes = false;
-  // The load whose static displacement is `state`, if steps of a linear body without inertia keep
-  // only this load, because the forces do not depend on the mesh.
-  std::optional<CreptLoad> still;
-  bool shown = true;
+  bool still = false;
+  // This load, if `still`, or if modal steps drop modes that follow it without inertia.
+  std::optional<integrate::CreptLoad> crept;
+  bool shown = true;  // whether `state` is up to date
 };
 
 // The forces of the contacts on the part, N; of their friction alone; and the forces without

@@ -34,16 +34,15 @@ void PressedMesh::set_step(double time_step) {
     std::visit([](auto& coupling) { coupling.forget_steps(); }, coupling_);
   part_.set_step(time_step);
   const scenario::Resolved& scenario = part_.scene->scenario;
-  const auto* modal = std::get_if<integrate::Modal>(&part_.stepper->method());
-  part_.in_modes = modal != nullptr && modal->passes_alone() && forces_follow_finger() &&
-                   !scenario.solver.rings &&
-                   scenario.contact.curvature_on == scenario::Contact::CurvatureOn::rest;
-  const bool still = scenario.solver.integrator == scenario::Solver::Integrator::quasi_static &&
-                     part_.body->linear() && forces_follow_finger() && !scenario.solver.rings &&
+  const bool alone = forces_follow_finger() && !scenario.solver.rings &&
                      scenario.contact.curvature_on == scenario::Contact::CurvatureOn::rest;
-  if (still && !part_.still) {
-    part_.still.emplace(part_.body->law(), integrate::MemoryRule::exact);
-    part_.still->set_step(time_step);
+  const auto* modal = std::get_if<integrate::Modal>(&part_.stepper->method());
+  part_.in_modes = alone && modal != nullptr && modal->passes_alone();
+  part_.still = alone && part_.body->linear() &&
+                scenario.solver.integrator == scenario::Solver::Integrator::quasi_static;
+  if (!part_.crept && (part_.still || (part_.in_modes && !modal->keeps_all()))) {
+    part_.crept.emplace(part_.body->law(), integrate::MemoryRule::exact);
+    part_.crept->set_step(time_step);
   }
 }
 
@@ -162,7 +161,10 @@ const integrate::State& PressedMesh::state() {
 Vector PressedMesh::displacement() {
   part_.show();
   Consistent* consistent = statics();
-  return of_specimen(consistent != nullptr ? consistent->displacement() : part_.state.displacement);
+  Vector moved = consistent != nullptr ? consistent->displacement() : part_.state.displacement;
+  if (const auto* moving = std::get_if<ConsistentWithInertia>(&coupling_))
+    part_.add_dropped(moving->crept_load(), moved);
+  return of_specimen(moved);
 }
 
 std::vector<double> PressedMesh::errors(const SphereContact& contact) {
@@ -192,7 +194,19 @@ std::optional<double> PressedMesh::imbalance() {
 }
 
 bool PressedMesh::shows_slowly() const {
-  return part_.still && part_.freedoms() >= SymmetricSolver::large;
+  return part_.crept && part_.freedoms() >= SymmetricSolver::large;
+}
+
+std::optional<PressedMesh::KeptModes> PressedMesh::kept_modes(const Touch& touch) {
+  const auto* modal = std::get_if<integrate::Modal>(&part_.stepper->method());
+  if (modal == nullptr || modal->keeps_all()) return std::nullopt;
+  KeptModes kept{.count = modal->modes()};
+  if (std::holds_alternative<ConsistentWithInertia>(coupling_) && touch.pressed() > 0.0) {
+    Vector sunk = Vector::Zero(part_.freedoms());
+    part_.add_dropped(part_.load, sunk);
+    kept.dropped_share = sunk.dot(part_.load) / (touch.pressed() * touch.travel);
+  }
+  return kept;
 }
 
 double PressedMesh::solution_error() {

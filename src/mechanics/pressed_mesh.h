@@ -56,11 +56,20 @@ class PressedMesh {
   [[nodiscard]] std::optional<double> imbalance();
 
   // Whether steps keep only the load, and displacement() is computed from it on request.
-  [[nodiscard]] bool keeps_load_alone() const { return part_.still.has_value(); }
+  [[nodiscard]] bool keeps_load_alone() const { return part_.still; }
   // Whether displacement() and inverted() solve equations by iterations, which takes long.
   [[nodiscard]] bool shows_slowly() const;
   // The largest estimated error of equations solved by iterations, in the energy norm; else 0.
   [[nodiscard]] double solution_error();
+
+  // How many modes are kept where modal steps drop others, and what these others sink under the
+  // finger as a fraction of its travel; 0 if the mesh's motion does not reach the force. It follows
+  // without inertia.                                                       docs/theory.md (98)
+  struct KeptModes {
+    Eigen::Index count = 0;
+    double dropped_share = 0.0;
+  };
+  [[nodiscard]] std::optional<KeptModes> kept_modes(const Touch& touch);
 
   [[nodiscard]] const scene::SpringBody& body() const { return *part_.body; }
   [[nodiscard]] const integrate::State& state();

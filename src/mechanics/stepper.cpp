@@ -3,13 +3,16 @@
 
 #include <type_traits>
 
+#include "base/error.h"
 #include "scenario/integrators.h"
+#include "tissue/stiffness.h"
+#include "tissue/supports.h"
 
 namespace palpate::mechanics {
 namespace {
 
 Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& body,
-                            double time_step) {
+                            SymmetricSolver* statics, double time_step) {
   using Integrator = scenario::Solver::Integrator;
   using Inertia = integrate::Implicit::Inertia;
   const scenario::Resolved::Solver& solver = scene.scenario.solver;
@@ -24,15 +27,24 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
     case Integrator::quasi_static: return integrate::Implicit(body, Inertia::none);
     case Integrator::modal: break;
   }
-  return integrate::Modal(body);
+  if (statics == nullptr || !scenario::lowest_modes_serve(scene.scenario))
+    return integrate::Modal(body);
+  prepare(*statics, body);
+  return integrate::Modal(body, solver.modes.value_or(scenario::default_modes), *statics);
 }
 
 }  // namespace
 
+void prepare(SymmetricSolver& statics, const scene::SpringBody& body) {
+  if (!statics.prepared() && !statics.prepare(tissue::stiffness_matrix(body.network()),
+                                              {body.held().begin(), body.held().end()}))
+    throw MeshError(tissue::not_held);
+}
+
 void Stepper::set_step(double time_step) {
   const bool fixed_step = about(scene_->scenario.solver.integrator).explicit_steps;
   if (!method_ || (fixed_step && time_step != time_step_)) {
-    method_.emplace(make_method(*scene_, *body_, time_step));
+    method_.emplace(make_method(*scene_, *body_, statics_, time_step));
     ++beginnings_;
   }
   time_step_ = time_step;

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "base/symmetric_solver.h"
 #include "integrate/central_difference.h"
 #include "integrate/implicit.h"
 #include "integrate/modal.h"
@@ -25,8 +26,11 @@ class Stepper {
   using Method = std::variant<integrate::CentralDifference, integrate::SemiImplicitEuler,
                               integrate::Implicit, integrate::TrBdf2, integrate::Modal>;
 
-  Stepper(const scene::Scene& scene, const scene::SpringBody& body)
-      : scene_(&scene), body_(&body) {}
+  // Modal steps keep all modes unless `statics` is given, which must outlive this and then solves
+  // with the body's stiffness at rest. Both take a solver that is not prepared yet.
+  Stepper(const scene::Scene& scene, const scene::SpringBody& body,
+          SymmetricSolver* statics = nullptr)
+      : scene_(&scene), body_(&body), statics_(statics) {}
 
   // Sets the size of the next steps, s. An explicit method starts afresh if the size changes.
   void set_step(double time_step);
@@ -49,12 +53,17 @@ class Stepper {
  private:
   const scene::Scene* scene_;
   const scene::SpringBody* body_;
+  SymmetricSolver* statics_;
   std::optional<Method> method_;
   double time_step_ = 0.0;
   int beginnings_ = 0;
   integrate::Vector load_;          // N, at the end of the first stage of TR-BDF2
   integrate::Vector displacement_;  // m, of the current linearisation
 };
+
+// Prepares `statics`, if it is not prepared yet, for the stiffness of the body at rest. Throws
+// MeshError if the supports do not hold the body.
+void prepare(SymmetricSolver& statics, const scene::SpringBody& body);
 
 // One step of `method` (Implicit or Modal), or one stage of TrBdf2, that ends under `load` (N).
 // `displacement` is a temporary. Returns a sentence if the equations do not converge.

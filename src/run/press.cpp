@@ -91,6 +91,11 @@ class Press {
       }
       if (!run(motion)) return;
       sideways = motion.end;
+      if (mesh_) {
+        const auto kept = mesh_->kept_modes(touch_);
+        if (kept && (!kept_modes_ || kept->dropped_share > kept_modes_->dropped_share))
+          kept_modes_ = kept;
+      }
       if (scene_.scenario.output.pressure_maps) add_map();
       if (scene_.scenario.output.tissue && mesh_) add_frame();
     }
@@ -99,6 +104,10 @@ class Press {
         record_.findings.push_back({"energy_imbalance", *imbalance});
       if (const double error = mesh_->solution_error(); error > 0.0)
         record_.findings.push_back({"solution_error", error});
+      if (kept_modes_) {
+        record_.findings.push_back({"kept_modes", static_cast<double>(kept_modes_->count)});
+        record_.findings.push_back({"dropped_inertia", kept_modes_->dropped_share});
+      }
     }
     if (mesh_ && scene_.scenario.solver.rings)
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
@@ -312,6 +321,7 @@ class Press {
   double time_ = 0.0;
   int step_ = 1;
   bool on_crease_ = false;
+  std::optional<mechanics::PressedMesh::KeptModes> kept_modes_;
   bool one_sided_ = false;
   bool nearly_conforming_ = false;
 };

@@ -11,6 +11,7 @@
 #include "mechanics/pressed_mesh.h"
 #include "meshing/mesh_check.h"
 #include "meshing/true_boundary.h"
+#include "scenario/integrators.h"
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
 #include "scene/refining_press.h"
@@ -20,7 +21,7 @@ namespace palpate::run {
 namespace {
 
 constexpr char times = 3;               // halvings, for edges of half the length
-constexpr int most_modal_nodes = 1000;  // `modal` takes no more
+constexpr int most_modal_nodes = 1000;  // where `modal` keeps all modes
 constexpr int most_rounds = 20;
 
 // What the mesh costs in the force, and which tetrahedra cost it.
@@ -147,7 +148,8 @@ class Refining {
     trial_.chosen = scene::refining_press(scenario);
     scenario::refinement(trial_.chosen.tissue.mesh).refine = false;
     most_nodes_ = scenario::refinement(*mesh_).most_nodes;
-    if (scenario.solver.integrator == scenario::Solver::Integrator::modal)
+    if (scenario.solver.integrator == scenario::Solver::Integrator::modal &&
+        !scenario::lowest_modes_serve(scenario))
       most_nodes_ = std::min(most_nodes_, most_modal_nodes);
   }
 

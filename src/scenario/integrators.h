@@ -40,13 +40,25 @@ inline constexpr auto integrator_table = std::to_array<IntegratorRow>({
      .order = 2,
      .inertia = false},
     {.word = "modal",
-     .meaning = "exact in time, linear only, up to 1000 nodes",
+     .meaning = "exact in time, linear only",
      .told = "modal coordinates, exact in time"},
 });
 static_assert(is_complete<Solver::Integrator>(integrator_table), "every integrator has its row");
 
 [[nodiscard]] constexpr const IntegratorRow& about(Solver::Integrator integrator) {
   return integrator_table[as_index(integrator)];
+}
+
+// The number of modes that `modal` keeps by default.
+inline constexpr int default_modes = 128;
+
+// Whether modal steps may keep the lowest modes only, because the force takes the statics of the
+// others from elsewhere or does not depend on the mesh's motion.          docs/theory.md (98)
+[[nodiscard]] inline bool lowest_modes_serve(const Resolved& scenario) {
+  const bool at_rest = scenario.contact.coupling == contact::Coupling::one_way ||
+                       scenario.contact.coupling == contact::Coupling::consistent;
+  return !scenario.uniform() && at_rest && !scenario.solver.rings &&
+         scenario.contact.curvature_on == Contact::CurvatureOn::rest;
 }
 
 // The velocity with which damping acts in explicit steps.

@@ -217,6 +217,7 @@ struct PlainSolver {
   std::optional<int> substeps;      // of a time step; empty: as many as are needed
   bool allow_unstable = false;
   std::optional<int> rings;  // of moving nodes; empty: all nodes move
+  std::optional<int> modes;  // kept by `modal`, the lowest; empty: default_modes
 };
 struct Solver : PlainSolver {
   std::optional<Model> model;

@@ -19,7 +19,7 @@
 namespace palpate::scene {
 namespace {
 
-constexpr int most_modal_nodes = 1000;  // the eigenvalue problem takes time with the cube of nodes
+constexpr int most_modal_nodes = 1000;  // finding all modes takes time with the cube of nodes
 
 // k sum_j w_j^2 / m_j (1/s^2) of the contact at a depth (m), as if one sphere pressed with the
 // whole force, and sum_j w_j^2 / m_j (1/kg); of the wide patch if `widest_spacing` (m) is above 0.
@@ -86,15 +86,23 @@ void refuse_unstable(const Scene& scene, const scenario::Family& family) {
                        " here), or `solver.allow_unstable = true` to see it fail");
 }
 
+// Where the force needs the mesh's whole motion, `modal` keeps all modes.
 void refuse_large_modal(const Scene& scene, const scenario::Family& family) {
   const int nodes = scene.specimen->network.nodes();
-  if (scene.scenario.solver.integrator != scenario::Solver::Integrator::modal ||
-      nodes <= most_modal_nodes)
+  const scenario::Resolved::Solver& solver = scene.scenario.solver;
+  if (solver.integrator != scenario::Solver::Integrator::modal ||
+      scenario::lowest_modes_serve(scene.scenario))
     return;
-  throw InputError(place_of(family.document, "solver.integrator"),
-                   "`modal` takes meshes of up to " + std::to_string(most_modal_nodes) +
-                       " nodes, this one has " + std::to_string(nodes) +
-                       "; use fewer cells or another integrator");
+  const std::string why =
+      "`modal` keeps all modes with a platen, with `rings`, with `curvature_on = \"deformed\"` and "
+      "with the couplings that read the mesh's motion";
+  if (solver.modes)
+    throw InputError(place_of(family.document, "solver.modes"), why + "; remove `modes`");
+  if (nodes > most_modal_nodes)
+    throw InputError(place_of(family.document, "solver.integrator"),
+                     why + ", up to " + std::to_string(most_modal_nodes) +
+                         " nodes, and this mesh has " + std::to_string(nodes) +
+                         "; use fewer cells or another integrator");
 }
 
 // The substances of the tissue and of the scenario's regions, in the order of the mesh's numbers.

@@ -160,8 +160,9 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
     found.chi = found.contact_radius / touch.thickness;
     found.thickness =
         found.chi < last_chi
-            ? contact::LayerEquation(layer, contact::layer_resolution(last_chi / layer.top()))
-                      .solve_chi(found.chi)
+            ? contact::LayerEquation(layer,
+                                     contact::layer_resolution(2.0 * found.chi / layer.top()))
+                      .solve_chi(found.chi, contact::LayerEquation::Wanted::force)
                       .force_factor() -
                   1.0
             : infinite;

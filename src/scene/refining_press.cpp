@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "scenario/integrators.h"
 #include "scene/scene.h"
 
 namespace palpate::scene {
@@ -74,7 +75,10 @@ std::string refining_key(const Scenario& scenario) {
   add(press.finger.x.value_or(-1.0));
   add(press.finger.y.value_or(-1.0));
   add(press.solver.tolerance);
-  add(scenario.solver.integrator == scenario::Solver::Integrator::modal ? 1.0 : 0.0);
+  add(scenario.solver.integrator == scenario::Solver::Integrator::modal &&
+              !scenario::lowest_modes_serve(scenario)
+          ? 1.0
+          : 0.0);
   for (const scenario::Step& step : press.steps) {
     if (const auto* indent = std::get_if<scenario::Indent>(&step)) add(indent->to.value);
     if (const auto* slide = std::get_if<scenario::Slide>(&step)) {

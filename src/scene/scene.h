@@ -133,6 +133,8 @@ struct Specimen {
   [[nodiscard]] double height() const { return high.z() - low.z(); }
 };
 
+class SinkingStore;
+
 struct Scene {
   std::string name;
   scenario::Resolved scenario;
@@ -143,6 +145,7 @@ struct Scene {
   std::optional<contact::LayerContact> layer;  // for `layer`, and for `consistent` on flat layers
   std::optional<contact::LayerSinking> layer_sinking;  // around a contact, for maps
   std::unique_ptr<Specimen> specimen;                  // null for `hertz` and `layer`
+  SinkingStore* sinkings = nullptr;  // of cases that share bodies; outlives the scene
 
   // From the top (without a mesh: the touch) to the base, m; infinite for shapes without size.
   [[nodiscard]] double thickness() const;

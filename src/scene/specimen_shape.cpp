@@ -181,7 +181,22 @@ Table cached(std::map<std::vector<double>, Table>& tables, std::mutex& mutex,
 }  // namespace
 
 contact::LayerLaw SpecimenShapes::layer_law(const contact::Layer& layer) {
-  return cached(laws_, looking_up_layer_, layer);
+  if (!layer.below.empty()) return cached(laws_, looking_up_layer_, layer);
+  // Of one layer the table serves every finger and modulus.
+  contact::Layer any = layer;
+  any.share = 1.0;
+  const std::vector<double> key = numbers_of(any);
+  {
+    const std::lock_guard lock(looking_up_layer_);
+    if (const auto known = tables_.find(key); known != tables_.end())
+      return {known->second, layer.share};
+  }
+  contact::LayerTable table(any);
+  contact::LayerLaw law(table, layer.share);
+  const std::lock_guard lock(looking_up_layer_);
+  if (tables_.size() >= most_layers) tables_.clear();
+  tables_.emplace(key, std::move(table));
+  return law;
 }
 
 contact::LayerSinking SpecimenShapes::layer_sinking(const contact::Layer& layer) {

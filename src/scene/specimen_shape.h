@@ -87,7 +87,8 @@ class SpecimenShapes {
   std::map<std::string, FileSurface> surfaces_;  // by path and unit
 
   std::mutex looking_up_layer_;
-  std::map<std::vector<double>, contact::LayerLaw> laws_;  // by all numbers of the layer
+  std::map<std::vector<double>, contact::LayerLaw> laws_;      // of stacks, by all their numbers
+  std::map<std::vector<double>, contact::LayerTable> tables_;  // of one layer, likewise
   std::map<std::vector<double>, contact::LayerSinking> sinkings_;
 };
 

@@ -17,6 +17,7 @@
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
 #include "scene/estimates.h"
+#include "scene/sinking_store.h"
 #include "scene/specimen_shape.h"
 #include "sweep/journal.h"
 
@@ -215,6 +216,7 @@ class Runner {
       made.tried = true;
       made.built =
           attempt(made, [&] { made.scene = run::build_scene(*made.one, plan_.family, *shapes_); });
+      made.scene.sinkings = &sinkings_;
     });
     std::vector<scene::Scene> scenes;
     std::vector<const Made*> of_scene;
@@ -260,6 +262,7 @@ class Runner {
   std::function<std::uint32_t(std::uint32_t)> attempt_;
   std::unique_ptr<record::Journal> journal_;
   std::unique_ptr<scene::SpecimenShapes> shapes_ = std::make_unique<scene::SpecimenShapes>();
+  scene::SinkingStore sinkings_;
   std::mutex writing_;
   std::exception_ptr failure_;
   std::size_t all_ = 0;

@@ -1,6 +1,8 @@
 // Frames in modes alone are the steps that the body is shown at, and keep its account of energy.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "integrate/modal.h"
 #include "jittered_block.h"
 #include "scene/spring_body.h"
@@ -79,6 +81,87 @@ TEST(ModalFramesOf, a_solid_with_branches_go_with_the_body) {
   const tissue::ViscousLaw law{.kind = Viscosity::standard_linear_solid, .branches = {{0.1, 0.5}}};
   const scene::SpringBody body(network, tissue::Kinematics::linear, law, held);
   EXPECT_FALSE(integrate::Modal(body).passes_alone());
+}
+
+// A block of 125 nodes, 300 of whose degrees of freedom are free, with its statics.
+class LowestModes : public testing::Test {
+ protected:
+  LowestModes() {
+    held_.assign(3 * mesh_.nodes.size(), 0);
+    for (std::size_t d = 0; d < held_.size(); ++d) held_[d] = mesh_.nodes[d / 3].z() < 1e-9 ? 1 : 0;
+    body_.emplace(network_, tissue::Kinematics::linear,
+                  tissue::ViscousLaw{.kind = Viscosity::kelvin_voigt, .time = 0.01}, held_);
+    EXPECT_TRUE(statics_.prepare(tissue::stiffness_matrix(network_), held_));
+    load_ = Vector::Zero(3 * network_.nodes());
+    for (Eigen::Index d = 200; d < load_.size(); d += 7) load_[d] = 1e-3 * static_cast<double>(d);
+  }
+
+  geometry::TetMesh mesh_ = test::jittered_block({4, 4, 4});
+  tissue::Network network_ = tissue::make_network(
+      mesh_, std::array{1000.0}, tissue::van_gelder_stiffness(mesh_, std::array{15e3}));
+  std::vector<char> held_;
+  std::optional<scene::SpringBody> body_;
+  SymmetricSolver statics_;
+  Vector load_;
+};
+
+TEST_F(LowestModes, are_those_of_a_dense_solver) {
+  const Eigen::MatrixXd stiffness = Eigen::MatrixXd(body_->stiffness().local);
+  std::vector<double> all;
+  // Held rows are those of the identity; a mass far below any other keeps them out of the lowest.
+  Vector mass = body_->mass();
+  for (std::size_t d = 0; d < held_.size(); ++d)
+    if (held_[d] != 0) mass[static_cast<Eigen::Index>(d)] = 1e-20;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(
+      stiffness, Eigen::MatrixXd(mass.asDiagonal()), Eigen::EigenvaluesOnly);
+  for (const Eigen::Index count : {5, 40, 100, 250}) {
+    const integrate::Modal lowest(*body_, count, statics_);
+    ASSERT_EQ(lowest.modes(), count);
+    EXPECT_FALSE(lowest.keeps_all());
+    const double squared = dense.eigenvalues()[count - 1];
+    EXPECT_NEAR(lowest.highest() * lowest.highest(), squared, 1e-7 * squared);  // Lanczos: 1e-9
+  }
+}
+
+TEST_F(LowestModes, and_the_others_have_exact_statics_together) {
+  const integrate::Modal all(*body_);
+  Vector whole, few, others;
+  all.kept(load_, whole);
+  all.dropped(load_, others);
+  EXPECT_EQ(others.norm(), 0.0);
+  for (const Eigen::Index count : {5, 100}) {
+    const integrate::Modal lowest(*body_, count, statics_);
+    lowest.kept(load_, few);
+    lowest.dropped(load_, others);
+    EXPECT_LT((few + others - whole).norm(), 1e-9 * whole.norm());  // rounding, statics are exact
+    EXPECT_GT(others.norm(), 0.01 * whole.norm());
+  }
+}
+
+TEST_F(LowestModes, move_as_they_do_among_all) {
+  integrate::State rest;
+  rest.displacement = rest.velocity = Vector::Zero(load_.size());
+  rest.memory = body_->memory_at(rest.displacement);
+  integrate::Modal all(*body_);
+  integrate::Modal lowest(*body_, 100, statics_);
+  // A load in the span of the lowest modes moves nothing else: K times what they sink in statics.
+  Vector sunk, image;
+  lowest.kept(load_, sunk);
+  body_->force(sunk, body_->memory_at(sunk), image);
+  for (int step = 0; step < 30; ++step) {
+    for (Eigen::Index d = 0; d < image.size(); ++d) {
+      all.press(d, held_[as_index(d)] != 0 ? 0.0 : image[d]);
+      lowest.press(d, held_[as_index(d)] != 0 ? 0.0 : image[d]);
+    }
+    all.pass(rest, time_step);
+    lowest.pass(rest, time_step);
+  }
+  integrate::State of_all = rest;
+  integrate::State of_few = rest;
+  all.show(of_all);
+  lowest.show(of_few);
+  ASSERT_GT(of_all.displacement.norm(), 0.1 * sunk.norm());
+  EXPECT_LT((of_all.displacement - of_few.displacement).norm(), 1e-6 * sunk.norm());  // Lanczos
 }
 
 }  // namespace

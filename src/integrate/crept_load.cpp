@@ -1,14 +1,12 @@
 // The creep of a load by one scalar recurrence for every degree of freedom.
-#include "mechanics/crept_load.h"
+#include "integrate/crept_load.h"
 
-namespace palpate::mechanics {
-
-using integrate::Vector;
+namespace palpate::integrate {
 
 void CreptLoad::set_step(double time_step) {
   steps_.clear();
   const auto add = [&](double time) {
-    steps_.push_back(rule_ == integrate::MemoryRule::first_order
+    steps_.push_back(rule_ == MemoryRule::first_order
                          ? tissue::MemoryStep::first_order(time_step, time)
                          : tissue::MemoryStep::exact(time_step, time));
   };
@@ -57,4 +55,4 @@ void CreptLoad::renumber(const std::vector<Eigen::Index>& from) {
   for (Vector& one : memory_) turn(one);
 }
 
-}  // namespace palpate::mechanics
+}  // namespace palpate::integrate

@@ -6,7 +6,7 @@
 #include "integrate/body.h"
 #include "tissue/viscous.h"
 
-namespace palpate::mechanics {
+namespace palpate::integrate {
 
 // All springs relax by the same function, so that K (1 + sum b_k) u - K sum b_k q_k = L has the
 // solution u = K^-1 J[L], where J[L] is the creep of L, degree of freedom by degree of freedom.
@@ -15,27 +15,27 @@ namespace palpate::mechanics {
 class CreptLoad {
  public:
   // `rule` is the memory rule of the mesh; any other than `first_order` is taken as `exact`.
-  CreptLoad(const tissue::ViscousLaw& law, integrate::MemoryRule rule) : law_(law), rule_(rule) {}
+  CreptLoad(const tissue::ViscousLaw& law, MemoryRule rule) : law_(law), rule_(rule) {}
 
   // Sets the size of the next steps, s.
   void set_step(double time_step);
 
   // Advances by one step, at the end of which the load is `load` (N).
-  void pass(const integrate::Vector& load);
+  void pass(const Vector& load);
 
   // J[L] at the end of the last step, N; empty before the first one.
-  [[nodiscard]] const integrate::Vector& load() const { return crept_; }
+  [[nodiscard]] const Vector& load() const { return crept_; }
 
   // Renumbers: entry d of the new vectors is entry from[d] of the old ones, or 0 where that is -1.
   void renumber(const std::vector<Eigen::Index>& from);
 
  private:
   tissue::ViscousLaw law_;
-  integrate::MemoryRule rule_;
+  MemoryRule rule_;
   std::vector<tissue::MemoryStep> steps_;
-  integrate::Vector crept_;                // J[L]
-  std::vector<integrate::Vector> memory_;  // N, one per branch; of Kelvin-Voigt the load
-  integrate::Vector right_;                // N
+  Vector crept_;                // J[L]
+  std::vector<Vector> memory_;  // N, one per branch; of Kelvin-Voigt the load
+  Vector right_;                // N
 };
 
-}  // namespace palpate::mechanics
+}  // namespace palpate::integrate

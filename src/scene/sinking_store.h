@@ -1,0 +1,46 @@
+// What bodies of a unit modulus sink under contacts at places of their skin, for cases that share
+// them.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace palpate::scene {
+
+// For contacts of four radii. The moduli of the body are divided by that of the tissue, so that all
+// values are multiplied by its modulus (Pa).                                docs/theory.md (13)
+struct SunkPlace {
+  static constexpr std::size_t radii = 4;
+  std::array<double, radii> sinking{};         // 1/m, s + e
+  std::array<double, radii> error{};           // 1/m, e
+  std::array<double, radii> boundary{};        // 1/m
+  std::array<Eigen::Matrix3d, radii> shear{};  // 1/m, under tangential loads
+  Vec3 normal = Vec3::Zero();                  // of the patch
+  Eigen::VectorXd rest;                        // 1/m, w for the third radius
+  double solution_error = 0.0;                 // SymmetricSolver::error() of these values
+};
+
+// Thread-safe. A place has the same bits whoever computed it.
+class SinkingStore {
+ public:
+  // Of the body with this key at a vertex of its skin (-1: at the first touch), under a patch with
+  // this normal.
+  [[nodiscard]] std::optional<SunkPlace> find(const std::string& body, int vertex,
+                                              const Vec3& normal);
+  // Drops all places before it would take more than 200 MB.
+  void keep(const std::string& body, int vertex, const SunkPlace& place);
+
+ private:
+  std::mutex looking_up_;
+  std::map<std::pair<std::string, int>, std::vector<SunkPlace>> places_;
+  double bytes_ = 0.0;
+};
+
+}  // namespace palpate::scene
