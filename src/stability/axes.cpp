@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "stability/limit_theory.h"
 #include "stability/sampled_wall.h"
 #include "stability/survey.h"
@@ -75,9 +77,17 @@ void along_size(Survey& survey) {
     scenario::Mesh mesh = survey.one->scenario.tissue.mesh;
     if (!resize(mesh, factor) && factor != 1.0) continue;
     if (!survey.go_on("element size")) return;
-    const auto probed = survey.make_body(survey.rung, [&](Scenario& scenario) {
-      if (factor != 1.0) scenario.tissue.mesh = mesh;
-    });
+    std::unique_ptr<ProbedBody> probed;
+    try {
+      probed = survey.make_body(survey.rung, [&](Scenario& scenario) {
+        if (factor != 1.0) scenario.tissue.mesh = mesh;
+      });
+    } catch (const MeshError& error) {
+      if (factor == 1.0) throw;
+      survey.map.sentences.push_back("Elements " + number_text(factor) +
+                                     " times as long were left out: " + error.what() + ".");
+      continue;
+    }
     const auto& lengths = probed->scene.specimen->network.rest_length;
     add_limit(survey, *probed, Method{}, {},
               {.axis = "shortest_edge_mm",

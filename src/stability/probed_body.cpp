@@ -31,9 +31,10 @@ scenario::Case bare(scenario::Case one, scenario::Model model, tissue::Volume vo
 }
 
 std::unique_ptr<ProbedBody> make_probed_body(const scenario::Case& one,
-                                             const scenario::Family& family) {
+                                             const scenario::Family& family,
+                                             scene::SpecimenShapes& shapes) {
   auto probed = std::make_unique<ProbedBody>();
-  probed->scene = run::build_scene(one, family);
+  probed->scene = run::build_scene(one, family, shapes);
   const scene::Specimen& specimen = *probed->scene.specimen;
   probed->elastic = std::make_unique<scene::SpringBody>(
       specimen.network, tissue::Kinematics::linear, tissue::ViscousLaw{}, specimen.held);

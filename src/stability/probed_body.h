@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scene/scene.h"
+#include "scene/specimen_shape.h"
 #include "stability/modes.h"
 
 namespace palpate::stability {
@@ -21,9 +22,10 @@ struct ProbedBody {
 // The case with this model and volume term, linear kinematics, the whole body, and no viscosity.
 [[nodiscard]] scenario::Case bare(scenario::Case one, scenario::Model model, tissue::Volume volume);
 
-// Builds the scene and its highest mode. Throws like scene::build().
+// Builds the scene and its highest mode; `shapes` keeps the mesh. Throws like scene::build().
 [[nodiscard]] std::unique_ptr<ProbedBody> make_probed_body(const scenario::Case& one,
-                                                           const scenario::Family& family);
+                                                           const scenario::Family& family,
+                                                           scene::SpecimenShapes& shapes);
 
 // The scenario's model and volume term, or the model's default term. Coupled springs if the
 // scenario names no model or one without a mesh.

@@ -24,10 +24,10 @@ bool Survey::go_on(const std::string& what) {
 }
 
 std::unique_ptr<ProbedBody> Survey::make_body(
-    const RungOf& on, const std::function<void(scenario::Scenario&)>& change) const {
+    const RungOf& on, const std::function<void(scenario::Scenario&)>& change) {
   scenario::Case changed = bare(*one, on.model, on.volume);
   if (change) change(changed.scenario);
-  return make_probed_body(changed, *family);
+  return make_probed_body(changed, *family, shapes);
 }
 
 void add_limit(Survey& survey, ProbedBody& probed, const Method& method,
@@ -115,6 +115,7 @@ StabilityMap map_stability(const scenario::Case& one, const scenario::Family& fa
   survey.stop = &stop;
   survey.told = &told;
   survey.rung = rung_of(one.scenario);
+  told("mesh", 0.0);
   survey.own = survey.make_body(survey.rung);
   refuse_large(*survey.own, family);
   constexpr int beyond_rungs = 110;  // about the number of measurements on axes and of probes
@@ -125,7 +126,10 @@ StabilityMap map_stability(const scenario::Case& one, const scenario::Family& fa
   probe_time(survey);
   probe_shape(survey);
   probe_touch(survey);
-  if (!survey.map.interrupted) survey.map.sentences = map_sentences(survey);
+  if (!survey.map.interrupted) {
+    std::vector<std::string> sentences = map_sentences(survey);
+    survey.map.sentences.insert(survey.map.sentences.begin(), sentences.begin(), sentences.end());
+  }
   return std::move(survey.map);
 }
 

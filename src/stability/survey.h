@@ -11,6 +11,7 @@ struct Survey {
   const scenario::Family* family = nullptr;
   const std::atomic<bool>* stop = nullptr;
   const Told* told = nullptr;
+  scene::SpecimenShapes shapes;     // of all bodies
   RungOf rung;                      // of the scenario
   std::unique_ptr<ProbedBody> own;  // the scenario's specimen
   StabilityMap map;
@@ -25,7 +26,7 @@ struct Survey {
 
   // The body of the scenario with the model and volume term `on`, after `change`.
   [[nodiscard]] std::unique_ptr<ProbedBody> make_body(
-      const RungOf& on, const std::function<void(scenario::Scenario&)>& change = {}) const;
+      const RungOf& on, const std::function<void(scenario::Scenario&)>& change = {});
 };
 
 struct Setting {

@@ -24,7 +24,8 @@ scenario::Family family_of(const std::string& more = "") {
 }
 
 std::unique_ptr<ProbedBody> small(const RungOf& rung, const scenario::Family& family) {
-  return make_probed_body(bare(family.cases.front(), rung.model, rung.volume), family);
+  scene::SpecimenShapes shapes;
+  return make_probed_body(bare(family.cases.front(), rung.model, rung.volume), family, shapes);
 }
 
 constexpr Viscosity forms[] = {Viscosity::none, Viscosity::nodal_drag, Viscosity::kelvin_voigt,

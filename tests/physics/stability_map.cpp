@@ -115,6 +115,17 @@ TEST(StabilityMap, EndsEarlyWhereItIsTold) {
   EXPECT_TRUE(map.sentences.empty());
 }
 
+// Elements twice as long would need fewer nodes than the surface has.
+TEST(StabilityMap, LeavesOutMeshesThatCannotBeMade) {
+  const scenario::Family family = family_of(
+      "shape = { kind = \"ellipsoid\" }\nmesh = { kind = \"tetgen\", nodes = 60 }\n", press);
+  const StabilityMap map = map_stability(family.cases.front(), family, never, nobody);
+  ASSERT_FALSE(map.interrupted);
+  EXPECT_NE(map.sentences.back().find("times as long were left out: no mesh near"),
+            std::string::npos)
+      << map.sentences.back();
+}
+
 TEST(StabilityMap, RefusesWhatHasNoMeshAndTooLargeOnes) {
   const auto refused = [](const std::string& shape) -> std::string {
     const scenario::Family family = family_of(shape, press);
@@ -136,10 +147,11 @@ TEST(StabilityMap, RefusesWhatHasNoMeshAndTooLargeOnes) {
 // Below its limit a struck body stays bounded, above it grows, far above its numbers break.
 TEST(FreeMotion, Endings) {
   const scenario::Family family = family_of(block, press);
+  scene::SpecimenShapes shapes;
   const auto probed =
       make_probed_body(bare(family.cases.front(), scenario::Solver::Model::coupled_springs,
                             scenario::Solver::Volume::nodal),
-                       family);
+                       family, shapes);
   const FreeMotion motion{
       .scene = &probed->scene, .body = probed->elastic.get(), .mode = probed->highest};
   const double limit = 2.0 / probed->highest.frequency;
