@@ -1,6 +1,6 @@
 // After fork() the guard calls only functions that are async-signal-safe, because other threads of
 // the program may have held locks.
-#include "device/guard_process.h"
+#include "device/stop_guard.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -59,9 +59,10 @@ def blow(arguments, folder, choose):
         with_signal = choose.choice(SIGNALS) if first == "run" else signal.SIGKILL
         pause = choose.choice([None, 0.0, 0.001, 0.005, 0.02, 0.05, 0.2])
         rows = len(states(log))
-        if run.poll() is not None:
+        try:
+            os.kill(run.pid if first == "run" else guard, with_signal)
+        except ProcessLookupError:
             return None
-        os.kill(run.pid if first == "run" else guard, with_signal)
         if pause is not None:
             time.sleep(pause)
             try:

@@ -1,5 +1,5 @@
 // The process that stops the stand when the program cannot: killed, stopped or silent.
-#include "device/guard_process.h"
+#include "device/stop_guard.h"
 
 #include <gtest/gtest.h>
 #include <poll.h>
