@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -52,6 +53,19 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
   }
   count();
   return result(::syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+}
+int open(const char* name, int flags, ...) {
+  va_list more;
+  va_start(more, flags);
+  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
+  va_end(more);
+  if ((flags & (O_CREAT | O_TRUNC)) != 0) count();
+  return result(::syscall(SYS_openat, AT_FDCWD, name, flags, mode));
+}
+// Of a file, not of a stream: those come first.
+ssize_t write(int file, const void* bytes, size_t size) {
+  if (file > STDERR_FILENO) count();
+  return ::syscall(SYS_write, file, bytes, size);
 }
 int rename(const char* from, const char* to) noexcept {
   return renameat2(AT_FDCWD, from, AT_FDCWD, to, 0);

@@ -1,5 +1,5 @@
-// Faults of the file system on purpose: calls that change names are counted, and one of them kills
-// the process; the exchange of two folders can be refused, as some file systems do.
+// Faults of the file system on purpose: calls that change files or names are counted, and one of
+// them kills the process; the exchange of two folders can be refused, as some file systems do.
 #pragma once
 
 namespace palpate::test {
@@ -7,7 +7,9 @@ namespace palpate::test {
 struct FileFaults {
   int kill_before = 0;       // the how-manyth call the process does not survive; 0: it survives all
   bool has_exchange = true;  // whether renameat2() knows RENAME_EXCHANGE
-  int calls = 0;             // so far: rename, renameat2, unlink, unlinkat, rmdir, remove, mkdir
+  // So far: open() of a file to write, write(), rename, renameat2, unlink, unlinkat, rmdir, remove,
+  // mkdir.
+  int calls = 0;
 };
 
 // Of this program. A test program links tests/file_faults.cpp, whose functions come before those of

@@ -79,6 +79,53 @@ std::size_t first_broken_character(std::string_view text) {
   return at;
 }
 
+// Keys of more words, and deeper lists, occur in no document of ours. The parser and what follows
+// it call themselves for every level.
+constexpr int most_levels = 32;
+
+// The offset after the string that begins at `at`.
+std::size_t after_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string three(3, quote);
+  const bool long_one = text.substr(at, 3) == three;
+  for (std::size_t i = at + (long_one ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (long_one ? text.substr(i, 3) == three : text[i] == quote || text[i] == '\n') {
+      return i + (long_one ? 3 : 1);
+    }
+  }
+  return text.size();
+}
+
+// The offset of the first key or value that is nested too deeply, or the text's size.
+std::size_t first_too_deep(std::string_view text) {
+  int brackets = 0;
+  int points = 0;  // in the key or number so far
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      i = after_string(text, i) - 1;
+      continue;
+    }
+    if (c == '#') i = std::min(text.find('\n', i), text.size() - 1);
+    if (c == '[' || c == '{') ++brackets;
+    if (c == ']' || c == '}') brackets = std::max(0, brackets - 1);
+    if (c == '.') ++points;
+    if (c == '#' || c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') points = 0;
+    if (points >= most_levels || brackets > most_levels) return i;
+  }
+  return text.size();
+}
+
+void refuse_too_deep(std::string_view text, const std::string& file) {
+  const std::size_t deep = first_too_deep(text);
+  if (deep < text.size())
+    throw InputError(place_at(text, deep, file),
+                     "this is nested in more than " + std::to_string(most_levels) +
+                         " levels; write it as a key of a table, as `tissue.material`");
+}
+
 }  // namespace
 
 const Member* Node::find(std::string_view key) const {
@@ -135,6 +182,7 @@ Node parse_toml(std::string_view text, const std::string& file) {
   if (trimmed(text).empty())
     throw InputError({file, 1, 1}, "the file is empty; a scenario starts with `schema = 1`");
   refuse_no_text(text, file, "give a TOML file");
+  refuse_too_deep(text, file);
   try {
     const toml::table table = toml::parse(text, file);
     Node root = convert(table, file);
@@ -201,6 +249,7 @@ bool is_toml(const std::string& text) {
 void set_value(Node& root, std::string_view path, Node value, const Place& origin) {
   Node* node = &root;
   Member* last = nullptr;
+  refuse_too_deep(path, origin.file);
   for (const std::string& word : split(path, '.')) {
     Node& parent = *node;
     if (word.empty())
@@ -243,6 +292,8 @@ std::pair<std::string, Node> parse_assignment(const std::string& assignment) {
   const std::string path = trimmed(std::string_view(assignment).substr(0, equals));
   const std::string value = trimmed(std::string_view(assignment).substr(equals + 1));
   Node node;
+  refuse_too_deep(path, "--set");
+  refuse_too_deep(value, "--set " + path);
   try {
     const toml::table table = toml::parse("value = " + value);
     if (table.size() != 1)

@@ -2,6 +2,7 @@
 #include "base/files.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sha2.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -12,8 +13,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <span>
 
 #include "base/error.h"
 #include "base/index.h"
@@ -21,18 +21,91 @@
 
 namespace palpate {
 
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{2} << 30;           // of a file in memory
+constexpr std::size_t most_stream_bytes = std::size_t{256} << 20;  // of a pipe, a device or a line
+constexpr int patience = 10'000;  // ms, for a pipe to which nobody writes
+
+// A file that is read from its start: every read tells an error from the end.
+class Source {
+ public:
+  explicit Source(const std::string& path) : path_(path) {
+    // Without O_NONBLOCK the system would wait for somebody who writes to a pipe.
+    file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    struct stat status {};
+    if (file_ < 0 || ::fstat(file_, &status) != 0) refuse();
+    regular_ = S_ISREG(status.st_mode);
+    if (!regular_ && !S_ISFIFO(status.st_mode) && !S_ISCHR(status.st_mode))
+      refuse("is not a file; give the path of a file");
+    size_ = as_index(std::max<off_t>(status.st_size, 0));
+  }
+  ~Source() { close(); }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  // The number of bytes that were read; 0 at the end.
+  std::size_t read(std::span<char> into) {
+    for (;;) {
+      wait();
+      const ssize_t got = ::read(file_, into.data(), into.size());
+      if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+      if (got < 0) refuse();
+      return as_index(got);
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  // Refuses a file (or a line of it, the `what`) that is too large for the memory.
+  void check_size(std::size_t size, const char* what = "") {
+    const std::size_t most = regular_ && *what == 0 ? most_bytes : most_stream_bytes;
+    if (size > most)
+      refuse(std::string("has ") + what + "more than " + std::to_string(most >> 20) +
+             " MiB, the most that is read; give a smaller file");
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) {
+    close();
+    throw InputError({path_, 0, 0}, why);
+  }
+  [[noreturn]] void refuse() {
+    const int error = errno;
+    refuse(std::string("cannot be read: ") + std::strerror(error) +
+           (error == EIO ? "; copy it from a disk that works" : "; check the path"));
+  }
+  void close() {
+    if (file_ >= 0) ::close(std::exchange(file_, -1));
+  }
+  void wait() {
+    pollfd source{file_, POLLIN, 0};
+    if (regular_ || ::poll(&source, 1, patience) != 0) return;
+    refuse("is no file, and nothing has come from it for 10 s; give the path of a file");
+  }
+
+  const std::string& path_;
+  int file_ = -1;
+  bool regular_ = false;
+  std::size_t size_ = 0;  // bytes, 0 if the system does not know it
+};
+
+}  // namespace
+
 std::string read_text(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0)
-    throw InputError({path, 0, 0},
-                     std::string("cannot be read: ") + std::strerror(errno) + "; check the path");
-  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode) && !S_ISCHR(status.st_mode))
-    throw InputError({path, 0, 0}, "is not a file; give the path of a file");
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  if (!stream) throw InputError({path, 0, 0}, "cannot be read; check its permissions");
-  return content.str();
+  constexpr std::size_t part = 1 << 18;  // bytes
+  Source source(path);
+  source.check_size(source.size());
+  std::string content;
+  content.reserve(source.size() + part);
+  while (true) {
+    const std::size_t before = content.size();
+    content.resize(before + part);
+    const std::size_t got = source.read(std::span(content).subspan(before));
+    content.resize(before + got);
+    source.check_size(content.size());
+    if (got == 0) return content;
+  }
 }
 
 namespace {
@@ -136,15 +209,6 @@ std::string sha256(std::string_view content) {
   return hash.digits();
 }
 
-namespace {
-
-struct Closing {
-  int file;
-  ~Closing() { ::close(file); }
-};
-
-}  // namespace
-
 std::string file_sha256(const std::string& path) {
   Sha256 hash;  // read line by line: a recording of an hour at 1 kHz has a gigabyte
   for_each_line(path, [&](const FileLine& line) {
@@ -156,22 +220,15 @@ std::string file_sha256(const std::string& path) {
 
 void for_each_line(const std::string& path, const std::function<void(const FileLine&)>& see) {
   constexpr std::size_t part = 1 << 20;  // bytes
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const auto refuse = [&] {
-    throw InputError({path, 0, 0},
-                     std::string("cannot be read: ") + std::strerror(errno) + "; check the path");
-  };
-  if (file < 0) refuse();
-  const Closing closing{file};
+  Source source(path);
   std::string held;
   std::size_t begin = 0;   // offset of `held` in the file
   std::size_t looked = 0;  // length of the part of `held` that has no line feed
   while (true) {
     const std::size_t before = held.size();
     held.resize(before + part);
-    const ssize_t got = ::read(file, held.data() + before, part);
-    if (got < 0 && errno != EINTR) refuse();
-    held.resize(before + as_index(std::max<ssize_t>(got, 0)));
+    const std::size_t got = source.read(std::span(held).subspan(before));
+    held.resize(before + got);
     std::size_t at = 0;
     for (std::size_t end = held.find('\n', looked); end != std::string::npos;
          end = held.find('\n', at)) {
@@ -181,6 +238,7 @@ void for_each_line(const std::string& path, const std::function<void(const FileL
     held.erase(0, at);
     begin += at;
     looked = held.size();
+    source.check_size(looked, "a line of ");
     if (got == 0) break;
   }
   if (!held.empty()) see({begin, held, false});

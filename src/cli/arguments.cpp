@@ -229,6 +229,7 @@ void add_options(CLI::App& all, Device& device) {
     return verb;
   };
   add("probe", Device::Act::probe, "Identify the device; nothing moves, no force is sent");
+  add("stop", Device::Act::stop, "Stop a stand, also one that another process moves");
   add("monitor", Device::Act::monitor, "Read samples, and report their rate and gaps")
       ->add_option("--seconds", device.seconds, "Duration, s")
       ->capture_default_str()

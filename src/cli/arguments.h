@@ -149,8 +149,8 @@ struct Export {
   bool force = false;
 };
 struct Device {
-  static constexpr Word word{"device", "Identify a live device, or monitor its samples"};
-  enum class Act { probe, monitor };
+  static constexpr Word word{"device", "Identify, monitor or stop a live device"};
+  enum class Act { probe, monitor, stop };
   Act act = Act::probe;
   std::string link;
   double seconds = 5.0;  // of a monitor

@@ -1,15 +1,18 @@
-// `palpate device`: identifies a device and reports the rate of its samples. Read-only.
+// `palpate device`: identifies a device, reports the rate of its samples, or stops it.
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <variant>
 #include <vector>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "device/health.h"
 #include "device/link.h"
+#include "device/link_text.h"
 
 namespace palpate::cli {
 namespace {
@@ -123,9 +126,25 @@ std::string rate_sentence(const Session& session) {
          std::to_string(health.missing) + " missing";
 }
 
+int stop(const Device& command, const Talk& talk) {
+  if (std::holds_alternative<device::RecordingAddress>(device::parse_link(command.link)))
+    throw InputError({"device stop", 0, 0},
+                     "wants a device, got the recording `" + command.link +
+                         "`; give the link of the stand, as `mark10:/dev/ttyUSB0`");
+  device::Clock clock(device::Clock::Kind::monotonic);
+  device::Link link(command.link, device::Purpose::stop, clock);
+  if (!link.stop())
+    throw LinkError("palpate: `" + command.link +
+                    "`: the stop was sent, and the device did not confirm it; use its own stop");
+  talk.say(command.link + ": the device confirms that it stands still");
+  talk.event("stop", {{"link", command.link}});
+  return exit_good;
+}
+
 }  // namespace
 
 int perform(const Device& command, const Arguments&, const Talk& talk) {
+  if (command.act == Device::Act::stop) return stop(command, talk);
   device::Clock clock(device::Clock::Kind::monotonic);
   const std::atomic<bool>& stop = listen_for_interrupts(exit_interrupted);
   device::Link link(command.link, device::Purpose::look, clock);

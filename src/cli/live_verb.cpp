@@ -79,8 +79,10 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
         "`--device replay:` plays it; remove its folder when you no longer need it");
   const scene::Scene scene = run::build_scene(family.cases.front(), family);
   live::refuse_beyond_device(scene, file, options);
-  // Installed before the link, whose signal handlers are added to these.
-  const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);
+  // Installed before the link, whose signal handlers are added to these. A reader of the messages
+  // that goes away, and a closed terminal, must not end the run where it is.
+  std::signal(SIGPIPE, SIG_IGN);
+  const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted, {SIGHUP});
   live::Live live(scene, options);
   for (const std::string& sentence : live.plan(file)) talk.say(sentence);
   const bool recording = options.link.starts_with("replay:");

@@ -1,6 +1,9 @@
 // Parses the command line, runs the verb, and turns errors into exit codes.
 #include "cli/program.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <exception>
 
 #include "base/error.h"
@@ -16,7 +19,19 @@ std::string program_identity() {
          build.flags;
 }
 
+namespace {
+
+// A stream that is closed at the start would give its number to the next file that is opened, which
+// would then receive the messages: letters that move a stand. Writing to the streams still fails.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDONLY);
+}
+
+}  // namespace
+
 int program(const std::vector<std::string>& given) {
+  occupy_standard_streams();
   try {
     const auto parsed = parse(given);
     if (const auto* answer = std::get_if<Answer>(&parsed)) {

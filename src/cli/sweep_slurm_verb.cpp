@@ -1,4 +1,5 @@
 // `palpate sweep slurm`: writes a job file and prints the command that submits it.
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
@@ -16,10 +17,18 @@ int sweep_slurm(const Sweep& command, const Talk& talk) {
     if (std::string_view("0123456789:-").find(c) == std::string_view::npos)
       throw InputError({}, "`--time` wants a limit as Slurm writes it, got `" + command.time +
                                "`; write `--time 01:00:00`");
+  const std::string folder = fs::canonical(command.subject).string();
+  if (std::any_of(folder.begin(), folder.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte < 0x20 || byte == 0x7f;
+      }))
+    throw InputError({}, "`" + folder +
+                             "` has a control character in its name, which a job file "
+                             "cannot hold; rename the folder");
   const auto chunk = as_index(command.chunk);
   const sweep::SlurmJob job{.name = plan.family.name,
                             .program = fs::read_symlink("/proc/self/exe").string(),
-                            .folder = fs::canonical(command.subject).string(),
+                            .folder = folder,
                             .tasks = (plan.count() + chunk - 1) / chunk,
                             .time = command.time};
   fs::create_directories(fs::path(job.folder) / "logs");

@@ -7,22 +7,46 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace palpate::cli {
+namespace {
+
+// Names in messages come from files, and a terminal obeys control characters: they are shown as
+// `\x1b`. In UTF-8 those from 0x80 to 0x9f follow a byte 0xc2.
+std::string shown(const std::string& text) {
+  std::string safe;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    const bool second_set = byte == 0xc2 && next >= 0x80 && next <= 0x9f;
+    const bool control = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f;
+    if (control || second_set)
+      safe += "\\x" + hex_text(second_set ? next : byte);
+    else
+      safe += text[i];
+    if (second_set) ++i;
+  }
+  return safe;
+}
+
+}  // namespace
 
 Talk::Talk(const Manner& manner) : manner_(manner), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void Talk::say(const std::string& sentence) const {
-  if (!manner_.quiet) std::fprintf(stderr, "%s\n", sentence.c_str());
+  if (!manner_.quiet) std::fprintf(stderr, "%s\n", shown(sentence).c_str());
 }
 
 void Talk::warn(const std::string& sentence) const { say("warning: " + sentence); }
 
-void Talk::error(const std::string& sentence) { std::fprintf(stderr, "%s\n", sentence.c_str()); }
+void Talk::error(const std::string& sentence) {
+  std::fprintf(stderr, "%s\n", shown(sentence).c_str());
+}
 
 void Talk::progress(const std::string& line) const {
   if (!shows_progress()) return;
-  std::fprintf(stderr, "\r\033[K%s", line.c_str());
+  std::fprintf(stderr, "\r\033[K%s", shown(line).c_str());
   std::fflush(stderr);
 }
 
@@ -42,7 +66,8 @@ std::string bar(std::size_t done, std::size_t all) {
          std::to_string(done) + "/" + std::to_string(all);
 }
 
-void print(const std::string& data) {
+void print(const std::string& text) {
+  const std::string data = ::isatty(STDOUT_FILENO) == 1 ? shown(text) : text;
   if (std::fwrite(data.data(), 1, data.size(), stdout) != data.size() || std::fflush(stdout) != 0)
     throw SystemError("stdout cannot be written");
 }

@@ -20,9 +20,15 @@ constexpr double stop_time = 0.02;     // s
 constexpr double reply_time = 0.02;    // s, after which a reply counts as lost
 // After a pause without messages the arm is idle for one or two replies. More mean a brake.
 constexpr int most_idle = 3;  // replies
-// Limits per frame; further events wait for the next frame. An event has some 200 bytes.
-constexpr int most_events = 16;
-constexpr std::size_t most_event_bytes = 16384;
+// Limits per frame. A service that sends more could hide a fault, or hold the frame for ever: its
+// link is lost. One message is answered by one reply, so that only a few can be on their way.
+constexpr int most_replies = 32;
+// Further events wait for the next frame, but not for more than some ten frames: a service sends a
+// few events a second, and none that sends 8 a frame is waited for. An event has some 200 bytes.
+constexpr int most_events = 64;
+constexpr std::size_t most_event_bytes = 65536;
+constexpr int usual_events = 8;
+constexpr int most_surplus = 512;
 
 }  // namespace
 
@@ -114,7 +120,9 @@ void Inverse3::greet() {
     }
   }
   if (socket_.closed()) throw LinkError("palpate: " + socket_.why_closed());
-  if (gone_)
+  if (gone_ == Fault::flooded)
+    throw LinkError("palpate: the service sends more than can be read; restart it");
+  if (gone_ != Fault::none)
     throw LinkError("palpate: the service says that the arm " + identity_.id +
                     " was disconnected; connect it again");
   if (traffic_.events.counts[as_index(Event::busy)] > 0)
@@ -155,8 +163,11 @@ bool Inverse3::send(const Vec3& force) {
 
 // Messages that arrive without a request are counted as duplicates.
 void Inverse3::pass_over_duplicates() {
-  while (!awaiting_ && socket_.receive(0.0).outcome == WebSocket::Outcome::message)
+  for (int replies = 0; !awaiting_ && gone_ == Fault::none; ++replies) {
+    if (socket_.receive(0.0).outcome != WebSocket::Outcome::message) return;
     ++traffic_.duplicates;
+    if (replies == most_replies) gone_ = Fault::flooded;
+  }
 }
 
 Sample Inverse3::read(const WebSocket::Received& message) {
@@ -186,6 +197,7 @@ Sample Inverse3::read(const WebSocket::Received& message) {
 
 void Inverse3::hear_events() {
   std::size_t bytes = 0;
+  surplus_ = std::max(0, surplus_ - usual_events);
   for (int i = 0; i < most_events && bytes < most_event_bytes; ++i) {
     if (traffic_.events.port != Events::Port::heard) return;
     const auto message = events_->glance();
@@ -193,6 +205,7 @@ void Inverse3::hear_events() {
     if (message.outcome != WebSocket::Outcome::message) return;
     bytes += message.text.size();
     obey(inverse3::parse_event(message.text, identity_.id));
+    if (++surplus_ > most_surplus) gone_ = Fault::flooded;
   }
 }
 
@@ -201,14 +214,14 @@ void Inverse3::obey(Event event) {
   ++traffic_.events.counts[as_index(event)];
   if (event == Event::brake) braked_ = true;
   if (event == Event::released) braked_ = false;
-  if (event == Event::disconnected) gone_ = true;
+  if (event == Event::disconnected) gone_ = Fault::hung_up;
   if (const Fault fault = fault_of(event); fault != Fault::none) told_ = fault;
 }
 
 Sample Inverse3::sample(double wait) {
   Sample sample = exchange(wait);
   hear_events();
-  if (gone_) return finished(Arrival::lost, Fault::hung_up);
+  if (gone_ != Fault::none) return finished(Arrival::lost, gone_);
   if (told_ != Fault::none) {
     sample.fault = told_;
     told_ = Fault::none;
@@ -226,7 +239,7 @@ Sample Inverse3::exchange(double wait) {
   }
   Sample newest = finished(Arrival::none, Fault::none);
   bool any = false;
-  while (true) {
+  for (int replies = 0; gone_ == Fault::none; ++replies) {
     const auto message = socket_.receive(any ? 0.0 : until);
     if (message.outcome == WebSocket::Outcome::closed && !any)
       return finished(Arrival::lost, Fault::hung_up);
@@ -235,6 +248,7 @@ Sample Inverse3::exchange(double wait) {
     if (any) ++traffic_.duplicates;
     ++traffic_.received;
     awaiting_ = false;
+    if (replies == most_replies) gone_ = Fault::flooded;
     // Keeps the newest fresh reply, or the last reply if none is fresh.
     if (one.arrival == Arrival::fresh || newest.arrival != Arrival::fresh) newest = one;
     any = true;

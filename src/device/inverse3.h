@@ -68,7 +68,8 @@ class Inverse3 {
   int idle_replies_ = 0;        // idle replies in a row
   Fault told_ = Fault::none;    // of an event, to be returned with the next sample
   bool braked_ = false;         // according to the last brake event
-  bool gone_ = false;           // a `disconnected` event has come
+  Fault gone_ = Fault::none;    // why the link is lost, while the socket is open
+  int surplus_ = 0;             // events beyond the usual number of all frames so far
   std::optional<Sample> last_;  // the last fresh sample
   Traffic traffic_;
 };

@@ -12,7 +12,9 @@ constexpr double sample_time = 0.05;      // s, after which a reading is request
 constexpr double into_channel = 15e-3;    // s, pause after `/`, as in the published driver LabKit
 constexpr double out_of_channel = 10e-3;  // s, pause after `\`
 constexpr double planned_period = 0.02;   // s: 50 Hz, as LabKit polls
+constexpr double longest_wait = 0.2 * GuardProcess::silence;  // s
 constexpr std::size_t diagnosis_bytes = 400;
+constexpr int most_reads = 64;  // of 256 bytes: twice what a line at 115200 baud carries in 0.7 s
 // ESM303 data sheet: 0.5 to 1100 mm/min. They cannot be requested: `j` and `k` select them.
 constexpr double slowest = 0.5e-3 / 60.0;     // m/s
 constexpr double fastest = 1100.0e-3 / 60.0;  // m/s
@@ -25,7 +27,11 @@ void pause(double time) {
 }  // namespace
 
 Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
-    : clock_(clock), path_(port), purpose_(purpose), port_(port, mark10::baud) {
+    : clock_(clock),
+      path_(port),
+      purpose_(purpose),
+      port_(port, mark10::baud,
+            purpose == Purpose::stop ? SerialPort::Use::shared : SerialPort::Use::alone) {
   port_.tap(tap);
   identity_.kind = Kind::stand;
   limits_.measures_force = true;
@@ -35,8 +41,17 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
   limits_.stale_after = 3.0 * planned_period;
   limits_.lost_after = 0.25;
   first_bytes_.reserve(diagnosis_bytes);
+  if (purpose_ == Purpose::stop) {
+    send("\\s");  // the channel to the gauge may be open
+    return;
+  }
   if (purpose_ == Purpose::command) {
+    process_ = std::make_unique<GuardProcess>(
+        port_.descriptor(), clock_.kind() == Clock::Kind::monotonic ? GuardProcess::Heed::silence
+                                                                    : GuardProcess::Heed::end_only);
     guard_ = std::make_unique<StopGuard>(port_.descriptor(), "s");
+    StopGuard::watch_child(process_->id());
+    signals_ = StopGuard::signals_passed();
     send("s");
   }
   greet();
@@ -57,11 +72,16 @@ double Mark10::patience(double time) const {
   return clock_.kind() == Clock::Kind::stepped ? std::max(time, lockstep) : time;
 }
 
-bool Mark10::send(std::string_view bytes) { return port_.write(bytes); }
+bool Mark10::send(std::string_view bytes) {
+  if (process_) process_->beat();
+  return port_.write(bytes);
+}
 
+// Waits for at most a part of the time after which the guard process takes this one for dead.
 void Mark10::receive(double until) {
   std::array<char, 256> bytes;
-  const auto read = port_.read(bytes, until);
+  if (process_) process_->beat();
+  const auto read = port_.read(bytes, std::min(until, wire_time() + longest_wait));
   if (read.outcome != SerialPort::Outcome::bytes) return;
   heard_ = true;
   const std::string_view got(bytes.data(), read.size);
@@ -72,7 +92,7 @@ void Mark10::receive(double until) {
 
 void Mark10::drain() {
   std::array<char, 256> bytes;
-  while (true) {
+  for (int reads = 0; reads < most_reads; ++reads) {
     const auto read = port_.read(bytes, 0.0);
     if (read.outcome != SerialPort::Outcome::bytes) break;
     if (greeting_ && first_bytes_.size() < diagnosis_bytes)
@@ -174,7 +194,25 @@ Sample Mark10::accept(const mark10::Pair& pair) {
   return sample;
 }
 
+bool Mark10::was_stopped() {
+  const unsigned before = signals_;
+  signals_ = StopGuard::signals_passed();
+  const bool acted = process_->has_acted();
+  return acted || signals_ != before;
+}
+
 Sample Mark10::sample(double wait) {
+  Sample sample = read_sample(wait);
+  if (!process_) return sample;
+  if (sample.arrival != Arrival::lost && !process_->alive()) {
+    send("s");
+    return finished(Arrival::lost, Fault::unguarded);
+  }
+  if (was_stopped() && sample.fault == Fault::none) sample.fault = Fault::guarded;
+  return sample;
+}
+
+Sample Mark10::read_sample(double wait) {
   if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
   const double until = wire_time() + std::max(0.0, wait);
   if (!asked_) {
@@ -264,6 +302,7 @@ Fault Mark10::move(const Motion& motion) {
   if (motion.act == Motion::Act::stop) return stop() ? Fault::none : Fault::not_verified;
   if (purpose_ != Purpose::command || !limits_verified_) return Fault::refused;
   if (port_.lost()) return Fault::hung_up;
+  if (!process_->alive()) return Fault::unguarded;
   if (!(motion.speed >= limits_.slowest) || !(motion.speed <= limits_.speed)) return Fault::refused;
   const auto speed = mark10::speed_command(motion.speed);
   if (!speed) return Fault::refused;
@@ -277,11 +316,18 @@ Fault Mark10::move(const Motion& motion) {
   const auto read_back = mark10::metres_per_second(*got);
   if (!read_back || std::abs(*read_back - motion.speed) > 0.51 * mark10::speed_step)
     return Fault::not_verified;
+  process_->watch(true);
   return send(motion.act == Motion::Act::down ? "d" : "u") ? Fault::none : Fault::hung_up;
 }
 
 bool Mark10::stop() {
-  if (purpose_ != Purpose::command) return true;  // such a link cannot start a motion
+  if (purpose_ == Purpose::look) return true;  // such a link cannot start a motion
+  const bool stopped = confirm_stop();
+  if (stopped && process_) process_->watch(false);
+  return stopped;
+}
+
+bool Mark10::confirm_stop() {
   // The stand brakes from its highest speed in about 0.1 s.
   const double until = wire_time() + patience(stop_time);
   do {
@@ -289,15 +335,16 @@ bool Mark10::stop() {
     const auto status = ask_status();
     if (status && status->moving == mark10::Status::Moving::stopped) return true;
     if (status && clock_.kind() == Clock::Kind::monotonic) pause(planned_period);
+    if (process_) process_->beat();
   } while (wire_time() < until && !port_.lost());
   // Without a clear status, two equal readings of the travel count as a stop. They cannot detect
   // slow motion: at its lowest speed the stand moves by 0.02 mm, its resolution, in 2.4 s.
-  return !port_.lost() && stands_still();
+  return !port_.lost() && stands_still(2.0 * planned_period);
 }
 
-bool Mark10::stands_still() {
+bool Mark10::stands_still(double time) {
   const auto first = ask_number("x");
-  pause(2.0 * planned_period);
+  pause(time);
   const auto second = ask_number("x");
   return first && second && first->value == second->value && first->unit == second->unit;
 }

@@ -20,8 +20,9 @@ class Tap;
 class Mark10 {
  public:
   // Opens the port, ends the gauge's automatic output, and reads identity and settings. With
-  // Purpose::command it also stops the stand and sets N and mm. Takes about 0.3 s. Throws LinkError
-  // with a diagnosis. `clock` and `tap` must outlive the link.
+  // Purpose::command it also stops the stand, sets N and mm, and starts a guard process. Takes
+  // about 0.3 s. With Purpose::stop it only sends a stop, also on a port that another palpate
+  // holds. Throws LinkError with a diagnosis. `clock` and `tap` must outlive the link.
   Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap = nullptr);
   ~Mark10();
   Mark10(const Mark10&) = delete;
@@ -30,7 +31,9 @@ class Mark10 {
   [[nodiscard]] const Identity& identity() const { return identity_; }
   [[nodiscard]] const Limits& limits() const { return limits_; }
 
-  // Requests force and travel unless a request is pending, and waits at most `wait` s for them.
+  // Requests force and travel unless a request is pending, and waits at most `wait` s for them. The
+  // fault `guarded` says that the stand was stopped since the last sample by the guard process or
+  // before a signal; `unguarded`, with which the link is lost, that the guard process has died.
   [[nodiscard]] Sample sample(double wait);
 
   // Switches to limit mode, writes travel limits (m, low < high) into the stand, reads them back.
@@ -57,6 +60,8 @@ class Mark10 {
   void ask_stand_limits();
   [[noreturn]] void refuse_silence() const;
 
+  Sample read_sample(double wait);
+  bool was_stopped();
   void pass_time();
   [[nodiscard]] double patience(double time) const;
   bool send(std::string_view bytes);
@@ -70,7 +75,9 @@ class Mark10 {
   std::optional<mark10::Status> ask_status();
   std::optional<mark10::Quantity> ask_number(std::string_view command);
   std::optional<mark10::Settings> ask_settings();
-  bool stands_still();
+  bool confirm_stop();
+  // Whether two readings of the travel, `time` s apart, are equal.
+  bool stands_still(double time);
   Fault compare_limits(double low, double high);
   Sample accept(const mark10::Pair& pair);
   [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
@@ -81,7 +88,10 @@ class Mark10 {
   std::string path_;
   Purpose purpose_;
   SerialPort port_;
-  std::unique_ptr<StopGuard> guard_;  // declared after the port: it writes before the port closes
+  // Both are declared after the port, because they write before the port closes.
+  std::unique_ptr<GuardProcess> process_;
+  std::unique_ptr<StopGuard> guard_;
+  unsigned signals_ = 0;  // StopGuard::signals_passed() at the last sample
   mark10::LineBuffer lines_;
   mark10::PairReader pairs_;
   Identity identity_;

@@ -9,6 +9,7 @@ namespace palpate::device {
 namespace {
 
 constexpr double mute_time = 0.03;  // s, to wait for an error after a setter, which has no reply
+constexpr double still_time = 0.1;  // s, in which a stand at 12 mm/min moves by its resolution
 
 // At most 40 bytes for a message, with a point for each byte that cannot be printed.
 std::string printable(std::string_view bytes) {
@@ -107,6 +108,17 @@ void Mark10::ask_stand_limits() {
   const bool high = read("v", limits_.high, length);
   const bool low = read("w", limits_.low, length);
   if (!high || !low) identity_.notes.push_back("the stand does not report its travel limits");
+  // The status of a stand that moves between its limits may be read in two ways (`DL`).
+  const auto status = ask_status();
+  if (!status) return;
+  using Moving = mark10::Status::Moving;
+  const Moving moving = status->moving;
+  if (moving == Moving::stopped || (moving == Moving::unknown && stands_still(still_time))) return;
+  identity_.notes.push_back(std::string("the stand is moving") +
+                            (moving == Moving::up     ? " up"
+                             : moving == Moving::down ? " down"
+                                                      : "") +
+                            "; `palpate device stop mark10:" + path_ + "` stops it");
 }
 
 void Mark10::refuse_silence() const {

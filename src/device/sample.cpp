@@ -23,6 +23,9 @@ std::string_view fault_text(Fault fault) {
     case Fault::hung_up: return "the device hung up";
     case Fault::silent: return "the device fell silent";
     case Fault::recording_ended: return "the recording has ended";
+    case Fault::guarded: return "the stand was stopped, because the program stood still";
+    case Fault::unguarded: return "the process that guards the stand has ended";
+    case Fault::flooded: return "the device sends more than can be read";
   }
   return "unknown";
 }

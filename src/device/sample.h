@@ -13,8 +13,9 @@
 
 namespace palpate::device {
 
-// With `look` nothing moves, no force except zero is sent, and no unit is changed.
-enum class Purpose { look, command };
+// With `look` nothing moves, no force except zero is sent, and no unit is changed; with `stop` a
+// stand is told to stop as well, and nothing else.
+enum class Purpose { look, command, stop };
 
 enum class Kind { stand, arm, recording };
 
@@ -47,8 +48,11 @@ enum class Fault : std::uint8_t {
   hung_up,          // unplugged, closed or reset
   silent,           // no reply within the time allowed
   recording_ended,  // the end of a replayed file
+  guarded,          // the stand was stopped by its guard process, or before a signal
+  unguarded,        // the guard process of a stand has ended
+  flooded,          // more came in one frame than can be read in it
 };
-inline constexpr std::size_t fault_kinds = as_index(Fault::recording_ended) + 1;
+inline constexpr std::size_t fault_kinds = as_index(Fault::flooded) + 1;
 [[nodiscard]] std::string_view fault_text(Fault fault);  // a clause: "the device hung up"
 
 // Position and velocity of a stand are along z, upwards; those of an arm are in its coordinates.

@@ -14,6 +14,7 @@
 #include <climits>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <utility>
 
 #include "base/error.h"
@@ -56,9 +57,13 @@ speed_t speed_of(int baud) {
   }
 }
 
+// The guard process of a run that was killed holds the port for half a second.
+constexpr double held_time = 1.0;  // s, for which a port that is held is asked for again
+constexpr timespec held_pause{.tv_sec = 0, .tv_nsec = 10'000'000};
+
 // Opens and locks the lock file of a device. Its name is that of the resolved path, so that a
 // symbolic link and its target have the same lock.
-int lock_for(const std::string& path) {
+int lock_for(const std::string& path, double until) {
   char real[PATH_MAX];
   std::string name = ::realpath(path.c_str(), real) != nullptr ? real : path;
   for (char& c : name)
@@ -67,7 +72,11 @@ int lock_for(const std::string& path) {
     const std::string file = std::string(folder) + "/palpate" + name + ".lock";
     const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (lock < 0) continue;
-    if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+    while (true) {
+      if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+      if (errno != EWOULDBLOCK || wire_time() > until) break;
+      ::nanosleep(&held_pause, nullptr);
+    }
     const int error = errno;
     ::close(lock);
     if (error == EWOULDBLOCK) refuse(path, "is held by another palpate; end that one first");
@@ -77,18 +86,22 @@ int lock_for(const std::string& path) {
 
 }  // namespace
 
-SerialPort::SerialPort(const std::string& path, int baud) {
-  file_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+SerialPort::SerialPort(const std::string& path, int baud, Use use) : use_(use) {
+  const double until = wire_time() + held_time;
+  do {
+    file_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  } while (file_ < 0 && errno == EBUSY && wire_time() < until &&
+           ::nanosleep(&held_pause, nullptr) == 0);
   if (file_ < 0) refuse_open(path, errno);
   try {
     if (::isatty(file_) != 1)
       refuse(path, "is no serial line; give that of the device, such as `/dev/ttyUSB0`");
-    lock_ = lock_for(path);
+    if (use == Use::alone) lock_ = lock_for(path, until);
   } catch (...) {
     ::close(file_);
     throw;
   }
-  ::ioctl(file_, TIOCEXCL);
+  if (use == Use::alone) ::ioctl(file_, TIOCEXCL);
   termios line{};
   bool set = ::tcgetattr(file_, &line) == 0;
   if (set) {
@@ -113,6 +126,7 @@ SerialPort::SerialPort(const std::string& path, int baud) {
 SerialPort::SerialPort(SerialPort&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
       lock_(std::exchange(other.lock_, -1)),
+      use_(other.use_),
       lost_(other.lost_),
       tap_(other.tap_) {}
 
@@ -120,7 +134,7 @@ SerialPort::~SerialPort() { release(); }
 
 void SerialPort::release() {
   if (file_ >= 0) {
-    ::ioctl(file_, TIOCNXCL);
+    if (use_ == Use::alone) ::ioctl(file_, TIOCNXCL);
     ::close(file_);
   }
   if (lock_ >= 0) ::close(lock_);

@@ -12,9 +12,11 @@ class Tap;
 
 class SerialPort {
  public:
-  // Opens and locks `path` at `baud`: 9600, 19200, 38400 or 57600; any other value means 115200.
-  // Throws LinkError if the port does not exist, is not permitted, not a serial line, or in use.
-  SerialPort(const std::string& path, int baud);
+  enum class Use { alone, shared };  // shared: for a stop, whoever has the port
+  // Opens `path` at `baud`: 9600, 19200, 38400 or 57600; any other value means 115200. Locks it for
+  // Use::alone. Throws LinkError if the port does not exist, is not permitted, not a serial line,
+  // or in use.
+  SerialPort(const std::string& path, int baud, Use use = Use::alone);
   ~SerialPort();
   SerialPort(SerialPort&& other) noexcept;
   SerialPort& operator=(SerialPort&&) = delete;
@@ -41,6 +43,7 @@ class SerialPort {
 
   int file_ = -1;
   int lock_ = -1;
+  Use use_;
   bool lost_ = false;
   Tap* tap_ = nullptr;
 };

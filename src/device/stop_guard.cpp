@@ -4,9 +4,12 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <cerrno>
+#include <csignal>
+#include <cstddef>
 #include <cstdlib>
 
 #include "base/index.h"
@@ -28,10 +31,12 @@ constexpr unsigned packed(std::string_view bytes) {
 std::atomic<int> stop_file = -1;
 std::atomic<unsigned> stop_bytes = 0;
 std::atomic<unsigned> closing_bytes = 0;
+std::atomic<int> watched_child = -1;
+std::atomic<unsigned> passed_stops = 0;  // that were sent before a signal
 // The stack of the handlers, because the thread's stack may be exhausted. Saving the registers
 // takes some 2 to 4 kB (getauxval(AT_MINSIGSTKSZ)), and the handlers need less.
 alignas(16) std::array<char, 65536> handler_stack;
-std::array<struct sigaction, 64> before{};  // by signal; written before a handler can read them
+std::array<struct sigaction, NSIG> before{};  // by signal; written before a handler can read them
 
 void write_packed(int file, unsigned value) {
   char bytes[4];
@@ -52,17 +57,33 @@ void send_stop() {
   write_packed(file, stop_bytes.load());
 }
 
+bool stops_process(int signal) {
+  return signal == SIGTSTP || signal == SIGTTIN || signal == SIGTTOU;
+}
+
+// Whether the signal can be caught and is not harmless. SIGCHLD tells that the guard has ended.
+bool is_of_concern(int signal) {
+  for (const int other : {SIGKILL, SIGSTOP, SIGCONT, SIGURG, SIGWINCH})
+    if (signal == other) return false;
+  return true;
+}
+
 void stop_and_pass_on(int signal, siginfo_t* info, void* context) {
   const int error = errno;
-  send_stop();
+  if (signal != SIGCHLD || info->si_pid == watched_child) {
+    send_stop();
+    ++passed_stops;
+  }
   const struct sigaction& old = before[as_index(signal)];
   if ((old.sa_flags & SA_SIGINFO) != 0) {
     old.sa_sigaction(signal, info, context);
-  } else if (old.sa_handler == SIG_DFL) {
+  } else if (old.sa_handler == SIG_DFL && stops_process(signal)) {
+    ::raise(SIGSTOP);  // this handler is still there when the process continues
+  } else if (old.sa_handler == SIG_DFL && signal != SIGCHLD) {
     // The signal is delivered again when this handler returns.
     ::sigaction(signal, &old, nullptr);
     ::raise(signal);
-  } else if (old.sa_handler != SIG_IGN) {
+  } else if (old.sa_handler != SIG_IGN && old.sa_handler != SIG_DFL) {
     old.sa_handler(signal);
   }
   errno = error;
@@ -97,9 +118,9 @@ StopGuard::StopGuard(int file, std::string_view bytes) {
   closing_bytes = 0;
   stop_file = file;
   own_stack_ = bring_handler_stack();
-  for (const int signal : signals) {
+  for (int signal = 1; signal < NSIG; ++signal) {
     auto& old = before[as_index(signal)];
-    ::sigaction(signal, nullptr, &old);
+    if (!is_of_concern(signal) || ::sigaction(signal, nullptr, &old) != 0) continue;
     if ((old.sa_flags & SA_SIGINFO) == 0 && old.sa_handler == SIG_IGN) continue;
     struct sigaction action {};
     action.sa_sigaction = stop_and_pass_on;
@@ -110,10 +131,10 @@ StopGuard::StopGuard(int file, std::string_view bytes) {
 
 StopGuard::~StopGuard() {
   send_stop();
-  stop_file = -1;
-  for (const int signal : signals) {
+  stop_file = watched_child = -1;
+  for (int signal = 1; signal < NSIG; ++signal) {
     struct sigaction now {};
-    ::sigaction(signal, nullptr, &now);
+    if (::sigaction(signal, nullptr, &now) != 0) continue;
     const bool ours = (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == stop_and_pass_on;
     if (ours) ::sigaction(signal, &before[as_index(signal)], nullptr);
   }
@@ -122,5 +143,7 @@ StopGuard::~StopGuard() {
 
 void StopGuard::open_channel(std::string_view closing) { closing_bytes = packed(closing); }
 void StopGuard::close_channel() { closing_bytes = 0; }
+void StopGuard::watch_child(pid_t child) { watched_child = child; }
+unsigned StopGuard::signals_passed() { return passed_stops; }
 
 }  // namespace palpate::device

@@ -220,13 +220,13 @@ Answer Arm::answer(const std::string& text) {
   if (first.delay > 0 && settings_.clock == Clock::lockstep)
     go_to(now_ + first.delay, none_counted);
   if (first.delay > 0) log_row("late", "");
-  const bool twice = faults_.spoils("duplicate");
+  const std::size_t more = faults_.spoils("flood") ? 19999 : faults_.spoils("duplicate") ? 1 : 0;
   const bool lost = faults_.spoils("drop");
   if (!held_ && faults_.spoils("reorder")) {
     held_ = first;
   } else if (!lost) {
     answer.messages.push_back(first);
-    if (twice) answer.messages.push_back(first);
+    answer.messages.insert(answer.messages.end(), more, first);
     if (held_) answer.messages.push_back(*std::exchange(held_, {}));
   }
   ++messages_;

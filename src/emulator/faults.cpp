@@ -50,6 +50,7 @@ constexpr std::array arm_kinds{
     FaultKind{"drop", Life::replies, "the reply is lost"},
     FaultKind{"late", Life::replies, "the reply comes `value` later"},
     FaultKind{"duplicate", Life::replies, "the reply is sent twice"},
+    FaultKind{"flood", Life::replies, "the reply is sent 20000 times"},
     FaultKind{"reorder", Life::replies, "the reply comes after the next one"},
     FaultKind{"invalid_json", Life::replies, "the reply is not JSON"},
     FaultKind{"partial", Life::replies, "the reply ends in its middle"},

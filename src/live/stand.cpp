@@ -27,6 +27,7 @@ constexpr double free_way = 2e-3;      // m above the surface, where motions beg
 constexpr double travel_speed = 5e-3;  // m/s, out of contact
 constexpr double feel_speed = 0.5e-3;  // m/s
 constexpr double feel_way = 20e-3;     // m, largest way down from the first position
+constexpr double feel_step = 0.2e-3;   // m: the stand goes no further if nobody can stop it
 constexpr double feel_from = 5e-3;     // N above the mean out of contact: the finger is in contact
 constexpr double feel_to = 40e-3;      // N above that mean: enough readings to find the surface
 constexpr int quiet_readings = 10;     // out of contact, for that mean
@@ -45,6 +46,8 @@ double deepest_of(const scene::Scene& scene) {
 }
 
 class StandLoop {
+  using Limits = device::Limits;
+
  public:
   explicit StandLoop(LiveLoop& loop)
       : loop_(loop),
@@ -80,8 +83,7 @@ class StandLoop {
     rules.stale.stale_after = loop_.link.limits().stale_after;
     rules.stale.lost_after = loop_.link.limits().lost_after;
     const Fault fault = put_limits(low, high);
-    if (fault != Fault::none)
-      return ends(fault == Fault::hung_up ? Trip::link_lost : Trip::not_verified, fault);
+    if (fault != Fault::none) return ends_by(fault);
     safety_ = device::StandSafety(rules);
     // New rules can only be armed after a reading.
     for (int i = 0; i < 10 && !over_; ++i) {
@@ -104,6 +106,11 @@ class StandLoop {
     for (int i = 0; i < tries && fault != Fault::none && fault != Fault::hung_up; ++i)
       fault = loop_.link.set_travel_limits(low, high);
     return fault;
+  }
+
+  bool ends_by(Fault fault) {
+    const bool lost = fault == Fault::hung_up || fault == Fault::unguarded;
+    return ends(lost ? Trip::link_lost : Trip::not_verified, fault);
   }
 
   [[nodiscard]] double now() const { return loop_.clock.now() - start_; }
@@ -158,7 +165,8 @@ class StandLoop {
         halted_ = true;
         break;
       case Verdict::go_on:
-        if (halted_ && !send(motion_)) return false;
+        // The guard process may have stopped the stand while this one stood still.
+        if ((halted_ || sample.fault == Fault::guarded) && !send(motion_)) return false;
         halted_ = false;
         note(LinkState::armed, Fault::none);
         break;
@@ -175,37 +183,49 @@ class StandLoop {
     Fault fault = Fault::not_verified;
     for (int i = 0; i < tries && fault != Fault::none && fault != Fault::hung_up; ++i)
       fault = loop_.link.command_motion(motion);
-    if (fault == Fault::none) return true;
-    return ends(fault == Fault::hung_up ? Trip::link_lost : Trip::not_verified, fault);
+    return fault == Fault::none || ends_by(fault);
   }
 
-  // Moves to the height `target` (m), which is also set as the stand's limit, or until a force (N).
-  bool go(double target, double speed, double until_force) {
+  // What ends a motion before its target: a change of the force of either sign.
+  struct Until {
+    double force = Limits::none;  // N
+    double quiet = 0.0;           // N, from which it changes
+    TouchLine* line = nullptr;    // receives the readings in contact
+  };
+
+  // Moves to the height `target` (m), which is also set as the stand's limit.
+  bool go(double target, double speed, const Until& until) {
     const double z = last_.position.z();
     if (std::abs(target - z) <= arrived) return true;
     const bool down = target < z;
     const double asked = now();
     const Fault fault = down ? put_limits(target, high_) : put_limits(low_, target);
-    if (fault != Fault::none)
-      return ends(fault == Fault::hung_up ? Trip::link_lost : Trip::not_verified, fault);
+    if (fault != Fault::none) return ends_by(fault);
     motion_ = {down ? Motion::Act::down : Motion::Act::up, speed};
     if (!send(motion_)) return false;
     lead_ = now() - asked;
     if (waiting_) start_programme();
-    const bool there = wait_for(target, until_force);
+    const bool there = wait_for(target, until);
     motion_ = {};
     arrived_at_ = last_.received - start_;
     return there;
   }
 
-  bool wait_for(double target, double until_force) {
+  bool wait_for(double target, const Until& until) {
     double moved_at = now();
     double before = last_.position.z();
     while (poll()) {
+      const double change = last_.force - until.quiet;
+      if (until.line != nullptr && change > feel_from) until.line->add(last_.position.z(), change);
+      const bool felt = std::abs(change) >= until.force;
       // The stand is stopped even at its limit: while braking it would continue if the limit moved.
-      if (std::abs(last_.position.z() - target) <= arrived || last_.force >= until_force) {
-        if (loop_.link.stop()) return true;
-        return ends(Trip::not_verified, Fault::not_verified);
+      if (felt || std::abs(last_.position.z() - target) <= arrived) {
+        if (!loop_.link.stop()) return ends(Trip::not_verified, Fault::not_verified);
+        if (!felt || change > 0.0) return true;
+        return ends({LiveEnd::Why::link,
+                     "the force fell by " + rounded_text(-change, 3) +
+                         " N in the press: the gauge shows compression as negative; change its "
+                         "polarity (IPOL), or the way it is mounted"});
       }
       if (last_.position.z() != before || halted_) moved_at = now();
       before = last_.position.z();
@@ -240,18 +260,15 @@ class StandLoop {
       if (!poll()) return false;
       quiet += last_.force / quiet_readings;
     }
-    motion_ = {Motion::Act::down, feel_speed};
-    if (!send(motion_)) return false;
     TouchLine line;
+    const Until until{.force = feel_to, .quiet = quiet, .line = &line};
     while (last_.force - quiet < feel_to) {
-      if (!poll()) return false;
-      if (last_.force - quiet > feel_from) line.add(last_.position.z(), last_.force - quiet);
-      if (last_.position.z() <= low_ + arrived)
+      const double z = last_.position.z();
+      if (z <= low_ + arrived)
         return ends({LiveEnd::Why::link, "nothing was felt within " + rounded_text(1e3 * feel_way) +
                                              " mm; jog the stand nearer, or give `--surface`"});
+      if (!go(std::max(low_, z - feel_step), feel_speed, until)) return false;
     }
-    motion_ = {};
-    if (!loop_.link.stop()) return ends(Trip::not_verified, Fault::not_verified);
     const auto surface = line.surface();
     if (!surface)
       return ends({LiveEnd::Why::link,
@@ -265,9 +282,8 @@ class StandLoop {
     low_ = surface_ - deepest_;
     high_ = std::max(surface_ + free_way, last_.position.z());
     if (!allow_range(low_, high_)) return false;
-    if (felt_ && !(go(surface_ + free_way, travel_speed, Limits::none) && wait(rest_time)))
-      return false;
-    return go(surface_, travel_speed, Limits::none);
+    if (felt_ && !(go(surface_ + free_way, travel_speed, {}) && wait(rest_time))) return false;
+    return go(surface_, travel_speed, {});
   }
 
   // The time of the programme begins with its first motion.
@@ -289,12 +305,12 @@ class StandLoop {
       if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
         travel = indent->to.second ? deepest_ : indent->to.value;
         good = go(surface_ - travel, indent->rate,
-                  indent->to.second ? indent->to.value : Limits::none);
+                  {.force = indent->to.second ? indent->to.value : Limits::none});
         if (good && indent->to.second && last_.force < indent->to.value)
           good = ends({LiveEnd::Why::link, "the force of step " + std::to_string(step_) +
                                                " was not reached at the deepest travel"});
       } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
-        good = go(surface_ - retract->to, retract->rate, Limits::none);
+        good = go(surface_ - retract->to, retract->rate, {});
       } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {
         // The next motion begins lead_ after its command.
         const double until = arrived_at_ + hold->time - lead_;
@@ -320,8 +336,6 @@ class StandLoop {
     row.measured.force = sample.force;
     loop_.log.push(row);
   }
-
-  using Limits = device::Limits;
 
   LiveLoop& loop_;
   bool real_;

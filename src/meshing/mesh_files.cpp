@@ -2,6 +2,7 @@
 #include "meshing/mesh_files.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -127,10 +128,30 @@ void read_tetrahedra(TableLines lines, int first, geometry::TetMesh& mesh) {
   expect_end(lines, count, "tetrahedra");
 }
 
+// The last line of an .ele file that we wrote; its .node file has this hash.
+constexpr const char* belongs_to = "# belongs to the .node file with the SHA-256 ";
+
+// False for two files of which a killed program has replaced one.
+bool belong_together(const Pair& files) {
+  const std::string ele = read_text(files.ele);
+  const std::size_t at = ele.rfind(belongs_to);
+  if (at == std::string::npos) return true;
+  const std::string hash = trimmed(std::string_view(ele).substr(at + std::strlen(belongs_to)));
+  return sha256(read_text(files.node)) == hash;
+}
+
+// The old nodes, while only the new ones are in their place: no system call replaces two files.
+std::string replaced(const Pair& files) { return files.node + ".replaced"; }
+
 }  // namespace
 
 geometry::TetMesh read_node_ele(const std::string& path, double metres_per_unit) {
   const Pair files = both_files(path);
+  if (!belong_together(files))
+    throw InputError({files.ele, 0, 0},
+                     "belongs to other nodes than those of `" + files.node +
+                         "`, as after an interrupted `palpate mesh`; run that again, or rename `" +
+                         replaced(files) + "` to `" + files.node + "`");
   geometry::TetMesh mesh;
   const int first = read_nodes(TableLines(files.node), metres_per_unit, mesh);
   read_tetrahedra(TableLines(files.ele), first, mesh);
@@ -153,8 +174,22 @@ void write_node_ele(const std::string& path, const geometry::TetMesh& mesh) {
     if (!mesh.regions.empty()) tetrahedra += " " + std::to_string(mesh.regions[t]);
     tetrahedra += "\n";
   }
-  write_atomically(files.node, nodes);
-  write_atomically(files.ele, tetrahedra);
+  tetrahedra += belongs_to + sha256(nodes) + "\n";
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  if (fs::exists(replaced(files)) && fs::exists(files.ele) && !belong_together(files))
+    fs::rename(replaced(files), files.node, failed);
+  fs::remove(replaced(files), failed);
+  fs::create_hard_link(files.node, replaced(files), failed);
+  const bool kept = !failed;
+  try {
+    write_atomically(files.node, nodes);
+    write_atomically(files.ele, tetrahedra);
+  } catch (const SystemError&) {
+    if (kept) fs::rename(replaced(files), files.node, failed);
+    throw;
+  }
+  if (kept) fs::remove(replaced(files), failed);
 }
 
 geometry::TetMesh read_mesh(const std::string& path, double metres_per_unit) {

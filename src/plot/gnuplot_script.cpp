@@ -1,4 +1,5 @@
 // The text of a gnuplot script.
+#include <algorithm>
 #include <cstddef>
 
 #include "base/text.h"
@@ -94,10 +95,14 @@ std::string gnuplot_column(const std::string& name) {
   return "column(" + gnuplot_quoted(name) + ")";
 }
 
+// A text that begins with an apostrophe would be read as an empty one, with a word behind it.
+// Double quotes are for such apostrophes only, because gnuplot runs commands in them.
 std::string gnuplot_quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\n' || c == '\r')
+  const std::size_t first = std::min(text.find_first_not_of('\''), text.size());
+  std::string result = first == 0 ? "'" : "\"" + text.substr(0, first) + "\".'";
+  for (const char c : text.substr(first)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f)
       result += ' ';
     else if (c == '\'')
       result += "''";

@@ -4,10 +4,13 @@
 namespace palpate::sweep {
 namespace {
 
-// Text for between quotes on an #SBATCH line: escapes quotes, and `%`, which Slurm would replace.
+// Text for between quotes on an #SBATCH line: escapes quotes, and `%`, which Slurm would replace. A
+// line feed would end the line, and what follows it would be a command.
 std::string batch_text(const std::string& text) {
   std::string word;
-  for (const char c : text) {
+  for (char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = '_';
     if (c == '"' || c == '\\') word += '\\';
     word += c;
     if (c == '%') word += '%';

@@ -43,7 +43,6 @@ TEST(LinkAllocations, AreNoneByEvents) {
       "[[fault]]\nkind = \"event_busy\"\nat = \"0.05 s\"\n"
       "[[fault]]\nkind = \"event_huge\"\nat = \"0.1 s\"\n"
       "[[fault]]\nkind = \"event_garbage\"\nat = \"0.15 s\"\n"
-      "[[fault]]\nkind = \"event_flood\"\nat = \"0.2 s\"\n"
       "[[fault]]\nkind = \"event_stall\"\nat = \"0.25 s\"\n"
       "[[fault]]\nkind = \"events_close\"\nat = \"1.5 s\"\n");
   const test::LiveEmulator emulator({"inverse3", "--clock", "virtual", "--fault", script.path()});

@@ -31,6 +31,39 @@ void expect_at(const Place& place, int line, int column) {
   EXPECT_EQ(place.text(), (Place{"f.toml", line, column}.text()));
 }
 
+std::string repeated(const std::string& part, int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += part;
+  return text;
+}
+
+// The parser calls itself for every level: 25 000 of them, 50 kB, used up the stack.
+TEST(Document, IsNotNestedWithoutEnd) {
+  const std::string sentence =
+      ": this is nested in more than 32 levels; write it as a key of a table, as `tissue.material`";
+  const std::string key = repeated("a.", 25'000) + "a";
+  EXPECT_EQ(refusal(key + " = 1\n"), "f.toml:1:64" + sentence);
+  EXPECT_EQ(refusal("[" + key + "]\n"), "f.toml:1:65" + sentence);
+  EXPECT_EQ(refusal("[[" + key + "]]\n"), "f.toml:1:66" + sentence);
+  EXPECT_EQ(refusal(repeated("'a'. \"a\" .", 25'000) + "a = 1"), "f.toml:1:160" + sentence);
+  EXPECT_EQ(refusal("x = " + repeated("[", 200)), "f.toml:1:37" + sentence);
+  EXPECT_EQ(refusal("x = " + repeated("{a=", 200)), "f.toml:1:101" + sentence);
+  EXPECT_EQ(test::refusal([&] { return parse_assignment(key + "=1"); }), "--set:1:64" + sentence);
+  EXPECT_EQ(test::refusal([&] { return parse_assignment("x={" + key + "=1}"); }),
+            "--set x:1:65" + sentence);
+  Node root;
+  EXPECT_EQ(test::refusal([&] {
+              set_value(root, key, Node(), {"sweep", 0, 0});
+              return 0;
+            }),
+            "sweep:1:64" + sentence);
+  // Points of numbers, texts and comments are no levels.
+  EXPECT_EQ(refusal("a = [" + repeated("1.5, ", 100) + "2]\nb = \"" + repeated("So. ", 100) +
+                    "\"\nc = '''" + repeated("[.'\n", 100) + "'''\nd = 1 # " +
+                    repeated("...[", 100) + "\n"),
+            "accepted");
+}
+
 class LineEnds : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Document, LineEnds, testing::Values("\n", "\r\n"));
 

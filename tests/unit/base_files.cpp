@@ -2,13 +2,34 @@
 #include "base/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/error.h"
+#include "refusal.h"
+
+namespace {
+
+int failing_read = 0;  // of a file, the how-manyth from now that fails; 0: none
+
+}  // namespace
+
+// In front of the system's: a disk that fails.
+extern "C" ssize_t read(int file, void* into, size_t size) {
+  if (failing_read > 0 && --failing_read == 0) {
+    errno = EIO;
+    return -1;
+  }
+  return ::syscall(SYS_read, file, into, size);
+}
 
 namespace palpate {
 namespace {
@@ -45,6 +66,52 @@ TEST_F(Files, EveryLineIsSeenOnce) {
   });
   EXPECT_EQ(number, lines.size());
   EXPECT_THROW(for_each_line(path_ + "x", [](const FileLine&) {}), InputError);
+}
+
+std::string refused(const std::string& path) {
+  return test::refusal([&] { (void)read_text(path); });
+}
+
+// A disk that fails, here in the middle of the file, must not look like a shorter file.
+TEST_F(Files, AReadErrorIsNoEnd) {
+  GrowingFile(path_).append(std::string(1 << 20, 'a') + "\n" + std::string(1 << 20, 'b') + "\n");
+  EXPECT_EQ(read_text(path_).size(), (2U << 20) + 2);
+  failing_read = 4;
+  EXPECT_EQ(refused(path_), path_ +
+                                ": cannot be read: Input/output error; copy it from a disk that "
+                                "works");
+  failing_read = 2;
+  EXPECT_THROW(for_each_line(path_, [](const FileLine&) {}), InputError);
+  failing_read = 0;
+}
+
+TEST_F(Files, WhatIsNoFileIsRefused) {
+  EXPECT_EQ(refused("/dev/zero"),
+            "/dev/zero: has more than 256 MiB, the most that is read; give a smaller file");
+  EXPECT_EQ(
+      test::refusal([] { for_each_line("/dev/zero", [](const FileLine&) {}); }),
+      "/dev/zero: has a line of more than 256 MiB, the most that is read; give a smaller file");
+  EXPECT_EQ(refused("/"), "/: is not a file; give the path of a file");
+  std::filesystem::create_symlink(path_, path_);
+  EXPECT_EQ(refused(path_),
+            path_ + ": cannot be read: Too many levels of symbolic links; check the path");
+  std::filesystem::remove(path_);
+  GrowingFile{path_};
+  ASSERT_EQ(::truncate(path_.c_str(), off_t{1} << 40), 0);  // a terabyte of holes
+  EXPECT_EQ(refused(path_), path_ +
+                                ": has more than 2048 MiB, the most that is read; give a smaller "
+                                "file");
+}
+
+// A pipe without a writer waits 10 s; here its end comes, and what was written before it.
+TEST_F(Files, APipeIsRead) {
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  std::thread writer([this] {
+    std::ofstream pipe(path_);
+    for (int i = 0; i < 3; ++i) pipe << std::string(100'000, 'x') << std::flush;
+  });
+  EXPECT_EQ(read_text(path_).size(), 300'000U);
+  writer.join();
 }
 
 TEST_F(Files, AGrowingFileIsNew) {

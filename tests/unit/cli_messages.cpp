@@ -36,6 +36,15 @@ class Messages : public testing::Test {
 
 const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
 
+// A terminal obeys them, and names come from files: ESC, DEL, and CSI as two bytes of UTF-8.
+TEST_F(Messages, HaveNoControlCharacters) {
+  write("s.toml", press + "\"a\\u001b[31m\\u007f\\u009b\" = 1\n");
+  const test::Ended said = palpate("run s.toml");
+  EXPECT_EQ(said.code, 2);
+  EXPECT_NE(said.err.find("a\\x1b[31m\\x7f\\x9b"), std::string::npos) << said.err;
+  EXPECT_EQ(said.err.find('\x1b'), std::string::npos);
+}
+
 TEST_F(Messages, OneOfEachClass) {
   const std::pair<std::string, std::string> cases[] = {
       {"[tissue]\nyoung_modulos = \"60 kPa\"\n",

@@ -168,5 +168,14 @@ TEST_F(SweepVerb, SlurmPrintsTheLine) {
   EXPECT_EQ(sweep({"slurm", "out/s_sweep", "--time", "1;rm"}).code, 2);
 }
 
+// Its lines are read by Slurm, and a line feed in a path would be the start of a command.
+TEST_F(SweepVerb, SlurmRefusesAFolderWithALineFeed) {
+  plan(quick_sweep);
+  fs::rename(folder_ / "out", folder_ / "out\ntouch pwned #");
+  const Ended refused = sweep({"slurm", "out\ntouch pwned #/s_sweep"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("rename the folder"), std::string::npos) << refused.err;
+}
+
 }  // namespace
 }  // namespace palpate::test

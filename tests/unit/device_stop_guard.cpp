@@ -30,8 +30,7 @@ Way left_by(const std::function<void(int)>& leave, const std::array<int, 2>& wir
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
     ::close(2);  // sanitizers and asserts talk
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP})
-      ::signal(signal, SIG_DFL);
+    for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
     leave(wire[1]);
     ::_exit(42);
   }
@@ -112,9 +111,61 @@ TEST_P(StopBySignal, IsSentAndTheSignalGoesItsWay) {
   EXPECT_EQ(WTERMSIG(way.status), signal);
 }
 
+// All signals whose action is to end a process, but SIGKILL: signal(7).
 INSTANTIATE_TEST_SUITE_P(Signals, StopBySignal,
                          testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE,
-                                         SIGILL, SIGABRT));
+                                         SIGILL, SIGABRT, SIGTRAP, SIGPIPE, SIGUSR1, SIGUSR2,
+                                         SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGXFSZ, SIGSYS,
+                                         SIGPOLL, SIGPWR, SIGSTKFLT, 40));
+
+class StopByPause : public testing::TestWithParam<int> {};
+
+// The process stops after the stop was sent, and both happen again when it has continued.
+TEST_P(StopByPause, IsSentEveryTime) {
+  std::array<int, 2> wire{-1, -1};
+  ASSERT_EQ(::pipe2(wire.data(), O_CLOEXEC), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setpgid(0, 0);  // a group without a shell is not stopped by these signals
+    ::signal(GetParam(), SIG_DFL);
+    const StopGuard guard(wire[1], "s");
+    for (int i = 0; i < 2; ++i) ::raise(GetParam());
+    ::_exit(StopGuard::signals_passed() == 2 ? 7 : 8);
+  }
+  ::close(wire[1]);
+  int status = 0;
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(::waitpid(child, &status, WUNTRACED), child);
+    EXPECT_TRUE(WIFSTOPPED(status));
+    char byte = 0;
+    EXPECT_EQ(::read(wire[0], &byte, 1), 1);
+    EXPECT_EQ(byte, 's');
+    ::kill(child, SIGCONT);
+  }
+  ::waitpid(child, &status, 0);
+  ::close(wire[0]);
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, StopByPause, testing::Values(SIGTSTP, SIGTTIN, SIGTTOU));
+
+// Of its children the program may have others.
+TEST(Stop, IsSentWhenTheWatchedChildEnds) {
+  const auto ends = [](int wire, bool watched) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::pause();
+      ::_exit(0);
+    }
+    const StopGuard guard(wire, "s");
+    StopGuard::watch_child(watched ? child : 1);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    ::write(wire, "-", 1);
+  };
+  EXPECT_EQ(left_by([&](int wire) { ends(wire, true); }).wire, "s-s");
+  EXPECT_EQ(left_by([&](int wire) { ends(wire, false); }).wire, "-s");
+}
 
 volatile std::sig_atomic_t heard = 0;
 

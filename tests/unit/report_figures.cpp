@@ -114,6 +114,20 @@ TEST_F(Gnuplot, DrawsForceAgainstIndentation) {
   EXPECT_EQ(count(svg, "stroke-dasharray"), 6U);  // five fits and their line in the legend
 }
 
+// gnuplot takes two apostrophes at the start of a text for an empty one; in double quotes it would
+// run what stands between backquotes.
+TEST_F(Gnuplot, DrawsTitlesWithAnyCharacter) {
+  plot::Figure figure = force_figure(folder_);
+  figure.title = "''tis \"it's\" `touch pwned` \\ \x1b";
+  const plot::Drawing drawing = plot::draw(plot::sheet_of(figure), folder_);
+  EXPECT_EQ(drawing.warning, "");
+  const std::string svg = read("figure_force_indentation.svg");
+  EXPECT_NE(svg.find("tis "), std::string::npos);
+  EXPECT_NE(svg.find("`touch pwned`"), std::string::npos);
+  EXPECT_EQ(svg.find('\x1b'), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ + "/pwned"));
+}
+
 TEST_F(Gnuplot, DrawsStrainAgainstTimeAsPdfToo) {
   const plot::Drawing drawing = plot::draw(plot::sheet_of(strain_figure(folder_)), folder_,
                                            {.format = plot::PictureFormat::svg_and_pdf});

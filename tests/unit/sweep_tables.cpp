@@ -77,5 +77,11 @@ TEST(SweepSlurm, the_job_knows_its_parts_by_the_task_alone) {
   EXPECT_EQ(text.find("TASK_COUNT"), std::string::npos);
 }
 
+TEST(SweepSlurm, a_name_cannot_end_its_line) {
+  const std::string text = slurm_text(
+      {.name = "s\nrm -rf \x1b[31m", .program = "p", .folder = "f", .tasks = 1, .time = ""});
+  EXPECT_NE(text.find("--job-name=\"s_rm -rf _[31m\"\n"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace palpate::sweep
