@@ -85,7 +85,17 @@ void add_options(CLI::App& verb, Fit& fit) {
   add_data(verb, fit.columns, Columns::required);
   verb.add_option("--model", fit.model, "Curve: " + models)->required();
   verb.add_option("--origin", fit.x_origin, "Subtracted from every x");
-  verb.add_option("--radius", fit.radius, "hertz, layer: of the sphere, as \"11 mm\"");
+  verb.add_option("--radius", fit.radius, "hertz, layer: of the sphere or punch, as \"11 mm\"");
+  verb.add_option("--tip", fit.tip,
+                  "hertz: paraboloid (default), sphere, cone, pyramid3, pyramid4, punch");
+  verb.add_option("--half-angle", fit.half_angle,
+                  "hertz: between axis and face of a cone or pyramid, as \"20 deg\"");
+  verb.add_option(
+      "--baseline", fit.baseline,
+      "hertz, layer: none, offset or tilt; default: what the rows before contact allow");
+  verb.add_option("--from", fit.from,
+                  "hertz, layer: least depth below contact, as \"0.1 mm\" or \"10 %\"");
+  verb.add_option("--to", fit.to, "hertz, layer: largest depth below contact, likewise");
   verb.add_option("--poisson", fit.poisson_ratio, "hertz, layer: Poisson's ratio")
       ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");

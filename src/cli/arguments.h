@@ -54,7 +54,12 @@ struct Fit {
   DataOptions columns;
   std::string model;
   double x_origin = 0.0;
-  std::string radius;         // of the sphere, such as `11 mm`, for hertz and layer
+  std::string radius;         // of the tip, such as `11 mm`, for hertz and layer
+  std::string tip;            // of hertz: paraboloid (also empty), sphere, cone, pyramid3, ...
+  std::string half_angle;     // of a cone or pyramid, in degrees
+  std::string baseline;       // of hertz and layer: none, offset, tilt; empty: from the rows
+  std::string from;           // a depth below contact, or a share of the largest; empty: all
+  std::string to;             // likewise
   double poisson_ratio = -1;  // of the tissue; -1: not given
   std::string thickness;      // of the layer
   std::string base;           // of the layer: bonded or frictionless; empty: bonded

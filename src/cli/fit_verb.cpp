@@ -1,12 +1,13 @@
 // `palpate fit`: fits one curve to two columns of a text table.
 #include <algorithm>
-#include <stdexcept>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "cli/fit_contact.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/contact_model.h"
+#include "fit/contact_warnings.h"
 #include "fit/fit_table.h"
 #include "fit/prony.h"
 #include "measured/measured.h"
@@ -39,7 +40,12 @@ void check_options(const Fit& command) {
     const char* example;
   };
   for (const Option& option :
-       {Option{"--radius", !command.radius.empty(), {"hertz", "layer"}, true, "\"11 mm\""},
+       {Option{"--radius", !command.radius.empty(), {"hertz", "layer"}, false, "\"11 mm\""},
+        Option{"--tip", !command.tip.empty(), {"hertz", "layer"}, false, "sphere"},
+        Option{"--half-angle", !command.half_angle.empty(), {"hertz"}, false, "\"20 deg\""},
+        Option{"--baseline", !command.baseline.empty(), {"hertz", "layer"}, false, "offset"},
+        Option{"--from", !command.from.empty(), {"hertz", "layer"}, false, "\"10 %\""},
+        Option{"--to", !command.to.empty(), {"hertz", "layer"}, false, "\"1 mm\""},
         Option{"--poisson", command.poisson_ratio >= 0, {"hertz", "layer"}, true, "0.45"},
         Option{"--thickness", !command.thickness.empty(), {"layer"}, true, "\"5 mm\""},
         Option{"--base", !command.base.empty(), {"layer"}, false, "bonded"},
@@ -57,23 +63,6 @@ void check_options(const Fit& command) {
            "`, which fits the contact point; leave it out");
 }
 
-double length_of(const std::string& option, const std::string& text) {
-  double size = 0.0;
-  try {
-    size = parse_quantity(text, unit::mm);
-  } catch (const std::invalid_argument& wrong) {
-    refuse("`" + option + "` " + wrong.what());
-  }
-  if (!(size > 0.0)) refuse("`" + option + "` is `" + text + "`; give a length above 0");
-  return size;
-}
-
-contact::LayerBase base_of(const std::string& word) {
-  if (word.empty() || word == "bonded") return contact::LayerBase::bonded;
-  if (word == "frictionless") return contact::LayerBase::frictionless;
-  refuse("`--base` does not know `" + word + "`; it is bonded or frictionless");
-}
-
 void check_axis(const measured::MeasuredCurve& curve, const measured::MeasuredAxis& axis,
                 const Unit& wanted, const std::string& option) {
   if (axis.dimension == wanted.dimension) return;
@@ -87,16 +76,14 @@ void check_axis(const measured::MeasuredCurve& curve, const measured::MeasuredAx
 fit::Fit contact_fit(const Fit& command, const measured::MeasuredCurve& curve) {
   check_axis(curve, curve.x_axis, unit::mm, "--x");
   check_axis(curve, curve.y_axis, unit::N, "--y");
-  fit::ContactTest test{.radius = length_of("--radius", command.radius),
-                        .poisson_ratio = command.poisson_ratio,
-                        .base = base_of(command.base)};
-  if (command.model == "layer") test.thickness = length_of("--thickness", command.thickness);
-  return fit::fit_contact(curve.x, curve.y, test);
+  return fit::fit_contact(curve.x, curve.y, contact_test(command));
 }
 
 fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
-  const fit::Options options{
-      .x_unit = curve.x_axis.unit, .y_unit = curve.y_axis.unit, .x_origin = command.x_origin};
+  const fit::Options options{.x_unit = curve.x_axis.unit,
+                             .y_unit = curve.y_axis.unit,
+                             .x_origin = command.x_origin,
+                             .residuals = fit::Residuals::correlated};
   if (is_one_of(command.model, {"hertz", "layer"})) return contact_fit(command, curve);
   if (const auto model = fit::find_model(command.model))
     return fit::regress(curve.x_written, curve.y_written, *model, options);
@@ -106,30 +93,53 @@ fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
   return fit::fit_prony(curve.x_written, curve.y_written, series, options);
 }
 
-void say_what_is_odd(const fit::Fit& result) {
-  if (result.left_out > 0)
-    Talk::error("note: " + std::to_string(result.left_out) +
-                (result.left_out == 1 ? " point is" : " points are") +
-                " left out: not finite, or x <= 0 where its logarithm is needed");
+std::string model_name(const fit::Fit& result) {
+  return result.name.empty() ? std::string(fit::info(result.model).name) : result.name;
+}
+
+void say_what_is_odd(const fit::Fit& result, const Talk& talk) {
+  for (const std::string& note : result.notes) talk.say("note: " + note);
+  for (const std::string& warning : result.warnings) talk.warn(warning);
+  if (result.left_out > 0 && result.notes.empty())
+    talk.say("note: " + std::to_string(result.left_out) +
+             (result.left_out == 1 ? " point is" : " points are") +
+             " left out: not finite, or x <= 0 where its logarithm is needed");
   if (!is_one_of(result.name, {"prony", "prony_creep"})) return;
   for (std::size_t i = 1; i < result.parameters.size(); i += 2)
     if (result.parameters[i].estimate < 0.0)
-      Talk::error("note: `" + result.parameters[i].name +
-                  "` is below 0, which no passive tissue has; give fewer `--terms`");
+      talk.say("note: `" + result.parameters[i].name +
+               "` is below 0, which no passive tissue has; give fewer `--terms`");
+}
+
+// A search that ended without a minimum has no result.
+void refuse_unconverged(const fit::Fit& result) {
+  if (result.termination == fit::Termination::converged) return;
+  if (result.termination == fit::Termination::undetermined) {
+    throw InputError({}, "these points do not determine every parameter of `" + model_name(result) +
+                             "`; fit a model with fewer parameters, or record more points");
+  }
+  throw InputError({}, "the search for the parameters of `" + model_name(result) +
+                           "` ended without a minimum (" +
+                           std::string(fit::word(result.termination)) +
+                           "), so that there is no result; choose another model, or a part of "
+                           "the curve");
 }
 
 }  // namespace
 
-int perform(const Fit& command, const Arguments&, const Talk&) {
+int perform(const Fit& command, const Arguments&, const Talk& talk) {
   check_model(command.model);
   check_options(command);
   DataOptions columns = command.columns;
   columns.blanks = DataOptions::Blanks::keep;  // the fit counts all points that it leaves out
   const measured::MeasuredCurve curve = measured::read_measured(command.data, columns);
-  for (const std::string& note : curve.notes) Talk::error("note: " + note);
+  for (const std::string& note : curve.notes) talk.say("note: " + note);
   fit::Fit result;
   try {
     result = fitted(command, curve);
+    refuse_unconverged(result);
+    if (result.law.empty() || is_one_of(result.name, {"prony", "prony_creep"}))
+      fit::warn_of_residuals(result);
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();
     if (!problem.place.file.empty() || problem.message.starts_with("palpate: ")) throw;
@@ -137,8 +147,8 @@ int perform(const Fit& command, const Arguments&, const Talk&) {
   }
   const std::vector<fit::NamedFit> named{
       {columns.case_name, curve.y_axis.column + " over " + curve.x_axis.column, result}};
-  print(record::csv_text(fit::fit_table(named)));
-  say_what_is_odd(result);
+  print(record::csv_text(fit::measured_fit_table(named)));
+  say_what_is_odd(result, talk);
   return exit_good;
 }
 

@@ -148,6 +148,9 @@ void sort_terms(Minimum& minimum) {
     for (std::size_t j = 0; j < count; ++j)
       minimum.inverse_normal[i * count + j] = before.inverse_normal[from[i] * count + from[j]];
   }
+  for (std::size_t row = 0; row < before.jacobian.size(); row += count)
+    for (std::size_t i = 0; i < count; ++i)
+      minimum.jacobian[row + i] = before.jacobian[row + from[i]];
 }
 
 // Converts ln tau to tau, with d tau = tau d ln tau for the errors.
@@ -160,6 +163,7 @@ void times_of(Minimum& minimum) {
       minimum.inverse_normal[i * count + j] *= tau;
       minimum.inverse_normal[j * count + i] *= tau;
     }
+    for (std::size_t at = i; at < minimum.jacobian.size(); at += count) minimum.jacobian[at] /= tau;
   }
 }
 
@@ -171,6 +175,8 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
   const bool relaxation = series.kind == PronySeries::Kind::relaxation;
   Fit fit;
   fit.name = relaxation ? "prony" : "prony_creep";
+  fit.law =
+      relaxation ? "y = y_inf + sum y_k e^(-x/tau_k)" : "y = y_0 + sum y_k (1 - e^(-x/tau_k))";
   fit.x_origin = options.x_origin;
   fit.parameters.push_back({.name = relaxation ? "y_inf" : "y_0", .unit = options.y_unit});
   for (int k = 1; k <= series.terms; ++k) {
@@ -207,7 +213,7 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
     sort_terms(minimum);
     times_of(minimum);
   }
-  settle(fit, minimum, {points.y, points.y_scale, scale});
+  settle(fit, minimum, {points.y, points.y_scale, scale, options.residuals});
   return fit;
 }
 

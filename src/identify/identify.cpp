@@ -7,12 +7,12 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "fit/residual_tests.h"
 #include "fit/student.h"
 #include "identify/box_errors.h"
 #include "identify/box_profile.h"
 #include "identify/fixed_rung.h"
 #include "identify/prepare_curve.h"
-#include "identify/residual_tests.h"
 #include "identify/search_starts.h"
 #include "scenario/integrators.h"
 
@@ -322,8 +322,8 @@ class Search {
     found_.r2 = 1.0 - squares / total;
     const double range = 1.0 / weights_.front();
     found_.noise = options_.noise == Noise::constant ? sigma_ * range : sigma_;
-    found_.durbin_watson = durbin_watson(weighted);
-    found_.runs_z = runs_z(weighted);
+    found_.durbin_watson = fit::durbin_watson(weighted);
+    found_.runs_z = fit::runs_z(weighted);
 
     std::vector<double> values;
     for (const Identified& one : found_.unknowns) values.push_back(one.estimate);
@@ -340,7 +340,7 @@ class Search {
 
   void warn(const std::vector<double>& weighted, const scenario::Resolved& with) {
     // Systematic residuals below a thousandth of the curve come from interpolation.
-    if (systematic(weighted) && sigma_ > 1e-3)
+    if (fit::systematic(weighted) && sigma_ > 1e-3)
       found_.warnings.push_back(
           "the model does not describe the data: neighbouring residuals are correlated "
           "(Durbin-Watson " +
