@@ -65,6 +65,11 @@ struct Fit {
   std::string base;           // of the layer: bonded or frictionless; empty: bonded
   int terms = 0;              // of prony; 0: not given
 };
+struct Data {
+  static constexpr Word word{"data", "Say what is understood of a measured file"};
+  std::string data;
+  DataOptions columns{.compression = "auto"};
+};
 struct Compare {
   static constexpr Word word{"compare", "Compare results with expected ones"};
   std::string got;
@@ -165,7 +170,7 @@ struct Manual {
 };
 
 // Every verb. It needs `word`, add_options() in arguments.cpp and perform() in verbs.h to compile.
-using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Reference, Bench, Chart,
+using Verb = std::variant<Run, Explain, Fit, Data, Compare, Bless, Mesh, Reference, Bench, Chart,
                           Stability, Sweep, Identify, Export, Device, Manual>;
 
 struct Arguments {
