@@ -84,7 +84,9 @@ void add_options(CLI::App& verb, Fit& fit) {
   for (const fit::ModelInfo& model : fit::models()) models += std::string(model.name) + "|";
   for (const char* name : further_models) models += std::string(name) + "|";
   models.pop_back();
-  verb.add_option("data", fit.data, "CSV or other table in text")->required();
+  verb.add_option("data", fit.data, "CSV or other tables in text")->required();
+  verb.add_option("--out", fit.out, "Folder for the rows, the population and its figure");
+  verb.add_flag("--force", fit.force, "Replace that folder");
   add_data(verb, fit.columns);
   verb.add_option("--model", fit.model, "Curve: " + models)->required();
   verb.add_option("--origin", fit.x_origin, "Subtracted from every x");
@@ -97,8 +99,13 @@ void add_options(CLI::App& verb, Fit& fit) {
       "--baseline", fit.baseline,
       "hertz, layer: none, offset or tilt; default: what the rows before contact allow");
   verb.add_option("--from", fit.from,
-                  "hertz, layer: least depth below contact, as \"0.1 mm\" or \"10 %\"");
-  verb.add_option("--to", fit.to, "hertz, layer: largest depth below contact, likewise");
+                  "Least depth below contact, as \"0.1 mm\" or \"10 %\"; modulus: strain");
+  verb.add_option("--to", fit.to, "Largest depth or strain, likewise");
+  verb.add_option("--height", fit.height, "modulus, neo_hookean, ogden: of the specimen");
+  verb.add_option("--diameter", fit.diameter, "the same: of a round specimen");
+  verb.add_option("--area", fit.area, "the same: of the cross-section, as \"300 mm^2\"");
+  verb.add_option("--platens", fit.platens, "the same: slippery (default) or bonded");
+  verb.add_option("--loading", fit.loading, "the same: compression or tension");
   verb.add_option("--poisson", fit.poisson_ratio, "hertz, layer: Poisson's ratio")
       ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");

@@ -46,11 +46,14 @@ struct Explain {
 using DataOptions = measured::DataLayout;
 
 // Models of `fit` that are not in the table of fit/model.h and have further options.
-inline constexpr std::array further_models{"hertz", "layer", "prony", "prony_creep"};
+inline constexpr std::array further_models{"hertz",   "layer",       "prony", "prony_creep",
+                                           "modulus", "neo_hookean", "ogden"};
 
 struct Fit {
-  static constexpr Word word{"fit", "Fit a curve to two columns of a text table"};
-  std::string data;
+  static constexpr Word word{"fit", "Fit a curve to two columns of text tables"};
+  std::vector<std::string> data;  // with several, one row per curve and the population
+  std::string out;                // folder of a population; empty: none
+  bool force = false;
   DataOptions columns;
   std::string model;
   double x_origin = 0.0;
@@ -64,6 +67,11 @@ struct Fit {
   std::string thickness;      // of the layer
   std::string base;           // of the layer: bonded or frictionless; empty: bonded
   int terms = 0;              // of prony; 0: not given
+  std::string height;         // of a specimen between platens: strain is length / height
+  std::string diameter;       // of a round specimen: stress is force / area
+  std::string area;           // of its cross-section, otherwise
+  std::string platens;        // slippery (also empty) or bonded
+  std::string loading;        // compression or tension; empty: by the signs
 };
 struct Data {
   static constexpr Word word{"data", "Say what is understood of a measured file"};
