@@ -12,8 +12,10 @@
 #include "identify/box_errors.h"
 #include "identify/box_profile.h"
 #include "identify/fixed_rung.h"
+#include "identify/lengthen.h"
 #include "identify/prepare_curve.h"
 #include "identify/search_starts.h"
+#include "identify/widening.h"
 #include "scenario/integrators.h"
 
 namespace palpate::identify {
@@ -139,7 +141,9 @@ class Search {
     const std::size_t n = unknowns_.size();
     const double degrees = static_cast<double>(found_.x.size() - n);
     sigma_ = std::max(std::sqrt(best_.squares / degrees), 1e-12);
+    noise_ = sigma_;
     t_ = fit::student_t_quantile(0.975, degrees);
+    widen_for_correlation();
     errors_ = box_errors(best_.jacobian, n, sigma_, t_);
     std::vector<char> moving(n, 1);
     for (std::size_t i = 0; i < n; ++i) {
@@ -160,6 +164,22 @@ class Search {
       found_.combinations.push_back(*combined);
     set_correlation();
     refuse_the_undetermined();
+  }
+
+  // Correlated residuals: the variance of the residuals is multiplied by the mean ratio of the
+  // variances with and without correlation.                        docs/theory.md (100), (101),
+  // (105)
+  void widen_for_correlation() {
+    std::vector<double> residuals;
+    for (std::size_t i = 0; i < found_.x.size(); ++i)
+      residuals.push_back((found_.model[i] - found_.measured[i]) * weights_[i]);
+    found_.effective_size = static_cast<double>(found_.x.size());
+    const auto widened = widening(residuals, best_.jacobian, unknowns_.size());
+    if (!widened) return;
+    found_.rho = widened->rho;
+    found_.effective_size = widened->effective_size;
+    sigma_ *= std::sqrt(widened->factor);
+    t_ = fit::student_t_quantile(0.975, widened->degrees);
   }
 
   // Errors of the `moving` unknowns alone; the others get no variance.
@@ -321,7 +341,7 @@ class Search {
     found_.rmse = std::sqrt(squares / static_cast<double>(n));
     found_.r2 = 1.0 - squares / total;
     const double range = 1.0 / weights_.front();
-    found_.noise = options_.noise == Noise::constant ? sigma_ * range : sigma_;
+    found_.noise = options_.noise == Noise::constant ? noise_ * range : noise_;
     found_.durbin_watson = fit::durbin_watson(weighted);
     found_.runs_z = fit::runs_z(weighted);
 
@@ -330,7 +350,15 @@ class Search {
     const scenario::Case at = curve_->at(values);
     found_.predicted_error =
         found_.closed_form && asked.scenario.uniform() ? std::nullopt : predicted_error(at);
+    found_.deep_effect =
+        found_.kind == CurveKind::force_travel || found_.kind == CurveKind::force_time
+            ? deep_effect(at)
+            : std::nullopt;
     found_.scenario = scenario::answered(asked, curve_->fixed());
+    double end = *std::max_element(found_.x.begin(), found_.x.end());
+    for (const Identified& one : found_.unknowns)
+      if (one.unknown.what == Unknown::What::contact_point) end -= one.estimate;
+    (void)lengthen(found_.kind, found_.scenario, end);
     set_unknowns(found_.scenario, unknowns_, values);
     for (const Identified& one : found_.unknowns)
       if (one.unknown.what == Unknown::What::force_offset)
@@ -340,12 +368,18 @@ class Search {
 
   void warn(const std::vector<double>& weighted, const scenario::Resolved& with) {
     // Systematic residuals below a thousandth of the curve come from interpolation.
-    if (fit::systematic(weighted) && sigma_ > 1e-3)
+    if (fit::systematic(weighted) && noise_ > 1e-3)
       found_.warnings.push_back(
           "the model does not describe the data: neighbouring residuals are correlated "
           "(Durbin-Watson " +
-          rounded_text(found_.durbin_watson, 3) +
-          ", noise gives 2), so that the estimates are biased and their intervals too narrow");
+          rounded_text(found_.durbin_watson, 3) + ", noise gives 2). The intervals count the " +
+          std::to_string(found_.x.size()) + " points as " +
+          rounded_text(std::max(1.0, found_.effective_size), 3) +
+          " independent ones; the bias of a wrong model is not in them");
+    if (found_.r2 < 0.9)
+      found_.warnings.push_back("R^2 is " + rounded_text(found_.r2, 3) +
+                                ", so that the model describes the curve poorly, and the estimates "
+                                "mean little");
     for (const Identified& one : found_.unknowns)
       if (one.at_bound)
         found_.warnings.push_back("the best `" + one.unknown.key +
@@ -374,7 +408,8 @@ class Search {
   BoxProblem problem_;
   BoxMinimum best_;
   BoxErrors errors_;
-  double sigma_ = 0.0;  // of the weighted residuals
+  double noise_ = 0.0;  // standard deviation of the weighted residuals
+  double sigma_ = 0.0;  // the same, widened where they are correlated
   double t_ = 0.0;
   Identification found_;
 };

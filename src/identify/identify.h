@@ -71,6 +71,9 @@ struct Identification {
   double rmse = 0.0;   // SI
   double r2 = 0.0;     // docs/theory.md (53)
   double noise = 0.0;  // standard deviation, SI; relative noise: a ratio
+  double rho = 0.0;    // correlation of neighbouring residuals; 0 where taken as independent
+  double effective_size = 0.0;        // independent points of the same worth
+  std::optional<double> deep_effect;  // relative change of the force by the deep-press factor
   double durbin_watson = 2.0;
   double runs_z = 0.0;
   double contact_shift = 0.0;         // SI of x; moves the contact point for moved_down, moved_up

@@ -212,11 +212,30 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
     curve.y.push_back(curve.y[i]);
   }
   const auto found = test::identified(scene, curve, {.profiles = false});
-  EXPECT_EQ(found.notes.at(0), std::to_string(points - 1) +
-                                   " points are left out: the way back from the deepest travel");
-  // The programme ends at 2 mm, the lowest contact point is at -0.1 mm, and 2.2 mm were measured.
-  EXPECT_NE(found.notes.at(1).find("beyond the programme, which ends at 2 mm"), std::string::npos);
-  for (const double x : found.x) EXPECT_LE(x, 1.9e-3 * (1.0 + 1e-6));
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_EQ(found.notes[0], std::to_string(points - 1) +
+                                " points are left out: the way back from the deepest travel");
+  EXPECT_EQ(found.left_out, static_cast<int>(points) - 1);
+  EXPECT_EQ(found.x.size(), points);  // up to 2.2 mm, for a programme of 2 mm
+}
+
+// The programme of the scenario ends at a quarter of the measured travel, and the range of contact
+// points begins 3 mm before it.
+TEST(Identify, AShortProgrammeIsLengthened) {
+  auto scene = with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa"});
+  const auto curve = test::clean_curve(test::identify_scene("hertz"));
+  scene.unknowns.emplace_back("contact_point=-3..1 mm");
+  const auto found = test::identified(scene, curve, {.profiles = false},
+                                      {"step.1.to=0.5 mm", "contact.depth=hertz"});
+  EXPECT_EQ(found.x.size(), curve.x.size());
+  EXPECT_EQ(found.left_out, 0);
+  // The curve contains the factor of deep presses, the fit does not: 2 % at 2 mm.
+  EXPECT_NEAR(found.unknowns[0].estimate, 60e3, 0.03 * 60e3);
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_TRUE(
+      found.notes[0].starts_with("the programme is shorter than the measurement and is "
+                                 "lengthened to "))
+      << found.notes[0];
 }
 
 // A curve that an interrupt leaves out looks like one that the data do not determine. Whenever the
