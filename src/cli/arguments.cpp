@@ -231,6 +231,8 @@ void add_options(CLI::App& verb, Identify& identify) {
   verb.add_option("--unknown", identify.unknowns, "Unknown with its range: KEY=LOW..HIGH")
       ->required()
       ->allow_extra_args(false);
+  verb.add_option("--given", identify.givens, "Known with its deviation: KEY=\"VALUE +- SD\"")
+      ->allow_extra_args(false);
   add_settings(verb, identify.settings);
   add_out(verb, identify.out);
   verb.add_flag("--force", identify.force, "Replace a finished result");

@@ -153,6 +153,7 @@ struct Identify {
   DataOptions columns{.compression = "auto"};
   std::string scenario;
   std::vector<std::string> unknowns;  // KEY=LOW..HIGH
+  std::vector<std::string> givens;    // KEY=VALUE +- SD
   std::string noise = "constant";     // or relative
   std::vector<std::string> settings;
   std::string out = "out";

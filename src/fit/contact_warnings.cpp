@@ -67,6 +67,10 @@ void warn_of_residuals(Fit& fit) {
          rounded_text(std::max(1.0, fit.effective_size), 3) +
          " independent ones; a law that does not fit has the same effect, and its bias is not in "
          "the interval");
+  if (fit.rho > 0.0 && fit.effective_size < 10.0)
+    warn(
+        "the points are worth fewer than 10 independent ones, for which the intervals are too "
+        "narrow; record a longer curve");
 }
 
 }  // namespace palpate::fit

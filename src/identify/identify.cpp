@@ -15,6 +15,7 @@
 #include "identify/lengthen.h"
 #include "identify/prepare_curve.h"
 #include "identify/search_starts.h"
+#include "identify/warnings.h"
 #include "identify/widening.h"
 #include "scenario/integrators.h"
 
@@ -363,38 +364,8 @@ class Search {
     for (const Identified& one : found_.unknowns)
       if (one.unknown.what == Unknown::What::force_offset)
         found_.scenario.contact.ambient_force += one.estimate;
-    warn(weighted, scenario::resolve(at, found_.rung));
-  }
-
-  void warn(const std::vector<double>& weighted, const scenario::Resolved& with) {
-    // Systematic residuals below a thousandth of the curve come from interpolation.
-    if (fit::systematic(weighted) && noise_ > 1e-3)
-      found_.warnings.push_back(
-          "the model does not describe the data: neighbouring residuals are correlated "
-          "(Durbin-Watson " +
-          rounded_text(found_.durbin_watson, 3) + ", noise gives 2). The intervals count the " +
-          std::to_string(found_.x.size()) + " points as " +
-          rounded_text(std::max(1.0, found_.effective_size), 3) +
-          " independent ones; the bias of a wrong model is not in them");
-    if (found_.r2 < 0.9)
-      found_.warnings.push_back("R^2 is " + rounded_text(found_.r2, 3) +
-                                ", so that the model describes the curve poorly, and the estimates "
-                                "mean little");
-    for (const Identified& one : found_.unknowns)
-      if (one.at_bound)
-        found_.warnings.push_back("the best `" + one.unknown.key +
-                                  "` is on the edge of its "
-                                  "range; widen the range, or hold it there with `--set`");
-    if (found_.predicted_error && *found_.predicted_error > with.solver.tolerance)
-      found_.warnings.push_back("the estimated error of `" + model_word() + "` is " +
-                                percent_text(*found_.predicted_error) +
-                                " here, and the estimates are wrong by about as much" +
-                                (found_.given ? "; leave `solver.model` to `auto`" : ""));
-    const auto waves = inertia_of_flow(with);
-    if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
-      found_.warnings.push_back(
-          "waves in the specimen change its deformation by about " + percent_text(*waves) +
-          " and are left out; set `solver.integrator = \"central_difference\"`");
+    found_.warnings =
+        warnings_of(found_, {weighted, noise_, model_word()}, scenario::resolve(at, found_.rung));
   }
 
   const Measurement& measured_;

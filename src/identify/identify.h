@@ -55,6 +55,12 @@ struct ProfilePoint {
   double delta = 0.0;       // its excess over that of the best fit, in variances of the noise
 };
 
+// What the uncertainty of a given number adds to the standard error of each unknown.
+struct GivenPart {
+  std::string key, value, deviation;  // as text, with unit
+  std::vector<double> deviations;     // one per unknown, SI
+};
+
 struct Identification {
   CurveKind kind = CurveKind::force_travel;
   scenario::Scenario scenario;  // whole programme, every `auto` resolved, with the estimates
@@ -79,6 +85,7 @@ struct Identification {
   double contact_shift = 0.0;         // SI of x; moves the contact point for moved_down, moved_up
   int left_out = 0;                   // measured points that were not used
   int evaluations = 0;                // of the model
+  std::vector<GivenPart> givens;      // in the order of `--given`
   std::vector<std::string> notes;     // sentences
   std::vector<std::string> warnings;  // sentences
 };

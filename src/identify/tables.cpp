@@ -159,6 +159,13 @@ std::vector<std::string> identified_sentences(const Identification& found) {
   }
   for (const Combination& one : found.combinations)
     lines.push_back(combination_sentence(found, one));
+  for (const GivenPart& part : found.givens)
+    for (std::size_t i = 0; i < found.unknowns.size(); ++i)
+      if (const Unknown& unknown = found.unknowns[i].unknown; !found.unknowns[i].tied)
+        lines.push_back("of this, `" + part.key + "` = " + part.value + " +- " + part.deviation +
+                        " adds a standard error of " +
+                        with_unit(unknown.shown(part.deviations[i]), unknown.unit_text()) +
+                        " to `" + unknown.key + "`");
   lines.push_back(model_sentence(found));
   const CurveWords& words = words_of(found.kind);
   lines.push_back(
