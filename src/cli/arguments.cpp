@@ -110,8 +110,16 @@ void add_options(CLI::App& verb, Fit& fit) {
       ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
   verb.add_option("--base", fit.base, "layer: bonded (default) or frictionless");
-  verb.add_option("--terms", fit.terms, "prony: number of relaxation times")
-      ->check(CLI::Range(1, 5));
+  verb.add_option("--terms", fit.terms,
+                  "prony: number of relaxation times; above 5 they are spaced in their logarithm")
+      ->check(CLI::Range(1, 60));
+  verb.add_option("--ramp", fit.ramp, "prony: duration of the loading ramp, in the unit of x")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--history", fit.history,
+                  "prony: column of the strain or depth over time (creep: of the stress)");
+  verb.add_option("--history-power", fit.history_power,
+                  "prony: exponent of that column; default 1, and 1.5 of a depth under a force")
+      ->check(CLI::Range(0.5, 3.0));
 }
 
 void add_options(CLI::App& verb, Data& data) {

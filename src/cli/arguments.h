@@ -67,6 +67,9 @@ struct Fit {
   std::string thickness;      // of the layer
   std::string base;           // of the layer: bonded or frictionless; empty: bonded
   int terms = 0;              // of prony; 0: not given
+  double ramp = 0.0;          // of prony: duration of the ramp before the hold, in the unit of x
+  std::string history;        // of prony: column of the strain, or of the stress in creep
+  double history_power = 0;   // exponent of that column; 0: 1, or 3/2 of a depth under a force
   std::string height;         // of a specimen between platens: strain is length / height
   std::string diameter;       // of a round specimen: stress is force / area
   std::string area;           // of its cross-section, otherwise

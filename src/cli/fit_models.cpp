@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -58,6 +59,9 @@ void check_options(const Fit& command) {
         Option{"--poisson", command.poisson_ratio >= 0, {"hertz", "layer"}, true, "0.45"},
         Option{"--thickness", !command.thickness.empty(), {"layer"}, true, "\"5 mm\""},
         Option{"--base", !command.base.empty(), {"layer"}, false, "bonded"},
+        Option{"--ramp", command.ramp > 0.0, {"prony", "prony_creep"}, false, "0.5"},
+        Option{"--history", !command.history.empty(), {"prony", "prony_creep"}, false, "strain"},
+        Option{"--history-power", command.history_power > 0, {"prony", "prony_creep"}, false, "1"},
         Option{"--terms", command.terms > 0, {"prony", "prony_creep"}, true, "2"}}) {
     const bool fits = is_one_of(command.model, option.models);
     if (option.given && !fits)
@@ -90,6 +94,45 @@ fit::Fit contact_fit(const Fit& command, const measured::MeasuredCurve& curve) {
   return fit::fit_contact(curve.x, curve.y, contact_test(command));
 }
 
+// The series with its loading history: a step, a ramp, or a column of the same rows.
+fit::PronySeries series_of(const Fit& command, const measured::MeasuredCurve& curve) {
+  fit::PronySeries series;
+  if (command.model == "prony_creep") series.kind = fit::PronySeries::Kind::creep;
+  series.terms = command.terms;
+  series.history.ramp = command.ramp;
+  if (command.history.empty()) {
+    if (command.history_power > 0)
+      refuse("`--history-power` is the exponent of `--history`; name that column too");
+    return series;
+  }
+  if (command.ramp > 0.0)
+    refuse("`--ramp` and `--history` both give the loading; leave one of them out");
+  DataOptions columns = command.columns;
+  columns.blanks = DataOptions::Blanks::keep;
+  columns.y = command.history;
+  columns.y_unit.clear();
+  columns.compression.clear();
+  const measured::MeasuredCurve history = measured::read_measured(curve.file, columns);
+  const bool depth =
+      history.y_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension;
+  const double power = command.history_power > 0 ? command.history_power : depth ? 1.5 : 1.0;
+  for (const double each : history.y)
+    series.history.samples.push_back(
+        power == 1.0 ? each : std::copysign(std::pow(std::abs(each), power), each));
+  return series;
+}
+
+// Times that the record is too short to tell: more than ten times its length.
+void refuse_long_times(const fit::Fit& result) {
+  const double length = result.range_high - result.range_low;
+  for (const fit::Estimate& one : result.parameters)
+    if (one.name.starts_with("tau") && one.estimate > 10.0 * length)
+      throw InputError({}, "`" + one.name + "` is " + rounded_text(one.estimate) + " " + one.unit +
+                               ", more than ten times the record of " + rounded_text(length) + " " +
+                               one.unit +
+                               ", which cannot tell it; record longer, or fit fewer terms");
+}
+
 fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
   const fit::Options options{.x_unit = curve.x_axis.unit,
                              .y_unit = curve.y_axis.unit,
@@ -100,10 +143,7 @@ fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
     return uniaxial_fit(command, curve);
   if (const auto model = fit::find_model(command.model))
     return fit::regress(curve.x_written, curve.y_written, *model, options);
-  const fit::PronySeries series{
-      command.model == "prony" ? fit::PronySeries::Kind::relaxation : fit::PronySeries::Kind::creep,
-      command.terms};
-  return fit::fit_prony(curve.x_written, curve.y_written, series, options);
+  return fit::fit_prony(curve.x_written, curve.y_written, series_of(command, curve), options);
 }
 
 std::string model_name(const fit::Fit& result) {
@@ -139,6 +179,7 @@ FittedCurve fit_curve(const Fit& command, const std::string& path) {
   try {
     result = fitted(command, curve);
     refuse_unconverged(result);
+    refuse_long_times(result);
     if (result.law.empty() || is_one_of(result.name, {"prony", "prony_creep"}))
       fit::warn_of_residuals(result);
   } catch (const InputError& error) {
