@@ -185,11 +185,17 @@ inline identify::Measurement clean_curve(const IdentifyScene& scene) {
 }
 
 // With noise of a share of the largest value.
-inline identify::Measurement noisy(identify::Measurement curve, double share, std::uint64_t seed) {
+// Noise of so much of the largest value, e_i = rho e_(i-1) + sqrt(1 - rho^2) z_i.
+inline identify::Measurement noisy(identify::Measurement curve, double share, std::uint64_t seed,
+                                   double rho = 0.0) {
   double largest = 0.0;
   for (const double y : curve.y) largest = std::max(largest, std::abs(y));
   Noise noise(seed);
-  for (double& y : curve.y) y += share * largest * noise.normal();
+  double error = noise.normal();
+  for (double& y : curve.y) {
+    y += share * largest * error;
+    error = rho * error + std::sqrt(1.0 - rho * rho) * noise.normal();
+  }
   return curve;
 }
 
@@ -206,12 +212,13 @@ inline identify::Identification identified(const IdentifyScene& scene,
 // How often of so many repeats the truth of each unknown lies inside its interval.
 inline std::vector<int> covered(const IdentifyScene& scene, int repeats,
                                 const identify::IdentifyOptions& options = {.searches = 1,
-                                                                            .profiles = false}) {
+                                                                            .profiles = false},
+                                double rho = 0.0) {
   const identify::Measurement clean = clean_curve(scene);
   std::vector<int> inside(scene.unknowns.size(), 0);
   for (int k = 0; k < repeats; ++k) {
     const auto found =
-        identified(scene, noisy(clean, 0.01, static_cast<std::uint64_t>(k) + 1), options);
+        identified(scene, noisy(clean, 0.01, static_cast<std::uint64_t>(k) + 1, rho), options);
     for (std::size_t i = 0; i < inside.size(); ++i) {
       const identify::Identified& one = found.unknowns[i];
       const identify::Interval interval = identify::trusted(one);

@@ -35,9 +35,10 @@ struct Prefix {
   double times;
   double per;
 };
-constexpr std::array prefixes{Prefix{"G", 1e9, 1},      Prefix{"M", 1e6, 1}, Prefix{"k", 1e3, 1},
-                              Prefix{"h", 1e2, 1},      Prefix{"d", 1, 1e1}, Prefix{"c", 1, 1e2},
-                              Prefix{"m", 1, 1e3},      Prefix{"u", 1, 1e6}, Prefix{"n", 1, 1e9},
+constexpr std::array prefixes{Prefix{"T", 1e12, 1},     Prefix{"p", 1, 1e12}, Prefix{"f", 1, 1e15},
+                              Prefix{"G", 1e9, 1},      Prefix{"M", 1e6, 1},  Prefix{"k", 1e3, 1},
+                              Prefix{"h", 1e2, 1},      Prefix{"d", 1, 1e1},  Prefix{"c", 1, 1e2},
+                              Prefix{"m", 1, 1e3},      Prefix{"u", 1, 1e6},  Prefix{"n", 1, 1e9},
                               Prefix{"\u00b5", 1, 1e6},   // the micro sign
                               Prefix{"\u03bc", 1, 1e6}};  // the Greek letter mu
 

@@ -26,13 +26,10 @@ void add_jobs(CLI::App& verb, int& jobs) {
   verb.add_option("--jobs", jobs, "Workers; 0: one per core")->check(CLI::Range(0, 1024));
 }
 
-enum class Columns { required, optional };
-
 // Options on the layout of a measured file, for every verb that reads one.
-void add_data(CLI::App& verb, DataOptions& data, Columns columns) {
-  const bool required = columns == Columns::required;
-  verb.add_option("--x", data.x, "Column of x: its name, or its number")->required(required);
-  verb.add_option("--y", data.y, "Column of y: its name, or its number")->required(required);
+void add_data(CLI::App& verb, DataOptions& data) {
+  verb.add_option("--x", data.x, "Column of x: its name, or its number");
+  verb.add_option("--y", data.y, "Column of y: its name, or its number");
   verb.add_option("--x-unit", data.x_unit, "Unit of x, if the file does not give it");
   verb.add_option("--y-unit", data.y_unit, "Unit of y, if the file does not give it");
   verb.add_option("--skip", data.skip, "Lines above the table")->check(CLI::Range(0, 1000000));
@@ -41,7 +38,13 @@ void add_data(CLI::App& verb, DataOptions& data, Columns columns) {
   verb.add_option("--compression", data.compression,
                   "Sign of compression in the file: positive, negative, auto");
   verb.add_option("--segment", data.segment,
-                  "Only approach or retract, or a value of the column `segment` or `step`");
+                  "Only approach or retract, or a value of the column `segment` or `step`; "
+                  "NAME:2 is the second of that name");
+  verb.add_option("--where", data.where, "Only rows with this value: COLUMN=VALUE")
+      ->allow_extra_args(false);
+  verb.add_option("--rows", data.rows, "Only these rows of the table, as 100..2000");
+  verb.add_option("--table", data.table, "Which of several tables in the file, from 1")
+      ->check(CLI::Range(1, 1000));
   verb.add_option("--case", data.case_name, "Only rows with this value in the column `case`");
 }
 
@@ -81,17 +84,47 @@ void add_options(CLI::App& verb, Fit& fit) {
   for (const fit::ModelInfo& model : fit::models()) models += std::string(model.name) + "|";
   for (const char* name : further_models) models += std::string(name) + "|";
   models.pop_back();
-  verb.add_option("data", fit.data, "CSV or other table in text")->required();
-  add_data(verb, fit.columns, Columns::required);
+  verb.add_option("data", fit.data, "CSV or other tables in text")->required();
+  verb.add_option("--out", fit.out, "Folder for the rows, the population and its figure");
+  verb.add_flag("--force", fit.force, "Replace that folder");
+  add_data(verb, fit.columns);
   verb.add_option("--model", fit.model, "Curve: " + models)->required();
   verb.add_option("--origin", fit.x_origin, "Subtracted from every x");
-  verb.add_option("--radius", fit.radius, "hertz, layer: of the sphere, as \"11 mm\"");
+  verb.add_option("--radius", fit.radius, "hertz, layer: of the sphere or punch, as \"11 mm\"");
+  verb.add_option("--tip", fit.tip,
+                  "hertz: paraboloid (default), sphere, cone, pyramid3, pyramid4, punch");
+  verb.add_option("--half-angle", fit.half_angle,
+                  "hertz: between axis and face of a cone or pyramid, as \"20 deg\"");
+  verb.add_option(
+      "--baseline", fit.baseline,
+      "hertz, layer: none, offset or tilt; default: what the rows before contact allow");
+  verb.add_option("--from", fit.from,
+                  "Least depth below contact, as \"0.1 mm\" or \"10 %\"; modulus: strain");
+  verb.add_option("--to", fit.to, "Largest depth or strain, likewise");
+  verb.add_option("--height", fit.height, "modulus, neo_hookean, ogden: of the specimen");
+  verb.add_option("--diameter", fit.diameter, "the same: of a round specimen");
+  verb.add_option("--area", fit.area, "the same: of the cross-section, as \"300 mm^2\"");
+  verb.add_option("--platens", fit.platens, "the same: slippery (default) or bonded");
+  verb.add_option("--loading", fit.loading, "the same: compression or tension");
   verb.add_option("--poisson", fit.poisson_ratio, "hertz, layer: Poisson's ratio")
       ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
   verb.add_option("--base", fit.base, "layer: bonded (default) or frictionless");
-  verb.add_option("--terms", fit.terms, "prony: number of relaxation times")
-      ->check(CLI::Range(1, 5));
+  verb.add_option("--terms", fit.terms,
+                  "prony: number of relaxation times; above 5 they are spaced in their logarithm")
+      ->check(CLI::Range(1, 60));
+  verb.add_option("--ramp", fit.ramp, "prony: duration of the loading ramp, in the unit of x")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--history", fit.history,
+                  "prony: column of the strain or depth over time (creep: of the stress)");
+  verb.add_option("--history-power", fit.history_power,
+                  "prony: exponent of that column; default 1, and 1.5 of a depth under a force")
+      ->check(CLI::Range(0.5, 3.0));
+}
+
+void add_options(CLI::App& verb, Data& data) {
+  verb.add_option("data", data.data, "CSV or other table in text")->required();
+  add_data(verb, data.columns);
 }
 
 void add_options(CLI::App& verb, Compare& compare) {
@@ -199,12 +232,14 @@ void add_options(CLI::App& all, Sweep& sweep) {
 void add_options(CLI::App& verb, Identify& identify) {
   verb.add_option("data", identify.data, "CSV file of the measurement")->required();
   verb.add_option("scenario", identify.scenario, "Scenario of the test")->required();
-  add_data(verb, identify.columns, Columns::optional);
+  add_data(verb, identify.columns);
   verb.add_option("--noise", identify.noise, "Noise of the measurement: constant or relative")
       ->capture_default_str()
       ->check(CLI::IsMember({"constant", "relative"}));
   verb.add_option("--unknown", identify.unknowns, "Unknown with its range: KEY=LOW..HIGH")
       ->required()
+      ->allow_extra_args(false);
+  verb.add_option("--given", identify.givens, "Known with its deviation: KEY=\"VALUE +- SD\"")
       ->allow_extra_args(false);
   add_settings(verb, identify.settings);
   add_out(verb, identify.out);

@@ -46,19 +46,40 @@ struct Explain {
 using DataOptions = measured::DataLayout;
 
 // Models of `fit` that are not in the table of fit/model.h and have further options.
-inline constexpr std::array further_models{"hertz", "layer", "prony", "prony_creep"};
+inline constexpr std::array further_models{"hertz",   "layer",       "prony", "prony_creep",
+                                           "modulus", "neo_hookean", "ogden"};
 
 struct Fit {
-  static constexpr Word word{"fit", "Fit a curve to two columns of a text table"};
-  std::string data;
+  static constexpr Word word{"fit", "Fit a curve to two columns of text tables"};
+  std::vector<std::string> data;  // with several, one row per curve and the population
+  std::string out;                // folder of a population; empty: none
+  bool force = false;
   DataOptions columns;
   std::string model;
   double x_origin = 0.0;
-  std::string radius;         // of the sphere, such as `11 mm`, for hertz and layer
+  std::string radius;         // of the tip, such as `11 mm`, for hertz and layer
+  std::string tip;            // of hertz: paraboloid (also empty), sphere, cone, pyramid3, ...
+  std::string half_angle;     // of a cone or pyramid, in degrees
+  std::string baseline;       // of hertz and layer: none, offset, tilt; empty: from the rows
+  std::string from;           // a depth below contact, or a share of the largest; empty: all
+  std::string to;             // likewise
   double poisson_ratio = -1;  // of the tissue; -1: not given
   std::string thickness;      // of the layer
   std::string base;           // of the layer: bonded or frictionless; empty: bonded
   int terms = 0;              // of prony; 0: not given
+  double ramp = 0.0;          // of prony: duration of the ramp before the hold, in the unit of x
+  std::string history;        // of prony: column of the strain, or of the stress in creep
+  double history_power = 0;   // exponent of that column; 0: 1, or 3/2 of a depth under a force
+  std::string height;         // of a specimen between platens: strain is length / height
+  std::string diameter;       // of a round specimen: stress is force / area
+  std::string area;           // of its cross-section, otherwise
+  std::string platens;        // slippery (also empty) or bonded
+  std::string loading;        // compression or tension; empty: by the signs
+};
+struct Data {
+  static constexpr Word word{"data", "Say what is understood of a measured file"};
+  std::string data;
+  DataOptions columns{.compression = "auto"};
 };
 struct Compare {
   static constexpr Word word{"compare", "Compare results with expected ones"};
@@ -135,6 +156,7 @@ struct Identify {
   DataOptions columns{.compression = "auto"};
   std::string scenario;
   std::vector<std::string> unknowns;  // KEY=LOW..HIGH
+  std::vector<std::string> givens;    // KEY=VALUE +- SD
   std::string noise = "constant";     // or relative
   std::vector<std::string> settings;
   std::string out = "out";
@@ -160,7 +182,7 @@ struct Manual {
 };
 
 // Every verb. It needs `word`, add_options() in arguments.cpp and perform() in verbs.h to compile.
-using Verb = std::variant<Run, Explain, Fit, Compare, Bless, Mesh, Reference, Bench, Chart,
+using Verb = std::variant<Run, Explain, Fit, Data, Compare, Bless, Mesh, Reference, Bench, Chart,
                           Stability, Sweep, Identify, Export, Device, Manual>;
 
 struct Arguments {

@@ -8,6 +8,7 @@
 #include "cli/table_text.h"
 #include "cli/verbs.h"
 #include "identify/folder.h"
+#include "identify/givens.h"
 #include "identify/identify.h"
 #include "identify/tables.h"
 #include "measured/measured.h"
@@ -31,13 +32,16 @@ identify::Measurement read_measurement(const Identify& command, const Talk& talk
 
 int perform(const Identify& command, const Arguments& arguments, const Talk& talk) {
   const std::string started = report::utc_now();
-  const scenario::Family family = scenario::read(command.scenario, command.settings);
+  scenario::Family family = scenario::read(command.scenario, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   if (family.cases.size() > 1)
     talk.say("note: only the first of " + std::to_string(family.cases.size()) +
              " cases is fitted, " + family.cases.front().name);
   const std::vector<identify::Unknown> unknowns =
       identify::read_unknowns(command.unknowns, family.cases.front().scenario);
+  const std::vector<identify::Given> givens =
+      identify::read_givens(command.givens, family.cases.front().scenario, unknowns);
+  identify::set_givens(family, givens);
   WholeFolder folder((std::filesystem::path(command.out) / (family.name + "_identified")).string(),
                      "identification", command.force ? Replace::any : Replace::incomplete);
   folder.refuse_what_is_there();
@@ -49,6 +53,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   identify::Identification found;
   try {
     found = identify::identify(measured, family, unknowns, stop, options);
+    identify::carry_givens(found, measured, family, givens, stop);
   } catch (const InputError&) {
     if (!stop.load()) throw;
     Talk::error("palpate: interrupted; nothing was written");

@@ -28,9 +28,9 @@ void silence_glog() {
 namespace {
 
 // All residuals as functions of the unknowns u_i = p_i / scale_i, which are of order one.
-class Residuals final : public ceres::CostFunction {
+class CurveCost final : public ceres::CostFunction {
  public:
-  Residuals(std::span<const double> y, const CurveAt& curve, std::vector<double> scale)
+  CurveCost(std::span<const double> y, const CurveAt& curve, std::vector<double> scale)
       : y_(y), curve_(curve), scale_(std::move(scale)) {
     set_num_residuals(static_cast<int>(y.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(scale_.size()));
@@ -129,7 +129,7 @@ Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<cons
     unknowns.push_back(guess / scale.back());
   }
   ceres::Problem problem;
-  problem.AddResidualBlock(new Residuals(y, curve, scale), nullptr, unknowns.data());
+  problem.AddResidualBlock(new CurveCost(y, curve, scale), nullptr, unknowns.data());
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(y.size(), max_iterations), &problem, &summary);
 
@@ -142,6 +142,10 @@ Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<cons
   minimum.squares = 2.0 * summary.final_cost;
   for (std::size_t i = 0; i < scale.size(); ++i)
     minimum.parameters.push_back(unknowns[i] * scale[i]);
+  minimum.residuals.resize(y.size());
+  minimum.jacobian.resize(y.size() * scale.size());
+  (void)curve(minimum.parameters, minimum.residuals, minimum.jacobian);
+  for (std::size_t i = 0; i < y.size(); ++i) minimum.residuals[i] -= y[i];
   if (minimum.status == Minimum::Status::found)
     minimum.inverse_normal = inverse_normal(problem, unknowns.data(), scale);
   return minimum;

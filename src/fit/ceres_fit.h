@@ -22,6 +22,9 @@ struct Minimum {
   int iterations = 0;
   // (J^T J)^-1 at the minimum, by rows; empty if J lacks full rank or no minimum was found.
   std::vector<double> inverse_normal;
+  // At the minimum: value_i - y_i, and its derivatives, one row per point; empty if none was found.
+  std::vector<double> residuals = {};
+  std::vector<double> jacobian = {};
 };
 
 // Computes a curve for given parameters: one value per point and, unless `slopes` is empty, the

@@ -1,4 +1,4 @@
-// F is proportional to E; the contact point is searched on a grid first, then both by Ceres.
+// Force is proportional to E: the contact point is searched first, then all unknowns by Ceres.
 #include "fit/contact_model.h"
 
 #include <algorithm>
@@ -7,161 +7,366 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "base/text.h"
-#include "contact/hertz.h"
 #include "contact/layer.h"
 #include "fit/ceres_fit.h"
+#include "fit/contact_search.h"
+#include "fit/contact_warnings.h"
 #include "fit/settle.h"
 
 namespace palpate::fit {
 namespace {
 
-// The contact law for E* = 1 Pa.
-class UnitLaw {
+// The contact law for E* = 1 Pa, and the largest depth for which it is known (m).
+struct Law {
+  UnitLaw unit;
+  double deepest = std::numeric_limits<double>::infinity();
+  std::string text;
+};
+
+Law law_of(const ContactTest& test) {
+  if (!test.thickness) {
+    const Tip tip{test.tip, test.radius, test.half_angle};
+    return {[tip](double depth) {
+              const TipForce at = tip_force(tip, depth);
+              return UnitForce{at.force, at.stiffness};
+            },
+            std::numeric_limits<double>::infinity(), law_text(test.tip)};
+  }
+  const contact::Layer layer{.poisson_ratio = test.poisson_ratio, .base = test.base};
+  const contact::LayerContact contact{test.radius, 1.0, *test.thickness, contact::LayerLaw(layer)};
+  const double deepest = contact.last_depth();
+  return {[contact](double depth) {
+            return depth > 0.0 ? UnitForce{contact.force(depth), contact.stiffness(depth)}
+                               : UnitForce{0.0, 0.0};
+          },
+          deepest,
+          "Hertz 1881 times the exact factor of a layer of " +
+              rounded_text(unit::mm.from_si(*test.thickness)) + " mm"};
+}
+
+std::string plural(int count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? " is" : "s are");
+}
+
+class ContactFit {
  public:
-  explicit UnitLaw(const ContactTest& test) : radius_(test.radius) {
-    if (!test.thickness) return;
-    const contact::Layer layer{.poisson_ratio = test.poisson_ratio, .base = test.base};
-    layer_.emplace(
-        contact::LayerContact{test.radius, 1.0, *test.thickness, contact::LayerLaw(layer)});
+  ContactFit(std::span<const double> depth, std::span<const double> force, const ContactTest& test)
+      : test_(test), law_(law_of(test)) {
+    fit_.name = test.thickness ? "layer" : "hertz";
+    fit_.law = law_.text;
+    take(depth, force);
   }
 
-  [[nodiscard]] double force(double depth) const {
-    return layer_ ? layer_->force(depth) : contact::hertz::force(depth, radius_, 1.0);
-  }
-  [[nodiscard]] double stiffness(double depth) const {
-    if (layer_) return layer_->stiffness(depth);
-    return depth > 0.0 ? contact::hertz::stiffness(depth, radius_, 1.0) : 0.0;
-  }
-  [[nodiscard]] double deepest() const {  // m
-    return layer_ ? layer_->last_depth() : std::numeric_limits<double>::infinity();
+  Fit all() {
+    const ContactChoice choice = test_.from || test_.to ? chosen_part() : chosen();
+    refuse_what_shows_no_contact(choice);
+    fit_.n = static_cast<int>(rows_.depth.size());
+    if (outside_ > 0)
+      fit_.notes.push_back(plural(outside_, "point") + " left out by `--from` and `--to`");
+    fit_.left_out += outside_;
+    fit_.range_low = unit::mm.from_si(rows_.low);
+    fit_.range_high = unit::mm.from_si(rows_.high);
+    finish(choice);
+    return std::move(fit_);
   }
 
  private:
-  double radius_;
-  std::optional<contact::LayerContact> layer_;
-};
-
-struct Points {
-  std::vector<double> depth;  // m
-  std::vector<double> force;  // divided by force_scale
-  double force_scale = 1.0;   // N, largest magnitude
-  double low = 0.0;           // m, smallest depth
-  double high = 0.0;          // m, largest depth
-};
-
-Points usable(std::span<const double> depth, std::span<const double> force, Fit& fit) {
-  Points points;
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (!std::isfinite(depth[i]) || !std::isfinite(force[i])) continue;
-    points.depth.push_back(depth[i]);
-    points.force.push_back(force[i]);
+  void leave_out(int count, const std::string& why) {
+    if (count == 0) return;
+    fit_.left_out += count;
+    fit_.notes.push_back(plural(count, "point") + " left out: " + why);
   }
-  fit.n = static_cast<int>(points.depth.size());
-  fit.left_out = static_cast<int>(depth.size()) - fit.n;
-  if (fit.n < 4)
-    throw InputError({}, "the model `" + fit.name + "` needs at least 4 points, and " +
-                             std::to_string(fit.n) + (fit.n == 1 ? " is" : " are") +
+
+  void take(std::span<const double> depth, std::span<const double> force) {
+    std::vector<double> h, f;
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      if (!std::isfinite(depth[i]) || !std::isfinite(force[i])) continue;
+      h.push_back(depth[i]);
+      f.push_back(force[i]);
+    }
+    leave_out(static_cast<int>(depth.size() - h.size()), "a number is missing or not finite");
+    refuse_few(h.size());
+    take_one_way(h, f);
+    const auto [low, high] = std::minmax_element(h.begin(), h.end());
+    if (*low == *high)
+      throw InputError({}, "all points have the same depth; give a curve over depth");
+    for (const double each : f) scale_ = std::max(scale_, std::abs(each));
+    if (!(scale_ > 0.0)) scale_ = 1.0;
+    for (double& each : f) each /= scale_;
+    all_ = {h, f, *low, *high};
+    rows_ = all_;
+  }
+
+  void refuse_few(std::size_t usable) const {
+    if (usable >= 4) return;
+    throw InputError({}, "the model `" + fit_.name + "` needs at least 4 points, and " +
+                             std::to_string(usable) + (usable == 1 ? " is" : " are") +
                              " usable; record more points");
-  const auto [low, high] = std::minmax_element(points.depth.begin(), points.depth.end());
-  points.low = *low;
-  points.high = *high;
-  if (points.low == points.high)
-    throw InputError({}, "all points have the same depth; give a curve over depth");
-  double largest = 0.0;
-  for (const double each : points.force) largest = std::max(largest, std::abs(each));
-  if (largest > 0.0) points.force_scale = largest;
-  for (double& each : points.force) each /= points.force_scale;
-  return points;
-}
-
-struct Start {
-  double factor = 0.0;   // E* / force_scale, 1/m^2
-  double contact = 0.0;  // h_0, m
-};
-
-// The best factor for a given contact point, by linear least squares, and its sum of squares.
-struct Suited {
-  double factor, squares;
-};
-std::optional<Suited> suited(const UnitLaw& law, const Points& points, double contact) {
-  double product = 0.0;
-  double norm = 0.0;
-  double total = 0.0;
-  for (std::size_t i = 0; i < points.depth.size(); ++i) {
-    const double unit = law.force(points.depth[i] - contact);
-    product += unit * points.force[i];
-    norm += unit * unit;
-    total += points.force[i] * points.force[i];
   }
-  if (!(norm > 0.0) || !std::isfinite(norm)) return std::nullopt;
-  return Suited{product / norm, total - product * product / norm};
-}
 
-// The best of 400 contact points, from one range before the first depth to just before the last.
-std::optional<Start> start_of(const UnitLaw& law, const Points& points) {
-  constexpr int steps = 400;
-  const double range = points.high - points.low;
-  std::optional<Start> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < steps; ++i) {
-    const double contact = points.low + range * (2.0 * i / steps - 1.0);
-    if (points.high - contact > law.deepest()) continue;
-    const auto found = suited(law, points, contact);
-    if (!found || !(found->squares < least)) continue;
-    least = found->squares;
-    best = Start{found->factor, contact};
+  // Keeps the rows up to the deepest one, or those from there on. A curve turns back if its last
+  // rows are a tenth of the range above the deepest.
+  void take_one_way(std::vector<double>& h, std::vector<double>& f) {
+    const auto low = std::min_element(h.begin(), h.end());
+    const auto high = std::max_element(h.begin(), h.end());  // the first of several
+    const auto deepest = as_index(high - h.begin());
+    const double back = *high - 0.1 * (*high - *low);
+    const auto away = [&](double each) { return each < back; };
+    const auto turn = h.begin() + static_cast<std::ptrdiff_t>(deepest);
+    if (std::none_of(turn, h.end(), away)) return;
+    const bool comes = std::any_of(h.begin(), turn, away);
+    const auto size = static_cast<int>(h.size());
+    const auto cut = [&](std::size_t from, std::size_t to) {
+      h = {h.begin() + static_cast<std::ptrdiff_t>(from),
+           h.begin() + static_cast<std::ptrdiff_t>(to)};
+      f = {f.begin() + static_cast<std::ptrdiff_t>(from),
+           f.begin() + static_cast<std::ptrdiff_t>(to)};
+    };
+    if (!comes || test_.way == ContactTest::Way::all) return;
+    if (test_.way == ContactTest::Way::approach) {
+      cut(0, deepest + 1);
+      leave_out(size - static_cast<int>(h.size()),
+                "the way back from the deepest row; `--segment retract` fits it");
+    } else {
+      cut(deepest, h.size());
+      leave_out(size - static_cast<int>(h.size()), "the way to the deepest row");
+    }
+    refuse_few(h.size());
   }
-  return best;
-}
+
+  [[nodiscard]] ContactChoice chosen() const {
+    std::optional<ContactChoice> choice;
+    using Asked = ContactTest::BaselineChoice;
+    if (test_.baseline == Asked::automatic) {
+      choice = choose_contact(law_.unit, rows_, law_.deepest);
+    } else {
+      const Baseline baseline = test_.baseline == Asked::none     ? Baseline::none
+                                : test_.baseline == Asked::offset ? Baseline::offset
+                                                                  : Baseline::tilt;
+      if (const auto guess = search_contact(law_.unit, rows_, baseline, {law_.deepest}))
+        choice = ContactChoice{baseline, *guess};
+    }
+    if (choice) return *choice;
+    if (rows_.range() > law_.deepest)
+      throw InputError(
+          {}, "the curve is deeper than " + rounded_text(unit::mm.from_si(law_.deepest)) +
+                  " mm, up to which the law of so thin a layer is valid; give the part of the "
+                  "curve up to that depth, by `--to`");
+    throw InputError({}, "no contact point fits the curve; give a curve of force over depth");
+  }
+
+  // Keeps the rows before contact and those between `from` and `to`; false if nothing changes.
+  bool narrow(double contact) {
+    const double most = all_.high - contact;
+    const auto length = [&](const std::optional<DepthLimit>& limit, double otherwise) {
+      if (!limit) return otherwise;
+      return limit->share ? limit->value * most : limit->value;
+    };
+    const double from = length(test_.from, 0.0);
+    const double to = length(test_.to, most) * (1.0 + 1e-12);
+    PressRows kept =
+        those([&](double h) { return h <= contact || (h - contact >= from && h - contact <= to); });
+    const bool same = kept.depth == rows_.depth;
+    rows_ = std::move(kept);
+    return !same;
+  }
+
+  template <class Wanted>
+  [[nodiscard]] PressRows those(const Wanted& wanted) const {
+    PressRows kept;
+    for (std::size_t i = 0; i < all_.depth.size(); ++i) {
+      if (!wanted(all_.depth[i])) continue;
+      kept.depth.push_back(all_.depth[i]);
+      kept.force.push_back(all_.force[i]);
+    }
+    refuse_few(kept.depth.size());
+    const auto [low, high] = std::minmax_element(kept.depth.begin(), kept.depth.end());
+    if (*low == *high)
+      throw InputError({}, "no depth is left between `--from` and `--to`; widen them");
+    kept.low = *low;
+    kept.high = *high;
+    return kept;
+  }
+
+  // The limits are counted from the contact point, which depends on the rows between them. The
+  // fixed point is searched from all rows and from the first of them, since the contact point of a
+  // curve that stiffens is too deep at first; the largest R^2 decides.
+  ContactChoice chosen_part() {
+    std::optional<ContactChoice> best;
+    PressRows best_rows;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double part : {1.0, 0.8, 0.6, 0.4}) {
+      const double end = all_.low + part * all_.range();
+      rows_ = those([&](double h) { return h <= end; });
+      try {
+        ContactChoice choice = chosen();
+        for (int i = 0; i < 20 && narrow(choice.guess.contact); ++i) choice = chosen();
+        const double lost = choice.guess.squares / total_squares();
+        if (choice.guess.factor > 0.0 && lost < least) {
+          least = lost;
+          best = choice;
+          best_rows = rows_;
+        }
+      } catch (const InputError&) {  // the first rows may show no contact
+        if (part == 1.0) throw;
+      }
+    }
+    if (!best)
+      throw InputError({},
+                       "no contact point fits the rows between `--from` and `--to`; widen them");
+    rows_ = std::move(best_rows);
+    outside_ = static_cast<int>(all_.depth.size() - rows_.depth.size());
+    return *best;
+  }
+
+  [[nodiscard]] double total_squares() const {
+    double mean = 0.0;
+    for (const double f : rows_.force) mean += f / static_cast<double>(rows_.force.size());
+    double total = 0.0;
+    for (const double f : rows_.force) total += (f - mean) * (f - mean);
+    return std::max(total, 1e-300);
+  }
+
+  // How well the law describes the curve with the signs of depth and force turned: SSE; infinite
+  // without a positive modulus.
+  [[nodiscard]] double squares_with(double depth_sign, double force_sign) const {
+    PressRows turned;
+    for (const double h : rows_.depth) turned.depth.push_back(depth_sign * h);
+    for (const double f : rows_.force) turned.force.push_back(force_sign * f);
+    turned.low = depth_sign > 0.0 ? rows_.low : -rows_.high;
+    turned.high = depth_sign > 0.0 ? rows_.high : -rows_.low;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Baseline baseline : {Baseline::none, Baseline::offset, Baseline::tilt}) {
+      const auto guess = search_contact(law_.unit, turned, baseline, {law_.deepest});
+      if (!guess || !(guess->factor > 0.0)) continue;
+      // A convex curve is a steep line minus contact at its other end: such a tilt is no baseline.
+      const double pressed = guess->factor * law_.unit(turned.high - guess->contact).force;
+      if (std::abs(guess->tilt) <= pressed) least = std::min(least, guess->squares);
+    }
+    return least;
+  }
+
+  // A sign is advised only where the curve with that sign is one of contact: its squares are less
+  // than a third of those of a straight line.
+  void refuse_what_shows_no_contact(const ContactChoice& choice) const {
+    const ContactGuess& guess = choice.guess;
+    const auto line = search_contact(law_.unit, rows_, Baseline::tilt, {law_.deepest});
+    const double straight = line ? line->straight : 0.0;
+    const bool grows = guess.factor > 0.0;
+    const double negative = squares_with(1.0, -1.0);
+    const double height = squares_with(-1.0, 1.0);
+    const double both = squares_with(-1.0, -1.0);
+    const double best = std::min({negative, height, both});
+    const double here = grows ? guess.squares : std::numeric_limits<double>::infinity();
+    if (best < 0.1 * here && best < straight / 3.0) {
+      if (best == negative)
+        throw InputError({},
+                         "the load falls with depth; give `--compression negative` if the load "
+                         "cell reports compression as negative, or another `--x`");
+      throw InputError({}, std::string("the load ") + (best == height ? "grows" : "falls") +
+                               " as the depth falls, as it does over a height; give "
+                               "`--compression auto`, which turns the signs, or another `--x`");
+    }
+    if (!grows)
+      throw InputError({},
+                       "the load does not grow with depth anywhere, with any sign, so that "
+                       "the curve shows no contact; name other columns by `--x` and `--y`");
+    const auto n = static_cast<double>(rows_.depth.size());
+    if (choice.baseline != Baseline::none && guess.straight > 0.0 &&
+        n * std::log(guess.straight / std::max(guess.squares, 1e-300)) < 2.0 * std::log(n) + 6.0)
+      throw InputError({},
+                       "the curve shows no contact: a straight line describes it as well; "
+                       "record more points in contact, or choose a part of the curve");
+    const std::size_t beyond = rows_.depth.size() - guess.before;
+    if (beyond < 3)
+      throw InputError({}, "only " + std::to_string(beyond) +
+                               " points lie beyond the contact point, which determine no modulus; "
+                               "record more points in contact");
+  }
+
+  // Unknowns: E* divided by its guess, the contact point divided by the range, offset and tilt.
+  void finish(const ContactChoice& choice) {
+    const ContactGuess& guess = choice.guess;
+    const double range = rows_.range();
+    const std::size_t count = 2 + as_index(choice.baseline);
+    const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
+                              std::span<double> slopes) {
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const UnitForce unit = law_.unit(rows_.depth[i] - p[1] * range);
+        const double along = (rows_.depth[i] - rows_.low) / range;
+        values[i] = p[0] * guess.factor * unit.force;
+        if (count > 2) values[i] += p[2];
+        if (count > 3) values[i] += p[3] * along;
+        if (slopes.empty()) continue;
+        double* row = &slopes[i * count];
+        row[0] = guess.factor * unit.force;
+        row[1] = -p[0] * guess.factor * unit.stiffness * range;
+        if (count > 2) row[2] = 1.0;
+        if (count > 3) row[3] = along;
+      }
+      return true;
+    };
+    // Numbers near 0 begin at 0, so that the search does not scale by them.
+    const auto start = [](double value) { return std::abs(value) < 1e-3 ? 0.0 : value; };
+    std::vector<double> unknowns{1.0, guess.contact / range, start(guess.offset),
+                                 start(guess.tilt)};
+    unknowns.resize(count);
+    const Minimum minimum = minimise(rows_.force, curve, unknowns, 200);
+
+    // E = E* (1 - nu^2) for a rigid tip                  Chen 2007 eq. (2); docs/theory.md (1)
+    const double young = guess.factor * scale_ * (1.0 - test_.poisson_ratio * test_.poisson_ratio);
+    std::vector<double> scale{unit::kPa.from_si(young), unit::mm.from_si(range), scale_,
+                              scale_ / unit::mm.from_si(range)};
+    scale.resize(count);
+    fit_.parameters = {{.name = "E", .unit = "kPa"},
+                       {.name = "h_0", .unit = "mm"},
+                       {.name = "F_0", .unit = "N"},
+                       {.name = "tilt", .unit = "N/mm"}};
+    fit_.parameters.resize(count);
+    for (std::size_t i = 0; i < count; ++i) fit_.parameters[i].initial = unknowns[i] * scale[i];
+    settle(fit_, minimum, {rows_.force, scale_, scale, test_.residuals});
+    if (fit_.termination == Termination::failed) return;
+    describe(choice, minimum);
+  }
+
+  void describe(const ContactChoice& choice, const Minimum& minimum) {
+    const double contact = minimum.parameters[1] * rows_.range();
+    ContactResult result{test_, choice.baseline};
+    result.deepest = rows_.high - contact;
+    result.before = as_index(std::count_if(rows_.depth.begin(), rows_.depth.end(),
+                                           [&](double h) { return h <= contact; }));
+    result.beyond = rows_.depth.size() - result.before;
+    const double pressed =
+        minimum.parameters[0] * choice.guess.factor * law_.unit(result.deepest).force;
+    result.drift =
+        choice.baseline == Baseline::tilt ? std::abs(minimum.parameters[3] / pressed) : 0.0;
+    static constexpr std::array<const char*, 3> words{"no baseline", "a force offset",
+                                                      "a force offset and a tilt"};
+    fit_.law += ", with " + std::string(words[as_index(choice.baseline)]);
+    fit_.notes.push_back(std::to_string(result.before) + " points lie before contact and " +
+                         std::to_string(result.beyond) + " beyond, up to a depth of " +
+                         rounded_text(unit::mm.from_si(result.deepest)) +
+                         " mm below the contact point");
+    warn_of_contact(fit_, result);
+  }
+
+  const ContactTest& test_;
+  Law law_;
+  Fit fit_;
+  PressRows all_;       // of the chosen way; forces divided by scale_
+  PressRows rows_;      // those between `from` and `to`
+  double scale_ = 0.0;  // N, largest magnitude
+  int outside_ = 0;
+};
 
 }  // namespace
 
 Fit fit_contact(std::span<const double> depth, std::span<const double> force,
                 const ContactTest& test) {
-  assert(depth.size() == force.size() && test.radius > 0.0);
-  Fit fit;
-  fit.name = test.thickness ? "layer" : "hertz";
-  fit.parameters = {{.name = "E", .unit = "kPa"}, {.name = "h_0", .unit = "mm"}};
-  const Points points = usable(depth, force, fit);
-  fit.range_low = unit::mm.from_si(points.low);
-  fit.range_high = unit::mm.from_si(points.high);
-  const UnitLaw law(test);
-  const auto start = start_of(law, points);
-  if (!start)
-    throw InputError({},
-                     "the curve is deeper than " + rounded_text(unit::mm.from_si(law.deepest())) +
-                         " mm, up to which the law of so thin a layer is valid; give the part of "
-                         "the curve up to that depth");
-  if (!(start->factor > 0.0))
-    throw InputError({},
-                     "the load falls with depth; give `--compression negative` if the load cell "
-                     "reports compression as negative, or another `--x`");
-
-  // Unknowns: E* divided by its initial guess, the contact point divided by the range of depths.
-  const double range = points.high - points.low;
-  const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
-                            std::span<double> slopes) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double at = points.depth[i] - p[1] * range;
-      const double unit = start->factor * law.force(at);
-      values[i] = p[0] * unit;
-      if (slopes.empty()) continue;
-      slopes[2 * i] = unit;
-      slopes[2 * i + 1] = -p[0] * start->factor * law.stiffness(at) * range;
-    }
-    return true;
-  };
-  const std::array unknowns{1.0, start->contact / range};
-  const Minimum minimum = minimise(points.force, curve, unknowns, 200);
-  // E = E* (1 - nu^2) for a rigid sphere               Chen 2007 eq. (2); docs/theory.md (1)
-  const double young =
-      start->factor * points.force_scale * (1.0 - test.poisson_ratio * test.poisson_ratio);
-  const std::array scale{unit::kPa.from_si(young), unit::mm.from_si(range)};
-  fit.parameters[0].initial = scale[0];
-  fit.parameters[1].initial = unknowns[1] * scale[1];
-  settle(fit, minimum, {points.force, points.force_scale, scale});
-  return fit;
+  assert(depth.size() == force.size());
+  return ContactFit(depth, force, test).all();
 }
 
 }  // namespace palpate::fit

@@ -1,4 +1,4 @@
-// Fits a sphere's force over its depth: the tissue's Young's modulus and the contact point.
+// Fits a tip's force over its depth: the tissue's Young's modulus and the contact point.
 #pragma once
 
 #include <optional>
@@ -7,23 +7,44 @@
 #include "base/units.h"
 #include "contact/layer_integral.h"
 #include "fit/regression.h"
+#include "fit/tip.h"
 
 namespace palpate::fit {
 
-// The known quantities of a test with a rigid sphere.
+// A depth below the contact point: a length (m), or a share of the largest depth.
+struct DepthLimit {
+  double value = 0.0;
+  bool share = false;
+};
+
+// The known quantities of a test with a rigid tip, and the part of the curve that is fitted.
 struct ContactTest {
-  double radius = 0.0;                   // of the sphere, m
+  double radius = 0.0;                   // of the sphere or the punch, m
   double poisson_ratio = 0.5;            // of the tissue, 0 to 1/2
   std::optional<double> thickness = {};  // m, of a layer on a rigid base; none: a half-space
   contact::LayerBase base = contact::LayerBase::bonded;
+  Tip::Kind tip = Tip::Kind::paraboloid;  // of a half-space; a layer is pressed by a paraboloid
+  double half_angle = 0.0;                // rad, of cones and pyramids
+
+  enum class BaselineChoice { automatic, none, offset, tilt };
+  BaselineChoice baseline = BaselineChoice::automatic;
+  std::optional<DepthLimit> from = {};
+  std::optional<DepthLimit> to = {};
+  enum class Way { approach, retract, all };
+  Way way = Way::approach;
+  Residuals residuals = Residuals::independent;
 };
 
-// Fits F = 4/3 E / (1 - nu^2) sqrt(R) (h - h_0)^(3/2) (0 before contact), or the same times the
-// exact factor of a finite layer (contact/layer.h), to `depth` (m) and `force` (N) of equal size.
-// Parameters: E in kPa and h_0 in mm; ranges in mm, rmse in N. Points that are not finite are left
-// out and counted. Throws InputError for fewer than 4 points, for a single depth, for a load that
-// does not increase with depth, and for data deeper than the law of a thin layer permits.
-// Hertz: Chen 2007 eq. (2); a layer: docs/theory.md (57)-(59)
+// Fits F = E/(1 - nu^2) f(h - h_0) + F_0 + k (h - h_min) to `depth` (m) and `force` (N) of equal
+// size, where f is the law of the tip (tip.h) or of a paraboloid on a finite layer
+// (contact/layer.h), 0 before contact. Parameters: E in kPa, h_0 in mm and, if there is a
+// baseline, F_0 in N and k in N/mm; ranges in mm, rmse in N. `automatic` fits an offset where three
+// rows lie before contact, and a tilt where ten do. Of a curve that goes in and out, `way` is
+// fitted. Points that are not used are counted, and named in the notes.
+// Throws InputError for fewer than 4 points, for fewer than 3 beyond the contact point, for a
+// single depth, for a curve in which the load does not grow with depth or that shows no contact,
+// and for data deeper than the law of a thin layer permits.
+// docs/theory.md (57)-(59), (98), (99), (102)
 [[nodiscard]] Fit fit_contact(std::span<const double> depth, std::span<const double> force,
                               const ContactTest& test);
 

@@ -37,4 +37,20 @@ record::Table fit_table(std::span<const NamedFit> fits) {
   return table;
 }
 
+record::Table measured_fit_table(std::span<const NamedFit> fits) {
+  record::Table table = fit_table(fits);
+  for (const char* name : {"left_out", "effective_n", "durbin_watson", "law"})
+    table.columns.emplace_back(name);
+  std::size_t row = 0;
+  for (const NamedFit& named : fits)
+    for (std::size_t i = 0; i < named.fit.parameters.size(); ++i, ++row) {
+      const Fit& fit = named.fit;
+      const std::string law = fit.name.empty() ? std::string(info(fit.model).formula) : fit.law;
+      for (record::Cell cell :
+           {number(fit.left_out), number(fit.effective_size), number(fit.durbin_watson), text(law)})
+        table.rows[row].push_back(std::move(cell));
+    }
+  return table;
+}
+
 }  // namespace palpate::fit

@@ -10,7 +10,9 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/text.h"
 #include "fit/ceres_fit.h"
+#include "fit/nnls.h"
 #include "fit/settle.h"
 
 namespace palpate::fit {
@@ -22,12 +24,35 @@ struct Points {
   double x_scale = 1.0;    // range of x
   double y_scale = 1.0;    // largest |y|
   double least_gap = 1.0;  // smallest distance of two scaled x
+  LoadingHistory history;  // times divided by x_scale
 };
 
-Points usable(std::span<const double> x, std::span<const double> y, int needed, Fit& fit) {
+// Divides the history by its largest value, and refuses times that do not ascend.
+void scale_history(Points& points) {
+  std::vector<double>& samples = points.history.samples;
+  if (samples.empty()) return;
+  double largest = 0.0;
+  for (const double each : samples)
+    if (std::abs(each) > std::abs(largest)) largest = each;
+  if (largest == 0.0)
+    throw InputError({}, "the loading history is 0 at every point; name another `--history`");
+  for (double& each : samples) each /= largest;
+  if (!std::is_sorted(points.x.begin(), points.x.end()))
+    throw InputError({},
+                     "the times do not ascend, as a loading history wants; give a part of the "
+                     "table by `--rows`");
+}
+
+Points usable(std::span<const double> x, std::span<const double> y, const PronySeries& series,
+              Fit& fit) {
+  const int needed = series.terms > most_free_terms ? series.terms + 2 : 2 * series.terms + 2;
+  const std::vector<double>& samples = series.history.samples;
+  assert(samples.empty() || samples.size() == x.size());
   Points points;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
+    if (!samples.empty() && !std::isfinite(samples[i])) continue;
+    if (!samples.empty()) points.history.samples.push_back(samples[i]);
     points.x.push_back(x[i] - fit.x_origin);
     points.y.push_back(y[i]);
     fit.range_low = std::fmin(fit.range_low, x[i]);
@@ -48,6 +73,8 @@ Points usable(std::span<const double> x, std::span<const double> y, int needed, 
   points.y_scale = largest > 0.0 ? largest : 1.0;
   for (double& each : points.x) each /= points.x_scale;
   for (double& each : points.y) each /= points.y_scale;
+  points.history.ramp = series.history.ramp / points.x_scale;
+  scale_history(points);
   std::vector<double> sorted = points.x;
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 1; i < sorted.size(); ++i)
@@ -56,73 +83,93 @@ Points usable(std::span<const double> x, std::span<const double> y, int needed, 
   return points;
 }
 
-// phi_k(x) and d phi_k / d ln tau, docs/theory.md (92).
-struct Term {
-  double value, slope;
-};
-Term term(PronySeries::Kind kind, double x, double tau) {
-  // d e^(-x/tau) / d ln tau = x/tau e^(-x/tau)
-  const double left = std::exp(-x / tau);
-  const double slope = x / tau * left;
-  if (kind == PronySeries::Kind::relaxation) return {left, slope};
-  return {-std::expm1(-x / tau), -slope};
-}
+// The terms at all points: those of a relaxation, or H minus them in creep. docs/theory.md (92)
+class Basis {
+ public:
+  Basis(const Points& points, const PronySeries& series)
+      : points_(points),
+        kind_(series.kind),
+        history_(points.history),
+        constant_(loading(points.x, history_)) {}
 
-// The linear fit for given times: constant and factors y_k, with its sum of squares.
-struct Linear {
-  Eigen::VectorXd heights;
-  double squares = std::numeric_limits<double>::infinity();
-};
-Linear linear(const Points& points, PronySeries::Kind kind, std::span<const double> times) {
-  // At most 400 points suffice to choose the start.
-  const std::size_t stride = 1 + points.x.size() / 400;
-  const auto rows = static_cast<Eigen::Index>((points.x.size() + stride - 1) / stride);
-  Eigen::MatrixXd matrix(rows, static_cast<Eigen::Index>(times.size()) + 1);
-  Eigen::VectorXd target(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const std::size_t from = as_index(i) * stride;
-    matrix(i, 0) = 1.0;
-    target(i) = points.y[from];
-    for (std::size_t k = 0; k < times.size(); ++k)
-      matrix(i, static_cast<Eigen::Index>(k) + 1) = term(kind, points.x[from], times[k]).value;
+  [[nodiscard]] const std::vector<double>& constant() const { return constant_; }
+
+  [[nodiscard]] BasisColumn column(double tau) const {
+    BasisColumn column = relaxing(points_.x, tau, history_);
+    if (kind_ == PronySeries::Kind::relaxation) return column;
+    for (std::size_t i = 0; i < column.value.size(); ++i) {
+      column.value[i] = constant_[i] - column.value[i];
+      column.slope[i] = -column.slope[i];
+    }
+    return column;
   }
-  Linear found;
-  if (!matrix.allFinite()) return found;
-  found.heights = matrix.colPivHouseholderQr().solve(target);
-  if (!found.heights.allFinite()) return found;
-  found.squares = (matrix * found.heights - target).squaredNorm();
-  return found;
-}
 
-// Geometrically spaced times, from the smallest distance of two points to three times the range.
-std::vector<double> grid(const Points& points) {
-  constexpr int count = 12;
-  const double low = std::log(std::max(points.least_gap, 1e-5));
-  const double high = std::log(3.0);
+ private:
+  const Points& points_;
+  PronySeries::Kind kind_;
+  const LoadingHistory& history_;
+  std::vector<double> constant_;
+};
+
+// Geometrically spaced times between two limits, in the unit of the scaled x.
+std::vector<double> spaced(double low, double high, int count) {
   std::vector<double> times;
-  for (int i = 0; i < count; ++i) times.push_back(std::exp(low + (high - low) * i / (count - 1)));
+  for (int i = 0; i < count; ++i)
+    times.push_back(low * std::pow(high / low, static_cast<double>(i) / (count - 1)));
   return times;
 }
 
-// The best combination of `terms` different times of the grid. Returns the unknowns of the search:
+// At most 400 rows of the constant and of the columns of the times, and the values of y.
+struct Thinned {
+  Eigen::MatrixXd columns;  // the constant first
+  Eigen::VectorXd target;
+};
+Thinned thinned(const Points& points, const Basis& basis, std::span<const double> times,
+                std::size_t most) {
+  const std::size_t stride = 1 + points.x.size() / most;
+  const auto rows = static_cast<Eigen::Index>((points.x.size() + stride - 1) / stride);
+  Thinned made{Eigen::MatrixXd(rows, static_cast<Eigen::Index>(times.size()) + 1),
+               Eigen::VectorXd(rows)};
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    made.columns(i, 0) = basis.constant()[as_index(i) * stride];
+    made.target(i) = points.y[as_index(i) * stride];
+  }
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const BasisColumn column = basis.column(times[k]);
+    for (Eigen::Index i = 0; i < rows; ++i)
+      made.columns(i, static_cast<Eigen::Index>(k) + 1) = column.value[as_index(i) * stride];
+  }
+  return made;
+}
+
+// The best combination of `terms` different times of a grid. Returns the unknowns of the search:
 // the constant, then y_k and ln tau_k of each term.
-std::vector<double> start_of(const Points& points, const PronySeries& series) {
-  const std::vector<double> times = grid(points);
+std::vector<double> start_of(const Points& points, const Basis& basis, int terms) {
+  constexpr int count = 12;
+  const std::vector<double> times = spaced(std::max(points.least_gap, 1e-5), 3.0, count);
+  const Thinned grid = thinned(points, basis, times, 400);
+  if (!grid.columns.allFinite()) return {};
   std::vector<char> chosen(times.size(), 0);
-  std::fill_n(chosen.begin(), series.terms, 1);
+  std::fill_n(chosen.begin(), terms, 1);
   std::vector<double> best;
   double least = std::numeric_limits<double>::infinity();
   do {
-    std::vector<double> some;
+    std::vector<std::size_t> some;
     for (std::size_t i = 0; i < times.size(); ++i)
-      if (chosen[i] != 0) some.push_back(times[i]);
-    const Linear found = linear(points, series.kind, some);
-    if (!(found.squares < least)) continue;
-    least = found.squares;
-    best = {found.heights(0)};
+      if (chosen[i] != 0) some.push_back(i);
+    Eigen::MatrixXd matrix(grid.columns.rows(), static_cast<Eigen::Index>(some.size()) + 1);
+    matrix.col(0) = grid.columns.col(0);
+    for (std::size_t k = 0; k < some.size(); ++k)
+      matrix.col(static_cast<Eigen::Index>(k) + 1) =
+          grid.columns.col(static_cast<Eigen::Index>(some[k]) + 1);
+    const Eigen::VectorXd heights = matrix.colPivHouseholderQr().solve(grid.target);
+    const double squares = (matrix * heights - grid.target).squaredNorm();
+    if (!heights.allFinite() || !(squares < least)) continue;
+    least = squares;
+    best = {heights(0)};
     for (std::size_t k = 0; k < some.size(); ++k) {
-      best.push_back(found.heights(static_cast<Eigen::Index>(k) + 1));
-      best.push_back(std::log(some[k]));
+      best.push_back(heights(static_cast<Eigen::Index>(k) + 1));
+      best.push_back(std::log(times[some[k]]));
     }
   } while (std::prev_permutation(chosen.begin(), chosen.end()));
   return best;
@@ -148,6 +195,9 @@ void sort_terms(Minimum& minimum) {
     for (std::size_t j = 0; j < count; ++j)
       minimum.inverse_normal[i * count + j] = before.inverse_normal[from[i] * count + from[j]];
   }
+  for (std::size_t row = 0; row < before.jacobian.size(); row += count)
+    for (std::size_t i = 0; i < count; ++i)
+      minimum.jacobian[row + i] = before.jacobian[row + from[i]];
 }
 
 // Converts ln tau to tau, with d tau = tau d ln tau for the errors.
@@ -160,41 +210,92 @@ void times_of(Minimum& minimum) {
       minimum.inverse_normal[i * count + j] *= tau;
       minimum.inverse_normal[j * count + i] *= tau;
     }
+    for (std::size_t at = i; at < minimum.jacobian.size(); at += count) minimum.jacobian[at] /= tau;
   }
+}
+
+// Times spaced evenly in their logarithm, and heights of 0 or more.
+void fit_given_times(Fit& fit, const Points& points, const Basis& basis,
+                     const PronySeries& series) {
+  const std::vector<double> times = spaced(std::max(points.least_gap, 1e-5), 1.0, series.terms);
+  const Thinned all = thinned(points, basis, times, 20000);
+  const auto heights = nonnegative_least_squares(all.columns, all.target);
+  fit.termination = Termination::not_converged;
+  if (!heights) return;
+  fit.termination = Termination::converged;
+  const Eigen::VectorXd residuals = all.columns * *heights - all.target;
+  fit.rmse =
+      std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())) * points.y_scale;
+  const Eigen::VectorXd about = all.target.array() - all.target.mean();
+  fit.r2 = about.squaredNorm() > 0.0 ? 1.0 - residuals.squaredNorm() / about.squaredNorm()
+                                     : Estimate::unknown;
+  std::vector<Estimate> kept{fit.parameters[0]};
+  kept[0].estimate = (*heights)[0] * points.y_scale;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double height = (*heights)[static_cast<Eigen::Index>(k) + 1];
+    if (height <= 0.0) continue;
+    kept.push_back(fit.parameters[2 * k + 1]);
+    kept.back().estimate = height * points.y_scale;
+    kept.push_back(fit.parameters[2 * k + 2]);
+    kept.back().estimate = times[k] * points.x_scale;
+  }
+  fit.notes.push_back(std::to_string((kept.size() - 1) / 2) + " of " +
+                      std::to_string(series.terms) +
+                      " terms are above 0; their times are given, so that they have no intervals");
+  fit.parameters = std::move(kept);
+}
+
+std::string law_of(const PronySeries& series) {
+  const bool relaxation = series.kind == PronySeries::Kind::relaxation;
+  std::string law =
+      relaxation ? "y = y_inf + sum y_k e^(-x/tau_k)" : "y = y_0 + sum y_k (1 - e^(-x/tau_k))";
+  if (series.history.ramp > 0.0)
+    law += ", after a ramp of " + rounded_text(series.history.ramp) + " (Boltzmann)";
+  if (!series.history.samples.empty())
+    law += ", under the loading history of the file, relative to its largest (Boltzmann)";
+  if (series.terms > most_free_terms) law += ", non-negative, with given times";
+  return law;
 }
 
 }  // namespace
 
 Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronySeries& series,
               const Options& options) {
-  assert(x.size() == y.size() && series.terms >= 1 && series.terms <= 5);
+  assert(x.size() == y.size() && series.terms >= 1 && series.terms <= most_terms);
   const bool relaxation = series.kind == PronySeries::Kind::relaxation;
   Fit fit;
   fit.name = relaxation ? "prony" : "prony_creep";
+  fit.law = law_of(series);
   fit.x_origin = options.x_origin;
   fit.parameters.push_back({.name = relaxation ? "y_inf" : "y_0", .unit = options.y_unit});
   for (int k = 1; k <= series.terms; ++k) {
     fit.parameters.push_back({.name = "y_" + std::to_string(k), .unit = options.y_unit});
     fit.parameters.push_back({.name = "tau_" + std::to_string(k), .unit = options.x_unit});
   }
-  const Points points = usable(x, y, 2 * series.terms + 2, fit);
-  const std::vector<double> start = start_of(points, series);
+  const Points points = usable(x, y, series, fit);
+  const Basis basis(points, series);
+  if (series.terms > most_free_terms) {
+    fit_given_times(fit, points, basis, series);
+    return fit;
+  }
+  const std::vector<double> start = start_of(points, basis, series.terms);
   if (start.empty()) return fit;
 
   const std::size_t count = start.size();
   const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
                             std::span<double> slopes) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      double sum = p[0];
-      if (!slopes.empty()) slopes[i * count] = 1.0;
-      for (std::size_t k = 1; k < count; k += 2) {
-        const Term one = term(series.kind, points.x[i], std::exp(p[k + 1]));
-        sum += p[k] * one.value;
+      values[i] = p[0] * basis.constant()[i];
+      if (!slopes.empty()) slopes[i * count] = basis.constant()[i];
+    }
+    for (std::size_t k = 1; k < count; k += 2) {
+      const BasisColumn column = basis.column(std::exp(p[k + 1]));
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] += p[k] * column.value[i];
         if (slopes.empty()) continue;
-        slopes[i * count + k] = one.value;
-        slopes[i * count + k + 1] = p[k] * one.slope;
+        slopes[i * count + k] = column.value[i];
+        slopes[i * count + k + 1] = p[k] * column.slope[i];
       }
-      values[i] = sum;
     }
     return true;
   };
@@ -207,7 +308,7 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
     sort_terms(minimum);
     times_of(minimum);
   }
-  settle(fit, minimum, {points.y, points.y_scale, scale});
+  settle(fit, minimum, {points.y, points.y_scale, scale, options.residuals});
   return fit;
 }
 

@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "fit/ceres_fit.h"
+#include "fit/correlated.h"
 #include "fit/initial.h"
+#include "fit/residual_tests.h"
 #include "fit/settle.h"
 #include "fit/student.h"
 
@@ -65,17 +67,26 @@ double r_squared(std::span<const double> y, double squares) {
   return total > 0.0 ? 1.0 - squares / total : Estimate::unknown;
 }
 
-// From (J^T J)^-1: covariance, standard errors and intervals. `scale` is Scaling::parameters.
-void set_errors(Fit& fit, const Minimum& minimum, std::span<const double> scale) {
+// From (J^T J)^-1: covariance, standard errors and intervals.
+void set_errors(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
   const std::size_t count = fit.parameters.size();
-  const double degrees = fit.n - static_cast<double>(count);
+  const std::span<const double> scale = scaling.parameters;
+  double degrees = fit.n - static_cast<double>(count);
   const double variance = minimum.squares / degrees;
-  const double t = student_t_quantile(0.975, degrees);
   fit.covariance.resize(count * count);
+  for (std::size_t i = 0; i < count * count; ++i)
+    fit.covariance[i] = minimum.inverse_normal[i] * variance;
+  // Residuals of 1e-9 of the curve are rounding.
+  if (scaling.residuals == Residuals::correlated && minimum.squares > 1e-18 * fit.n)
+    if (const auto found = autocorrelation(minimum.residuals, minimum.jacobian, count)) {
+      fit.rho = found->rho;
+      fit.effective_size = found->effective_size;
+      fit.covariance = found->covariance;
+      degrees = found->degrees;
+    }
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = 0; j < count; ++j)
-      fit.covariance[i * count + j] =
-          minimum.inverse_normal[i * count + j] * variance * scale[i] * scale[j];
+    for (std::size_t j = 0; j < count; ++j) fit.covariance[i * count + j] *= scale[i] * scale[j];
+  const double t = student_t_quantile(0.975, degrees);
   for (std::size_t i = 0; i < count; ++i) {
     Estimate& parameter = fit.parameters[i];
     parameter.std_error = std::sqrt(fit.covariance[i * count + i]);
@@ -100,7 +111,8 @@ void settle(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
     fit.parameters[i].estimate = minimum.parameters[i] * scaling.parameters[i];
   fit.rmse = std::sqrt(minimum.squares / fit.n) * scaling.y_scale;
   fit.r2 = r_squared(scaling.y, minimum.squares);
-  if (fit.termination == Termination::converged) set_errors(fit, minimum, scaling.parameters);
+  fit.durbin_watson = durbin_watson(minimum.residuals);
+  if (fit.termination == Termination::converged) set_errors(fit, minimum, scaling);
 }
 
 std::string_view word(Termination termination) {
@@ -133,7 +145,7 @@ Fit regress(std::span<const double> x, std::span<const double> y, Model model,
     fit.parameters[i].initial = (*start)[i] * scale[i];
 
   const Minimum minimum = minimise(points.x, points.y, model, *start, options.max_iterations);
-  settle(fit, minimum, {points.y, points.y_scale, scale});
+  settle(fit, minimum, {points.y, points.y_scale, scale, options.residuals});
   return fit;
 }
 

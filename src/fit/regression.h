@@ -33,6 +33,10 @@ struct Estimate {
   double ci95_high = unknown;
 };
 
+// How the intervals take the residuals: as independent, or as correlated from row to row where they
+// are (docs/theory.md (100), (101)).
+enum class Residuals { independent, correlated };
+
 struct Fit {
   Model model = Model::logarithmic;
   std::string name = {};  // of a curve that is not in models(): `hertz`, `prony`; empty otherwise
@@ -47,6 +51,12 @@ struct Fit {
   double x_origin = 0.0;  // the curve is a function of (x - x_origin)
   int iterations = 0;
   Termination termination = Termination::failed;
+  double rho = 0.0;  // correlation of neighbouring residuals; 0 where taken as independent
+  double effective_size = Estimate::unknown;  // independent rows of the same worth
+  double durbin_watson = Estimate::unknown;   // of the residuals in the order of the points
+  std::string law = {};                       // the formula that was fitted, with its source
+  std::vector<std::string> notes = {};        // sentences: what was left out and what was decided
+  std::vector<std::string> warnings = {};     // sentences: why the estimates may be wrong
 };
 
 struct Options {
@@ -54,6 +64,7 @@ struct Options {
   std::string y_unit = {};
   double x_origin = 0.0;  // subtracted from every x: the time of loading or unloading
   int max_iterations = 200;
+  Residuals residuals = Residuals::independent;
 };
 
 // Fits `model` to the points (x[i], y[i]) by minimising the sum of squared residuals in y. The same

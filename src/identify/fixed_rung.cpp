@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "scene/estimates.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
 
@@ -117,6 +118,12 @@ std::optional<double> predicted_error(const scenario::Case& fixed) {
   const scene::Choice choice = scene::choose(fixed);
   const scene::Forecast* rung = choice.taken();
   return rung == nullptr ? std::nullopt : std::optional(rung->error);
+}
+
+std::optional<double> deep_effect(const scenario::Case& fixed) {
+  const scene::Choice choice = scene::choose(fixed);
+  if (choice.chosen.contact.depth != scenario::Contact::Depth::neo_hookean) return std::nullopt;
+  return scene::estimate(choice.chosen, choice.touch).deep;
 }
 
 }  // namespace palpate::identify

@@ -37,4 +37,8 @@ struct FixedRung {
 // Estimated relative error of the model that this case names; nothing if there is no estimate.
 [[nodiscard]] std::optional<double> predicted_error(const scenario::Case& fixed);
 
+// Relative change of the force at the deepest travel by the factor of deep presses (docs/theory.md
+// (62)); nothing where the case does not use it.
+[[nodiscard]] std::optional<double> deep_effect(const scenario::Case& fixed);
+
 }  // namespace palpate::identify

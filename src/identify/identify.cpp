@@ -7,13 +7,16 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "fit/residual_tests.h"
 #include "fit/student.h"
 #include "identify/box_errors.h"
 #include "identify/box_profile.h"
 #include "identify/fixed_rung.h"
+#include "identify/lengthen.h"
 #include "identify/prepare_curve.h"
-#include "identify/residual_tests.h"
 #include "identify/search_starts.h"
+#include "identify/warnings.h"
+#include "identify/widening.h"
 #include "scenario/integrators.h"
 
 namespace palpate::identify {
@@ -139,7 +142,9 @@ class Search {
     const std::size_t n = unknowns_.size();
     const double degrees = static_cast<double>(found_.x.size() - n);
     sigma_ = std::max(std::sqrt(best_.squares / degrees), 1e-12);
+    noise_ = sigma_;
     t_ = fit::student_t_quantile(0.975, degrees);
+    widen_for_correlation();
     errors_ = box_errors(best_.jacobian, n, sigma_, t_);
     std::vector<char> moving(n, 1);
     for (std::size_t i = 0; i < n; ++i) {
@@ -160,6 +165,22 @@ class Search {
       found_.combinations.push_back(*combined);
     set_correlation();
     refuse_the_undetermined();
+  }
+
+  // Correlated residuals: the variance of the residuals is multiplied by the mean ratio of the
+  // variances with and without correlation.                        docs/theory.md (100), (101),
+  // (105)
+  void widen_for_correlation() {
+    std::vector<double> residuals;
+    for (std::size_t i = 0; i < found_.x.size(); ++i)
+      residuals.push_back((found_.model[i] - found_.measured[i]) * weights_[i]);
+    found_.effective_size = static_cast<double>(found_.x.size());
+    const auto widened = widening(residuals, best_.jacobian, unknowns_.size());
+    if (!widened) return;
+    found_.rho = widened->rho;
+    found_.effective_size = widened->effective_size;
+    sigma_ *= std::sqrt(widened->factor);
+    t_ = fit::student_t_quantile(0.975, widened->degrees);
   }
 
   // Errors of the `moving` unknowns alone; the others get no variance.
@@ -321,46 +342,30 @@ class Search {
     found_.rmse = std::sqrt(squares / static_cast<double>(n));
     found_.r2 = 1.0 - squares / total;
     const double range = 1.0 / weights_.front();
-    found_.noise = options_.noise == Noise::constant ? sigma_ * range : sigma_;
-    found_.durbin_watson = durbin_watson(weighted);
-    found_.runs_z = runs_z(weighted);
+    found_.noise = options_.noise == Noise::constant ? noise_ * range : noise_;
+    found_.durbin_watson = fit::durbin_watson(weighted);
+    found_.runs_z = fit::runs_z(weighted);
 
     std::vector<double> values;
     for (const Identified& one : found_.unknowns) values.push_back(one.estimate);
     const scenario::Case at = curve_->at(values);
     found_.predicted_error =
         found_.closed_form && asked.scenario.uniform() ? std::nullopt : predicted_error(at);
+    found_.deep_effect =
+        found_.kind == CurveKind::force_travel || found_.kind == CurveKind::force_time
+            ? deep_effect(at)
+            : std::nullopt;
     found_.scenario = scenario::answered(asked, curve_->fixed());
+    double end = *std::max_element(found_.x.begin(), found_.x.end());
+    for (const Identified& one : found_.unknowns)
+      if (one.unknown.what == Unknown::What::contact_point) end -= one.estimate;
+    (void)lengthen(found_.kind, found_.scenario, end);
     set_unknowns(found_.scenario, unknowns_, values);
     for (const Identified& one : found_.unknowns)
       if (one.unknown.what == Unknown::What::force_offset)
         found_.scenario.contact.ambient_force += one.estimate;
-    warn(weighted, scenario::resolve(at, found_.rung));
-  }
-
-  void warn(const std::vector<double>& weighted, const scenario::Resolved& with) {
-    // Systematic residuals below a thousandth of the curve come from interpolation.
-    if (systematic(weighted) && sigma_ > 1e-3)
-      found_.warnings.push_back(
-          "the model does not describe the data: neighbouring residuals are correlated "
-          "(Durbin-Watson " +
-          rounded_text(found_.durbin_watson, 3) +
-          ", noise gives 2), so that the estimates are biased and their intervals too narrow");
-    for (const Identified& one : found_.unknowns)
-      if (one.at_bound)
-        found_.warnings.push_back("the best `" + one.unknown.key +
-                                  "` is on the edge of its "
-                                  "range; widen the range, or hold it there with `--set`");
-    if (found_.predicted_error && *found_.predicted_error > with.solver.tolerance)
-      found_.warnings.push_back("the estimated error of `" + model_word() + "` is " +
-                                percent_text(*found_.predicted_error) +
-                                " here, and the estimates are wrong by about as much" +
-                                (found_.given ? "; leave `solver.model` to `auto`" : ""));
-    const auto waves = inertia_of_flow(with);
-    if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
-      found_.warnings.push_back(
-          "waves in the specimen change its deformation by about " + percent_text(*waves) +
-          " and are left out; set `solver.integrator = \"central_difference\"`");
+    found_.warnings =
+        warnings_of(found_, {weighted, noise_, model_word()}, scenario::resolve(at, found_.rung));
   }
 
   const Measurement& measured_;
@@ -374,7 +379,8 @@ class Search {
   BoxProblem problem_;
   BoxMinimum best_;
   BoxErrors errors_;
-  double sigma_ = 0.0;  // of the weighted residuals
+  double noise_ = 0.0;  // standard deviation of the weighted residuals
+  double sigma_ = 0.0;  // the same, widened where they are correlated
   double t_ = 0.0;
   Identification found_;
 };

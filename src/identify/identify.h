@@ -55,6 +55,12 @@ struct ProfilePoint {
   double delta = 0.0;       // its excess over that of the best fit, in variances of the noise
 };
 
+// What the uncertainty of a given number adds to the standard error of each unknown.
+struct GivenPart {
+  std::string key, value, deviation;  // as text, with unit
+  std::vector<double> deviations;     // one per unknown, SI
+};
+
 struct Identification {
   CurveKind kind = CurveKind::force_travel;
   scenario::Scenario scenario;  // whole programme, every `auto` resolved, with the estimates
@@ -71,11 +77,15 @@ struct Identification {
   double rmse = 0.0;   // SI
   double r2 = 0.0;     // docs/theory.md (53)
   double noise = 0.0;  // standard deviation, SI; relative noise: a ratio
+  double rho = 0.0;    // correlation of neighbouring residuals; 0 where taken as independent
+  double effective_size = 0.0;        // independent points of the same worth
+  std::optional<double> deep_effect;  // relative change of the force by the deep-press factor
   double durbin_watson = 2.0;
   double runs_z = 0.0;
   double contact_shift = 0.0;         // SI of x; moves the contact point for moved_down, moved_up
   int left_out = 0;                   // measured points that were not used
   int evaluations = 0;                // of the model
+  std::vector<GivenPart> givens;      // in the order of `--given`
   std::vector<std::string> notes;     // sentences
   std::vector<std::string> warnings;  // sentences
 };

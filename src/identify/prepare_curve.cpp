@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "identify/fixed_rung.h"
+#include "identify/lengthen.h"
 #include "identify/search_starts.h"
 
 namespace palpate::identify {
@@ -51,10 +52,30 @@ class Preparation {
     for (const double x : measured_.x) farthest = std::max(farthest, x);
     farthest -= contact != nullptr ? contact->low : 0.0;
     asked.scenario = part_for(kind_, asked.scenario, farthest);
+    const bool travel = kind_ == CurveKind::force_travel;
+    double end = *std::max_element(measured_.x.begin(), measured_.x.end());
+    if (travel && contact != nullptr) end -= contact->value(0.5);
+    if (lengthen(kind_, asked.scenario, end)) {
+      const CurveWords& words = words_of(kind_);
+      found_.notes.push_back("the programme is shorter than the measurement and is lengthened to " +
+                             rounded_text(words.x.from_si(end)) + " " + words.x.symbol);
+    }
     const FixedRung rung = fix_rung(asked, family_.document, unknowns_);
     found_.given = rung.given;
     found_.worst_error = rung.worst_error;
     found_.curve = std::make_unique<ScenarioCurve>(kind_, rung, family_, unknowns_, stop);
+    found_.curve->set_farthest(*std::max_element(measured_.x.begin(), measured_.x.end()));
+  }
+
+  [[nodiscard]] std::size_t shift_of(const Unknown* one) const {
+    return as_index(one - unknowns_.data());
+  }
+
+  // Whether the press ends at a force, so that its depth depends on the unknowns.
+  [[nodiscard]] bool ends_at_force() const {
+    for (const scenario::Step& step : found_.curve->fixed().steps)
+      if (const auto* indent = std::get_if<scenario::Indent>(&step)) return indent->to.second;
+    return false;
   }
 
   void note_left_out(int points, const std::string& why) {
@@ -68,19 +89,23 @@ class Preparation {
   // starts where it can be (the middle of the box, if possible).
   void choose_points() {
     std::optional<ScenarioCurve::Rows> rows;
+    std::vector<double> first;
     std::string failure;
     for (const std::vector<double>& u : search_starts(unknowns_.size())) {
       std::vector<double> values;
       for (std::size_t i = 0; i < u.size(); ++i) values.push_back(unknowns_[i].value(u[i]));
       rows = found_.curve->rows(values);
+      first = u;
       if (rows) break;
       if (failure.empty()) failure = found_.curve->failure();
     }
     if (!rows)
       refuse("the scenario cannot be run anywhere in the ranges of `--unknown`: " + failure);
     const Unknown* contact = unknown_of(Unknown::What::contact_point);
-    const double end = rows->x.back() * (1.0 + 1e-9) + (contact != nullptr ? contact->low : 0.0);
     const bool travel = kind_ == CurveKind::force_travel;
+    double end = rows->x.back() * (1.0 + 1e-9);
+    if (contact != nullptr)
+      end += ends_at_force() ? contact->low : contact->value(first[shift_of(contact)]);
     // If the finger withdraws, only the points up to the deepest travel are used.
     std::size_t count = measured_.x.size();
     if (travel && count > 0) {
@@ -107,7 +132,7 @@ class Preparation {
     const CurveWords& words = words_of(kind_);
     note_left_out(beyond, "beyond the programme, which ends at " +
                               rounded_text(words.x.from_si(rows->x.back())) + " " + words.x.symbol +
-                              " (lengthen it, for example with `--set step.1.to=...`)");
+                              " (its last step ends at a force, or withdraws)");
     note_left_out(before, "before the programme begins, at 0 " + std::string(words.x.symbol));
     refuse_poor_data();
     found_.curve->set_points(found_.x);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "identify/lengthen.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 #include "scenario/integrators.h"
@@ -114,6 +115,12 @@ ScenarioCurve::ScenarioCurve(CurveKind kind, FixedRung rung, const scenario::Fam
 std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> values) {
   scenario::Case one = at(values);
   one.name = family_->name;
+  if (farthest_) {
+    double end = *farthest_;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (unknowns_[i].what == Unknown::What::contact_point) end -= values[i];
+    (void)lengthen(kind_, one.scenario, end);
+  }
   std::vector<Problem> problems;
   scenario::check(one, family_->document, problems);
   if (!problems.empty()) {

@@ -50,6 +50,8 @@ class ScenarioCurve {
                 std::span<const Unknown> unknowns, const std::atomic<bool>& stop);
 
   void set_points(std::vector<double> x) { x_ = std::move(x); }
+  // From now on every run of the programme reaches this x of the measurement (SI).
+  void set_farthest(double farthest) { farthest_ = farthest; }
   // Shifts the contact point, or time zero, to a later x by `shift` (SI). Points that then lie
   // beyond the last row are extrapolated from the last two rows.
   void set_shift(double shift) { shift_ = shift; }
@@ -87,6 +89,7 @@ class ScenarioCurve {
   std::vector<double> x_;
   scene::SpecimenShapes shapes_;
   double shift_ = 0.0;
+  std::optional<double> farthest_;
   bool shape_varies_ = false;
   std::string failure_;
 };

@@ -57,6 +57,10 @@ std::string model_sentence(const Identification& found) {
     text = std::string(words.sentence) + ", by the formula of a uniform specimen";
   else if (found.predicted_error)
     text += ", predicted to be within " + percent_text(*found.predicted_error);
+  if (found.deep_effect)
+    text += "; large strain changes the force at the deepest by " +
+            std::string(*found.deep_effect > 0.0 ? "+" : "-") +
+            percent_text(std::abs(*found.deep_effect)) + ", which is taken into account";
   return text;
 }
 
@@ -155,12 +159,23 @@ std::vector<std::string> identified_sentences(const Identification& found) {
   }
   for (const Combination& one : found.combinations)
     lines.push_back(combination_sentence(found, one));
+  for (const GivenPart& part : found.givens)
+    for (std::size_t i = 0; i < found.unknowns.size(); ++i)
+      if (const Unknown& unknown = found.unknowns[i].unknown; !found.unknowns[i].tied)
+        lines.push_back("of this, `" + part.key + "` = " + part.value + " +- " + part.deviation +
+                        " adds a standard error of " +
+                        with_unit(unknown.shown(part.deviations[i]), unknown.unit_text()) +
+                        " to `" + unknown.key + "`");
   lines.push_back(model_sentence(found));
   const CurveWords& words = words_of(found.kind);
-  lines.push_back(std::to_string(found.x.size()) + " points, RMSE " +
-                  with_unit(words.y.from_si(found.rmse), words.y.symbol) + ", R2 " +
-                  rounded_text(found.r2, 6) + ", Durbin-Watson " +
-                  rounded_text(found.durbin_watson, 3));
+  lines.push_back(
+      std::to_string(found.x.size()) + " points" +
+      (found.left_out > 0 ? " (" + std::to_string(found.left_out) + " left out)" : "") +
+      (found.rho > 0.0
+           ? ", worth " + rounded_text(std::max(1.0, found.effective_size), 3) + " independent ones"
+           : "") +
+      ", RMSE " + with_unit(words.y.from_si(found.rmse), words.y.symbol) + ", R2 " +
+      rounded_text(found.r2, 6) + ", Durbin-Watson " + rounded_text(found.durbin_watson, 3));
   for (const Identified& one : found.unknowns)
     if (one.moved_down && one.moved_up)
       lines.push_back(std::string(found.kind == CurveKind::force_travel ||

@@ -15,7 +15,7 @@ namespace palpate::integrate {
 // show() computes the displacement when it is needed.                   docs/theory.md (41)
 //
 // Where only the lowest modes are kept, all displacements, velocities and energies here are those
-// of these modes; dropped() is the static displacement of the others.   docs/theory.md (98)
+// of these modes; dropped() is the static displacement of the others.   docs/theory.md (108)
 class Modal {
  public:
   // Solves K phi = omega^2 M phi for all modes of the body at rest by a dense solver, whose time

@@ -26,13 +26,26 @@ enum class Role { x, y };
 [[nodiscard]] Column find_column(const RawTable& table, const std::string& wanted,
                                  const std::string& unit, Role role);
 
+// Columns with the name `word`; if there are none, ignoring case; then ignoring case and unit.
+[[nodiscard]] std::vector<std::size_t> columns_named(const RawTable& table,
+                                                     const std::string& word);
+
+// The only column of that name or number; `asked` is the option, for messages. Throws InputError.
+[[nodiscard]] std::size_t named_index(const RawTable& table, const std::string& word,
+                                      const std::string& asked);
+
+// The unit that the file gives to a column.
+[[nodiscard]] std::optional<WrittenUnit> file_unit(const RawTable& table, std::size_t index);
+
 struct Rows {
   std::vector<std::size_t> kept;  // rows of the table, in order
   std::vector<std::string> notes;
 };
 
-// The rows of the layout's case and segment; InputError if there are none. Without a column of
-// segments the approach ends at the largest change of load (as afmformats divides Chiaro's curves).
+// The rows of the layout's case, segment, `where` and `rows`; InputError if there are none, if a
+// segment's name stands for several parts of the curve (`NAME:2` is the second of them), and if the
+// file has several tables of the same columns of which none is chosen. Without a column of segments
+// the approach ends at the largest change of load (as afmformats divides Chiaro's curves).
 [[nodiscard]] Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Column& y);
 
 }  // namespace palpate::measured

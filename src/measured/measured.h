@@ -22,7 +22,10 @@ struct DataLayout {
   std::string case_name = {};  // only rows with this value in the column `case` (FEBio: `item`)
 
   enum class Blanks { leave_out, keep };
-  Blanks blanks = Blanks::leave_out;  // `keep` keeps rows without a number, as NaN
+  Blanks blanks = Blanks::leave_out;    // `keep` keeps rows without a number, as NaN
+  std::vector<std::string> where = {};  // COLUMN=VALUE: only rows with this value
+  std::string rows = {};                // A..B: only these rows of the table, from 1
+  int table = 0;                        // of several in the file, from 1; 0: the longest
 };
 
 struct MeasuredAxis {

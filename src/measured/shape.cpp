@@ -29,7 +29,7 @@ char decimal_of(const std::string& word) {
 }
 
 // The numbers of lines with only numbers (at least two), of lines with at least two numbers, and of
-// lines of several fields with at least one number.
+// lines of several fields with at least one number, which count only where no line has two.
 using Score = std::tuple<int, int, int>;
 
 Score score(std::span<const Line> lines, const Shape& shape, const std::string& file) {
@@ -47,7 +47,7 @@ Score score(std::span<const Line> lines, const Shape& shape, const std::string& 
     } catch (const InputError&) {  // a quote that is open with this separator only
     }
   }
-  return {whole, some, any};
+  return {whole, some, some > 0 ? 0 : any};
 }
 
 // Whether the commas may separate thousands, as in `1,234`. They do not if the number begins with 0
@@ -104,7 +104,23 @@ Numbers numbers_in(std::span<const Piece> fields, char decimal) {
   return numbers;
 }
 
-Shape shape_of(std::span<const Line> lines, const std::string& file, const DataLayout& layout) {
+namespace {
+
+// The first and last lines of a long file, and some between.
+std::vector<Line> sample_of(std::span<const Line> lines) {
+  constexpr std::size_t part = 1000;
+  if (lines.size() <= 3 * part) return {lines.begin(), lines.end()};
+  std::vector<Line> some(lines.begin(), lines.begin() + part);
+  for (std::size_t k = 0; k < part; ++k)
+    some.push_back(lines[part + (lines.size() - 2 * part) * k / part]);
+  some.insert(some.end(), lines.end() - part, lines.end());
+  return some;
+}
+
+}  // namespace
+
+Shape shape_of(std::span<const Line> all, const std::string& file, const DataLayout& layout) {
+  const std::vector<Line> lines = sample_of(all);
   constexpr std::array separators{'\t', ';', ',', ' '};  // at equal scores the first is taken
   constexpr std::array decimals{'.', ','};
   Shape best;
@@ -125,7 +141,7 @@ Shape shape_of(std::span<const Line> lines, const std::string& file, const DataL
       highest = reached;
       best = shape;
     }
-  if (best.decimal == ',' && !best.decimal_given) refuse_thousands(lines, best, file);
+  if (best.decimal == ',' && !best.decimal_given) refuse_thousands(all, best, file);
   return best;
 }
 

@@ -53,16 +53,18 @@ Span span_of(const std::vector<double>& values, double start) {
 // Whether the load is negative in compression.
 bool load_is_negative(const MeasuredCurve& curve) {
   // Over a length the load starts at rest; over time it may start at its peak, so that 0 is used.
-  const bool along = curve.x_axis.dimension == length;
+  const bool along = curve.x_axis.dimension == length ||
+                     (curve.x_axis.has_unit && curve.x_axis.dimension == Dimension{});
   const Span span = span_of(curve.y, along ? curve.y.front() : 0.0);
   if (span.down >= clear * span.up && span.down > 0.0) return true;
   if (span.up >= clear * span.down && span.up > 0.0) return false;
   refuse(curve);
 }
 
-// Changes the sign of x if it is a length that decreases while the load grows.
+// Changes the sign of x if it is a length or a strain that decreases while the load grows.
 void turn_length(MeasuredCurve& curve) {
-  if (curve.x_axis.dimension != length || !is_load(curve.y_axis.dimension)) return;
+  const bool strain = curve.x_axis.has_unit && curve.x_axis.dimension == Dimension{};
+  if ((curve.x_axis.dimension != length && !strain) || !is_load(curve.y_axis.dimension)) return;
   const std::size_t peak = span_of(curve.y, curve.y.front()).peak;
   if (curve.x[peak] >= curve.x.front()) return;
   turn(curve.x, curve.x_written);

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <span>
 
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
+#include "measured/blocks.h"
 #include "measured/shape.h"
 #include "measured/unit.h"
 
@@ -25,6 +27,11 @@ bool says_nothing(const std::string& cell) {
 }  // namespace
 
 std::optional<double> measured_number(std::string_view given, char decimal) {
+  const bool plain = !given.empty() && given.find(',') == std::string_view::npos &&
+                     (given[0] == '-' || given[0] == '.' || (given[0] >= '0' && given[0] <= '9'));
+  if (plain)
+    if (const auto number = leading_number(given); number && number->rest.empty())
+      return number->out_of_range ? std::numeric_limits<double>::infinity() : number->value;
   std::string text(given);
   if (says_nothing(text)) return std::numeric_limits<double>::quiet_NaN();
   if (decimal == ',') {
@@ -44,13 +51,6 @@ std::optional<double> measured_number(std::string_view given, char decimal) {
 
 namespace {
 
-// A line that is neither blank nor a comment, divided into fields.
-struct Row {
-  const Line* line = nullptr;
-  std::vector<Piece> fields;
-  Numbers numbers;
-};
-
 void drop_empty_ends(std::vector<Piece>& fields, std::size_t width) {
   while (fields.size() > width && fields.back().text.empty()) fields.pop_back();
 }
@@ -61,16 +61,11 @@ std::string plural(std::size_t count, const std::string& noun) {
 
 class Reader {
  public:
-  Reader(std::span<const Line> lines, const std::string& file, const Shape& shape)
-      : lines_(lines), shape_(shape) {
+  Reader(std::span<const Line> lines, std::vector<TableRow> rows, const std::string& file,
+         const Shape& shape)
+      : lines_(lines), shape_(shape), rows_(std::move(rows)) {
     table_.file = file;
     table_.decimal = shape.decimal;
-    for (const Line& line : lines) {
-      if (is_blank(line) || is_comment(line)) continue;
-      Row row{&line, pieces_of(line, shape.separator, file), {}};
-      row.numbers = numbers_in(row.fields, shape.decimal);
-      rows_.push_back(std::move(row));
-    }
   }
 
   RawTable read() {
@@ -90,7 +85,7 @@ class Reader {
   // Whether the table may start at row i. Sureness 0: only numbers, at least two. 1: two numbers
   // here and in the next row, if that has any. 2: likewise with one number.
   [[nodiscard]] bool starts(std::size_t i, int sureness) const {
-    const auto fits = [&](const Row& row) {
+    const auto fits = [&](const TableRow& row) {
       if (row.fields.size() < 2 || row.numbers.count == 0) return false;
       return sureness == 0 ? row.numbers.all && row.numbers.count >= 2
                            : row.numbers.count >= 3 - sureness;
@@ -128,6 +123,11 @@ class Reader {
       std::vector<Piece> names = rows_[start_ - 1].fields;
       drop_empty_ends(names, 0);
       width_ = names.size();
+      if (rows_[start_ - 1].units && start_ > 1) {  // its last cells may be empty
+        std::vector<Piece> above = rows_[start_ - 2].fields;
+        drop_empty_ends(above, 0);
+        width_ = std::max(width_, above.size());
+      }
       if (width_ >= 2) return;
     }
     for (std::size_t i = start_; i < rows_.size(); ++i) {
@@ -142,6 +142,7 @@ class Reader {
   std::optional<std::vector<Piece>> heading(const Line& line, const std::string& text) const {
     std::vector<Piece> fields = pieces_of({line.number, text}, shape_.separator, table_.file);
     drop_empty_ends(fields, width_);
+    while (is_units_row(fields) && fields.size() < width_) fields.push_back({});
     if (fields.size() == width_) return fields;
     if (shape_.separator != ' ') return std::nullopt;
     return aligned_heading(text);
@@ -165,16 +166,6 @@ class Reader {
     return fields;
   }
 
-  static bool all_units(const std::vector<Piece>& fields) {
-    bool any = false;
-    for (const Piece& field : fields) {
-      if (field.text.empty()) continue;
-      if (!written_unit(field.text)) return false;
-      any = true;
-    }
-    return any;
-  }
-
   static std::vector<std::string> texts(const std::vector<Piece>& fields) {
     std::vector<std::string> words;
     for (const Piece& field : fields) words.push_back(field.text);
@@ -183,10 +174,10 @@ class Reader {
 
   void find_header() {
     if (start_ > 0) {
-      const Row& above = rows_[start_ - 1];
+      const TableRow& above = rows_[start_ - 1];
       const auto names = heading(*above.line, above.line->text);
       if (names && above.numbers.count == 0) {
-        const auto higher = start_ > 1 && all_units(*names)
+        const auto higher = start_ > 1 && is_units_row(*names)
                                 ? heading(*rows_[start_ - 2].line, rows_[start_ - 2].line->text)
                                 : std::nullopt;
         if (higher && numbers_in(*higher, shape_.decimal).count == 0) {
@@ -196,7 +187,7 @@ class Reader {
         } else {
           table_.names = texts(*names);
           table_.header_line = above.line->number;
-          if (all_units(*names)) table_.units = table_.names;
+          if (is_units_row(*names)) table_.units = table_.names;
         }
         return;
       }
@@ -216,7 +207,7 @@ class Reader {
 
   void take_rows() {
     for (std::size_t i = start_; i < rows_.size(); ++i) {
-      Row& row = rows_[i];
+      TableRow& row = rows_[i];
       const int number = row.line->number;
       if (row.numbers.count == 0 && !row.numbers.all && !followed_by_numbers(i)) {
         table_.notes.push_back("the lines from line " + std::to_string(number) +
@@ -278,17 +269,93 @@ class Reader {
   std::span<const Line> lines_;
   Shape shape_;
   RawTable table_;
-  std::vector<Row> rows_;
+  std::vector<TableRow> rows_;
   std::size_t start_ = 0;
   std::size_t width_ = 0;
 };
 
 RawTable::Kind kind_of(std::span<const Line> lines) {
-  for (const Line& line : lines) {
+  for (const Line& line : lines.first(std::min<std::size_t>(lines.size(), 1000))) {
     if (line.text.starts_with("# BEGIN METADATA")) return RawTable::Kind::afm_tab;
     if (line.text.find("Device:\tChiaro") != std::string::npos) return RawTable::Kind::chiaro;
+    if (line.text.starts_with("Interval data:")) return RawTable::Kind::anton_paar;
+    if (line.text.starts_with("\"Results Table") || line.text.starts_with("Results Table"))
+      return RawTable::Kind::bluehill;
   }
   return RawTable::Kind::plain;
+}
+
+std::string lines_text(const std::vector<TableRow>& rows, const Block& block) {
+  return "lines " + std::to_string(rows[block.from].line->number) + " to " +
+         std::to_string(rows[block.to - 1].line->number);
+}
+
+// The rows of a block with the words above it, back to the block before; those of the last block
+// with the words below it.
+std::vector<TableRow> rows_around(std::vector<TableRow>& rows, const std::vector<Block>& blocks,
+                                  std::size_t k) {
+  const std::size_t from = k == 0 ? 0 : blocks[k - 1].to;
+  const std::size_t to = k + 1 == blocks.size() ? rows.size() : blocks[k].to;
+  const auto at = [&](std::size_t i) {
+    return std::make_move_iterator(rows.begin() + static_cast<std::ptrdiff_t>(i));
+  };
+  return {at(from), at(to)};
+}
+
+// The main table of the rows: the one asked for, or the longest. Tables with the same names follow
+// it as further segments, in a column `segment` that counts from 1; others are left out.
+RawTable main_table(std::span<const Line> lines, std::vector<TableRow> rows,
+                    const std::string& file, const Shape& shape, const DataLayout& layout) {
+  const std::vector<Block> blocks = blocks_of(rows);
+  if (layout.table < 0 || as_index(layout.table) > blocks.size())
+    throw InputError({file, 0, 0}, "has " + plural(blocks.size(), "table") + ", and `--table " +
+                                       std::to_string(layout.table) + "` is not among them");
+  if (blocks.size() < 2) return Reader(lines, std::move(rows), file, shape).read();
+  std::size_t main = layout.table > 0 ? as_index(layout.table - 1) : 0;
+  for (std::size_t k = 0; layout.table == 0 && k < blocks.size(); ++k)
+    if (blocks[k].above(blocks[main])) main = k;
+  std::vector<std::string> where;
+  for (const Block& block : blocks) where.push_back(lines_text(rows, block));
+
+  std::vector<std::optional<RawTable>> tables(blocks.size());
+  tables[main] = Reader(lines, rows_around(rows, blocks, main), file, shape).read();
+  RawTable& table = *tables[main];
+  std::vector<std::size_t> alike;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (k == main) alike.push_back(k);
+    if (k == main || blocks[k].pairs < 2) continue;  // a line of a heading
+    try {
+      tables[k] = Reader(lines, rows_around(rows, blocks, k), file, shape).read();
+    } catch (const InputError&) {  // numbers in a heading
+      continue;
+    }
+    if (!table.names.empty() && tables[k]->names == table.names && layout.table == 0) {
+      alike.push_back(k);
+    } else if (tables[k]->names.size() == tables[k]->width()) {
+      if (layout.table == 0 && 2 * blocks[k].pairs > blocks[main].pairs)
+        throw InputError({file, 0, 0}, "contains tables with different columns, on " + where[main] +
+                                           " and " + where[k] + "; choose one by `--table " +
+                                           std::to_string(main + 1) + "` or `--table " +
+                                           std::to_string(k + 1) + "`");
+      table.notes.push_back("the table on " + where[k] + " has other columns and is left out; `" +
+                            "--table " + std::to_string(k + 1) + "` reads it");
+    }
+  }
+  if (alike.size() < 2) return std::move(table);
+  RawTable merged = std::move(*tables[alike.front()]);
+  std::vector<RawRow> all;
+  for (std::size_t k = 0; k < alike.size(); ++k) {
+    std::vector<RawRow>& from = k == 0 ? merged.rows : tables[alike[k]]->rows;
+    for (RawRow& row : from) {
+      row.fields.push_back({std::to_string(k + 1), 0});
+      all.push_back(std::move(row));
+    }
+  }
+  merged.rows = std::move(all);
+  merged.names.emplace_back("segment");
+  if (!merged.units.empty()) merged.units.emplace_back();
+  merged.tables = alike.size();
+  return merged;
 }
 
 }  // namespace
@@ -301,8 +368,10 @@ RawTable raw_table(std::string_view bytes, const std::string& file, const DataLa
                                        std::to_string(skipped) + "` leaves none");
   const RawTable::Kind kind = kind_of(lines);
   if (is_febio_log(lines)) return febio_table(lines, file);
+  if (is_jpk_text(lines)) return jpk_table(lines, file);
   const std::span<const Line> kept = std::span<const Line>(lines).subspan(skipped);
-  RawTable table = Reader(kept, file, shape_of(kept, file, layout)).read();
+  const Shape shape = shape_of(kept, file, layout);
+  RawTable table = main_table(kept, rows_of(kept, shape, file), file, shape, layout);
   table.kind = kind;
   return table;
 }

@@ -15,7 +15,7 @@ struct RawRow {
 };
 
 struct RawTable {
-  enum class Kind { plain, afm_tab, chiaro, febio_log };
+  enum class Kind { plain, afm_tab, chiaro, febio_log, jpk, anton_paar, bluehill };
 
   std::string file;
   Kind kind = Kind::plain;
@@ -25,6 +25,7 @@ struct RawTable {
   char decimal = '.';
   std::vector<RawRow> rows;
   std::vector<std::string> notes;
+  std::size_t tables = 1;  // of the same columns, in the column `segment` if there are several
 
   [[nodiscard]] std::size_t width() const { return rows.front().fields.size(); }
 };
@@ -42,5 +43,12 @@ struct RawTable {
 // table has the columns step, time (s), item and the names of the data.
 [[nodiscard]] bool is_febio_log(const std::vector<Line>& lines);
 [[nodiscard]] RawTable febio_table(const std::vector<Line>& lines, const std::string& file);
+
+// Text exports of JPK: `# columns:` and `# units:` above values separated by blanks, and before
+// each part of the curve `# segment: extend` (or retract, pause), which become a column `segment`.
+// If the file has a spring constant and no tip position, a column `tip position` = height + force /
+// k is added.
+[[nodiscard]] bool is_jpk_text(const std::vector<Line>& lines);
+[[nodiscard]] RawTable jpk_table(const std::vector<Line>& lines, const std::string& file);
 
 }  // namespace palpate::measured

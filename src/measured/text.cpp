@@ -1,6 +1,7 @@
 // Decodes the encodings and line ends that instruments, spreadsheets and old Macs write.
 #include "measured/text.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -40,7 +41,7 @@ std::string from_utf16(std::string_view bytes, std::size_t high, const std::stri
   const auto unit = [&](std::size_t i) {
     return (at(bytes, i + high) << 8U) | at(bytes, i + 1 - high);
   };
-  for (std::size_t i = 2; i < bytes.size(); i += 2) {
+  for (std::size_t i = 0; i < bytes.size(); i += 2) {
     std::uint32_t code = unit(i);
     if (code >= 0xD800 && code < 0xDC00 && i + 2 < bytes.size()) {
       const std::uint32_t low = unit(i + 2);
@@ -73,9 +74,54 @@ bool is_utf8(std::string_view text) {
   return follow == 0;
 }
 
+// Files that hold no text, by their first bytes, and what to do with them.
+void refuse_binary(std::string_view bytes, const std::string& file) {
+  struct Signature {
+    std::string_view start;
+    const char* sentence;
+  };
+  using namespace std::string_view_literals;
+  static constexpr std::array signatures{
+      Signature{"\x1F\x8B"sv, "is compressed by gzip; unpack it with `gunzip -k`"},
+      Signature{"BZh"sv, "is compressed by bzip2; unpack it with `bunzip2 -k`"},
+      Signature{"\xFD"
+                "7zXZ"sv,
+                "is compressed by xz; unpack it with `unxz -k`"},
+      Signature{"\x28\xB5\x2F\xFD"sv, "is compressed by zstd; unpack it with `unzstd`"},
+      Signature{"7z\xBC\xAF\x27\x1C"sv, "is a 7z archive; unpack it with `7z x`"},
+      Signature{"Rar!"sv, "is a RAR archive; unpack it with `unrar x`"},
+      Signature{
+          "PK\x03\x04"sv,
+          "is a ZIP archive, as are .xlsx workbooks and .jpk-force files; export the curve as "
+          "text (a workbook as CSV; JPK's Data Processing: Export, Text)"},
+      Signature{"\x89HDF"sv,
+                "is an HDF5 file; export the columns as CSV (afmformats writes curves as .tab)"},
+      Signature{"\xD0\xCF\x11\xE0"sv, "is an old Office document (.xls); save it as CSV"},
+      Signature{"TDSm"sv, "is a TDMS file of LabVIEW; export it as text"},
+      Signature{"MATLAB 5.0"sv, "is a MATLAB file; save the columns with `writematrix`"},
+      Signature{"\x93NUMPY"sv, "is a NumPy file; save it with `numpy.savetxt`"},
+      Signature{"%PDF"sv, "is a PDF; export the numbers as CSV"}};
+  for (const Signature& one : signatures)
+    if (bytes.starts_with(one.start)) throw InputError({file, 0, 0}, one.sentence);
+}
+
+// UTF-16 without a mark: the text is mostly of ASCII, so that one byte of nearly each pair is 0.
+std::optional<std::size_t> unmarked_utf16(std::string_view bytes) {
+  const std::size_t pairs = std::min<std::size_t>(bytes.size() / 2, 2000);
+  if (pairs < 4) return std::nullopt;
+  std::array<std::size_t, 2> zeros{};
+  for (std::size_t i = 0; i < 2 * pairs; ++i)
+    if (bytes[i] == '\0') ++zeros[i % 2];
+  for (const std::size_t high : {0U, 1U})
+    if (zeros[high] * 10 > pairs * 8 && zeros[1 - high] == 0) return high;
+  return std::nullopt;
+}
+
 std::string utf8_of(std::string_view bytes, const std::string& file) {
-  if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes, 1, file);
-  if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes, 0, file);
+  if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes.substr(2), 1, file);
+  if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes.substr(2), 0, file);
+  refuse_binary(bytes, file);
+  if (const auto high = unmarked_utf16(bytes)) return from_utf16(bytes, *high, file);
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   if (is_utf8(bytes)) return std::string(bytes);
   std::string text;

@@ -12,9 +12,10 @@ struct Line {
   std::string text;
 };
 
-// Lines end with LF, CR LF or CR. A byte order mark is skipped; UTF-16 must have one. Bytes that
-// are not UTF-8 are read as ISO 8859-1, in which instruments write micro signs. Throws InputError
-// with the place of a NUL byte, because text contains none.
+// Lines end with LF, CR LF or CR. A byte order mark is skipped; UTF-16 is recognised without one,
+// too. Bytes that are not UTF-8 are read as ISO 8859-1, in which instruments write micro signs.
+// Throws InputError with the place of a NUL byte, because text contains none, and for archives and
+// binary formats with the way to unpack or export them.
 [[nodiscard]] std::vector<Line> lines_of(std::string_view bytes, const std::string& file);
 
 struct Piece {

@@ -1,7 +1,7 @@
 // Recognises units in the names of columns, in the spellings of makers of testing machines.
 #include "measured/unit.h"
 
-#include <array>
+#include <vector>
 
 #include "base/text.h"
 
@@ -14,11 +14,13 @@ struct Alias {
 };
 
 constexpr Dimension time{0, 0, 1};
+constexpr Dimension pressure{-1, 1, -2};
 
 // The pound-force and the kilogram-force are exact by definition (standard gravity 9.80665 m/s^2,
-// the pound 0.45359237 kg); the inch is 25.4 mm.
-const std::array<Alias, 23>& aliases() {
-  static const std::array<Alias, 23> table{{
+// the pound 0.45359237 kg); the inch is 25.4 mm. The psi is lbf / in^2; the conventional millimetre
+// of mercury is 133.322387415 Pa and the torr 101325 / 760 Pa (NIST Special Publication 811).
+const std::vector<Alias>& aliases() {
+  static const std::vector<Alias> table{
       {"sec", {"s", {1, 1, time}}},
       {"secs", {"s", {1, 1, time}}},
       {"second", {"s", {1, 1, time}}},
@@ -41,8 +43,35 @@ const std::array<Alias, 23>& aliases() {
       {"microns", {"um", {1, 1e6, length}}},
       {"millimeter", {"mm", {1, 1e3, length}}},
       {"millimetre", {"mm", {1, 1e3, length}}},
+      {"millimeters", {"mm", {1, 1e3, length}}},
+      {"millimetres", {"mm", {1, 1e3, length}}},
+      {"micrometer", {"um", {1, 1e6, length}}},
+      {"micrometers", {"um", {1, 1e6, length}}},
+      {"nanometer", {"nm", {1, 1e9, length}}},
+      {"nanometers", {"nm", {1, 1e9, length}}},
+      {"meter", {"m", {1, 1, length}}},
+      {"meters", {"m", {1, 1, length}}},
+      {"angstrom", {"Angstrom", {1, 1e10, length}}},
+      {"angstroms", {"Angstrom", {1, 1e10, length}}},
+      {"ang", {"Angstrom", {1, 1e10, length}}},
+      {"\u00c5", {"Angstrom", {1, 1e10, length}}},
+      {"\u00e5", {"Angstrom", {1, 1e10, length}}},
+      {"ft", {"ft", {304.8, 1e3, length}}},
+      {"lb", {"lbf", {4.4482216152605, 1, force}}},
+      {"lbs", {"lbf", {4.4482216152605, 1, force}}},
+      {"millinewtons", {"mN", {1, 1e3, force}}},
+      {"kilonewtons", {"kN", {1e3, 1, force}}},
+      {"pascal", {"Pa", {1, 1, pressure}}},
+      {"pascals", {"Pa", {1, 1, pressure}}},
+      {"kilopascals", {"kPa", {1e3, 1, pressure}}},
+      {"megapascals", {"MPa", {1e6, 1, pressure}}},
+      {"psi", {"psi", {6894.757293168361, 1, pressure}}},
+      {"ksi", {"ksi", {6894757.293168361, 1, pressure}}},
+      {"mmhg", {"mmHg", {133.322387415, 1, pressure}}},
+      {"torr", {"Torr", {101325, 760, pressure}}},
+      {"atm", {"atm", {101325, 1, pressure}}},
       {"%", {"%", {1, 1e2, {}}}},
-  }};
+  };
   return table;
 }
 
@@ -50,7 +79,11 @@ std::string without_brackets(std::string_view given) {
   const std::string text = trimmed(given);
   const bool round = text.starts_with('(') && text.ends_with(')');
   const bool square = text.starts_with('[') && text.ends_with(']');
-  return round || square ? trimmed(std::string_view(text).substr(1, text.size() - 2)) : text;
+  const bool curly = text.starts_with('{') && text.ends_with('}');
+  const bool angle = text.starts_with('<') && text.ends_with('>');
+  return round || square || curly || angle
+             ? trimmed(std::string_view(text).substr(1, text.size() - 2))
+             : text;
 }
 
 // Replaces both Unicode signs for micro by the letter u.
@@ -74,6 +107,17 @@ std::optional<WrittenUnit> written_unit(std::string_view given) {
   return std::nullopt;
 }
 
+bool is_unit_word(std::string_view given) {
+  if (written_unit(given)) return true;
+  const std::string text = lower_case(without_brackets(given));
+  for (const char* word :
+       {"degc", "\u00b0c", "deg c", "degf", "\u00b0f", "k",   "v",    "mv",  "uv",
+        "nv",   "a",       "ma",    "deg",  "\u00b0",  "rad", "mrad", "rpm", "a.u.",
+        "au",   "counts",  "ohm",   "db",   "mn*m",    "mnm", "un*m", "n*m", "%/s"})
+    if (text == word) return true;
+  return false;
+}
+
 NamedColumn named_column(std::string_view given) {
   const std::string name = trimmed(given);
   const auto split_at = [&](std::size_t at, std::size_t skipped) -> std::optional<NamedColumn> {
@@ -82,8 +126,8 @@ NamedColumn named_column(std::string_view given) {
     if (!unit) return std::nullopt;
     return NamedColumn{trimmed(std::string_view(name).substr(0, at)), unit};
   };
-  if (name.ends_with(')') || name.ends_with(']')) {
-    const std::size_t open = name.find_last_of("([");
+  if (name.ends_with(')') || name.ends_with(']') || name.ends_with('}') || name.ends_with('>')) {
+    const std::size_t open = name.find_last_of("([{<");
     if (const auto split = split_at(open, 0)) return *split;
     return {name, std::nullopt};
   }
@@ -91,6 +135,12 @@ NamedColumn named_column(std::string_view given) {
   if (const auto split = split_at(name.rfind(" / "), 3)) return *split;
   if (const auto split = split_at(name.rfind(" in "), 4)) return *split;
   if (const auto split = split_at(name.rfind(", "), 2)) return *split;
+  if (auto split = split_at(name.rfind(": "), 2)) return *split;
+  if (auto split = split_at(name.rfind(' '), 1)) {  // `Depth nm`, `Load: uN`
+    if (split->bare.ends_with(':')) split->bare.pop_back();
+    return *split;
+  }
+  if (const auto split = split_at(name.rfind('/'), 1)) return *split;
   return {name, std::nullopt};
 }
 

@@ -18,8 +18,12 @@ struct WrittenUnit {
 };
 
 // A unit as instruments write it: the units of unit_factor and words such as `sec`, `Newton`,
-// `micron`, `%`, `gF`, `lbF`, `in`, with or without brackets. Nothing if the text is not a unit.
+// `micron`, `%`, `gF`, `lbF`, `in`, `psi`, `mmHg`, `Angstrom`, with or without brackets of any
+// kind. Nothing if the text is not a unit.
 [[nodiscard]] std::optional<WrittenUnit> written_unit(std::string_view text);
+
+// Whether a cell of a row of units names a unit, of any quantity: also `degC`, `V`, `rad`.
+[[nodiscard]] bool is_unit_word(std::string_view text);
 
 struct NamedColumn {
   std::string bare;                 // the name without its unit: `Load`, `force`

@@ -64,7 +64,7 @@ class PressedMesh {
 
   // How many modes are kept where modal steps drop others, and what these others sink under the
   // finger as a fraction of its travel; 0 if the mesh's motion does not reach the force. It follows
-  // without inertia.                                                       docs/theory.md (98)
+  // without inertia.                                                       docs/theory.md (108)
   struct KeptModes {
     Eigen::Index count = 0;
     double dropped_share = 0.0;

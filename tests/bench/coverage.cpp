@@ -1,5 +1,6 @@
 // How often the truth lies inside the 95 % interval, rung by rung. No test: it prints the table of
-// docs/identify.md. `palpate-coverage [REPEATS] [SCENE]...`
+// docs/identify.md. `palpate-coverage [REPEATS] [SCENE | rho=R | interval=TIME]...`; rho is the
+// correlation of the noise of neighbouring points, and the interval that of the rows.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,12 +14,23 @@ int main(int count, char** words) {
   std::printf("| scene | unknown | inside, of %d | a right interval: 95 of 100, give or take |\n",
               repeats);
   std::printf("|---|---|---|---|\n");
-  for (const test::IdentifyScene& scene : test::identify_scenes()) {
+  double rho = 0.0;
+  std::string interval;
+  for (int k = 2; k < count; ++k) {
+    const std::string word = words[k];
+    if (word.starts_with("rho=")) rho = std::atof(word.substr(4).c_str());
+    if (word.starts_with("interval=")) interval = word.substr(9);
+  }
+  for (test::IdentifyScene scene : test::identify_scenes()) {
     bool wanted = count <= 2;
     for (int k = 2; k < count; ++k) wanted = wanted || std::string(words[k]) == scene.name;
     if (!wanted) continue;
+    if (const auto at = scene.text.find("interval = \"");
+        !interval.empty() && at < scene.text.size())
+      scene.text.replace(at + 12, scene.text.find('"', at + 12) - at - 12, interval);
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<int> inside = test::covered(scene, repeats);
+    const std::vector<int> inside =
+        test::covered(scene, repeats, {.searches = 1, .profiles = false}, rho);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (std::size_t i = 0; i < inside.size(); ++i)

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "identify/givens.h"
 #include "identify_scenes.h"
 #include "record/csv.h"
 #include "refusal.h"
@@ -212,11 +213,58 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
     curve.y.push_back(curve.y[i]);
   }
   const auto found = test::identified(scene, curve, {.profiles = false});
-  EXPECT_EQ(found.notes.at(0), std::to_string(points - 1) +
-                                   " points are left out: the way back from the deepest travel");
-  // The programme ends at 2 mm, the lowest contact point is at -0.1 mm, and 2.2 mm were measured.
-  EXPECT_NE(found.notes.at(1).find("beyond the programme, which ends at 2 mm"), std::string::npos);
-  for (const double x : found.x) EXPECT_LE(x, 1.9e-3 * (1.0 + 1e-6));
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_EQ(found.notes[0], std::to_string(points - 1) +
+                                " points are left out: the way back from the deepest travel");
+  EXPECT_EQ(found.left_out, static_cast<int>(points) - 1);
+  EXPECT_EQ(found.x.size(), points + 1);  // up to 2.2 mm, where the deepest stands twice
+}
+
+// The programme of the scenario ends at a quarter of the measured travel, and the range of contact
+// points begins 3 mm before it.
+TEST(Identify, AShortProgrammeIsLengthened) {
+  auto scene = with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa"});
+  scene.truth.emplace_back("contact.depth=hertz");
+  const auto curve = test::clean_curve(scene);
+  scene.unknowns.emplace_back("contact_point=-3..1 mm");
+  const auto found = test::identified(scene, curve, {.profiles = false},
+                                      {"step.1.to=0.5 mm", "contact.depth=hertz"});
+  EXPECT_EQ(found.x.size(), curve.x.size());
+  EXPECT_EQ(found.left_out, 0);
+  EXPECT_NEAR(found.unknowns[0].estimate, 60e3, 1e-6 * 60e3);  // exact data
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_TRUE(
+      found.notes[0].starts_with("the programme is shorter than the measurement and is "
+                                 "lengthened to "))
+      << found.notes[0];
+}
+
+// E is proportional to R^(-1/2): a radius known to 2 % leaves E uncertain by 1 %.
+TEST(Identify, AnUncertainRadiusWidensTheInterval) {
+  const auto scene = with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa"});
+  auto curve = test::clean_curve(scene);
+  for (double& x : curve.x) x -= scene.contact_point;
+  auto family = scenario::parse(scene.text, "test.toml", {"contact.depth=hertz"});
+  const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
+  const std::atomic<bool> stop = false;
+  const auto givens = identify::read_givens({"finger.radius=11 mm +- 0.22 mm"},
+                                            family.cases.front().scenario, unknowns);
+  identify::set_givens(family, givens);
+  auto found = identify::identify(curve, family, unknowns, stop, {.profiles = false});
+  const double estimate = found.unknowns[0].estimate;
+  const double before = *found.unknowns[0].std_error;
+  identify::carry_givens(found, curve, family, givens, stop);
+  ASSERT_EQ(found.givens.size(), 1U);
+  const double part = found.givens[0].deviations[0];
+  EXPECT_NEAR(part / estimate, 0.01, 1e-5);  // half of 2 %, to second order in 2 %
+  EXPECT_NEAR(*found.unknowns[0].std_error, std::hypot(before, part), 1e-9 * estimate);  // rounding
+  EXPECT_GT(*found.unknowns[0].ci95_high, estimate * 1.0195);
+  EXPECT_EQ(test::refusal([&] {
+              return identify::read_givens({"finger.radius=11 mm"}, family.cases.front().scenario,
+                                           unknowns);
+            }),
+            "palpate: `--given finger.radius=11 mm` is written `KEY=VALUE +- SD`, as "
+            "`finger.radius=11 mm +- 0.2 mm`");
 }
 
 // A curve that an interrupt leaves out looks like one that the data do not determine. Whenever the

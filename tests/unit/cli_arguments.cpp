@@ -91,13 +91,15 @@ TEST(Arguments, AValueMayLookLikeAnythingElse) {
 TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
   const std::pair<Words, const char*> cases[] = {
       {{},
-       "`palpate` wants a verb: run, explain, fit, compare, golden, mesh, reference, bench, chart, "
+       "`palpate` wants a verb: run, explain, fit, data, compare, golden, mesh, reference, bench, "
+       "chart, "
        "stability, sweep, identify, export, device, manual; `palpate "
        "--help` shows "
        "how to write it"},
       {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
       {{"xyzzy"},
-       "unknown verb `xyzzy`; known: run, explain, fit, compare, golden, mesh, reference, bench, "
+       "unknown verb `xyzzy`; known: run, explain, fit, data, compare, golden, mesh, reference, "
+       "bench, "
        "chart, stability, sweep, identify, export, device, manual"},
       {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
       {{"golden"},
@@ -112,8 +114,8 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
       {{"compare", "a"},
        "`palpate compare` lacks `want`; `palpate compare --help` shows how to write "
        "it"},
-      {{"fit", "d.csv", "--x", "h", "--model", "power"},
-       "`palpate fit` lacks `--y`; `palpate fit --help` shows how to write it"},
+      {{"fit", "d.csv", "--x", "h", "--y", "F"},
+       "`palpate fit` lacks `--model`; `palpate fit --help` shows how to write it"},
       {{"golden", "bless", "one"},
        "`palpate golden bless` lacks `--reason`; `palpate golden bless --help` shows how to write "
        "it"},

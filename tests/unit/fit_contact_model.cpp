@@ -108,11 +108,125 @@ TEST(ContactModel, Refusals) {
             "all points have the same depth; give a curve over depth");
   EXPECT_EQ(refusal(curve, {radius, poisson, 1e-4}),
             "the curve is deeper than 0.008182 mm, up to which the law of so thin a layer is "
-            "valid; give the part of the curve up to that depth");
+            "valid; give the part of the curve up to that depth, by `--to`");
   for (double& force : curve.force) force = -force;
   EXPECT_EQ(refusal(curve, {radius, poisson}),
             "the load falls with depth; give `--compression negative` if the load cell reports "
             "compression as negative, or another `--x`");
+}
+
+// A press with a force offset and a tilted baseline, as cantilevers have them.
+struct Tilted {
+  double offset = -2.0;  // N
+  double tilt = 0.0;     // N/m
+  double from = -3e-3;   // m, first depth
+  int rows = 300;
+};
+Curve tilted_curve(const Tip& tip, const Tilted& tilted) {
+  Curve curve;
+  for (int i = 0; i < tilted.rows; ++i) {
+    const double h = tilted.from + (3e-3 - tilted.from) * i / (tilted.rows - 1);
+    curve.depth.push_back(h);
+    curve.force.push_back(young / (1 - poisson * poisson) * tip_force(tip, h - contact_at).force +
+                          tilted.offset + tilted.tilt * (h - tilted.from));
+  }
+  return curve;
+}
+
+ContactTest test_of(const Tip& tip) {
+  ContactTest test{radius, poisson};
+  test.tip = tip.kind;
+  test.half_angle = tip.half_angle;
+  return test;
+}
+
+TEST(ContactModel, EveryTipExactlyWithOffsetAndTilt) {
+  for (const Tip::Kind kind : {Tip::Kind::paraboloid, Tip::Kind::sphere, Tip::Kind::cone,
+                               Tip::Kind::pyramid_3, Tip::Kind::pyramid_4, Tip::Kind::flat_punch}) {
+    const Tip tip{kind, radius, 0.6};
+    const Curve curve = tilted_curve(tip, {.offset = -2.0, .tilt = 100.0});
+    const Fit fit = fit_contact(curve.depth, curve.force, test_of(tip));
+    ASSERT_EQ(fit.parameters.size(), 4U) << word(kind);
+    EXPECT_NEAR(fit.parameters[0].estimate, 72.4, 1e-9 * 72.4) << word(kind);  // exact data
+    EXPECT_NEAR(fit.parameters[1].estimate, 0.4, 1e-9) << word(kind);          // likewise
+    EXPECT_NEAR(fit.parameters[2].estimate, -2.0, 1e-9) << word(kind);         // likewise
+    EXPECT_NEAR(fit.parameters[3].estimate, 0.1, 1e-9) << word(kind);          // likewise, N/mm
+  }
+}
+
+TEST(ContactModel, ABaselineIsFittedWhereRowsLieBeforeContact) {
+  const Tip tip{Tip::Kind::paraboloid, radius, 0.0};
+  const auto parameters = [&](double from, int rows) {
+    const Curve curve = tilted_curve(tip, {.offset = 0.5, .from = from, .rows = rows});
+    return fit_contact(curve.depth, curve.force, test_of(tip)).parameters.size();
+  };
+  EXPECT_EQ(parameters(-3e-3, 300), 4U);   // 170 rows before contact: offset and tilt
+  EXPECT_EQ(parameters(2.5e-4, 100), 3U);  // 6 rows before contact: an offset
+  // No row before contact and no offset: modulus and contact point.
+  const Curve curve = tilted_curve(tip, {.offset = 0.0, .from = 5e-4});
+  const Fit fit = fit_contact(curve.depth, curve.force, test_of(tip));
+  EXPECT_EQ(fit.parameters.size(), 2U);
+  EXPECT_NEAR(fit.parameters[0].estimate, 72.4, 1e-8 * 72.4);  // exact data
+  ASSERT_FALSE(fit.warnings.empty());
+  EXPECT_TRUE(fit.warnings[0].starts_with("no row lies before contact")) << fit.warnings[0];
+}
+
+TEST(ContactModel, TheWayBackIsLeftOutAndCounted) {
+  const Tip tip{Tip::Kind::paraboloid, radius, 0.0};
+  Curve curve = tilted_curve(tip, {});
+  for (std::size_t i = 300; i-- > 0;) {
+    curve.depth.push_back(curve.depth[i]);
+    curve.force.push_back(0.5 * curve.force[i]);
+  }
+  ContactTest test = test_of(tip);
+  const Fit approach = fit_contact(curve.depth, curve.force, test);
+  EXPECT_NEAR(approach.parameters[0].estimate, 72.4, 1e-8 * 72.4);  // exact data
+  EXPECT_EQ(approach.n, 300);
+  EXPECT_EQ(approach.left_out, 300);
+  test.way = ContactTest::Way::retract;
+  const Fit retract = fit_contact(curve.depth, curve.force, test);
+  // The deepest row belongs to both ways and has the force of the approach: 1 of 301 rows.
+  EXPECT_NEAR(retract.parameters[0].estimate, 36.2, 0.02 * 36.2);
+  EXPECT_EQ(retract.left_out, 299);
+}
+
+// Beyond 1 mm the tissue stiffens up to 80 times; the part up to there gives the modulus.
+TEST(ContactModel, APartOfTheDepths) {
+  const Tip tip{Tip::Kind::paraboloid, radius, 0.0};
+  Curve curve = tilted_curve(tip, {});
+  for (std::size_t i = 0; i < curve.depth.size(); ++i) {
+    const double beyond = std::max(0.0, curve.depth[i] - contact_at - 1e-3);
+    curve.force[i] += beyond * 5e4 * (curve.force[i] + 2.0);
+  }
+  ContactTest test = test_of(tip);
+  test.to = DepthLimit{0.9e-3, false};
+  const Fit fit = fit_contact(curve.depth, curve.force, test);
+  EXPECT_NEAR(fit.parameters[0].estimate, 72.4, 1e-8 * 72.4);  // exact data
+  EXPECT_NEAR(fit.range_high, 1.3, 0.03);                      // the spacing of the rows
+  EXPECT_EQ(fit.n + fit.left_out, 300);
+}
+
+TEST(ContactModel, ASignIsAdvisedOnlyWhereItIsWrong) {
+  const Tip tip{Tip::Kind::paraboloid, radius, 0.0};
+  const ContactTest test = test_of(tip);
+  const Curve good = tilted_curve(tip, {.offset = -40.0, .tilt = 100.0});
+  EXPECT_NEAR(fit_contact(good.depth, good.force, test).parameters[0].estimate, 72.4,
+              1e-7);  // exact data, all forces negative
+  Curve curve = good;
+  for (double& force : curve.force) force = -force;
+  EXPECT_TRUE(refusal(curve, test)
+                  .starts_with("the load falls with depth; give "
+                               "`--compression negative`"))
+      << refusal(curve, test);
+  curve = good;
+  for (double& depth : curve.depth) depth = -depth;
+  EXPECT_TRUE(refusal(curve, test).starts_with("the load grows as the depth falls"))
+      << refusal(curve, test);
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  for (double& force : curve.force) force = noise(random);
+  EXPECT_NE(refusal(curve, test).find("shows no contact"), std::string::npos)
+      << refusal(curve, test);
 }
 
 }  // namespace

@@ -134,5 +134,74 @@ TEST(Prony, TooFewPoints) {
   }
 }
 
+// A Maxwell element with tau = 2 beside a spring, after a ramp of 1.5: as a step the same curve
+// gives another amplitude.
+TEST(Prony, RampAndHoldExactly) {
+  const double tau = 2.0, ramp = 1.5;
+  std::vector<double> x, y, history;
+  for (int i = 0; i <= 400; ++i) {
+    const double t = 0.025 * i;
+    x.push_back(t);
+    // Boltzmann by hand: rate (y_inf t + y_1 tau (1 - e^(-t/tau))), and from the end of the ramp on
+    // the same minus that of a ramp that begins then.
+    const auto rising = [&](double s) {
+      return s <= 0.0 ? 0.0 : (0.8 * s + 1.3 * tau * (1.0 - std::exp(-s / tau))) / ramp;
+    };
+    y.push_back(rising(t) - rising(t - ramp));
+    history.push_back(0.07 * std::min(t / ramp, 1.0));
+  }
+  const auto expect = [&](const Fit& fit) {
+    EXPECT_EQ(word(fit.termination), "converged");
+    EXPECT_NEAR(fit.parameters[0].estimate, 0.8, 1e-9);  // exact data
+    EXPECT_NEAR(fit.parameters[1].estimate, 1.3, 1e-9);  // likewise
+    EXPECT_NEAR(fit.parameters[2].estimate, 2.0, 1e-9);  // likewise
+  };
+  PronySeries series{PronySeries::Kind::relaxation, 1};
+  series.history.ramp = ramp;
+  expect(fit_prony(x, y, series));
+  series.history = {};
+  series.history.samples = history;  // its bend at 1.5 is one of the points
+  expect(fit_prony(x, y, series));
+  const Fit step = fit_prony(x, y, {PronySeries::Kind::relaxation, 1});
+  EXPECT_GT(std::abs(step.parameters[1].estimate - 1.3), 0.3);
+}
+
+TEST(Prony, RampInCreepExactly) {
+  std::vector<double> x, y;
+  for (int i = 0; i <= 200; ++i) {
+    const double t = 0.05 * i;
+    x.push_back(t);
+    // Integral of J over the ramp: J = 0.2 + 0.5 (1 - e^(-t/3)).
+    const auto rising = [](double s) {
+      return s <= 0.0 ? 0.0 : 0.7 * s - 0.5 * 3.0 * (1.0 - std::exp(-s / 3.0));
+    };
+    y.push_back(rising(t) - rising(t - 1.0));
+  }
+  PronySeries series{PronySeries::Kind::creep, 1};
+  series.history.ramp = 1.0;
+  const Fit fit = fit_prony(x, y, series);
+  EXPECT_NEAR(fit.parameters[0].estimate, 0.2, 1e-9);  // exact data
+  EXPECT_NEAR(fit.parameters[1].estimate, 0.5, 1e-9);  // likewise
+  EXPECT_NEAR(fit.parameters[2].estimate, 3.0, 1e-8);  // likewise
+}
+
+// 20 given times: no height is negative, and the curve of two exponentials is followed closely.
+TEST(Prony, ManyTermsAreNotNegative) {
+  std::vector<double> x, y;
+  for (int i = 0; i <= 1000; ++i) {
+    x.push_back(0.01 * i);
+    y.push_back(1.0 + 2.0 * std::exp(-x.back() / 0.2) + std::exp(-x.back() / 2.0));
+  }
+  const Fit fit = fit_prony(x, y, {PronySeries::Kind::relaxation, 20});
+  EXPECT_EQ(word(fit.termination), "converged");
+  EXPECT_LT(fit.rmse, 2e-3);  // times a factor 1.44 apart
+  double sum = 0.0;
+  for (std::size_t i = 0; i < fit.parameters.size(); i += i == 0 ? 1 : 2) {
+    EXPECT_GE(fit.parameters[i].estimate, 0.0);
+    sum += fit.parameters[i].estimate;
+  }
+  EXPECT_NEAR(sum, 4.0, 0.02);  // y(0)
+}
+
 }  // namespace
 }  // namespace palpate::fit

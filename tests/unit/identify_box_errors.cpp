@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "identify/residual_tests.h"
+#include "fit/residual_tests.h"
 
 namespace palpate::identify {
 namespace {
@@ -67,12 +67,12 @@ TEST(ResidualTests, TellNoiseFromBends) {
     bend.push_back(i < 20 ? 1.0 : -1.0);
   }
   // 39 steps of 2, and one.
-  EXPECT_DOUBLE_EQ(durbin_watson(alternating), 39.0 * 4.0 / 40.0);
-  EXPECT_DOUBLE_EQ(durbin_watson(bend), 4.0 / 40.0);
+  EXPECT_DOUBLE_EQ(fit::durbin_watson(alternating), 39.0 * 4.0 / 40.0);
+  EXPECT_DOUBLE_EQ(fit::durbin_watson(bend), 4.0 / 40.0);
   // 20 of each sign: mean 21, variance 20 * 19 / 39
-  EXPECT_NEAR(runs_z(bend), (2.0 - 21.0) / std::sqrt(20.0 * 19.0 / 39.0), 1e-12);
-  EXPECT_TRUE(systematic(bend));
-  EXPECT_FALSE(systematic(alternating));
+  EXPECT_NEAR(fit::runs_z(bend), (2.0 - 21.0) / std::sqrt(20.0 * 19.0 / 39.0), 1e-12);
+  EXPECT_TRUE(fit::systematic(bend));
+  EXPECT_FALSE(fit::systematic(alternating));
 }
 
 }  // namespace

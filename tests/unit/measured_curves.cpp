@@ -70,8 +70,10 @@ TEST(Measured, LineEndsAndEncodings) {
   }
   expect_curve(read(little, layout));
   expect_curve(read(big, layout));
-  EXPECT_EQ(refusal(little.substr(2)),
-            "data.csv:1:2: is no text: a NUL byte stands here; export the table as CSV in UTF-8");
+  expect_curve(read(little.substr(2), layout));  // without a byte order mark
+  expect_curve(read(big.substr(2), layout));
+  EXPECT_EQ(refusal(std::string("a,b\n1,2\n3,\0\n", 12)),
+            "data.csv:3:3: is no text: a NUL byte stands here; export the table as CSV in UTF-8");
   // The micro sign in ISO 8859-1, in UTF-8, and the Greek letter in UTF-8.
   for (const char* unit : {"\xB5"
                            "m",
@@ -106,6 +108,62 @@ TEST(Measured, UnitsInNamesRowsAndOptions) {
   const MeasuredCurve imperial = read("Extension (in),Load (lbF)\n1,1\n2,2\n");
   EXPECT_DOUBLE_EQ(imperial.x[0], 0.0254);
   EXPECT_DOUBLE_EQ(imperial.y[0], 0.45359237 * 9.80665);
+}
+
+TEST(Measured, UnitsInOtherForms) {
+  for (const char* heads :
+       {"Depth {mm},Load {N}", "Depth <mm>,Load <N>", "Depth mm,Load N", "Depth: mm,Load: N",
+        "Depth/mm,Load/N", "Depth (mm), Load (N)", "Depth, Load\n[mm], [N]"})
+    expect_curve(read(std::string(heads) + "\n1.5,3\n2,4.25\n"));
+  // A row of units with empty cells, with a hyphen and with a unit that is none of mechanics.
+  const DataLayout layout{.x = "Depth", .y = "Load"};
+  expect_curve(read("Depth,Load,Point,T,Note\nmm,N,-,degC,\n1.5,3,1,20,\n2,4.25,2,20,\n", layout));
+  expect_curve(read("Point,T,Depth,Load\n,degC,mm,N\n1,20,1.5,3\n2,20,2,4.25\n", layout));
+  const auto factor = [](const std::string& unit) {
+    return read("x (mm),y (" + unit + ")\n1,1\n2,2\n").y[0];
+  };
+  EXPECT_DOUBLE_EQ(factor("pN"), 1e-12);
+  EXPECT_DOUBLE_EQ(factor("psi"), 6894.757293168361);  // lbf / in^2
+  EXPECT_DOUBLE_EQ(factor("mmHg"), 133.322387415);     // conventional
+  EXPECT_DOUBLE_EQ(factor("lbf"), 4.4482216152605);
+  EXPECT_DOUBLE_EQ(factor("Angstrom"), 1e-10);
+  EXPECT_DOUBLE_EQ(factor("inch"), 0.0254);
+  EXPECT_DOUBLE_EQ(read("x_nm,force_pN\n1,1\n2,2\n").y[0], 1e-12);
+}
+
+TEST(Measured, PartsOfATable) {
+  const std::string text =
+      "Set,segment,d_mm,F_N\n1,load,1.5,3\n1,load,2,4.25\n1,unload,1,7\n1,load,9,9\n2,load,8,8\n";
+  DataLayout layout{.x = "d_mm", .y = "F_N"};
+  layout.rows = "1..2";
+  expect_curve(read(text, layout));
+  layout.rows = "";
+  layout.segment = "load:1";
+  expect_curve(read(text, layout));
+  layout.segment = "load";
+  EXPECT_EQ(refusal(text, layout),
+            "data.csv:1: the column `segment` has 2 parts `load`, on lines 2 to 3, 5 to 6; choose "
+            "one, as `--segment load:1`");
+  layout.segment = "";
+  layout.where = {"Set=1", "segment=unload"};
+  EXPECT_EQ(read(text, layout).y, Numbers{7});
+  layout.where = {"Set=3"};
+  EXPECT_EQ(refusal(text, layout),
+            "data.csv:1: the column `Set` contains no `3`; its values are 1, 2");
+}
+
+TEST(Measured, ArchivesSayHowToUnpackThem) {
+  EXPECT_EQ(refusal("\x1F\x8B\x08 etc."),
+            "data.csv: is compressed by gzip; unpack it with `gunzip -k`");
+  EXPECT_TRUE(refusal("PK\x03\x04 etc.").starts_with("data.csv: is a ZIP archive, as are .xlsx"));
+}
+
+TEST(Measured, TablesWithOtherColumnsAreLeftOutAloud) {
+  const std::string text = "a,b\n1,2\n3,4\n\nd_mm,F_N\n1.5,3\n2,4.25\n3,5\n4,6\n5,7\nend\n";
+  const DataLayout layout{.x = "d_mm", .y = "F_N"};
+  EXPECT_EQ(read(text, layout).notes[1],
+            "the table on lines 2 to 3 has other columns and is left out; `--table 1` reads it");
+  EXPECT_EQ(read(text, {.x = "a", .y = "b", .table = 1}).y, (Numbers{2, 4}));
 }
 
 TEST(Measured, BluehillBlocksAreSkipped) {

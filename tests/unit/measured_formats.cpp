@@ -91,6 +91,61 @@ TEST(MeasuredFormats, Rheos) {
   EXPECT_EQ(curve.left_out, 1);
 }
 
+// A table of results above the curve, names and units in two rows, all fields quoted.
+TEST(MeasuredFormats, Bluehill) {
+  const std::string text =
+      "\"Specimen label\",\"phantom 3\"\n\n\"Results Table 1\"\n"
+      "\"\",\"Maximum load\",\"Modulus\"\n\"\",\"(N)\",\"(MPa)\"\n\"1\",\"12.5\",\"0.02\"\n\n"
+      "\"Time\",\"Compressive extension\",\"Compressive load\",\"Temperature\"\n"
+      "\"(s)\",\"(mm)\",\"(N)\",\"(degC)\"\n"
+      "\"0.0\",\"0.0\",\"0.0\",\"21\"\n\"0.1\",\"0.5\",\"3.5\",\"21\"\n\"0.2\",\"1.0\",\"9.0\","
+      "\"21\"\n";
+  const MeasuredCurve curve = parse_measured(text, "c.csv", {});
+  EXPECT_EQ(curve.x, (Numbers{0, 5e-4, 1e-3}));
+  EXPECT_EQ(curve.y, (Numbers{0, 3.5, 9}));
+  EXPECT_EQ(curve.x_axis.column, "Compressive extension");
+}
+
+// Two intervals with the same columns, in UTF-16 and with empty first fields.
+TEST(MeasuredFormats, AntonPaar) {
+  const std::string head =
+      "Interval data:\tPoint No.\tTime\tShear Strain\tShear Stress\tTorque\r\n"
+      "\t\t[s]\t[%]\t[Pa]\t[mN*m]\r\n";
+  const std::string text =
+      "Project:\tgel\r\nResult:\tGel 1\r\n\r\nInterval and data points:\t1\t3\r\n" + head +
+      "\t1\t0.5\t1\t200\t0.1\r\n\t2\t1\t1\t150\t0.1\r\n\t3\t2\t1\t100\t0.1\r\n\r\n" +
+      "Interval and data points:\t2\t2\r\n" + head +
+      "\t1\t3\t2\t300\t0.1\r\n\t2\t4\t2\t250\t0.1\r\n";
+  std::string wide = "\xFF\xFE";
+  for (const char c : text) {
+    wide += c;
+    wide += '\0';
+  }
+  const DataLayout layout{.x = "Time", .y = "Shear Stress", .segment = "1"};
+  EXPECT_EQ(parse_measured(wide, "c.csv", layout).y, (Numbers{200, 150, 100}));
+  const DataLayout second{.x = "Time", .y = "Shear Strain", .segment = "2"};
+  const MeasuredCurve curve = parse_measured(wide, "c.csv", second);
+  EXPECT_EQ(curve.x, (Numbers{3, 4}));
+  EXPECT_EQ(curve.y, (Numbers{0.02, 0.02}));
+  EXPECT_EQ(refusal(wide, {.x = "Time", .y = "Shear Stress"}),
+            "curve: contains 2 tables with the same columns; choose one, as `--segment 1`, or take "
+            "the rows of all by `--segment all`");
+}
+
+// Comments with names and units above each segment; the tip is above the base by force / k.
+TEST(MeasuredFormats, JpkText) {
+  const std::string head = "# columns: height vDeflection seriesTime\n# units: m N s\n";
+  const std::string text = "# springConstant: 0.05\n# segment: extend\n" + head +
+                           "3e-06 0 0\n2e-06 1e-09 0.1\n\n# segment: retract\n" + head +
+                           "3e-06 0 0.2\n";
+  MeasuredCurve curve = parse_measured(text, "c.txt", {.segment = "approach"});
+  EXPECT_EQ(curve.x_axis.column, "tip position");
+  EXPECT_EQ(curve.x, (Numbers{-3e-6, -(2e-6 + 1e-9 / 0.05)}));
+  EXPECT_EQ(curve.y, (Numbers{0, 1e-9}));
+  curve = parse_measured(text, "c.txt", {.x = "height", .y = "vDeflection", .segment = "retract"});
+  EXPECT_EQ(curve.x, Numbers{-3e-6});
+}
+
 TEST(MeasuredFormats, FebioLogData) {
   const std::string one =
       "*Step  = 0\n*Time  = 0\n*Data  = z;Fz\n1,0,0\n"

@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace palpate::identify {
+namespace palpate::fit {
 
 // sum (e_i - e_(i-1))^2 / sum e_i^2: about 2 for independent residuals, near 0 if neighbours are
 // correlated.                                              Durbin and Watson 1950, Biometrika 37
@@ -16,4 +16,4 @@ namespace palpate::identify {
 // Whether both tests, each at a level of 1 in 1000, find neighbours correlated; false below 10.
 [[nodiscard]] bool systematic(std::span<const double> residuals);
 
-}  // namespace palpate::identify
+}  // namespace palpate::fit

@@ -1,10 +1,10 @@
 // Durbin-Watson statistic and runs test.
-#include "identify/residual_tests.h"
+#include "fit/residual_tests.h"
 
 #include <cmath>
 #include <limits>
 
-namespace palpate::identify {
+namespace palpate::fit {
 
 double durbin_watson(std::span<const double> residuals) {
   double steps = 0.0;
@@ -48,4 +48,4 @@ bool systematic(std::span<const double> residuals) {
          runs_z(residuals) < -quantile;
 }
 
-}  // namespace palpate::identify
+}  // namespace palpate::fit

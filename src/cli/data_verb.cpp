@@ -1,0 +1,168 @@
+// `palpate data`: says what is understood of a measured file, and what to type next.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "cli/program.h"
+#include "cli/verbs.h"
+#include "fit/contact_model.h"
+#include "measured/columns.h"
+#include "measured/measured.h"
+#include "measured/table.h"
+
+namespace palpate::cli {
+namespace {
+
+using measured::RawTable;
+
+const char* form_of(const RawTable& table) {
+  switch (table.kind) {
+    case RawTable::Kind::afm_tab: return "a .tab file of afmformats";
+    case RawTable::Kind::chiaro: return "a text file of an Optics11 Chiaro";
+    case RawTable::Kind::febio_log: return "FEBio's log data";
+    case RawTable::Kind::jpk: return "a text export of JPK";
+    case RawTable::Kind::anton_paar: return "an export of Anton Paar RheoCompass";
+    case RawTable::Kind::bluehill: return "an export of Instron Bluehill";
+    case RawTable::Kind::plain: break;
+  }
+  return "a table in text";
+}
+
+// `2  Load (uN)  uN, a force  from 0 to 1.5`
+std::string column_line(const RawTable& table, std::size_t index) {
+  const std::string name =
+      index < table.names.size() ? table.names[index] : std::string("without a name");
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  std::size_t missing = 0;
+  std::size_t words = 0;
+  std::string word;
+  for (const measured::RawRow& row : table.rows) {
+    const std::string& text = row.fields[index].text;
+    const auto number = measured::measured_number(text, table.decimal);
+    if (!number) {
+      ++words;
+      word = text;
+    } else if (!std::isfinite(*number)) {
+      ++missing;
+    } else {
+      low = std::min(low, *number);
+      high = std::max(high, *number);
+    }
+  }
+  std::string line = std::to_string(index + 1) + "  " + (name.empty() ? "(no name)" : name);
+  if (const auto unit = measured::file_unit(table, index)) {
+    line +=
+        ": " + (unit->text.empty() ? "a pure number"
+                                   : unit->text + ", " + dimension_name(unit->factor.dimension));
+  } else {
+    line += ": no unit known";
+  }
+  if (low <= high) line += ", from " + rounded_text(low) + " to " + rounded_text(high);
+  if (missing > 0) line += ", " + std::to_string(missing) + " missing";
+  if (words > 0) line += ", " + std::to_string(words) + " words such as `" + word + "`";
+  return line + "\n";
+}
+
+// The parts of a column `segment` or `step`, in the order of the file.
+std::string segment_lines(const RawTable& table) {
+  for (const char* name : {"segment", "step"}) {
+    const auto found = measured::columns_named(table, name);
+    if (found.size() != 1) continue;
+    std::string text;
+    std::size_t from = 0;
+    int count = 0;
+    for (std::size_t i = 1; i <= table.rows.size(); ++i) {
+      const std::string& value = table.rows[from].fields[found[0]].text;
+      if (i < table.rows.size() && table.rows[i].fields[found[0]].text == value) continue;
+      if (++count <= 12)
+        text += "segment `" + value + "`: rows " + std::to_string(from + 1) + " to " +
+                std::to_string(i) + "\n";
+      from = i;
+    }
+    if (count > 12) text += "and " + std::to_string(count - 12) + " further segments\n";
+    return count > 1 ? text : "";
+  }
+  return "";
+}
+
+std::string quoted(const std::string& word) {
+  const bool plain = word.find_first_of(" ()[]{}<>$`\"'*?;|&") == std::string::npos;
+  return plain ? word : "\"" + word + "\"";
+}
+
+// Contact point, baseline and noise of a force over a length. Both follow from the shape of a
+// paraboloid's curve, whatever its radius.
+std::string contact_lines(const measured::MeasuredCurve& curve) {
+  try {
+    const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
+    std::string text;
+    if (fit.parameters.size() > 1)
+      text += "contact point: " + rounded_text(fit.parameters[1].estimate) +
+              " mm, if the tip is round\n";
+    if (fit.parameters.size() > 2)
+      text += "force offset: " + rounded_text(fit.parameters[2].estimate) + " N\n";
+    text += "scatter about the curve: " + rounded_text(fit.rmse, 3) + " N (R^2 " +
+            rounded_text(fit.r2, 4) + ")\n";
+    for (const std::string& note : fit.notes) text += note + "\n";
+    return text;
+  } catch (const InputError& error) {
+    return "no contact point: " + error.problems().front().message + "\n";
+  }
+}
+
+// What to type next for the dimensions of the two columns.
+std::string next_line(const Data& command, const measured::MeasuredCurve& curve) {
+  std::string line = "palpate fit " + quoted(command.data) + " --x " + quoted(curve.x_axis.column) +
+                     " --y " + quoted(curve.y_axis.column);
+  for (const std::string& note : curve.notes)
+    if (note.ends_with("sign changed")) {
+      line += " --compression auto";
+      break;
+    }
+  if (!curve.x_axis.has_unit) line += " --x-unit UNIT";
+  if (!curve.y_axis.has_unit) line += " --y-unit UNIT";
+  const Dimension& x = curve.x_axis.dimension;
+  const Dimension& y = curve.y_axis.dimension;
+  if (x == unit::mm.dimension && y == unit::N.dimension)
+    return line + " --model hertz --radius \"... mm\" --poisson 0.5";
+  if (x == unit::s.dimension)
+    return line +
+           (y == Dimension{} ? " --model prony_creep --terms 1" : " --model prony --terms 1");
+  if (x == Dimension{} && y == unit::kPa.dimension && curve.x_axis.has_unit)
+    return line + " --model modulus --from \"0 %\" --to \"10 %\"";
+  return line + " --model power";
+}
+
+}  // namespace
+
+int perform(const Data& command, const Arguments&, const Talk&) {
+  const RawTable table =
+      measured::raw_table(read_text(command.data), command.data, command.columns);
+  std::string text = command.data + ": " + form_of(table) + ", " +
+                     std::to_string(table.rows.size()) + " rows from line " +
+                     std::to_string(table.rows.front().line) + " to " +
+                     std::to_string(table.rows.back().line) + "\n";
+  for (const std::string& note : table.notes) text += note + "\n";
+  for (std::size_t i = 0; i < table.width(); ++i) text += column_line(table, i);
+  text += segment_lines(table);
+  try {
+    const measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
+    text += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
+    for (const std::string& note : curve.notes)
+      if (std::find(table.notes.begin(), table.notes.end(), note) == table.notes.end())
+        text += note + "\n";
+    if (curve.x_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension)
+      text += contact_lines(curve);
+    text += "next: " + next_line(command, curve) + "\n";
+  } catch (const InputError& error) {
+    text += std::string("to be decided: ") + error.problems().front().message + "\n";
+  }
+  print(text);
+  return exit_good;
+}
+
+}  // namespace palpate::cli

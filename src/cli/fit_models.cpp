@@ -1,0 +1,194 @@
+// Checks the options of a fit and carries it out.
+#include "cli/fit_models.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "cli/fit_contact.h"
+#include "cli/fit_uniaxial.h"
+#include "fit/contact_model.h"
+#include "fit/contact_warnings.h"
+#include "fit/prony.h"
+#include "fit/uniaxial.h"
+#include "measured/measured.h"
+
+namespace palpate::cli {
+namespace {
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void check_model(const std::string& name) {
+  std::vector<std::string> known;
+  for (const fit::ModelInfo& one : fit::models()) known.emplace_back(one.name);
+  known.insert(known.end(), further_models.begin(), further_models.end());
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  const auto near = nearest(name, known);
+  refuse("`--model` does not know `" + name + "`" +
+         (near ? "; did you mean `" + *near + "`?" : "; it is one of " + joined(known, ", ")));
+}
+
+// Refuses options that the model does not use, and a model without its required options.
+void check_options(const Fit& command) {
+  struct Option {
+    const char* name;
+    bool given;
+    std::initializer_list<std::string_view> models;
+    bool required;
+    const char* example;
+  };
+  const std::initializer_list<std::string_view> uniaxial{"modulus", "neo_hookean", "ogden"};
+  const std::initializer_list<std::string_view> part{"hertz", "layer", "modulus", "neo_hookean",
+                                                     "ogden"};
+  for (const Option& option :
+       {Option{"--radius", !command.radius.empty(), {"hertz", "layer"}, false, "\"11 mm\""},
+        Option{"--tip", !command.tip.empty(), {"hertz", "layer"}, false, "sphere"},
+        Option{"--half-angle", !command.half_angle.empty(), {"hertz"}, false, "\"20 deg\""},
+        Option{"--baseline", !command.baseline.empty(), {"hertz", "layer"}, false, "offset"},
+        Option{"--from", !command.from.empty(), part, false, "\"10 %\""},
+        Option{"--to", !command.to.empty(), part, false, "\"50 %\""},
+        Option{"--height", !command.height.empty(), uniaxial, false, "\"10 mm\""},
+        Option{"--diameter", !command.diameter.empty(), uniaxial, false, "\"20 mm\""},
+        Option{"--area", !command.area.empty(), uniaxial, false, "\"300 mm^2\""},
+        Option{"--platens", !command.platens.empty(), uniaxial, false, "bonded"},
+        Option{"--loading", !command.loading.empty(), uniaxial, false, "compression"},
+        Option{"--poisson", command.poisson_ratio >= 0, {"hertz", "layer"}, true, "0.45"},
+        Option{"--thickness", !command.thickness.empty(), {"layer"}, true, "\"5 mm\""},
+        Option{"--base", !command.base.empty(), {"layer"}, false, "bonded"},
+        Option{"--ramp", command.ramp > 0.0, {"prony", "prony_creep"}, false, "0.5"},
+        Option{"--history", !command.history.empty(), {"prony", "prony_creep"}, false, "strain"},
+        Option{"--history-power", command.history_power > 0, {"prony", "prony_creep"}, false, "1"},
+        Option{"--terms", command.terms > 0, {"prony", "prony_creep"}, true, "2"}}) {
+    const bool fits = is_one_of(command.model, option.models);
+    if (option.given && !fits)
+      refuse("`" + std::string(option.name) + "` is not used by the model `" + command.model +
+             "`; leave it out");
+    if (!option.given && fits && option.required)
+      refuse("the model `" + command.model + "` wants `" + option.name + "`; write it as `" +
+             option.name + " " + option.example + "`");
+  }
+  if (command.x_origin != 0.0 && is_one_of(command.model, {"hertz", "layer"}))
+    refuse("`--origin` is not used by the model `" + command.model +
+           "`, which fits the contact point; leave it out");
+  if (command.x_origin != 0.0 && is_one_of(command.model, uniaxial))
+    refuse("`--origin` is not used by the model `" + command.model + "`; leave it out");
+}
+
+void check_axis(const measured::MeasuredCurve& curve, const measured::MeasuredAxis& axis,
+                const Unit& wanted, const std::string& option) {
+  if (axis.dimension == wanted.dimension) return;
+  const std::string known = axis.has_unit ? dimension_name(axis.dimension) : "without a unit";
+  throw InputError({curve.file, 0, 0},
+                   "`" + axis.column + "` is " + known + ", and this model wants a " +
+                       wanted.quantity + "; name another column with `" + option + "`, or give `" +
+                       option + "-unit " + wanted.symbol + "`");
+}
+
+fit::Fit contact_fit(const Fit& command, const measured::MeasuredCurve& curve) {
+  check_axis(curve, curve.x_axis, unit::mm, "--x");
+  check_axis(curve, curve.y_axis, unit::N, "--y");
+  return fit::fit_contact(curve.x, curve.y, contact_test(command));
+}
+
+// The series with its loading history: a step, a ramp, or a column of the same rows.
+fit::PronySeries series_of(const Fit& command, const measured::MeasuredCurve& curve) {
+  fit::PronySeries series;
+  if (command.model == "prony_creep") series.kind = fit::PronySeries::Kind::creep;
+  series.terms = command.terms;
+  series.history.ramp = command.ramp;
+  if (command.history.empty()) {
+    if (command.history_power > 0)
+      refuse("`--history-power` is the exponent of `--history`; name that column too");
+    return series;
+  }
+  if (command.ramp > 0.0)
+    refuse("`--ramp` and `--history` both give the loading; leave one of them out");
+  DataOptions columns = command.columns;
+  columns.blanks = DataOptions::Blanks::keep;
+  columns.y = command.history;
+  columns.y_unit.clear();
+  columns.compression.clear();
+  const measured::MeasuredCurve history = measured::read_measured(curve.file, columns);
+  const bool depth =
+      history.y_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension;
+  const double power = command.history_power > 0 ? command.history_power : depth ? 1.5 : 1.0;
+  for (const double each : history.y)
+    series.history.samples.push_back(
+        power == 1.0 ? each : std::copysign(std::pow(std::abs(each), power), each));
+  return series;
+}
+
+// Times that the record is too short to tell: more than ten times its length.
+void refuse_long_times(const fit::Fit& result) {
+  const double length = result.range_high - result.range_low;
+  for (const fit::Estimate& one : result.parameters)
+    if (one.name.starts_with("tau") && one.estimate > 10.0 * length)
+      throw InputError({}, "`" + one.name + "` is " + rounded_text(one.estimate) + " " + one.unit +
+                               ", more than ten times the record of " + rounded_text(length) + " " +
+                               one.unit +
+                               ", which cannot tell it; record longer, or fit fewer terms");
+}
+
+fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
+  const fit::Options options{.x_unit = curve.x_axis.unit,
+                             .y_unit = curve.y_axis.unit,
+                             .x_origin = command.x_origin,
+                             .residuals = fit::Residuals::correlated};
+  if (is_one_of(command.model, {"hertz", "layer"})) return contact_fit(command, curve);
+  if (is_one_of(command.model, {"modulus", "neo_hookean", "ogden"}))
+    return uniaxial_fit(command, curve);
+  if (const auto model = fit::find_model(command.model))
+    return fit::regress(curve.x_written, curve.y_written, *model, options);
+  return fit::fit_prony(curve.x_written, curve.y_written, series_of(command, curve), options);
+}
+
+std::string model_name(const fit::Fit& result) {
+  return result.name.empty() ? std::string(fit::info(result.model).name) : result.name;
+}
+
+// A search that ended without a minimum has no result.
+void refuse_unconverged(const fit::Fit& result) {
+  if (result.termination == fit::Termination::converged) return;
+  if (result.termination == fit::Termination::undetermined) {
+    throw InputError({}, "these points do not determine every parameter of `" + model_name(result) +
+                             "`; fit a model with fewer parameters, or record more points");
+  }
+  throw InputError({}, "the search for the parameters of `" + model_name(result) +
+                           "` ended without a minimum (" +
+                           std::string(fit::word(result.termination)) +
+                           "), so that there is no result; choose another model, or a part of "
+                           "the curve");
+}
+
+}  // namespace
+
+void check_fit(const Fit& command) {
+  check_model(command.model);
+  check_options(command);
+}
+
+FittedCurve fit_curve(const Fit& command, const std::string& path) {
+  DataOptions columns = command.columns;
+  columns.blanks = DataOptions::Blanks::keep;  // the fit counts all points that it leaves out
+  const measured::MeasuredCurve curve = measured::read_measured(path, columns);
+  fit::Fit result;
+  try {
+    result = fitted(command, curve);
+    refuse_unconverged(result);
+    refuse_long_times(result);
+    if (result.law.empty() || is_one_of(result.name, {"prony", "prony_creep"}))
+      fit::warn_of_residuals(result);
+  } catch (const InputError& error) {
+    const Problem& problem = error.problems().front();
+    if (!problem.place.file.empty() || problem.message.starts_with("palpate: ")) throw;
+    throw InputError({path, 0, 0}, problem.message);
+  }
+  result.notes.insert(result.notes.begin(), curve.notes.begin(), curve.notes.end());
+  return {curve.y_axis.column + " over " + curve.x_axis.column, std::move(result)};
+}
+
+}  // namespace palpate::cli

@@ -1,0 +1,24 @@
+// One curve of `palpate fit`: options to a model, and the fit.
+#pragma once
+
+#include <string>
+
+#include "cli/arguments.h"
+#include "fit/regression.h"
+
+namespace palpate::cli {
+
+// Refuses unknown models, options that the model does not use, and models without their required
+// options. Throws InputError.
+void check_fit(const Fit& command);
+
+struct FittedCurve {
+  std::string name;  // `force over depth`
+  fit::Fit fit;      // with the reader's notes before its own
+};
+
+// Reads a curve and fits it. Throws InputError with the file for curves that cannot be read, are
+// not what the model wants, or have no minimum.
+[[nodiscard]] FittedCurve fit_curve(const Fit& command, const std::string& path);
+
+}  // namespace palpate::cli

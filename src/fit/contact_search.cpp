@@ -1,0 +1,184 @@
+// Variable projection: offset, tilt and modulus are linear for a given contact point.
+#include "fit/contact_search.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/index.h"
+
+namespace palpate::fit {
+namespace {
+
+constexpr std::size_t most_rows = 4000;  // above, the search uses means of neighbours
+constexpr std::size_t means = 2000;
+
+PressRows averaged(const PressRows& rows) {
+  const std::size_t n = rows.depth.size();
+  if (n <= most_rows) return rows;
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rows.depth[a] < rows.depth[b]; });
+  PressRows mean;
+  mean.low = rows.low;
+  mean.high = rows.high;
+  for (std::size_t k = 0; k < means; ++k) {
+    const std::size_t from = n * k / means;
+    const std::size_t to = n * (k + 1) / means;
+    double depth = 0.0;
+    double force = 0.0;
+    for (std::size_t i = from; i < to; ++i) {
+      depth += rows.depth[order[i]];
+      force += rows.force[order[i]];
+    }
+    mean.depth.push_back(depth / static_cast<double>(to - from));
+    mean.force.push_back(force / static_cast<double>(to - from));
+  }
+  return mean;
+}
+
+std::size_t linear_terms(Baseline baseline) {
+  return baseline == Baseline::none ? 1 : baseline == Baseline::offset ? 2 : 3;
+}
+
+class Search {
+ public:
+  Search(const UnitLaw& law, const PressRows& rows, Baseline baseline)
+      : law_(law), rows_(rows), terms_(static_cast<Eigen::Index>(linear_terms(baseline))) {
+    matrix_.resize(static_cast<Eigen::Index>(rows.depth.size()), terms_);
+    target_ = Eigen::Map<const Eigen::VectorXd>(rows.force.data(), matrix_.rows());
+    for (Eigen::Index i = 0; i < matrix_.rows(); ++i) {
+      if (terms_ > 1) matrix_(i, 1) = 1.0;
+      if (terms_ > 2) matrix_(i, 2) = (rows.depth[as_index(i)] - rows.low) / rows.range();
+    }
+    straight_ = target_.squaredNorm();
+    if (terms_ > 1) {
+      const Eigen::MatrixXd line = matrix_.rightCols(terms_ - 1);
+      straight_ = (target_ - line * line.colPivHouseholderQr().solve(target_)).squaredNorm();
+    }
+  }
+
+  std::optional<ContactGuess> at(double contact) {
+    ContactGuess guess;
+    guess.contact = contact;
+    guess.straight = straight_;
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < matrix_.rows(); ++i) {
+      const double depth = rows_.depth[as_index(i)] - contact;
+      if (!(depth > 0.0)) ++guess.before;
+      matrix_(i, 0) = depth > 0.0 ? law_(depth).force : 0.0;
+      largest = std::max(largest, matrix_(i, 0));
+    }
+    if (!(largest > 0.0) || !matrix_.col(0).allFinite()) return std::nullopt;
+    matrix_.col(0) /= largest;
+    const Eigen::MatrixXd normal = matrix_.transpose() * matrix_;
+    const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
+    if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 1e-13))
+      return std::nullopt;
+    const Eigen::VectorXd linear = factors.solve(matrix_.transpose() * target_);
+    guess.squares = (matrix_ * linear - target_).squaredNorm();
+    guess.factor = linear[0] / largest;
+    if (terms_ > 1) guess.offset = linear[1];
+    if (terms_ > 2) guess.tilt = linear[2];
+    return guess;
+  }
+
+ private:
+  const UnitLaw& law_;
+  const PressRows& rows_;
+  Eigen::Index terms_;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd target_;
+  double straight_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<ContactGuess> search_contact(const UnitLaw& law, const PressRows& rows,
+                                           Baseline baseline, const SearchLimits& limits) {
+  constexpr int steps = 400;
+  const PressRows few = averaged(rows);
+  Search search(law, few, baseline);
+  const double range = rows.range();
+  const bool before = baseline == Baseline::none || !limits.within_rows;
+  const double first = before ? rows.low - range : rows.low;
+  const double step = (rows.high - first) / steps;
+  std::optional<ContactGuess> best;
+  const auto keep = [&](double contact) {
+    if (rows.high - contact > limits.deepest) return std::numeric_limits<double>::infinity();
+    const auto found = search.at(contact);
+    if (!found) return std::numeric_limits<double>::infinity();
+    if (!best || found->squares < best->squares) best = found;
+    return found->squares;
+  };
+  for (int i = 0; i < steps; ++i) (void)keep(first + i * step);
+  if (!best) return std::nullopt;
+  double low = best->contact - step;
+  double high = std::min(best->contact + step, rows.high);
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  for (int i = 0; i < 40; ++i) {
+    const double left = high - golden * (high - low);
+    const double right = low + golden * (high - low);
+    if (keep(left) < keep(right))
+      high = right;
+    else
+      low = left;
+  }
+  best->before = as_index(std::count_if(rows.depth.begin(), rows.depth.end(),
+                                        [&](double h) { return h <= best->contact; }));
+  const double share =
+      static_cast<double>(rows.depth.size()) / static_cast<double>(few.depth.size());
+  best->squares *= share;
+  best->straight *= share;
+  return best;
+}
+
+std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows& rows,
+                                            double deepest) {
+  constexpr std::size_t for_offset = 3;
+  constexpr std::size_t for_tilt = 10;
+  const auto n = static_cast<double>(std::min(rows.depth.size(), means));
+  double size = 0.0;
+  for (const double force : rows.force) size += force * force;
+  const auto score = [&](const ContactGuess& guess, Baseline baseline) {
+    const double squares = std::max(guess.squares, 1e-24 * size);  // rounding
+    return n * std::log(squares) + static_cast<double>(linear_terms(baseline) + 1) * std::log(n);
+  };
+  const auto rows_for = [&](Baseline baseline) {
+    return baseline == Baseline::none ? std::size_t{0}
+                                      : (baseline == Baseline::offset ? for_offset : for_tilt);
+  };
+  std::array<std::optional<ContactGuess>, 3> guesses;
+  std::optional<ContactChoice> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Baseline baseline : {Baseline::none, Baseline::offset, Baseline::tilt}) {
+    std::optional<ContactGuess>& guess = guesses[as_index(baseline)];
+    guess = search_contact(law, rows, baseline, {deepest});
+    if (!guess || guess->before < rows_for(baseline) || rows.depth.size() < guess->before + 2)
+      guess.reset();
+    if (!guess || (baseline != Baseline::none && !(guess->factor > 0.0))) continue;
+    if (const double value = score(*guess, baseline); value < least) {
+      least = value;
+      best = ContactChoice{baseline, *guess};
+    }
+  }
+  if (!best) return std::nullopt;
+  if (best->baseline == Baseline::none && best->guess.before < for_offset) {
+    const auto offset = search_contact(law, rows, Baseline::offset, {deepest, false});
+    if (offset && offset->factor > 0.0 && score(*offset, Baseline::offset) < least - 10.0)
+      return ContactChoice{Baseline::offset, *offset};
+  }
+  const std::size_t before = best->guess.before;
+  for (const Baseline richer : {Baseline::tilt, Baseline::offset}) {
+    const auto& guess = guesses[as_index(richer)];
+    if (richer <= best->baseline) break;
+    if (before < rows_for(richer) || !guess || !(guess->factor > 0.0)) continue;
+    return ContactChoice{richer, *guess};
+  }
+  return best;
+}
+
+}  // namespace palpate::fit

@@ -1,0 +1,67 @@
+// The contact point of a curve of force over depth, searched over the whole approach.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace palpate::fit {
+
+// What is added to the contact force: nothing, a constant force, or a straight line over depth.
+enum class Baseline { none, offset, tilt };
+
+// Force and stiffness of a contact law for E* = 1 Pa; no force at depths of 0 and less.
+struct UnitForce {
+  double force, stiffness;
+};
+using UnitLaw = std::function<UnitForce(double depth)>;
+
+// Rows of depth (m) and force of order one, of equal number; `low` and `high` bound the depths.
+struct PressRows {
+  std::vector<double> depth;
+  std::vector<double> force;
+  double low = 0.0;
+  double high = 0.0;
+
+  [[nodiscard]] double range() const { return high - low; }
+};
+
+// F = factor f(h - contact) + offset + tilt (h - low) / range
+struct ContactGuess {
+  double contact = 0.0;  // m
+  double factor = 0.0;   // E* in Pa, divided by the scale of the force
+  double offset = 0.0;
+  double tilt = 0.0;
+  double squares = 0.0;    // sum of squared residuals
+  double straight = 0.0;   // the same of the baseline without contact
+  std::size_t before = 0;  // rows before the contact point
+};
+
+// The least-squares fit over all contact points: for each of 400 the rest is linear and solved for,
+// and the best is refined by golden sections. Without a baseline the contact may lie up to one
+// range before the first row, otherwise it lies within the rows. More than 4000 rows are averaged
+// to 2000 for the search. Nothing if no contact point serves. This is the search by goodness of fit
+// of Lin, Dimitriadis and Horkay 2007, J. Biomech. Eng. 129, with the baseline as a part of the
+// model.                                  docs/theory.md (102)
+struct SearchLimits {
+  double deepest;           // largest depth of the law, m
+  bool within_rows = true;  // the contact lies within the rows wherever there is a baseline
+};
+[[nodiscard]] std::optional<ContactGuess> search_contact(const UnitLaw& law, const PressRows& rows,
+                                                         Baseline baseline,
+                                                         const SearchLimits& limits);
+
+// The contact point and the baseline that the rows support. The hypotheses of no baseline, an
+// offset and a tilt are compared by n ln(SSE / n) + k ln n (Schwarz 1978, Ann. Stat. 6). Where the
+// best has ten rows before contact, offset and tilt are fitted, where it has three, an offset.
+// Where no row lies before contact, an offset is fitted only if the curve speaks for it by ten
+// units.
+struct ContactChoice {
+  Baseline baseline = Baseline::none;
+  ContactGuess guess;
+};
+[[nodiscard]] std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows& rows,
+                                                          double deepest);
+
+}  // namespace palpate::fit

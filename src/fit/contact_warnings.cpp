@@ -1,0 +1,76 @@
+// Sentences on the limits of a contact fit.
+#include "fit/contact_warnings.h"
+
+#include <cmath>
+
+#include "base/text.h"
+
+namespace palpate::fit {
+namespace {
+
+// Hertz's paraboloid against the exact law of a sphere at the same depth, minus 1.
+double error_of_hertz(double depth, double radius) {
+  const Tip paraboloid{Tip::Kind::paraboloid, radius, 0.0};
+  const Tip sphere{Tip::Kind::sphere, radius, 0.0};
+  return tip_force(paraboloid, depth).force / tip_force(sphere, depth).force - 1.0;
+}
+
+std::string rows_text(std::size_t count) {
+  return (count == 0 ? "no" : std::to_string(count)) + (count < 2 ? " row lies" : " rows lie");
+}
+
+}  // namespace
+
+void warn_of_contact(Fit& fit, const ContactResult& result) {
+  const ContactTest& test = result.test;
+  const auto warn = [&](const std::string& sentence) { fit.warnings.push_back(sentence); };
+  if (result.beyond < 10)
+    warn("only " + rows_text(result.beyond) +
+         " beyond the contact point, so that modulus and contact point depend on each other; "
+         "record more points, or press deeper");
+  const bool automatic = test.baseline == ContactTest::BaselineChoice::automatic;
+  if (automatic && result.before < 3)
+    warn(rows_text(result.before) +
+         (result.baseline == Baseline::none
+              ? " before contact, so that a force offset cannot be told; the force is taken as "
+                "measured from zero"
+              : " before contact, and the force offset follows from the bend of the curve alone; "
+                "record rows before contact, or give `--baseline none` if the force is zeroed"));
+  if (result.baseline == Baseline::tilt && result.drift > 0.5)
+    warn("the baseline rises by " + percent_text(result.drift) +
+         " of the contact force over the curve; give `--baseline offset` or a part of the curve by "
+         "`--to`");
+  const bool round = test.tip == Tip::Kind::paraboloid || test.tip == Tip::Kind::sphere;
+  if (round && result.deepest > test.radius) {
+    warn("the tip is " + rounded_text(result.deepest / test.radius, 3) +
+         " radii deep, and beyond one radius its shape is no sphere; give the part of the curve "
+         "up to a smaller depth by `--to`");
+  } else if (test.tip == Tip::Kind::paraboloid) {
+    const double error = error_of_hertz(result.deepest, test.radius);
+    if (error > 0.02)
+      warn("at the largest depth Hertz's law of a paraboloid is " + percent_text(error) +
+           " stiffer than the exact law of a sphere" +
+           (test.thickness ? "; give a smaller depth by `--to`"
+                           : "; give `--tip sphere`, or a smaller depth by `--to`"));
+  }
+  warn_of_residuals(fit);
+}
+
+void warn_of_residuals(Fit& fit) {
+  const auto warn = [&](const std::string& sentence) { fit.warnings.push_back(sentence); };
+  if (fit.r2 < 0.9)
+    warn("R^2 is " + rounded_text(fit.r2, 3) +
+         ", so that the law describes the curve poorly, and the estimates mean little");
+  if (fit.rho > 0.0)
+    warn("neighbouring residuals are correlated (" + rounded_text(fit.rho, 3) +
+         "), and the intervals count the " + std::to_string(fit.n) + " points as " +
+         rounded_text(std::max(1.0, fit.effective_size), 3) +
+         " independent ones; a law that does not fit has the same effect, and its bias is not in "
+         "the interval");
+  if (fit.rho > 0.0 && fit.effective_size < 10.0)
+    warn(
+        "the points are worth fewer than 10 independent ones, for which the intervals are too "
+        "narrow; record a longer curve");
+}
+
+}  // namespace palpate::fit

@@ -1,0 +1,43 @@
+// Moduli from stress over strain of a specimen that is compressed or stretched between platens.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "fit/regression.h"
+
+namespace palpate::fit {
+
+struct UniaxialTest {
+  enum class Model {
+    modulus,      // tangent and secant modulus over a range of strain
+    neo_hookean,  // P = E/3 (lambda - lambda^-2), incompressible
+    ogden,        // P = 2 E/(3 alpha) (lambda^(alpha-1) - lambda^(-alpha/2-1)), incompressible
+  };
+  enum class Loading { unknown, compression, tension };
+
+  Model model = Model::modulus;
+  Loading loading = Loading::unknown;
+  std::optional<double> from = {};  // strain, as a positive number in compression too
+  std::optional<double> to = {};
+  // Of bonded platens: diameter over 4 heights, the loaded area over the free area of a cylinder.
+  std::optional<double> shape_factor = {};
+  Residuals residuals = Residuals::independent;
+};
+
+// The stiffening of a cylinder of incompressible material between bonded platens:
+// E_apparent / E = 1 + 2 S^2                Gent and Lindley 1959, Proc. Inst. Mech. Eng. 173
+[[nodiscard]] double gent_lindley(double shape_factor);
+
+// Fits engineering strain and nominal stress (Pa), of equal size. Where strain and stress are both
+// negative, both are turned, and the loading is compression. Parameters: `modulus`: E_tangent, the
+// slope of the least-squares line, sigma_0, its stress at strain 0, and E_secant from the first row
+// to the end of the range; `neo_hookean`: E = 3 mu; `ogden`: E = 3 mu and alpha; all in kPa. Of
+// strains that return, the rows up to the largest are used. Throws InputError for fewer than 4
+// rows, strain and stress of different signs, stretches of 0 or less, a loading that is not known
+// and matters, and a stress that falls.                                      docs/theory.md (103),
+// (104)
+[[nodiscard]] Fit fit_uniaxial(std::span<const double> strain, std::span<const double> stress,
+                               const UniaxialTest& test);
+
+}  // namespace palpate::fit

@@ -1,0 +1,80 @@
+// The programme is lengthened where its end alone would leave rows of the measurement out.
+#include "identify/lengthen.h"
+
+#include <cmath>
+#include <optional>
+
+namespace palpate::identify {
+namespace {
+
+constexpr double margin = 1e-6;  // relative; the last row lies beyond the last point
+
+// The duration of the steps, s; nothing if one ends at a force, which is reached at a time unknown.
+std::optional<double> duration(const scenario::Scenario& scenario) {
+  double time = 0.0;
+  double travel = 0.0;
+  for (const scenario::Step& step : scenario.steps) {
+    if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
+      if (indent->to.second) return std::nullopt;
+      time += std::abs(indent->to.value - travel) / indent->rate;
+      travel = indent->to.value;
+    } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
+      time += std::abs(retract->to - travel) / retract->rate;
+      travel = retract->to;
+    } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {
+      time += hold->time;
+    } else if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
+      time += std::abs(slide->by) / slide->rate;
+    } else if (const auto* creep = std::get_if<scenario::Creep>(&step)) {
+      time += creep->load_time + creep->recovery_time;
+    } else if (const auto* relax = std::get_if<scenario::Relax>(&step)) {
+      time += relax->time;
+    }
+  }
+  return time;
+}
+
+bool lengthen_time(scenario::Scenario& scenario, double end) {
+  const auto lasts = duration(scenario);
+  if (!lasts || end <= *lasts) return false;
+  const double more = end - *lasts;
+  scenario::Step& last = scenario.steps.back();
+  if (auto* hold = std::get_if<scenario::Hold>(&last))
+    hold->time += more;
+  else if (auto* relax = std::get_if<scenario::Relax>(&last))
+    relax->time += more;
+  else if (auto* creep = std::get_if<scenario::Creep>(&last))
+    creep->recovery_time += more;
+  else if (auto* indent = std::get_if<scenario::Indent>(&last))
+    indent->to.value += more * indent->rate;
+  else
+    return false;
+  return true;
+}
+
+}  // namespace
+
+bool lengthen(CurveKind kind, scenario::Scenario& scenario, double farthest) {
+  const double end = farthest * (1.0 + margin);
+  if (kind == CurveKind::force_travel) {
+    for (scenario::Step& step : scenario.steps)
+      if (auto* indent = std::get_if<scenario::Indent>(&step)) {
+        if (indent->to.second || indent->to.value >= farthest) return false;
+        indent->to.value = end;
+        return true;
+      }
+    return false;
+  }
+  if (kind == CurveKind::tangential_slide) {
+    for (scenario::Step& step : scenario.steps)
+      if (auto* slide = std::get_if<scenario::Slide>(&step)) {
+        if (std::abs(slide->by) >= farthest) return false;
+        slide->by = std::copysign(end, slide->by);
+        return true;
+      }
+    return false;
+  }
+  return lengthen_time(scenario, end);
+}
+
+}  // namespace palpate::identify

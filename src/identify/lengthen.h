@@ -1,0 +1,14 @@
+// Lengthens the programme of a scenario to the end of a measurement.
+#pragma once
+
+#include "identify/scenario_curve.h"
+
+namespace palpate::identify {
+
+// Lengthens the step that ends the curve so that the programme reaches `farthest` (a travel or a
+// slide, m, or a time, s): the first `indent` with a travel, the first `slide`, or a last `hold`,
+// `relax`, `creep` (its recovery) or `indent`. Nothing is shortened. Returns whether a step has
+// changed; a step that ends at a force, and a last `retract` or `slide` over time, stay.
+bool lengthen(CurveKind kind, scenario::Scenario& scenario, double farthest);
+
+}  // namespace palpate::identify

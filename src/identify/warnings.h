@@ -1,0 +1,25 @@
+// Sentences on why the estimates may be wrong.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "identify/identify.h"
+#include "scenario/resolved.h"
+
+namespace palpate::identify {
+
+struct WeightedResiduals {
+  std::span<const double> values;  // in the order of the points
+  double noise = 0.0;              // their standard deviation
+  std::string model;               // the word of the model
+};
+
+// On correlated residuals, few independent points, R^2 below 0.9, estimates at a bound, the model's
+// own error at the estimates, and waves that are left out.
+[[nodiscard]] std::vector<std::string> warnings_of(const Identification& found,
+                                                   const WeightedResiduals& residuals,
+                                                   const scenario::Resolved& with);
+
+}  // namespace palpate::identify
