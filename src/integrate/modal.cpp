@@ -100,11 +100,11 @@ void Modal::find_all() {
 }
 
 void Modal::find_lowest(Eigen::Index count) {
-  constexpr double residual = 1e-9;  // of an eigenvector, as a fraction of its eigenvalue
+  constexpr double residual = 1e-7;  // of an eigenvector, as a fraction of its eigenvalue
   constexpr int restarts = 100;      // fewer than ten were ever needed
   Softness softness(body_->mass(), free_, *statics_);
   const double usual = statics_->tolerance();
-  statics_->set_tolerance(residual);
+  statics_->set_tolerance(0.1 * residual);
   Spectra::SymEigsSolver<Softness> lanczos(softness, count, 2 * count + count / 2);
   lanczos.init();
   (void)lanczos.compute(Spectra::SortRule::LargestAlge, restarts, residual);

@@ -11,6 +11,9 @@
 namespace palpate::mechanics {
 namespace {
 
+// By default, where K is not factored and every mode takes some three solutions by iterations.
+constexpr int modes_of_large = 32;
+
 Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& body,
                             SymmetricSolver* statics, double time_step) {
   using Integrator = scenario::Solver::Integrator;
@@ -30,7 +33,9 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
   if (statics == nullptr || !scenario::lowest_modes_serve(scene.scenario))
     return integrate::Modal(body);
   prepare(*statics, body);
-  return integrate::Modal(body, solver.modes.value_or(scenario::default_modes), *statics);
+  const bool large = static_cast<Eigen::Index>(body.held().size()) >= SymmetricSolver::large;
+  return integrate::Modal(
+      body, solver.modes.value_or(large ? modes_of_large : scenario::default_modes), *statics);
 }
 
 }  // namespace

@@ -30,21 +30,27 @@ class Stages {
   }
 
   // `before` and `after` are the touches of the complete press before and after this frame.
-  std::optional<std::string> frame(const Vec3& finger, mechanics::Touch before,
-                                   const mechanics::Touch& after, FrameTime& time) {
+  std::optional<std::string> frame(const mechanics::Touch& before, const mechanics::Touch& after,
+                                   FrameTime& time) {
     std::optional<std::string> wrong;
-    const auto& deformed = mesh_.state().displacement;
-    time.collision = seconds([&] { seeing_.detect(finger, &deformed); });
-    if (mesh_.forces_follow_finger()) {
-      // These forces use contacts found on the skin at rest, by another detection.
-      const double search = seconds([&] { resting_.detect(finger, nullptr); });
-      time.force = seconds([&] { wrong = mesh_.try_out(finger, before); }) - search;
-    } else {
-      const auto solve = [&](mechanics::Touch& touch) {
+    const bool follows = mesh_.forces_follow_finger();
+    // Forces that follow the finger use contacts with the skin at rest.
+    const auto* const deformed = follows ? nullptr : &mesh_.state().displacement;
+    mechanics::Touch touch = before;
+    for (int k = 1; k <= substeps_ && !wrong; ++k) {
+      const Vec3 finger =
+          before.finger + static_cast<double>(k) / substeps_ * (after.finger - before.finger);
+      const double search = seconds([&] { seeing_.detect(finger, deformed); });
+      time.collision += search;
+      if (follows) {
+        time.force += seconds([&] { wrong = mesh_.try_out(finger, touch); }) - search;
+        continue;
+      }
+      const auto solve = [&](mechanics::Touch& now) {
         return seeing_.settle(
-            touch, [](auto&, auto& compliance) -> auto& { return compliance; }, 1);
+            now, [](auto&, auto& compliance) -> auto& { return compliance; }, 1);
       };
-      time.force = seconds([&] { wrong = seeing_.find(finger, before, solve); });
+      time.force += seconds([&] { wrong = seeing_.find(finger, touch, solve); });
     }
     if (wrong) return wrong;
     time.deformation = seconds([&] {
@@ -63,8 +69,7 @@ class Stages {
 
  private:
   mechanics::PressedMesh mesh_;
-  mechanics::SkinContacts seeing_;                 // for detection on the deformed mesh
-  mechanics::SkinContacts resting_{mesh_.part()};  // and on the skin at rest
+  mechanics::SkinContacts seeing_;
   int substeps_;
 };
 
@@ -106,7 +111,7 @@ Bench bench(const scene::Scene& scene, int frames) {
   }
   for (std::size_t frame = 0; frame < times.size(); ++frame) {
     const mechanics::Touch& after = touches[frame + 1];
-    if (auto wrong = stages.frame(after.finger, touches[frame], after, times[frame])) {
+    if (auto wrong = stages.frame(touches[frame], after, times[frame])) {
       found.wrong = "frame " + std::to_string(frame + 1) + ": " + *wrong;
       break;
     }

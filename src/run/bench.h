@@ -9,14 +9,17 @@
 
 namespace palpate::run {
 
-// Run times of one frame, that is one time step of the scenario with its substeps. All in s.
+// Run times of one frame, that is one time step of the scenario, in all of its substeps together.
+// All in s.
 struct FrameTime {
-  double collision = 0.0;    // one detection on the deformed mesh, with the refit of its boxes
-  double force = 0.0;        // laws, curvatures, patches and contact equations once, no detection
-  double deformation = 0.0;  // all substeps of the mesh alone, under given forces
-  double whole = 0.0;        // the frame as in `palpate run`: contacts, mesh, energy, all substeps
+  double collision = 0.0;  // detection, with the refit of the boxes where the deformed skin is seen
+  double force = 0.0;      // laws, curvatures, patches and contact equations, no detection
+  double deformation = 0.0;  // the mesh alone, under given forces
+  double whole = 0.0;        // the frame as in `palpate run`: contacts, mesh, energy
 
   [[nodiscard]] double sum() const { return collision + force + deformation; }
+  // Energy balance and passing on of states; below 0 where the stages alone find colder caches.
+  [[nodiscard]] double other() const { return whole - sum(); }
 };
 
 struct Bench {

@@ -146,14 +146,16 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
                     "less time by `modal`.",
                     use.pressed_mesh},
                    solver.rings, between(1, 1000));
-  visitor.count_or("auto",
-                   {"modes",
-                    "The lowest modes, which `modal` keeps; the others follow without inertia. "
-                    "`auto`: 128, or all of them where the force follows from the whole motion.",
-                    solver.integrator == Integrator::modal || !solver.integrator
-                        ? use.pressed_mesh
-                        : Use{false, "with `integrator = \"modal\"`", Use::Otherwise::note}},
-                   solver.modes, between(1, 1e6));
+  visitor.count_or(
+      "auto",
+      {"modes",
+       "The lowest modes, which `modal` keeps; the others follow without inertia. "
+       "`auto`: 128, from 1000 nodes on 32, or all of them where the force follows from the "
+       "whole motion.",
+       solver.integrator == Integrator::modal || !solver.integrator
+           ? use.pressed_mesh
+           : Use{false, "with `integrator = \"modal\"`", Use::Otherwise::note}},
+      solver.modes, between(1, 1e6));
 }
 
 void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use) {

@@ -16,6 +16,16 @@ const std::string meshes =
     "{ kind = \"mirrored\", cells = [2, 2, 2] }]\n"
     "\"tissue.young_modulus\" = [\"8 kPa\", \"10 kPa\", \"13 kPa\", \"17 kPa\", \"30 kPa\"]\n";
 
+// Presses that share what their bodies of unit modulus sink, and the equations of their layers.
+const std::string presses =
+    "[solver]\nmodel = \"coupled_springs\"\n"
+    "[tissue]\nmesh = { kind = \"kuhn\", cells = [3, 3, 2] }\n"
+    "[output]\npressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n"
+    "rate = \"20 mm/s\"\n[sweep]\n"
+    "\"tissue.young_modulus\" = [\"8 kPa\", \"13 kPa\", \"30 kPa\"]\n"
+    "\"tissue.poisson_ratio\" = [0.33, 0.45]\n\"solver.model\" = [\"coupled_springs\", "
+    "\"layer\"]\n";
+
 class SweepBits : public SweepFolder {
  protected:
   // The plan with no rows.
@@ -48,6 +58,22 @@ class SweepBits : public SweepFolder {
 TEST_F(SweepBits, meshes_in_all_ways) { expect_same_from_all_ways(meshes, true); }
 
 TEST_F(SweepBits, formulas_in_all_ways) { expect_same_from_all_ways(formulas, false); }
+
+TEST_F(SweepBits, presses_in_all_ways) { expect_same_from_all_ways(presses, false); }
+
+// Rows are on the disk long before all cases of a block have been prepared.
+TEST_F(SweepBits, rows_come_while_others_wait) {
+  std::string many = presses;
+  many.replace(many.find("[\"8 kPa\""), std::string("[\"8 kPa\", \"13 kPa\", \"30 kPa\"]").size(),
+               "{ from = \"1 kPa\", to = \"100 kPa\", points = 128, scale = \"log\" }");
+  const SweepPlan plan = this->plan(many);
+  std::atomic<bool> stop = false;
+  const SweepEnd end =
+      run_sweep(plan, {}, stop, [&](const SweepProgress& now) { stop = now.done > 0; });
+  EXPECT_EQ(end.all, 512U);
+  EXPECT_GT(end.completed, 0U);
+  EXPECT_GT(end.missing, 0U);
+}
 
 TEST_F(SweepBits, one_case_diverges_and_says_so) {
   const SweepPlan plan = this->plan(meshes);
