@@ -127,11 +127,15 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
   if (normal.info() != Eigen::Success || !(normal.vectorD().minCoeff() > 0.0)) return std::nullopt;
   const Matrix inverse = normal.solve(Matrix::Identity(p, p));
   const double rho = found.rho;
-  const double variance = at.variance / (1.0 - rho * rho) * scale[p] * scale[p];
+  // Residuals of a law that does not fit look like a walk, whose variance has no limit: the scatter
+  // that is there, with some allowance for what the fit takes away, is the most that is taken.
+  const double scatter = rows.col(p).squaredNorm() / degrees;
+  const double variance =
+      std::min(at.variance / (1.0 - rho * rho), 2.0 * scatter) * scale[p] * scale[p];
   const Matrix sandwich = variance * (inverse * correlated_product(rows, p, rho) * inverse);
   // The variance of a mean depends on s^2 / (1-rho)^2, whose relative variance is
   // 2/n + 4 var(rho) / (1-rho)^2 with var(rho) = (1-rho^2) / n.
-  found.degrees = std::max(1.0, degrees * (1.0 - rho) / (3.0 + rho));
+  found.degrees = std::max(4.0, degrees * (1.0 - rho) / (3.0 + rho));
   found.effective_size = static_cast<double>(n) * (1.0 - rho) / (1.0 + rho);
   found.covariance.resize(unknowns * unknowns);
   for (Eigen::Index i = 0; i < p; ++i)

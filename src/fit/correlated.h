@@ -10,15 +10,16 @@ namespace palpate::fit {
 // Residuals as a first-order autoregressive process, e_i = rho e_(i-1) + noise.
 struct Autocorrelation {
   double rho = 0.0;                // correlation of neighbours, 0 to 0.999
-  double degrees = 0.0;            // of freedom, for Student's t
+  double degrees = 0.0;            // of freedom, for Student's t; at least 4
   double effective_size = 0.0;     // independent rows that are worth as much, n (1-rho) / (1+rho)
   std::vector<double> covariance;  // of the unknowns, by rows: the sandwich of docs/theory.md (101)
 };
 
 // rho by restricted maximum likelihood, which takes the fitted unknowns into account, and the
 // covariance of the ordinary estimates under it. `jacobian` has one row of `unknowns` derivatives
-// per residual, in the order of time. Nothing if the likelihood ratio against independent residuals
-// is below 2.71 (5 %, one-sided), for fewer than 20 residuals, and if the jacobian lacks full rank.
+// per residual, in the order of time. The variance is at most twice that of the residuals. Nothing
+// if the likelihood ratio against independent residuals is below 2.71 (5 %, one-sided), for fewer
+// than 20 residuals, and if the jacobian lacks full rank.
 //                        docs/theory.md (100), (101); Harville 1977, J. Am. Stat. Assoc. 72
 [[nodiscard]] std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals,
                                                              std::span<const double> jacobian,

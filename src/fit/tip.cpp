@@ -19,7 +19,7 @@ double relative_radius(double d) {
     const double inverse = std::atanh(t);
     const double step = (t * inverse - d) / (inverse + t / (1.0 - t * t));
     t -= step;
-    if (std::abs(step) <= 1e-15 * t) break;
+    if (std::abs(step) <= 1e-8 * t) break;  // the error is now of the order of its square
   }
   return t;
 }

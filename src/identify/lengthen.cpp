@@ -5,11 +5,6 @@
 #include <optional>
 
 namespace palpate::identify {
-namespace {
-
-constexpr double margin = 1e-6;  // relative; the last row lies beyond the last point
-
-// The duration of the steps, s; nothing if one ends at a force, which is reached at a time unknown.
 std::optional<double> duration(const scenario::Scenario& scenario) {
   double time = 0.0;
   double travel = 0.0;
@@ -33,6 +28,10 @@ std::optional<double> duration(const scenario::Scenario& scenario) {
   }
   return time;
 }
+
+namespace {
+
+constexpr double margin = 1e-6;  // relative; the last row lies beyond the last point
 
 bool lengthen_time(scenario::Scenario& scenario, double end) {
   const auto lasts = duration(scenario);

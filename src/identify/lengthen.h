@@ -1,6 +1,8 @@
 // Lengthens the programme of a scenario to the end of a measurement.
 #pragma once
 
+#include <optional>
+
 #include "identify/scenario_curve.h"
 
 namespace palpate::identify {
@@ -10,5 +12,8 @@ namespace palpate::identify {
 // `relax`, `creep` (its recovery) or `indent`. Nothing is shortened. Returns whether a step has
 // changed; a step that ends at a force, and a last `retract` or `slide` over time, stay.
 bool lengthen(CurveKind kind, scenario::Scenario& scenario, double farthest);
+
+// The duration of the programme, s; nothing if a step ends at a force, at a time that is not known.
+[[nodiscard]] std::optional<double> duration(const scenario::Scenario& scenario);
 
 }  // namespace palpate::identify

@@ -55,7 +55,8 @@ class Preparation {
     const bool travel = kind_ == CurveKind::force_travel;
     double end = *std::max_element(measured_.x.begin(), measured_.x.end());
     if (travel && contact != nullptr) end -= contact->value(0.5);
-    if (lengthen(kind_, asked.scenario, end)) {
+    const bool goes_on = still_in_the_last_step(asked.scenario);
+    if (goes_on && lengthen(kind_, asked.scenario, end)) {
       const CurveWords& words = words_of(kind_);
       found_.notes.push_back("the programme is shorter than the measurement and is lengthened to " +
                              rounded_text(words.x.from_si(end)) + " " + words.x.symbol);
@@ -64,11 +65,27 @@ class Preparation {
     found_.given = rung.given;
     found_.worst_error = rung.worst_error;
     found_.curve = std::make_unique<ScenarioCurve>(kind_, rung, family_, unknowns_, stop);
-    found_.curve->set_farthest(*std::max_element(measured_.x.begin(), measured_.x.end()));
+    if (goes_on)
+      found_.curve->set_farthest(*std::max_element(measured_.x.begin(), measured_.x.end()));
   }
 
   [[nodiscard]] std::size_t shift_of(const Unknown* one) const {
     return as_index(one - unknowns_.data());
+  }
+
+  // Whether the rows beyond the programme can belong to its last step. A finger that withdraws
+  // after a hold leaves half to one and a half times the force at the end of the programme.
+  [[nodiscard]] bool still_in_the_last_step(const scenario::Scenario& scenario) const {
+    if (kind_ != CurveKind::force_time) return true;
+    const auto end = duration(scenario);
+    if (!end) return true;
+    double held = 0.0;
+    for (std::size_t i = 0; i < measured_.x.size(); ++i)
+      if (measured_.x[i] <= *end) held = measured_.y[i];
+    for (std::size_t i = 0; i < measured_.x.size(); ++i)
+      if (measured_.x[i] > *end && std::abs(measured_.y[i] - held) > 0.5 * std::abs(held))
+        return false;
+    return true;
   }
 
   // Whether the press ends at a force, so that its depth depends on the unknowns.
@@ -132,7 +149,7 @@ class Preparation {
     const CurveWords& words = words_of(kind_);
     note_left_out(beyond, "beyond the programme, which ends at " +
                               rounded_text(words.x.from_si(rows->x.back())) + " " + words.x.symbol +
-                              " (its last step ends at a force, or withdraws)");
+                              " (its last step ends at a force, or the force leaves it)");
     note_left_out(before, "before the programme begins, at 0 " + std::string(words.x.symbol));
     refuse_poor_data();
     found_.curve->set_points(found_.x);
