@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <string_view>
 
 namespace palpate::cli {
 namespace {
@@ -16,7 +17,11 @@ void request_stop(int) {
   if (stop_requested.exchange(true)) ::_exit(code_at_once.load());
 }
 
-void end_at_once(int) { ::_exit(code_at_once.load()); }
+void end_at_once(int) {
+  constexpr std::string_view sentence = "palpate: interrupted\n";
+  (void)!::write(STDERR_FILENO, sentence.data(), sentence.size());
+  ::_exit(code_at_once.load());
+}
 
 void handle(const std::vector<int>& signals, void (*handler)(int)) {
   for (const int signal : signals) {
