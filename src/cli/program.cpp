@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <exception>
+#include <new>
 
 #include "base/error.h"
+#include "cli/interrupt.h"
 #include "cli/talk.h"
 #include "cli/verbs.h"
 #include "report/machine.h"
@@ -32,6 +34,7 @@ void occupy_standard_streams() {
 
 int program(const std::vector<std::string>& given) {
   occupy_standard_streams();
+  end_at_interrupts(exit_interrupted);  // until a verb that has something to keep listens to them
   try {
     const auto parsed = parse(given);
     if (const auto* answer = std::get_if<Answer>(&parsed)) {
@@ -55,6 +58,10 @@ int program(const std::vector<std::string>& given) {
   } catch (const LinkError& error) {
     Talk::error(error.what());
     return exit_device;
+  } catch (const std::bad_alloc&) {
+    Talk::error(
+        "palpate: the memory does not suffice; use a coarser mesh, fewer rows or less `--jobs`");
+    return exit_internal;
   } catch (const std::exception& error) {
     Talk::error(std::string("palpate: ") + error.what());
     return exit_internal;

@@ -1,7 +1,9 @@
 // `palpate sweep run` and `retry`: run missing or failed cases and report progress.
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
@@ -70,6 +72,9 @@ int sweep_run(const Sweep& command, const Talk& talk) {
   const sweep::SweepEnd end =
       sweep::run_sweep(plan, task, stop, [&](const sweep::SweepProgress& now) { ticker(now); });
   talk.progress("");
+  if (!std::filesystem::exists(command.subject + "/plan.json"))
+    throw SystemError(command.subject +
+                      " has vanished while its cases ran, and their rows with it; plan anew");
   for (const std::string& warning : end.warnings) talk.warn(warning);
   std::string text = command.subject + ": " + std::to_string(end.completed) + " of " +
                      cases_text(end.all) + " completed";

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "geometry/cuboid.h"
 #include "meshing/level_cut.h"
@@ -17,6 +18,7 @@
 #include "meshing/tetgen.h"
 #include "meshing/tetgen_body.h"
 #include "meshing/tetgen_file.h"
+#include "scene/estimates.h"
 
 namespace palpate::scene {
 namespace {
@@ -63,7 +65,9 @@ std::vector<geometry::Lump> numbered_lumps(const Scenario& scenario) {
 }
 
 geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& mesh) {
-  const geometry::Shape shape = *parametric(scenario.tissue.shape);
+  const std::optional<geometry::Shape> known = parametric(scenario.tissue.shape);
+  if (!known) throw MeshError("this `tissue.shape` has no mesh; give another one, as `cuboid`");
+  const geometry::Shape& shape = *known;
   const std::vector<geometry::Lump> inside = numbered_lumps(scenario);
   const auto* box = std::get_if<geometry::Cuboid>(&shape);
   if (box != nullptr && inside.empty() && !mesh.edge)
@@ -77,7 +81,19 @@ geometry::Grading grading(const Scenario& scenario, const Vec3& size, double rat
                       scenario.finger.y.value_or(0.5 * size.y()), size.z())};
 }
 
+// A press takes 2.6 kB for every tetrahedron (docs/speed.md), of which a node has about six.
+void refuse_huge(const scenario::Mesh& mesh) {
+  constexpr double most = 3.5e6;
+  constexpr double memory = 6 * 2.6e-6;  // GB for a node
+  const double nodes = expected_nodes(mesh);
+  if (nodes > most)
+    throw MeshError("`tissue.mesh` asks for " + rounded_text(nodes, 3) +
+                    " nodes, which take about " + rounded_text(memory * nodes, 2) +
+                    " GB; ask for at most 3.5 million");
+}
+
 SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder) {
+  refuse_huge(scenario.tissue.mesh);
   SpecimenMesh made;
   geometry::TetMesh& mesh = made.mesh;
   std::string name;

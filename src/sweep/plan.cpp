@@ -256,7 +256,6 @@ SweepPlan read_plan(const std::string& folder, const std::string& program) {
                  .curves = file.curves,
                  .family = {},
                  .ids = {}};
-  plan.ids.reserve(file.cases);
   Sha256 hash;
   bool header = true;
   for_each_line((fs::path(folder) / "plan.csv").string(), [&](const FileLine& line) {

@@ -21,7 +21,7 @@ import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SETTLE = 1.5  # s of the log that are looked at after the last signal
-SIGNALS = [signal.SIGKILL] * 6 + [signal.SIGSTOP, signal.SIGTSTP, signal.SIGPIPE, signal.SIGUSR1,
+SIGNALS = [signal.SIGKILL] * 6 + [signal.SIGSTOP, signal.SIGTSTP, signal.SIGUSR1, signal.SIGQUIT,
                                   signal.SIGALRM, signal.SIGXCPU, signal.SIGHUP, signal.SIGINT]
 
 
@@ -30,6 +30,12 @@ def states(log):
     with open(log, newline="") as file:
         rows = [row for row in csv.reader(file) if len(row) == 8][1:]
     return [(float(row[0]), float(row[3]), float(row[5])) for row in rows]
+
+
+def heed_signals():
+    """A shell starts programs in the background with some signals ignored."""
+    for one in set(SIGNALS) - {signal.SIGKILL, signal.SIGSTOP}:
+        signal.signal(one, signal.SIG_DFL)
 
 
 def child_of(process):
@@ -47,7 +53,7 @@ def blow(arguments, folder, choose):
     port = json.loads(stand.stdout.readline())["port"]
     run = subprocess.Popen([arguments.palpate, "run", ROOT + "/scenarios/device_stand.toml", "--device",
                             "mark10:" + port, "--arm", "--set", "output.figures=false"],
-                           cwd=folder, stderr=subprocess.DEVNULL)
+                           cwd=folder, stderr=subprocess.DEVNULL, preexec_fn=heed_signals)
     try:
         while not any(velocity < 0.0 for _, _, velocity in states(log)):
             if run.poll() is not None or time.monotonic() > began + 30.0:

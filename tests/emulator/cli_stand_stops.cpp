@@ -101,10 +101,10 @@ TEST(StandStop, GoesAFifthOfAMillimetreAtMostWhenNobodyIsLeft) {
   Feeling feeling;
   ASSERT_TRUE(feeling.moves());
   const pid_t guard = feeling.guard();
-  const double before = feeling.position();
   feeling.run().send(SIGSTOP);  // so that it cannot notice the end of its guard
   ::kill(guard, SIGKILL);
   feeling.run().send(SIGKILL);
+  const double before = feeling.position();
   EXPECT_TRUE(feeling.stands());
   EXPECT_GT(feeling.position(), before - 0.2e-3 - 2e-5);  // a step, and the stand's resolution
 }

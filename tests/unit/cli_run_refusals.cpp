@@ -46,6 +46,16 @@ TEST_F(RunRefusals, a_finished_result_stays) {
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"press"});
 }
 
+TEST_F(RunRefusals, a_mesh_beyond_any_memory) {
+  for (const char* cells : {"[500,500,500]", "[200,200,200]"}) {
+    const Ended ended =
+        palpate(folder_.path(), {"run", "press.toml", "--set", "solver.model=mass_spring", "--set",
+                                 std::string("tissue.mesh={kind=\"kuhn\",cells=") + cells + "}"});
+    EXPECT_EQ(ended.code, 5) << ended.err;
+    EXPECT_TRUE(says(ended, "GB; ask for at most 3.5 million")) << ended.err;
+  }
+}
+
 TEST_F(RunRefusals, force_replaces_what_palpate_wrote_and_nothing_else) {
   finish_one();
   write_file(folder_ / "out/press/notes.txt", "mine");

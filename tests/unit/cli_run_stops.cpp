@@ -1,5 +1,7 @@
 // Runs that are stopped: finished cases are kept, nothing is half, old results stay.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "program.h"
 #include "record/csv.h"
@@ -75,6 +77,19 @@ TEST_F(RunStops, an_incomplete_result_is_run_again_without_force) {
       palpate(folder_.path(), {"run", "slow.toml", "--set", "sweep.step.1.to=[\"0.005 mm\"]"});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_NE(read_file(folder_ / "out/slow/run.json").find("\"complete\": true"), std::string::npos);
+}
+
+// In the first seconds, too: here while it waits for its scenario.
+TEST_F(RunStops, a_signal_before_anything_is_built_has_the_same_code) {
+  const std::string pipe = (folder_ / "pipe.toml").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Running running({.arguments = {"run", "pipe.toml"}, .folder = folder_.path()});
+    const int writer = ::open(pipe.c_str(), O_WRONLY);  // returns when the program reads
+    running.send(signal);
+    EXPECT_EQ(running.wait().code, 130);
+    ::close(writer);
+  }
 }
 
 TEST_F(RunStops, an_interrupted_run_without_a_finished_case_leaves_nothing) {

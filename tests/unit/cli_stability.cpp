@@ -89,7 +89,7 @@ TEST_F(StabilityVerb, an_interrupted_map_leaves_nothing) {
   running.send(SIGINT);
   const Ended ended = running.wait();
   EXPECT_EQ(ended.code, 130);
-  EXPECT_NE(ended.err.find("palpate: interrupted; nothing was written"), std::string::npos);
+  EXPECT_NE(ended.err.find("palpate: interrupted"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 

@@ -126,6 +126,30 @@ TEST_F(SweepFaults, ACorruptRowIsMissingAndSaid) {
   EXPECT_EQ(merged(), whole);
 }
 
+// Its rows went into files that nobody finds any more.
+TEST_F(SweepFaults, AVanishedFolderIsAnError) {
+  plan(slow_sweep(20));
+  Running running(call({"run", "out/s_sweep", "--jobs", "1"}));
+  ASSERT_TRUE(running.until([&] { return fs::exists(folder_ / "out/s_sweep/results"); }));
+  fs::rename(folder_ / "out", folder_ / "moved");
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_NE(ended.err.find("has vanished while its cases ran"), std::string::npos) << ended.err;
+}
+
+TEST_F(SweepFaults, APlanOfAnyNumberOfCasesIsRefused) {
+  plan(quick_sweep);
+  const fs::path file = folder_ / "out/s_sweep/plan.json";
+  const std::string text = read_file(file);
+  const std::size_t at = text.find("\"cases\": 6");
+  ASSERT_NE(at, std::string::npos) << text;
+  for (const char* cases : {"1000000000000000000", "-1", "1e300"}) {
+    write_file(file, text.substr(0, at) + "\"cases\": " + cases + text.substr(at + 10));
+    const Ended ended = sweep({"status", "out/s_sweep"});
+    EXPECT_EQ(ended.code, 2) << cases << ": " << ended.err;
+  }
+}
+
 TEST_F(SweepFaults, AChangedScenarioIsRefused) {
   plan(quick_sweep);
   const fs::path file = folder_ / "out/s_sweep/inputs/scenario.toml";

@@ -22,7 +22,9 @@ using Heed = GuardProcess::Heed;
 // A program with a guard, as a child, and the line that the guard writes to.
 class Guarded {
  public:
-  explicit Guarded(const std::function<void(GuardProcess&)>& live, Heed heed = Heed::silence) {
+  explicit Guarded(
+      const std::function<void(GuardProcess&)>& live, Heed heed = Heed::silence,
+      const std::function<void(GuardProcess&)>& first = [](GuardProcess&) {}) {
     std::array<int, 2> ids{};
     EXPECT_EQ(::pipe(line_.data()), 0);
     EXPECT_EQ(::pipe(ids.data()), 0);
@@ -30,6 +32,7 @@ class Guarded {
     if (program_ == 0) {
       {
         GuardProcess guard(line_[1], heed);
+        first(guard);  // before the test begins
         const pid_t id = guard.id();
         (void)!::write(ids[1], &id, sizeof id);
         live(guard);
@@ -76,8 +79,9 @@ class Guarded {
   pid_t guard_ = -1;
 };
 
+void begin_a_motion(GuardProcess& guard) { guard.watch(true); }
+
 void wait_for_ever(GuardProcess& guard) {
-  guard.watch(true);
   for (;;) {
     guard.beat();
     ::poll(nullptr, 0, 1);
@@ -85,7 +89,7 @@ void wait_for_ever(GuardProcess& guard) {
 }
 
 TEST(GuardOfTheStand, StopsItWhenTheProgramIsKilled) {
-  const Guarded pair(wait_for_ever);
+  const Guarded pair(wait_for_ever, Heed::silence, begin_a_motion);
   pair.send_program(SIGKILL);
   EXPECT_EQ(pair.heard().front(), 's');
   // Again and again, for the case that the stop was lost or went to the gauge.
@@ -93,7 +97,7 @@ TEST(GuardOfTheStand, StopsItWhenTheProgramIsKilled) {
 }
 
 TEST(GuardOfTheStand, StopsItWhenTheProgramStandsStill) {
-  const Guarded pair(wait_for_ever);
+  const Guarded pair(wait_for_ever, Heed::silence, begin_a_motion);
   pair.send_program(SIGSTOP);
   EXPECT_EQ(pair.heard().front(), 's');
   pair.send_program(SIGKILL);
@@ -108,7 +112,7 @@ TEST(GuardOfTheStand, StopsItWhenTheProgramIsSilentInAMotion) {
 }
 
 TEST(GuardOfTheStand, IsNotEndedByTheSignalsOfATerminal) {
-  const Guarded pair(wait_for_ever);
+  const Guarded pair(wait_for_ever, Heed::silence, begin_a_motion);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGTTOU, SIGUSR1, SIGPIPE})
     pair.send_guard(signal);
   pair.send_program(SIGKILL);
