@@ -43,8 +43,8 @@ class SymmetricSolver {
 
   // Without supports.
   [[nodiscard]] const BlockMatrix& matrix() const { return matrix_; }
-  // The largest estimated error of any solution since forget_error(), a fraction of its energy norm; 0 if the
-  // matrix was factored.
+  // The largest estimated error of any solution since forget_error(), a fraction of its energy
+  // norm; 0 if the matrix was factored.
   [[nodiscard]] double error() const { return error_; }
   void forget_error() { error_ = 0.0; }
 

@@ -158,14 +158,13 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
     const contact::Layer layer = layers_of(scenario, found.tissue_share);
     constexpr double last_chi = 3.0;
     found.chi = found.contact_radius / touch.thickness;
-    found.thickness =
-        found.chi < last_chi
-            ? contact::LayerEquation(layer,
-                                     contact::layer_resolution(2.0 * found.chi / layer.top()))
-                      .solve_chi(found.chi, contact::LayerEquation::Wanted::force)
-                      .force_factor() -
-                  1.0
-            : infinite;
+    found.thickness = found.chi < last_chi
+                          ? contact::LayerEquation(
+                                layer, contact::layer_resolution(2.0 * found.chi / layer.top()))
+                                    .solve_chi(found.chi, contact::LayerEquation::Wanted::force)
+                                    .force_factor() -
+                                1.0
+                          : infinite;
   }
   if (box != nullptr) {
     // The effect of the sides comes from the depth, that is from the softest layer.
