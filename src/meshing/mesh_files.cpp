@@ -133,11 +133,12 @@ constexpr const char* belongs_to = "# belongs to the .node file with the SHA-256
 
 // False for two files of which a killed program has replaced one.
 bool belong_together(const Pair& files) {
+  const std::string node = read_text(files.node);
   const std::string ele = read_text(files.ele);
   const std::size_t at = ele.rfind(belongs_to);
   if (at == std::string::npos) return true;
   const std::string hash = trimmed(std::string_view(ele).substr(at + std::strlen(belongs_to)));
-  return sha256(read_text(files.node)) == hash;
+  return sha256(node) == hash;
 }
 
 // The old nodes, while only the new ones are in their place: no system call replaces two files.
