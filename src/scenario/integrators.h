@@ -55,9 +55,14 @@ inline constexpr int default_modes = 128;
 // Whether modal steps may keep the lowest modes only, because the force takes the statics of the
 // others from elsewhere or does not depend on the mesh's motion.          docs/theory.md (108)
 [[nodiscard]] inline bool lowest_modes_serve(const Resolved& scenario) {
-  const bool at_rest = scenario.contact.coupling == contact::Coupling::one_way ||
-                       scenario.contact.coupling == contact::Coupling::consistent;
-  return !scenario.uniform() && at_rest && !scenario.solver.rings &&
+  using contact::Coupling;
+  using tissue::Viscosity;
+  const Coupling coupling = scenario.contact.coupling;
+  const bool relaxes = scenario.tissue.viscosity == Viscosity::standard_linear_solid ||
+                       scenario.tissue.viscosity == Viscosity::prony;
+  const bool serves = relaxes ? coupling == Coupling::consistent && viscous_contact(scenario)
+                              : coupling == Coupling::one_way || coupling == Coupling::consistent;
+  return !scenario.uniform() && serves && !scenario.solver.rings &&
          scenario.contact.curvature_on == Contact::CurvatureOn::rest;
 }
 

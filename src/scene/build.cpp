@@ -94,8 +94,9 @@ void refuse_large_modal(const Scene& scene, const scenario::Family& family) {
       scenario::lowest_modes_serve(scene.scenario))
     return;
   const std::string why =
-      "`modal` keeps all modes with a platen, with `rings`, with `curvature_on = \"deformed\"` and "
-      "with the couplings that read the mesh's motion";
+      "`modal` keeps all modes with a platen, with `rings`, with `curvature_on = \"deformed\"`, "
+      "where "
+      "the tissue relaxes and the contact does not, and with couplings that read the mesh's motion";
   if (solver.modes)
     throw InputError(place_of(family.document, "solver.modes"), why + "; remove `modes`");
   if (nodes > most_modal_nodes)
