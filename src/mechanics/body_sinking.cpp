@@ -45,24 +45,21 @@ BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
             scene.scenario.contact.slip == scenario::Contact::Slip::mindlin &&
             scene.specimen->base == tissue::Base::bonded),
       first_(scene::first_touch(scene).at) {
-  if (scene.sinkings != nullptr && !scene.scenario.solver.rings) key_ = key();
+  // Between regions a vertex belongs to the tissue of the triangle that is asked for first.
+  if (scene.sinkings != nullptr && !scene.scenario.solver.rings && scene.scenario.regions.empty())
+    key_ = key();
 }
 
-// All that a Place depends on, except for its vertex and normal.
+// All that a Place in one tissue depends on, except for its vertex and normal.
 std::string BodySinking::key() const {
   const scenario::Resolved& scenario = scene_->scenario;
   std::string key = scene::shape_key(scenario);
   if (scene::refines(scenario)) key += scene::refining_key(scenario);
   const auto add = [&](double number) { key += " " + number_text(number); };
   add(scenario.tissue.poisson_ratio);
-  for (const auto& region : scenario.regions) {
-    add(region.young_modulus / modulus_);
-    add(region.poisson_ratio);
-  }
   add(as_index(scenario.solver.model));
   add(as_index(scenario.solver.volume));
   add(scene_->specimen->base == tissue::Base::bonded ? 1.0 : 0.0);
-  add(scene_->layer ? 1.0 : 0.0);
   add(rubs_ ? 1.0 : 0.0);
   add(largest_);
   const Vec3 first = surface_->position(first_);
