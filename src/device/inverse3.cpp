@@ -207,7 +207,7 @@ bool Inverse3::try_spelling(inverse3::Spelling spelling) {
     if (got.arrival == Arrival::lost) return false;
     if (got.arrival == Arrival::none) continue;
     ++answers;
-    if (probes_) return true;
+    if (probes_ && answers > 1) return true;  // events of the first replies have come by then
     // The first reply may still describe the time before the message.
     if (answers > 1 && mode_ == inverse3::Mode::other) return confirmed_ = true;
   }

@@ -171,7 +171,7 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
                       project_file("scenarios/device_stand.toml"), "--x", "time_s", "--y",
                       "force_N", "--json", "--unknown", "tissue.young_modulus=2 kPa..60 kPa"});
   ASSERT_EQ(identified.code, 0) << identified.err;
-  const std::string name = "tissue.young_modulus";
+  const std::string name = "\"estimate\":";
   const auto at = identified.out.find(name);
   ASSERT_NE(at, std::string::npos) << identified.out;
   const auto modulus = leading_number(trimmed(identified.out.substr(at + name.size())));

@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "wrong tare: the gauge shows 0.1 N"},
                     Wrong{"Surface", "", "", "-1.6 mm", "wrong_surface",
                           "wrong surface: the specimen begins 0.39 mm lower"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& wrong) { return std::string(wrong.param.name); });
 
 TEST(LiveVerdict, AnArmMeasuresNoForce) {
   const Played live(Session{.link = "inverse3", .scenario = "device_arm", .options = expecting});

@@ -55,7 +55,7 @@ TEST(HealthCounts, KnowEveryKindOfSample) {
   EXPECT_EQ(health.dropped, 1u);
   EXPECT_EQ(health.missing, 1u);
   EXPECT_EQ(health.without_sample(), 3u);
-  EXPECT_DOUBLE_EQ(health.longest_gap, 0.010);
+  EXPECT_NEAR(health.longest_gap, 0.010, 1e-12);  // rounding of the difference of two times
 }
 
 // The time without samples that ends a run is the longest one, as a rule.
@@ -65,11 +65,11 @@ TEST(HealthCounts, TheLongestGapGoesOnToTheEndOfTheRun) {
   EXPECT_EQ(health.longest_gap, 0.0) << "without a frame there is nothing to wait for";
   health.count(1.000, came(Arrival::none));
   health.count(1.010, came(Arrival::fresh));
-  EXPECT_DOUBLE_EQ(health.longest_gap, 0.010);
+  EXPECT_NEAR(health.longest_gap, 0.010, 1e-12);  // rounding of the difference of two times
   health.count(1.020, came(Arrival::none));
   health.count(1.100, came(Arrival::lost));
   health.end_of_samples(1.110);
-  EXPECT_DOUBLE_EQ(health.longest_gap, 0.100);
+  EXPECT_NEAR(health.longest_gap, 0.100, 1e-12);  // likewise
 }
 
 TEST(HealthWarnings, BeginBeyondOnePercentOfTheFrames) {

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
               1.0,
               [](double force) { return force + 0.1; },
               {Cause::wrong_tare, Cause::no_specimen}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& wrong) { return wrong.param.name; });
 
 TEST(Verdict, MeasuresHowFarTheSurfaceIsOff) {
   for (const double surface : {-0.4e-3, -0.2e-3, 0.2e-3, 0.4e-3, 0.8e-3}) {
