@@ -7,7 +7,6 @@
 namespace palpate::device {
 namespace {
 
-constexpr double stop_time = 0.5;                  // s, during which stop() repeats the command
 constexpr double sample_time = 0.05;               // s, after which a reading is requested again
 constexpr double burst = 4e-3;                     // s, within which late replies follow each other
 constexpr double byte_time = 10.0 / mark10::baud;  // s, with start and stop bit
@@ -20,11 +19,6 @@ constexpr int most_reads = 64;  // of 256 bytes: twice what a line at 115200 bau
 // ESM303 data sheet: 0.5 to 1100 mm/min. They cannot be requested: `j` and `k` select them.
 constexpr double slowest = 0.5e-3 / 60.0;     // m/s
 constexpr double fastest = 1100.0e-3 / 60.0;  // m/s
-
-void pause(double time) {
-  Clock wire(Clock::Kind::monotonic);
-  wire.sleep_until(wire_time() + time);
-}
 
 }  // namespace
 
@@ -58,6 +52,11 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
   }
   greet();
   greeting_ = false;
+}
+
+void Mark10::pause(double time) {
+  Clock wire(Clock::Kind::monotonic);
+  wire.sleep_until(wire_time() + time);
 }
 
 Mark10::~Mark10() = default;  // the guard sends the stop, then the port closes
@@ -221,9 +220,16 @@ bool Mark10::is_late() {
   return more();
 }
 
-// Gives up the present request. Its reply is recognised if it comes later.
+// Gives up the present request. Its reply is recognised if it comes later. If a reply has come
+// since the request and none after it, that was the reply: the earlier ones are lost, and on a line
+// faster than its nominal rate, as over USB, every further one would be taken for late as well.
 void Mark10::give_up() {
   asked_ = false;
+  if (heard_late_) {
+    traffic_.unanswered += owed_count_;
+    owed_count_ = 0;
+    return;
+  }
   if (owed_count_ == owed_.size()) {
     std::copy(owed_.begin() + 1, owed_.end(), owed_.begin());
     --owed_count_;
@@ -262,6 +268,7 @@ Sample Mark10::read_sample(double wait) {
     asked_ = true;
     ++traffic_.sent;
     heard_ = false;
+    heard_late_ = false;
     reply_size_ = 0;
     asked_at_ = wire_time();
   }
@@ -274,6 +281,7 @@ Sample Mark10::read_sample(double wait) {
         ++traffic_.received;
         if (is_late()) {
           ++traffic_.late;
+          heard_late_ = true;
           traffic_.reply.add(clock_.now() - owed_.front());
           std::copy(owed_.begin() + 1, owed_.end(), owed_.begin());
           --owed_count_;
@@ -308,102 +316,6 @@ Sample Mark10::read_sample(double wait) {
     if (now >= until) return finished(Arrival::none, fault);
     receive(std::min(until, asked_at_ + patience(sample_time)));
   }
-}
-
-// Compares the limits that the stand reports with `low` and `high` (m).
-Fault Mark10::compare_limits(double low, double high) {
-  constexpr double close = 0.51 * mark10::travel_step;  // rounding to the stand's resolution
-  const auto in_metres = [](const mark10::Quantity& one) {
-    return one.unit.empty() ? one.value * 1e-3 : mark10::metres(one).value_or(Sample::nan);
-  };
-  const auto got_low = ask_number("w");
-  const auto got_high = ask_number("v");
-  if (port_.lost()) return Fault::hung_up;
-  if (!got_low || !got_high) return Fault::silent;
-  const bool same = std::abs(in_metres(*got_low) - low) <= close &&
-                    std::abs(in_metres(*got_high) - high) <= close;
-  return same ? Fault::none : Fault::not_verified;
-}
-
-Fault Mark10::set_travel_limits(double low, double high) {
-  limits_verified_ = false;
-  // Rounded to the stand's resolution, because the stand reports them no finer.
-  low = mark10::travel_step * std::round(low / mark10::travel_step);
-  high = mark10::travel_step * std::round(high / mark10::travel_step);
-  const auto lower = mark10::lower_limit_command(low);
-  const auto upper = mark10::upper_limit_command(high);
-  if (purpose_ != Purpose::command || !lower || !upper || !(low < high)) return Fault::refused;
-  drain();
-  send("l");
-  send(lower->text());
-  send(upper->text());
-  // Setters have no reply: the limits are requested up to three times, until they have changed.
-  Fault fault = Fault::not_verified;
-  for (int tries = 0; tries < 3 && fault != Fault::none; ++tries) fault = compare_limits(low, high);
-  if (fault != Fault::none) return fault;
-  const auto status = ask_status();
-  // Limits are active in limit mode only; a status without a mode is accepted.
-  if (status && status->mode != '?' && status->mode != 'L') return Fault::not_verified;
-  limits_.low = low;
-  limits_.high = high;
-  limits_verified_ = true;
-  return Fault::none;
-}
-
-Fault Mark10::move(const Motion& motion) {
-  if (motion.act == Motion::Act::stop) return stop() ? Fault::none : Fault::not_verified;
-  if (purpose_ != Purpose::command || !limits_verified_) return Fault::refused;
-  if (port_.lost()) return Fault::hung_up;
-  if (!process_->alive()) return Fault::unguarded;
-  if (!(motion.speed >= limits_.slowest) || !(motion.speed <= limits_.speed)) return Fault::refused;
-  const auto speed = mark10::speed_command(motion.speed);
-  if (!speed) return Fault::refused;
-  // A stand that was switched off and on since the last motion has lost its limits.
-  if (const Fault fault = compare_limits(limits_.low, limits_.high); fault != Fault::none)
-    return fault;
-  send(speed->text());
-  const auto got = ask_number("a");
-  if (port_.lost()) return Fault::hung_up;
-  if (!got) return Fault::silent;
-  const auto read_back = mark10::metres_per_second(*got);
-  if (!read_back || std::abs(*read_back - motion.speed) > 0.51 * mark10::speed_step)
-    return Fault::not_verified;
-  process_->watch(true);
-  return send(motion.act == Motion::Act::down ? "d" : "u") ? Fault::none : Fault::hung_up;
-}
-
-bool Mark10::stop() {
-  if (purpose_ == Purpose::look) return true;  // such a link cannot start a motion
-  const bool stopped = confirm_stop();
-  if (stopped && process_) process_->watch(false);
-  return stopped;
-}
-
-bool Mark10::confirm_stop() {
-  // The stand brakes from its highest speed in about 0.1 s.
-  const double until = wire_time() + patience(stop_time);
-  while (!has_status_ && wire_time() < until && !port_.lost()) {
-    send("s");
-    if (stands_still(2.0 * planned_period)) return true;
-  }
-  if (!has_status_) return false;
-  do {
-    send("s");
-    const auto status = ask_status();
-    if (status && status->moving == mark10::Status::Moving::stopped) return true;
-    if (status && clock_.kind() == Clock::Kind::monotonic) pause(planned_period);
-    if (process_) process_->beat();
-  } while (wire_time() < until && !port_.lost());
-  // Without a clear status, two equal readings of the travel count as a stop. They cannot detect
-  // slow motion: at its lowest speed the stand moves by 0.02 mm, its resolution, in 2.4 s.
-  return !port_.lost() && stands_still(2.0 * planned_period);
-}
-
-bool Mark10::stands_still(double time) {
-  const auto first = ask_number("x");
-  pause(time);
-  const auto second = ask_number("x");
-  return first && second && first->value == second->value && first->unit == second->unit;
 }
 
 }  // namespace palpate::device

@@ -80,6 +80,7 @@ class Mark10 {
   std::optional<mark10::Settings> ask_settings();
   bool confirm_stop();
   // Whether two readings of the travel, `time` s apart, are equal.
+  static void pause(double time);  // s, of the machine's clock
   bool stands_still(double time);
   Fault compare_limits(double low, double high);
   Sample accept(const mark10::Pair& pair);
@@ -106,6 +107,7 @@ class Mark10 {
   bool limits_verified_ = false;
   bool asked_ = false;          // a reading was requested and has not arrived
   bool heard_ = false;          // bytes have arrived since that request
+  bool heard_late_ = false;     // a reply since that request was taken for an earlier one's
   double asked_at_ = 0.0;       // s, wire_time() of that request
   bool has_status_ = true;      // the stand replies to `p`
   double asked_time_ = 0.0;     // s, likewise by clock_
