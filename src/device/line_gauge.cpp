@@ -196,7 +196,7 @@ Sample LineGauge::sample(double wait) {
       keep(*line);
       ++traffic_.received;
       if (settings_.poll.empty()) pass_time();
-      const Sample sample = read(*line);
+      Sample sample = read(*line);
       // A line that does not match may be an echo, with the reply behind it.
       asked_ = asked_ && sample.arrival == Arrival::dropped;
       heard_ = false;

@@ -117,7 +117,7 @@ void LineGauge::stream(Nanoseconds until) {
     next_line_ = until;
     return;
   }
-  const auto step = static_cast<Nanoseconds>(1e9 / per_second + 0.5);
+  const Nanoseconds step = std::llround(1e9 / per_second);
   if (next_line_ == 0) next_line_ = step;
   for (; next_line_ <= until && !unplugged_; next_line_ += step) {
     go_to(next_line_, lines_);
@@ -128,7 +128,7 @@ void LineGauge::stream(Nanoseconds until) {
 void LineGauge::pass(Nanoseconds now) {
   if (settings_.clock == Clock::lockstep) {
     if (listened_ && line_rate() > 0.0 && out_.empty() && !faults_.lasts("stall", now_))
-      stream(std::max(next_line_, static_cast<Nanoseconds>(1e9 / line_rate() + 0.5)));
+      stream(std::max<Nanoseconds>(next_line_, std::llround(1e9 / line_rate())));
     else if (listened_ && faults_.lasts("stall", now_))
       go_to(now_ + settings_.tick, -1);  // a stall ends, though nothing is sent
     return;

@@ -96,7 +96,7 @@ std::string answer(Stand& stand, char byte) {
   const Crosshead& head = stand.crosshead;
   switch (byte) {
     case 'n': {
-      const std::string force = reading_line(stand.language, stand.gauge, stand.gauge.mode);
+      std::string force = reading_line(stand.language, stand.gauge, stand.gauge.mode);
       if (!stand.settings.travel_display) return force;
       const std::string way = travel_text(stand, travel(stand)) + "\r\n";
       return stand.settings.order == PairOrder::travel_first ? way + force : force + way;
