@@ -1,4 +1,5 @@
 // `palpate device`: identifies a device, reports the rate of its samples, or stops it.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,7 @@ const char* kind_text(device::Kind kind) {
   switch (kind) {
     case device::Kind::stand: return "stand with force gauge";
     case device::Kind::arm: return "haptic arm";
+    case device::Kind::gauge: return "gauge on a serial line";
     case device::Kind::recording: return "recording";
   }
   return "unknown";
@@ -126,10 +128,18 @@ std::string rate_sentence(const Session& session) {
          std::to_string(health.missing) + " missing";
 }
 
+// The fault that most of the samples had, as a clause.
+std::string most_frequent(const device::Health& health) {
+  const auto most = std::max_element(health.faults.begin(), health.faults.end());
+  return *most == 0 ? "nothing came"
+                    : std::string(device::fault_text(
+                          static_cast<device::Fault>(most - health.faults.begin())));
+}
+
 int stop(const Device& command, const Talk& talk) {
-  if (std::holds_alternative<device::RecordingAddress>(device::parse_link(command.link)))
+  if (device::only_reads(device::parse_link(command.link)))
     throw InputError({"device stop", 0, 0},
-                     "wants a device, got the recording `" + command.link +
+                     "wants a device that moves, got `" + command.link +
                          "`; give the link of the stand, as `mark10:/dev/ttyUSB0`");
   device::Clock clock(device::Clock::Kind::monotonic);
   device::Link link(command.link, device::Purpose::stop, clock);
@@ -164,15 +174,24 @@ int perform(const Device& command, const Arguments&, const Talk& talk) {
                {"link", command.link},
                {"kind", kind_text(link.identity().kind)},
                {"rate_per_s", rate_of(session)}};
+    if (link.identity().kind == device::Kind::gauge) event["lines"] = link.heard();
     event.update(json);
     print(event.dump() + "\n");
   } else {
     if (session.health.fresh > 0) print("now       " + sample_text(session.last) + "\n");
     print(rate_sentence(session) + "\n");
+    for (const std::string& line : link.heard()) print("line      " + line + "\n");
   }
   if (stop) return exit_interrupted;
-  // The end of a recording is not a fault.
+  // The end of a recording is not a fault. A link that gives no sample at all does not work.
   if (session.ended_by == device::Fault::recording_ended) return exit_good;
+  if (session.ended_by == device::Fault::none && session.health.fresh == 0 &&
+      session.health.frames > 0) {
+    Talk::error("palpate: `" + command.link + "`: 0 samples of " +
+                std::to_string(session.health.frames) + ": " + most_frequent(session.health) +
+                "; look at what it sends with `palpate run ... --traffic`, and at its settings");
+    return exit_device;
+  }
   if (session.ended_by != device::Fault::none) {
     Talk::error("palpate: `" + command.link +
                 "`: " + std::string(device::fault_text(session.ended_by)) +

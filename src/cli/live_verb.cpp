@@ -7,6 +7,7 @@
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
+#include "device/link_text.h"
 #include "fit/case_fits.h"
 #include "live/guide.h"
 #include "live/live.h"
@@ -85,8 +86,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted, {SIGHUP});
   live::Live live(scene, options);
   for (const std::string& sentence : live.plan(file)) talk.say(sentence);
-  const bool recording = options.link.starts_with("replay:");
-  if (!command.device.arm && !recording) {
+  if (!command.device.arm && !device::only_reads(device::parse_link(options.link))) {
     talk.say("nothing was moved and no force was sent; give `--arm` to run this");
     return exit_good;
   }
@@ -101,15 +101,15 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
                      live::guidance(scene.scenario.steps[as_index(step - 1)]));
           },
       .on_warning = [&](const std::string& sentence) { talk.warn(sentence); },
-      .rows_file = folder.growing("force_indentation.csv"),
+      .rows_file = folder.growing(live.rows_name()),
       .traffic_file = command.device.traffic ? folder.growing("traffic.csv") : std::string()};
   live::Live::Result result = live.go(stop_requested, output);
-  if (result.rows_are_written) folder.take_grown("force_indentation.csv");
+  if (result.rows_are_written) folder.take_grown(live.rows_name());
   if (command.device.traffic) folder.take_grown("traffic.csv");
   for (const std::string& warning : result.warnings) talk.warn(warning);
   for (const std::string& remark : result.record.remarks)
     talk.say(result.record.name + ": " + remark + ".");
-  const std::string rows = std::to_string(result.record.contact.size()) + " rows";
+  const std::string rows = std::to_string(result.rows) + " rows";
   const int code = code_of(result.end.why);
   const std::string ended = "palpate: " + options.link + ": " + result.end.sentence;
   try {

@@ -45,7 +45,7 @@ Inverse3::Inverse3(const ArmAddress& address, Purpose purpose, Clock& clock, Tap
   limits_.lost_after = 0.1;
   listen(address, tap);
   ask_version(address.port);
-  greet();
+  greet(address.id);
 }
 
 Inverse3::~Inverse3() {
@@ -79,7 +79,7 @@ void Inverse3::ask_version(int port) {
     identity_.notes.push_back("the service does not report its version");
 }
 
-void Inverse3::greet() {
+void Inverse3::greet(const std::string& wanted_id) {
   const auto first = socket_.receive(std::max(connected_by_, wire_time() + greeting_time));
   if (first.outcome != WebSocket::Outcome::message)
     throw LinkError(first.outcome == WebSocket::Outcome::closed
@@ -95,19 +95,70 @@ void Inverse3::greet() {
     throw LinkError(
         "palpate: the service runs, but reports no Inverse3; connect and calibrate "
         "it, and check that no other program uses it");
-  identity_.id = snapshot->arms.front().id;
-  identity_.model = snapshot->arms.front().model;
-  if (snapshot->arms.size() > 1)
-    identity_.notes.push_back("the service reports " + std::to_string(snapshot->arms.size()) +
-                              " arms; the first is used, " + identity_.id);
-  if (!snapshot->arms.front().firmware.empty())
-    identity_.notes.push_back("the arm's own firmware is " + snapshot->arms.front().firmware);
+  std::string ids;
+  for (const inverse3::Arm& arm : snapshot->arms) ids += (ids.empty() ? "`" : ", `") + arm.id + "`";
+  const auto chosen = std::find_if(
+      snapshot->arms.begin(), snapshot->arms.end(),
+      [&](const inverse3::Arm& arm) { return wanted_id.empty() || arm.id == wanted_id; });
+  if (chosen == snapshot->arms.end())
+    throw LinkError("palpate: the service has no arm `" + wanted_id + "`, only " + ids +
+                    "; write one of these after the `/`");
+  if (snapshot->arms.size() > 1 && wanted_id.empty()) {
+    const std::string several =
+        "the service has " + std::to_string(snapshot->arms.size()) + " arms, " + ids;
+    if (purpose_ == Purpose::command)
+      throw LinkError("palpate: " + several + "; choose one, as `inverse3:HOST:PORT/" + chosen->id +
+                      "`");
+    identity_.notes.push_back(several + "; the first is read");
+  }
+  accept(*chosen);
+  find_spelling();
+  if (socket_.closed()) throw LinkError("palpate: " + socket_.why_closed());
+  if (gone_ == Fault::flooded)
+    throw LinkError("palpate: the service sends more than can be read; restart it");
+  if (gone_ == Fault::reframed)
+    throw LinkError("palpate: " + std::string(fault_text(gone_)) +
+                    "; let no other program set them");
+  if (gone_ != Fault::none)
+    throw LinkError("palpate: the service says that the arm " + identity_.id +
+                    " was disconnected; connect it again");
+  if (traffic_.events.counts[as_index(Event::busy)] > 0)
+    identity_.notes.push_back("another session uses the arm; end it");
+  identity_.dialect = inverse3::spelling_text(spelling_);
+}
 
-  // The arm stays idle if the service does not know the spelling.
+// Refuses an arm that cannot be commanded as its positions say; one that is only read gets a note.
+void Inverse3::accept(const inverse3::Arm& arm) {
+  identity_.id = arm.id;
+  identity_.model = arm.model;
+  id_form_ = arm.form;
+  framed_ = !arm.frame.empty();
+  if (!arm.firmware.empty()) identity_.notes.push_back("the arm's own firmware is " + arm.firmware);
+  if (arm.shifted)
+    identity_.notes.push_back(
+        "the service shifts the arm's coordinates; heights, also that of "
+        "`--surface`, are shifted as well");
+  const auto refuse = [&](const std::string& why, const std::string& remedy) {
+    const std::string sentence = "the arm " + arm.id + " " + why + "; " + remedy;
+    if (purpose_ == Purpose::command) throw LinkError("palpate: " + sentence);
+    identity_.notes.push_back(sentence);
+  };
+  if (!arm.calibrated) refuse("is not calibrated", "calibrate it as its maker says");
+  if (!arm.powered)
+    refuse("has no power supply and cannot exert a force", "plug its power supply in");
+  if (framed_)
+    refuse("is shown in other coordinates (" + arm.frame + ")",
+           "set basis `XYZ` and an identity mount and transform in the service: positions and "
+           "forces are taken as they are");
+}
+
+// The arm stays idle if the service does not know the spelling.
+void Inverse3::find_spelling() {
   using inverse3::Spelling;
   const Spelling expected = inverse3::spelling_of(identity_.firmware);
   const Spelling other = expected == Spelling::vector ? Spelling::values : Spelling::vector;
-  if (!try_spelling(expected)) {
+  probes_ = purpose_ != Purpose::command && inverse3::has_probe(identity_.firmware);
+  if (!try_spelling(expected) && !probes_) {
     if (!socket_.closed() && try_spelling(other)) {
       identity_.notes.push_back("the service takes a force as `" +
                                 std::string(inverse3::spelling_text(other)) +
@@ -119,15 +170,6 @@ void Inverse3::greet() {
           "known whether it takes forces");
     }
   }
-  if (socket_.closed()) throw LinkError("palpate: " + socket_.why_closed());
-  if (gone_ == Fault::flooded)
-    throw LinkError("palpate: the service sends more than can be read; restart it");
-  if (gone_ != Fault::none)
-    throw LinkError("palpate: the service says that the arm " + identity_.id +
-                    " was disconnected; connect it again");
-  if (traffic_.events.counts[as_index(Event::busy)] > 0)
-    identity_.notes.push_back("another session uses the arm; end it");
-  identity_.dialect = inverse3::spelling_text(spelling_);
 }
 
 bool Inverse3::try_spelling(inverse3::Spelling spelling) {
@@ -139,13 +181,14 @@ bool Inverse3::try_spelling(inverse3::Spelling spelling) {
     if (got.arrival == Arrival::lost) return false;
     if (got.arrival == Arrival::none) continue;
     ++answers;
+    if (probes_) return true;
     // The first reply may still describe the time before the message.
     if (answers > 1 && mode_ == inverse3::Mode::other) return confirmed_ = true;
   }
   // If the service does not report the mode, the spelling is accepted.
   if (answers > 0 && mode_ == inverse3::Mode::unknown) return true;
   if (answers == 0)
-    throw LinkError("palpate: the service does not reply to a zero force for " + identity_.id +
+    throw LinkError("palpate: the service does not reply to a message for " + identity_.id +
                     "; restart it");
   return false;
 }
@@ -153,7 +196,8 @@ bool Inverse3::try_spelling(inverse3::Spelling spelling) {
 bool Inverse3::send(const Vec3& force) {
   // With a stepped clock every message takes one period.
   if (clock_.kind() == Clock::Kind::stepped) clock_.sleep_until(clock_.now() + period);
-  const auto message = inverse3::force_message(identity_.id, spelling_, force);
+  const auto message = probes_ ? inverse3::probe_message(identity_.id, id_form_)
+                               : inverse3::force_message(identity_.id, spelling_, force, id_form_);
   if (!socket_.send(message.text())) return false;
   if (!awaiting_) asked_at_ = wire_time();
   awaiting_ = true;
@@ -175,6 +219,7 @@ Sample Inverse3::read(const WebSocket::Received& message) {
   const inverse3::Reply reply = inverse3::parse_reply(message.text, identity_.id);
   if (reply.mode != inverse3::Mode::unknown) mode_ = reply.mode;
   idle_replies_ = reply.mode == inverse3::Mode::idle ? idle_replies_ + 1 : 0;
+  if (reply.framed && !framed_) gone_ = Fault::reframed;
   if (!reply.position) return finished(Arrival::dropped, reply.fault);
   const bool braked = confirmed_ && idle_replies_ >= most_idle;
   Sample sample = finished(Arrival::fresh, braked ? Fault::brake : reply.fault);

@@ -18,8 +18,11 @@ class Tap;
 class Inverse3 {
  public:
   // Finds the host, connects, requests the version and reads the snapshot, all within about 2 s;
-  // then finds the spelling by zero forces, within about 1.2 s. Throws LinkError with a diagnosis;
-  // a missing events port is only a note. `clock` and `tap` must outlive the link.
+  // then finds the spelling by zero forces, within about 1.2 s. With Purpose::look a service that
+  // can be read without forces is sent none. Throws LinkError with a diagnosis, with
+  // Purpose::command also for an arm that is not calibrated or has no power, for coordinates that
+  // the service turns or scales, and for several arms without an id in the address; a missing
+  // events port is only a note. `clock` and `tap` must outlive the link.
   Inverse3(const ArmAddress& address, Purpose purpose, Clock& clock, Tap* tap = nullptr);
   ~Inverse3();
   Inverse3(const Inverse3&) = delete;
@@ -40,7 +43,9 @@ class Inverse3 {
  private:
   void listen(const ArmAddress& address, Tap* tap);
   void ask_version(int port);
-  void greet();
+  void greet(const std::string& wanted_id);
+  void accept(const inverse3::Arm& arm);
+  void find_spelling();
   bool try_spelling(inverse3::Spelling spelling);
   bool send(const Vec3& force);
   void pass_over_duplicates();
@@ -61,6 +66,9 @@ class Inverse3 {
   Identity identity_;
   Limits limits_;
   inverse3::Spelling spelling_ = inverse3::Spelling::vector;
+  inverse3::IdForm id_form_ = inverse3::IdForm::text;
+  bool probes_ = false;    // positions are requested by `probe_position`, without forces
+  bool framed_ = false;    // the service turned or scaled the coordinates from the start
   bool awaiting_ = false;  // a message was sent since the last reply
   double asked_at_ = 0.0;  // s, wire_time() of the first message since the last reply
   inverse3::Mode mode_ = inverse3::Mode::unknown;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "device/json_scanner.h"
+#include "device/line_buffer.h"
 
 namespace palpate::device::inverse3 {
 namespace {
@@ -37,27 +38,54 @@ std::optional<Vec3> read_vector(JsonScanner& scanner) {
   return seen == 7u ? std::optional(vector) : std::nullopt;
 }
 
+constexpr double same = 1e-6;  // of a rotation or a scale: no difference
+
+// Whether {"position": , "rotation": {"w": , "x": ...}, "scale": {"x": ...}} turns or scales.
+bool read_framed(JsonScanner& scanner) {
+  bool framed = false;
+  if (!scanner.enter('{')) {
+    scanner.skip();
+    return false;
+  }
+  while (const auto key = scanner.next_key()) {
+    const bool turn = *key == "rotation";
+    if (!turn && *key != "scale") {
+      scanner.skip();
+    } else if (const auto vector = read_vector(scanner)) {
+      framed = framed || (vector->array() - (turn ? 0.0 : 1.0)).abs().maxCoeff() > same;
+    }
+  }
+  return framed;
+}
+
 void read_state(JsonScanner& scanner, Reply& reply) {
   if (!scanner.enter('{')) return scanner.skip();
+  bool newer = false;
   while (const auto key = scanner.next_key()) {
     if (*key == "cursor_position") {
       reply.position = read_vector(scanner);
     } else if (*key == "cursor_velocity") {
       reply.velocity = read_vector(scanner);
     } else if (*key == "control_mode" || *key == "mode") {  // from 3.5 on, and before
+      // Services in between have both words, and the older one may be left behind.
+      const bool counts = *key == "control_mode" || !newer;
+      newer = newer || *key == "control_mode";
       const auto mode = scanner.string();
-      if (mode) reply.mode = *mode == "idle" ? Mode::idle : Mode::other;
+      if (mode && counts) reply.mode = *mode == "idle" ? Mode::idle : Mode::other;
+    } else if (*key == "transform") {
+      reply.framed = read_framed(scanner);
     } else {
       scanner.skip();
     }
   }
 }
 
-// Sets Fault::brake if the status says that a brake acts or that the arm is not ready.
+// Sets Fault::brake if the status says that a brake acts, or that the arm is not ready or has no
+// power.
 void read_status(JsonScanner& scanner, Reply& reply) {
   if (!scanner.enter('{')) return scanner.skip();
   while (const auto key = scanner.next_key()) {
-    const bool good = *key == "ready" || *key == "calibrated";
+    const bool good = *key == "ready" || *key == "calibrated" || *key == "power_supply";
     const bool bad = *key == "ebrake" || *key == "ebrake_triggered" || *key == "brake";
     if (!good && !bad) {
       scanner.skip();
@@ -78,7 +106,7 @@ bool read_arm(JsonScanner& scanner, std::string_view id, Reply& reply, bool& oth
   bool ours = false;
   while (const auto key = scanner.next_key()) {
     if (*key == "device_id") {
-      const auto name = scanner.string();
+      const auto name = scanner.word();
       ours = name == id;
       others = others || !ours;
     } else if (*key == "state") {
@@ -111,6 +139,49 @@ std::string text_of(const Json* object, const char* name) {
                             : (value->is_number() ? value->dump() : std::string());
 }
 
+// What of a pose (position, rotation, scale) is not the identity: added to the arm's frame.
+void add_frame(const Json* pose, const std::string& name, Arm& arm) {
+  if (pose == nullptr) return;
+  const auto farthest_from = [&](const char* part, double plain) {
+    double most = 0.0;
+    const Json* vector = member(*pose, part);
+    if (vector == nullptr) return most;
+    for (const char* axis : {"x", "y", "z"})
+      if (const Json* value = member(*vector, axis); value != nullptr && value->is_number())
+        most = std::max(most, std::abs(value->get<double>() - plain));
+    return most;
+  };
+  const auto add = [&](const std::string& what) {
+    arm.frame += (arm.frame.empty() ? "" : ", ") + what;
+  };
+  if (farthest_from("rotation", 0.0) > same) add("a " + name + " that turns");
+  if (farthest_from("scale", 1.0) > same) add("a " + name + " that scales");
+  arm.shifted = arm.shifted || farthest_from("position", 0.0) > 0.0;
+}
+
+bool is_false(const Json* object, const char* name) {
+  const Json* value = object != nullptr ? member(*object, name) : nullptr;
+  return value != nullptr && value->is_boolean() && !value->get<bool>();
+}
+
+struct Version {
+  int major = 0;
+  int minor = 0;
+};
+// Nothing if the text does not begin with two numbers and a point between them.
+std::optional<Version> version_of(std::string_view text) {
+  Version version;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, version.major);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '.') return std::nullopt;
+  if (std::from_chars(first.ptr + 1, end, version.minor).ec != std::errc()) return std::nullopt;
+  return version;
+}
+
+bool is_new(const Version& version) {
+  return version.major > 3 || (version.major == 3 && version.minor >= 5);
+}
+
 }  // namespace
 
 std::string_view spelling_text(Spelling spelling) {
@@ -129,13 +200,13 @@ std::string parse_version(std::string_view body) {
 }
 
 Spelling spelling_of(std::string_view version) {
-  int major = 0;
-  int minor = 0;
-  const char* end = version.data() + version.size();
-  const auto first = std::from_chars(version.data(), end, major);
-  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '.') return Spelling::vector;
-  if (std::from_chars(first.ptr + 1, end, minor).ec != std::errc()) return Spelling::vector;
-  return major > 3 || (major == 3 && minor >= 5) ? Spelling::vector : Spelling::values;
+  const auto known = version_of(version);
+  return !known || is_new(*known) ? Spelling::vector : Spelling::values;
+}
+
+bool has_probe(std::string_view version) {
+  const auto known = version_of(version);
+  return known && is_new(*known);
 }
 
 bool usable_id(std::string_view id) {
@@ -155,12 +226,23 @@ std::optional<Snapshot> parse_snapshot(std::string_view message) {
     Arm arm;
     arm.id = text_of(&one, "device_id");
     if (!usable_id(arm.id)) continue;
+    if (const Json* id = member(one, "device_id"); id->is_number()) arm.form = IdForm::number;
     const Json* config = member(one, "config");
     const Json* info = config != nullptr ? member(*config, "device_info") : nullptr;
     arm.model = text_of(config, "type");
     const std::string major = text_of(info, "major_version");
     const std::string minor = text_of(info, "minor_version");
     if (!major.empty() && !minor.empty()) arm.firmware = major + "." + minor;
+    const Json* basis = config != nullptr ? member(*config, "basis") : nullptr;
+    const std::string permutation = text_of(basis, "permutation");
+    if (!permutation.empty() && permutation != "XYZ")
+      arm.frame = "the basis `" + printable(permutation) + "`";
+    const Json* state = member(one, "state");
+    add_frame(config != nullptr ? member(*config, "mount") : nullptr, "mount", arm);
+    add_frame(state != nullptr ? member(*state, "transform") : nullptr, "transform", arm);
+    const Json* status = member(one, "status");
+    arm.calibrated = !is_false(status, "calibrated");
+    arm.powered = !is_false(status, "power_supply");
     snapshot.arms.push_back(arm);
   }
   return snapshot;
@@ -190,30 +272,47 @@ Reply parse_reply(std::string_view message, std::string_view id) {
   return reply;
 }
 
-Message force_message(std::string_view id, Spelling spelling, const Vec3& force) {
+namespace {
+
+void add(Message& message, std::string_view text) {
+  const std::size_t size = std::min(text.size(), message.bytes.size() - message.size);
+  std::copy_n(text.data(), size, message.bytes.data() + message.size);
+  message.size += size;
+}
+
+void add_number(Message& message, double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  add(message, {digits.data(), as_index(end.ptr - digits.data())});
+}
+
+Message begun_message(std::string_view id, IdForm form) {
+  const std::string_view quote = form == IdForm::text ? "\"" : "";
   Message message;
-  const auto add = [&](std::string_view text) {
-    const std::size_t size = std::min(text.size(), message.bytes.size() - message.size);
-    std::copy_n(text.data(), size, message.bytes.data() + message.size);
-    message.size += size;
-  };
-  const auto add_number = [&](double value) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-    add({digits.data(), as_index(end.ptr - digits.data())});
-  };
+  for (const std::string_view part : {std::string_view(R"({"inverse3":[{"device_id":)"), quote, id,
+                                      quote, std::string_view(R"(,"commands":{)")})
+    add(message, part);
+  return message;
+}
+
+}  // namespace
+
+Message force_message(std::string_view id, Spelling spelling, const Vec3& force, IdForm form) {
+  Message message = begun_message(id, form);
   const Vec3 sent = force.allFinite() ? force : Vec3::Zero();
-  add(R"({"inverse3":[{"device_id":")");
-  add(id);
-  add(R"(","commands":{"set_cursor_force":{")");
-  add(spelling_text(spelling));
-  add(R"(":{"x":)");
-  add_number(sent.x());
-  add(R"(,"y":)");
-  add_number(sent.y());
-  add(R"(,"z":)");
-  add_number(sent.z());
-  add("}}}}]}");
+  add(message, R"("set_cursor_force":{")");
+  add(message, spelling_text(spelling));
+  for (int axis = 0; axis < 3; ++axis) {
+    add(message, std::array{R"(":{"x":)", R"(,"y":)", R"(,"z":)"}[as_index(axis)]);
+    add_number(message, sent[axis]);
+  }
+  add(message, "}}}}]}");
+  return message;
+}
+
+Message probe_message(std::string_view id, IdForm form) {
+  Message message = begun_message(id, form);
+  add(message, R"("probe_position":{}}}]})");
   return message;
 }
 

@@ -25,11 +25,23 @@ enum class Spelling { vector, values };
 // The spelling of that version; `vector` if the version cannot be read.
 [[nodiscard]] Spelling spelling_of(std::string_view version);
 
-// An arm in the first message, which is a full snapshot.
+// Whether that version has `probe_position`, which reads without a force: from 3.5 on.
+[[nodiscard]] bool has_probe(std::string_view version);
+
+enum class IdForm { text, number };  // how a service writes the id of an arm
+
+// An arm in the first message, which is a full snapshot. What the message lacks counts as good.
 struct Arm {
   std::string id;
+  IdForm form = IdForm::text;
   std::string model;     // config.type
   std::string firmware;  // MAJOR.MINOR of config.device_info; empty if it is not there
+  // How the service turns or scales the arm's coordinates: "the basis `XZY`, a mount that turns";
+  // empty if it does neither. A mount or transform that only shifts is none.
+  std::string frame;
+  bool shifted = false;  // by the mount or the transform
+  bool calibrated = true;
+  bool powered = true;
 };
 struct Snapshot {
   std::vector<Arm> arms;
@@ -47,7 +59,8 @@ struct Reply {
   Fault fault = Fault::none;          // garbage, missing_field, wrong_device, not_finite, brake
   std::optional<Vec3> position = {};  // m
   std::optional<Vec3> velocity = {};  // m/s
-  Mode mode = Mode::unknown;
+  Mode mode = Mode::unknown;          // of `control_mode`, or of the older `mode` without it
+  bool framed = false;                // the state's `transform` turns or scales
 };
 // Reads a reply for the arm `id`. Never allocates and never throws. Valid JSON without this arm is
 // missing_field, or wrong_device if it contains other arms. Numbers beyond any arm (10 m, 100 m/s)
@@ -61,6 +74,9 @@ struct Message {
   [[nodiscard]] std::string_view text() const { return {bytes.data(), size}; }
 };
 // `force` in N; if a component is not finite, all three are sent as zero.
-[[nodiscard]] Message force_message(std::string_view id, Spelling spelling, const Vec3& force);
+[[nodiscard]] Message force_message(std::string_view id, Spelling spelling, const Vec3& force,
+                                    IdForm form = IdForm::text);
+// {"inverse3":[{"device_id":"049D","commands":{"probe_position":{}}}]}
+[[nodiscard]] Message probe_message(std::string_view id, IdForm form = IdForm::text);
 
 }  // namespace palpate::device::inverse3

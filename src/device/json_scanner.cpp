@@ -127,6 +127,14 @@ std::optional<std::string_view> JsonScanner::string() {
   return std::nullopt;
 }
 
+std::optional<std::string_view> JsonScanner::word() {
+  space();
+  const std::size_t start = at_;
+  if (peek() == '"') return string();
+  if (!number()) return std::nullopt;
+  return text_.substr(start, at_ - start);
+}
+
 std::optional<bool> JsonScanner::boolean() {
   space();
   if (failed_) return std::nullopt;

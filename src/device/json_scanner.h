@@ -25,6 +25,7 @@ class JsonScanner {
   // Each reads a value. A value of another type is skipped, and the result is nothing.
   std::optional<double> number();
   std::optional<std::string_view> string();
+  std::optional<std::string_view> word();  // a string, or a number as it is written
   std::optional<bool> boolean();
   void skip();
 

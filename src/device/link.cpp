@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "device/inverse3.h"
+#include "device/line_gauge.h"
 #include "device/link_text.h"
 #include "device/mark10.h"
 #include "device/recording.h"
@@ -12,7 +13,7 @@
 namespace palpate::device {
 
 struct Link::Variant {
-  std::variant<Mark10, Inverse3, Recording> link;
+  std::variant<Mark10, LineGauge, Inverse3, Recording> link;
 
   template <class Kind, class... Arguments>
   explicit Variant(std::in_place_type_t<Kind> kind, Arguments&&... arguments)
@@ -21,6 +22,10 @@ struct Link::Variant {
   static std::unique_ptr<Variant> open(const StandAddress& address, Purpose purpose, Clock& clock,
                                        Tap* tap) {
     return std::make_unique<Variant>(std::in_place_type<Mark10>, address.port, purpose, clock, tap);
+  }
+  static std::unique_ptr<Variant> open(const GaugeAddress& address, Purpose, Clock& clock,
+                                       Tap* tap) {
+    return std::make_unique<Variant>(std::in_place_type<LineGauge>, address, clock, tap);
   }
   static std::unique_ptr<Variant> open(const ArmAddress& address, Purpose purpose, Clock& clock,
                                        Tap* tap) {
@@ -70,6 +75,11 @@ Fault Link::set_travel_limits(double low, double high) {
 Fault Link::command_motion(const Motion& motion) {
   auto* stand = std::get_if<Mark10>(&link_->link);
   return stand != nullptr ? stand->move(motion) : Fault::refused;
+}
+
+std::vector<std::string> Link::heard() const {
+  const auto* gauge = std::get_if<LineGauge>(&link_->link);
+  return gauge != nullptr ? gauge->heard() : std::vector<std::string>();
 }
 
 bool Link::stop() {

@@ -1,8 +1,10 @@
-// A link to a device of any kind: stand, arm or recording.
+// A link to a device of any kind: stand, gauge, arm or recording.
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/clock.h"
 #include "device/sample.h"
@@ -37,6 +39,9 @@ class Link {
   // Limits (m) and motion of the stand's crosshead; see Mark10. Other links return `refused`.
   [[nodiscard]] Fault set_travel_limits(double low, double high);
   [[nodiscard]] Fault command_motion(const Motion& motion);
+
+  // The last lines of a gauge on a serial line, each with what it says; empty for other links.
+  [[nodiscard]] std::vector<std::string> heard() const;
 
   // Stops motion and force. True if the stand confirms it, or if the arm's link is not lost after a
   // zero force was sent. Does nothing and returns true for a stand opened with Purpose::look.

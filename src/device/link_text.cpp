@@ -18,13 +18,17 @@ struct LinkKind {
   Address (*address)(std::string_view text, std::string_view rest);  // `rest` follows the colon
 };
 Address stand_address(std::string_view text, std::string_view rest);
+Address gauge_address(std::string_view text, std::string_view rest);
 Address arm_address(std::string_view text, std::string_view rest);
 Address recording_address(std::string_view text, std::string_view rest);
 
 // In the order of Address.
 constexpr std::array kinds{
     LinkKind{"mark10", "mark10:PORT", "mark10:/dev/ttyUSB0", stand_address},
-    LinkKind{"inverse3", "inverse3:HOST:PORT[:EVENTS]", "inverse3:localhost:10001", arm_address},
+    LinkKind{"serial", "serial:PORT,SETTINGS.toml", "serial:/dev/ttyACM0,gauge.toml",
+             gauge_address},
+    LinkKind{"inverse3", "inverse3:HOST:PORT[:EVENTS][/ID]", "inverse3:localhost:10001",
+             arm_address},
     LinkKind{"replay", "replay:FILE.csv", "replay:FILE.csv", recording_address}};
 static_assert(kinds.size() == std::variant_size_v<Address>, "a link lacks its text");
 
@@ -60,12 +64,21 @@ Address stand_address(std::string_view text, std::string_view rest) {
   return StandAddress{std::string(rest)};
 }
 
+// The file of the settings follows the last comma, which a port's path may have as well.
+Address gauge_address(std::string_view text, std::string_view rest) {
+  const auto comma = rest.rfind(',');
+  if (comma == std::string_view::npos || comma + 1 == rest.size())
+    refuse(text, "names no file of settings after a comma");
+  if (comma == 0) refuse(text, "names no serial port");
+  return GaugeAddress{std::string(rest.substr(0, comma)), std::string(rest.substr(comma + 1))};
+}
+
 Address recording_address(std::string_view text, std::string_view rest) {
   if (rest.empty()) refuse(text, "names no file");
   return RecordingAddress{std::string(rest)};
 }
 
-// HOST:PORT or HOST:PORT:EVENTS; a host that contains colons (IPv6) is written in brackets.
+// HOST:PORT[:EVENTS][/ID]; a host that contains colons (IPv6) is written in brackets.
 Address arm_address(std::string_view text, std::string_view rest) {
   const bool bracketed = rest.starts_with('[');
   if (bracketed) rest.remove_prefix(1);
@@ -74,8 +87,15 @@ Address arm_address(std::string_view text, std::string_view rest) {
   if (bracketed && ports.starts_with(']')) ports.remove_prefix(1);
   if (!ports.starts_with(':')) refuse(text, "lacks a port");
   ports.remove_prefix(1);
+  const auto slash = ports.find('/');
+  std::string id;
+  if (slash != std::string_view::npos) {
+    id = ports.substr(slash + 1);
+    ports = ports.substr(0, slash);
+    if (id.empty()) refuse(text, "wants the id of an arm after `/`");
+  }
   if (host.empty()) refuse(text, "lacks a host");
-  ArmAddress address{std::string(host)};
+  ArmAddress address{.host = std::string(host), .id = id};
   const auto colon = ports.find(':');
   address.port = wanted_port(text, ports.substr(0, colon), "wants a port from 1 to 65535");
   if (colon == std::string_view::npos) return address;
@@ -102,6 +122,11 @@ Address parse_link(std::string_view text) {
   }
   const auto near = nearest(word, words);
   refuse(text, "begins with no known kind" + (near ? ", did you mean `" + *near + ":`" : ""));
+}
+
+bool only_reads(const Address& address) {
+  return std::holds_alternative<GaugeAddress>(address) ||
+         std::holds_alternative<RecordingAddress>(address);
 }
 
 std::string link_forms() { return listed(&LinkKind::form, ""); }

@@ -30,7 +30,7 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
     : clock_(clock),
       path_(port),
       purpose_(purpose),
-      port_(port, mark10::baud,
+      port_(port, {.baud = mark10::baud},
             purpose == Purpose::stop ? SerialPort::Use::shared : SerialPort::Use::alone) {
   port_.tap(tap);
   identity_.kind = Kind::stand;
@@ -250,7 +250,7 @@ Sample Mark10::read_sample(double wait) {
         clock_.sleep_until(clock_.now() + sample_time - planned_period);
       if (!heard_) return finished(Arrival::none, Fault::silent);
       if (fault == Fault::none)
-        fault = mark10::garbage_share(lines_.rest()) > 0.0 ? Fault::garbage : Fault::truncated;
+        fault = garbage_share(lines_.rest()) > 0.0 ? Fault::garbage : Fault::truncated;
       return finished(Arrival::dropped, fault);
     }
     if (now >= until) return finished(Arrival::none, fault);
@@ -330,6 +330,11 @@ bool Mark10::stop() {
 bool Mark10::confirm_stop() {
   // The stand brakes from its highest speed in about 0.1 s.
   const double until = wire_time() + patience(stop_time);
+  while (!has_status_ && wire_time() < until && !port_.lost()) {
+    send("s");
+    if (stands_still(2.0 * planned_period)) return true;
+  }
+  if (!has_status_) return false;
   do {
     send("s");
     const auto status = ask_status();

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "device/clock.h"
+#include "device/line_buffer.h"
 #include "device/mark10_protocol.h"
 #include "device/sample.h"
 #include "device/serial_port.h"
@@ -58,7 +59,9 @@ class Mark10 {
   void quiet_gauge();
   void ask_gauge_who_it_is();
   void ask_stand_limits();
+  void refuse_without_pc_control();
   [[noreturn]] void refuse_silence() const;
+  [[nodiscard]] std::string moving_note(const char* way) const;
 
   Sample read_sample(double wait);
   bool was_stopped();
@@ -92,7 +95,7 @@ class Mark10 {
   std::unique_ptr<GuardProcess> process_;
   std::unique_ptr<StopGuard> guard_;
   unsigned signals_ = 0;  // StopGuard::signals_passed() at the last sample
-  mark10::LineBuffer lines_;
+  LineBuffer lines_;
   mark10::PairReader pairs_;
   Identity identity_;
   Limits limits_;
@@ -102,6 +105,7 @@ class Mark10 {
   bool asked_ = false;          // a reading was requested and has not arrived
   bool heard_ = false;          // bytes have arrived since that request
   double asked_at_ = 0.0;       // s, wire_time() of that request
+  bool has_status_ = true;      // the stand replies to `p`
   std::optional<Sample> last_;  // the last fresh sample
   Traffic traffic_;
   std::string first_bytes_;  // received while greeting, for a diagnosis

@@ -11,13 +11,6 @@ namespace {
 constexpr double mute_time = 0.03;  // s, to wait for an error after a setter, which has no reply
 constexpr double still_time = 0.1;  // s, in which a stand at 12 mm/min moves by its resolution
 
-// At most 40 bytes for a message, with a point for each byte that cannot be printed.
-std::string printable(std::string_view bytes) {
-  std::string text;
-  for (const char c : bytes.substr(0, 40)) text += c >= ' ' && c <= '~' ? c : '.';
-  return text;
-}
-
 }  // namespace
 
 void Mark10::greet() {
@@ -26,6 +19,7 @@ void Mark10::greet() {
   ask_gauge_who_it_is();
   if (purpose_ == Purpose::command) send("i");
   std::optional<mark10::Pair> pair;
+  bool force_alone = false;
   int error = 0;
   // Two attempts, because earlier bytes may spoil the first reply.
   for (int tries = 0; tries < 2 && !pair; ++tries) {
@@ -35,6 +29,8 @@ void Mark10::greet() {
     while (const auto line = pair ? std::nullopt : line_until(until)) {
       const auto step = pairs_.take(*line);
       if (step.error != 0) error = step.error;
+      const auto quantity = mark10::parse_quantity(*line);
+      force_alone = force_alone || (quantity && mark10::newtons(*quantity));
       pair = step.pair;
     }
   }
@@ -42,10 +38,32 @@ void Mark10::greet() {
     throw LinkError("palpate: the stand on `" + path_ + "` answers `*" + std::to_string(error) +
                     "`, " + std::string(mark10::error_text(error)) +
                     "; switch its PC Control on, and its gauge to the main screen");
+  if (!pair && force_alone && !port_.lost())
+    throw LinkError("palpate: the stand on `" + path_ +
+                    "` sends a force and no travel; it has no travel display, or this is a gauge "
+                    "by itself; read that with `serial:" +
+                    path_ + ",SETTINGS.toml`");
   if (!pair) refuse_silence();
+  if (pairs_.order() == mark10::PairReader::Order::travel_first)
+    identity_.notes.push_back("the stand sends the travel before the force");
   unit_ = pair->force_unit;
   identity_.dialect = "gauge in " + std::string(unit_.data());
   ask_stand_limits();
+  if (purpose_ == Purpose::command) refuse_without_pc_control();
+}
+
+// Without PC Control a stand reads and does not obey: its speed does not change. A stand that
+// reports no speed is left to move(), which reads it back.
+void Mark10::refuse_without_pc_control() {
+  const auto before = ask_number("a");
+  const auto shown = before ? mark10::metres_per_second(*before) : std::nullopt;
+  if (!shown) return;
+  const double other = *shown > 1.5e-3 ? 1e-3 : 2e-3;  // m/s
+  send(mark10::speed_command(other)->text());
+  const auto after = ask_number("a");
+  if (!after || after->value != before->value || after->unit != before->unit) return;
+  throw LinkError("palpate: the stand on `" + path_ +
+                  "` is read and does not obey; switch PC Control on in its menu");
 }
 
 void Mark10::quiet_gauge() {
@@ -90,8 +108,7 @@ void Mark10::ask_gauge_who_it_is() {
   for (const auto& [command, into] :
        {std::pair{"RM", &identity_.model}, std::pair{"RS", &identity_.id}}) {
     const auto reply = gauge(command, patience(answer_time));
-    if (reply && !mark10::parse_error(*reply) && mark10::garbage_share(*reply) == 0.0)
-      *into = *reply;
+    if (reply && !mark10::parse_error(*reply) && garbage_share(*reply) == 0.0) *into = *reply;
   }
 }
 
@@ -110,15 +127,24 @@ void Mark10::ask_stand_limits() {
   if (!high || !low) identity_.notes.push_back("the stand does not report its travel limits");
   // The status of a stand that moves between its limits may be read in two ways (`DL`).
   const auto status = ask_status();
+  has_status_ = status.has_value();
+  if (!status)
+    identity_.notes.push_back(
+        "the stand does not report its status (`p`): two equal readings of its travel count as a "
+        "stop, and motion slower than 0.5 mm/s is not seen by them");
+  if (!status && !stands_still(still_time)) identity_.notes.push_back(moving_note(""));
   if (!status) return;
   using Moving = mark10::Status::Moving;
   const Moving moving = status->moving;
   if (moving == Moving::stopped || (moving == Moving::unknown && stands_still(still_time))) return;
-  identity_.notes.push_back(std::string("the stand is moving") +
-                            (moving == Moving::up     ? " up"
-                             : moving == Moving::down ? " down"
-                                                      : "") +
-                            "; `palpate device stop mark10:" + path_ + "` stops it");
+  identity_.notes.push_back(moving_note(moving == Moving::up     ? " up"
+                                        : moving == Moving::down ? " down"
+                                                                 : ""));
+}
+
+std::string Mark10::moving_note(const char* way) const {
+  return "the stand is moving" + std::string(way) + "; `palpate device stop mark10:" + path_ +
+         "` stops it";
 }
 
 void Mark10::refuse_silence() const {
@@ -131,7 +157,7 @@ void Mark10::refuse_silence() const {
         "and the rate to " +
         std::to_string(mark10::baud) + " baud, and check the cable");
   // At another rate most bytes are not text; a fifth of them is enough for the diagnosis.
-  if (mark10::garbage_share(first_bytes_) > 0.2)
+  if (garbage_share(first_bytes_) > 0.2)
     throw LinkError(on + "garbage answers, as at a wrong baud rate; set the stand and its gauge " +
                     "to " + std::to_string(mark10::baud) + " baud, 8 bits, no parity");
   throw LinkError(on + "a device answers in words that are no reading (`" +

@@ -5,16 +5,13 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 
 #include "base/text.h"
+#include "device/line_buffer.h"
 
 namespace palpate::device::mark10 {
 namespace {
 
-constexpr std::size_t longest_line = 160;  // bytes; the longest reply, to LIST, has about 60
-
-bool is_end(char c) { return c == '\r' || c == '\n'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -23,12 +20,6 @@ char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + '
 bool same_word(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](char x, char y) { return lower(x) == lower(y); });
-}
-
-std::string_view without_outer_spaces(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
 }
 
 struct UnitFactor {
@@ -78,38 +69,6 @@ std::optional<Command> number_command(char letter, double value, int whole, int 
 }
 
 }  // namespace
-
-void LineBuffer::feed(std::string_view bytes) {
-  if (bytes.size() > bytes_.size()) {
-    dropped_ += bytes.size() - bytes_.size();
-    bytes.remove_prefix(bytes.size() - bytes_.size());
-  }
-  const std::size_t waiting = end_ - begin_;
-  const std::size_t room = bytes_.size() - bytes.size();
-  if (waiting > room) {
-    dropped_ += waiting - room;
-    begin_ += waiting - room;
-  }
-  std::memmove(bytes_.data(), bytes_.data() + begin_, end_ - begin_);
-  end_ -= begin_;
-  begin_ = 0;
-  std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(end_));
-  end_ += bytes.size();
-}
-
-std::optional<std::string_view> LineBuffer::next() {
-  while (begin_ < end_ && is_end(bytes_[begin_])) ++begin_;
-  std::size_t at = begin_;
-  while (at < end_ && !is_end(bytes_[at]) && at - begin_ < longest_line) ++at;
-  if (at == end_) return std::nullopt;
-  const std::string_view line(bytes_.data() + begin_, at - begin_);
-  begin_ = at;
-  return without_outer_spaces(line);
-}
-
-std::string_view LineBuffer::rest() const { return {bytes_.data() + begin_, end_ - begin_}; }
-
-void LineBuffer::clear() { begin_ = end_ = 0; }
 
 std::optional<Quantity> parse_quantity(std::string_view line) {
   line = without_outer_spaces(line);
@@ -226,7 +185,8 @@ std::optional<Status> parse_status(std::string_view line) {
 PairReader::Step PairReader::take(std::string_view line) {
   Step step;
   const std::optional<Pair> before = force_;
-  force_.reset();
+  const std::optional<double> travel_before = travel_;
+  clear();
   if (const auto error = parse_error(line)) {
     step.fault = Fault::error_reply;
     step.error = *error;
@@ -246,20 +206,27 @@ PairReader::Step PairReader::take(std::string_view line) {
     Pair pair;
     pair.force = *force;
     std::copy(quantity->unit.begin(), quantity->unit.end(), pair.force_unit.begin());
-    force_ = pair;
+    if (travel_before) {
+      order_ = Order::travel_first;
+      step.pair = pair;
+      step.pair->travel = *travel_before;
+    } else {
+      force_ = pair;
+    }
     return step;
   }
   const auto travel = metres(*quantity);
   if (!travel) {
     step.fault = Fault::garbage;
-    return step;
-  }
-  if (!before) {
+  } else if (before && order_ != Order::travel_first) {
+    order_ = Order::force_first;
+    step.pair = before;
+    step.pair->travel = *travel;
+  } else if (order_ != Order::force_first) {
+    travel_ = *travel;
+  } else {
     step.fault = Fault::truncated;  // its force is missing
-    return step;
   }
-  step.pair = before;
-  step.pair->travel = *travel;
   return step;
 }
 
@@ -275,15 +242,6 @@ std::optional<Command> lower_limit_command(double travel) {
 
 std::optional<Command> upper_limit_command(double travel) {
   return number_command('h', travel * 1e3, 3, 2);
-}
-
-double garbage_share(std::string_view bytes) {
-  if (bytes.empty()) return 0.0;
-  const auto odd = std::count_if(bytes.begin(), bytes.end(), [](char c) {
-    return !is_end(c) &&
-           (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e);
-  });
-  return static_cast<double>(odd) / static_cast<double>(bytes.size());
 }
 
 }  // namespace palpate::device::mark10

@@ -17,26 +17,6 @@ namespace palpate::device::mark10 {
 
 inline constexpr int baud = 115200;  // 8N1, no flow control
 
-// Divides bytes into lines; stores at most the last kilobyte and never allocates.
-class LineBuffer {
- public:
-  // Appends all bytes; if the buffer is full, the oldest bytes are dropped and counted.
-  void feed(std::string_view bytes);
-  // Returns the next complete line without its end and outer spaces; empty lines are skipped. The
-  // view is valid until the next call. A line longer than any reply is returned in pieces.
-  [[nodiscard]] std::optional<std::string_view> next();
-  // The bytes that next() has not returned yet.
-  [[nodiscard]] std::string_view rest() const;
-  void clear();
-  [[nodiscard]] std::size_t dropped() const { return dropped_; }  // bytes, since the start
-
- private:
-  std::array<char, 1024> bytes_{};
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-  std::size_t dropped_ = 0;
-};
-
 // A number and the unit after it: `-18.78 lbF`, `2.00 mm`, `200.3`.
 struct Quantity {
   double value = 0.0;
@@ -88,7 +68,9 @@ struct Pair {
   double travel = 0.0;               // m
   std::array<char, 8> force_unit{};  // as received, ended by 0
 };
-// Finds pairs: a travel line directly after a force line. Earlier force lines (AOUT) are ignored.
+// Finds pairs: a force line and a travel line, one directly after the other. Stands send them in
+// either order, and a stand keeps its own: the first pair, that of the greeting, tells which. The
+// gauge's automatic readings before a pair are ignored.
 class PairReader {
  public:
   struct Step {
@@ -97,10 +79,18 @@ class PairReader {
     int error = 0;              // number of an error reply, 0 for other lines
   };
   [[nodiscard]] Step take(std::string_view line);
-  void clear() { force_.reset(); }
+  // Forgets an incomplete pair, not the order.
+  void clear() {
+    force_.reset();
+    travel_.reset();
+  }
+  enum class Order { unknown, force_first, travel_first };
+  [[nodiscard]] Order order() const { return order_; }
 
  private:
-  std::optional<Pair> force_;
+  Order order_ = Order::unknown;
+  std::optional<Pair> force_;     // the line before, if it is a force
+  std::optional<double> travel_;  // m, the line before, if it is a travel
 };
 
 // A command of at most 15 bytes.
@@ -117,8 +107,5 @@ struct Command {
 
 inline constexpr double speed_step = 1e-4 / 60.0;  // m/s, 0.1 mm/min
 inline constexpr double travel_step = 2e-5;        // m, 0.02 mm, the stand's resolution
-
-// The fraction (0 to 1) of bytes that no reply contains, which is large at a wrong baud rate.
-[[nodiscard]] double garbage_share(std::string_view bytes);
 
 }  // namespace palpate::device::mark10

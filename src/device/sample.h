@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,7 @@ namespace palpate::device {
 // stand is told to stop as well, and nothing else.
 enum class Purpose { look, command, stop };
 
-enum class Kind { stand, arm, recording };
+enum class Kind { stand, arm, gauge, recording };
 
 // The result of a call of sample().
 enum class Arrival {
@@ -51,11 +52,15 @@ enum class Fault : std::uint8_t {
   guarded,          // the stand was stopped by its guard process, or before a signal
   unguarded,        // the guard process of a stand has ended
   flooded,          // more came in one frame than can be read in it
+  unknown_unit,     // a reading in a unit that is not known
+  restarted,        // a gauge's own time went back
+  reframed,         // an arm's service began to turn or scale its coordinates
 };
-inline constexpr std::size_t fault_kinds = as_index(Fault::flooded) + 1;
+inline constexpr std::size_t fault_kinds = as_index(Fault::reframed) + 1;
 [[nodiscard]] std::string_view fault_text(Fault fault);  // a clause: "the device hung up"
 
-// Position and velocity of a stand are along z, upwards; those of an arm are in its coordinates.
+// Position and velocity of a stand or a gauge are along z, upwards; those of an arm are in its
+// coordinates.
 struct Sample {
   Arrival arrival = Arrival::none;
   Fault fault = Fault::none;     // beside `fresh`: unit_changed, brake, stalled or unstable
@@ -80,14 +85,17 @@ struct Identity {
 struct Limits {
   static constexpr double none = std::numeric_limits<double>::infinity();
   bool measures_force = false;
-  double force = none;       // N
-  double speed = none;       // m/s
-  double slowest = 0.0;      // m/s
-  double low = -none;        // m, of travel, along z
-  double high = none;        // m
-  double period = 0.0;       // s, planned time between samples
-  double stale_after = 0.0;  // s without a new sample
-  double lost_after = 0.0;   // s without a new sample
+  bool measures_travel = true;  // only a gauge may lack it: its position is then 0
+  double force = none;          // N
+  double speed = none;          // m/s
+  double slowest = 0.0;         // m/s
+  double low = -none;           // m, of travel, along z
+  double high = none;           // m
+  double period = 0.0;          // s, planned time between samples
+  double stale_after = 0.0;     // s without a new sample
+  double lost_after = 0.0;      // s without a new sample
+  // N, of a gauge without travel: the force that tells that the programme has begun.
+  std::optional<double> start_force = {};
 };
 
 // Messages that an arm's service sends unasked: device/events.h.

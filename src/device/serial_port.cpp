@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
@@ -47,14 +48,28 @@ namespace {
   }
 }
 
-speed_t speed_of(int baud) {
-  switch (baud) {
-    case 9600: return B9600;
-    case 19200: return B19200;
-    case 38400: return B38400;
-    case 57600: return B57600;
-    default: return B115200;
-  }
+struct Rate {
+  int baud;
+  speed_t code;
+};
+constexpr std::array rates{Rate{300, B300},       Rate{600, B600},       Rate{1200, B1200},
+                           Rate{2400, B2400},     Rate{4800, B4800},     Rate{9600, B9600},
+                           Rate{19200, B19200},   Rate{38400, B38400},   Rate{57600, B57600},
+                           Rate{115200, B115200}, Rate{230400, B230400}, Rate{460800, B460800},
+                           Rate{500000, B500000}, Rate{921600, B921600}, Rate{1000000, B1000000}};
+
+speed_t speed_of(const std::string& path, int baud) {
+  for (const Rate& rate : rates)
+    if (rate.baud == baud) return rate.code;
+  refuse(path, "cannot be set to " + std::to_string(baud) + " baud; take " + known_rates());
+}
+
+tcflag_t bits_of(const LineFormat& format) {
+  using Parity = LineFormat::Parity;
+  tcflag_t bits = format.data_bits == 7 ? CS7 : CS8;
+  if (format.parity != Parity::none) bits |= PARENB;
+  if (format.parity == Parity::odd) bits |= PARODD;
+  return bits;
 }
 
 // The guard process of a run that was killed holds the port for half a second.
@@ -86,7 +101,23 @@ int lock_for(const std::string& path, double until) {
 
 }  // namespace
 
-SerialPort::SerialPort(const std::string& path, int baud, Use use) : use_(use) {
+bool is_known_rate(int baud) {
+  return std::any_of(rates.begin(), rates.end(),
+                     [&](const Rate& rate) { return rate.baud == baud; });
+}
+
+std::string known_rates() {
+  std::string list;
+  for (const Rate& rate : rates)
+    list += (&rate == &rates.front()  ? ""
+             : &rate == &rates.back() ? " or "
+                                      : ", ") +
+            std::to_string(rate.baud);
+  return list;
+}
+
+SerialPort::SerialPort(const std::string& path, const LineFormat& format, Use use) : use_(use) {
+  const speed_t speed = speed_of(path, format.baud);
   const double until = wire_time() + held_time;
   do {
     file_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -106,12 +137,12 @@ SerialPort::SerialPort(const std::string& path, int baud, Use use) : use_(use) {
   bool set = ::tcgetattr(file_, &line) == 0;
   if (set) {
     ::cfmakeraw(&line);
-    line.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | PARENB | CRTSCTS | HUPCL);
-    line.c_cflag |= CLOCAL | CREAD | CS8;
+    line.c_cflag &= ~static_cast<tcflag_t>(CSIZE | CSTOPB | PARENB | PARODD | CRTSCTS | HUPCL);
+    line.c_cflag |= CLOCAL | CREAD | bits_of(format);
     line.c_cc[VMIN] = 0;
     line.c_cc[VTIME] = 0;
-    ::cfsetispeed(&line, speed_of(baud));
-    ::cfsetospeed(&line, speed_of(baud));
+    ::cfsetispeed(&line, speed);
+    ::cfsetospeed(&line, speed);
     set = ::tcsetattr(file_, TCSANOW, &line) == 0;
   }
   if (!set) {

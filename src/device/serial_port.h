@@ -1,4 +1,4 @@
-// A serial line used by one program only: raw bytes, 8N1, no flow control, non-blocking.
+// A serial line used by one program only: raw bytes, no flow control, one stop bit, non-blocking.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,22 @@ namespace palpate::device {
 
 class Tap;
 
+struct LineFormat {
+  int baud = 115200;
+  int data_bits = 8;  // 7 or 8
+  enum class Parity { none, even, odd };
+  Parity parity = Parity::none;
+};
+// Whether a line can be set to this rate, and the rates to which it can, for messages.
+[[nodiscard]] bool is_known_rate(int baud);
+[[nodiscard]] std::string known_rates();
+
 class SerialPort {
  public:
   enum class Use { alone, shared };  // shared: for a stop, whoever has the port
-  // Opens `path` at `baud`: 9600, 19200, 38400 or 57600; any other value means 115200. Locks it for
-  // Use::alone. Throws LinkError if the port does not exist, is not permitted, not a serial line,
-  // or in use.
-  SerialPort(const std::string& path, int baud, Use use = Use::alone);
+  // Opens `path` and locks it for Use::alone. Throws LinkError if the port does not exist, is not
+  // permitted, not a serial line, or in use, and if it cannot have the rate.
+  SerialPort(const std::string& path, const LineFormat& format, Use use = Use::alone);
   ~SerialPort();
   SerialPort(SerialPort&& other) noexcept;
   SerialPort& operator=(SerialPort&&) = delete;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "emulator/arm_server.h"
+#include "emulator/line_gauge.h"
 #include "emulator/mark10_link.h"
 #include "emulator/settings.h"
 
@@ -70,10 +71,10 @@ struct Mark10Arguments {
 CLI::App* add_mark10(CLI::App& app, Mark10Arguments& given) {
   CLI::App* verb = app.add_subcommand("mark10", "a motorised stand with a gauge, on a pty");
   add_common(*verb, given.common);
-  verb->add_option("--link", given.run.link, "symbolic link to the port");
+  verb->add_option("--link", given.run.line.link, "symbolic link to the port");
   verb->add_option("--stand", given.stand, "TOML file of the tables [stand] and [gauge]");
   verb->add_option("--seed", given.run.settings.stand.seed, "of the gauge's noise");
-  verb->add_option("--baud", given.run.settings.baud, "rate of the line");
+  verb->add_option("--baud", given.run.line.baud, "rate of the line");
   verb->add_option("--tick", given.tick, "virtual clock: replies come at multiples of this time");
   return verb;
 }
@@ -87,11 +88,50 @@ int start(Mark10Arguments& given) {
     settings.stand.tissue = read_tissue(given.common.tissue);
   if (!given.common.faults.empty())
     settings.faults = read_faults(given.common.faults, stand_faults());
-  settings.clock = clock_of(given.common);
-  settings.tick = step_of("--tick", given.tick);
+  given.run.line.clock = clock_of(given.common);
+  given.run.line.tick = step_of("--tick", given.tick);
+  given.run.line.log = given.common.log;
+  given.run.line.lifetime = lifetime_of(given.common);
+  return run_mark10(given.run);
+}
+
+struct GaugeArguments {
+  Common common = {};
+  LineGaugeSettings settings = {};
+  PtyRun run = {.baud = 9600};
+  std::string file = {};
+  std::string tick = "100 ms";
+};
+
+CLI::App* add_gauge(CLI::App& app, GaugeArguments& given) {
+  CLI::App* verb =
+      app.add_subcommand("gauge", "a gauge that sends lines, pressed by hand, on a pty");
+  add_common(*verb, given.common);
+  verb->add_option("--link", given.run.link, "symbolic link to the port");
+  verb->add_option("--gauge", given.file, "TOML file of the tables [gauge] and [[waypoint]]");
+  verb->add_option("--seed", given.settings.seed, "of the gauge's noise");
+  verb->add_option("--baud", given.run.baud, "rate of the line");
+  verb->add_option("--tick", given.tick, "virtual clock: replies come at multiples of this time");
+  return verb;
+}
+
+int start(GaugeArguments& given) {
+  LineGaugeSettings& settings = given.settings;
+  if (!given.file.empty()) read_line_gauge(given.file, settings);
+  if (given.common.tissue == "none")
+    settings.tissue.surface = -1.0;  // m, out of reach
+  else if (!given.common.tissue.empty())
+    settings.tissue = read_tissue(given.common.tissue);
+  if (!given.common.faults.empty())
+    settings.faults = read_faults(given.common.faults, gauge_faults());
+  given.run.clock = settings.clock = clock_of(given.common);
+  given.run.tick = settings.tick = step_of("--tick", given.tick);
+  settings.baud = given.run.baud;
   given.run.log = given.common.log;
   given.run.lifetime = lifetime_of(given.common);
-  return run_mark10(given.run);
+  Log log(given.run.log, "travel_m,force_N");
+  LineGauge gauge(settings, log);
+  return PtyLoop<LineGauge>(given.run, gauge).go();
 }
 
 struct ArmArguments {
@@ -136,10 +176,12 @@ int start(ArmArguments& given) {
 }
 
 int parse_and_run(int argc, const char* const* argv) {
-  CLI::App app{"Plays a test stand or a haptic arm, with its own tissue and hand",
+  CLI::App app{"Plays a test stand, a gauge or a haptic arm, with its own tissue and hand",
                "palpate-emulator"};
   Mark10Arguments mark10;
   const CLI::App* stand_verb = add_mark10(app, mark10);
+  GaugeArguments gauge;
+  const CLI::App* gauge_verb = add_gauge(app, gauge);
   ArmArguments arm;
   const CLI::App* arm_verb = add_inverse3(app, arm);
   const CLI::App* faults_verb = app.add_subcommand("faults", "lists the faults for --fault");
@@ -153,10 +195,12 @@ int parse_and_run(int argc, const char* const* argv) {
   }
   if (faults_verb->parsed()) {
     list_faults("mark10", stand_faults());
+    list_faults("gauge", gauge_faults());
     list_faults("inverse3", arm_faults());
     return 0;
   }
   if (arm_verb->parsed()) return start(arm);
+  if (gauge_verb->parsed()) return start(gauge);
   return stand_verb->parsed() ? start(mark10) : 1;
 }
 

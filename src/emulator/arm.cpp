@@ -101,7 +101,7 @@ void Arm::go_to(Nanoseconds time, std::int64_t messages) {
                                     settings_.device_id));
     braked_ = told;
   }
-  if (brake || faults_.lasts("not_ready", now_)) let_go();
+  if (brake || faults_.lasts("not_ready", now_) || faults_.lasts("power_off", now_)) let_go();
 }
 
 void Arm::begin_faults(std::int64_t messages) {
@@ -122,7 +122,8 @@ void Arm::begin_faults(std::int64_t messages) {
                          .velocity = hand_.velocity,
                          .force = force_,
                          .mode = mode_,
-                         .in_use = in_use_};
+                         .in_use = in_use_,
+                         .form = settings_.form};
   }
 }
 
@@ -165,10 +166,13 @@ ArmState Arm::told() {
                                              .velocity = hand_.velocity,
                                              .force = force_,
                                              .mode = mode_,
-                                             .in_use = in_use_});
+                                             .in_use = in_use_,
+                                             .form = settings_.form});
   if (faults_.lasts("id_change", now_)) state.device_id = "0BAD";
   if (faults_.lasts("jump", now_)) state.position[2] += faults_.value("jump");
   if (faults_.lasts("not_ready", now_)) state.ready = false;
+  if (faults_.lasts("power_off", now_)) state.form.power = false;
+  if (faults_.lasts("transform", now_)) state.form.transform_scale = 2.0;
   if (faults_.spoils("velocity_spike")) state.velocity[2] = -1000.0;
   return state;
 }
@@ -205,7 +209,8 @@ std::string Arm::spoilt(std::string text) {
 
 Answer Arm::answer(const std::string& text) {
   begin_faults(messages_);
-  const Request request = parse_request(text, settings_.service, settings_.device_id);
+  const Request request =
+      parse_request(text, settings_.service, settings_.device_id, settings_.form);
   if (wanted_ != Act::none || silent()) {  // the service does not read the message
     log_row("in", "(unheard) " + text);
     return {{}, std::exchange(wanted_, Act::none)};
@@ -255,7 +260,8 @@ std::string Arm::devices() const {
                         .velocity = hand_.velocity,
                         .force = force_,
                         .mode = mode_,
-                        .in_use = in_use_},
+                        .in_use = in_use_,
+                        .form = settings_.form},
                        settings_.service, Extent::full, session_);
 }
 

@@ -22,6 +22,7 @@ struct ArmSettings {
   double idle_after = 0.1;         // s, real clock: time without messages until the force ends
   double force_limit = 10.0;       // N, of the vector's length
   std::string device_id = "049D";
+  ArmForm form = {};
   HandSettings hand = {};
   std::optional<TissueSettings> tissue = {};  // pushes the hand up, independently of the client
   std::vector<Fault> faults = {};

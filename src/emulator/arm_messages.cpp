@@ -2,6 +2,7 @@
 // http, events. This is the only file of the emulator that uses nlohmann's JSON.
 #include "emulator/arm_messages.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace emulator {
@@ -15,24 +16,36 @@ Json unit_quaternion() { return {{"w", 1.0}, {"x", 0.0}, {"y", 0.0}, {"z", 0.0}}
 
 const char* spelling(Service service) { return service == Service::v3_1 ? "values" : "vector"; }
 
+Json pose(double turn, double scale) {
+  return {{"position", vec({})},
+          {"rotation",
+           {{"w", std::cos(turn / 2.0)}, {"x", std::sin(turn / 2.0)}, {"y", 0.0}, {"z", 0.0}}},
+          {"scale", vec({scale, scale, scale})}};
+}
+
+Json id_of(const std::string& id, const ArmForm& form) {
+  return form.numeric_id ? Json::parse(id, nullptr, false) : Json(id);
+}
+
 Json state_of(const ArmState& state, Service service) {
   if (service == Service::v3_1)  // no forces on the 3.1 page, and the mode is called `mode`
     return {{"angular_position", angles()},           {"angular_velocity", angles()},
             {"body_orientation", unit_quaternion()},  {"cursor_position", vec(state.position)},
             {"cursor_velocity", vec(state.velocity)}, {"mode", state.mode}};
-  return {{"cursor_position", vec(state.position)},
-          {"cursor_velocity", vec(state.velocity)},
-          {"angular_position", angles()},
-          {"angular_velocity", angles()},
-          {"body_orientation", unit_quaternion()},
-          {"current_cursor_force", vec(state.force)},
-          {"current_cursor_position", vec({})},
-          {"current_angular_torques", angles()},
-          {"current_angular_position", angles()},
-          {"control_domain", "cartesian"},
-          {"control_mode", state.mode},
-          {"transform",
-           {{"position", vec({})}, {"rotation", unit_quaternion()}, {"scale", vec({1, 1, 1})}}}};
+  Json newer{{"cursor_position", vec(state.position)},
+             {"cursor_velocity", vec(state.velocity)},
+             {"angular_position", angles()},
+             {"angular_velocity", angles()},
+             {"body_orientation", unit_quaternion()},
+             {"current_cursor_force", vec(state.force)},
+             {"current_cursor_position", vec({})},
+             {"current_angular_torques", angles()},
+             {"current_angular_position", angles()},
+             {"control_domain", "cartesian"},
+             {"control_mode", state.mode},
+             {"transform", pose(0.0, state.form.transform_scale)}};
+  if (state.form.both_modes) newer["mode"] = "idle";
+  return newer;
 }
 
 Json config_of(const ArmState& state, Service service) {
@@ -51,23 +64,22 @@ Json config_of(const ArmState& state, Service service) {
   config["streaming_mode"] = "USB";
   config["home_return"] = {{"enabled", false}};
   config["preset"] = "defaults";
-  config["basis"] = {{"permutation", "XYZ"}};
-  config["mount"] = {
-      {"position", vec({})}, {"rotation", unit_quaternion()}, {"scale", vec({1, 1, 1})}};
+  config["basis"] = {{"permutation", state.form.basis}};
+  config["mount"] = pose(state.form.mount_turn, state.form.mount_scale);
   config["filters"] = {{"force_gate", {{"gain", 0.3}}}, {"damping", {{"scalar", 0.0}}}};
   return config;
 }
 
 Json status_of(const ArmState& state) {
-  return {{"calibrated", state.ready},
+  return {{"calibrated", state.ready && state.form.calibrated},
           {"in_use", state.in_use},
-          {"power_supply", true},
+          {"power_supply", state.form.power},
           {"ready", state.ready},
           {"started", true}};
 }
 
 Json device_of(const ArmState& state, Service service, Extent extent) {
-  Json device{{"device_id", state.device_id}};
+  Json device{{"device_id", id_of(state.device_id, state.form)}};
   if (extent == Extent::full) device["config"] = config_of(state, service);
   device["state"] = state_of(state, service);
   device["status"] = status_of(state);
@@ -89,7 +101,9 @@ std::optional<Vec3> vector_in(const Json& from) {
 void read_force(const Json& commands, Service service, Request& request) {
   const auto command = commands.find("set_cursor_force");
   if (command == commands.end() || !command->is_object()) return;
-  const auto vector = command->find(spelling(service));
+  auto vector = command->find(spelling(service));
+  // 3.5 takes the older word as well.
+  if (vector == command->end() && service == Service::v3_5) vector = command->find("values");
   if (vector == command->end()) {
     request.remark = std::string("no `") + spelling(service) + "` in set_cursor_force";
     return;
@@ -105,7 +119,8 @@ void read_force(const Json& commands, Service service, Request& request) {
 
 }  // namespace
 
-Request parse_request(const std::string& text, Service service, const std::string& device_id) {
+Request parse_request(const std::string& text, Service service, const std::string& device_id,
+                      const ArmForm& form) {
   Request request;
   const Json message = Json::parse(text, nullptr, false);
   request.json = message.is_object();
@@ -120,7 +135,7 @@ Request parse_request(const std::string& text, Service service, const std::strin
   if (devices == message.end() || !devices->is_array()) return request;
   for (const Json& device : *devices) {
     if (!device.is_object() || !device.contains("commands")) continue;
-    if (device.value("device_id", Json()) != device_id) {
+    if (device.value("device_id", Json()) != id_of(device_id, form)) {
       request.remark = "no such device";
       continue;
     }
@@ -131,12 +146,20 @@ Request parse_request(const std::string& text, Service service, const std::strin
 
 std::string state_message(const ArmState& state, Service service, Extent extent, int session) {
   Json message;
+  if (state.form.grips)
+    message["verse_grip"] = {{{"device_id", "12"}, {"state", {{"hall", 0}}}},
+                             {{"device_id", 7}, {"status", {{"calibrated", false}}}}};
   if (extent == Extent::full && service == Service::v3_5) message["session_id"] = session;
-  message["inverse3"] = Json::array({device_of(state, service, extent)});
-  if (extent == Extent::full) {
-    message["verse_grip"] = Json::array();
-    message["wireless_verse_grip"] = Json::array();
+  message["inverse3"] = Json::array();
+  if (!state.form.second_id.empty()) {
+    ArmState other = state;
+    other.device_id = state.form.second_id;
+    other.position = other.velocity = other.force = {};
+    message["inverse3"].push_back(device_of(other, service, extent));
   }
+  message["inverse3"].push_back(device_of(state, service, extent));
+  if (extent == Extent::full && !state.form.grips) message["verse_grip"] = Json::array();
+  if (extent == Extent::full) message["wireless_verse_grip"] = Json::array();
   return message.dump();
 }
 

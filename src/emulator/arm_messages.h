@@ -18,8 +18,19 @@ struct Request {
   std::string remark = {};      // why a command was ignored, for the log
 };
 
-[[nodiscard]] Request parse_request(const std::string& text, Service service,
-                                    const std::string& device_id);
+// How the service shows the device, as found in the field.
+struct ArmForm {
+  std::string basis = "XYZ";
+  double mount_scale = 1.0;
+  double mount_turn = 0.0;       // rad, about x
+  double transform_scale = 1.0;  // of the state
+  bool both_modes = false;       // `mode` beside `control_mode`, left at `idle`
+  bool grips = false;            // two grips come before the arms
+  bool numeric_id = false;       // the id is a JSON number
+  std::string second_id = {};    // of a second arm, which comes first; empty: none
+  bool calibrated = true;
+  bool power = true;
+};
 
 struct ArmState {
   std::string device_id = {};
@@ -29,7 +40,11 @@ struct ArmState {
   std::string mode = "idle";
   bool ready = true;
   bool in_use = false;
+  ArmForm form = {};
 };
+
+[[nodiscard]] Request parse_request(const std::string& text, Service service,
+                                    const std::string& device_id, const ArmForm& form);
 
 enum class Extent { full, update };  // with config and session, or with state and status only
 

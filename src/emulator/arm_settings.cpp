@@ -17,6 +17,17 @@ void fields(FieldVisitor& visitor, ArmSettings& settings) {
   });
   visitor.table({"device", "the haptic arm"}, [&](FieldVisitor& inside) {
     inside.text({"id", "device id"}, settings.device_id);
+    ArmForm& form = settings.form;
+    inside.text({"basis", "permutation of the axes"}, form.basis);
+    inside.number({"mount_scale", "of the mount"}, form.mount_scale, above(0.0));
+    inside.number({"mount_turn", "of the mount about x, rad"}, form.mount_turn, {});
+    inside.number({"transform_scale", "of the workspace"}, form.transform_scale, above(0.0));
+    inside.flag({"both_modes", "`mode` beside `control_mode`"}, form.both_modes);
+    inside.flag({"grips", "two grips before the arms"}, form.grips);
+    inside.flag({"numeric_id", "the id is a JSON number"}, form.numeric_id);
+    inside.text({"second_id", "of a second arm, which comes first"}, form.second_id);
+    inside.flag({"calibrated", "of the status"}, form.calibrated);
+    inside.flag({"power_supply", "of the status"}, form.power);
     inside.quantity({"force_limit", "greatest length of the force"}, settings.force_limit, unit::N,
                     above(0.0));
     inside.quantity({"idle_after", "time without messages until the force ends"},

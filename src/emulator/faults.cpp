@@ -42,6 +42,32 @@ constexpr std::array stand_kinds{
     FaultKind{"reset", Life::moment, "the stand is switched off and on: settings are lost"},
 };
 
+constexpr std::array gauge_kinds{
+    FaultKind{"unplug", Life::moment, "the port is gone; with `duration` it comes back"},
+    FaultKind{"stall", Life::lasting, "nothing is sent"},
+    FaultKind{"deaf", Life::lasting, "bytes that arrive are lost"},
+    FaultKind{"garbage", Life::replies, "every byte of the line is replaced by another"},
+    FaultKind{"truncate", Life::replies, "only the line's first half is sent, with its end"},
+    FaultKind{"glue", Life::replies, "the line's end is lost, so two lines become one"},
+    FaultKind{"drop", Life::replies, "the line is lost"},
+    FaultKind{"duplicate", Life::replies, "the line is sent twice"},
+    FaultKind{"echo", Life::lasting, "bytes that arrive are sent back"},
+    FaultKind{"unsolicited", Life::replies, "another text comes before the line"},
+    FaultKind{"nul", Life::replies, "a NUL byte follows every byte"},
+    FaultKind{"nan", Life::replies, "the force reads `nan`"},
+    FaultKind{"huge", Life::replies, "the force reads `1e308`"},
+    FaultKind{"no_travel", Life::replies, "the line lacks its travel"},
+    FaultKind{"wrong_unit", Life::replies, "the line ends with the unit `kp`"},
+    FaultKind{"slow", Life::lasting, "the line runs at a tenth of its rate"},
+    FaultKind{"wrong_baud", Life::lasting, "both sides receive noise"},
+    FaultKind{"unit_change", Life::moment, "the gauge shows lbF, others ounces"},
+    FaultKind{"sign_flip", Life::lasting, "the force changes its sign"},
+    FaultKind{"spike", Life::lasting, "`value` (\"5 N\") is added to the force that is shown"},
+    FaultKind{"freeze", Life::lasting, "the same line is sent again and again"},
+    FaultKind{"overload", Life::lasting, "the gauge reports an overload"},
+    FaultKind{"reset", Life::moment, "the gauge starts again: its time is 0"},
+};
+
 constexpr std::array arm_kinds{
     FaultKind{"rst", Life::moment, "the connection is reset"},
     FaultKind{"close_1000", Life::moment, "the service closes, normally"},
@@ -68,6 +94,8 @@ constexpr std::array arm_kinds{
     FaultKind{"freeze", Life::lasting, "the reported state does not change"},
     FaultKind{"brake", Life::lasting, "the emergency brake holds the arm; commands do nothing"},
     FaultKind{"not_ready", Life::lasting, "the status is not ready, not calibrated; no force"},
+    FaultKind{"power_off", Life::lasting, "the status has no power supply; no force"},
+    FaultKind{"transform", Life::lasting, "the service scales the workspace by 2"},
     FaultKind{"reset", Life::moment, "the service restarts: connections are reset, new session"},
     FaultKind{
         "event_brake", Life::lasting,
@@ -136,6 +164,7 @@ void fields(FieldVisitor& visitor, Fault& fault, std::span<const FaultKind> kind
 }  // namespace
 
 std::span<const FaultKind> stand_faults() { return stand_kinds; }
+std::span<const FaultKind> gauge_faults() { return gauge_kinds; }
 std::span<const FaultKind> arm_faults() { return arm_kinds; }
 
 std::vector<Fault> read_faults(const std::string& path, std::span<const FaultKind> kinds) {

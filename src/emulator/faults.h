@@ -20,6 +20,7 @@ struct FaultKind {
 };
 
 [[nodiscard]] std::span<const FaultKind> stand_faults();
+[[nodiscard]] std::span<const FaultKind> gauge_faults();
 [[nodiscard]] std::span<const FaultKind> arm_faults();
 
 struct Fault {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <utility>
 
 namespace emulator {
@@ -50,6 +51,16 @@ void Mark10::log_row(const char* kind, const std::string& text) {
   const std::array values{stand_.crosshead.position, travel(stand_), stand_.crosshead.velocity,
                           depth(stand_), force_of(stand_.tissue)};
   log_->row(now_, kind, text, values);
+}
+
+std::string Mark10::summary() const {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                R"({"requests":%lld,"position_m":%.9g,"deepest_m":%.9g,)"
+                R"("greatest_force_N":%.9g,"moving":%s})",
+                static_cast<long long>(requests_), stand_.crosshead.position, stand_.deepest,
+                stand_.greatest_force, moves(stand_.crosshead) ? "true" : "false");
+  return text;
 }
 
 void Mark10::log_state() { log_row("state", ""); }

@@ -47,6 +47,7 @@ class Mark10 {
   [[nodiscard]] const Stand& stand() const { return stand_; }
   [[nodiscard]] std::int64_t requests() const { return requests_; }
   void log_state();
+  [[nodiscard]] std::string summary() const;  // a JSON object
 
  private:
   void go_to(Nanoseconds time);

@@ -21,9 +21,10 @@ struct Baud {
   int rate;
   speed_t code;
 };
-constexpr std::array bauds{Baud{9600, B9600},     Baud{19200, B19200},   Baud{38400, B38400},
-                           Baud{57600, B57600},   Baud{115200, B115200}, Baud{230400, B230400},
-                           Baud{460800, B460800}, Baud{921600, B921600}};
+constexpr std::array bauds{Baud{2400, B2400},     Baud{4800, B4800},     Baud{9600, B9600},
+                           Baud{19200, B19200},   Baud{38400, B38400},   Baud{57600, B57600},
+                           Baud{115200, B115200}, Baud{230400, B230400}, Baud{460800, B460800},
+                           Baud{921600, B921600}};
 
 speed_t code_of(int rate) {
   for (const Baud& baud : bauds)

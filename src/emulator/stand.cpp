@@ -95,12 +95,16 @@ void zero_travel(Stand& stand) {
 std::string answer(Stand& stand, char byte) {
   const Crosshead& head = stand.crosshead;
   switch (byte) {
-    case 'n':
-      return reading_line(stand.language, stand.gauge, stand.gauge.mode) +
-             travel_text(stand, travel(stand)) + "\r\n";
-    case 'x': return travel_text(stand, travel(stand)) + "\r\n";
+    case 'n': {
+      const std::string force = reading_line(stand.language, stand.gauge, stand.gauge.mode);
+      if (!stand.settings.travel_display) return force;
+      const std::string way = travel_text(stand, travel(stand)) + "\r\n";
+      return stand.settings.order == PairOrder::travel_first ? way + force : force + way;
+    }
+    case 'x':
+      return stand.settings.travel_display ? travel_text(stand, travel(stand)) + "\r\n" : "";
     case 'a': return speed_text(stand) + "\r\n";
-    case 'p': return status(stand) + "\r\n";
+    case 'p': return stand.settings.status == StatusLayout::none ? "" : status(stand) + "\r\n";
     case 'q': return std::to_string(head.half_cycles / 2) + "\r\n";
     case 'r': return std::to_string(head.cycles_set) + "\r\n";
     case 'v': return travel_text(stand, head.upper_limit - stand.zero) + "\r\n";

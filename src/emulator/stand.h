@@ -21,7 +21,8 @@ using Nanoseconds = std::int64_t;  // since the emulator's start
 }
 
 // The layout of the reply to `p`: the guide lists its codes only.
-enum class StatusLayout { compact, spaced };  // "SLUL", "S L UL"
+enum class StatusLayout { compact, spaced, none };   // "SLUL", "S L UL", no reply
+enum class PairOrder { force_first, travel_first };  // of the lines of `n`
 
 struct StandSettings {
   CrossheadSettings crosshead = {};
@@ -30,6 +31,8 @@ struct StandSettings {
   double speed = 60e-3 / 60.0;         // m/s, after switching on
   double travel_resolution = 0.02e-3;  // m
   bool pc_control = true;              // without this option the line cannot move the stand
+  bool travel_display = true;          // without it the stand sends the force only
+  PairOrder order = PairOrder::force_first;
   StatusLayout status = StatusLayout::compact;
   ListStyle list = ListStyle::ipol;
   OverloadReply overload = OverloadReply::text;

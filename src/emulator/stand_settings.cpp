@@ -13,7 +13,9 @@ using palpate::Word;
 using palpate::words_of;
 
 constexpr auto status_words =
-    words_of<StatusLayout>({{"compact", "`SLDL`"}, {"spaced", "`S L DL`"}});
+    words_of<StatusLayout>({{"compact", "`SLDL`"}, {"spaced", "`S L DL`"}, {"none", "no reply"}});
+constexpr auto order_words =
+    words_of<PairOrder>({{"force_first", "as LabKit reads it"}, {"travel_first", "the other way"}});
 constexpr auto list_words =
     words_of<ListStyle>({{"ipol", "with `IPOL0;OPOL0`"}, {"pol", "with `MIT;POL`"}});
 constexpr auto overload_words = words_of<OverloadReply>(
@@ -39,6 +41,8 @@ void stand_fields(FieldVisitor& visitor, StandSettings& settings) {
   visitor.quantity({"travel_resolution", "resolution of the displayed travel"},
                    settings.travel_resolution, unit::mm, above(0.0));
   visitor.flag({"pc_control", "whether the line may move the stand"}, settings.pc_control);
+  visitor.flag({"travel_display", "whether it has one"}, settings.travel_display);
+  visitor.choice({"order", "of the two lines of `n`"}, settings.order, order_words);
   visitor.choice({"status", "how `p` writes its codes"}, settings.status, status_words);
 }
 

@@ -15,6 +15,8 @@
 #include "device/realtime.h"
 #include "device/stand_safety.h"
 #include "live/guide.h"
+#include "record/csv.h"
+#include "record/measured_table.h"
 #include "run/family.h"
 #include "run/findings.h"
 
@@ -81,6 +83,7 @@ std::string passivity_sentence(const scene::Scene& scene, double frame) {
 LiveEnd run_loop(Kind kind, LiveLoop& loop) {
   switch (kind) {
     case Kind::stand: return run_stand(loop);
+    case Kind::gauge: return run_gauge(loop);
     case Kind::arm:
     case Kind::recording: return run_arm(loop);
   }
@@ -114,11 +117,15 @@ void refuse_beyond_device(const scene::Scene& scene, const std::string& file,
     throw InputError(place,
                      "is a uniform test, which no device carries out; give it `indent` steps, or "
                      "leave out `--device`");
-  if (!std::holds_alternative<device::StandAddress>(device::parse_link(options.link))) return;
+  const device::Address address = device::parse_link(options.link);
+  if (!std::holds_alternative<device::StandAddress>(address) &&
+      !std::holds_alternative<device::GaugeAddress>(address))
+    return;
   for (std::size_t i = 0; i < asked.steps.size(); ++i)
     if (std::holds_alternative<scenario::Slide>(asked.steps[i]))
-      throw InputError(place, "step " + std::to_string(i + 1) +
-                                  " is a `slide`, and a stand goes up and down only; leave it out");
+      throw InputError(place,
+                       "step " + std::to_string(i + 1) +
+                           " is a `slide`, and this device goes up and down only; leave it out");
 }
 
 Live::Live(const scene::Scene& scene, const LiveOptions& options)
@@ -166,6 +173,13 @@ std::vector<std::string> Live::plan(const std::string& file) {
                       rounded_text(rules.start_time) + " s");
       lines.push_back(passivity_sentence(*scene_, limits.period));
       refuse_inside(lines);
+    } else if (identity.kind == Kind::gauge) {
+      lines.push_back(
+          "the gauge only measures: move it by hand or by its own stage" +
+          std::string(!limits.measures_travel ? ""
+                      : options_->surface
+                          ? ""
+                          : "; the surface is where the travel is 0, as no `--surface` is given"));
     } else {
       lines.push_back("the stand is stopped beyond " + newtons(most) +
                       " and outside of its travel, from " +
@@ -204,6 +218,10 @@ std::vector<std::string> Live::plan(const std::string& file) {
   return lines;
 }
 
+const char* Live::rows_name() const {
+  return link_.limits().measures_travel ? "force_indentation.csv" : "force_time.csv";
+}
+
 Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   Result result;
   LiveModel& model = *model_;
@@ -213,6 +231,8 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   LiveLog log(output.on_step,
               {.rows_file = output.rows_file,
                .case_name = scene_->name,
+               .table = link_.limits().measures_travel ? record::contact_table
+                                                       : record::measured_force_table,
                .tap = tap_.get(),
                .traffic_file = output.traffic_file,
                .on_trouble = output.on_warning,
@@ -232,6 +252,16 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
     record.contact.push_back(row.contact);
     record.measured.push_back(row.measured);
   }
+  result.rows = record.contact.size();
+  const double last_time = record.contact.empty() ? 0.0 : record.contact.back().time;
+  if (!link_.limits().measures_travel) {
+    // Without travel the model has not followed, and there is nothing to find in it.
+    if (!log.rows_are_written())
+      record.attached.emplace_back(rows_name(),
+                                   record::csv_text(record::measured_force_table({record})));
+    record.contact.clear();
+    record.measured.clear();
+  }
   result.rows_are_written = log.rows_are_written();
   notes_.insert(notes_.end(), log.troubles().begin(), log.troubles().end());
   if (loop.left_out > 0.0)
@@ -244,15 +274,14 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
     notes_.push_back(std::to_string(loop.softened) +
                      " frames were rendered less stiff than the tissue, because the device cannot "
                      "render it passively");
-  health.pass({record.contact.empty() ? 0.0 : record.contact.back().time, device::LinkState::closed,
-               device::Trip::none, device::Fault::none});
+  health.pass({last_time, device::LinkState::closed, device::Trip::none, device::Fault::none});
   using Why = LiveEnd::Why;
   if (result.end.why == Why::too_long) record.remarks.push_back(result.end.sentence);
   if (result.end.why == Why::model) record.outcome = record::Outcome::diverged;
   if (result.end.why == Why::link || result.end.why == Why::interrupted)
     record.outcome = record::Outcome::stopped;
   if (record.outcome != record::Outcome::completed) record.reason = result.end.sentence;
-  if (!record.contact.empty()) record.last_stable_time = record.contact.back().time;
+  record.last_stable_time = last_time;
   if (const auto imbalance = model.imbalance())
     record.findings.push_back({"energy_imbalance", *imbalance});
   run::add_findings(*scene_, record);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -31,11 +32,15 @@ class Live {
   // an arm is to be commanded while the hand is inside the tissue.
   [[nodiscard]] std::vector<std::string> plan(const std::string& file);
 
+  // The file of the rows in the result: `force_time.csv` if the device measures no travel, which
+  // the model could follow.
+  [[nodiscard]] const char* rows_name() const;
+
   // Callbacks and files of a run, which another thread calls and writes.
   struct Output {
     std::function<void(int step)> on_step;                        // a step of the programme begins
     std::function<void(const std::string& sentence)> on_warning;  // errors of files, lost rows
-    std::string rows_file;     // force_indentation.csv, written during the run; empty: none
+    std::string rows_file;     // the file of rows_name(), written during the run; empty: none
     std::string traffic_file;  // likewise, for LiveOptions::Traffic::kept
   };
   // Carries out the run. The record has the rows and device_health.json however the run ends.
@@ -43,6 +48,7 @@ class Live {
     record::CaseRecord record;
     LiveEnd end;
     std::vector<std::string> warnings;
+    std::size_t rows = 0;
     bool rows_are_written = false;  // all rows are in `rows_file` and on the disk
   };
   [[nodiscard]] Result go(const std::atomic<bool>& stop, const Output& output);

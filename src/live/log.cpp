@@ -94,7 +94,7 @@ bool LiveLog::write_rows() {
       piece.contact.push_back(rows_[i].contact);
       piece.measured.push_back(rows_[i].measured);
     }
-    const std::string table = record::csv_text(record::contact_table(piece_));
+    const std::string table = record::csv_text(plan_.table(piece_));
     const std::size_t header = has_header_ ? table.find('\n') + 1 : 0;
     const std::string_view text = std::string_view(table).substr(header);
     const std::string_view taken = text.substr(0, rows_file_.append(text));

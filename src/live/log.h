@@ -26,6 +26,7 @@ struct LogPlan {
   // empty: rows are kept in memory only.
   std::string rows_file = {};
   std::string case_name = {};  // for the column `case`
+  record::Table (*table)(const std::vector<record::CaseRecord>&) = record::contact_table;
   // The traffic to write to `traffic_file`, or null; outlives the log.
   device::Tap* tap = nullptr;
   std::string traffic_file = {};  // CSV: `time_s,way,bytes`, one line per write or read

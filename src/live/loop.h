@@ -64,6 +64,11 @@ struct LiveEnd {
 // and the model's force is sent. A recording is followed likewise, without sending.
 [[nodiscard]] LiveEnd run_arm(LiveLoop& loop);
 
+// Runs a gauge: a person moves it, and the model follows the travel in its lines. Without travel
+// only the forces are written: from the contact on, which Limits::start_force tells, for the time
+// that the programme takes.
+[[nodiscard]] LiveEnd run_gauge(LiveLoop& loop);
+
 // Runs a stand: the programme moves it, and the model follows its measured position.
 [[nodiscard]] LiveEnd run_stand(LiveLoop& loop);
 

@@ -49,13 +49,12 @@ TEST(DeviceProbe, MovesNothingAndSendsNoForce) {
     arm.end();
   }
   std::istringstream lines(arm_log.text());
-  int forces = 0;
+  int probes = 0;
   for (std::string line; std::getline(lines, line);) {
-    if (!has(line, "set_cursor_force")) continue;
-    ++forces;
-    EXPECT_TRUE(has(line, R"(""x"":0,""y"":0,""z"":0})")) << line;
+    EXPECT_FALSE(has(line, "set_cursor_force")) << line;
+    if (has(line, R"({""probe_position"":{}})")) ++probes;
   }
-  EXPECT_GT(forces, 10);
+  EXPECT_GT(probes, 10);
 }
 
 TEST(DeviceMonitor, GivesSamplesAndHealthAsJson) {
@@ -94,6 +93,17 @@ TEST(DeviceErrors, AreSentencesWithTheirExitCodes) {
   EXPECT_EQ(palpate(folder.path(), {"device", "probe", "replay:none.csv"}).code, 2);
 }
 
+// Replies without a position come at their pace and are no samples.
+TEST(DeviceErrors, ALinkThatGivesNoSampleDoesNotWork) {
+  const TemporaryFolder folder;
+  const ScratchFile script("[[fault]]\nat = \"0 s\"\nkind = \"missing_field\"\nreplies = 100000\n");
+  const LiveEmulator arm({"inverse3", "--clock", "virtual", "--fault", script.path()});
+  const Ended ended = palpate(folder.path(), {"device", "probe", arm.arm_link()});
+  EXPECT_EQ(ended.code, 6);
+  EXPECT_TRUE(has(ended.err, "0 samples of ")) << ended.err;
+  EXPECT_TRUE(has(ended.err, "a reply held no position")) << ended.err;
+}
+
 TEST(DeviceErrors, AnUnpluggedStandIsALostLink) {
   const TemporaryFolder folder;
   const ScratchFile script("[[fault]]\nat = \"1 s\"\nkind = \"unplug\"\n");
@@ -110,7 +120,7 @@ TEST(DeviceErrors, AnInterruptedMonitorEndsWithItsCounts) {
   const LiveEmulator arm({"inverse3", "--log", log.path()});
   Running monitor({.arguments = {"device", "monitor", arm.arm_link(), "--seconds", "60"},
                    .folder = folder.path()});
-  ASSERT_TRUE(monitor.until([&] { return has(log.text(), "set_cursor_force"); }));
+  ASSERT_TRUE(monitor.until([&] { return has(log.text(), "probe_position"); }));
   monitor.send(SIGINT);
   const Ended ended = monitor.wait();
   EXPECT_EQ(ended.code, 130);

@@ -83,5 +83,21 @@ TEST(LinkAllocations, AreNoneInTheStandsLoop) {
   EXPECT_EQ(fresh, 100);
 }
 
+TEST(LinkAllocations, AreNoneInAGaugesLoop) {
+  const test::ScratchFile settings(
+      "pattern = \"{force} {force_unit}\"\nbaud = 115200\npoll = \"?\\r\"\n");
+  const test::ScratchFile gauge("[gauge]\nstyle = \"mark10\"\n");
+  const test::LiveEmulator emulator(
+      {"gauge", "--clock", "virtual", "--baud", "115200", "--gauge", gauge.path()});
+  Clock clock(Clock::Kind::stepped);
+  Link link("serial:" + emulator.port() + "," + settings.path(), Purpose::look, clock);
+  const std::size_t before = test::blocks_taken;
+  int fresh = 0;
+  for (int i = 0; i < 100; ++i)
+    if (link.sample(0.5).arrival == Arrival::fresh) ++fresh;
+  EXPECT_EQ(test::blocks_taken - before, 0U);
+  EXPECT_EQ(fresh, 100);
+}
+
 }  // namespace
 }  // namespace palpate::device

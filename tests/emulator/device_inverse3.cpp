@@ -122,6 +122,55 @@ TEST(Inverse3Link, TellsWhyItCannotBeOpened) {
   EXPECT_EQ(arm.sample(test::wire_patience).fault, Fault::brake);
 }
 
+Sample first_of(const std::string& device_table, const std::string& more = {},
+                Purpose purpose = Purpose::command) {
+  const ScratchFile hand("[device]\n" + device_table);
+  const LiveEmulator emulator(arguments({"--hand", hand.path()}));
+  Clock clock(Clock::Kind::stepped);
+  Link arm(emulator.arm_link() + more, purpose, clock);
+  return arm.sample(test::wire_patience);
+}
+std::string refusal_of(const std::string& device_table, const std::string& more = {}) {
+  return test::refusal<LinkError>([&] { (void)first_of(device_table, more); });
+}
+
+TEST(Inverse3Link, RefusesToCommandAnArmThatCannotBeTakenAsItIs) {
+  EXPECT_TRUE(has(refusal_of("calibrated = false\n"), "is not calibrated; calibrate it"));
+  EXPECT_TRUE(has(refusal_of("power_supply = false\n"), "has no power supply"));
+  EXPECT_TRUE(has(refusal_of("basis = \"XZY\"\n"), "(the basis `XZY`)"));
+  EXPECT_TRUE(has(refusal_of("mount_scale = 2.0\nmount_turn = 1.57\n"),
+                  "(a mount that turns, a mount that scales)"));
+  EXPECT_TRUE(has(refusal_of("transform_scale = 0.5\n"), "(a transform that scales)"));
+  // They are read, with a note.
+  EXPECT_EQ(first_of("basis = \"XZY\"\ntransform_scale = 0.5\n", "", Purpose::look).arrival,
+            Arrival::fresh);
+}
+
+TEST(Inverse3Link, ChoosesOneOfTwoArmsById) {
+  const std::string two = "second_id = \"0BAD\"\n";
+  EXPECT_TRUE(has(refusal_of(two),
+                  "the service has 2 arms, `0BAD`, `049D`; choose one, as "
+                  "`inverse3:HOST:PORT/0BAD`"));
+  EXPECT_TRUE(has(refusal_of(two, "/0000"), "the service has no arm `0000`, only `0BAD`, `049D`"));
+  EXPECT_NE(first_of(two, "/049D").position.z(), 0.0);
+  EXPECT_EQ(first_of(two, "/0BAD").position.z(), 0.0);  // the other one lies at the origin
+}
+
+TEST(Inverse3Link, ReadsGripsNumericIdsAndBothWordsForTheMode) {
+  const std::string odd = "id = \"1234\"\nnumeric_id = true\ngrips = true\nboth_modes = true\n";
+  const ScratchFile hand("[device]\n" + odd);
+  const LiveEmulator emulator(arguments({"--hand", hand.path()}));
+  Clock clock(Clock::Kind::stepped);
+  Inverse3 arm(address_of(emulator), Purpose::command, clock);
+  EXPECT_EQ(arm.identity().id, "1234");
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_EQ(arm.command_force({0.0, 0.0, 0.5}), Fault::none);
+    const Sample sample = arm.sample(test::wire_patience);
+    ASSERT_EQ(sample.arrival, Arrival::fresh);
+    EXPECT_EQ(sample.fault, Fault::none);  // `mode` stays idle, `control_mode` does not
+  }
+}
+
 struct ArmFault {
   const char* kind;
   const char* more;  // keys of its table
@@ -188,6 +237,8 @@ INSTANTIATE_TEST_SUITE_P(
         ArmFault{"id_change", "duration = \"50 ms\"\n", Fault::wrong_device, false},
         ArmFault{"second_device", "duration = \"50 ms\"\n", Fault::none, false},
         ArmFault{"brake", "duration = \"50 ms\"\n", Fault::brake, false},
+        ArmFault{"power_off", "duration = \"50 ms\"\n", Fault::brake, false},
+        ArmFault{"transform", "", Fault::reframed, true},
         ArmFault{"not_ready", "duration = \"50 ms\"\n", Fault::brake, false}),
     [](const auto& one) { return std::string(one.param.kind); });
 

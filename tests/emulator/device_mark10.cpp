@@ -207,14 +207,56 @@ TEST(Mark10Link, NamesTheRateWhereNothingAnswers) {
     EXPECT_TRUE(has(refused_with(kind), "and the rate to 115200 baud")) << kind;
 }
 
-// A stand that forgets what it was told is not trusted: no motion without limits read back.
-TEST(Mark10Link, DoesNotMoveAStandThatTakesNoLimits) {
-  const ScratchFile settings("[stand]\npc_control = false\n");
+std::string refusal_with(const std::string& stand_table, Purpose purpose) {
+  const ScratchFile settings("[stand]\n" + stand_table);
   const LiveEmulator emulator({"mark10", "--clock", "virtual", "--stand", settings.path()});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
+  return test::refusal<LinkError>(
+      [&] { const Link opened("mark10:" + emulator.port(), purpose, clock); });
+}
+
+TEST(Mark10Link, NamesWhatAStandInTheFieldLacks) {
+  EXPECT_TRUE(has(refusal_with("pc_control = false\n", Purpose::command),
+                  "is read and does not obey; switch PC Control on in its menu"));
+  EXPECT_TRUE(has(refusal_with("travel_display = false\n", Purpose::look),
+                  "sends a force and no travel; it has no travel display"));
+}
+
+TEST(Mark10Link, ReadsAStandThatSendsTheTravelFirst) {
+  const ScratchFile settings("[stand]\norder = \"travel_first\"\n");
+  const LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tissue", "none", "--stand", settings.path()});
+  Clock clock(Clock::Kind::stepped);
   Mark10 stand(emulator.port(), Purpose::command, clock);
-  EXPECT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::not_verified);
-  EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::refused);
+  ASSERT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::none);
+  ASSERT_EQ(stand.move({Motion::Act::down, 2e-3}), Fault::none);
+  Sample sample;
+  for (int i = 0; i < 50; ++i) {
+    sample = stand.sample(test::wire_patience);
+    ASSERT_EQ(sample.arrival, Arrival::fresh);
+  }
+  EXPECT_LT(sample.position.z(), -1e-3);
+  EXPECT_TRUE(stand.stop());
+}
+
+// Without a status, equal readings of the travel tell that the stand has stopped.
+TEST(Mark10Link, StopsAStandThatReportsNoStatus) {
+  const ScratchFile settings("[stand]\nstatus = \"none\"\n");
+  LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tissue", "none", "--stand", settings.path()});
+  Clock clock(Clock::Kind::stepped);
+  {
+    Mark10 stand(emulator.port(), Purpose::command, clock);
+    const std::vector<std::string>& notes = stand.identity().notes;
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return has(note, "does not report its status (`p`)");
+    }));
+    ASSERT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::none);
+    ASSERT_EQ(stand.move({Motion::Act::down, 2e-3}), Fault::none);
+    (void)next_of(stand);
+    EXPECT_TRUE(stand.stop());
+  }
+  EXPECT_EQ(emulator.end().at("summary").at("moving"), false);
 }
 
 TEST(Mark10Link, DoesNotMoveAStandThatHasForgottenItsLimits) {

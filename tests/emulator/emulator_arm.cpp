@@ -84,7 +84,8 @@ TEST(EmulatorArm, UpdatesWithStateAndStatusOnly) {
 
 TEST(EmulatorArm, SpellsTheForceAsItsVersionDoes) {
   Client newer(lockstep());
-  EXPECT_EQ(newer.force(1.0, "values")["state"]["control_mode"], "idle");
+  EXPECT_EQ(newer.force(1.0, "values")["state"]["control_mode"], "force");  // the older word too
+  EXPECT_EQ(newer.force(1.0, "forces")["state"]["control_mode"], "idle");
   EXPECT_EQ(newer.force(1.0, "vector")["state"]["control_mode"], "force");
   Client older(lockstep(Service::v3_1));
   EXPECT_EQ(older.force(1.0, "vector")["state"]["mode"], "idle");

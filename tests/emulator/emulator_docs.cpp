@@ -9,6 +9,7 @@
 #include "base/field_writer.h"
 #include "base/files.h"
 #include "emulator/arm.h"
+#include "emulator/line_gauge.h"
 #include "emulator/mark10.h"
 #include "emulator/settings.h"
 #include "temporary_folder.h"
@@ -35,6 +36,8 @@ TEST(EmulatorDocs, ListEveryFaultAsItIs) {
   const std::string text = manual();
   EXPECT_NE(text.find("|---|---|---|\n" + fault_rows(stand_faults()) + "\n"), std::string::npos)
       << fault_rows(stand_faults());
+  EXPECT_NE(text.find("|---|---|---|\n" + fault_rows(gauge_faults()) + "\n"), std::string::npos)
+      << fault_rows(gauge_faults());
   EXPECT_NE(text.find("|---|---|---|\n" + fault_rows(arm_faults()) + "\n"), std::string::npos)
       << fault_rows(arm_faults());
 }
@@ -87,6 +90,14 @@ TEST(EmulatorDocs, ShowEveryKeyWithTheValueThatStandsWithoutIt) {
 
   const std::string tissue_file = block("# T.toml");
   expect_shown(tissue_file, TissueSettings{}, read_tissue(folder.file("T.toml", tissue_file)));
+
+  const std::string gauge_file = block("# G.toml");
+  LineGaugeSettings gauge;
+  read_line_gauge(folder.file("G.toml", gauge_file), gauge);
+  ASSERT_EQ(gauge.points.size(), 1U);
+  LineGaugeSettings usual_gauge;
+  usual_gauge.points = gauge.points;  // none without the file
+  expect_shown(gauge_file, usual_gauge, gauge);
 
   const std::string hand_file = block("# H.toml");
   ArmSettings arm;

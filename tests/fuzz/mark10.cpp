@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "device/line_buffer.h"
 #include "device/mark10_protocol.h"
 
 namespace {
@@ -22,9 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::size_t portion = 1 + data[0];
   std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  mark10::LineBuffer lines;
+  LineBuffer lines;
   mark10::PairReader pairs;
-  require(mark10::garbage_share(bytes) >= 0.0 && mark10::garbage_share(bytes) <= 1.0);
+  require(garbage_share(bytes) >= 0.0 && garbage_share(bytes) <= 1.0);
   while (!bytes.empty()) {
     lines.feed(bytes.substr(0, portion));
     bytes.remove_prefix(std::min(portion, bytes.size()));

@@ -12,7 +12,7 @@
 namespace palpate::device {
 namespace {
 
-TEST(LinkText, ReadsTheThreeForms) {
+TEST(LinkText, ReadsTheFourForms) {
   EXPECT_EQ(std::get<StandAddress>(parse_link("mark10:/dev/ttyUSB0")).port, "/dev/ttyUSB0");
   EXPECT_EQ(std::get<StandAddress>(parse_link("mark10:/dev/serial/by-id/a:b")).port,
             "/dev/serial/by-id/a:b");
@@ -20,6 +20,9 @@ TEST(LinkText, ReadsTheThreeForms) {
   EXPECT_EQ(arm.host, "localhost");
   EXPECT_EQ(arm.port, 10001);
   EXPECT_EQ(std::get<ArmAddress>(parse_link("inverse3:[::1]:1")).host, "::1");
+  const auto gauge = std::get<GaugeAddress>(parse_link("serial:/dev/tty:A,B,set tings.toml"));
+  EXPECT_EQ(gauge.port, "/dev/tty:A,B");
+  EXPECT_EQ(gauge.settings, "set tings.toml");
   EXPECT_EQ(std::get<RecordingAddress>(parse_link("replay:a run.csv")).file, "a run.csv");
 }
 
@@ -34,6 +37,21 @@ TEST(LinkText, ReadsAPortOfEvents) {
   EXPECT_EQ(arm.host, "fe80::1");
   EXPECT_EQ(arm.port, 10001);
   EXPECT_EQ(arm.events, 10021);
+}
+
+TEST(LinkText, ReadsTheIdOfAnArm) {
+  const auto arm = std::get<ArmAddress>(parse_link("inverse3:localhost:10001/0BAD"));
+  EXPECT_EQ(arm.id, "0BAD");
+  EXPECT_EQ(arm.port, 10001);
+  EXPECT_EQ(std::get<ArmAddress>(parse_link("inverse3:[::1]:1:none/12")).id, "12");
+  EXPECT_EQ(std::get<ArmAddress>(parse_link("inverse3:localhost:1")).id, "");
+}
+
+TEST(LinkText, TellsWhatOnlyReads) {
+  EXPECT_TRUE(only_reads(parse_link("serial:x,y")));
+  EXPECT_TRUE(only_reads(parse_link("replay:x")));
+  EXPECT_FALSE(only_reads(parse_link("mark10:x")));
+  EXPECT_FALSE(only_reads(parse_link("inverse3:x:1")));
 }
 
 std::string refusal(std::string_view text) {
@@ -63,6 +81,12 @@ TEST(LinkText, RefusesEverythingElseAndShowsTheForms) {
                            "inverse3:::1:1",
                            "inverse3:localhost:1x",
                            "inverse3:localhost:-1",
+                           "inverse3:localhost:1/",
+                           "inverse3:localhost/049D",
+                           "serial:",
+                           "serial:/dev/ttyACM0",
+                           "serial:/dev/ttyACM0,",
+                           "serial:,gauge.toml",
                            "replay:",
                            "mark11:/dev/ttyUSB0",
                            ":"}) {

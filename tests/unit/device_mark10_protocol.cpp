@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "device/line_buffer.h"
+
 namespace palpate::device::mark10 {
 namespace {
 
@@ -145,8 +147,24 @@ TEST(Mark10Pairs, AreAForceDirectlyFollowedByATravel) {
   EXPECT_STREQ(step.pair->force_unit.data(), "N");
 }
 
+TEST(Mark10Pairs, AreAlsoATravelDirectlyFollowedByAForce) {
+  PairReader reader;
+  EXPECT_FALSE(reader.take("-1.50 mm").pair);
+  const auto step = reader.take("0.250 N");
+  ASSERT_TRUE(step.pair);
+  EXPECT_DOUBLE_EQ(step.pair->force, 0.25);
+  EXPECT_DOUBLE_EQ(step.pair->travel, -1.5e-3);
+  EXPECT_EQ(reader.order(), PairReader::Order::travel_first);
+  // The order is that of the first pair: a force with the travel of the next reply is no pair.
+  EXPECT_FALSE(reader.take("0.300 N").pair);
+  EXPECT_FALSE(reader.take("-1.60 mm").pair);
+  EXPECT_TRUE(reader.take("0.310 N").pair);
+}
+
 TEST(Mark10Pairs, AreNoneWhereOneLineIsSpoilt) {
   PairReader reader;
+  EXPECT_FALSE(reader.take("0.1 N").pair);
+  ASSERT_TRUE(reader.take("1.00 mm").pair);  // the stand's order
   const auto fault_of = [&](const char* first, const char* second) {
     reader.clear();
     const Fault fault = reader.take(first).fault;

@@ -1,0 +1,247 @@
+// Polls or hears a gauge, and makes samples of the lines that match its pattern.
+#include "device/line_gauge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace palpate::device {
+namespace {
+
+constexpr std::size_t diagnosis_bytes = 400;
+constexpr int most_reads = 64;         // of 256 bytes, before a request
+constexpr double farthest = 10.0;      // m, beyond the reach of any stage
+constexpr double strongest = 1e6;      // N, beyond any gauge
+constexpr double least_answer = 0.25;  // s, that a gauge may take at any rate
+
+double unit_or_none(Measure measure, const std::string& word) {
+  return word.empty() ? 0.0 : unit_of(measure, word).value_or(0.0);
+}
+
+}  // namespace
+
+LineGauge::LineGauge(const GaugeAddress& address, Clock& clock, Tap* tap)
+    : clock_(clock),
+      path_(address.port),
+      file_(address.settings),
+      settings_(read_line_settings(address.settings)),
+      pattern_(settings_.pattern, settings_.decimal),
+      given_unit_{unit_or_none(Measure::force, settings_.force_unit),
+                  unit_or_none(Measure::travel, settings_.travel_unit),
+                  unit_or_none(Measure::time, settings_.time_unit)},
+      port_(address.port, settings_.line) {
+  port_.tap(tap);
+  const double period = 1.0 / settings_.rate;
+  identity_.kind = Kind::gauge;
+  identity_.dialect = "lines like `" + settings_.pattern + "`";
+  limits_.measures_force = true;
+  limits_.measures_travel = pattern_.has_number(Measure::travel);
+  limits_.start_force = settings_.start_force;
+  limits_.period = period;
+  limits_.stale_after = 3.0 * period;
+  limits_.lost_after = std::max(1.0, 10.0 * period);
+  first_bytes_.reserve(diagnosis_bytes);
+  // Only a stream that no text starts is in the middle of a line.
+  cut_ = settings_.poll.empty() && settings_.start.empty();
+  if (!settings_.start.empty()) (void)port_.write(settings_.start);
+  greet(wire_time() + settings_.wait);
+  if (!limits_.measures_travel)
+    identity_.notes.push_back(
+        "the lines have no travel: forces are recorded over time, without the model; `palpate "
+        "identify` reads them with `--x time_s`");
+}
+
+LineGauge::~LineGauge() {
+  if (!settings_.stop.empty()) (void)port_.write(settings_.stop);
+}
+
+// With a stepped clock a reading takes one period, as it does in the emulator.
+void LineGauge::pass_time() {
+  if (clock_.kind() == Clock::Kind::stepped) clock_.sleep_until(clock_.now() + limits_.period);
+}
+
+double LineGauge::reply_time() const { return std::max(least_answer, 2.0 * limits_.period); }
+
+bool LineGauge::ask() {
+  if (settings_.poll.empty() || asked_) return true;
+  // What came since the last reply is not the reply to this request.
+  std::array<char, 256> bytes;
+  for (int reads = 0; reads < most_reads; ++reads) {
+    const auto read = port_.read(bytes, 0.0);
+    if (read.outcome != SerialPort::Outcome::bytes) break;
+    traffic_.discarded += read.size;
+  }
+  traffic_.discarded += lines_.rest().size();
+  lines_.clear();
+  if (!port_.write(settings_.poll)) return false;
+  pass_time();
+  asked_ = true;
+  heard_ = false;
+  asked_at_ = wire_time();
+  ++traffic_.sent;
+  return true;
+}
+
+void LineGauge::receive(double until) {
+  std::array<char, 256> bytes;
+  const auto read = port_.read(bytes, until);
+  if (read.outcome != SerialPort::Outcome::bytes) return;
+  heard_ = true;
+  const std::string_view got(bytes.data(), read.size);
+  if (first_bytes_.size() < diagnosis_bytes)
+    first_bytes_ += got.substr(0, diagnosis_bytes - first_bytes_.size());
+  lines_.feed(got);
+}
+
+void LineGauge::greet(double until) {
+  while (wire_time() < until && !port_.lost()) {
+    const Sample first = sample(std::max(0.0, until - wire_time()));
+    if (first.arrival != Arrival::fresh) continue;
+    identity_.notes.push_back("the first line, " + heard().back());
+    last_.reset();
+    return;
+  }
+  refuse_silence();
+}
+
+void LineGauge::refuse_silence() const {
+  const std::string on = "palpate: on `" + path_ + "` ";
+  if (port_.lost()) throw LinkError(on + "the device hung up; check its cable");
+  const std::string rate = std::to_string(settings_.line.baud) + " baud";
+  if (first_bytes_.empty())
+    throw LinkError(on + "nothing comes within " + rounded_text(settings_.wait, 3) + " s" +
+                    (settings_.poll.empty() ? "" : " after `" + printable(settings_.poll) + "`") +
+                    "; check the cable, `baud`, `poll` and `start` in `" + file_ + "`");
+  if (garbage_share(first_bytes_) > 0.2)
+    throw LinkError(on + "garbage comes, as at a wrong rate; give the gauge's own instead of " +
+                    rate + " in `" + file_ + "`");
+  if (kept_count_ == 0)
+    throw LinkError(on + "`" + printable(first_bytes_) +
+                    "` comes, which never ends as a line does; let the gauge end each reading with "
+                    "a line feed");
+  throw LinkError(on + "no line matches `" + settings_.pattern + "`: " + heard().back() +
+                  "; change `pattern` in `" + file_ + "`");
+}
+
+Traffic LineGauge::traffic() const {
+  Traffic traffic = traffic_;
+  traffic.discarded += lines_.dropped();
+  return traffic;
+}
+
+void LineGauge::keep(std::string_view line) {
+  Kept& kept = kept_[kept_count_++ % kept_lines];
+  kept.size = std::min(line.size(), kept.bytes.size());
+  std::copy_n(line.begin(), kept.size, kept.bytes.begin());
+}
+
+std::optional<double> LineGauge::value_of(const LineWords& words, Measure measure) const {
+  const auto& number = words.of(measure);
+  if (!number) return Sample::nan;
+  const std::string_view word = words.unit[as_index(measure)];
+  const auto unit =
+      word.empty() ? std::optional(given_unit_[as_index(measure)]) : unit_of(measure, word);
+  if (!unit) return std::nullopt;
+  double value = *number;
+  if (measure == Measure::force) value = settings_.force_scale * (value - settings_.force_zero);
+  if (measure == Measure::travel && settings_.travel == LineSettings::Towards::down) value = -value;
+  return value * *unit;
+}
+
+Sample LineGauge::read(std::string_view line) {
+  const auto words = pattern_.match(line);
+  if (!words) return finished(Arrival::dropped, Fault::garbage);
+  const auto force = value_of(*words, Measure::force);
+  const auto travel = value_of(*words, Measure::travel);
+  const auto time = value_of(*words, Measure::time);
+  if (!force || !travel || !time) return finished(Arrival::dropped, Fault::unknown_unit);
+  if (std::abs(*force) > strongest || std::abs(*travel) > farthest)
+    return finished(Arrival::dropped, Fault::not_finite);
+  Sample sample = finished(Arrival::fresh, Fault::none);
+  sample.force = *force;
+  sample.device_time = *time;
+  if (limits_.measures_travel) sample.position.z() = *travel;
+  if (last_ && *time < last_->device_time) {
+    restarted_ = true;
+    return finished(Arrival::lost, Fault::restarted);
+  }
+  const bool timed = pattern_.has_number(Measure::time);
+  if (timed && last_ && *time == last_->device_time) {
+    sample.arrival = Arrival::duplicate;
+    return sample;
+  }
+  if (last_) {
+    const double passed = timed ? *time - last_->device_time : sample.received - last_->received;
+    if (passed > 0.0) sample.velocity = (sample.position - last_->position) / passed;
+  }
+  const std::string_view word = words->unit[as_index(Measure::force)];
+  const double unit = word.empty() ? 0.0 : unit_of(Measure::force, word).value_or(0.0);
+  if (unit_ == 0.0) unit_ = unit;
+  if (unit != unit_) sample.fault = Fault::unit_changed;
+  last_ = sample;
+  return sample;
+}
+
+Sample LineGauge::sample(double wait) {
+  if (restarted_) return finished(Arrival::lost, Fault::restarted);
+  const double until = wire_time() + std::max(0.0, wait);
+  while (true) {
+    if (!ask()) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
+    if (const auto line = lines_.next()) {
+      // The beginning of the first line of a stream may be missing.
+      if (std::exchange(cut_, false)) continue;
+      keep(*line);
+      ++traffic_.received;
+      if (settings_.poll.empty()) pass_time();
+      const Sample sample = read(*line);
+      // A line that does not match may be an echo, with the reply behind it.
+      asked_ = asked_ && sample.arrival == Arrival::dropped;
+      heard_ = false;
+      return sample;
+    }
+    if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
+    const double now = wire_time();
+    if (asked_ && now >= asked_at_ + reply_time()) {
+      asked_ = false;
+      if (!heard_) return finished(Arrival::none, Fault::silent);
+      return finished(Arrival::dropped,
+                      garbage_share(lines_.rest()) > 0.0 ? Fault::garbage : Fault::truncated);
+    }
+    if (now >= until) return finished(Arrival::none, Fault::none);
+    receive(asked_ ? std::min(until, asked_at_ + reply_time()) : until);
+  }
+}
+
+std::vector<std::string> LineGauge::heard() const {
+  std::vector<std::string> sentences;
+  for (std::size_t i = kept_count_ - std::min(kept_count_, kept_lines); i < kept_count_; ++i) {
+    const Kept& kept = kept_[i % kept_lines];
+    const std::string_view line(kept.bytes.data(), kept.size);
+    std::string sentence = "`" + printable(line) + "`";
+    const auto words = pattern_.match(line);
+    if (!words) {
+      sentences.push_back(sentence + " does not match: " + pattern_.why_not(line));
+      continue;
+    }
+    const auto add = [&](Measure measure, const char* name, const char* unit, double shown) {
+      if (!words->of(measure)) return;
+      const auto value = value_of(*words, measure);
+      sentence += std::string(", ") + name + " " +
+                  (value ? rounded_text(shown * *value, 6) + " " + unit
+                         : "in `" + std::string(words->unit[as_index(measure)]) +
+                               "`, which is none of " + known_units(measure));
+    };
+    sentence += ":";
+    add(Measure::force, "force", "N", 1.0);
+    add(Measure::travel, "height", "mm", 1e3);
+    add(Measure::time, "time", "s", 1.0);
+    sentence.erase(sentence.find(":,") + 1, 1);
+    sentences.push_back(sentence);
+  }
+  return sentences;
+}
+
+}  // namespace palpate::device

@@ -1,0 +1,90 @@
+// The link to any gauge that sends lines, or answers with lines, on a serial line. It only reads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/clock.h"
+#include "device/line_buffer.h"
+#include "device/line_pattern.h"
+#include "device/line_settings.h"
+#include "device/link_text.h"
+#include "device/sample.h"
+#include "device/serial_port.h"
+
+namespace palpate::device {
+
+class Tap;
+
+class LineGauge {
+ public:
+  // Reads the settings, opens the port, sends the start text, and waits for the first line that
+  // matches the pattern. Throws InputError for wrong settings and LinkError with a diagnosis.
+  // `clock` and `tap` must outlive the link.
+  LineGauge(const GaugeAddress& address, Clock& clock, Tap* tap = nullptr);
+  ~LineGauge();
+  LineGauge(const LineGauge&) = delete;
+  LineGauge& operator=(const LineGauge&) = delete;
+
+  [[nodiscard]] const Identity& identity() const { return identity_; }
+  [[nodiscard]] const Limits& limits() const { return limits_; }
+  [[nodiscard]] Traffic traffic() const;
+
+  // The next line, waiting for it at most `wait` s; with a poll text it asks first, unless a reply
+  // is pending. A line that does not match is dropped. Position is along z, upwards, from the zero
+  // of the travel. After `restarted`, and when the port is gone, the link is lost.
+  [[nodiscard]] Sample sample(double wait);
+  [[nodiscard]] bool stop() const { return !port_.lost(); }
+
+  // The last lines as sentences: "`F 0.15 N`: force 0.15 N", or why a line does not match.
+  [[nodiscard]] std::vector<std::string> heard() const;
+
+ private:
+  static constexpr std::size_t kept_lines = 8;
+  struct Kept {
+    std::array<char, longest_line> bytes{};
+    std::size_t size = 0;
+  };
+
+  void greet(double until);
+  [[noreturn]] void refuse_silence() const;
+  void pass_time();
+  [[nodiscard]] double reply_time() const;
+  bool ask();
+  void receive(double until);
+  void keep(std::string_view line);
+  Sample read(std::string_view line);
+  // In SI; nothing if the line has the number and its unit is unknown.
+  [[nodiscard]] std::optional<double> value_of(const LineWords& words, Measure measure) const;
+  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
+    return {.arrival = arrival, .fault = fault, .received = clock_.now()};
+  }
+
+  Clock& clock_;
+  std::string path_;
+  std::string file_;  // of the settings
+  LineSettings settings_;
+  LinePattern pattern_;
+  std::array<double, measures> given_unit_{};  // SI, of the settings
+  SerialPort port_;
+  LineBuffer lines_;
+  Identity identity_;
+  Limits limits_;
+  Traffic traffic_;
+  bool asked_ = false;          // a poll text was sent and no line has come
+  bool heard_ = false;          // bytes have come since
+  double asked_at_ = 0.0;       // s, wire_time()
+  bool cut_ = false;            // the next line may lack its beginning
+  bool restarted_ = false;      // the gauge's time went back
+  double unit_ = 0.0;           // N, of the first force
+  std::optional<Sample> last_;  // the last fresh sample
+  std::array<Kept, kept_lines> kept_{};
+  std::size_t kept_count_ = 0;  // lines since the start
+  std::string first_bytes_;     // while greeting, for a diagnosis
+};
+
+}  // namespace palpate::device

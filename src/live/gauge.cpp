@@ -1,0 +1,163 @@
+// The loop of a gauge that only reads: the model follows the travel, or forces are written alone.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "device/safety.h"
+#include "live/guide.h"
+#include "live/loop.h"
+#include "live/touch.h"
+#include "run/contact_row.h"
+#include "scenario/programme.h"
+
+namespace palpate::live {
+namespace {
+
+using device::Arrival;
+using device::Fault;
+using device::LinkState;
+using device::Sample;
+using device::Trip;
+
+constexpr double stepped_wait = 1.0;  // s of wire time, for a line in lock-step
+constexpr double longest_wait = 0.1;  // s, after which a signal is noticed
+
+class GaugeLoop {
+ public:
+  explicit GaugeLoop(LiveLoop& loop)
+      : loop_(loop),
+        limits_(loop.link.limits()),
+        guide_(loop.scene.scenario.steps),
+        staleness_({.stale_after = limits_.stale_after, .lost_after = limits_.lost_after}),
+        surface_(loop.options.surface.value_or(0.0)),
+        planned_(scenario::programme_time(loop.scene.scenario)),
+        begun_(!limits_.start_force || limits_.measures_travel) {}
+
+  LiveEnd run() {
+    start_ = loop_.clock.now();
+    note(LinkState::open, Fault::none);
+    while (!over_) frame();
+    if (end_.why == LiveEnd::Why::done && rows_ == 0)
+      end_ = {LiveEnd::Why::link, "the force never reached the `start_force` of the settings"};
+    return end_;
+  }
+
+ private:
+  [[nodiscard]] bool stepped() const { return loop_.clock.kind() == device::Clock::Kind::stepped; }
+
+  void note(LinkState state, Fault fault) {
+    loop_.health.pass({loop_.clock.now() - start_, state,
+                       state == LinkState::lost ? Trip::link_lost : Trip::none, fault});
+  }
+
+  void ends(LiveEnd end) {
+    if (!over_) end_ = std::move(end);
+    over_ = true;
+  }
+
+  void frame() {
+    const double asked = loop_.clock.now();
+    const Sample sample =
+        loop_.link.sample(stepped() ? stepped_wait : std::min(longest_wait, limits_.lost_after));
+    const double now = loop_.clock.now() - start_;
+    const double begun = device::wire_time();
+    loop_.health.count(now, sample);
+    if (sample.arrival == Arrival::fresh) loop_.health.reply.add(sample.received - asked);
+    staleness_.step(now, sample.arrival);
+    const bool silent = staleness_.state() == device::Staleness::State::lost ||
+                        (stepped() && sample.arrival == Arrival::none && ++unheard_ > 2);
+    if (sample.arrival == Arrival::lost || silent) {
+      note(LinkState::lost, sample.fault);
+      ends(ended_by_link(Trip::link_lost,
+                         sample.fault == Fault::none ? Fault::silent : sample.fault));
+    } else if (sample.arrival == Arrival::fresh) {
+      unheard_ = 0;
+      note(LinkState::open, sample.fault);
+      take(sample);
+    } else if (staleness_.state() == device::Staleness::State::stale) {
+      note(LinkState::stale, sample.fault);
+    }
+    if (loop_.stop.load()) ends({LiveEnd::Why::interrupted, "it was interrupted"});
+    if (now >= loop_.options.longest) ends({LiveEnd::Why::too_long, "the time is up"});
+    loop_.health.compute.add(device::wire_time() - begun);
+  }
+
+  // The time of a sample (s), by the gauge's own clock if its lines have it.
+  [[nodiscard]] static double time_of(const Sample& sample) {
+    return std::isfinite(sample.device_time) ? sample.device_time : sample.received;
+  }
+
+  // Without travel the time of the programme begins with the contact: where a line through
+  // F^(2/3) of the first readings is 0, as for a sphere that is pressed at a constant speed. Three
+  // readings make a line; with fewer, contact began after the last reading without force.
+  bool begins(const Sample& sample) {
+    const double time = time_of(sample);
+    if (!(sample.force > *limits_.start_force / 8.0)) {
+      line_ = TouchLine();
+      first_.clear();
+      last_free_ = time;
+      return false;
+    }
+    line_.add(-time, sample.force);
+    first_.push_back(sample);
+    if (sample.force < *limits_.start_force) return false;
+    const auto contact = line_.surface();
+    first_time_ =
+        contact ? std::min(-*contact, time_of(first_.front())) : last_free_.value_or(time);
+    for (const Sample& one : std::exchange(first_, {})) write(one);
+    return true;
+  }
+
+  void take(const Sample& sample) {
+    if (begun_) {
+      if (rows_ == 0) first_time_ = time_of(sample);
+      write(sample);
+    } else {
+      begun_ = begins(sample);
+    }
+  }
+
+  void write(const Sample& sample) {
+    const double time = time_of(sample) - first_time_;
+    const Vec3 offset(0.0, 0.0, limits_.measures_travel ? sample.position.z() - surface_ : 0.0);
+    if (limits_.measures_travel) {
+      if (auto wrong = loop_.model.follow(offset, time)) return ends({LiveEnd::Why::model, *wrong});
+      guide_.pass({time, offset, loop_.model.touch().force()});
+    } else if (time > planned_) {
+      return ends({});
+    }
+    LogRow row{run::contact_row(loop_.scene, loop_.model.touch()), {}};
+    row.contact.step = guide_.step();
+    row.contact.time = time;
+    row.measured.place = {0.0, 0.0, offset.z()};
+    row.measured.force = sample.force;
+    loop_.log.push(row);
+    ++rows_;
+    if (guide_.done()) ends({});
+  }
+
+  LiveLoop& loop_;
+  const device::Limits& limits_;
+  Guide guide_;
+  device::Staleness staleness_;
+  double surface_;           // m, in the gauge's z
+  double planned_;           // s, of the programme
+  bool begun_;               // the rows have begun
+  double start_ = 0.0;       // s, of the clock
+  double first_time_ = 0.0;  // s, of the first row or of the contact
+  TouchLine line_;
+  std::vector<Sample> first_;        // in contact, before the rows
+  std::optional<double> last_free_;  // s, of the last reading without force
+  long long rows_ = 0;
+  int unheard_ = 0;  // waits in a row without a line, in lock-step
+  bool over_ = false;
+  LiveEnd end_;
+};
+
+}  // namespace
+
+LiveEnd run_gauge(LiveLoop& loop) { return GaugeLoop(loop).run(); }
+
+}  // namespace palpate::live
