@@ -63,6 +63,8 @@ void add_options(CLI::App& verb, Run& run) {
   beside(verb.add_flag("--arm", device.arm, "Allow motion and forces"));
   beside(verb.add_flag("--realtime", device.realtime, "Run with real-time priority"));
   beside(verb.add_flag("--traffic", device.traffic, "Keep the bytes sent and received"));
+  beside(verb.add_flag("--expect", device.expect,
+                       "Exit code 3 unless the measured force agrees with the model"));
   beside(verb.add_option("--surface", device.surface,
                          "Height of the surface in the device's z, as \"-2 mm\""));
   beside(verb.add_option("--max-force", device.most_force, "Largest force, as \"2 N\""));

@@ -23,6 +23,7 @@ struct RunDevice {
   bool arm = false;
   bool realtime = false;
   bool traffic = false;
+  bool expect = false;
   std::string surface;     // a length; empty: found by a press, or assumed
   std::string most_force;  // a force; empty: the default of the safety rules
   double seconds = 0.0;    // s; 0: until the programme ends

@@ -59,8 +59,9 @@ Json sample_json(double time, const device::Sample& sample) {
 
 struct Session {
   device::Health health;
-  device::Sample last;  // the last fresh sample
-  double span = 0.0;    // s, duration
+  device::LatencyHistogram reply;  // s
+  device::Sample last;             // the last fresh sample
+  double span = 0.0;               // s, duration
   device::Fault ended_by = device::Fault::none;
 };
 
@@ -74,12 +75,10 @@ Session read(device::Link& link, device::Clock& clock, double time, const Talk* 
   double heard = begin;
   const double period = link.limits().period;
   while (clock.now() - begin < time && !stop) {
-    const double asked = device::wire_time();
     const device::Sample sample = link.sample(std::max(period, 0.02));
     const double now = clock.now();
     session.health.count(now - begin, sample);
     if (sample.arrival == Arrival::fresh) {
-      session.health.reply.add(device::wire_time() - asked);
       session.last = sample;
       heard = now;
     }
@@ -97,6 +96,8 @@ Session read(device::Link& link, device::Clock& clock, double time, const Talk* 
     clock.sleep_until(next);
   }
   session.span = clock.now() - begin;
+  session.health.end_of_samples(session.span);
+  session.reply = link.traffic().reply;
   return session;
 }
 
@@ -121,8 +122,8 @@ std::vector<std::string> sentences(const device::Link& link) {
 std::string rate_sentence(const Session& session) {
   const device::Health& health = session.health;
   return "rate      " + rounded_text(rate_of(session), 3) + " samples/s; reply p50 below " +
-         rounded_text(1e3 * health.reply.quantile(0.5), 3) + " ms, p99 below " +
-         rounded_text(1e3 * health.reply.quantile(0.99), 3) + " ms, longest gap " +
+         rounded_text(1e3 * session.reply.quantile(0.5), 3) + " ms, p99 below " +
+         rounded_text(1e3 * session.reply.quantile(0.99), 3) + " ms, longest gap " +
          rounded_text(1e3 * health.longest_gap, 3) + " ms; " + std::to_string(health.dropped) +
          " dropped, " + std::to_string(health.duplicates) + " duplicate, " +
          std::to_string(health.missing) + " missing";

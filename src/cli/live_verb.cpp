@@ -1,5 +1,6 @@
 // `palpate run --device`: runs one case with a live device or a recording.
 #include <csignal>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -9,6 +10,7 @@
 #include "cli/verbs.h"
 #include "device/link_text.h"
 #include "fit/case_fits.h"
+#include "live/as_moved.h"
 #include "live/guide.h"
 #include "live/live.h"
 #include "report/machine.h"
@@ -57,6 +59,15 @@ int code_of(live::LiveEnd::Why why) {
   return exit_good;
 }
 
+// The scenario with the steps that the stand carried out, for `palpate identify`.
+std::string as_moved_text(scenario::Family family, std::vector<scenario::Step> steps) {
+  family.base.steps = family.cases.front().scenario.steps = std::move(steps);
+  return "# The programme as the stand carried it out, read from its travel: for `palpate "
+         "identify`, "
+         "with\n# `step.1.time`, the moment at which it set off, among the unknowns.\n" +
+         scenario::echo(family);
+}
+
 }  // namespace
 
 int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
@@ -85,6 +96,9 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   std::signal(SIGPIPE, SIG_IGN);
   const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted, {SIGHUP});
   live::Live live(scene, options);
+  if (command.device.expect && !live.measures_force())
+    throw InputError({"--expect", 0, 0}, "wants a device that measures force, and `" +
+                                             options.link + "` does not; leave the option out");
   for (const std::string& sentence : live.plan(file)) talk.say(sentence);
   if (!command.device.arm && !device::only_reads(device::parse_link(options.link))) {
     talk.say("nothing was moved and no force was sent; give `--arm` to run this");
@@ -104,6 +118,9 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
       .rows_file = folder.growing(live.rows_name()),
       .traffic_file = command.device.traffic ? folder.growing("traffic.csv") : std::string()};
   live::Live::Result result = live.go(stop_requested, output);
+  if (auto steps = live::as_moved(result.record, scene.scenario.steps);
+      steps && options.link.starts_with("mark10:"))
+    result.record.attached.emplace_back("as_moved.toml", as_moved_text(family, std::move(*steps)));
   if (result.rows_are_written) folder.take_grown(live.rows_name());
   if (command.device.traffic) folder.take_grown("traffic.csv");
   for (const std::string& warning : result.warnings) talk.warn(warning);
@@ -131,7 +148,15 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
                         {"outcome", record::outcome_word(result.record.outcome)},
                         {"reason", result.record.reason}});
   if (code != exit_good) Talk::error(ended + "; " + rows + " are kept");
-  return code;
+  if (!result.verdict) return code;
+  const std::string verdict = result.record.name + ": " + live::verdict_sentence(*result.verdict);
+  const bool agrees = result.verdict->outcome == live::Verdict::Outcome::agrees;
+  if (code != exit_good || !command.device.expect || agrees) {
+    talk.say(verdict);
+    return code;
+  }
+  Talk::error(verdict);
+  return exit_different;
 }
 
 }  // namespace palpate::cli

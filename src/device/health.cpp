@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "device/events.h"
 
 namespace palpate::device {
@@ -21,6 +22,7 @@ Json histogram_json(const LatencyHistogram& histogram) {
   json["longest_s"] = histogram.longest();
   json["p50_below_s"] = histogram.quantile(0.5);
   json["p99_below_s"] = histogram.quantile(0.99);
+  json["p999_below_s"] = histogram.quantile(0.999);
   Json bins = Json::array();
   for (std::size_t bin = 0; bin < LatencyHistogram::bins; ++bin) {
     if (histogram.counts()[bin] == 0) continue;
@@ -60,29 +62,6 @@ Json events_json(const Events& events) {
 
 }  // namespace
 
-void LatencyHistogram::add(double time) {
-  std::size_t bin = 0;
-  for (double end = 1e-6; bin + 1 < bins && time >= end; end *= 2.0) ++bin;
-  ++counts_[bin];
-  ++count_;
-  if (time > longest_) longest_ = time;
-}
-
-double LatencyHistogram::upper_end(std::size_t bin) {
-  return 1e-6 * static_cast<double>(std::uint64_t{1} << bin);
-}
-
-double LatencyHistogram::quantile(double share) const {
-  if (count_ == 0) return 0.0;
-  const double wanted = share * static_cast<double>(count_);
-  std::uint64_t below = 0;
-  for (std::size_t bin = 0; bin < bins; ++bin) {
-    below += counts_[bin];
-    if (static_cast<double>(below) >= wanted) return upper_end(bin);
-  }
-  return upper_end(bins - 1);
-}
-
 const char* link_state_text(LinkState state) {
   switch (state) {
     case LinkState::open: return "open";
@@ -96,11 +75,12 @@ const char* link_state_text(LinkState state) {
 }
 
 void Health::count(double now, const Sample& sample) {
+  if (frames == 0) last_fresh_ = now;
   ++frames;
   switch (sample.arrival) {
     case Arrival::fresh:
       ++fresh;
-      if (last_fresh_ >= 0.0) longest_gap = std::max(longest_gap, now - last_fresh_);
+      end_of_samples(now);
       last_fresh_ = now;
       break;
     case Arrival::duplicate: ++duplicates; break;
@@ -112,13 +92,45 @@ void Health::count(double now, const Sample& sample) {
   if (fault > 0 && fault < faults.size()) ++faults[fault];
 }
 
+void Health::end_of_samples(double now) {
+  if (frames > 0) longest_gap = std::max(longest_gap, now - last_fresh_);
+}
+
 void Health::pass(const Transition& transition) {
-  const std::size_t kept = std::min(transition_count, transitions.size());
-  const bool same =
-      kept > 0 && transition_count == kept && transitions[kept - 1].to == transition.to;
-  if (same) return;
-  if (kept < transitions.size()) transitions[kept] = transition;
+  if (transition_count > 0 && state_ == transition.to) return;
+  state_ = transition.to;
+  if (transition_count < first_kept)
+    first_[transition_count] = transition;
+  else
+    last_[(transition_count - first_kept) % last_kept] = transition;
   ++transition_count;
+}
+
+std::vector<Transition> Health::transitions() const {
+  const auto count = [&](std::size_t most) { return std::min(transition_count, most); };
+  std::vector<Transition> kept(first_.begin(), first_.begin() + count(first_kept));
+  for (std::size_t i = std::max(first_kept + last_kept, transition_count) - last_kept;
+       i < transition_count; ++i)
+    kept.push_back(last_[(i - first_kept) % last_kept]);
+  return kept;
+}
+
+std::vector<std::string> health_warnings(const Health& health) {
+  constexpr double most = 0.01;  // of the frames
+  std::vector<std::string> sentences;
+  const auto warn = [&](std::uint64_t count, const std::string& what) {
+    const double share = static_cast<double>(count) / static_cast<double>(health.frames);
+    if (health.frames == 0 || share <= most) return;
+    sentences.push_back(std::to_string(count) + " of " + std::to_string(health.frames) +
+                        " frames, " + rounded_text(100.0 * share, 2) + " %, " + what);
+  };
+  warn(health.without_sample(),
+       "had no new sample, so that the model stood still in them; see `samples` and `faults` of "
+       "device_health.json, and close other programs that use the device");
+  warn(health.rules.stale,
+       "were stale, so that the safety rules took the force back or halted the stand; give the run "
+       "a free processor and `--realtime`");
+  return sentences;
 }
 
 std::string health_json(const Identity& identity, const Limits& limits, const Traffic& traffic,
@@ -136,6 +148,8 @@ std::string health_json(const Identity& identity, const Limits& limits, const Tr
   json["traffic"] = {{"sent", traffic.sent},
                      {"received", traffic.received},
                      {"duplicates", traffic.duplicates},
+                     {"late", traffic.late},
+                     {"unanswered", traffic.unanswered},
                      {"discarded_bytes", traffic.discarded}};
   if (traffic.events.port != Events::Port::none) json["events"] = events_json(traffic.events);
   json["frames"] = health.frames;
@@ -144,6 +158,7 @@ std::string health_json(const Identity& identity, const Limits& limits, const Tr
                      {"duplicate", health.duplicates},
                      {"dropped", health.dropped},
                      {"missing", health.missing}};
+  json["frames_without_sample"] = health.without_sample();
   json["longest_gap_s"] = health.longest_gap;
   json["least_energy_J"] = health.least_energy;
   json["rules"] = rules_json(health.rules);
@@ -152,12 +167,11 @@ std::string health_json(const Identity& identity, const Limits& limits, const Tr
     if (health.faults[i] > 0)
       faults[std::string(fault_text(static_cast<Fault>(i)))] = health.faults[i];
   json["faults"] = faults;
-  json["reply"] = histogram_json(health.reply);
+  json["reply"] = histogram_json(traffic.reply);
   json["lateness"] = histogram_json(health.lateness);
   json["compute"] = histogram_json(health.compute);
   Json passed = Json::array();
-  for (std::size_t i = 0; i < std::min(health.transition_count, health.transitions.size()); ++i) {
-    const Transition& one = health.transitions[i];
+  for (const Transition& one : health.transitions()) {
     passed.push_back({{"time_s", one.time}, {"state", link_state_text(one.to)}});
     if (one.why != Trip::none) passed.back()["why"] = trip_text(one.why);
     if (one.fault != Fault::none) passed.back()["fault"] = fault_text(one.fault);

@@ -1,35 +1,17 @@
-// Statistics of a link: latencies, missed frames, faults and actions of the safety rules.
+// Statistics of a live run: late frames, missing samples, faults and actions of the safety rules.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "device/arm_safety.h"
 #include "device/safety.h"
 #include "device/sample.h"
 
 namespace palpate::device {
-
-// Histogram of times in powers of two of a microsecond: bin 0 contains times below 1 us, bin n
-// those from 2^(n-1) us to 2^n us, and the last bin all longer times.
-class LatencyHistogram {
- public:
-  static constexpr std::size_t bins = 28;  // the last begins at 67 s
-  void add(double time);                   // s; NaN and times below 0 are counted in bin 0
-  [[nodiscard]] std::uint64_t count() const { return count_; }
-  [[nodiscard]] double longest() const { return longest_; }  // s
-  [[nodiscard]] const std::array<std::uint64_t, bins>& counts() const { return counts_; }
-  // s: the upper end of the bin that contains the quantile `share`; 0 for an empty histogram.
-  [[nodiscard]] double quantile(double share) const;
-  [[nodiscard]] static double upper_end(std::size_t bin);  // s
-
- private:
-  std::array<std::uint64_t, bins> counts_{};
-  std::uint64_t count_ = 0;
-  double longest_ = 0.0;
-};
 
 enum class LinkState : std::uint8_t { open, armed, stale, tripped, lost, closed };
 [[nodiscard]] const char* link_state_text(LinkState state);
@@ -42,7 +24,6 @@ struct Transition {
 };
 
 struct Health {
-  LatencyHistogram reply;     // from request to reply, s
   LatencyHistogram lateness;  // actual minus planned start of a frame, s
   LatencyHistogram compute;   // palpate's computing time per frame, s
   std::uint64_t frames = 0;
@@ -51,21 +32,37 @@ struct Health {
   std::uint64_t duplicates = 0;
   std::uint64_t dropped = 0;
   std::uint64_t missing = 0;  // frames without any reply
-  double longest_gap = 0.0;   // s, between two fresh samples
+  double longest_gap = 0.0;   // s, without a fresh sample, also up to the end of the run
   double least_energy = 0.0;  // J, PassivityObserver::least
   RuleCounts rules;
   std::array<std::uint64_t, fault_kinds> faults{};  // by Fault
-  std::array<Transition, 64> transitions{};
-  std::size_t transition_count = 0;  // may exceed the number of transitions stored
+  std::size_t transition_count = 0;                 // may exceed the number of transitions kept
 
   // Counts one sample at `now` (s, since the start); allocates nothing.
   void count(double now, const Sample& sample);
+  // No more samples are taken from `now` (s, since the start) on: the time without one ends here.
+  void end_of_samples(double now);
   // Stores the transition if its state differs from that of the last one.
   void pass(const Transition& transition);
 
+  // The first and the last transitions, in order: those between them are only counted.
+  [[nodiscard]] std::vector<Transition> transitions() const;
+
+  // Frames without a new sample: duplicate, dropped or missing.
+  [[nodiscard]] std::uint64_t without_sample() const { return duplicates + dropped + missing; }
+
  private:
-  double last_fresh_ = -1.0;
+  static constexpr std::size_t first_kept = 48;
+  static constexpr std::size_t last_kept = 16;
+  std::array<Transition, first_kept> first_{};
+  std::array<Transition, last_kept> last_{};  // a ring
+  LinkState state_ = LinkState::open;         // of the last transition, if there is one
+  double last_fresh_ = 0.0;                   // s; the first frame, as long as no sample has come
 };
+
+// Sentences for a run in which more than 1 % of the frames had no new sample, or a sample that was
+// too old for the safety rules.
+[[nodiscard]] std::vector<std::string> health_warnings(const Health& health);
 
 // The text of device_health.json: identity, limits, traffic and the statistics above.
 [[nodiscard]] std::string health_json(const Identity& identity, const Limits& limits,

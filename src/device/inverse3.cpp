@@ -32,6 +32,32 @@ constexpr int most_surplus = 512;
 
 }  // namespace
 
+void Unanswered::sent(double time) {
+  if (count_ == most) forget(1);
+  times_[(begin_ + count_) % most] = time;
+  ++count_;
+}
+
+void Unanswered::forget(std::size_t count) {
+  begin_ = (begin_ + count) % most;
+  count_ -= count;
+  given_up_ += count;
+}
+
+std::optional<double> Unanswered::answered() {
+  if (count_ == 0) return std::nullopt;
+  const double time = times_[begin_];
+  begin_ = (begin_ + 1) % most;
+  --count_;
+  least_ = std::min(least_, count_);
+  if (++replies_ < window) return time;
+  if (usual_ && least_ > *usual_) forget(least_ - *usual_);
+  usual_ = std::min(usual_.value_or(least_), least_);
+  replies_ = 0;
+  least_ = most;
+  return time;
+}
+
 Inverse3::Inverse3(const ArmAddress& address, Purpose purpose, Clock& clock, Tap* tap)
     : clock_(clock),
       purpose_(purpose),
@@ -201,15 +227,16 @@ bool Inverse3::send(const Vec3& force) {
   if (!socket_.send(message.text())) return false;
   if (!awaiting_) asked_at_ = wire_time();
   awaiting_ = true;
+  unanswered_.sent(clock_.now());
   ++traffic_.sent;
   return true;
 }
 
-// Messages that arrive without a request are counted as duplicates.
+// Replies that arrive after all messages were answered or given up: duplicates, or late ones.
 void Inverse3::pass_over_duplicates() {
   for (int replies = 0; !awaiting_ && gone_ == Fault::none; ++replies) {
     if (socket_.receive(0.0).outcome != WebSocket::Outcome::message) return;
-    ++traffic_.duplicates;
+    if (!charge()) ++traffic_.duplicates;
     if (replies == most_replies) gone_ = Fault::flooded;
   }
 }
@@ -276,6 +303,22 @@ Sample Inverse3::sample(double wait) {
   return sample;
 }
 
+// Charges a reply that has come to its message. Returns false if no message waits for one.
+bool Inverse3::charge() {
+  const bool late = unanswered_.several();
+  const auto sent = unanswered_.answered();
+  if (!sent) return false;
+  if (late) ++traffic_.late;
+  traffic_.reply.add(clock_.now() - *sent);
+  return true;
+}
+
+Traffic Inverse3::traffic() const {
+  Traffic traffic = traffic_;
+  traffic.unanswered = unanswered_.given_up();
+  return traffic;
+}
+
 Sample Inverse3::exchange(double wait) {
   const double until = wire_time() + std::max(0.0, wait);
   if (!awaiting_) {
@@ -292,6 +335,7 @@ Sample Inverse3::exchange(double wait) {
     const Sample one = read(message);
     if (any) ++traffic_.duplicates;
     ++traffic_.received;
+    (void)charge();
     awaiting_ = false;
     if (replies == most_replies) gone_ = Fault::flooded;
     // Keeps the newest fresh reply, or the last reply if none is fresh.

@@ -1,6 +1,9 @@
 // The link to a haptic arm through its maker's local service, which answers each message once.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,6 +17,32 @@
 namespace palpate::device {
 
 class Tap;
+
+// Times of the messages whose replies have not come, so that each reply is charged to its own
+// message: the service answers in order, and a reply does not say which message it answers.
+class Unanswered {
+ public:
+  void sent(double time);  // s
+  // The time of the oldest message, which a reply at this moment answers; nothing if none waits.
+  [[nodiscard]] std::optional<double> answered();
+  [[nodiscard]] std::uint64_t given_up() const { return given_up_; }  // messages
+  // Of the messages that wait, whether a later one than the oldest does.
+  [[nodiscard]] bool several() const { return count_ > 1; }
+
+ private:
+  void forget(std::size_t count);
+  static constexpr std::size_t most = 256;    // a quarter of a second
+  static constexpr std::size_t window = 100;  // replies
+  std::array<double, most> times_{};          // s, a ring
+  std::size_t begin_ = 0;
+  std::size_t count_ = 0;
+  // If as many messages wait after each of `window` replies, their replies are lost, unless so many
+  // have waited since the start: then the service is that slow.
+  std::size_t replies_ = 0;  // in this window
+  std::size_t least_ = most;
+  std::optional<std::size_t> usual_;  // the smallest least_ so far
+  std::uint64_t given_up_ = 0;
+};
 
 class Inverse3 {
  public:
@@ -30,7 +59,7 @@ class Inverse3 {
 
   [[nodiscard]] const Identity& identity() const { return identity_; }
   [[nodiscard]] const Limits& limits() const { return limits_; }
-  [[nodiscard]] Traffic traffic() const { return traffic_; }
+  [[nodiscard]] Traffic traffic() const;
 
   // Returns the newest reply, waiting for it at most `wait` s; sends a zero force first if no
   // message awaits a reply. Events set `fault`; after a `disconnected` event the link is lost.
@@ -51,6 +80,7 @@ class Inverse3 {
   void pass_over_duplicates();
   void hear_events();
   void obey(Event event);
+  bool charge();
   Sample exchange(double wait);
   Sample read(const WebSocket::Received& message);
   [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
@@ -71,6 +101,7 @@ class Inverse3 {
   bool framed_ = false;    // the service turned or scaled the coordinates from the start
   bool awaiting_ = false;  // a message was sent since the last reply
   double asked_at_ = 0.0;  // s, wire_time() of the first message since the last reply
+  Unanswered unanswered_;
   inverse3::Mode mode_ = inverse3::Mode::unknown;
   bool confirmed_ = false;      // the arm has left its idle mode after a zero force
   int idle_replies_ = 0;        // idle replies in a row

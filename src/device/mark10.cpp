@@ -7,8 +7,10 @@
 namespace palpate::device {
 namespace {
 
-constexpr double stop_time = 0.5;         // s, during which stop() repeats the command
-constexpr double sample_time = 0.05;      // s, after which a reading is requested again
+constexpr double stop_time = 0.5;                  // s, during which stop() repeats the command
+constexpr double sample_time = 0.05;               // s, after which a reading is requested again
+constexpr double burst = 4e-3;                     // s, within which late replies follow each other
+constexpr double byte_time = 10.0 / mark10::baud;  // s, with start and stop bit
 constexpr double into_channel = 15e-3;    // s, pause after `/`, as in the published driver LabKit
 constexpr double out_of_channel = 10e-3;  // s, pause after `\`
 constexpr double planned_period = 0.02;   // s: 50 Hz, as LabKit polls
@@ -135,9 +137,9 @@ bool Mark10::ask(std::string_view command) {
   // A pending reading would be mistaken for the reply.
   if (asked_) {
     const double until = asked_at_ + patience(sample_time);
-    while (const auto line = line_until(until))
-      if (pairs_.take(*line).pair) break;
-    asked_ = false;
+    while (const auto line = asked_ ? line_until(until) : std::nullopt)
+      if (pairs_.take(*line).pair) asked_ = false;
+    if (asked_) give_up();
   }
   drain();
   pass_time();
@@ -183,8 +185,15 @@ Traffic Mark10::traffic() const {
   return traffic;
 }
 
+// The device measures between the arrival of the request and the first byte of its reply; without
+// delays elsewhere the middle of that time is the moment of the measurement.
 Sample Mark10::accept(const mark10::Pair& pair) {
   Sample sample = finished(Arrival::fresh, Fault::none);
+  traffic_.reply.add(sample.received - asked_time_);
+  const double line = byte_time * (static_cast<double>(reply_size_) - 1.0);
+  sample.taken = clock_.kind() == Clock::Kind::stepped
+                     ? sample.received
+                     : std::max(asked_time_, 0.5 * (asked_time_ + sample.received - line));
   sample.position = Vec3(0.0, 0.0, pair.travel);
   sample.force = sign_ * pair.force;
   if (last_ && sample.received > last_->received)
@@ -192,6 +201,35 @@ Sample Mark10::accept(const mark10::Pair& pair) {
   if (pair.force_unit != unit_) sample.fault = Fault::unit_changed;
   last_ = sample;
   return sample;
+}
+
+// Whether the pair that has just come answers a request that was given up: it came sooner than the
+// line can carry the reply to the present request, or another pair follows directly.
+bool Mark10::is_late() {
+  if (owed_count_ == 0) return false;
+  const double soonest = clock_.kind() == Clock::Kind::stepped
+                             ? 0.0
+                             : byte_time * static_cast<double>(reply_size_ + 1);
+  if (wire_time() < asked_at_ + soonest) return true;
+  const auto more = [&] {
+    return lines_.rest().find_first_not_of("\r\n") != std::string_view::npos;
+  };
+  for (const double until = wire_time() + burst; !more() && !port_.lost();) {
+    if (wire_time() >= until) return false;
+    receive(until);
+  }
+  return more();
+}
+
+// Gives up the present request. Its reply is recognised if it comes later.
+void Mark10::give_up() {
+  asked_ = false;
+  if (owed_count_ == owed_.size()) {
+    std::copy(owed_.begin() + 1, owed_.end(), owed_.begin());
+    --owed_count_;
+    ++traffic_.unanswered;
+  }
+  owed_[owed_count_++] = asked_time_;
 }
 
 bool Mark10::was_stopped() {
@@ -216,21 +254,35 @@ Sample Mark10::read_sample(double wait) {
   if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
   const double until = wire_time() + std::max(0.0, wait);
   if (!asked_) {
-    drain();
+    // The replies to requests that were given up are read: they must not be taken for others.
+    if (owed_count_ == 0) drain();
+    asked_time_ = clock_.now();
     if (!send("n")) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
     pass_time();
     asked_ = true;
     ++traffic_.sent;
     heard_ = false;
+    reply_size_ = 0;
     asked_at_ = wire_time();
   }
   Fault fault = Fault::none;
   while (true) {
     if (const auto line = lines_.next()) {
+      reply_size_ += line->size() + 2;  // with its CR and LF
       const auto step = pairs_.take(*line);
       if (step.pair) {
-        asked_ = false;
         ++traffic_.received;
+        if (is_late()) {
+          ++traffic_.late;
+          traffic_.reply.add(clock_.now() - owed_.front());
+          std::copy(owed_.begin() + 1, owed_.end(), owed_.begin());
+          --owed_count_;
+          reply_size_ = 0;
+          continue;
+        }
+        traffic_.unanswered += owed_count_;
+        owed_count_ = 0;
+        asked_ = false;
         return accept(*step.pair);
       }
       if (fault == Fault::none) fault = step.fault;
@@ -245,7 +297,7 @@ Sample Mark10::read_sample(double wait) {
     if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
     const double now = wire_time();
     if (now >= asked_at_ + patience(sample_time)) {
-      asked_ = false;
+      give_up();
       if (clock_.kind() == Clock::Kind::stepped)
         clock_.sleep_until(clock_.now() + sample_time - planned_period);
       if (!heard_) return finished(Arrival::none, Fault::silent);

@@ -83,6 +83,8 @@ class Mark10 {
   bool stands_still(double time);
   Fault compare_limits(double low, double high);
   Sample accept(const mark10::Pair& pair);
+  bool is_late();
+  void give_up();
   [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
     return {.arrival = arrival, .fault = fault, .received = clock_.now()};
   }
@@ -106,6 +108,12 @@ class Mark10 {
   bool heard_ = false;          // bytes have arrived since that request
   double asked_at_ = 0.0;       // s, wire_time() of that request
   bool has_status_ = true;      // the stand replies to `p`
+  double asked_time_ = 0.0;     // s, likewise by clock_
+  std::size_t reply_size_ = 0;  // bytes of the lines since that request
+  // Times (s, by clock_) of requests that were given up, whose replies may still come; the oldest
+  // first.
+  std::array<double, 8> owed_{};
+  std::size_t owed_count_ = 0;
   std::optional<Sample> last_;  // the last fresh sample
   Traffic traffic_;
   std::string first_bytes_;  // received while greeting, for a diagnosis

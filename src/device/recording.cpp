@@ -29,8 +29,11 @@ Columns columns_of(const std::vector<std::string>& header, const std::string& fi
   columns.position[0] = find("position_x_m");
   columns.position[1] = find("position_y_m");
   columns.position[2] = find("position_z_m");
-  columns.travel = find("travel_mm");
-  columns.force = find("force_N");
+  // The file of a live run has the model's travel and force as well.
+  columns.travel = find("measured_travel_mm");
+  if (columns.travel < 0) columns.travel = find("travel_mm");
+  columns.force = find("measured_force_N");
+  if (columns.force < 0) columns.force = find("force_N");
   const bool whole = *std::min_element(columns.position, columns.position + 3) >= 0;
   if (columns.time < 0)
     throw InputError({file, 1, 0},

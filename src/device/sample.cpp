@@ -1,4 +1,4 @@
-// The sentences for faults.
+// The sentences for faults, and the histogram of times.
 #include "device/sample.h"
 
 namespace palpate::device {
@@ -31,6 +31,29 @@ std::string_view fault_text(Fault fault) {
     case Fault::reframed: return "the service now turns or scales the arm's coordinates";
   }
   return "unknown";
+}
+
+void LatencyHistogram::add(double time) {
+  std::size_t bin = 0;
+  for (double end = 1e-6; bin + 1 < bins && time >= end; end *= 2.0) ++bin;
+  ++counts_[bin];
+  ++count_;
+  if (time > longest_) longest_ = time;
+}
+
+double LatencyHistogram::upper_end(std::size_t bin) {
+  return 1e-6 * static_cast<double>(std::uint64_t{1} << bin);
+}
+
+double LatencyHistogram::quantile(double share) const {
+  if (count_ == 0) return 0.0;
+  const double wanted = share * static_cast<double>(count_);
+  std::uint64_t below = 0;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    below += counts_[bin];
+    if (static_cast<double>(below) >= wanted) return upper_end(bin);
+  }
+  return upper_end(bins - 1);
 }
 
 }  // namespace palpate::device

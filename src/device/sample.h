@@ -1,4 +1,5 @@
-// What a link reports: the identity and limits of the device, samples, faults, events and counts.
+// What a link reports: the identity and limits of the device, samples, faults, events, counts and
+// times of replies.
 #pragma once
 
 #include <array>
@@ -68,6 +69,7 @@ struct Sample {
   Vec3 velocity = Vec3::Zero();  // m/s; of the stand, from its last two positions and times
   double force = nan;            // N, positive in compression; NaN if the link measures no force
   double received = 0.0;         // s, by the link's Clock
+  double taken = nan;            // s, by the link's Clock: when the device measured; NaN if unknown
   double device_time = nan;      // s, by the device's clock; NaN if the device reports no time
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 };
@@ -126,12 +128,34 @@ struct Events {
   std::array<std::uint64_t, event_kinds> counts{};  // by Event
 };
 
+// Histogram of times in powers of two of a microsecond: bin 0 contains times below 1 us, bin n
+// those from 2^(n-1) us to 2^n us, and the last bin all longer times.
+class LatencyHistogram {
+ public:
+  static constexpr std::size_t bins = 28;  // the last begins at 67 s
+  void add(double time);                   // s; NaN and times below 0 are counted in bin 0
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] double longest() const { return longest_; }  // s
+  [[nodiscard]] const std::array<std::uint64_t, bins>& counts() const { return counts_; }
+  // s: the upper end of the bin that contains the quantile `share`; 0 for an empty histogram.
+  [[nodiscard]] double quantile(double share) const;
+  [[nodiscard]] static double upper_end(std::size_t bin);  // s
+
+ private:
+  std::array<std::uint64_t, bins> counts_{};
+  std::uint64_t count_ = 0;
+  double longest_ = 0.0;
+};
+
 // Counts of the traffic on a link.
 struct Traffic {
   std::uint64_t sent = 0;        // requests and commands that are answered by a reply
   std::uint64_t received = 0;    // replies
   std::uint64_t duplicates = 0;  // replies beyond one per request
+  std::uint64_t late = 0;        // replies that came after a later request
+  std::uint64_t unanswered = 0;  // requests whose reply is given up
   std::uint64_t discarded = 0;   // bytes that were not requested or found no room
+  LatencyHistogram reply = {};   // s, from each request to its own reply, by the link's Clock
   Events events = {};
 };
 

@@ -66,6 +66,8 @@ struct Mark10Arguments {
   Mark10Run run = {};
   std::string stand = {};
   std::string tick = "20 ms";
+  std::string latency = "0 ms";
+  std::string jitter = "0 ms";
 };
 
 CLI::App* add_mark10(CLI::App& app, Mark10Arguments& given) {
@@ -76,6 +78,8 @@ CLI::App* add_mark10(CLI::App& app, Mark10Arguments& given) {
   verb->add_option("--seed", given.run.settings.stand.seed, "of the gauge's noise");
   verb->add_option("--baud", given.run.line.baud, "rate of the line");
   verb->add_option("--tick", given.tick, "virtual clock: replies come at multiples of this time");
+  verb->add_option("--latency", given.latency, "virtual clock: age of the readings in a reply");
+  verb->add_option("--jitter", given.jitter, "virtual clock: largest random part of that age");
   return verb;
 }
 
@@ -90,6 +94,13 @@ int start(Mark10Arguments& given) {
     settings.faults = read_faults(given.common.faults, stand_faults());
   given.run.line.clock = clock_of(given.common);
   given.run.line.tick = step_of("--tick", given.tick);
+  settings.latency = nanoseconds(time_of("--latency", given.latency));
+  settings.jitter = nanoseconds(time_of("--jitter", given.jitter));
+  if (settings.latency < 0 || settings.jitter < 0 ||
+      settings.latency + settings.jitter >= given.run.line.tick)
+    throw InputError({"--latency"},
+                     "a reading must be younger than one tick; give shorter times of `--latency` "
+                     "and `--jitter`, or a longer `--tick`");
   given.run.line.log = given.common.log;
   given.run.line.lifetime = lifetime_of(given.common);
   return run_mark10(given.run);

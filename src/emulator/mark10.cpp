@@ -39,6 +39,7 @@ std::size_t unit_of(std::string_view symbol) {
 Mark10::Mark10(const Mark10Settings& settings, Log& log)
     : settings_(settings),
       stand_(make_stand(settings.stand)),
+      delays_{settings.stand.seed ^ 0x9E3779B97F4A7C15U},  // other numbers than the gauge's noise
       faults_(settings.faults),
       log_(&log) {}
 
@@ -160,6 +161,12 @@ void Mark10::send(const std::string& bytes) {
   for (const char byte : bytes) out_ += noise(byte);
 }
 
+Nanoseconds Mark10::age_of_reading() {
+  if (settings_.jitter == 0) return settings_.latency;
+  const auto parts = static_cast<std::uint64_t>(settings_.jitter);
+  return settings_.latency + static_cast<Nanoseconds>(next_bits(delays_) % parts);
+}
+
 void Mark10::pass(Nanoseconds now) {
   // -1: faults that count requests begin with a byte only, after the last reply has left.
   if (settings_.clock == Clock::real) go_to(now, -1);
@@ -177,10 +184,12 @@ void Mark10::take(char byte, Rate rate_of_other_side) {
   }
   if (faults_.lasts("echo", now_)) send(std::string(1, byte));
   const bool request = ends_request(stand_, heard);
-  if (request && lockstep) go_to((now_ / settings_.tick + 1) * settings_.tick);
+  const Nanoseconds due = (now_ / settings_.tick + 1) * settings_.tick;
+  if (request && lockstep) go_to(std::max(now_, due - age_of_reading()));
   if (unplugged_) return;
   command_ += heard;
   const std::string reply = reply_to(heard);
+  if (request && lockstep) go_to(due);
   if (between_commands(stand_)) log_row("in", std::exchange(command_, {}));
   if (rate_of_other_side == Rate::other) {
     for (const char sent : reply) send(std::string(1, noise(sent)));

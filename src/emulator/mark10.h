@@ -20,6 +20,10 @@ struct Mark10Settings {
   std::vector<Fault> faults = {};
   Clock clock = Clock::real;
   Nanoseconds tick = 20'000'000;  // lockstep: requests are answered at multiples of it
+  // Lockstep: the readings in a reply are older than the reply, by `latency` and a random time of
+  // up to `jitter`.
+  Nanoseconds latency = 0;
+  Nanoseconds jitter = 0;
   int baud = 115200;
 };
 
@@ -52,6 +56,7 @@ class Mark10 {
  private:
   void go_to(Nanoseconds time);
   void go_to(Nanoseconds time, std::int64_t requests);
+  [[nodiscard]] Nanoseconds age_of_reading();
   void begin_faults(std::int64_t requests);
   void apply(const Fault& fault);
   [[nodiscard]] std::string spoilt(std::string reply);
@@ -61,6 +66,7 @@ class Mark10 {
 
   Mark10Settings settings_;
   Stand stand_;
+  Random delays_;
   Faults faults_;
   Log* log_;
   Nanoseconds now_ = 0;

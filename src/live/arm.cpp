@@ -56,6 +56,8 @@ class ArmLoop {
     if (!begin()) return end_;
     double next = loop_.clock.now();
     while (frame()) next = exchange(next);
+    loop_.health.end_of_samples(now_);
+    loop_.health.pass({now_, LinkState::closed, Trip::none, device::Fault::none});
     loop_.health.rules = safety_.counts();
     loop_.health.least_energy = safety_.observer().least();
     return end_;
@@ -178,9 +180,13 @@ class ArmLoop {
   void note_state() {
     LinkState state = safety_.armed() ? LinkState::armed : LinkState::open;
     if (safety_.freshness() == device::Staleness::State::stale) state = LinkState::stale;
-    if (safety_.tripped() != Trip::none) state = LinkState::tripped;
+    // The end of the programme disarms the arm, which is no trip.
+    if (safety_.tripped() != Trip::none && safety_.tripped() != Trip::by_hand)
+      state = LinkState::tripped;
     if (sample_.arrival == Arrival::lost) state = LinkState::lost;
-    if (!recording_) loop_.health.pass({now_, state, safety_.tripped(), sample_.fault});
+    if (recording_) return;
+    const Trip why = state == LinkState::open ? Trip::none : safety_.tripped();
+    loop_.health.pass({now_, state, why, sample_.fault});
   }
 
   // Sends the force and waits for the reply in the frame. Returns the start of the next frame, s.
@@ -189,7 +195,6 @@ class ArmLoop {
       sample_ = loop_.link.sample(10.0 * loop_.link.limits().lost_after);
       return next;
     }
-    const double sent = loop_.clock.now();
     (void)loop_.link.command_force(force_);
     if (!real_) {
       sample_ = loop_.link.sample(stepped_wait);
@@ -202,7 +207,6 @@ class ArmLoop {
       next += missed * period_;
     }
     sample_ = loop_.link.sample(std::max(0.0, next - loop_.clock.now()));
-    if (sample_.arrival == Arrival::fresh) loop_.health.reply.add(sample_.received - sent);
     if (sample_.arrival != Arrival::lost) loop_.clock.sleep_until(next);
     loop_.health.lateness.add(loop_.clock.now() - next);
     return next;

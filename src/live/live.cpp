@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -268,13 +270,13 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
     result.warnings.push_back(rounded_text(loop.left_out, 3) +
                               " s of late frames are left out of the model's time: the tissue's "
                               "relaxation and waves lag behind by that time");
-  for (std::string& sentence : device::event_sentences(link_.traffic().events))
-    result.warnings.push_back(std::move(sentence));
+  for (const std::vector<std::string>& sentences :
+       {device::event_sentences(link_.traffic().events), device::health_warnings(health)})
+    result.warnings.insert(result.warnings.end(), sentences.begin(), sentences.end());
   if (loop.softened > 0)
     notes_.push_back(std::to_string(loop.softened) +
                      " frames were rendered less stiff than the tissue, because the device cannot "
                      "render it passively");
-  health.pass({last_time, device::LinkState::closed, device::Trip::none, device::Fault::none});
   using Why = LiveEnd::Why;
   if (result.end.why == Why::too_long) record.remarks.push_back(result.end.sentence);
   if (result.end.why == Why::model) record.outcome = record::Outcome::diverged;
@@ -285,6 +287,14 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   if (const auto imbalance = model.imbalance())
     record.findings.push_back({"energy_imbalance", *imbalance});
   run::add_findings(*scene_, record);
+  if (measures_force() && link_.limits().measures_travel) {
+    const scenario::Resolved& asked = scene_->scenario;
+    result.verdict =
+        judge(measured_curve(record, std::span(loop.free.force).first(loop.free.count)),
+              asked.solver.tolerance);
+    for (record::Finding& finding : verdict_findings(*result.verdict))
+      record.findings.push_back(std::move(finding));
+  }
   device::Identity identity = link_.identity();
   identity.notes.insert(identity.notes.end(), notes_.begin(), notes_.end());
   identity.notes.insert(identity.notes.end(), result.warnings.begin(), result.warnings.end());

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "live/loop.h"
+#include "live/verdict.h"
 
 namespace palpate::live {
 
@@ -35,6 +37,7 @@ class Live {
   // The file of the rows in the result: `force_time.csv` if the device measures no travel, which
   // the model could follow.
   [[nodiscard]] const char* rows_name() const;
+  [[nodiscard]] bool measures_force() const { return link_.limits().measures_force; }
 
   // Callbacks and files of a run, which another thread calls and writes.
   struct Output {
@@ -47,6 +50,7 @@ class Live {
   struct Result {
     record::CaseRecord record;
     LiveEnd end;
+    std::optional<Verdict> verdict;  // nothing if the link measures no force
     std::vector<std::string> warnings;
     std::size_t rows = 0;
     bool rows_are_written = false;  // all rows are in `rows_file` and on the disk

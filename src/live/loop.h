@@ -1,7 +1,9 @@
 // Options, context and result shared by the two loops, of a stand and of an arm.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -33,6 +35,15 @@ struct LiveOptions {
   static constexpr double below_hand = 0.020;                // m
 };
 
+// Readings of the gauge out of contact, before the programme: the first ones.
+struct FreeReadings {
+  std::array<double, 256> force{};  // N
+  std::size_t count = 0;
+  void add(double reading) {  // allocates nothing
+    if (count < force.size()) force[count++] = reading;
+  }
+};
+
 // All objects that a loop uses, created before it starts.
 struct LiveLoop {
   const scene::Scene& scene;
@@ -44,6 +55,7 @@ struct LiveLoop {
   device::Health& health;
   const std::atomic<bool>& stop;
   std::uint64_t softened = 0;  // arm: number of frames with a stiffness reduced for passivity
+  FreeReadings free = {};      // stand
   double left_out = 0.0;       // arm: s, time of late frames by which the model was not advanced
 };
 

@@ -59,9 +59,12 @@ class StandLoop {
   LiveEnd run() {
     start_ = next_ = loop_.clock.now();
     if (begin() && find_surface() && go_to_start()) (void)carry_out();
+    loop_.health.end_of_samples(now());
     // The stand is stopped however the run ends, and a stop without confirmation is reported.
     if (!loop_.link.stop() && end_.why != LiveEnd::Why::link)
       end_ = ended_by_link(Trip::not_verified, Fault::not_verified);
+    if (end_.why == LiveEnd::Why::link && !trip_noted_) note(LinkState::tripped, Fault::none);
+    loop_.health.pass({now(), LinkState::closed, Trip::none, Fault::none});
     return end_;
   }
 
@@ -117,6 +120,7 @@ class StandLoop {
 
   void note(LinkState state, Fault fault) {
     loop_.health.pass({now(), state, safety_.tripped(), fault});
+    trip_noted_ = trip_noted_ || state == LinkState::lost || state == LinkState::tripped;
   }
 
   Sample read() {
@@ -125,13 +129,11 @@ class StandLoop {
       loop_.clock.sleep_until(next_);
       loop_.health.lateness.add(loop_.clock.now() - next_);
     }
-    const double asked = loop_.clock.now();
     Sample sample = loop_.link.sample(real_ ? sample_wait : stepped_wait);
     loop_.health.count(now(), sample);
-    if (sample.arrival == Arrival::fresh) {
-      loop_.health.reply.add(sample.received - asked);
-      last_ = sample;
-    }
+    if (sample.arrival != Arrival::fresh) return sample;
+    last_ = sample;
+    if (reaching_) loop_.free.add(sample.force);
     return sample;
   }
 
@@ -161,6 +163,7 @@ class StandLoop {
         return ends(safety_.tripped(), sample.fault);  // run() stops the stand
       case Verdict::halt:
         note(LinkState::stale, sample.fault);
+        ++loop_.health.rules.stale;
         if (!halted_) (void)loop_.link.stop();
         halted_ = true;
         break;
@@ -171,7 +174,7 @@ class StandLoop {
         note(LinkState::armed, Fault::none);
         break;
     }
-    if (sample.arrival == Arrival::fresh && programme_) follow(sample);
+    if (sample.arrival == Arrival::fresh && programme_) follow(sample, sample.taken - start_);
     loop_.health.compute.add(device::wire_time() - begun);
     if (real_ && loop_.clock.now() > before + 2.0 * period_) ++loop_.health.deadline_misses;
     return !over_;
@@ -282,8 +285,12 @@ class StandLoop {
     low_ = surface_ - deepest_;
     high_ = std::max(surface_ + free_way, last_.position.z());
     if (!allow_range(low_, high_)) return false;
-    if (felt_ && !(go(surface_ + free_way, travel_speed, {}) && wait(rest_time))) return false;
-    return go(surface_, travel_speed, {});
+    if (felt_ && !go(surface_ + free_way, travel_speed, {})) return false;
+    // The finger is above the surface: these readings show the gauge's zero.
+    reaching_ = true;
+    const bool there = (!felt_ || wait(rest_time)) && go(surface_, travel_speed, {});
+    reaching_ = false;
+    return there;
   }
 
   // The time of the programme begins with its first motion.
@@ -291,7 +298,7 @@ class StandLoop {
     waiting_ = false;
     programme_start_ = now();
     programme_ = true;
-    follow(last_);
+    follow(last_, programme_start_);
   }
 
   bool carry_out() {
@@ -321,9 +328,9 @@ class StandLoop {
     return true;
   }
 
-  // Advances the model to the measured position and writes a row.
-  void follow(const Sample& sample) {
-    const double time = now() - programme_start_;
+  // Advances the model to the position that was measured at `taken` (s) and writes a row.
+  void follow(const Sample& sample, double taken) {
+    const double time = followed_ = std::max(followed_, taken - programme_start_);
     const Vec3 offset(0.0, 0.0, sample.position.z() - surface_);
     if (auto wrong = loop_.model.follow(offset, time)) {
       (void)ends({LiveEnd::Why::model, *wrong});
@@ -350,14 +357,17 @@ class StandLoop {
   double low_ = 0.0;              // m, the stand's range
   double high_ = 0.0;             // m
   double programme_start_ = 0.0;  // s
+  double followed_ = 0.0;         // s, time of the last row
   double lead_ = 0.0;             // s, from the limits and command of a motion to its start
   double arrived_at_ = 0.0;       // s, end of the last motion
   int step_ = 0;
   bool felt_ = false;
   bool halted_ = false;
+  bool reaching_ = false;   // on the way to the surface from above it
   bool waiting_ = false;    // for the programme's first motion
   bool programme_ = false;  // the programme is running
   bool over_ = false;
+  bool trip_noted_ = false;  // among the states of device_health.json
   LiveEnd end_;
 };
 

@@ -73,10 +73,14 @@ std::string x_expression(const Series& series) {
 
 std::string data_line(const Series& series, std::size_t i) {
   const std::string colour = gnuplot_colours[i % gnuplot_colours.size()];
-  return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
-         scaled(series.scale, gnuplot_column(series.y_column)) +
-         ") with linespoints linewidth 3.5 linecolor rgb '#" + pale + colour + "' pointtype " +
-         std::to_string(gnuplot_markers[i % gnuplot_markers.size()]) +
+  const std::string data = gnuplot_quoted(series.csv_file) + " using " + x_expression(series) +
+                           ":(" + scaled(series.scale, gnuplot_column(series.y_column)) + ")";
+  // What was measured is drawn as points, what was computed as a line.
+  if (series.y_column.starts_with("measured_"))
+    return data + " with points linewidth 1.2 linecolor rgb '#" + colour +
+           "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
+  return data + " with linespoints linewidth 3.5 linecolor rgb '#" + pale + colour +
+         "' pointtype " + std::to_string(gnuplot_markers[i % gnuplot_markers.size()]) +
          " pointsize 0.55 pointnumber 14 title " + gnuplot_quoted(label(series));
 }
 

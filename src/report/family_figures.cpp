@@ -2,6 +2,7 @@
 #include "report/family_figures.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/figures.h"
 
@@ -39,6 +40,11 @@ std::vector<plot::Series> series_of(const scenario::Family& family,
     all.push_back(series);
   }
   return all;
+}
+
+bool has_measured_force(const record::CaseRecord& record) {
+  return std::any_of(record.measured.begin(), record.measured.end(),
+                     [](const auto& row) { return std::isfinite(row.force); });
 }
 
 // The number (from 1) of the first step for which `is` is true; 0 if there is none.
@@ -82,7 +88,12 @@ std::vector<plot::Figure> family_figures(const scenario::Family& family,
   std::vector<plot::Figure> figures;
   if (records.empty()) return figures;
   if (!family.base.uniform()) {
-    figures.push_back(figure_force_indentation(series_of(family, records, fits, is_logarithmic)));
+    std::vector<plot::Series> forces = series_of(family, records, fits, is_logarithmic);
+    for (const record::CaseRecord& record : records)
+      if (has_measured_force(record))
+        forces.push_back(
+            {.case_name = record.name, .y_column = "measured_force_N", .label = "measured"});
+    figures.push_back(figure_force_indentation(forces));
     if (const int slide = first_step(family.base, is_slide)) {
       const auto nothing = [](const fit::NamedFit&) { return false; };
       std::vector<plot::Series> along = series_of(family, records, fits, nothing);

@@ -1,14 +1,16 @@
-// Histograms, counts and their JSON; the ring between two threads.
+// Histograms, counts and their JSON; which message a reply answers; the ring between two threads.
 #include "device/health.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "device/clock.h"
+#include "device/inverse3.h"
 #include "device/realtime.h"
 #include "device/ring.h"
 
@@ -52,7 +54,39 @@ TEST(HealthCounts, KnowEveryKindOfSample) {
   EXPECT_EQ(health.duplicates, 1u);
   EXPECT_EQ(health.dropped, 1u);
   EXPECT_EQ(health.missing, 1u);
+  EXPECT_EQ(health.without_sample(), 3u);
   EXPECT_DOUBLE_EQ(health.longest_gap, 0.010);
+}
+
+// The time without samples that ends a run is the longest one, as a rule.
+TEST(HealthCounts, TheLongestGapGoesOnToTheEndOfTheRun) {
+  Health health;
+  health.end_of_samples(5.0);
+  EXPECT_EQ(health.longest_gap, 0.0) << "without a frame there is nothing to wait for";
+  health.count(1.000, came(Arrival::none));
+  health.count(1.010, came(Arrival::fresh));
+  EXPECT_DOUBLE_EQ(health.longest_gap, 0.010);
+  health.count(1.020, came(Arrival::none));
+  health.count(1.100, came(Arrival::lost));
+  health.end_of_samples(1.110);
+  EXPECT_DOUBLE_EQ(health.longest_gap, 0.100);
+}
+
+TEST(HealthWarnings, BeginBeyondOnePercentOfTheFrames) {
+  Health health;
+  EXPECT_TRUE(health_warnings(health).empty());
+  for (int i = 0; i < 990; ++i) health.count(1e-3 * i, came(Arrival::fresh));
+  for (int i = 0; i < 10; ++i)
+    health.count(1.0, came(i % 2 == 0 ? Arrival::none : Arrival::dropped));
+  health.rules.stale = 10;
+  EXPECT_TRUE(health_warnings(health).empty());
+  health.count(1.0, came(Arrival::duplicate));
+  health.rules.stale = 21;
+  const std::vector<std::string> warnings = health_warnings(health);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(warnings[0].starts_with("11 of 1001 frames, 1.1 %, had no new sample"))
+      << warnings[0];
+  EXPECT_TRUE(warnings[1].starts_with("21 of 1001 frames, 2.1 %, were stale")) << warnings[1];
 }
 
 TEST(HealthCounts, KeepTransitionsAndNoRepeats) {
@@ -64,22 +98,81 @@ TEST(HealthCounts, KeepTransitionsAndNoRepeats) {
   EXPECT_EQ(health.transition_count, 3u);
   for (int i = 0; i < 200; ++i)
     health.pass({1.0, i % 2 == 0 ? LinkState::stale : LinkState::armed});
-  EXPECT_EQ(health.transition_count, 203u);  // more than are kept: counted all the same
+  health.pass({2.0, LinkState::closed});
+  EXPECT_EQ(health.transition_count, 204u);  // more than are kept: counted all the same
   Limits limits;
   const auto json = nlohmann::json::parse(health_json({}, limits, {}, health));
   EXPECT_EQ(json["states"].size(), 64u);
   EXPECT_EQ(json["states"][2]["why"], "the link is lost");
-  EXPECT_EQ(json["state_changes"], 203);
+  EXPECT_EQ(json["states"][63]["state"], "closed") << "the last ones are kept as well";
+  EXPECT_EQ(json["states"][62]["state"], "armed");
+  EXPECT_EQ(json["state_changes"], 204);
+}
+
+TEST(HealthCounts, KeepEveryTransitionOfAShortRun) {
+  for (const std::size_t count : {1u, 2u, 48u, 49u, 64u, 65u}) {
+    Health health;
+    for (std::size_t i = 0; i < count; ++i)
+      health.pass({static_cast<double>(i), i % 2 == 0 ? LinkState::open : LinkState::stale});
+    const std::vector<Transition> kept = health.transitions();
+    ASSERT_EQ(kept.size(), std::min<std::size_t>(count, 64)) << count;
+    EXPECT_EQ(kept.front().time, 0.0);
+    EXPECT_EQ(kept.back().time, static_cast<double>(count - 1));
+  }
+}
+
+// A reply does not name its message: it is the oldest one's, also if later ones were sent since.
+TEST(RepliesOfAnArm, AreChargedToTheirOwnMessages) {
+  Unanswered messages;
+  EXPECT_EQ(messages.answered(), std::nullopt);
+  for (int i = 0; i < 30; ++i) messages.sent(1e-3 * i);
+  EXPECT_TRUE(messages.several());
+  for (int i = 0; i < 30; ++i) EXPECT_EQ(messages.answered(), 1e-3 * i);
+  EXPECT_FALSE(messages.several());
+  EXPECT_EQ(messages.given_up(), 0u);
+}
+
+// A reply that never comes would make all later ones look late.
+TEST(RepliesOfAnArm, LostOnesAreGivenUp) {
+  Unanswered messages;
+  double sent = 0.0;
+  double wrong = 0.0;
+  const auto exchange = [&](bool replied) {
+    messages.sent(sent += 1e-3);
+    if (replied) wrong = sent - messages.answered().value_or(-1.0);
+  };
+  for (int i = 0; i < 500; ++i) exchange(true);
+  EXPECT_EQ(wrong, 0.0);
+  for (int i = 0; i < 3; ++i) exchange(false);
+  exchange(true);
+  EXPECT_NEAR(wrong, 3e-3, 1e-12);
+  for (int i = 0; i < 250; ++i) exchange(true);
+  EXPECT_EQ(wrong, 0.0);
+  EXPECT_EQ(messages.given_up(), 3u);
+}
+
+TEST(RepliesOfAnArm, ASlowServiceKeepsItsMessages) {
+  Unanswered messages;
+  double sent = 0.0;
+  for (int i = 0; i < 2; ++i) messages.sent(sent += 1e-3);
+  for (int i = 0; i < 500; ++i) {
+    messages.sent(sent += 1e-3);
+    EXPECT_NEAR(sent - messages.answered().value_or(0.0), 2e-3, 1e-12);
+  }
+  EXPECT_EQ(messages.given_up(), 0u);
+  for (int i = 0; i < 1000; ++i) messages.sent(sent += 1e-3);  // more than there is room for
+  EXPECT_GT(messages.given_up(), 700u);
 }
 
 TEST(HealthJson, IsCompleteAndHasNoInfinity) {
   Health health;
   health.count(0.0, came(Arrival::dropped, Fault::garbage));
-  health.reply.add(5e-4);
+  Traffic traffic;
+  traffic.reply.add(5e-4);
   health.rules.clamped = 3;
   Identity identity;
   identity.id = "quote \" and \xff";
-  const auto json = nlohmann::json::parse(health_json(identity, Limits{}, {}, health));
+  const auto json = nlohmann::json::parse(health_json(identity, Limits{}, traffic, health));
   EXPECT_TRUE(json["limits"]["force_N"].is_null());
   EXPECT_EQ(json["faults"]["bytes came that are no reply"], 1);
   EXPECT_EQ(json["rules"]["force_clamped"], 3);

@@ -1,0 +1,72 @@
+// Whether the force that a live run measured agrees with the model, and what explains it if not.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "record/record.h"
+
+namespace palpate::live {
+
+// Columns of a live run in SI units; `travel`, `model` and `measured` are equally long.
+struct MeasuredCurve {
+  std::vector<double> travel = {};    // m, of the device below the surface, as measured
+  std::vector<double> model = {};     // N, computed at that travel
+  std::vector<double> measured = {};  // N, compression positive; NaN where nothing was measured
+  std::vector<double> free = {};      // N, readings out of contact before the first row
+};
+
+// The columns of a record, with the readings before its programme.
+[[nodiscard]] MeasuredCurve measured_curve(const record::CaseRecord& record,
+                                           std::span<const double> free);
+
+// Explanations of a difference.
+enum class Cause {
+  no_specimen,      // nothing is measured where the model presses
+  wrong_sign,       // the gauge shows compression as negative
+  wrong_tare,       // the gauge shows a force out of contact
+  wrong_surface,    // the specimen begins at another travel
+  wrong_stiffness,  // the specimen's force is a multiple of the model's
+};
+
+struct Verdict {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  enum class Outcome { agrees, differs, not_judged };
+  Outcome outcome = Outcome::not_judged;
+  std::vector<Cause> causes = {};  // together they explain a difference
+  bool explained = false;          // whether they do so within what is allowed
+
+  double peak = 0.0;            // N, largest force of the model
+  double difference = unknown;  // N, root mean square of measured minus model, over all rows
+  double allowed = unknown;     // N, for that difference
+  double offset = unknown;      // N, measured before contact
+  double noise = unknown;       // N, standard deviation before contact
+  double drift = unknown;       // N, measured after contact minus before it
+  double stiffness =
+      unknown;               // measured over model, by least squares; below 0 if the sign is turned
+  double surface = unknown;  // m, by which the specimen lies below the assumed surface
+  // Energy lost in the press over energy put in.
+  double hysteresis = unknown, hysteresis_model = unknown;
+  // m, travel at which the force begins and ends: where F^(2/3), extrapolated, is zero.
+  double contact = unknown, contact_model = unknown;
+  double release = unknown, release_model = unknown;
+
+  [[nodiscard]] bool has(Cause cause) const;
+};
+
+// Judges a run: measured and model agree if the root mean square of their difference is at most
+// `tolerance` times the model's largest force, or twice the noise of the gauge if that is more. A
+// difference is explained, if it can be, by a sign, a tare, and then a surface or a stiffness. A
+// value that the columns do not determine is NaN.
+[[nodiscard]] Verdict judge(const MeasuredCurve& curve, double tolerance);
+
+// One line for people, without a full stop.
+[[nodiscard]] std::string verdict_sentence(const Verdict& verdict);
+
+// The same as findings, with the names of docs/results.md; nothing that is NaN.
+[[nodiscard]] std::vector<record::Finding> verdict_findings(const Verdict& verdict);
+
+}  // namespace palpate::live

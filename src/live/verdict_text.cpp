@@ -1,0 +1,113 @@
+// A verdict in words, and as findings.
+#include <cmath>
+
+#include "base/text.h"
+#include "live/verdict.h"
+
+namespace palpate::live {
+namespace {
+
+std::string newtons(double force) { return rounded_text(force, 3) + " N"; }
+std::string millinewtons(double force) { return rounded_text(1e3 * force, 2) + " mN"; }
+std::string milli(double length) { return rounded_text(1e3 * length, 2) + " mm"; }
+std::string percent(double share) { return rounded_text(100.0 * share, 2) + " %"; }
+
+// What is wrong, and what to do about it.
+std::string cause_clause(Cause cause, const Verdict& verdict) {
+  switch (cause) {
+    case Cause::no_specimen:
+      return "no specimen: nothing is measured where the model has " + newtons(verdict.peak) +
+             "; put it under the finger, or give its height by `--surface`";
+    case Cause::wrong_sign:
+      return "wrong sign: the gauge shows compression as negative; change its polarity (IPOL), or "
+             "the way it is mounted";
+    case Cause::wrong_tare:
+      return "wrong tare: the gauge shows " + newtons(verdict.offset) +
+             " out of contact; zero it out of contact";
+    case Cause::wrong_surface:
+      return "wrong surface: the specimen begins " + milli(std::abs(verdict.surface)) +
+             (verdict.surface > 0.0 ? " lower" : " higher") +
+             " than assumed; give its height by `--surface`, or leave the option out";
+    case Cause::wrong_stiffness:
+      return "another stiffness: the specimen's force is " +
+             rounded_text(std::abs(verdict.stiffness), 3) +
+             " times the model's; `palpate identify` estimates its properties";
+  }
+  return {};
+}
+
+// Two numbers side by side, or the reason why there are none.
+std::string beside_model(double measured, double model, std::string (*text)(double)) {
+  return (std::isfinite(measured) ? text(measured) : "unknown") + " (model " +
+         (std::isfinite(model) ? text(model) : "unknown") + ")";
+}
+
+}  // namespace
+
+std::string verdict_sentence(const Verdict& verdict) {
+  if (verdict.outcome == Verdict::Outcome::not_judged)
+    return "measured and model are not compared, because no row has both a measured force and a "
+           "force of the model";
+  std::string text = verdict.outcome == Verdict::Outcome::agrees ? "measured and model agree: "
+                                                                 : "measured and model differ: ";
+  text += millinewtons(verdict.difference) + " rms, " + percent(verdict.difference / verdict.peak) +
+          " of " + newtons(verdict.peak) + " (" + percent(verdict.allowed / verdict.peak) +
+          " allowed)";
+  if (std::isfinite(verdict.offset))
+    text += ", " + millinewtons(verdict.offset) + " before contact";
+  text += verdict.stiffness < 0.0 ? ", sign -" : ", sign +";
+  if (std::isfinite(verdict.drift)) text += ", drift " + millinewtons(verdict.drift);
+  if (std::isfinite(verdict.hysteresis_model))
+    text += ", hysteresis " + beside_model(verdict.hysteresis, verdict.hysteresis_model, percent);
+  text += ", contact at " + beside_model(verdict.contact, verdict.contact_model, milli);
+  if (std::isfinite(verdict.release_model))
+    text += ", release at " + beside_model(verdict.release, verdict.release_model, milli);
+  for (const Cause cause : verdict.causes) text += "; " + cause_clause(cause, verdict);
+  if (verdict.outcome == Verdict::Outcome::differs && !verdict.explained)
+    text += "; neither sign, tare, surface nor stiffness explains it";
+  return text;
+}
+
+std::vector<record::Finding> verdict_findings(const Verdict& verdict) {
+  using Outcome = Verdict::Outcome;
+  if (verdict.outcome == Outcome::not_judged) return {};
+  std::string causes;
+  const auto name = [](Cause cause) {
+    switch (cause) {
+      case Cause::no_specimen: return "no_specimen";
+      case Cause::wrong_sign: return "wrong_sign";
+      case Cause::wrong_tare: return "wrong_tare";
+      case Cause::wrong_surface: return "wrong_surface";
+      case Cause::wrong_stiffness: return "wrong_stiffness";
+    }
+    return "";
+  };
+  for (const Cause cause : verdict.causes)
+    causes += (causes.empty() ? "" : " ") + std::string(name(cause));
+  if (!verdict.explained) causes += causes.empty() ? "unexplained" : " unexplained";
+  std::vector<record::Finding> findings;
+  findings.push_back({"measured_verdict", verdict.outcome == Outcome::agrees
+                                              ? std::string("agrees")
+                                              : std::string("differs")});
+  if (verdict.outcome == Outcome::differs) findings.push_back({"measured_causes", causes});
+  const auto add = [&](const char* what, double value) {
+    if (std::isfinite(value)) findings.push_back({what, value});
+  };
+  add("measured_difference_N", verdict.difference);
+  add("measured_difference", verdict.difference / verdict.peak);
+  add("measured_allowed", verdict.allowed / verdict.peak);
+  add("measured_offset_N", verdict.offset);
+  add("measured_noise_N", verdict.noise);
+  add("measured_drift_N", verdict.drift);
+  add("measured_stiffness", verdict.stiffness);
+  add("measured_surface_mm", 1e3 * verdict.surface);
+  add("measured_hysteresis", verdict.hysteresis);
+  add("model_hysteresis", verdict.hysteresis_model);
+  add("measured_contact_mm", 1e3 * verdict.contact);
+  add("model_contact_mm", 1e3 * verdict.contact_model);
+  add("measured_release_mm", 1e3 * verdict.release);
+  add("model_release_mm", 1e3 * verdict.release_model);
+  return findings;
+}
+
+}  // namespace palpate::live

@@ -1,0 +1,201 @@
+// The judgement of a live run on synthetic curves with noise: what agrees, and what explains the
+// rest.
+#include "live/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace palpate::live {
+namespace {
+
+constexpr double deepest = 2e-3;    // m
+constexpr double tolerance = 0.05;  // the default of a scenario
+constexpr double noise = 1e-3;      // N
+
+// Pressed in 1 s, held for 1 s and withdrawn in 1 s, with a reading every 20 ms: the travel, m.
+std::vector<double> travels() {
+  std::vector<double> travel;
+  for (int i = 0; i <= 150; ++i) {
+    const double time = 0.02 * i;
+    travel.push_back(deepest * std::min({time, 1.0, 3.0 - time}));
+  }
+  return travel;
+}
+
+// N: a sphere of 5 mm on a standard linear solid whose surface is at `surface` (m, in travel). The
+// force of the part that relaxes decays by exp(-0.02 s / 0.5 s) from row to row.
+std::vector<double> force_of(const std::vector<double>& travel, double surface) {
+  const double elastic = 4.0 / 3.0 * std::sqrt(5e-3) * 12e3 / 0.7975;  // N/m^1.5
+  std::vector<double> force;
+  double before = 0.0;
+  double memory = 0.0;
+  for (const double each : travel) {
+    const double root = std::pow(std::max(0.0, each - surface), 1.5);
+    memory = memory * std::exp(-0.04) + (root - before);
+    before = root;
+    force.push_back(root > 0.0 ? std::max(0.0, elastic * (root + 1.5 * memory)) : 0.0);
+  }
+  return force;
+}
+
+// A run of that specimen, as the gauge shows it, with another specimen for the model's.
+MeasuredCurve run_with(double surface, const std::function<double(double)>& shown, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> scatter(0.0, noise);
+  MeasuredCurve curve;
+  curve.travel = travels();
+  curve.model = force_of(curve.travel, 0.0);
+  for (const double force : force_of(curve.travel, surface))
+    curve.measured.push_back(shown(force) + scatter(generator));
+  for (int i = 0; i < 40; ++i) curve.free.push_back(shown(0.0) + scatter(generator));
+  return curve;
+}
+
+double as_it_is(double force) { return force; }
+
+TEST(Verdict, OfTheModelsOwnSpecimenIsAgreement) {
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const Verdict verdict = judge(run_with(0.0, as_it_is, seed), tolerance);
+    ASSERT_EQ(verdict.outcome, Verdict::Outcome::agrees) << seed << verdict_sentence(verdict);
+    EXPECT_TRUE(verdict.causes.empty());
+    // Five standard errors of 151 rows, of 40 readings, and of the few rows after the contact.
+    EXPECT_NEAR(verdict.difference, noise, 5.0 * noise / std::sqrt(2.0 * 151.0)) << seed;
+    EXPECT_NEAR(verdict.offset, 0.0, 5.0 * 1.25 * noise / std::sqrt(40.0)) << seed;
+    EXPECT_NEAR(verdict.drift, 0.0, 5.0 * noise) << seed;
+    EXPECT_NEAR(verdict.noise, noise, 0.8 * noise) << seed;
+    EXPECT_NEAR(verdict.stiffness, 1.0, 0.01) << seed;
+    EXPECT_NEAR(verdict.contact, verdict.contact_model, 0.05e-3) << seed;
+    EXPECT_NEAR(verdict.release, verdict.release_model, 0.05e-3) << seed;
+    EXPECT_NEAR(verdict.hysteresis, verdict.hysteresis_model, 0.03) << seed;
+  }
+}
+
+// What is wrong with the measurement, and whether the causes say just that.
+struct Wrong {
+  const char* name;
+  double surface;
+  double (*shown)(double force);
+  std::vector<Cause> causes;
+};
+
+class WrongRun : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongRun, IsFoundAndNamed) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    const MeasuredCurve curve = run_with(GetParam().surface, GetParam().shown, seed);
+    const Verdict verdict = judge(curve, tolerance);
+    EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs) << seed;
+    EXPECT_EQ(verdict.causes, GetParam().causes) << seed << " " << verdict_sentence(verdict);
+    EXPECT_TRUE(verdict.explained) << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Verdicts, WrongRun,
+    testing::Values(
+        Wrong{"NoSpecimen", 1.0, as_it_is, {Cause::no_specimen}},
+        Wrong{"TurnedSign", 0.0, [](double force) { return -force; }, {Cause::wrong_sign}},
+        Wrong{"Tare", 0.0, [](double force) { return force + 0.1; }, {Cause::wrong_tare}},
+        Wrong{"NegativeTare", 0.0, [](double force) { return force - 0.1; }, {Cause::wrong_tare}},
+        Wrong{"LowerSurface", 0.4e-3, as_it_is, {Cause::wrong_surface}},
+        Wrong{"HigherSurface", -0.4e-3, as_it_is, {Cause::wrong_surface}},
+        Wrong{"SofterSpecimen",
+              0.0,
+              [](double force) { return 0.6 * force; },
+              {Cause::wrong_stiffness}},
+        Wrong{"StifferSpecimen",
+              0.0,
+              [](double force) { return 1.5 * force; },
+              {Cause::wrong_stiffness}},
+        Wrong{"TurnedSignAndTare",
+              0.0,
+              [](double force) { return 0.1 - force; },
+              {Cause::wrong_sign, Cause::wrong_tare}},
+        Wrong{"TareWithoutSpecimen",
+              1.0,
+              [](double force) { return force + 0.1; },
+              {Cause::wrong_tare, Cause::no_specimen}}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Verdict, MeasuresHowFarTheSurfaceIsOff) {
+  for (const double surface : {-0.4e-3, -0.2e-3, 0.2e-3, 0.4e-3, 0.8e-3}) {
+    const Verdict verdict = judge(run_with(surface, as_it_is, 7), tolerance);
+    EXPECT_NEAR(verdict.surface, surface, 0.03e-3);
+  }
+}
+
+// Another law is none of the causes, and is not made one.
+TEST(Verdict, SaysThatNothingExplainsAnotherLaw) {
+  const Verdict verdict = judge(run_with(
+                                    0.0, [](double force) { return 5.0 * force * force; }, 3),
+                                tolerance);
+  EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs);
+  EXPECT_FALSE(verdict.explained);
+  EXPECT_NE(verdict_sentence(verdict).find("neither sign, tare, surface nor stiffness"),
+            std::string::npos);
+}
+
+TEST(Verdict, IsAsStrictAsItsTolerance) {
+  const MeasuredCurve curve = run_with(
+      0.0, [](double force) { return 1.08 * force; }, 5);
+  EXPECT_EQ(judge(curve, 0.02).outcome, Verdict::Outcome::differs);
+  EXPECT_EQ(judge(curve, 0.10).outcome, Verdict::Outcome::agrees);
+  // A gauge cannot agree better than it scatters.
+  EXPECT_EQ(judge(run_with(0.0, as_it_is, 5), 1e-6).outcome, Verdict::Outcome::agrees);
+}
+
+TEST(Verdict, CountsWhatTheGaugeDrifts) {
+  MeasuredCurve curve = run_with(0.0, as_it_is, 5);
+  for (std::size_t i = 0; i < curve.measured.size(); ++i)
+    curve.measured[i] += 20e-3 * static_cast<double>(i) / 150.0;
+  EXPECT_NEAR(judge(curve, tolerance).drift, 20e-3, 3.0 * noise);
+}
+
+// Out of what there is: rows before contact in place of free readings, or nothing at all.
+TEST(Verdict, TakesWhatTheColumnsHave) {
+  MeasuredCurve curve = run_with(
+      0.0, [](double force) { return force + 0.1; }, 5);
+  curve.free.clear();
+  EXPECT_NEAR(judge(curve, tolerance).offset, 0.1, 5.0 * noise);
+  EXPECT_EQ(judge(curve, tolerance).causes, std::vector{Cause::wrong_tare});
+
+  curve.measured.assign(curve.measured.size(), Verdict::unknown);
+  EXPECT_EQ(judge(curve, tolerance).outcome, Verdict::Outcome::not_judged);
+  EXPECT_EQ(judge({}, tolerance).outcome, Verdict::Outcome::not_judged);
+
+  MeasuredCurve unpressed = run_with(0.0, as_it_is, 5);
+  unpressed.model.assign(unpressed.model.size(), 0.0);
+  EXPECT_EQ(judge(unpressed, tolerance).outcome, Verdict::Outcome::not_judged);
+
+  // A press without a way back has no hysteresis, and one row no contact point.
+  MeasuredCurve press = run_with(0.0, as_it_is, 5);
+  for (auto* column : {&press.travel, &press.model, &press.measured}) column->resize(51);
+  EXPECT_TRUE(std::isnan(judge(press, tolerance).hysteresis));
+  EXPECT_EQ(judge(press, tolerance).outcome, Verdict::Outcome::agrees);
+  for (auto* column : {&press.travel, &press.model, &press.measured})
+    column->erase(column->begin(), column->end() - 1);
+  EXPECT_TRUE(std::isnan(judge(press, tolerance).contact));
+}
+
+TEST(Verdict, IsOneLineAndItsFindingsAreNumbers) {
+  const Verdict verdict = judge(run_with(
+                                    0.0, [](double force) { return force + 0.1; }, 5),
+                                tolerance);
+  const std::string line = verdict_sentence(verdict);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  EXPECT_NE(line.find("measured and model differ: "), std::string::npos) << line;
+  EXPECT_NE(line.find("wrong tare: the gauge shows 0.1 N"), std::string::npos) << line;
+  for (const record::Finding& finding : verdict_findings(verdict))
+    if (const double* value = std::get_if<double>(&finding.value)) {
+      EXPECT_TRUE(std::isfinite(*value)) << finding.name;
+    }
+  EXPECT_EQ(verdict_findings(verdict).front().value, record::Cell(std::string("differs")));
+  EXPECT_TRUE(verdict_findings({}).empty());
+}
+
+}  // namespace
+}  // namespace palpate::live
