@@ -7,11 +7,12 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "cli/explain_json.h"
 #include "cli/explain_time.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
+#include "run/answer.h"
 #include "run/family.h"
-#include "run/mesh_error.h"
 #include "scenario/family.h"
 #include "scene/specimen_mesh.h"
 
@@ -64,10 +65,15 @@ std::string meaning(const std::string& asked) {
 
 class Explanation {
  public:
-  explicit Explanation(const scene::Scene& scene) : scene_(scene) {}
+  Explanation(const scene::Scene& scene, const run::Expected& expected)
+      : scene_(scene), expected_(expected) {}
 
-  std::string text() {
-    line("case " + scene_.name);
+  // The three plain sentences, then the numbers. `name` starts the text where there are several.
+  std::string text(const std::string& name, const std::string& title) {
+    line((name.empty() ? "" : ticked(name) + ": ") + expected_.answer.model);
+    line(expected_.answer.error);
+    line(expected_.answer.left_out);
+    line("\ncase " + scene_.name + ": " + title);
     tissue();
     shape();
     regions();
@@ -287,10 +293,14 @@ class Explanation {
     line(std::string("  model        ") + scenario::rung(model).word +
          (scene_.choice.given ? ", named by the scenario; criteria of `auto`:"
                               : ", chosen by these criteria:"));
-    for (const scene::Question& question : scene_.choice.questions)
-      line("                 " + question.asked + " " + question.measure + " = " +
-           rounded_text(question.number) + ", threshold " + rounded_text(question.threshold) +
-           ": " + question.answer);
+    for (const scene::Question& question : scene_.choice.questions) {
+      std::string text = "    " + question.asked;
+      text.resize(17, ' ');
+      if (!question.measure.empty())
+        text += question.measure + " " + percent_text(question.number) + ", limit " +
+                percent_text(question.threshold) + ": ";
+      line(text + question.answer);
+    }
     for (const scene::Forecast& rung : scene_.choice.rungs) {
       std::string text =
           std::string("  ") + (rung.model == model ? "> " : "  ") + scenario::rung(rung.model).word;
@@ -314,7 +324,7 @@ class Explanation {
            ", where the error in the force comes from, " +
            (refined->error <= refined->wanted ? "until it is below " + percent_text(refined->wanted)
                                               : "as far as `tissue.mesh.most_nodes` allows"));
-    if (const auto error = run::mesh_error(scene_))
+    if (const auto& error = expected_.mesh_error)
       line("  mesh error   about " + percent_text(*error) +
            " of the force at the deepest travel, estimated on this mesh");
     if (scenario::rung(scene_.scenario.solver.model).coupled()) {
@@ -332,21 +342,34 @@ class Explanation {
   }
 
   const scene::Scene& scene_;
+  const run::Expected& expected_;
   std::string text_;
 };
 
 }  // namespace
 
-int perform(const Explain& command, const Arguments&, const Talk&) {
+int perform(const Explain& command, const Arguments&, const Talk& talk) {
   const bool file = command.subject.ends_with(".toml") || std::filesystem::exists(command.subject);
   if (!file) {
-    print(meaning(command.subject));
+    const std::string found = meaning(command.subject);
+    if (talk.json())
+      talk.event("key", {{"subject", command.subject}, {"text", found}});
+    else
+      print(found);
     return exit_good;
   }
   const scenario::Family family = scenario::read(command.subject, command.settings);
-  print(family.title + "\n");
   for (const Problem& note : family.notes) Talk::error("note: " + note.text());
-  for (const scene::Scene& scene : run::build_all(family, 1)) print(Explanation(scene).text());
+  const std::vector<scene::Scene> scenes = run::build_all(family, 1);
+  for (const scene::Scene& scene : scenes) {
+    const run::Expected expected = run::expect(scene);
+    if (talk.json()) {
+      print(explain_json(family.name, scene, expected) + "\n");
+      continue;
+    }
+    if (&scene != &scenes.front()) print("\n");
+    print(Explanation(scene, expected).text(scenes.size() > 1 ? scene.name : "", family.title));
+  }
   return exit_good;
 }
 

@@ -115,9 +115,9 @@ class Press {
       record_.findings.push_back({"sinking_mm", unit::mm.from_si(deepest_sinking_)});
     if (!mesh_ && (scene_.scenario.output.tissue || scene_.scenario.output.picture))
       record_.remarks.push_back(
-          "there is no mesh to show: `auto` chose `" +
-          std::string(scenario::rung(scene_.scenario.solver.model).word) +
-          "`; set `solver.model = \"mass_spring\"` for `output.tissue` and `output.picture`");
+          "`" + std::string(scenario::rung(scene_.scenario.solver.model).word) +
+          "` has no mesh to show; set `solver.model = \"coupled_springs\"` for `output.tissue` and "
+          "`output.picture`");
     if (on_crease_)
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "

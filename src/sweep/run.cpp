@@ -246,6 +246,7 @@ class Runner {
 
   [[nodiscard]] SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record) const {
     SweepRow row{.reason = record.reason, .name = record.name, .remarks = record.remarks};
+    if (!record.answer.complete) row.remarks.push_back(record.answer.left_out);
     if (record.outcome == record::Outcome::diverged) row.outcome = SweepOutcome::diverged;
     for (const record::Finding& finding : record.findings)
       if (finding.name != "outcome") row.values.push_back(finding);
