@@ -43,7 +43,7 @@ std::vector<std::string> glossary() {
 struct Scene {
   const char* name;
   std::string text;   // without `schema` and the title; empty: a file of scenarios/
-  const char* model;  // that is named
+  const char* model;  // that is named; empty: any
   std::string left_out;
 };
 
@@ -109,8 +109,7 @@ TEST_P(Answers, start_with_three_plain_sentences) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   const std::vector<std::string> lines = split(ended.out, '\n');
   ASSERT_GT(lines.size(), 3U);
-  EXPECT_NE(lines[0].find(": " + std::string(GetParam().model) + ", "), std::string::npos)
-      << lines[0];
+  EXPECT_NE(lines[0].find(GetParam().model), std::string::npos) << lines[0];
   EXPECT_NE(lines[1].find("error of about "), std::string::npos) << lines[1];
   EXPECT_NE(lines[1].find(" % (asked "), std::string::npos) << lines[1];
   EXPECT_TRUE(lines[2].starts_with("Left out: " + GetParam().left_out)) << lines[2];
