@@ -84,7 +84,8 @@ class Manual final : public FieldVisitor {
   void tables(const Key& key, int, const std::function<void(int)>& resize,
               const std::function<void(FieldVisitor&, int)>& fields) override {
     resize(1);
-    section("`[[" + std::string(key.name) + "]]`", key.meaning, key.name,
+    const std::string name = prefix_.empty() ? key.name : prefix_ + "." + key.name;
+    section("`[[" + name + "]]`", key.meaning, name,
             [&](FieldVisitor& visitor) { fields(visitor, 0); });
     resize(0);
   }

@@ -14,6 +14,7 @@
 #include "run/answer.h"
 #include "run/family.h"
 #include "scenario/family.h"
+#include "scenario/find.h"
 #include "scene/specimen_mesh.h"
 
 namespace palpate::cli {
@@ -349,7 +350,9 @@ class Explanation {
 }  // namespace
 
 int perform(const Explain& command, const Arguments&, const Talk& talk) {
-  const bool file = command.subject.ends_with(".toml") || std::filesystem::exists(command.subject);
+  const std::string subject = scenario::find(command.subject);  // with an ending, if it is an example
+  const bool file =
+      subject == "-" || subject.ends_with(".toml") || std::filesystem::exists(subject);
   if (!file) {
     const std::string found = meaning(command.subject);
     if (talk.json())

@@ -113,6 +113,26 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   return ran;
 }
 
+// What a run would do, as far as the built scenes tell.
+void say_plan(const Prepared& prepared, const Talk& talk) {
+  const std::size_t count = prepared.scenes.size();
+  std::string text = prepared.folder->path() + ": " + std::to_string(count) +
+                     (count == 1 ? " case" : " cases") + " would be computed and written here\n";
+  for (const scene::Scene& scene : prepared.scenes) {
+    const std::string model = scenario::rung(scene.scenario.solver.model).word;
+    const scene::Forecast* forecast = scene.choice.taken();
+    text += "  " + scene.name + ": " + model;
+    if (forecast != nullptr) text += ", error about " + percent_text(forecast->error);
+    if (scene.specimen) text += ", " + std::to_string(scene.specimen->network.nodes()) + " nodes";
+    text += "\n";
+    talk.event("planned", {{"scenario", prepared.family->name},
+                           {"case", scene.name},
+                           {"model", model},
+                           {"folder", prepared.folder->path()}});
+  }
+  if (!talk.json()) print(text);
+}
+
 }  // namespace
 
 int perform(const Run& command, const Arguments& arguments, const Talk& talk) {
@@ -132,6 +152,10 @@ int perform(const Run& command, const Arguments& arguments, const Talk& talk) {
   // here a signal may end the program at once, because nothing has been written.
   std::vector<Prepared> all;
   for (const scenario::Family& family : families) all.push_back(prepare(family, command, talk));
+  if (command.dry) {
+    for (const Prepared& prepared : all) say_plan(prepared, talk);
+    return exit_good;
+  }
   const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);
   Ran ran;
   for (const Prepared& prepared : all) {

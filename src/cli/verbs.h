@@ -23,6 +23,10 @@ namespace palpate::cli {
 [[nodiscard]] int perform(const Identify& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Export& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Device& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const New& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Open& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Schema& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Completion& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Manual& command, const Arguments& arguments, const Talk& talk);
 
 // `run --device`.

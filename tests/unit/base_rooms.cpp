@@ -20,7 +20,7 @@
 namespace {
 
 constexpr int longest_file = 400;         // lines; docs/style.md
-constexpr std::size_t fullest_room = 46;  // files
+constexpr std::size_t fullest_room = 50;  // files; `cli` has one per verb
 
 struct SourceFile {
   std::string path;  // below src/, with `/`: "contact/hertz.cpp"
@@ -409,7 +409,7 @@ TEST(RoomCheck, CatchesARoomThatIsFull) {
     files.push_back({"base/" + std::to_string(i) + ".h", ""});
   EXPECT_EQ(joined(size_faults(files)), "");
   files.push_back({"base/more.h", ""});
-  EXPECT_EQ(joined(size_faults(files)), "src/base has 47 files, more than 46; split the room\n");
+  EXPECT_EQ(joined(size_faults(files)), "src/base has 51 files, more than 50; split the room\n");
 }
 
 TEST(RoomCheck, CatchesTwoTypesOfOneName) {

@@ -91,16 +91,19 @@ TEST(Arguments, AValueMayLookLikeAnythingElse) {
 TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
   const std::pair<Words, const char*> cases[] = {
       {{},
-       "`palpate` wants a verb: run, explain, fit, data, compare, golden, mesh, reference, bench, "
+       "`palpate` wants a verb: help, run, explain, fit, data, compare, golden, mesh, reference, "
+       "bench, "
        "chart, "
-       "stability, sweep, identify, export, device, manual; `palpate "
+       "stability, sweep, identify, export, device, new, open, manual, schema, completion; "
+       "`palpate "
        "--help` shows "
        "how to write it"},
       {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
       {{"xyzzy"},
-       "unknown verb `xyzzy`; known: run, explain, fit, data, compare, golden, mesh, reference, "
+       "unknown verb `xyzzy`; known: help, run, explain, fit, data, compare, golden, mesh, "
+       "reference, "
        "bench, "
-       "chart, stability, sweep, identify, export, device, manual"},
+       "chart, stability, sweep, identify, export, device, new, open, manual, schema, completion"},
       {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
       {{"golden"},
        "`palpate golden` wants a verb: bless; `palpate golden --help` shows how to write "
@@ -124,7 +127,7 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
        "--help` "
        "shows how to write it"},
       {{"run", "a.toml", "--out"},
-       "`palpate run` cannot be read: --out: 1 required TEXT missing; `palpate run --help` shows "
+       "`palpate run` cannot be read: --out: 1 required FOLDER missing; `palpate run --help` shows "
        "how "
        "to write it"},
       {{"compare", "a", "b", "c"},
