@@ -83,8 +83,8 @@ class Manual final : public FieldVisitor {
   }
   void tables(const Key& key, int, const std::function<void(int)>& resize,
               const std::function<void(FieldVisitor&, int)>& fields) override {
-    resize(1);
     const std::string name = prefix_.empty() ? key.name : prefix_ + "." + key.name;
+    resize(1);
     section("`[[" + name + "]]`", key.meaning, name,
             [&](FieldVisitor& visitor) { fields(visitor, 0); });
     resize(0);

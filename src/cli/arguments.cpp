@@ -25,6 +25,12 @@ void add_jobs(CLI::App& verb, int& jobs) {
   verb.add_option("--jobs", jobs, "Workers; 0: one per core")->check(CLI::Range(0, 1024));
 }
 
+void add_check_options(CLI::App& verb, CheckOptions& options) {
+  verb.add_option("--junit", options.junit, "Also write JUnit XML into this file");
+  verb.add_option("--annotations", options.annotations, "Also say differences to a forge: github")
+      ->check(CLI::IsMember({"github"}));
+}
+
 // Options on the layout of a measured file, for every verb that reads one.
 void add_data(CLI::App& verb, DataOptions& data) {
   verb.add_option("--x", data.x, "Column of x: its name, or its number");
@@ -149,14 +155,31 @@ void add_options(CLI::App& verb, Compare& compare) {
   verb.add_option("got", compare.got, "CSV file or result folder")->required();
   verb.add_option("want", compare.want, "CSV file or folder to compare with")->required();
   verb.add_option("--tolerances", compare.tolerances, "TOML file of tolerances by column");
+  add_check_options(verb, compare.options);
 }
 
-void add_options(CLI::App& golden, Bless& bless) {
-  golden.require_subcommand(1);
-  golden.fallthrough();
-  CLI::App* verb = golden.add_subcommand("bless", "Replace the expected results by today's");
-  verb->add_option("name", bless.names, "Folders below golden/")->required();
-  verb->add_option("--reason", bless.reason, "Why they may change")->required();
+void add_options(CLI::App& all, Golden& golden) {
+  all.require_subcommand(1);
+  all.fallthrough();
+  const auto add = [&](const char* name, Golden::Act act, const char* what) {
+    CLI::App* verb = all.add_subcommand(name, what);
+    verb->callback([&golden, act] { golden.act = act; });
+    return verb;
+  };
+  CLI::App* verb = add("add", Golden::Act::add, "Run scenarios and keep their results beside them");
+  verb->add_option("scenario", golden.subjects, "Scenario files")->required();
+  add_jobs(*verb, golden.jobs);
+  verb->add_flag("--force", golden.force, "Replace the kept results");
+  verb = add("check", Golden::Act::check, "Run scenarios and compare with the kept results");
+  verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
+  add_jobs(*verb, golden.jobs);
+  add_check_options(*verb, golden.options);
+  verb = add("list", Golden::Act::list, "The scenarios whose results are kept");
+  verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
+  verb = add("bless", Golden::Act::bless,
+             "Of palpate itself: replace golden/NAME/expected, with a reason");
+  verb->add_option("name", golden.subjects, "Folders below golden/")->required();
+  verb->add_option("--reason", golden.reason, "Why they may change")->required();
 }
 
 void add_options(CLI::App& verb, Mesh& mesh) {

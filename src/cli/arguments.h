@@ -85,16 +85,28 @@ struct Data {
   std::string data;
   DataOptions columns{.compression = "auto"};
 };
+// What `compare` and `golden check` write for build servers.
+struct CheckOptions {
+  std::string junit;        // file of JUnit XML; empty: none
+  std::string annotations;  // `github`; empty: none
+  bool headed = false;      // the name of each check stands above its text
+};
 struct Compare {
   static constexpr Word word{"compare", "Compare results with expected ones"};
   std::string got;
   std::string want;
   std::string tolerances;
+  CheckOptions options;
 };
-struct Bless {
-  static constexpr Word word{"golden", "Replace the expected results in golden/"};
-  std::vector<std::string> names;
-  std::string reason;
+struct Golden {
+  static constexpr Word word{"golden", "Keep results of scenarios, and check that they stay"};
+  enum class Act { add, check, list, bless };
+  Act act = Act::check;
+  std::vector<std::string> subjects;  // scenarios or folders; of `bless` folders below golden/
+  std::string reason;                 // of `bless`
+  CheckOptions options{.junit = {}, .annotations = {}, .headed = true};
+  int jobs = 0;
+  bool force = false;
 };
 struct Mesh {
   static constexpr Word word{"mesh", "Check and mesh a surface, a mesh or a scenario's specimen"};
@@ -206,7 +218,7 @@ struct Completion {
 
 // Every verb. It needs `word`, add_options() in arguments.cpp and perform() in verbs.h to compile.
 using Verb =
-    std::variant<Run, Explain, Fit, Data, Compare, Bless, Mesh, Reference, Bench, Chart, Stability,
+    std::variant<Run, Explain, Fit, Data, Compare, Golden, Mesh, Reference, Bench, Chart, Stability,
                  Sweep, Identify, Export, Device, New, Open, Manual, Schema, Completion>;
 
 struct Arguments {

@@ -13,16 +13,14 @@
 #include "cli/table_text.h"
 #include "cli/verbs.h"
 #include "record/csv.h"
+#include "report/results.h"
 
 namespace palpate::cli {
 namespace {
 
 // A text that is equal for two calls if one may continue with the measurements of the other.
 std::string identity(const scenario::Family& family) {
-  std::string text = program_identity() + "\n";
-  for (const scenario::InputFile& input : family.inputs)
-    text += input.name + " " + sha256(input.content) + "\n";
-  return text + scenario::echo(family);
+  return program_identity() + "\n" + report::origin_of(family);
 }
 
 std::string progress_text(const chart::ChartProgress& progress) {
@@ -97,7 +95,7 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   const Replace replace = command.force ? Replace::any : Replace::incomplete;
   const std::string place =
       (std::filesystem::path(command.out) / (family.name + "_chart")).string();
-  WholeFolder folder(place, "chart", replace);
+  WholeFolder folder(place, "chart", replace, report::origin_of(family));
   folder.refuse_what_is_there();
   chart::Journal journal(place + ".partial", identity(family), replace);
   for (const std::string& warning : journal.warnings()) talk.warn(warning);

@@ -36,6 +36,27 @@ std::string table_of(const std::string& section) {
   return table;
 }
 
+// What the key `kind` of a table may be, from the titles of the manual's sections, such as
+// "`step`, `kind = "hold"`"; empty if no table of this name has kinds. Adds the keys to `known`.
+std::string kinds(const std::string& key, std::vector<std::string>& known) {
+  std::string found;
+  std::string last;
+  const std::vector<std::string> lines = split(scenario::manual(), '\n');
+  for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
+    const auto quotes = split(lines[i], '`');
+    if (!lines[i].starts_with("## `") || quotes.size() < 4 || !quotes[3].starts_with("kind = "))
+      continue;
+    const std::string path = quotes[1] + ".kind";
+    known.push_back(path);
+    if (key != path && key != "kind") continue;
+    if (path != last) found += "`" + path + "`\n";
+    last = path;
+    const bool plain = lines[i + 2].starts_with('|') || lines[i + 2].starts_with('#');
+    found += "  " + quotes[3].substr(7) + quotes[4] + (plain ? "" : ": " + lines[i + 2]) + "\n";
+  }
+  return found;
+}
+
 // The rows of the manual for a key, given as `table.key` or `key`, or for all keys of a table.
 // Throws InputError, with the nearest key, if there are none.
 std::string meaning(const std::string& asked) {
@@ -43,6 +64,7 @@ std::string meaning(const std::string& asked) {
   std::string section;
   std::string found;
   std::vector<std::string> known;
+  if (std::string text = kinds(key, known); !text.empty()) return text;
   for (const std::string& line : split(scenario::manual(), '\n')) {
     if (line.starts_with("## ")) section = line.substr(3);
     if (!line.starts_with("| `")) continue;

@@ -49,7 +49,8 @@ Prepared prepare(const scenario::Family& family, const Run& command, const Talk&
   prepared.workers =
       static_cast<int>(std::min(as_index(worker_count(command.jobs)), family.cases.size()));
   prepared.folder = std::make_unique<report::ResultFolder>(
-      command.out, family, command.force ? Replace::any : Replace::incomplete);
+      command.out, family, command.force ? Replace::any : Replace::incomplete,
+      report::origin_of(family));
   prepared.scenes = run::build_all(family, prepared.workers);
   return prepared;
 }

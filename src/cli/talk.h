@@ -26,6 +26,7 @@ class Talk {
 
   // Whether progress() shows anything.
   [[nodiscard]] bool shows_progress() const { return terminal_ && !manner_.quiet && !manner_.json; }
+  [[nodiscard]] bool quiet() const { return manner_.quiet; }
   [[nodiscard]] bool json() const { return manner_.json; }
 
  private:

@@ -184,7 +184,9 @@ class Press {
         folded_at_ = touch_.travel;
       }
     }
-    if (to_force) return diverged("the force of the step was not reached");
+    if (to_force)
+      return diverged(
+          "the force of the step was not reached; give a smaller force, or a travel as `to`");
     return true;
   }
 
@@ -237,7 +239,7 @@ class Press {
       if (!mesh_->forces_follow_finger() || std::abs(missing) <= 1e-9 * kept_force_)
         return std::nullopt;
     }
-    return "no depth gives the force that the slide keeps";
+    return "no depth gives the force that the slide keeps; give a smaller force before the slide";
   }
 
   bool diverged(const std::string& reason) {

@@ -57,7 +57,8 @@ class UniformTest {
           time_ = start + pace.time(row + 1, 0);
           write_row(stage.stress ? *stage.stress : stress_of(march_.force));
           if (tissue::inverted(specimen_.mesh, state_.displacement) &&
-              !diverged("a tetrahedron has turned inside out"))
+              !diverged("a tetrahedron has turned inside out; give a smaller load, or set "
+                        "`solver.kinematics = \"nonlinear\"`"))
             co_return;
         }
       }

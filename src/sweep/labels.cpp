@@ -9,6 +9,7 @@
 
 #include "base/index.h"
 #include "fit/model.h"
+#include "record/swept_column.h"
 
 namespace palpate::sweep {
 namespace {
@@ -46,16 +47,18 @@ constexpr std::array<CurveUnits, 4> curves{
     CurveUnits{"force_indentation", "mm", "N"}, CurveUnits{"creep", "s", ""},
     CurveUnits{"recovery", "s", ""}, CurveUnits{"relaxation", "s", "kPa"}};
 
-// The label of a fitted parameter, a column CURVE_MODEL_PARAMETER; empty for other columns.
+// The label of a fitted parameter, a column CURVE_MODEL_PARAMETER_UNIT; empty for other columns.
 std::string fit_label(const std::string& column) {
   for (const CurveUnits& curve : curves)
     for (const fit::ModelInfo& model : fit::models())
       for (const fit::Parameter& parameter : model.parameters) {
         const std::string name(model.name);
-        if (column == std::string(curve.curve) + "_" + name + "_" + std::string(parameter.name))
+        const std::string unit = fit::unit_text(parameter.unit, curve.x, curve.y);
+        if (column == std::string(curve.curve) + "_" + name + "_" + std::string(parameter.name) +
+                          (unit.empty() ? "" : "_" + record::unit_word(unit)))
           return with_unit(std::string(parameter.name) + ", " + name + " fit" +
                                (&curve == curves.data() ? "" : std::string(", ") + curve.curve),
-                           fit::unit_text(parameter.unit, curve.x, curve.y));
+                           unit);
       }
   return {};
 }

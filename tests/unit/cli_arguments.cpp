@@ -60,8 +60,11 @@ TEST(Arguments, OfTheOtherVerbs) {
   EXPECT_EQ(identify.columns.skip, 3);
   const Compare compare = accepted<Compare>({"compare", "a", "b", "--tolerances", "t.toml"});
   EXPECT_EQ(compare.got + compare.want + compare.tolerances, "abt.toml");
-  const Bless bless = accepted<Bless>({"golden", "bless", "one", "two", "--reason", "why"});
-  EXPECT_EQ(bless.names, (Words{"one", "two"}));
+  const Golden bless = accepted<Golden>({"golden", "bless", "one", "two", "--reason", "why"});
+  EXPECT_EQ(bless.subjects, (Words{"one", "two"}));
+  EXPECT_EQ(bless.act, Golden::Act::bless);
+  const Golden check = accepted<Golden>({"golden", "check", "mine", "--junit", "a.xml"});
+  EXPECT_EQ(check.options.junit, "a.xml");
   const Mesh mesh = accepted<Mesh>({"mesh", "leg.stl", "--unit", "mm", "--edge", "3 mm", "--out",
                                     "a.node", "--out", "a.vtu", "--force"});
   EXPECT_EQ(mesh.subject + mesh.unit + mesh.edge, "leg.stlmm3 mm");

@@ -45,9 +45,9 @@ TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
             (std::vector<std::string>{"failure", "rung", "integrator", "setting", "setting_unit",
                                       "measure", "measured", "theory", "seen", "note"}));
   // A finished map is not replaced unless that is asked for.
-  const Ended again = map({});
+  const Ended again = map({"--set", "finger.radius=8 mm"});
   EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.err.find("holds a finished stability map; give `--force`"), std::string::npos)
+  EXPECT_NE(again.err.find("holds a finished stability map of other inputs"), std::string::npos)
       << again.err;
   write_file(result / "mark", "old");
   const std::string rows = read_file(result / "stability.csv");

@@ -224,8 +224,8 @@ TEST(Response, AScriptIsTheSameTwice) {
 TEST(SweepLabels, NameOutputsAndFactorsWithTheirUnits) {
   EXPECT_EQ(output_label("force_at_1.5_mm_N"), "Force at 1.5 mm (N)");
   EXPECT_EQ(output_label("peak_strain"), "Peak strain");
-  EXPECT_EQ(output_label("force_indentation_logarithmic_a"), "a, logarithmic fit (N)");
-  EXPECT_EQ(output_label("creep_kelvin_voigt_tau"), "tau, kelvin_voigt fit, creep (s)");
+  EXPECT_EQ(output_label("force_indentation_logarithmic_a_N"), "a, logarithmic fit (N)");
+  EXPECT_EQ(output_label("creep_kelvin_voigt_tau_s"), "tau, kelvin_voigt fit, creep (s)");
   EXPECT_EQ(factor_label({.name = "tissue.density", .column = "tissue.density_kg_per_m3"}),
             "tissue.density (kg/m3)");
   EXPECT_EQ(factor_label({.name = "tissue.drag", .column = "tissue.drag_per_s"}),
