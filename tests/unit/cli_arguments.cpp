@@ -84,7 +84,7 @@ TEST(Arguments, OfEveryVerbStandBeforeOrAfterIt) {
 }
 
 TEST(Arguments, AValueMayLookLikeAnythingElse) {
-  EXPECT_EQ(accepted<Bless>({"golden", "bless", "one", "--reason", "--quiet is quiet"}).reason,
+  EXPECT_EQ(accepted<Golden>({"golden", "bless", "one", "--reason", "--quiet is quiet"}).reason,
             "--quiet is quiet");
   EXPECT_EQ(accepted<RunCommand>({"run", "a.toml", "--out", "--there"}).out, "--there");
   EXPECT_EQ(accepted<RunCommand>({"run", "manual"}).scenarios, Words{"manual"});
