@@ -92,7 +92,8 @@ interval = "50 ms"
 constexpr std::string_view organ = R"(#:schema ./palpate.schema.json
 # A body with a stiff lump, pressed from above. Give your own surface or mesh in place of the ellipsoid:
 #   shape = { file = "organ.stl", unit = "mm" }      a closed surface: .stl .obj .ply .off
-#   mesh  = { file = "organ.msh", unit = "mm" }      tetrahedra: .msh of Gmsh, .node of TetGen
+#   mesh  = { file = "organ.msh", unit = "mm" }      tetrahedra: .msh of Gmsh, .node of TetGen; its
+#                                                    parts are `tagged` regions in place of the sphere
 # `palpate mesh organ.stl --unit mm` checks such a file; z points up.
 schema = 1
 title  = "An organ with a lump"
