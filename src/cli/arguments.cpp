@@ -155,7 +155,12 @@ void add_options(CLI::App& verb, Compare& compare) {
   verb.add_option("got", compare.got, "CSV file or result folder")->required();
   verb.add_option("want", compare.want, "CSV file or folder to compare with")->required();
   verb.add_option("--tolerances", compare.tolerances, "TOML file of tolerances by column");
+  verb.add_option("--report", compare.report, "Write the comparison as a page to this file");
   add_check_options(verb, compare.options);
+}
+
+void add_options(CLI::App& verb, Index& index) {
+  verb.add_option("folder", index.folder, "Folder with result folders below it")->required();
 }
 
 void add_options(CLI::App& all, Golden& golden) {

@@ -96,7 +96,12 @@ struct Compare {
   std::string got;
   std::string want;
   std::string tolerances;
+  std::string report;  // path of a page
   CheckOptions options;
+};
+struct Index {
+  static constexpr Word word{"report", "Write a page with links to the reports of a folder"};
+  std::string folder;
 };
 struct Golden {
   static constexpr Word word{"golden", "Keep results of scenarios, and check that they stay"};
@@ -218,8 +223,8 @@ struct Completion {
 
 // Every verb. It needs `word`, add_options() in arguments.cpp and perform() in verbs.h to compile.
 using Verb =
-    std::variant<Run, Explain, Fit, Data, Compare, Golden, Mesh, Reference, Bench, Chart, Stability,
-                 Sweep, Identify, Export, Device, New, Open, Manual, Schema, Completion>;
+    std::variant<Run, Explain, Fit, Data, Compare, Index, Golden, Mesh, Reference, Bench, Chart,
+                 Stability, Sweep, Identify, Export, Device, New, Open, Manual, Schema, Completion>;
 
 struct Arguments {
   Manner manner;

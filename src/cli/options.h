@@ -14,6 +14,7 @@ void add_options(CLI::App& verb, Explain& command);
 void add_options(CLI::App& verb, Fit& command);
 void add_options(CLI::App& verb, Data& command);
 void add_options(CLI::App& verb, Compare& command);
+void add_options(CLI::App& verb, Index& command);
 void add_options(CLI::App& verb, Golden& command);
 void add_options(CLI::App& verb, Mesh& command);
 void add_options(CLI::App& verb, Reference& command);

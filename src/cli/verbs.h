@@ -13,6 +13,7 @@ namespace palpate::cli {
 [[nodiscard]] int perform(const Fit& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Data& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Compare& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Index& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Golden& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Mesh& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Reference& command, const Arguments& arguments, const Talk& talk);

@@ -13,6 +13,7 @@
 #include "report/exr.h"
 #include "report/family_figures.h"
 #include "report/manifest.h"
+#include "report/run_page.h"
 #include "report/scene_picture.h"
 #include "report/vtu.h"
 #include "tissue/strain.h"
@@ -172,6 +173,7 @@ void ResultFolder::write_tissue(const std::vector<record::CaseRecord>& records) 
 }
 
 void ResultFolder::write_pictures(const std::vector<record::CaseRecord>& records) {
+  if (!family_->base.output.picture) return;
   const bool several = family_->cases.size() > 1;
   for (std::size_t i = 0; i < records.size(); ++i)
     if (!records[i].picture.faces.empty())
@@ -211,12 +213,18 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   write_tissue(records);
   write_pictures(records);
 
+  std::vector<plot::Figure> figures;
   if (family_->base.output.figures) {
     plot::DrawOptions options;
-    if (family_->base.output.pdf) options.format = plot::PictureFormat::svg_and_pdf;
-    for (const plot::Figure& figure : family_figures(*family_, records, fits))
+    options.formats = picture_formats(family_->base.output);
+    figures = family_figures(*family_, records, fits);
+    for (const plot::Figure& figure : figures)
       plot::draw(plot::sheet_of(figure), folder_, warnings, options);
   }
+
+  if (family_->base.output.report)
+    write_run_page({.family = *family_, .records = records, .fits = fits, .figures = figures},
+                   folder_);
 
   Manifest manifest = begin_manifest(origin, family_->inputs);
   manifest.outputs = folder_.files();

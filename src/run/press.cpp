@@ -75,7 +75,8 @@ class Press {
     first_ = scene::first_touch(scene).finger;
     touch_.finger = first_;
     if (scene.scenario.output.tissue) record_.mesh = scene.specimen->mesh;
-    if (scene.scenario.output.picture) record_.picture = make_picture(scene);
+    if (scene.scenario.output.picture || scene.scenario.output.report)
+      record_.picture = make_picture(scene);
   }
 
   void run() {

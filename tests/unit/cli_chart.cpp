@@ -1,9 +1,11 @@
 // `palpate chart` on scenarios that cost nothing: its files, its refusals, how it goes on.
 #include <gtest/gtest.h>
 
+#include "browser.h"
 #include "program.h"
 #include "record/csv.h"
 #include "record/journal.h"
+#include "svg_text.h"
 
 namespace palpate::test {
 namespace {
@@ -52,6 +54,10 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
   EXPECT_NE(ended.out.find("Within the tolerance of 5 %, the cheapest is `"), std::string::npos);
   EXPECT_NE(read_file(folder_ / "out/small_chart/chart.svg").find("taken by auto"),
             std::string::npos);
+  EXPECT_EQ(SvgPicture(read_file(folder_ / "out/small_chart/chart.svg")).faults(),
+            std::vector<std::string>{});
+  EXPECT_EQ(faults_of_pages(folder_ / "out/small_chart", {"report.html"}, Scheme::dark),
+            std::vector<std::string>{});
   const record::Table all = table();
   const auto status = column(all, "status");
   const auto variant = column(all, "variant");

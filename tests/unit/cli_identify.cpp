@@ -5,6 +5,7 @@
 
 #include "program.h"
 #include "record/csv.h"
+#include "svg_text.h"
 
 namespace palpate::test {
 namespace {
@@ -55,6 +56,9 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
   for (const char* name : {"residuals.csv", "profile.csv", "correlation.csv", "curve.gp",
                            "profile.gp", "scenario.toml", "run.json"})
     EXPECT_TRUE(std::filesystem::exists(result / name)) << name;
+
+  for (const char* name : {"curve.svg", "profile.svg"})
+    EXPECT_EQ(SvgPicture(read_file(result / name)).faults(), std::vector<std::string>{}) << name;
 
   write_file(folder_ / "again.toml", read_file(result / "scenario.toml"));
   const auto run = palpate(folder_.path(), {"run", "again.toml"});

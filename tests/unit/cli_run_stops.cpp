@@ -59,7 +59,7 @@ TEST_F(RunStops, an_interrupted_run_keeps_its_finished_cases) {
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"slow"}) << "no leftovers";
   EXPECT_EQ(names_in(folder_ / "out/slow"),
             (std::set<std::string>{"contents.sha256", "findings.csv", "force_indentation.csv",
-                                   "pressure_001.exr", "run.json", "scenario.toml"}))
+                                   "pressure_001.exr", "report.html", "run.json", "scenario.toml"}))
       << "no half files";
   const record::Table findings = record::read_csv(folder_ / "out/slow/findings.csv");
   ASSERT_EQ(findings.rows.size(), 1U);
