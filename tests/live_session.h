@@ -79,9 +79,11 @@ class Played {
   explicit Played(const Session& session) {
     std::vector<std::string> words{session.link, "--clock", session.clock, "--log",
                                    folder_ / "log.csv"};
-    if (session.link == "mark10")
+    const bool has_tissue = std::find(session.emulator.begin(), session.emulator.end(),
+                                      "--tissue") != session.emulator.end();
+    if (session.link == "mark10" && !has_tissue)
       words.insert(words.end(), {"--tissue", project_file("scenarios/emulator/stand_tissue.toml")});
-    else
+    if (session.link != "mark10")
       words.insert(words.end(), {"--hand", project_file("scenarios/emulator/arm_hand.toml")});
     words.insert(words.end(), session.emulator.begin(), session.emulator.end());
     LiveEmulator emulator(words);

@@ -71,13 +71,10 @@ std::optional<std::vector<scenario::Step>> as_moved(const record::CaseRecord& re
     const double rest = way->begin - time;
     if (steps.empty() || rest > shortest_hold)
       steps.emplace_back(scenario::Hold{std::max(rest, shortest_hold)});
-    const double to = std::max(0.0, way->to);
-    if (to > travel)
-      steps.emplace_back(scenario::Indent{{to, false}, way->rate});
-    else
-      steps.emplace_back(scenario::Retract{to, -way->rate});
+    if (way->to <= travel) return steps;
+    steps.emplace_back(scenario::Indent{{way->to, false}, way->rate});
     time = way->end;
-    travel = to;
+    travel = way->to;
   }
   const double rest = record.contact.back().time - time;
   if (!steps.empty() && rest > shortest_hold) steps.emplace_back(scenario::Hold{rest});

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 
 #include "live_session.h"
 
@@ -103,29 +102,6 @@ TEST(LiveStand, StopsWhereAForceIsReached) {
   // 0.1 N is reached at about 1 mm; between two readings it goes 0.04 mm, and as far to brake.
   EXPECT_NEAR(lowest, 1.0, 0.1);
   EXPECT_NEAR(deepest, lowest, 0.1);
-}
-
-// What is known of the emulator's tissue, and of nothing else, comes back out of its gauge.
-TEST(LiveStand, ItsTissueIsIdentifiedBack) {
-  const Played live(Session{});
-  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
-  const test::Ended read = test::palpate(
-      live.folder(), {"identify", "out/device_stand/force_indentation.csv",
-                      test::project_file("scenarios/device_stand_identify.toml"), "--x", "time_s",
-                      "--y", "measured_force_N", "--unknown", "tissue.young_modulus=2 kPa..60 kPa",
-                      "--unknown", "tissue.relaxation_time=0.05 s..5 s", "--unknown",
-                      "tissue.instantaneous_ratio=1.1..6", "--set", "output.figures=false"});
-  ASSERT_EQ(read.code, 0) << read.err;
-  const test::Rows found(record::read_csv(
-      (live.folder() / "out/device_stand_identify_identified/identified.csv").string()));
-  ASSERT_EQ(found.size(), 3U);
-  // Of scenarios/emulator/stand_tissue.toml: E_inf, tau, E_0 / E_inf. The profile's intervals.
-  const std::array truth{12.0, 0.5, 2.5};
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    EXPECT_LT(found.number(i, "profile_low"), truth[i]) << i;
-    EXPECT_GT(found.number(i, "profile_high"), truth[i]) << i;
-    EXPECT_NEAR(found.number(i, "estimate"), truth[i], 0.03 * truth[i]) << i;  // as it was measured
-  }
 }
 
 TEST(LiveArm, ShowsTheForceThatOfflineGivesAtTheHandsPlace) {

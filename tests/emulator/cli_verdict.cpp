@@ -1,0 +1,142 @@
+// A live run judges itself: what is wrong with a session is found, named, and an exit code.
+#include <gtest/gtest.h>
+
+#include "live_session.h"
+
+namespace palpate {
+namespace {
+
+using test::has;
+using test::Played;
+using test::ScratchFile;
+using test::Session;
+
+const std::vector<std::string> expecting{"--arm", "--expect"};
+
+TEST(LiveVerdict, TheScenariosOwnTissueAgrees) {
+  const Played live(Session{.options = expecting});
+  EXPECT_EQ(live.ended.code, 0) << live.ended.err;
+  EXPECT_TRUE(has(live.ended.err, "device_stand: measured and model agree: ")) << live.ended.err;
+  EXPECT_EQ(live.findings.word(0, "measured_verdict"), "agrees");
+  EXPECT_LT(live.findings.number(0, "measured_difference"), 0.05);
+  // The display shows steps of 2 mN.
+  EXPECT_NEAR(live.findings.number(0, "measured_offset_N"), 0.0, 2e-3);
+  EXPECT_NEAR(live.findings.number(0, "measured_contact_mm"),
+              live.findings.number(0, "model_contact_mm"), 0.02);
+}
+
+// What is wrong with a session: a fault from its beginning on, another tissue, another surface.
+struct Wrong {
+  const char* name;
+  std::string fault;
+  std::string tissue;
+  std::string surface;
+  std::string cause;
+  std::string clause;
+};
+
+class WrongSession : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongSession, IsNamedAndDiffers) {
+  const Wrong& wrong = GetParam();
+  const ScratchFile file("[[fault]]\nat = \"0 s\"\n" + wrong.fault);
+  Session session{.options = expecting, .surface = wrong.surface};
+  if (!wrong.fault.empty()) session.emulator = {"--fault", file.path()};
+  if (!wrong.tissue.empty()) session.emulator = {"--tissue", wrong.tissue};
+  const Played live(session);
+  EXPECT_EQ(live.ended.code, 3) << live.ended.err;
+  EXPECT_EQ(live.findings.word(0, "measured_verdict"), "differs");
+  EXPECT_EQ(live.findings.word(0, "measured_causes"), wrong.cause);
+  EXPECT_TRUE(has(live.ended.err, "measured and model differ: ")) << live.ended.err;
+  EXPECT_TRUE(has(live.ended.err, wrong.clause)) << live.ended.err;
+  session.options = {"--arm"};
+  EXPECT_EQ(Played(session).ended.code, 0) << "only --expect makes it an exit code";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Stand, WrongSession,
+    testing::Values(Wrong{"NoSpecimen", "", "none", "", "no_specimen", "no specimen: "},
+                    Wrong{"Sign", "kind = \"sign_flip\"\n", "", "", "wrong_sign", "wrong sign: "},
+                    Wrong{"Tare", "kind = \"spike\"\nvalue = \"0.1 N\"\n", "", "", "wrong_tare",
+                          "wrong tare: the gauge shows 0.1 N"},
+                    Wrong{"Surface", "", "", "-1.6 mm", "wrong_surface",
+                          "wrong surface: the specimen begins 0.39 mm lower"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(LiveVerdict, AnArmMeasuresNoForce) {
+  const Played live(Session{.link = "inverse3", .scenario = "device_arm", .options = expecting});
+  EXPECT_EQ(live.ended.code, 2);
+  EXPECT_TRUE(has(live.ended.err, "wants a device that measures force")) << live.ended.err;
+  EXPECT_EQ(live.summary.at("greatest_force_N"), 0.0);
+}
+
+// The recording of a session is judged by what the session measured, not by its model.
+TEST(LiveVerdict, OfARecordingIsThatOfItsGauge) {
+  const ScratchFile file("[[fault]]\nat = \"0 s\"\nkind = \"sign_flip\"\n");
+  const Played live(Session{.emulator = {"--fault", file.path()}});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  const test::Ended again =
+      test::palpate(live.folder(), {"run", test::project_file("scenarios/device_stand.toml"),
+                                    "--out", "again", "--set", "output.figures=false", "--expect",
+                                    "--device", "replay:out/device_stand/force_indentation.csv"});
+  EXPECT_EQ(again.code, 3) << again.err;
+  EXPECT_TRUE(has(again.err, "wrong sign: ")) << again.err;
+}
+
+// The figure shows measured points beside the model's curve.
+TEST(LiveVerdict, MeasuredPointsAreInTheFigure) {
+  const Played live(Session{.options = {"--arm", "--set", "output.figures=true"}});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  const std::string script =
+      test::read_file(live.result("device_stand") / "figure_force_indentation.gp");
+  EXPECT_TRUE(has(script, "column('measured_force_N')) with points")) << script;
+  EXPECT_TRUE(has(script, "title 'measured'"));
+}
+
+// Readings that are older than their replies: the programme as it was planned gives a soft, slow
+// tissue; as the stand carried it out, the tissue.
+TEST(LiveVerdict, ALateStandIsIdentifiedByTheProgrammeThatItCarriedOut) {
+  const Played live(Session{.emulator = {"--latency", "4 ms", "--jitter", "4 ms", "--seed", "5"}});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  const auto identified = [&](const std::string& scenario, std::vector<std::string> more) {
+    std::vector<std::string> call{"identify",
+                                  "out/device_stand/force_indentation.csv",
+                                  scenario,
+                                  "--x",
+                                  "time_s",
+                                  "--y",
+                                  "measured_force_N",
+                                  "--set",
+                                  "output.figures=false",
+                                  "--unknown",
+                                  "tissue.young_modulus=2 kPa..60 kPa",
+                                  "--unknown",
+                                  "tissue.relaxation_time=0.05 s..5 s",
+                                  "--unknown",
+                                  "tissue.instantaneous_ratio=1.1..6"};
+    call.insert(call.end(), more.begin(), more.end());
+    const test::Ended ended = test::palpate(live.folder(), call);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    const std::string name = test::fs::path(scenario).stem().string() + "_identified";
+    return test::Rows(record::read_csv((live.folder() / "out" / name / "identified.csv").string()));
+  };
+  const test::Rows planned = identified(test::project_file("scenarios/device_stand.toml"), {});
+  const test::Rows moved =
+      identified("out/device_stand/as_moved.toml", {"--unknown", "step.1.time=0.1 ms..100 ms"});
+  const auto off = [](const test::Rows& found, const std::string& unknown, double truth) {
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found.word(i, "unknown") == unknown) return found.number(i, "estimate") / truth - 1.0;
+    ADD_FAILURE() << "no " << unknown;
+    return 0.0;
+  };
+  // Of scenarios/emulator/stand_tissue.toml. Three standard deviations of the sessions of
+  // tests/bench/live_identify.py.
+  EXPECT_LT(off(planned, "tissue.young_modulus", 12.0), -0.03) << "soft";
+  EXPECT_GT(off(planned, "tissue.relaxation_time", 0.5), 0.1) << "and slow";
+  EXPECT_NEAR(off(moved, "tissue.young_modulus", 12.0), 0.0, 0.03);
+  EXPECT_NEAR(off(moved, "tissue.relaxation_time", 0.5), 0.0, 0.08);
+  EXPECT_NEAR(off(moved, "tissue.instantaneous_ratio", 2.5), 0.0, 0.02);
+}
+
+}  // namespace
+}  // namespace palpate
