@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/text.h"
+#include "plot/gnuplot_text.h"
 
 namespace palpate::page {
 
@@ -55,17 +56,19 @@ Markup link(const std::string& target, std::string_view words) {
   return element("a", words, {{"href", target}});
 }
 
+Markup sentence(std::string_view words) {
+  Markup all;
+  bool code = false;
+  for (const std::string& part : split(words, '`')) {
+    all += code ? element("code", part) : text(part);
+    code = !code;
+  }
+  return all;
+}
+
 Markup paragraphs(const std::vector<std::string>& sentences) {
   Markup all;
-  for (const std::string& sentence : sentences) {
-    Markup one;
-    bool code = false;
-    for (const std::string& part : split(sentence, '`')) {
-      one += code ? element("code", part) : text(part);
-      code = !code;
-    }
-    all += element("p", one);
-  }
+  for (const std::string& one : sentences) all += element("p", sentence(one));
   return all;
 }
 
@@ -73,7 +76,7 @@ namespace {
 
 Markup cell(const record::Cell& value, bool heading) {
   if (const auto* number = std::get_if<double>(&value))
-    return element(heading ? "th" : "td", rounded_text(*number),
+    return element(heading ? "th" : "td", plot::tick_text(*number, 4),
                    heading ? Attributes{{"scope", "row"}} : Attributes{{"class", "number"}});
   const auto* word = std::get_if<std::string>(&value);
   return element(heading ? "th" : "td", word == nullptr ? std::string("–") : *word,

@@ -41,7 +41,8 @@ using Attributes = std::vector<std::pair<std::string_view, std::string>>;
                              const Attributes& attributes = {});
 // A link to a file beside the page, or to a place on it (`#id`).
 [[nodiscard]] Markup link(const std::string& target, std::string_view words);
-// Sentences as paragraphs; what stands between back-quotes becomes code.
+// A sentence in which what stands between back-quotes becomes code; and sentences as paragraphs.
+[[nodiscard]] Markup sentence(std::string_view words);
 [[nodiscard]] Markup paragraphs(const std::vector<std::string>& sentences);
 
 // A table with a caption and row headings in its first column. Numbers have four digits and stand

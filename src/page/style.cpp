@@ -29,7 +29,7 @@ figure svg { display: block; width: 100%; min-width: 34rem; max-width: 51rem; he
 .sheet { overflow-x: auto; } .white { background: #ffffff; border-radius: .4rem; }
 @media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }
-.maps img { width: 100%; display: block; image-rendering: pixelated; border: 1px solid var(--line); }
+.maps img { width: 100%; display: block; height: auto; image-rendering: pixelated; border: 1px solid var(--line); }
 .bar { display: flex; justify-content: space-between; font-size: .9rem; }
 .maps .scale { height: .9rem; image-rendering: auto; }
 .wide { overflow-x: auto; margin: .6rem 0; }

@@ -31,11 +31,12 @@ std::size_t letters(const std::string& text) {
 struct Legend {
   std::vector<std::string> labels = {};  // in the order of the series, each once
   std::size_t lines = 0;
+  std::size_t rows = 0;     // below the plot, where several labels stand side by side
   bool below = false;       // long labels beside the plot would leave no place for it
   bool beside_bar = false;  // the bar is beside the plot: short labels stand in rows below
 
   explicit Legend(const Figure& figure) {
-    std::size_t longest = letters(figure.fit_label);
+    std::size_t longest = 0;
     bool fits = false;
     for (const Series& series : figure.series) {
       fits = fits || !series.fits.empty();
@@ -45,15 +46,19 @@ struct Legend {
     }
     if (labels.size() == 1 && !fits) return;
     lines = labels.size() + (fits ? 1 : 0);
-    constexpr std::size_t most_letters_beside = 26;
+    if (fits) longest = std::max(longest, letters(figure.fit_label));
+    constexpr std::size_t most_letters_beside = 18;
     below = longest > most_letters_beside;
+    constexpr std::size_t letters_of_a_row = 90, sample = 8;
+    const std::size_t columns = std::max<std::size_t>(1, letters_of_a_row / (longest + sample));
+    rows = (lines + columns - 1) / columns;
     beside_bar = figure.bar.has_value();
   }
 
   [[nodiscard]] int height() const {
     constexpr int plot = 500, line = 20;
     const int text = line * static_cast<int>(lines);
-    if (below) return plot + text;
+    if (below) return plot + line * static_cast<int>(rows);
     return beside_bar ? plot + (lines > 0 ? 60 : 0) : std::max(plot, 120 + text);
   }
 };
@@ -65,7 +70,7 @@ std::string frame(const Figure& figure, const Legend& legend) {
   if (legend.lines == 0)
     text += "unset key\nset rmargin 3\n";
   else if (legend.below)
-    text += "set key below vertical maxrows " + std::to_string(legend.lines) +
+    text += "set key below vertical maxrows " + std::to_string(legend.rows) +
             " height 1 Left reverse samplen 2.6 spacing 1.25\nset rmargin 3\n";
   else if (legend.beside_bar)
     text += "set key below horizontal height 1 Left reverse samplen 2.6 spacing 1.25\n";

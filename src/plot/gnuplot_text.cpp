@@ -76,12 +76,13 @@ std::string gnuplot_head(const std::string& name, int height, int tick_font) {
          "set format x '%.10g'\nset format y '%.10g'\nset format cb '%.10g'\n";
 }
 
-std::string tick_text(double value) {
+std::string tick_text(double value, int digits) {
   const double size = std::abs(value);
-  if (size == 0.0 || (size > 0.999e-3 && size < 0.999e5)) return rounded_text(value, 5);
+  if (size == 0.0 || !std::isfinite(size) || (size > 0.999e-3 && size < 0.999e5))
+    return rounded_text(value, digits);
   const int power = static_cast<int>(std::floor(std::log10(size) + 1e-9));
-  const std::string digits = rounded_text(value / std::pow(10.0, power), 3);
-  return (digits == "1" ? "" : digits + "×") + "10" + superscript(power);
+  const std::string front = rounded_text(value / std::pow(10.0, power), digits);
+  return (front == "1" ? "" : front + "×") + "10" + superscript(power);
 }
 
 std::string gnuplot_logarithmic(const std::string& axis, double low, double high) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include "base/text.h"
+#include "plot/gnuplot_text.h"
 
 namespace palpate::report {
 namespace {
@@ -21,7 +21,7 @@ struct Row {
 
 constexpr std::array rows{
     Row{"outcome", course, "", "how the case ended"},
-    Row{"last_stable_time_s", course, "s", "last time before the instability"},
+    Row{"last_stable_time_s", course, "s", "last stable time"},
     Row{"model", course, "", "model that ran"},
     Row{"display_scale", course, "", "factor of this case in figures; the CSV files are in N"},
     Row{"peak_force_N", peak, "N", "largest force"},
@@ -106,8 +106,8 @@ std::string finding_text(const record::Finding& finding) {
   const auto* number = std::get_if<double>(&finding.value);
   if (number == nullptr) return "–";
   const std::string unit = words_of_finding(finding.name).unit;
-  if (unit == "%") return rounded_text(100.0 * *number, 3) + " %";
-  return rounded_text(*number) + (unit.empty() ? "" : " " + unit);
+  if (unit == "%") return plot::tick_text(100.0 * *number, 3) + " %";
+  return plot::tick_text(*number, 4) + (unit.empty() ? "" : " " + unit);
 }
 
 double finding_number(const record::CaseRecord& record, std::string_view name) {

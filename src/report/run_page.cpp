@@ -68,8 +68,7 @@ Markup findings_by_case(const Records& records) {
       table.rows.push_back(row);
     }
     const FindingGroup& words = finding_groups()[group];
-    all += element("h3", words.heading) + element("p", words.sentence) +
-           page::table(std::string(words.heading), table);
+    all += element("h3", words.heading) + page::table(std::string(words.sentence), table);
   }
   return all + element("p", text("The names and all digits are in ") +
                                 page::link("findings.csv", "findings.csv") + text("."));
@@ -109,7 +108,7 @@ std::string digits_of(double value, double low, double high) {
   if (!std::isfinite(half) || half <= 0.0 || value == 0.0) return rounded_text(value);
   const int digits = static_cast<int>(std::floor(std::log10(std::abs(value)))) -
                      static_cast<int>(std::floor(std::log10(half))) + 2;
-  return rounded_text(value, std::clamp(digits, 1, 8));
+  return rounded_text(value, std::clamp(digits, 1, 6));
 }
 
 Markup fits(const std::vector<fit::NamedFit>& fits) {
@@ -176,7 +175,8 @@ Markup remarks(const Records& records) {
   Markup items;
   for (const record::CaseRecord& record : records)
     for (const std::string& remark : record.remarks)
-      items += element("li", (records.size() > 1 ? record.name + ": " : "") + remark + ".");
+      items += element(
+          "li", page::sentence((records.size() > 1 ? record.name + ": " : "") + remark + "."));
   return items.empty() ? items : element("ul", items);
 }
 
