@@ -6,7 +6,7 @@ exit code must be 0; `; echo $?` behind a command allows another. Compared is a 
 behind such a block, with all that its last command prints; a line `...` stands for any lines.
 
 A comment before a block takes it out, `<!-- not run: REASON -->`, or some of its lines,
-`<!-- not run, palpate bench: REASON -->`, which names how they begin.
+`<!-- not run, palpate bench | palpate chart: REASON -->`, which names how they begin.
 """
 
 import os
@@ -29,7 +29,7 @@ def blocks(text):
     while at < len(lines):
         fence = FENCE.match(lines[at])
         if comment := COMMENT.match(lines[at].strip()):
-            comments.append(comment.group(1) or "")
+            comments.extend(begin.strip() for begin in (comment.group(1) or "").split("|"))
         elif fence:
             start = at + 1
             at = next(i for i in range(start, len(lines)) if lines[i].strip() == "```")
