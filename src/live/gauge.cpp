@@ -39,6 +39,8 @@ class GaugeLoop {
     start_ = loop_.clock.now();
     note(LinkState::open, Fault::none);
     while (!over_) frame();
+    loop_.health.end_of_samples(loop_.clock.now() - start_);
+    note(LinkState::closed, Fault::none);
     if (end_.why == LiveEnd::Why::done && rows_ == 0)
       end_ = {LiveEnd::Why::link, "the force never reached the `start_force` of the settings"};
     return end_;
@@ -58,13 +60,11 @@ class GaugeLoop {
   }
 
   void frame() {
-    const double asked = loop_.clock.now();
     const Sample sample =
         loop_.link.sample(stepped() ? stepped_wait : std::min(longest_wait, limits_.lost_after));
     const double now = loop_.clock.now() - start_;
     const double begun = device::wire_time();
     loop_.health.count(now, sample);
-    if (sample.arrival == Arrival::fresh) loop_.health.reply.add(sample.received - asked);
     staleness_.step(now, sample.arrival);
     const bool silent = staleness_.state() == device::Staleness::State::lost ||
                         (stepped() && sample.arrival == Arrival::none && ++unheard_ > 2);
