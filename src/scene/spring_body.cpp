@@ -17,7 +17,6 @@ SpringBody::SpringBody(const tissue::Network& network, tissue::Kinematics kinema
       kinematics_(kinematics),
       law_(law),
       held_(std::move(held)),
-      fast_(network, kinematics, law),
       elongation_(network.ends.size()),
       tension_(network.ends.size()),
       effective_(network.ends.size()) {
@@ -59,10 +58,15 @@ void SpringBody::prepare(const integrate::TimeStep& step) const {
   for (const tissue::Branch& branch : law_.branches) steps_.push_back(passage(branch.time));
 }
 
+tissue::FastSprings& SpringBody::fast() const {
+  if (!fast_) fast_.emplace(*network_, kinematics_, law_);
+  return *fast_;
+}
+
 void SpringBody::force(const Vector& displacement, std::span<const double> memory,
                        Vector& force) const {
-  if (!fast_.knows(displacement, memory)) fast_.look(displacement, memory);
-  fast_.force(force);
+  if (!fast().knows(displacement, memory)) fast().look(displacement, memory);
+  fast().force(force);
 }
 
 SplitMatrix SpringBody::stiffness() const {
@@ -85,13 +89,15 @@ integrate::Vector SpringBody::dashpot_diagonal(const Vector& displacement) const
 void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocity,
                                Vector& force) const {
   // tau times the forces of the elongations per second that the velocity gives.
-  if (!dashpots_) dashpots_.emplace(*network_, tissue::Kinematics::linear, tissue::ViscousLaw{});
+  if (!dashpots_)
+    dashpots_.emplace(*network_, tissue::Kinematics::linear, tissue::ViscousLaw{},
+                      linear() ? tissue::Turning::never : tissue::Turning::sometimes);
   if (!linear() && (turned_at_.size() != displacement.size() || turned_at_ != displacement)) {
-    if (!fast_.stands_at(displacement)) {
+    if (!fast().stands_at(displacement)) {
       memory_at(displacement, memory_at_);
-      fast_.look(displacement, memory_at_);
+      fast().look(displacement, memory_at_);
     }
-    dashpots_->turn_as(fast_);
+    dashpots_->turn_as(fast());
     turned_at_ = displacement;
   }
   dashpots_->look(velocity, {});
@@ -100,9 +106,10 @@ void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocit
 }
 
 void SpringBody::memory_at(const Vector& displacement, std::vector<double>& memory) const {
-  tissue::elongations(*network_, kinematics_, displacement, elongation_);
   const std::size_t size = tissue::memory_size(law_);
   memory.assign(size * elongation_.size(), 0.0);
+  if (size == 0) return;
+  tissue::elongations(*network_, kinematics_, displacement, elongation_);
   for (std::size_t s = 0; s < elongation_.size(); ++s) {
     memory[size * s] = elongation_[s];
     if (law_.kind == Viscosity::kelvin_voigt) memory[size * s + 1] = elongation_[s];
@@ -112,7 +119,7 @@ void SpringBody::memory_at(const Vector& displacement, std::vector<double>& memo
 void SpringBody::remember(const Vector& displacement, const integrate::TimeStep& step,
                           std::vector<double>& memory) const {
   prepare(step);
-  fast_.remember(displacement, steps_, memory);
+  fast().remember(displacement, steps_, memory);
 }
 
 void SpringBody::step_force(const Vector& displacement, std::span<const double> memory,
@@ -143,9 +150,13 @@ void SpringBody::inherit(std::span<const double> other, std::size_t from, std::s
 }
 
 double SpringBody::stored(const integrate::State& state) const {
-  if (const auto* energies = fast_.energies();
-      energies != nullptr && fast_.knows(state.displacement, state.memory))
+  if (const auto* energies = fast_ ? fast_->energies() : nullptr;
+      energies != nullptr && fast_->knows(state.displacement, state.memory))
     return energies->stored;
+  if (tissue::memory_size(law_) == 0) {
+    tissue::elongations(*network_, kinematics_, state.displacement, elongation_);
+    return tissue::stored_energy(*network_, law_, elongation_, scratch_);
+  }
   return tissue::stored_energy(*network_, law_, state.memory, scratch_);
 }
 
@@ -160,9 +171,9 @@ double SpringBody::dissipated(const integrate::State& before, const integrate::S
     return tissue::sum_of_moved_squares(as_index(drag_.size()), drag_.data(),
                                         before.displacement.data(), after.displacement.data()) /
            time_step;
-  if (const auto* energies = fast_.energies(); energies != nullptr &&
-                                               fast_.knows(after.displacement, after.memory) &&
-                                               fast_.came_from(before.displacement))
+  if (const auto* energies = fast_ ? fast_->energies() : nullptr;
+      energies != nullptr && fast_->knows(after.displacement, after.memory) &&
+      fast_->came_from(before.displacement))
     return law_.kind == Viscosity::kelvin_voigt ? law_.time * energies->lost / time_step
                                                 : energies->lost;
   return tissue::dissipated_energy(*network_, law_, before.memory, after.memory, time_step,

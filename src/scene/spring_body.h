@@ -64,6 +64,7 @@ class SpringBody final : public integrate::Body {
 
  private:
   void prepare(const integrate::TimeStep& step) const;
+  [[nodiscard]] tissue::FastSprings& fast() const;
   [[nodiscard]] Vector spread_mass(double factor) const;
 
   const tissue::Network* network_;
@@ -73,7 +74,8 @@ class SpringBody final : public integrate::Body {
   Vector mass_;
   Vector drag_;
   integrate::Proportional proportional_;
-  mutable tissue::FastSprings fast_;  // at the displacement that was requested last
+  // At the displacement that was requested last; statics alone do not need it.
+  mutable std::optional<tissue::FastSprings> fast_;
   mutable std::optional<tissue::FastSprings> dashpots_;  // of Kelvin-Voigt, applied to velocities
   mutable Vector turned_at_;                             // m, displacement of their directions
   mutable std::vector<double> elongation_;

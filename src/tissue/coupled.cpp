@@ -87,7 +87,8 @@ std::vector<Element> elements(const Network& network, const geometry::TetMesh& m
 
 // The averaged volume of a node in one region: theta = sum_t V_t theta_t / sum_t V_t over the
 // tetrahedra `around` it, with a quarter of their volume.
-SharedVolume average(const std::vector<Element>& all, std::span<const int> around, double modulus) {
+SharedVolume average(const std::vector<Element>& all, std::span<const int> around, int node,
+                     double modulus) {
   std::vector<std::pair<int, double>> terms;  // spring, V_t dilation
   double sum = 0.0;
   for (const int t : around) {
@@ -100,6 +101,8 @@ SharedVolume average(const std::vector<Element>& all, std::span<const int> aroun
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   SharedVolume shared;
   shared.stiffness = modulus * 0.25 * sum;
+  shared.node = node;
+  shared.volume = sum;
   for (const auto& [spring, change] : terms) {
     if (shared.springs.empty() || shared.springs.back() != spring) {
       shared.springs.push_back(spring);
@@ -132,7 +135,7 @@ void add_averages(Network& network, const geometry::TetMesh& mesh, const std::ve
                       uses[i + 1].region != uses[i].region;
     if (!last) continue;
     const double own = modulus[as_index(uses[i].region)];
-    if (own != 0.0) network.volumes.push_back(average(all, around, own));
+    if (own != 0.0) network.volumes.push_back(average(all, around, uses[i].node, own));
     around.clear();
   }
 }

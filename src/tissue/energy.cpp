@@ -30,7 +30,10 @@ void difference(const ViscousLaw& law, const Number& a, const Number& b,
 double stored_energy(const Network& network, const ViscousLaw& law, std::span<const double> memory,
                      EnergyScratch& scratch) {
   std::vector<double>& e = scratch.elongation;
-  column(law, memory, 0, e);
+  if (memory_size(law) == 0)
+    e.assign(memory.begin(), memory.end());
+  else
+    column(law, memory, 0, e);
   double sum = 0.5 * work(network, e, e, scratch.tension);
   for (std::size_t i = 0; i < law.branches.size(); ++i) {
     difference(law, {memory, 0}, {memory, 1 + i}, e);

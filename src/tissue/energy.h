@@ -10,7 +10,7 @@
 namespace palpate::tissue {
 
 // 1/2 e.tensions(e), plus 1/2 ratio (e - q).tensions(e - q) for every branch, J. `memory` is laid
-// out as in viscous.h.                                                     docs/theory.md (43)
+// out as in viscous.h; for a law without memory it is the elongations, m.  docs/theory.md (43)
 [[nodiscard]] double stored_energy(const Network& network, const ViscousLaw& law,
                                    std::span<const double> memory);
 

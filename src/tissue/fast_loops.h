@@ -8,33 +8,17 @@
 
 namespace palpate::tissue::PALPATE_LOOPS {
 
-// Each lane computes as the plain loop does: x + (y + z) is the order of summation of Vec3::dot.
+// Each lane computes as the plain loop does.
 
-using Wide = Four;
-#include "base/index.h"
-#include "base/wide_loads.h"
-
-PALPATE_INLINE Four all(double value) { return Four{value, value, value, value}; }
+#include "tissue/node_loops.h"
 
 PALPATE_INLINE double sum_of(const Four& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-// For each argument the sum of its first three lanes.
-PALPATE_INLINE Four sums(const Four& a, const Four& b, const Four& c, const Four& d) {
-  const Four xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Four y_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Four xz_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  const Four y_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  const Four x = __builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5);
-  const Four y = __builtin_shufflevector(y_ab, y_cd, 0, 1, 4, 5);
-  const Four z = __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7);
-  return x + (y + z);
-}
-
 PALPATE_INLINE Four root(const Four& x) { return PALPATE_ROOT(x); }
 
-PALPATE_INLINE Four displacement(const Node& node) { return load(node.displacement); }
+PALPATE_INLINE Four displacement(const FastNode& node) { return load(node.displacement); }
 
 // Elongations and directions of four springs at the present displacement.
 struct Stretch {
@@ -44,7 +28,8 @@ struct Stretch {
 };
 
 template <Kinematics kinematics>
-PALPATE_INLINE Stretch stretch(const FastSpringData& data, const Node* nodes, std::size_t first) {
+PALPATE_INLINE Stretch stretch(const FastSpringData& data, const FastNode* nodes,
+                               std::size_t first) {
   Stretch now;
   Four product[4];
 #pragma GCC unroll 4
@@ -79,7 +64,7 @@ PALPATE_INLINE Stretch stretch(const FastSpringData& data, const Node* nodes, st
   return now;
 }
 
-PALPATE_INLINE void pull(const FastSpringData& data, Node* nodes, std::size_t first,
+PALPATE_INLINE void pull(const FastSpringData& data, FastNode* nodes, std::size_t first,
                          const Four& scale, const Four* along) {
   // Forces are added to both nodes in memory, spring by spring, so that a node sums them in the
   // order of the plain loop. Keeping a node in a register would cost a branch that is mispredicted.
@@ -116,7 +101,6 @@ PALPATE_INLINE Four remember(const FastSpringData& data, const Four& stiffness,
   const Four e = elongation;
   if constexpr (passage == Passage::look && viscosity != Viscosity::prony) return e;
   if constexpr (viscosity == Viscosity::none) {
-    store(memory, e);
     const Four tension = stiffness * e;
     energy.stored += tension * e;
     return e;
@@ -163,7 +147,7 @@ PALPATE_INLINE Four remember(const FastSpringData& data, const Four& stiffness,
 
 // Computes elongations, memory, tensions and pulls of the springs `first` to `first + 3`.
 template <Kinematics kinematics, Viscosity viscosity, Passage passage>
-PALPATE_INLINE void four_springs(const FastSpringData& data, Node* nodes, std::size_t first,
+PALPATE_INLINE void four_springs(const FastSpringData& data, FastNode* nodes, std::size_t first,
                                  double* memory, Energy& energy) {
   const Stretch now = stretch<kinematics>(data, nodes, first);
   const Four stiffness = load(&data.stiffness[first]);
@@ -180,7 +164,7 @@ PALPATE_INLINE void four_springs(const FastSpringData& data, Node* nodes, std::s
 }
 
 template <Kinematics kinematics, Viscosity viscosity, Passage passage>
-PALPATE_TARGET void springs(const FastSpringData& data, Node* nodes, double* memory,
+PALPATE_TARGET void springs(const FastSpringData& data, FastNode* nodes, double* memory,
                             double* energies) {
   Energy energy;
   const std::size_t size = data.memory_size;
@@ -204,7 +188,7 @@ PALPATE_TARGET void springs(const FastSpringData& data, Node* nodes, double* mem
 // The directions of the springs in the last pass, three numbers per spring. A store writes four
 // numbers; the store of the next spring overwrites the fourth.
 template <Kinematics kinematics>
-PALPATE_TARGET void turn(const FastSpringData& data, const Node* nodes, double* direction) {
+PALPATE_TARGET void turn(const FastSpringData& data, const FastNode* nodes, double* direction) {
   for (std::size_t s = 0; s < data.springs; s += 4) {
     const Stretch now = stretch<kinematics>(data, nodes, s);
 #pragma GCC unroll 4
@@ -215,7 +199,7 @@ PALPATE_TARGET void turn(const FastSpringData& data, const Node* nodes, double* 
 
 // Adds to the nodes the pulls of the tensions of coupled springs.
 template <Kinematics kinematics>
-PALPATE_TARGET void pulls(const FastSpringData& data, Node* nodes) {
+PALPATE_TARGET void pulls(const FastSpringData& data, FastNode* nodes) {
   for (std::size_t s = 0; s < data.springs; s += 4) {
     const Four tension = load(&data.tension[s]);
     if constexpr (kinematics == Kinematics::linear) {
@@ -283,26 +267,6 @@ PALPATE_TARGET inline void coupled_energies(const FastSpringData& data,
   }
   energies[0] = 0.5 * sum_of(energy.stored);
   energies[1] = sum_of(energy.lost);
-}
-
-// Copies displacements (three numbers per node) to the nodes and clears their forces. The fourth
-// lane takes the next node's x; what it leads to ends in the unused fourth lane of the forces.
-PALPATE_TARGET inline void place(const double* from, Node* nodes, std::size_t count) {
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    store(nodes[i].displacement, load(from + 3 * i));
-    store(nodes[i].force, all(0.0));
-  }
-  Node& last = nodes[count - 1];
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    last.displacement[axis] = from[3 * (count - 1) + axis];
-  store(last.force, all(0.0));
-}
-
-// Copies the forces back; the next node's store overwrites the fourth number of each store.
-PALPATE_TARGET inline void collect(const Node* nodes, double* to, std::size_t count) {
-  for (std::size_t i = 0; i + 1 < count; ++i) store(to + 3 * i, load(nodes[i].force));
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    to[3 * (count - 1) + axis] = nodes[count - 1].force[axis];
 }
 
 template <Kinematics kinematics, Viscosity viscosity>

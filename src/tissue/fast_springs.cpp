@@ -3,11 +3,16 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
+
+#include "tissue/edge_form.h"
+#include "tissue/fast_edges.h"
+#include "tissue/fast_node.h"
 
 // Vectors of four are only passed to inlined functions, so that the ABI warning does not apply.
 #if defined(__GNUC__)
@@ -16,13 +21,6 @@
 
 namespace palpate::tissue {
 namespace {
-
-using Four = double __attribute__((vector_size(32)));
-
-struct alignas(64) Node {
-  double displacement[4] = {};  // m; the fourth is padding
-  double force[4] = {};         // N; the fourth is unused
-};
 
 enum class Passage { look, remember };
 
@@ -52,11 +50,11 @@ struct FastSpringData {
   const double* volume_stiffness = nullptr;  // N m
 };
 
-using Springs = void (*)(const FastSpringData&, Node*, double* memory, double* energies);
-using Pulls = void (*)(const FastSpringData&, Node*);
-using Place = void (*)(const double* from, Node*, std::size_t count);
-using Collect = void (*)(const Node*, double* to, std::size_t count);
-using Turn = void (*)(const FastSpringData&, const Node*, double* direction);
+using Springs = void (*)(const FastSpringData&, FastNode*, double* memory, double* energies);
+using Pulls = void (*)(const FastSpringData&, FastNode*);
+using Place = void (*)(const double* from, FastNode*, std::size_t count);
+using Collect = void (*)(const FastNode*, double* to, std::size_t count);
+using Turn = void (*)(const FastSpringData&, const FastNode*, double* direction);
 using Tensions = void (*)(const FastSpringData&);
 using CoupledEnergies = void (*)(const FastSpringData&, const double*, const double*, double*);
 
@@ -105,7 +103,8 @@ struct FastSprings::Layout {
   bool dashpots = false;  // of Kelvin-Voigt
   bool branches = false;
 
-  std::vector<Node> nodes;  // and the additional node of the last group
+  std::optional<FastEdges> edges;  // if it takes the place of all below
+  std::vector<FastNode> nodes;     // and the additional node of the last group
   std::vector<std::int32_t> ends;
   std::vector<double> along;
   std::vector<double> rest_length;
@@ -235,7 +234,10 @@ void FastSprings::Layout::place(const Vector& displacement) {
   passed_before = passed;
   passed = true;
   std::memcpy(at.data(), displacement.data(), at.size() * sizeof(double));
-  to_nodes(displacement.data(), nodes.data(), nodes.size() - 1);
+  if (edges)
+    edges->pass(displacement);
+  else
+    to_nodes(displacement.data(), nodes.data(), nodes.size() - 1);
 }
 
 void FastSprings::Layout::finish() {
@@ -245,9 +247,17 @@ void FastSprings::Layout::finish() {
 }
 
 FastSprings::FastSprings(const Network& network, Kinematics kinematics, const ViscousLaw& law,
-                         Lanes lanes)
+                         Turning turning, Lanes lanes)
     : layout_(std::make_unique<Layout>()) {
   Layout& layout = *layout_;
+  layout.at.assign(3 * network.rest.size(), 0.0);
+  layout.from = layout.at;
+  const bool coupled = !network.coupled.empty() || !network.volumes.empty();
+  if (coupled && kinematics == Kinematics::linear && turning == Turning::never &&
+      memory_size(law) == 0 && has_edge_form(network)) {
+    layout.edges.emplace(network, lanes);
+    return;
+  }
   layout.lay_springs(network, kinematics);
   layout.lay_couplings(network);
   for (const Branch& branch : law.branches) layout.ratios.push_back(branch.ratio);
@@ -258,8 +268,6 @@ FastSprings::FastSprings(const Network& network, Kinematics kinematics, const Vi
   layout.data.memory_size = memory_size(law);
   layout.few.assign(4 * layout.data.memory_size, 0.0);
   layout.data.few = layout.few.data();
-  layout.at.assign(3 * network.rest.size(), 0.0);
-  layout.from = layout.at;
   const Viscosity viscosity = layout.branches || layout.dashpots ? law.kind : Viscosity::none;
   layout.choose(kinematics, viscosity, lanes);
 }
@@ -273,6 +281,11 @@ void FastSprings::remember(const Vector& displacement, std::span<const MemorySte
   Layout& layout = *layout_;
   const bool had_tension = layout.passed;
   layout.place(displacement);
+  if (layout.edges) {
+    layout.energies = {layout.edges->stored(), 0.0};
+    layout.has_energies = true;
+    return;
+  }
   layout.data.steps = steps.data();
   if (layout.data.coupled) {
     layout.elongation.swap(layout.elongation_before);
@@ -294,11 +307,12 @@ void FastSprings::remember(const Vector& displacement, std::span<const MemorySte
 void FastSprings::look(const Vector& displacement, std::span<const double> memory) {
   Layout& layout = *layout_;
   layout.place(displacement);
+  layout.has_energies = false;
+  if (layout.edges) return;
   // A look changes no memory; the cast is there because both passes have the same signature.
   double energies[2];
   layout.looking(layout.data, layout.nodes.data(), const_cast<double*>(memory.data()), energies);
   layout.finish();
-  layout.has_energies = false;
   if (layout.branches) layout.memory.assign(memory.begin(), memory.end());
 }
 
@@ -336,9 +350,12 @@ const FastSprings::Energies* FastSprings::energies() const {
 }
 
 void FastSprings::force(Vector& force) const {
-  const std::size_t count = layout_->nodes.size() - 1;
-  force.resize(static_cast<Eigen::Index>(3 * count));
-  layout_->collect(layout_->nodes.data(), force.data(), count);
+  const std::size_t numbers = layout_->at.size();
+  force.resize(static_cast<Eigen::Index>(numbers));
+  if (layout_->edges)
+    layout_->edges->force(force.data());
+  else
+    layout_->collect(layout_->nodes.data(), force.data(), numbers / 3);
 }
 
 }  // namespace palpate::tissue

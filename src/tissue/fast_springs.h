@@ -4,22 +4,24 @@
 #include <memory>
 #include <span>
 
+#include "tissue/lanes.h"
 #include "tissue/springs.h"
 #include "tissue/viscous.h"
 
 namespace palpate::tissue {
 
-// Which instructions to use: those that every processor of this architecture has, or the widest
-// that this processor has. Both give the same bits.
-enum class Lanes { portable, widest };
+// Whether turn_as() will be called. Coupled springs that never turn are much faster.
+enum class Turning { never, sometimes };
 
 // A network laid out for such passes: a node's displacement and force share a cache line, and
 // springs are processed four at a time in the order of the network. Use one copy per thread.
 class FastSprings {
  public:
-  // Copies the network: about 48 bytes per spring and 112 per node for independent springs.
+  // Copies the network: about 48 bytes per spring and 112 per node for independent springs. Coupled
+  // springs with linear kinematics, of a law without memory, are passed by FastEdges, whose forces
+  // differ from those of the loops by rounding.
   FastSprings(const Network& network, Kinematics kinematics, const ViscousLaw& law,
-              Lanes lanes = Lanes::widest);
+              Turning turning = Turning::never, Lanes lanes = Lanes::widest);
   ~FastSprings();
   FastSprings(FastSprings&&) noexcept;
   FastSprings& operator=(FastSprings&&) noexcept;
@@ -34,8 +36,8 @@ class FastSprings {
   // branches do not read it: it may be empty.
   void look(const Vector& displacement, std::span<const double> memory);
 
-  // For linear kinematics: gives the springs the directions that those of `other`, the same network
-  // with other kinematics, had in its last pass.
+  // For linear kinematics and Turning::sometimes: gives the springs the directions that those of
+  // `other`, the same network with other kinematics, had in its last pass.
   void turn_as(const FastSprings& other);
 
   // Whether the last pass was at this displacement and ended with this memory, so that its force is

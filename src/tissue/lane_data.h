@@ -33,7 +33,6 @@ struct LaneData {
   double* force = nullptr;            // N, 24 per node
   double* tension = nullptr;          // N, 8 per spring
   double* memory = nullptr;           // 8 (1 + branches) per spring, if there are branches
-  double* elongation = nullptr;       // m, 8 per spring, if coupled
   const double* keep = nullptr;       // 8 per branch, like the next three
   const double* begin = nullptr;
   const double* end = nullptr;
@@ -48,15 +47,18 @@ struct LaneData {
   const double* load_before = nullptr;  // N, 24 per node
   const double* load_after = nullptr;
   const std::int32_t* loaded = nullptr;  // per node: entries of both loads there, of all lanes
-  std::size_t tetrahedra = 0;
-  const std::int32_t* six_springs = nullptr;  // 6 per tetrahedron
-  const double* six_stiffness = nullptr;      // 8 * 21 per tetrahedron: the lower triangle
-  std::size_t volumes = 0;
-  const std::int32_t* volume_start = nullptr;
-  const std::int32_t* volume_springs = nullptr;
-  const double* dilation = nullptr;          // 1/m
-  const double* volume_stiffness = nullptr;  // N m, 8 per volume
-  double* kinetic = nullptr;                 // J, 8 each: energies of the last step
+  // Of coupled springs, as in EdgeForm. Slots beyond the nodes have forces as well, for sums.
+  std::size_t edges = 0;
+  std::size_t inner = 0;
+  std::size_t slots = 0;  // 0 if there are no averaged volumes
+  const std::int32_t* edge_ends = nullptr;
+  const std::int32_t* edge_slots = nullptr;
+  const double* change = nullptr;  // m^2
+  const double* block = nullptr;   // N/m, 8 * 6 per edge
+  const double* turn = nullptr;    // N/m, 8 * 3 per edge after the inner ones
+  const double* weight = nullptr;  // Pa/m^3, 8 per slot
+  double* pressure = nullptr;      // Pa, 8 per slot
+  double* kinetic = nullptr;       // J, 8 each: energies of the last step
   double* work = nullptr;
   double* stored = nullptr;
   double* lost = nullptr;

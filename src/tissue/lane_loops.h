@@ -33,6 +33,10 @@ PALPATE_INLINE Three minus(const Three& a, const Three& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+PALPATE_INLINE Three plus(const Three& a, const Three& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
 // Adds to one of four sums, separately for each lane.
 PALPATE_INLINE void add(double* sums, std::size_t which, std::size_t lane, const Piece& value) {
   double* const sum = sums + 8 * (which % 4) + lane;
@@ -79,13 +83,13 @@ PALPATE_INLINE Piece remember(const LaneData& data, std::size_t s, std::size_t l
   return sum;
 }
 
-enum class Stage { all, tensions_known };
-
 // Node by node, so that a node's force stays in a register while it is summed: first the springs
 // that end at the node, whose tensions earlier nodes have computed, then those that begin there.
 // Each node thus sums in the order of the springs.
-template <bool branches, Stage stage>
-PALPATE_TARGET void pull_nodes(const LaneData& data, double* stored_sums, double* lost_sums) {
+template <bool branches>
+PALPATE_TARGET void springs(const LaneData& data) {
+  double stored[32] = {};
+  double lost[32] = {};
   for (std::size_t n = 0; n < data.nodes; ++n)
     for (std::size_t lane = 0; lane < 8; lane += piece_width) {
       const Three u = load_three(data.displacement + 24 * n + lane);
@@ -100,83 +104,117 @@ PALPATE_TARGET void pull_nodes(const LaneData& data, double* stored_sums, double
       const auto last = as_index(data.beginning[n + 1]);
       for (auto s = as_index(data.beginning[n]); s < last; ++s) {
         const double* const along = data.along + 3 * s;
-        Piece tension;
-        if constexpr (stage == Stage::all) {
-          const Three change =
-              minus(load_three(data.displacement + 24 * as_index(data.second[s]) + lane), u);
-          const Piece stiffness = load(data.stiffness + 8 * s + lane);
-          tension =
-              stiffness * remember<branches>(data, s, lane, stiffness, elongation(along, change),
-                                             stored_sums, lost_sums);
-          store(data.tension + 8 * s + lane, tension);
-        } else {
-          tension = load(data.tension + 8 * s + lane);
-        }
+        const Three change =
+            minus(load_three(data.displacement + 24 * as_index(data.second[s]) + lane), u);
+        const Piece stiffness = load(data.stiffness + 8 * s + lane);
+        const Piece tension =
+            stiffness *
+            remember<branches>(data, s, lane, stiffness, elongation(along, change), stored, lost);
+        store(data.tension + 8 * s + lane, tension);
         force = minus(force, {tension * along[0], tension * along[1], tension * along[2]});
       }
       store_three(data.force + 24 * n + lane, force);
     }
-}
-
-template <bool branches>
-PALPATE_TARGET void springs(const LaneData& data) {
-  double stored[32] = {};
-  double lost[32] = {};
-  pull_nodes<branches, Stage::all>(data, stored, lost);
   add_four(stored, 0.5, data.stored);
   add_four(lost, 1.0, data.lost);
 }
 
-// Coupled springs without branches: elongations, then tensions in the order of `tensions` in
-// fast_loops.h, then pulls.
-inline PALPATE_TARGET void coupled_springs(const LaneData& data) {
-  double stored[32] = {};
-  double* const tension = data.tension;
-  for (std::size_t s = 0; s < data.springs; ++s)
+// The place of three pieces of a node or slot, the one that `pairs` names at `which`.
+PALPATE_INLINE std::size_t place_of(const std::int32_t* pairs, std::size_t which,
+                                    std::size_t lane) {
+  return 24 * as_index(pairs[which]) + lane;
+}
+
+PALPATE_INLINE void add_three(double* to, const Three& values) {
+  store_three(to, plus(load_three(to), values));
+}
+
+PALPATE_INLINE Three moved(const LaneData& data, std::size_t edge, std::size_t lane) {
+  return minus(load_three(data.displacement + place_of(data.edge_ends, 2 * edge + 1, lane)),
+               load_three(data.displacement + place_of(data.edge_ends, 2 * edge, lane)));
+}
+
+// Where an edge changes volumes, and how.
+struct Changes {
+  const std::int32_t* slots;  // two
+  const double* first;
+  const double* second;
+};
+PALPATE_INLINE Changes changes_of(const LaneData& data, std::size_t edge) {
+  if (edge < data.inner) {
+    const double* const change = data.change + 3 * edge;
+    return {data.edge_ends + 2 * edge, change, change};
+  }
+  const std::size_t outer = edge - data.inner;
+  const double* const change = data.change + 3 * data.inner + 6 * outer;
+  return {data.edge_slots + 2 * outer, change, change + 3};
+}
+
+inline PALPATE_TARGET void pressures(const LaneData& data) {
+  for (std::size_t e = 0; e < data.edges; ++e)
     for (std::size_t lane = 0; lane < 8; lane += piece_width) {
-      const Three change =
-          minus(load_three(data.displacement + 24 * as_index(data.second[s]) + lane),
-                load_three(data.displacement + 24 * as_index(data.first[s]) + lane));
-      const Piece e = elongation(data.along + 3 * s, change);
-      store(data.elongation + 8 * s + lane, e);
-      store(tension + 8 * s + lane, load(data.stiffness + 8 * s + lane) * e);
+      const auto [slots, c, d] = changes_of(data, e);
+      const Three w = moved(data, e, lane);
+      add_three(data.force + place_of(slots, 0, lane), {c[0] * w.x, c[1] * w.y, c[2] * w.z});
+      add_three(data.force + place_of(slots, 1, lane), {d[0] * w.x, d[1] * w.y, d[2] * w.z});
     }
-  for (std::size_t t = 0; t < data.tetrahedra; ++t)
+  for (std::size_t n = 0; n < data.slots; ++n)
     for (std::size_t lane = 0; lane < 8; lane += piece_width) {
-      const std::int32_t* const spring = data.six_springs + 6 * t;
-      const double* const stiffness = data.six_stiffness + 8 * 21 * t + lane;
-      Piece e[6];
+      double* const sums = data.force + 24 * n + lane;
+      const Three theta = load_three(sums);
+      store(data.pressure + 8 * n + lane,
+            load(data.weight + 8 * n + lane) * (theta.x + (theta.y + theta.z)));
+      store_three(sums, Three{});
+    }
+}
+
+// Coupled springs without branches, edge by edge in the order of edge_loops.h.
+inline PALPATE_TARGET void edges(const LaneData& data) {
+  const std::size_t sums = data.slots > 0 ? data.slots : data.nodes;
+  for (std::size_t i = 0; i < 24 * sums; i += piece_width) store(data.force + i, Piece{});
+  if (data.slots > 0) pressures(data);
+  for (std::size_t e = 0; e < data.edges; ++e)
+    for (std::size_t lane = 0; lane < 8; lane += piece_width) {
+      const Three w = moved(data, e, lane);
+      Piece s[6];
 #pragma GCC unroll 6
-      for (int i = 0; i < 6; ++i) e[i] = load(data.elongation + 8 * as_index(spring[i]) + lane);
-#pragma GCC unroll 6
-      for (int i = 0; i < 6; ++i) {
-        Piece row{};
-#pragma GCC unroll 6
-        for (int j = 0; j < 6; ++j) {
-          const int entry = i > j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
-          row += load(stiffness + 8 * entry) * e[j];
-        }
-        double* const sum = tension + 8 * as_index(spring[i]) + lane;
-        store(sum, load(sum) + row);
+      for (int entry = 0; entry < 6; ++entry)
+        s[entry] = load(data.block + 8 * (6 * e + as_index(entry)) + lane);
+      Three pull = {s[0] * w.x + (s[1] * w.y + s[2] * w.z), s[1] * w.x + (s[4] * w.y + s[3] * w.z),
+                    s[2] * w.x + (s[3] * w.y + s[5] * w.z)};
+      const bool inner = e < data.inner;
+      if (data.slots > 0) {
+        const auto [slots, c, d] = changes_of(data, e);
+        const Piece p = load(data.pressure + 8 * as_index(slots[0]) + lane);
+        const Piece q = load(data.pressure + 8 * as_index(slots[1]) + lane);
+        const Piece both = p + q;
+        if (inner)
+          pull = plus(pull, {both * c[0], both * c[1], both * c[2]});
+        else
+          pull = plus(pull, {p * c[0] + q * d[0], p * c[1] + q * d[1], p * c[2] + q * d[2]});
       }
+      double* const a = data.force + place_of(data.edge_ends, 2 * e, lane);
+      double* const b = data.force + place_of(data.edge_ends, 2 * e + 1, lane);
+      if (inner) {
+        store_three(a, minus(load_three(a), pull));
+        add_three(b, pull);
+        continue;
+      }
+      const Three t = load_three(data.turn + 24 * (e - data.inner) + lane);
+      const Three turn = {t.y * w.z - t.z * w.y, t.z * w.x - t.x * w.z, t.x * w.y - t.y * w.x};
+      store_three(a, minus(load_three(a), plus(pull, turn)));
+      add_three(b, minus(pull, turn));
     }
-  for (std::size_t v = 0; v < data.volumes; ++v)
-    for (std::size_t lane = 0; lane < 8; lane += piece_width) {
-      const std::int32_t begin = data.volume_start[v];
-      const std::int32_t end = data.volume_start[v + 1];
-      const auto at = [&](std::int32_t k) { return 8 * as_index(data.volume_springs[k]) + lane; };
-      Piece dilation{};
-      for (std::int32_t k = begin; k < end; ++k)
-        dilation += data.dilation[k] * load(data.elongation + at(k));
-      const Piece pressure = load(data.volume_stiffness + 8 * v + lane) * dilation;
-      for (std::int32_t k = begin; k < end; ++k)
-        store(tension + at(k), load(tension + at(k)) + pressure * data.dilation[k]);
+  for (std::size_t lane = 0; lane < 8; lane += piece_width) {
+    Three work{};
+    for (std::size_t n = 0; n < data.nodes; ++n) {
+      const Three u = load_three(data.displacement + 24 * n + lane);
+      const Three f = load_three(data.force + 24 * n + lane);
+      work = plus(work, {u.x * f.x, u.y * f.y, u.z * f.z});
     }
-  for (std::size_t s = 0; s < data.springs; ++s)
-    for (std::size_t lane = 0; lane < 8; lane += piece_width)
-      add(stored, s, lane, load(tension + 8 * s + lane) * load(data.elongation + 8 * s + lane));
-  pull_nodes<false, Stage::tensions_known>(data, nullptr, nullptr);
-  add_four(stored, 0.5, data.stored);
+    store(data.stored + lane, 0.5 * (work.x + (work.y + work.z)));
+    store(data.lost + lane, Piece{});
+  }
 }
 
 // advance() and the sums of fast_vectors.h in one pass.
@@ -228,7 +266,7 @@ inline LanePasses choose(const LaneData& data, Viscosity viscosity) {
   LanePasses passes;
   passes.advance = viscosity == Viscosity::nodal_drag ? &advance<true> : &advance<false>;
   if (data.coupled)
-    passes.springs = &coupled_springs;
+    passes.springs = &edges;
   else
     passes.springs = data.branches > 0 ? &springs<true> : &springs<false>;
   return passes;

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 
+#include "tissue/edge_form.h"
 #include "tissue/lane_data.h"
 
 #if defined(__GNUC__)
@@ -38,8 +39,6 @@
 #endif
 
 namespace palpate::tissue {
-namespace {}  // namespace
-
 SparseLoad sparse(const Vector& load) {
   SparseLoad few;
   for (Eigen::Index d = 0; d < load.size(); ++d) {
@@ -55,13 +54,12 @@ struct LaneSprings::Layout {
   LanePasses passes;
   std::vector<std::int32_t> first, second, beginning, ending_start, ending, loaded;
   std::vector<double> along;
-  std::vector<Eight> stiffness, displacement, moved, force, tension, memory, elongation;
+  std::vector<Eight> stiffness, displacement, moved, force, tension, memory;
   std::vector<Eight> keep, begin, end, ratio;
   std::vector<Eight> mass, inverse, load_before, load_after;
   Eight square, rate, drag, drag_step, jumped;
-  std::vector<std::int32_t> six_springs, volume_start, volume_springs;
-  std::vector<Eight> six_stiffness, volume_stiffness;
-  std::vector<double> dilation;
+  EdgeForm form;  // of coupled springs, without the stiffness
+  std::vector<Eight> block, turn, weight, pressure;
   Eight kinetic, work, stored, lost, moved_squares;
 
   struct Lane {
@@ -111,17 +109,12 @@ void LaneSprings::Layout::lay(const Network& network) {
 void LaneSprings::Layout::lay_couplings(const Network& network) {
   data.coupled = !network.coupled.empty() || !network.volumes.empty();
   if (!data.coupled) return;
-  elongation.resize(network.ends.size());
-  six_stiffness.resize(21 * network.coupled.size());
-  volume_stiffness.resize(network.volumes.size());
-  for (const CoupledSprings& six : network.coupled)
-    six_springs.insert(six_springs.end(), six.springs.begin(), six.springs.end());
-  volume_start.assign(1, 0);
-  for (const SharedVolume& volume : network.volumes) {
-    volume_springs.insert(volume_springs.end(), volume.springs.begin(), volume.springs.end());
-    dilation.insert(dilation.end(), volume.dilation.begin(), volume.dilation.end());
-    volume_start.push_back(static_cast<std::int32_t>(volume_springs.size()));
-  }
+  form = edge_form(network);
+  block.resize(form.block.size());
+  turn.resize(form.turn.size());
+  weight.resize(form.weight.size());
+  pressure.resize(form.weight.size());
+  force.resize(std::max(force.size(), 3 * weight.size()));
 }
 
 void LaneSprings::Layout::connect() {
@@ -145,7 +138,6 @@ void LaneSprings::Layout::connect() {
           .force = numbers(force),
           .tension = numbers(tension),
           .memory = numbers(memory),
-          .elongation = numbers(elongation),
           .keep = numbers(keep),
           .begin = numbers(begin),
           .end = numbers(end),
@@ -160,14 +152,16 @@ void LaneSprings::Layout::connect() {
           .load_before = numbers(load_before),
           .load_after = numbers(load_after),
           .loaded = loaded.data(),
-          .tetrahedra = six_springs.size() / 6,
-          .six_springs = six_springs.data(),
-          .six_stiffness = numbers(six_stiffness),
-          .volumes = volume_stiffness.size(),
-          .volume_start = volume_start.data(),
-          .volume_springs = volume_springs.data(),
-          .dilation = dilation.data(),
-          .volume_stiffness = numbers(volume_stiffness),
+          .edges = form.edges(),
+          .inner = form.inner,
+          .slots = weight.size(),
+          .edge_ends = form.ends.data(),
+          .edge_slots = form.slots.data(),
+          .change = form.change.data(),
+          .block = numbers(block),
+          .turn = numbers(turn),
+          .weight = numbers(weight),
+          .pressure = numbers(pressure),
           .kinetic = kinetic.lane,
           .work = work.lane,
           .stored = stored.lane,
@@ -179,20 +173,15 @@ bool LaneSprings::can(const Network& network, const ViscousLaw& law) {
   if (law.kind == Viscosity::kelvin_voigt) return false;
   // A node's forces are summed in the order of the springs only if the springs are sorted.
   if (!std::is_sorted(network.ends.begin(), network.ends.end())) return false;
-  return law.branches.empty() || (network.coupled.empty() && network.volumes.empty());
+  const bool coupled = !network.coupled.empty() || !network.volumes.empty();
+  return !coupled || (law.branches.empty() && has_edge_form(network));
 }
 
 bool LaneSprings::alike(const Network& a, const Network& b) {
   if (a.ends != b.ends || a.rest != b.rest || a.direction != b.direction ||
       a.coupled.size() != b.coupled.size() || a.volumes.size() != b.volumes.size())
     return false;
-  for (std::size_t t = 0; t < a.coupled.size(); ++t)
-    if (a.coupled[t].springs != b.coupled[t].springs) return false;
-  for (std::size_t v = 0; v < a.volumes.size(); ++v)
-    if (a.volumes[v].springs != b.volumes[v].springs ||
-        a.volumes[v].dilation != b.volumes[v].dilation)
-      return false;
-  return true;
+  return (a.coupled.empty() && a.volumes.empty()) || edge_form(a).alike(edge_form(b));
 }
 
 LaneSprings::LaneSprings(const Network& network, const ViscousLaw& law, Lanes lanes)
@@ -230,13 +219,15 @@ void LaneSprings::enter(std::size_t lane, const Network& network, const ViscousL
     layout.mass[n].lane[lane] = network.node_mass[n];
   for (std::size_t s = 0; s < network.stiffness.size(); ++s)
     layout.stiffness[s].lane[lane] = network.stiffness[s];
-  for (std::size_t t = 0; t < network.coupled.size(); ++t)
-    for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t j = 0; j <= i; ++j)
-        layout.six_stiffness[21 * t + i * (i + 1) / 2 + j].lane[lane] =
-            network.coupled[t].stiffness(static_cast<int>(i), static_cast<int>(j));
-  for (std::size_t v = 0; v < network.volumes.size(); ++v)
-    layout.volume_stiffness[v].lane[lane] = network.volumes[v].stiffness;
+  if (layout.data.coupled) {
+    const EdgeForm form = edge_form(network);
+    const auto fill = [&](const std::vector<double>& from, std::vector<Eight>& to) {
+      for (std::size_t i = 0; i < from.size(); ++i) to[i].lane[lane] = from[i];
+    };
+    fill(form.block, layout.block);
+    fill(form.turn, layout.turn);
+    fill(form.weight, layout.weight);
+  }
   layout.drag.lane[lane] = law.kind == Viscosity::nodal_drag ? law.drag : 0.0;
   own.branch_times.clear();
   for (std::size_t i = 0; i < law.branches.size(); ++i) {
@@ -326,7 +317,7 @@ void LaneSprings::leave(std::size_t lane) {
   own = {};
   for (auto* values :
        {&layout.displacement, &layout.moved, &layout.force, &layout.inverse, &layout.stiffness,
-        &layout.memory, &layout.six_stiffness, &layout.volume_stiffness})
+        &layout.memory, &layout.block, &layout.turn, &layout.weight})
     for (Eight& value : *values) value.lane[lane] = 0.0;
 }
 
@@ -357,10 +348,9 @@ void LaneSprings::displacement(std::size_t lane, Vector& displacement) const {
 }
 
 void LaneSprings::force(std::size_t lane, Vector& force) const {
-  const auto& from = layout_->force;
-  force.resize(static_cast<Eigen::Index>(from.size()));
-  for (std::size_t d = 0; d < from.size(); ++d)
-    force[static_cast<Eigen::Index>(d)] = from[d].lane[lane];
+  const auto& from = layout_->force;  // of slots too
+  force.resize(static_cast<Eigen::Index>(layout_->displacement.size()));
+  for (Eigen::Index d = 0; d < force.size(); ++d) force[d] = from[as_index(d)].lane[lane];
 }
 
 }  // namespace palpate::tissue

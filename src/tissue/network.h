@@ -25,6 +25,8 @@ struct SharedVolume {
   std::vector<int> springs;
   std::vector<double> dilation;  // 1/m, one per spring
   double stiffness = 0.0;        // N m: modulus (Pa) times volume (m^3)
+  int node = -1;        // around which it is averaged; -1 if some of its springs are missing
+  double volume = 0.0;  // m^3: of all tetrahedra around the node
 };
 
 // Built once and constant. Springs are numbered like the sorted edges of the mesh. The tension of a

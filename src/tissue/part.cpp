@@ -12,7 +12,7 @@ namespace {
 // both ends of their springs are held or outside. If a tetrahedron has a moving corner, all its
 // springs are in the part. A volume may be averaged around a node that is in the edge or just
 // outside it; some of its springs are then missing, and these do not change their length.
-void restrict_couplings(const Network& whole, Part& part) {
+void restrict_couplings(const Network& whole, const std::vector<int>& node_number, Part& part) {
   std::vector<int> number(whole.ends.size(), -1);
   for (std::size_t s = 0; s < part.springs.size(); ++s)
     number[as_index(part.springs[s])] = static_cast<int>(s);
@@ -28,13 +28,16 @@ void restrict_couplings(const Network& whole, Part& part) {
       part.network.coupled.push_back(kept);
   }
   for (const SharedVolume& volume : whole.volumes) {
-    SharedVolume kept{.springs = {}, .dilation = {}, .stiffness = volume.stiffness};
+    SharedVolume kept{
+        .springs = {}, .dilation = {}, .stiffness = volume.stiffness, .volume = volume.volume};
     for (std::size_t k = 0; k < volume.springs.size(); ++k) {
       const int spring = in_part(volume.springs[k]);
       if (spring < 0) continue;
       kept.springs.push_back(spring);
       kept.dilation.push_back(volume.dilation[k]);
     }
+    if (kept.springs.size() == volume.springs.size() && volume.node >= 0)
+      kept.node = node_number[as_index(volume.node)];
     if (std::any_of(kept.springs.begin(), kept.springs.end(), moves))
       part.network.volumes.push_back(std::move(kept));
   }
@@ -90,7 +93,7 @@ Part part_around(const Network& whole, std::span<const int> start, int rings) {
     part.network.direction.push_back(whole.direction[s]);
     part.network.stiffness.push_back(whole.stiffness[s]);
   }
-  restrict_couplings(whole, part);
+  restrict_couplings(whole, number, part);
   return part;
 }
 

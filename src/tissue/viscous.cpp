@@ -48,7 +48,8 @@ MemoryStep MemoryStep::forward(double time_step, double time) {
 }
 
 std::size_t memory_size(const ViscousLaw& law) {
-  return law.kind == Viscosity::kelvin_voigt ? 2 : 1 + law.branches.size();
+  if (law.kind == Viscosity::kelvin_voigt) return 2;
+  return law.branches.empty() ? 0 : 1 + law.branches.size();
 }
 
 namespace {
@@ -69,7 +70,7 @@ void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> st
   const std::size_t size = memory_size(law);
   for (std::size_t s = 0; s < elongation.size(); ++s) {
     const double e = elongation[s];
-    const double* const own = &memory[size * s];
+    const double* const own = memory.data() + size * s;
     if (law.kind == Viscosity::kelvin_voigt) {
       effective[s] = kelvin_voigt(steps[0], own, e);
       continue;
@@ -106,6 +107,7 @@ void elastic_elongations(const ViscousLaw& law, std::span<const double> memory,
 void remember(const ViscousLaw& law, std::span<const MemoryStep> steps,
               std::span<const double> elongation, std::span<double> memory) {
   const std::size_t size = memory_size(law);
+  if (size == 0) return;
   for (std::size_t s = 0; s < elongation.size(); ++s) {
     double* const own = &memory[size * s];
     if (law.kind == Viscosity::kelvin_voigt) {

@@ -46,7 +46,8 @@ struct MemoryStep {
 
 // The memory of the springs is one array with memory_size() numbers per spring: the elongation at
 // the last step (m), then the internal elongation q of every branch or, for Kelvin-Voigt, the
-// effective elongation s/k (m). `steps` has one entry per branch, and one for Kelvin-Voigt.
+// effective elongation s/k (m). Other laws have no memory. `steps` has one entry per branch, and
+// one for Kelvin-Voigt.
 [[nodiscard]] std::size_t memory_size(const ViscousLaw& law);
 
 // The effective elongations (m) at the end of a step to `elongation`. A spring has the tension that

@@ -94,22 +94,21 @@ TEST(Arguments, AValueMayLookLikeAnythingElse) {
 TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
   const std::pair<Words, const char*> cases[] = {
       {{},
-       "`palpate` wants a verb: help, run, explain, fit, data, compare, golden, mesh, reference, "
-       "bench, "
-       "chart, "
-       "stability, sweep, identify, export, device, new, open, manual, schema, completion; "
+       "`palpate` wants a verb: help, run, explain, fit, data, compare, report, golden, mesh, "
+       "reference, bench, chart, stability, sweep, identify, export, device, new, open, manual, "
+       "schema, completion; "
        "`palpate "
        "--help` shows "
        "how to write it"},
       {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
       {{"xyzzy"},
-       "unknown verb `xyzzy`; known: help, run, explain, fit, data, compare, golden, mesh, "
-       "reference, "
-       "bench, "
-       "chart, stability, sweep, identify, export, device, new, open, manual, schema, completion"},
+       "unknown verb `xyzzy`; known: help, run, explain, fit, data, compare, report, golden, mesh, "
+       "reference, bench, chart, stability, sweep, identify, export, device, new, open, manual, "
+       "schema, completion"},
       {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
       {{"golden"},
-       "`palpate golden` wants a verb: bless; `palpate golden --help` shows how to write "
+       "`palpate golden` wants a verb: add, check, list, bless; `palpate golden --help` shows how "
+       "to write "
        "it"},
       {{"run", "a.toml", "--forse"}, "unknown option `--forse`; did you mean `--force`?"},
       {{"run", "a.toml", "--sett=x=1"}, "unknown option `--sett`; did you mean `--set`?"},
