@@ -106,8 +106,6 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     return exit_good;
   }
   const std::string started = report::utc_now();
-  // A limit of file size must give an error message, like a full disk, and not end the program.
-  std::signal(SIGXFSZ, SIG_IGN);
   folder.open();
   const live::Live::Output output{
       .on_step =

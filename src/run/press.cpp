@@ -165,8 +165,8 @@ class Press {
     const Pace pace = begin(motion);
     const double start = time_;
     for (int row = 0; row < pace.rows; ++row) {
-      if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
       for (int k = 1; k <= pace.steps; ++k) {
+        if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
         const double time = pace.time(row, k);
         if (!advance(motion, time, start + time)) return false;
         if (touch_.force() >= motion.force) {

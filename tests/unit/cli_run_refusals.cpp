@@ -122,7 +122,6 @@ TEST_F(RunRefusals, a_write_that_fails_keeps_the_old_result) {
   finish_one();
   const Ended ended = run_program(
       {.arguments = {"run", "press.toml", "--force"}, .folder = folder_.path(), .before = [] {
-         ::signal(SIGXFSZ, SIG_IGN);
          const rlimit limit{16384, 16384};
          ::setrlimit(RLIMIT_FSIZE, &limit);
        }});
