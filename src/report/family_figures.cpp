@@ -182,9 +182,14 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
   choose_axis(figures.back(), forces, two_decades);
   add_regression(figures.back(), family, fits);
   for (const record::CaseRecord& record : records)
-    if (has_measured_force(record))
-      figures.back().series.push_back(
-          {.case_name = record.name, .y_column = "measured_force_N", .label = "measured"});
+    if (has_measured_force(record)) {
+      plot::Series measured{.csv_file = figures.back().series.front().csv_file,
+                            .case_name = record.name,
+                            .x_column = figures.back().series.front().x_column,
+                            .y_column = "measured_force_N",
+                            .label = "measured"};
+      figures.back().series.push_back(measured);
+    }
   if (has_step<scenario::Hold>(family.base)) {
     figures.push_back(with_cases(figure_force_time, family, records));
     choose_axis(figures.back(), forces, two_decades);
