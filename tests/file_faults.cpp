@@ -6,6 +6,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
@@ -16,23 +17,61 @@
 namespace palpate::test {
 namespace {
 
+int number_of(const char* variable) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? 0 : std::atoi(text);
+}
+
 // A program that is started by the one under test, such as gnuplot, is let alone.
 FileFaults from_environment() {
   FileFaults faults;
   if (std::string_view(program_invocation_short_name) != "palpate") return faults;
-  if (const char* kill = std::getenv("PALPATE_TEST_KILL_BEFORE"))
-    faults.kill_before = std::atoi(kill);
+  faults.kill_before = number_of("PALPATE_TEST_KILL_BEFORE");
+  faults.fail_at = number_of("PALPATE_TEST_FAIL_AT");
+  faults.fail_with = number_of("PALPATE_TEST_FAIL_WITH");
+  faults.stays = number_of("PALPATE_TEST_STAYS") != 0;
+  faults.most_bytes = number_of("PALPATE_TEST_MOST_BYTES");
   faults.has_exchange = std::getenv("PALPATE_TEST_NO_EXCHANGE") == nullptr;
   return faults;
 }
 
-void count() {
-  if (++file_faults.calls != file_faults.kill_before) return;
-  ::kill(::getpid(), SIGKILL);
-  for (;;) ::pause();
+enum class Call { reads, changes, removes };
+
+void mark() {
+  const char* name = std::getenv("PALPATE_TEST_MARK");
+  if (name == nullptr) return;
+  const long file = ::syscall(SYS_openat, AT_FDCWD, name, O_WRONLY | O_CREAT, 0600);
+  ::syscall(SYS_close, file);
+}
+
+// Counts the call. Returns whether it fails, with errno set.
+bool fails(Call call) {
+  FileFaults& faults = file_faults;
+  ++faults.calls;
+  if (call != Call::reads && ++faults.changes == faults.kill_before) {
+    ::kill(::getpid(), SIGKILL);
+    for (;;) ::pause();
+  }
+  if (faults.fail_at == 0 || faults.calls < faults.fail_at) return false;
+  if (faults.calls == faults.fail_at) mark();
+  const bool full = faults.stays && call == Call::changes;
+  if (faults.calls > faults.fail_at && !full) return false;
+  errno = faults.fail_with;
+  return true;
+}
+
+std::size_t at_most(std::size_t size) {
+  const auto most = static_cast<std::size_t>(file_faults.most_bytes);
+  return most == 0 ? size : std::min(size, most);
 }
 
 int result(long code) { return static_cast<int>(code); }
+
+int opened(const char* name, int flags, mode_t mode) {
+  const bool changes = (flags & (O_CREAT | O_TRUNC)) != 0;
+  if (fails(changes ? Call::changes : Call::reads)) return -1;
+  return result(::syscall(SYS_openat, AT_FDCWD, name, flags, mode));
+}
 
 }  // namespace
 
@@ -40,7 +79,9 @@ FileFaults file_faults = from_environment();
 
 }  // namespace palpate::test
 
-using palpate::test::count;
+using palpate::test::at_most;
+using palpate::test::Call;
+using palpate::test::fails;
 using palpate::test::result;
 
 extern "C" {
@@ -51,7 +92,7 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
     errno = EINVAL;
     return -1;
   }
-  count();
+  if (fails(Call::changes)) return -1;
   return result(::syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
 }
 int open(const char* name, int flags, ...) {
@@ -59,19 +100,32 @@ int open(const char* name, int flags, ...) {
   va_start(more, flags);
   const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
   va_end(more);
-  if ((flags & (O_CREAT | O_TRUNC)) != 0) count();
-  return result(::syscall(SYS_openat, AT_FDCWD, name, flags, mode));
+  return palpate::test::opened(name, flags, mode);
 }
 // Of a file, not of a stream: those come first.
 ssize_t write(int file, const void* bytes, size_t size) {
-  if (file > STDERR_FILENO) count();
+  if (file > STDERR_FILENO) {
+    if (fails(Call::changes)) return -1;
+    size = at_most(size);
+  }
   return ::syscall(SYS_write, file, bytes, size);
+}
+ssize_t read(int file, void* bytes, size_t size) {
+  if (file > STDERR_FILENO) {
+    if (fails(Call::reads)) return -1;
+    size = at_most(size);
+  }
+  return ::syscall(SYS_read, file, bytes, size);
+}
+int fsync(int file) {
+  if (fails(Call::reads)) return -1;
+  return result(::syscall(SYS_fsync, file));
 }
 int rename(const char* from, const char* to) noexcept {
   return renameat2(AT_FDCWD, from, AT_FDCWD, to, 0);
 }
 int unlinkat(int folder, const char* name, int flags) noexcept {
-  count();
+  if (fails(Call::removes)) return -1;
   return result(::syscall(SYS_unlinkat, folder, name, flags));
 }
 int unlink(const char* name) noexcept { return unlinkat(AT_FDCWD, name, 0); }
@@ -81,7 +135,7 @@ int remove(const char* name) noexcept {
   return errno == EISDIR ? rmdir(name) : -1;
 }
 int mkdir(const char* name, mode_t mode) noexcept {
-  count();
+  if (fails(Call::changes)) return -1;
   return result(::syscall(SYS_mkdirat, AT_FDCWD, name, mode));
 }
 }

@@ -197,18 +197,39 @@ Node read_toml(const std::string& path) { return parse_toml(read_text(path), pat
 
 namespace {
 
-// The entry of a list by its number in a path, or the member of a table by its name.
-Node& descend(Node& node, const std::string& word, const std::string& path, const Place& origin) {
+// A path with the words before and at one that is looked for.
+struct Step {
+  const std::vector<std::string>& words;
+  std::size_t at = 0;
+
+  [[nodiscard]] const std::string& word() const { return words[at]; }
+  // The word so many places further on; empty behind the last.
+  [[nodiscard]] std::string next(std::size_t further = 1) const {
+    return at + further < words.size() ? words[at + further] : "";
+  }
+  // Only a whole entry or one with its kind is appended, so that a wrong number is not a new entry.
+  [[nodiscard]] bool may_append() const { return next().empty() || next() == "kind"; }
+};
+
+// The entry of a list by its number in a path, or the member of a table by its name. A missing
+// member becomes a table, or a list of tables where the path goes on with `1.kind`.
+Node& descend(Node& node, const Step& step, const Place& origin) {
+  const std::string& word = step.word();
   const auto refuse = [&](const std::string& why) -> Node& {
-    throw InputError(origin, "`" + path + "` cannot be set: " + why);
+    throw InputError(origin, "`" + joined(step.words, ".") + "` cannot be set: " + why);
   };
   if (node.kind == Node::Kind::array) {
     const auto number = whole_number(word);
-    const auto count = static_cast<double>(node.items.size());
-    if (node.items.empty()) return refuse("the list is empty; give it entries first");
-    if (!number || !(*number >= 1 && *number <= count) || *number != std::floor(*number))
-      return refuse("`" + word + "` is none of the list's entries; count them from 1 to " +
-                    number_text(count));
+    const std::size_t count = node.items.size();
+    if (number == static_cast<double>(count + 1) && step.may_append()) {
+      node.items.emplace_back();
+      node.items.back().place = origin;
+    } else if (!number || !(*number >= 1 && *number <= static_cast<double>(count)) ||
+               *number != std::floor(*number)) {
+      return refuse("`" + word + "` is none of the list's entries; " +
+                    (count > 0 ? "count them from 1 to " + std::to_string(count) + ", or " : "") +
+                    "append one by `" + std::to_string(count + 1) + ".kind`");
+    }
     return node.items[static_cast<std::size_t>(*number) - 1];
   }
   if (node.kind != Node::Kind::table)
@@ -216,9 +237,10 @@ Node& descend(Node& node, const std::string& word, const std::string& path, cons
                   "; name a key of a table");
   for (Member& member : node.members)
     if (member.key == word) return member.value;
-  Node table;
-  table.place = origin;
-  node.members.push_back({word, origin, table});
+  Node made;
+  made.place = origin;
+  if (step.next() == "1" && step.next(2) == "kind") made.kind = Node::Kind::array;
+  node.members.push_back({word, origin, made});
   return node.members.back().value;
 }
 
@@ -250,13 +272,15 @@ void set_value(Node& root, std::string_view path, Node value, const Place& origi
   Node* node = &root;
   Member* last = nullptr;
   refuse_too_deep(path, origin.file);
-  for (const std::string& word : split(path, '.')) {
+  const std::vector<std::string> words = split(path, '.');
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
     Node& parent = *node;
     if (word.empty())
       throw InputError(origin, "`" + std::string(path) +
                                    "` has an empty word; join the names of "
                                    "tables and a key by single dots, as `tissue.material`");
-    node = &descend(parent, word, std::string(path), origin);
+    node = &descend(parent, {words, i}, origin);
     last = nullptr;
     for (Member& member : parent.members)
       if (&member.value == node) last = &member;

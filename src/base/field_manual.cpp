@@ -83,8 +83,9 @@ class Manual final : public FieldVisitor {
   }
   void tables(const Key& key, int, const std::function<void(int)>& resize,
               const std::function<void(FieldVisitor&, int)>& fields) override {
+    const std::string name = prefix_.empty() ? key.name : prefix_ + "." + key.name;
     resize(1);
-    section("`[[" + std::string(key.name) + "]]`", key.meaning, key.name,
+    section("`[[" + name + "]]`", key.meaning, name,
             [&](FieldVisitor& visitor) { fields(visitor, 0); });
     resize(0);
   }

@@ -86,20 +86,13 @@ class Reader final : public FieldVisitor {
   }
   void quantities(const Key& key, std::span<double> si, const Unit& unit,
                   const Range& range) override {
-    const Node* node = find(key);
-    if (node == nullptr || !is_list(key, *node, si.size())) return;
-    in_list_ = true;
-    for (std::size_t i = 0; i < si.size(); ++i)
-      read_quantity(key, node->items[i], si[i], unit, range);
-    in_list_ = false;
+    read_list(key, si.size(), [&](const Node& item, std::size_t i) {
+      read_quantity(key, item, si[i], unit, range);
+    });
   }
   void counts(const Key& key, std::span<int> values, const Range& range) override {
-    const Node* node = find(key);
-    if (node == nullptr || !is_list(key, *node, values.size())) return;
-    in_list_ = true;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      read_count(key, node->items[i], values[i], range);
-    in_list_ = false;
+    read_list(key, values.size(),
+              [&](const Node& item, std::size_t i) { read_count(key, item, values[i], range); });
   }
   void quantity_list(const Key& key, std::vector<double>& si, const Unit& unit,
                      const Range& range) override {
@@ -311,6 +304,31 @@ class Reader final : public FieldVisitor {
       problem(node.place, ticked(key.name) + " " + error.what());
       return false;
     }
+  }
+
+  // Reads a list of a fixed length, or some of its entries by their numbers, as in `size.3`; the
+  // others keep their default.
+  void read_list(const Key& key, std::size_t size,
+                 const std::function<void(const Node&, std::size_t)>& read) {
+    const Node* node = find(key);
+    if (node == nullptr) return;
+    in_list_ = true;
+    if (node->kind == Node::Kind::table && !node->members.empty()) {
+      for (const Member& member : node->members) {
+        const auto number = whole_number(member.key);
+        const auto i = number && *number >= 1 && *number <= static_cast<double>(size)
+                           ? static_cast<std::size_t>(*number) - 1
+                           : size;
+        if (i < size && number == static_cast<double>(i + 1))
+          read(member.value, i);
+        else
+          problem(member.place, ticked(key.name) + " has no entry " + ticked(member.key) +
+                                    "; count its entries from 1 to " + std::to_string(size));
+      }
+    } else if (is_list(key, *node, size)) {
+      for (std::size_t i = 0; i < size; ++i) read(node->items[i], i);
+    }
+    in_list_ = false;
   }
 
   bool is_list(const Key& key, const Node& node, std::size_t size) {

@@ -33,7 +33,8 @@ class Source {
  public:
   explicit Source(const std::string& path) : path_(path) {
     // Without O_NONBLOCK the system would wait for somebody who writes to a pipe.
-    file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    file_ = path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
+                        : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     struct stat status {};
     if (file_ < 0 || ::fstat(file_, &status) != 0) refuse();
     regular_ = S_ISREG(status.st_mode);

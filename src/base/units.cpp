@@ -161,6 +161,17 @@ std::optional<UnitFactor> unit_factor(std::string_view text) { return parse_unit
 
 std::string si_unit(const Dimension& dimension) { return si_symbol(dimension); }
 
+std::string unit_pattern(const Dimension& dimension) {
+  std::string any_prefix;
+  for (const Prefix& prefix : prefixes)
+    any_prefix += (any_prefix.empty() ? "" : "|") + std::string(prefix.name);
+  std::string pattern;
+  for (const Symbol& symbol : symbols)
+    if (symbol.scale.dimension == dimension)
+      pattern += (symbol.prefixed ? "(" + any_prefix + ")?" : "") + std::string(symbol.name) + "|";
+  return pattern + R"([^\s*/^]*[*/^].*|\S+\s+\S.*)";
+}
+
 std::string dimension_name(const Dimension& dimension) {
   for (const Unit* unit : named_units())
     if (unit->dimension == dimension) return article(unit->quantity);

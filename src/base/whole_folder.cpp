@@ -44,6 +44,9 @@ std::string first_line(const std::string& kind, State content) {
 }
 std::string replaces_line(const std::string& list) { return "# replaces " + sha256(list) + "\n"; }
 std::string keeps_line(const std::string& name) { return "# keeps " + name + "\n"; }
+std::string origin_line(const std::string& origin) {
+  return origin.empty() ? "" : "# origin " + sha256(origin) + "\n";
+}
 std::string file_line(const HashedFile& file) { return file.sha256 + "  " + file.path + "\n"; }
 
 bool has(const std::string& list, const std::string& line) {
@@ -181,6 +184,17 @@ std::optional<std::string> put_at(const std::string& partial, const std::string&
   return old;
 }
 
+// The first file of the folder's list that is missing or changed; empty if there is none.
+std::string changed_file(const fs::path& folder) {
+  const std::string list = list_of(folder).value_or("");
+  for (const std::string& line : split(list, '\n')) {
+    const std::size_t gap = line.find("  ");
+    if (line.starts_with('#') || gap == std::string::npos) continue;
+    if (!is_ours(folder / line.substr(gap + 2), list)) return line.substr(gap + 2);
+  }
+  return "";
+}
+
 State state_of(const std::string& folder, const std::string& kind) {
   std::error_code ignored;
   if (!is_there(folder)) return State::free;
@@ -194,8 +208,14 @@ State state_of(const std::string& folder, const std::string& kind) {
 
 }  // namespace
 
-WholeFolder::WholeFolder(const std::string& place, std::string kind, Replace replace)
-    : path_(place), kind_(std::move(kind)), replace_(replace) {
+bool holds(const std::string& path, std::string_view content) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && read_text(path) == content;
+}
+
+WholeFolder::WholeFolder(const std::string& place, std::string kind, Replace replace,
+                         const std::string& origin)
+    : path_(place), kind_(std::move(kind)), replace_(replace), origin_line_(origin_line(origin)) {
   std::error_code error;
   if (fs::is_symlink(path_, error))
     if (const fs::path real = fs::canonical(path_, error); !error) path_ = real.string();
@@ -256,11 +276,23 @@ void WholeFolder::clear_up() const {
 
 WholeFolder::State WholeFolder::state() const { return state_of(path_, kind_); }
 
+bool WholeFolder::has_same_origin(const std::string& folder) const {
+  return !origin_line_.empty() && has(list_of(folder).value_or(""), "\n" + origin_line_);
+}
+
 void WholeFolder::refuse_what_is_there() const {
   const State there = state();
-  if (there == State::complete && replace_ == Replace::incomplete)
-    throw InputError({path_, 0, 0}, "holds a finished " + kind_ +
-                                        "; give `--force` to replace it, or another `--out`");
+  if (there == State::complete && replace_ == Replace::incomplete) {
+    const bool same = has_same_origin(path_);
+    const std::string changed = same ? changed_file(path_) : "";
+    if (!same || !changed.empty())
+      throw InputError({path_, 0, 0},
+                       "holds a finished " + kind_ +
+                           (origin_line_.empty() ? ""
+                            : same ? " whose `" + changed + "` was changed or removed since"
+                                   : " of other inputs or settings") +
+                           "; give `--force` to replace it, or another `--out`");
+  }
   if (there == State::foreign)
     throw InputError({path_, 0, 0}, "is there already and is not a " + kind_ +
                                         " that palpate wrote (its `" + list_name +
@@ -308,10 +340,13 @@ void WholeFolder::keep(const std::string& name) {
 std::vector<std::string> WholeFolder::put(State content, std::vector<std::string> warnings) {
   const auto may_replace = [&](const std::string& folder) {
     const State there = state_of(folder, kind_);
-    if (there == State::complete) return replace_ == Replace::any && content == State::complete;
+    if (there == State::complete)
+      return content == State::complete &&
+             (replace_ == Replace::any ||
+              (has_same_origin(folder) && changed_file(folder).empty()));
     return there != State::foreign;
   };
-  std::string list = first_line(kind_, content);
+  std::string list = first_line(kind_, content) + origin_line_;
   if (const auto old = list_of(path_); old && may_replace(path_)) list += replaces_line(*old);
   for (const HashedFile& one : files_) list += file_line(one);
   list_.write(file(list_name), list);

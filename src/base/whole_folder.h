@@ -9,8 +9,12 @@
 
 namespace palpate {
 
-// What a command may replace: only results of interrupted runs, or complete ones too (`--force`).
+// What a command may replace: results of interrupted runs and unchanged results of the same origin,
+// or all complete ones too (`--force`).
 enum class Replace { incomplete, any };
+
+// Whether the file exists and has exactly this content: it need not be replaced then.
+[[nodiscard]] bool holds(const std::string& path, std::string_view content);
 
 // Files are written into the partial folder PLACE.partial-PID. put() lists them with their hashes
 // in the file `contents.sha256` and exchanges the folder with the one at PLACE. In the old folder
@@ -28,8 +32,10 @@ class WholeFolder {
 
   // `kind` is a noun for the list and for messages, such as `result`. The constructor clears up
   // what killed processes left for this place: it completes an exchange that was begun and removes
-  // partial folders that contain nothing to keep.
-  WholeFolder(const std::string& place, std::string kind, Replace replace);
+  // partial folders that contain nothing to keep. `origin` is any text that is equal for two
+  // commands if, and only if, both give the same result; empty if no other command can.
+  WholeFolder(const std::string& place, std::string kind, Replace replace,
+              const std::string& origin = {});
   // Removes the partial folder unless it was put in place or contains a file to keep.
   ~WholeFolder();
   WholeFolder(const WholeFolder&) = delete;
@@ -67,10 +73,13 @@ class WholeFolder {
 
  private:
   void clear_up() const;
+  // Whether the folder holds a complete result of the same origin.
+  [[nodiscard]] bool has_same_origin(const std::string& folder) const;
 
   std::string path_;
   std::string kind_;
   Replace replace_;
+  std::string origin_line_;  // of the list; empty without an origin
   std::string partial_;
   HeldFile list_;
   std::string to_keep_;  // content of the list until put()

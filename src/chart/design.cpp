@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "run/refined_mesh.h"
+#include "scenario/find.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
@@ -309,7 +310,8 @@ Integrator base_integrator(const scenario::Case& one) {
 }
 
 Asked read_for_chart(const std::string& path, const Settings& settings) {
-  return read_for_chart(path, read_text(path), settings);
+  const std::string found = scenario::find(path);
+  return read_for_chart(found, read_text(found), settings);
 }
 
 Asked read_for_chart(const std::string& path, const std::string& text, const Settings& settings) {

@@ -17,8 +17,8 @@ std::string colour_of(const std::string& model) {
   static_assert(scenario::ladder.size() <= order.size(), "every rung has a colour");
   constexpr std::size_t no_rung = 6;
   for (std::size_t i = 0; i < scenario::ladder.size(); ++i)
-    if (model == scenario::ladder[i].word) return plot::gnuplot_colours[order[i]];
-  return plot::gnuplot_colours[no_rung];
+    if (model == scenario::ladder[i].word) return plot::line_colours[order[i]];
+  return plot::line_colours[no_rung];
 }
 
 // Each integrator has its marker in every chart.
@@ -38,40 +38,24 @@ struct Range {
 };
 Range range(double least, double most) { return {least / 2.0, most * 2.0}; }
 
-// `set xrange`; an axis of less than 2.5 decades gets ticks at 1, 2 and 5 times each power of ten.
 std::string axis(const char* name, const Range& range) {
-  std::string text = std::string("set ") + name + "range [" + number_text(range.low) + ":" +
-                     number_text(range.high) + "]\n";
-  if (range.high > 300.0 * range.low) return text;
-  std::string ticks;
-  for (double decade = 1e-6; decade < 1e12; decade *= 10.0)
-    for (const double tick : {decade, 2.0 * decade, 5.0 * decade})
-      if (tick >= range.low && tick <= range.high)
-        ticks += (ticks.empty() ? "" : ", ") + rounded_text(tick, 2);
-  return text + "set " + name + "tics (" + ticks + ")\n";
+  return std::string("set ") + name + "range [" + number_text(range.low) + ":" +
+         number_text(range.high) + "]\n" + plot::gnuplot_logarithmic(name, range.low, range.high);
 }
 
 std::string frame(const Scatter& scatter) {
   // NaN means missing, not undefined: rows that are not drawn do not break the line of the front.
-  return "set datafile separator comma\n"
-         "set datafile missing NaN\n"
-         "set datafile columnheaders\n"
+  return "set datafile missing NaN\n"
          "set title " +
          plot::gnuplot_quoted(scatter.title) +
          "\n"
-         "set xlabel 'cost (us per simulated ms)'\n"
-         "set ylabel 'greatest error (%)'\n"
-         "set logscale xy\n"
-         "set format x '%g'\n"
-         "set format y '%g'\n" +
+         "set xlabel 'cost (µs per simulated ms)'\n"
+         "set ylabel 'greatest error (%)'\n" +
          axis("x", range(std::min(scatter.least_cost, real_time_cost),
                          std::max(scatter.most_cost, real_time_cost))) +
          axis("y",
               range(100.0 * std::min({scatter.least_error, scatter.floor, scatter.tolerance}),
                     100.0 * std::max({scatter.most_error, scatter.floor, scatter.tolerance}))) +
-         "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
-         "set tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
-         "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n"
          "set key outside right top Left reverse samplen 1.6 spacing 1.2 width -1\n"
          "set tmargin 2.5\n";
 }

@@ -1,29 +1,34 @@
 // The options of every verb, for parsing and help.
-#include "cli/arguments.h"
+#include "cli/options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <thread>
-#include <tuple>
 
-#include "cli/wrong_words.h"
 #include "device/link_text.h"
 #include "fit/model.h"
-#include "report/machine.h"
+#include "report/export.h"
+#include "scenario/starters.h"
 
 namespace palpate::cli {
 namespace {
 
 void add_settings(CLI::App& verb, std::vector<std::string>& settings) {
-  verb.add_option("--set", settings, "Set a key: KEY=VALUE")->allow_extra_args(false);
+  verb.add_option("--set", settings, "Set a key")->type_name("KEY=VALUE")->allow_extra_args(false);
 }
 
 void add_out(CLI::App& verb, std::string& out) {
-  verb.add_option("--out", out, "Folder of the results")->capture_default_str();
+  verb.add_option("--out", out, "Folder of the results")
+      ->type_name("FOLDER")
+      ->capture_default_str();
 }
 
 void add_jobs(CLI::App& verb, int& jobs) {
   verb.add_option("--jobs", jobs, "Workers; 0: one per core")->check(CLI::Range(0, 1024));
+}
+
+void add_check_options(CLI::App& verb, CheckOptions& options) {
+  verb.add_option("--junit", options.junit, "Also write JUnit XML into this file");
+  verb.add_option("--annotations", options.annotations, "Also say differences to a forge: github")
+      ->check(CLI::IsMember({"github"}));
 }
 
 // Options on the layout of a measured file, for every verb that reads one.
@@ -35,8 +40,8 @@ void add_data(CLI::App& verb, DataOptions& data) {
   verb.add_option("--skip", data.skip, "Lines above the table")->check(CLI::Range(0, 1000000));
   verb.add_option("--separator", data.separator, "Separator of columns: , ; tab blank");
   verb.add_option("--decimal", data.decimal, "Decimal sign: . or ,");
-  verb.add_option("--compression", data.compression,
-                  "Sign of compression in the file: positive, negative, auto");
+  verb.add_option("--compression", data.compression, "Sign of compression in the file")
+      ->type_name("positive|negative|auto");
   verb.add_option("--segment", data.segment,
                   "Only approach or retract, or a value of the column `segment` or `step`; "
                   "NAME:2 is the second of that name");
@@ -48,17 +53,32 @@ void add_data(CLI::App& verb, DataOptions& data) {
   verb.add_option("--case", data.case_name, "Only rows with this value in the column `case`");
 }
 
+// The words that an option may have, for its help and for shells; its verb checks them.
+template <class Words>
+std::string any_of(const Words& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : "|") + std::string(word);
+  return text;
+}
+
+}  // namespace
+
 // Below, one overload per verb.
 
 void add_options(CLI::App& verb, Run& run) {
-  verb.add_option("scenario", run.scenarios, "Scenario files")->required();
+  verb.add_option("scenario", run.scenarios, "Scenario files; `-` is the standard input")
+      ->required()
+      ->type_name("SCENARIO");
   add_out(verb, run.out);
   add_settings(verb, run.settings);
   add_jobs(verb, run.jobs);
   verb.add_flag("--force", run.force, "Replace finished results");
+  CLI::Option* dry =
+      verb.add_flag("--dry-run", run.dry, "Say what would be computed; write nothing");
   RunDevice& device = run.device;
   CLI::Option* link = verb.add_option(
       "--device", device.link, "Run on " + device::link_forms() + "; without --arm only read");
+  link->excludes(dry);
   const auto beside = [&](CLI::Option* option) { option->needs(link); };
   beside(verb.add_flag("--arm", device.arm, "Allow motion and forces"));
   beside(verb.add_flag("--realtime", device.realtime, "Run with real-time priority"));
@@ -77,41 +97,43 @@ void add_options(CLI::App& verb, Run& run) {
 }
 
 void add_options(CLI::App& verb, Explain& explain) {
-  verb.add_option("subject", explain.subject, "Scenario file or key")->required();
+  verb.add_option("subject", explain.subject, "Scenario file or key")->required()->type_name("KEY");
   add_settings(verb, explain.settings);
 }
 
 void add_options(CLI::App& verb, Fit& fit) {
-  std::string models;
-  for (const fit::ModelInfo& model : fit::models()) models += std::string(model.name) + "|";
-  for (const char* name : further_models) models += std::string(name) + "|";
-  models.pop_back();
-  verb.add_option("data", fit.data, "CSV or other tables in text")->required();
-  verb.add_option("--out", fit.out, "Folder for the rows, the population and its figure");
+  std::vector<std::string> models(further_models.begin(), further_models.end());
+  for (const fit::ModelInfo& model : fit::models()) models.emplace_back(model.name);
+  verb.add_option("data", fit.data, "CSV or other tables in text; `-` is the standard input")
+      ->required();
+  verb.add_option("--out", fit.out, "Folder for the rows, the population and its figure")
+      ->type_name("FOLDER");
   verb.add_flag("--force", fit.force, "Replace that folder");
   add_data(verb, fit.columns);
-  verb.add_option("--model", fit.model, "Curve: " + models)->required();
+  verb.add_option("--model", fit.model, "Curve")->required()->type_name(any_of(models));
   verb.add_option("--origin", fit.x_origin, "Subtracted from every x");
   verb.add_option("--radius", fit.radius, "hertz, layer: of the sphere or punch, as \"11 mm\"");
-  verb.add_option("--tip", fit.tip,
-                  "hertz: paraboloid (default), sphere, cone, pyramid3, pyramid4, punch");
+  verb.add_option("--tip", fit.tip, "hertz: default paraboloid")
+      ->type_name("paraboloid|sphere|cone|pyramid3|pyramid4|punch");
   verb.add_option("--half-angle", fit.half_angle,
                   "hertz: between axis and face of a cone or pyramid, as \"20 deg\"");
-  verb.add_option(
-      "--baseline", fit.baseline,
-      "hertz, layer: none, offset or tilt; default: what the rows before contact allow");
+  verb.add_option("--baseline", fit.baseline,
+                  "hertz, layer: default: what the rows before contact allow")
+      ->type_name("none|offset|tilt");
   verb.add_option("--from", fit.from,
                   "Least depth below contact, as \"0.1 mm\" or \"10 %\"; modulus: strain");
   verb.add_option("--to", fit.to, "Largest depth or strain, likewise");
   verb.add_option("--height", fit.height, "modulus, neo_hookean, ogden: of the specimen");
   verb.add_option("--diameter", fit.diameter, "the same: of a round specimen");
   verb.add_option("--area", fit.area, "the same: of the cross-section, as \"300 mm^2\"");
-  verb.add_option("--platens", fit.platens, "the same: slippery (default) or bonded");
-  verb.add_option("--loading", fit.loading, "the same: compression or tension");
+  verb.add_option("--platens", fit.platens, "the same: default slippery")
+      ->type_name("slippery|bonded");
+  verb.add_option("--loading", fit.loading, "the same: default by the signs")
+      ->type_name("compression|tension");
   verb.add_option("--poisson", fit.poisson_ratio, "hertz, layer: Poisson's ratio")
       ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
-  verb.add_option("--base", fit.base, "layer: bonded (default) or frictionless");
+  verb.add_option("--base", fit.base, "layer: default bonded")->type_name("bonded|frictionless");
   verb.add_option("--terms", fit.terms,
                   "prony: number of relaxation times; above 5 they are spaced in their logarithm")
       ->check(CLI::Range(1, 60));
@@ -133,14 +155,36 @@ void add_options(CLI::App& verb, Compare& compare) {
   verb.add_option("got", compare.got, "CSV file or result folder")->required();
   verb.add_option("want", compare.want, "CSV file or folder to compare with")->required();
   verb.add_option("--tolerances", compare.tolerances, "TOML file of tolerances by column");
+  verb.add_option("--report", compare.report, "Write the comparison as a page to this file");
+  add_check_options(verb, compare.options);
 }
 
-void add_options(CLI::App& golden, Bless& bless) {
-  golden.require_subcommand(1);
-  golden.fallthrough();
-  CLI::App* verb = golden.add_subcommand("bless", "Replace the expected results by today's");
-  verb->add_option("name", bless.names, "Folders below golden/")->required();
-  verb->add_option("--reason", bless.reason, "Why they may change")->required();
+void add_options(CLI::App& verb, Index& index) {
+  verb.add_option("folder", index.folder, "Folder with result folders below it")->required();
+}
+
+void add_options(CLI::App& all, Golden& golden) {
+  all.require_subcommand(1);
+  all.fallthrough();
+  const auto add = [&](const char* name, Golden::Act act, const char* what) {
+    CLI::App* verb = all.add_subcommand(name, what);
+    verb->callback([&golden, act] { golden.act = act; });
+    return verb;
+  };
+  CLI::App* verb = add("add", Golden::Act::add, "Run scenarios and keep their results beside them");
+  verb->add_option("scenario", golden.subjects, "Scenario files")->required();
+  add_jobs(*verb, golden.jobs);
+  verb->add_flag("--force", golden.force, "Replace the kept results");
+  verb = add("check", Golden::Act::check, "Run scenarios and compare with the kept results");
+  verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
+  add_jobs(*verb, golden.jobs);
+  add_check_options(*verb, golden.options);
+  verb = add("list", Golden::Act::list, "The scenarios whose results are kept");
+  verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
+  verb = add("bless", Golden::Act::bless,
+             "Of palpate itself: replace golden/NAME/expected, with a reason");
+  verb->add_option("name", golden.subjects, "Folders below golden/")->required();
+  verb->add_option("--reason", golden.reason, "Why they may change")->required();
 }
 
 void add_options(CLI::App& verb, Mesh& mesh) {
@@ -154,13 +198,16 @@ void add_options(CLI::App& verb, Mesh& mesh) {
       ->excludes(nodes);
   verb.add_option("--out", mesh.out, "File to write: .node, .ele (both, in metres) or .vtu")
       ->allow_extra_args(false);
-  verb.add_option("--set", mesh.settings, "Set a scenario's key: KEY=VALUE")
+  verb.add_option("--set", mesh.settings, "Set a scenario's key")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   verb.add_flag("--force", mesh.force, "Replace files");
 }
 
 void add_options(CLI::App& verb, Reference& reference) {
-  verb.add_option("scenario", reference.scenario, "Scenario file")->required();
+  verb.add_option("scenario", reference.scenario, "Scenario file")
+      ->required()
+      ->type_name("SCENARIO");
   verb.add_option("--levels", reference.levels, "Number of meshes, each finer than the last")
       ->capture_default_str()
       ->check(CLI::Range(3, 8));
@@ -170,7 +217,8 @@ void add_options(CLI::App& verb, Reference& reference) {
 }
 
 void add_options(CLI::App& verb, Bench& bench) {
-  verb.add_option("scenario", bench.scenarios, "Scenario files; none: the paper's four models");
+  verb.add_option("scenario", bench.scenarios, "Scenario files; none: the paper's four models")
+      ->type_name("SCENARIO");
   add_settings(verb, bench.settings);
   verb.add_option("--frames", bench.frames, "Number of frames of 1 ms")
       ->capture_default_str()
@@ -178,7 +226,7 @@ void add_options(CLI::App& verb, Bench& bench) {
 }
 
 void add_options(CLI::App& verb, Chart& chart) {
-  verb.add_option("scenario", chart.scenario, "Scenario file")->required();
+  verb.add_option("scenario", chart.scenario, "Scenario file")->required()->type_name("SCENARIO");
   add_settings(verb, chart.settings);
   add_out(verb, chart.out);
   verb.add_option("--repeats", chart.repeats, "Timings of every variant")
@@ -188,7 +236,9 @@ void add_options(CLI::App& verb, Chart& chart) {
 }
 
 void add_options(CLI::App& verb, Stability& stability) {
-  verb.add_option("scenario", stability.scenario, "Scenario file")->required();
+  verb.add_option("scenario", stability.scenario, "Scenario file")
+      ->required()
+      ->type_name("SCENARIO");
   add_settings(verb, stability.settings);
   add_out(verb, stability.out);
   verb.add_flag("--force", stability.force, "Replace a finished map");
@@ -203,12 +253,14 @@ void add_options(CLI::App& all, Sweep& sweep) {
     const bool plan = act == Sweep::Act::plan;
     verb->add_option(plan ? "scenario" : "folder", sweep.subject,
                      plan ? "Scenario file with a [sweep]" : "Folder of the plan")
-        ->required();
+        ->required()
+        ->type_name(plan ? "SCENARIO" : "FOLDER");
     return verb;
   };
   CLI::App* verb = add("plan", Sweep::Act::plan, "Check all cases and write the plan");
   add_settings(*verb, sweep.settings);
   verb->add_option("--out", sweep.out, "The plan goes to OUT/SCENARIO_sweep")
+      ->type_name("FOLDER")
       ->capture_default_str();
   verb->add_flag("--curves", sweep.curves, "Keep the curves of every case");
   verb->add_flag("--yes", sweep.yes, "Allow any number of cases");
@@ -233,15 +285,19 @@ void add_options(CLI::App& all, Sweep& sweep) {
 
 void add_options(CLI::App& verb, Identify& identify) {
   verb.add_option("data", identify.data, "CSV file of the measurement")->required();
-  verb.add_option("scenario", identify.scenario, "Scenario of the test")->required();
+  verb.add_option("scenario", identify.scenario, "Scenario of the test")
+      ->required()
+      ->type_name("SCENARIO");
   add_data(verb, identify.columns);
-  verb.add_option("--noise", identify.noise, "Noise of the measurement: constant or relative")
+  verb.add_option("--noise", identify.noise, "Noise of the measurement")
       ->capture_default_str()
       ->check(CLI::IsMember({"constant", "relative"}));
-  verb.add_option("--unknown", identify.unknowns, "Unknown with its range: KEY=LOW..HIGH")
+  verb.add_option("--unknown", identify.unknowns, "Unknown with its range, KEY=LOW..HIGH")
       ->required()
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  verb.add_option("--given", identify.givens, "Known with its deviation: KEY=\"VALUE +- SD\"")
+  verb.add_option("--given", identify.givens, "Known with its deviation, KEY=\"VALUE +- SD\"")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   add_settings(verb, identify.settings);
   add_out(verb, identify.out);
@@ -250,9 +306,14 @@ void add_options(CLI::App& verb, Identify& identify) {
 
 void add_options(CLI::App& verb, Export& export_to) {
   verb.add_option("result", export_to.result, "Result folder, or one of its CSV files")->required();
-  verb.add_option("--to", export_to.format, "Format")->required();
+  std::vector<std::string> formats;
+  for (const report::ExportFormat& format : report::export_formats())
+    formats.emplace_back(format.name);
+  verb.add_option("--to", export_to.format, "Format")->required()->type_name(any_of(formats));
   verb.add_option("--case", export_to.case_name, "Only this case");
-  verb.add_option("--out", export_to.out, "Folder to write into")->capture_default_str();
+  verb.add_option("--out", export_to.out, "Folder to write into")
+      ->type_name("FOLDER")
+      ->capture_default_str();
   verb.add_flag("--force", export_to.force, "Replace files");
 }
 
@@ -273,78 +334,35 @@ void add_options(CLI::App& all, Device& device) {
       ->check(CLI::Range(0.1, 86400.0));
 }
 
-void add_options(CLI::App&, Manual&) {}
-
-// The structs of all verbs, into which CLI11 writes the options.
-template <class Variant>
-struct CommandsOf;
-template <class... Kinds>
-struct CommandsOf<std::variant<Kinds...>> {
-  std::tuple<Kinds...> each;
-};
-
-struct Parser {
-  CLI::App app{"Batch mechanical testing of virtual soft tissue.", "palpate"};
-  Arguments arguments;
-  CommandsOf<Verb> commands;
-
-  Parser() {
-    app.require_subcommand(1);
-    app.fallthrough();
-    app.set_version_flag("--version", "palpate " + report::this_build().version);
-    app.add_flag("--quiet,-q", arguments.manner.quiet, "Only errors on stderr");
-    app.add_flag("--json", arguments.manner.json, "JSON on stdout, one object per line");
-    app.footer(
-        "Exit codes: 0 good, 1 internal, 2 bad input, 3 comparison differs, 4 diverged, 5 mesh,\n"
-        "6 device link, 7 sweep incomplete, 75 interrupted, resumable, 130 interrupted.\n"
-        "Data go to stdout, messages to stderr.");
-    for_each_command([&](auto& command) {
-      add_options(*app.add_subcommand(command.word.word, command.word.meaning), command);
-    });
-  }
-
-  template <class Use>
-  void for_each_command(const Use& use) {
-    std::apply([&](auto&... command) { (use(command), ...); }, commands.each);
-  }
-
-  Verb chosen() {
-    std::optional<Verb> verb;
-    for_each_command([&](auto& command) {
-      if (app.got_subcommand(command.word.word)) verb = command;
-    });
-    return *verb;  // the parser requires one
-  }
-};
-
-}  // namespace
-
-int worker_count(int jobs) {
-  return jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+void add_options(CLI::App& verb, New& starter) {
+  std::vector<std::string> kinds;
+  for (const scenario::Starter& one : scenario::starters()) kinds.emplace_back(one.word.word);
+  verb.add_option("kind", starter.kind, "What is computed")
+      ->required()
+      ->type_name("")
+      ->check(CLI::IsMember(kinds));
+  verb.add_option("file", starter.file,
+                  "File to write, default KIND.toml; `-` is the standard output");
+  verb.add_flag("--force", starter.force, "Replace the file");
 }
 
-std::variant<Arguments, UsageError, Answer> parse(const std::vector<std::string>& arguments) {
-  Parser parser;
-  if (const auto wrong = wrong_word(parser.app, arguments)) return UsageError{*wrong};
-  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
-  try {
-    parser.app.parse(reversed);
-  } catch (const CLI::CallForVersion&) {
-    return Answer{parser.app.version() + "\n"};
-  } catch (const CLI::CallForHelp&) {
-    const CLI::App* asked = &parser.app;
-    std::string command;
-    while (!asked->get_subcommands().empty()) {
-      command += (command.empty() ? "" : " ") + asked->get_name();
-      asked = asked->get_subcommands().front();
-    }
-    return Answer{asked->help(command)};
-  } catch (const CLI::ParseError& error) {
-    return UsageError{sentence(parser.app, error)};
-  }
-  parser.arguments.given = arguments;
-  parser.arguments.verb = parser.chosen();
-  return parser.arguments;
+void add_options(CLI::App& verb, Open& open) {
+  verb.add_option("result", open.result, "Result folder")->required()->type_name("FOLDER");
+}
+
+void add_options(CLI::App& verb, Manual& manual) {
+  verb.add_option("page", manual.page, "Keys of scenarios, or verbs and options")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"keys", "commands"}));
+  verb.add_flag("--man", manual.man, "As a man page");
+}
+
+void add_options(CLI::App&, Schema&) {}
+
+void add_options(CLI::App& verb, Completion& completion) {
+  verb.add_option("shell", completion.shell, "The shell")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
 }
 
 }  // namespace palpate::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/fields.h"
+#include "commands/command.h"
 #include "measured/measured.h"
 
 namespace palpate::cli {
@@ -15,6 +16,7 @@ namespace palpate::cli {
 struct Manner {
   bool quiet = false;
   bool json = false;
+  bool no_colour = false;
 };
 
 // Options of `run` with `--device`.
@@ -37,6 +39,7 @@ struct Run {
   std::vector<std::string> settings;
   int jobs = 0;  // 0: one per core
   bool force = false;
+  bool dry = false;
 };
 struct Explain {
   static constexpr Word word{"explain", "What a scenario would compute, or what a key means"};
@@ -82,16 +85,33 @@ struct Data {
   std::string data;
   DataOptions columns{.compression = "auto"};
 };
+// What `compare` and `golden check` write for build servers.
+struct CheckOptions {
+  std::string junit;        // file of JUnit XML; empty: none
+  std::string annotations;  // `github`; empty: none
+  bool headed = false;      // the name of each check stands above its text
+};
 struct Compare {
   static constexpr Word word{"compare", "Compare results with expected ones"};
   std::string got;
   std::string want;
   std::string tolerances;
+  std::string report;  // path of a page
+  CheckOptions options;
 };
-struct Bless {
-  static constexpr Word word{"golden", "Replace the expected results in golden/"};
-  std::vector<std::string> names;
-  std::string reason;
+struct Index {
+  static constexpr Word word{"report", "Write a page with links to the reports of a folder"};
+  std::string folder;
+};
+struct Golden {
+  static constexpr Word word{"golden", "Keep results of scenarios, and check that they stay"};
+  enum class Act { add, check, list, bless };
+  Act act = Act::check;
+  std::vector<std::string> subjects;  // scenarios or folders; of `bless` folders below golden/
+  std::string reason;                 // of `bless`
+  CheckOptions options{.junit = {}, .annotations = {}, .headed = true};
+  int jobs = 0;
+  bool force = false;
 };
 struct Mesh {
   static constexpr Word word{"mesh", "Check and mesh a surface, a mesh or a scenario's specimen"};
@@ -178,13 +198,33 @@ struct Device {
   std::string link;
   double seconds = 5.0;  // of a monitor
 };
+struct New {
+  static constexpr Word word{"new", "Write a commented scenario to begin with"};
+  std::string kind;
+  std::string file;  // empty: KIND.toml; `-`: stdout
+  bool force = false;
+};
+struct Open {
+  static constexpr Word word{"open", "Show the page or the first figure of a result"};
+  std::string result;
+};
 struct Manual {
-  static constexpr Word word{"manual", "Print the reference of all scenario keys, in markdown"};
+  static constexpr Word word{"manual", "Print a reference, in Markdown or as a man page"};
+  std::string page = "keys";
+  bool man = false;
+};
+struct Schema {
+  static constexpr Word word{"schema", "Print the JSON Schema of scenarios, for editors"};
+};
+struct Completion {
+  static constexpr Word word{"completion", "Print the completion script of a shell"};
+  std::string shell;
 };
 
 // Every verb. It needs `word`, add_options() in arguments.cpp and perform() in verbs.h to compile.
-using Verb = std::variant<Run, Explain, Fit, Data, Compare, Bless, Mesh, Reference, Bench, Chart,
-                          Stability, Sweep, Identify, Export, Device, Manual>;
+using Verb =
+    std::variant<Run, Explain, Fit, Data, Compare, Index, Golden, Mesh, Reference, Bench, Chart,
+                 Stability, Sweep, Identify, Export, Device, New, Open, Manual, Schema, Completion>;
 
 struct Arguments {
   Manner manner;
@@ -203,6 +243,9 @@ struct Answer {
 
 // The number of workers for `--jobs`; 0: one per core.
 [[nodiscard]] int worker_count(int jobs);
+
+// The table of all verbs and options, for pages and shells.
+[[nodiscard]] commands::Command described();
 
 [[nodiscard]] std::variant<Arguments, UsageError, Answer> parse(
     const std::vector<std::string>& arguments);

@@ -12,17 +12,16 @@
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
+#include "page/page.h"
 #include "record/csv.h"
+#include "report/results.h"
 
 namespace palpate::cli {
 namespace {
 
 // A text that is equal for two calls if one may continue with the measurements of the other.
 std::string identity(const scenario::Family& family) {
-  std::string text = program_identity() + "\n";
-  for (const scenario::InputFile& input : family.inputs)
-    text += input.name + " " + sha256(input.content) + "\n";
-  return text + scenario::echo(family);
+  return program_identity() + "\n" + report::origin_of(family);
 }
 
 std::string progress_text(const chart::ChartProgress& progress) {
@@ -88,6 +87,30 @@ std::vector<std::string> draw_all(const std::vector<chart::CaseChart>& charts,
   return warnings;
 }
 
+// The page of a chart. `text` is chart.md, whose lines that are no headings are the answer.
+void write_page(const scenario::Family& family, const std::string& text, const record::Table& table,
+                WholeFolder& folder) {
+  page::Page page(family.title, "chart of speed and accuracy");
+  std::vector<std::string> sentences;
+  for (const std::string& line : split(text, '\n'))
+    if (!line.empty() && line.front() != '#') sentences.push_back(line);
+  page.answer(sentences);
+  page.section("Figures", page::all_figures(folder, [](const std::string&) {
+                 return "Error against cost of every variant; the line joins the variants that no "
+                        "other beats "
+                        "in both.";
+               }));
+  constexpr std::size_t most = 200;
+  page.section("Variants",
+               page::table_of_file("Every variant that was tried", table, "chart.csv", most));
+  page.section("How it was made",
+               page::making({.command = "palpate chart " + family.name + ".toml",
+                             .remark = "Costs are times of the machine that measured them: only "
+                                       "the errors repeat."},
+                            {}, folder));
+  page::write(std::move(page), folder);
+}
+
 }  // namespace
 
 int perform(const Chart& command, const Arguments&, const Talk& talk) {
@@ -97,7 +120,7 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   const Replace replace = command.force ? Replace::any : Replace::incomplete;
   const std::string place =
       (std::filesystem::path(command.out) / (family.name + "_chart")).string();
-  WholeFolder folder(place, "chart", replace);
+  WholeFolder folder(place, "chart", replace, report::origin_of(family));
   folder.refuse_what_is_there();
   chart::Journal journal(place + ".partial", identity(family), replace);
   for (const std::string& warning : journal.warnings()) talk.warn(warning);
@@ -120,6 +143,7 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   for (const auto& [name, moments] : journal.references())
     folder.write(name + ".csv", record::csv_text(moments));
   const std::vector<std::string> warnings = draw_all(*charts, family, folder);
+  write_page(family, text, table, folder);
   for (const std::string& warning : folder.put(WholeFolder::State::complete, warnings))
     talk.warn(warning);
   journal.remove();

@@ -7,12 +7,14 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "cli/explain_json.h"
 #include "cli/explain_time.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
+#include "run/answer.h"
 #include "run/family.h"
-#include "run/mesh_error.h"
 #include "scenario/family.h"
+#include "scenario/find.h"
 #include "scene/specimen_mesh.h"
 
 namespace palpate::cli {
@@ -34,6 +36,27 @@ std::string table_of(const std::string& section) {
   return table;
 }
 
+// What the key `kind` of a table may be, from the titles of the manual's sections, such as
+// "`step`, `kind = "hold"`"; empty if no table of this name has kinds. Adds the keys to `known`.
+std::string kinds(const std::string& key, std::vector<std::string>& known) {
+  std::string found;
+  std::string last;
+  const std::vector<std::string> lines = split(scenario::manual(), '\n');
+  for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
+    const auto quotes = split(lines[i], '`');
+    if (!lines[i].starts_with("## `") || quotes.size() < 4 || !quotes[3].starts_with("kind = "))
+      continue;
+    const std::string path = quotes[1] + ".kind";
+    known.push_back(path);
+    if (key != path && key != "kind") continue;
+    if (path != last) found += "`" + path + "`\n";
+    last = path;
+    const bool plain = lines[i + 2].starts_with('|') || lines[i + 2].starts_with('#');
+    found += "  " + quotes[3].substr(7) + quotes[4] + (plain ? "" : ": " + lines[i + 2]) + "\n";
+  }
+  return found;
+}
+
 // The rows of the manual for a key, given as `table.key` or `key`, or for all keys of a table.
 // Throws InputError, with the nearest key, if there are none.
 std::string meaning(const std::string& asked) {
@@ -41,6 +64,7 @@ std::string meaning(const std::string& asked) {
   std::string section;
   std::string found;
   std::vector<std::string> known;
+  if (std::string text = kinds(key, known); !text.empty()) return text;
   for (const std::string& line : split(scenario::manual(), '\n')) {
     if (line.starts_with("## ")) section = line.substr(3);
     if (!line.starts_with("| `")) continue;
@@ -64,10 +88,15 @@ std::string meaning(const std::string& asked) {
 
 class Explanation {
  public:
-  explicit Explanation(const scene::Scene& scene) : scene_(scene) {}
+  Explanation(const scene::Scene& scene, const run::Expected& expected)
+      : scene_(scene), expected_(expected) {}
 
-  std::string text() {
-    line("case " + scene_.name);
+  // The three plain sentences, then the numbers. `name` starts the text where there are several.
+  std::string text(const std::string& name, const std::string& title) {
+    line((name.empty() ? "" : ticked(name) + ": ") + expected_.answer.model);
+    line(expected_.answer.error);
+    line(expected_.answer.left_out);
+    line("\ncase " + scene_.name + ": " + title);
     tissue();
     shape();
     regions();
@@ -287,10 +316,14 @@ class Explanation {
     line(std::string("  model        ") + scenario::rung(model).word +
          (scene_.choice.given ? ", named by the scenario; criteria of `auto`:"
                               : ", chosen by these criteria:"));
-    for (const scene::Question& question : scene_.choice.questions)
-      line("                 " + question.asked + " " + question.measure + " = " +
-           rounded_text(question.number) + ", threshold " + rounded_text(question.threshold) +
-           ": " + question.answer);
+    for (const scene::Question& question : scene_.choice.questions) {
+      std::string text = "    " + question.asked;
+      text.resize(17, ' ');
+      if (!question.measure.empty())
+        text += question.measure + " " + percent_text(question.number) + ", limit " +
+                percent_text(question.threshold) + ": ";
+      line(text + question.answer);
+    }
     for (const scene::Forecast& rung : scene_.choice.rungs) {
       std::string text =
           std::string("  ") + (rung.model == model ? "> " : "  ") + scenario::rung(rung.model).word;
@@ -314,7 +347,7 @@ class Explanation {
            ", where the error in the force comes from, " +
            (refined->error <= refined->wanted ? "until it is below " + percent_text(refined->wanted)
                                               : "as far as `tissue.mesh.most_nodes` allows"));
-    if (const auto error = run::mesh_error(scene_))
+    if (const auto& error = expected_.mesh_error)
       line("  mesh error   about " + percent_text(*error) +
            " of the force at the deepest travel, estimated on this mesh");
     if (scenario::rung(scene_.scenario.solver.model).coupled()) {
@@ -332,21 +365,36 @@ class Explanation {
   }
 
   const scene::Scene& scene_;
+  const run::Expected& expected_;
   std::string text_;
 };
 
 }  // namespace
 
-int perform(const Explain& command, const Arguments&, const Talk&) {
-  const bool file = command.subject.ends_with(".toml") || std::filesystem::exists(command.subject);
+int perform(const Explain& command, const Arguments&, const Talk& talk) {
+  const std::string subject = scenario::find(command.subject);  // with an ending, if it is an example
+  const bool file =
+      subject == "-" || subject.ends_with(".toml") || std::filesystem::exists(subject);
   if (!file) {
-    print(meaning(command.subject));
+    const std::string found = meaning(command.subject);
+    if (talk.json())
+      talk.event("key", {{"subject", command.subject}, {"text", found}});
+    else
+      print(found);
     return exit_good;
   }
   const scenario::Family family = scenario::read(command.subject, command.settings);
-  print(family.title + "\n");
   for (const Problem& note : family.notes) Talk::error("note: " + note.text());
-  for (const scene::Scene& scene : run::build_all(family, 1)) print(Explanation(scene).text());
+  const std::vector<scene::Scene> scenes = run::build_all(family, 1);
+  for (const scene::Scene& scene : scenes) {
+    const run::Expected expected = run::expect(scene);
+    if (talk.json()) {
+      print(explain_json(family.name, scene, expected) + "\n");
+      continue;
+    }
+    if (&scene != &scenes.front()) print("\n");
+    print(Explanation(scene, expected).text(scenes.size() > 1 ? scene.name : "", family.title));
+  }
   return exit_good;
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "base/whole_folder.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "record/csv.h"
@@ -107,14 +108,15 @@ int perform(const Export& command, const Arguments&, const Talk& talk) {
     if (fs::equivalent(path, file, ignored))
       throw InputError({path.string(), 0, 0},
                        "is the file to be exported and is not replaced; give another `--out`");
-    if (fs::exists(path) && !command.force)
-      throw InputError({path.string(), 0, 0},
-                       "is there already; give `--force` to replace it, or another `--out`");
     try {
       files.emplace_back(path, format.text(curve));
     } catch (const InputError& error) {
       throw InputError({file, 0, 0}, error.problems().front().message);
     }
+    if (!command.force && fs::exists(path) && !holds(path.string(), files.back().second))
+      throw InputError({path.string(), 0, 0},
+                       "is there already and says something else; give `--force` to replace it, "
+                       "or another `--out`");
   }
   make_folders(command.out);
   for (const auto& [path, text] : files) {

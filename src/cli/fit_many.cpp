@@ -11,6 +11,7 @@
 #include "cli/program.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
+#include "record/swept_column.h"
 
 namespace palpate::cli {
 namespace {
@@ -40,39 +41,44 @@ std::vector<Row> fitted_rows(const Fit& command, const Talk& talk) {
   return rows;
 }
 
-// `E_kPa`, `alpha`
-std::string column_of(const fit::Estimate& one) {
-  return one.unit.empty() ? one.name : one.name + "_" + one.unit;
+// `E_kPa`, `alpha`, and `E_low_kPa` of the end `_low`.
+std::string column_of(const fit::Estimate& one, const char* end = "") {
+  return one.name + end + (one.unit.empty() ? "" : "_" + record::unit_word(one.unit));
 }
 
 // The parameters of all results, in the order in which they first occur.
-std::vector<std::string> parameters_of(const std::vector<Row>& rows) {
-  std::vector<std::string> names;
+std::vector<fit::Estimate> parameters_of(const std::vector<Row>& rows) {
+  std::vector<fit::Estimate> all;
   for (const Row& row : rows)
     for (const fit::Estimate& one : row.fit.parameters)
-      if (std::find(names.begin(), names.end(), column_of(one)) == names.end())
-        names.push_back(column_of(one));
-  return names;
+      if (std::none_of(all.begin(), all.end(), [&](const fit::Estimate& known) {
+            return column_of(known) == column_of(one);
+          }))
+        all.push_back(one);
+  return all;
 }
 
 record::Cell number(double value) {
   return std::isfinite(value) ? record::Cell(value) : record::Cell();
 }
 
-record::Table row_table(const std::vector<Row>& rows, const std::vector<std::string>& names) {
+record::Table row_table(const std::vector<Row>& rows,
+                        const std::vector<fit::Estimate>& parameters) {
   record::Table table;
   table.columns = {"number", "file", "status"};
-  for (const std::string& name : names)
-    for (const char* end : {"", "_low", "_high"}) table.columns.push_back(name + end);
+  for (const fit::Estimate& parameter : parameters)
+    for (const char* end : {"", "_low", "_high"})
+      table.columns.push_back(column_of(parameter, end));
   for (const char* name : {"r2", "n", "left_out", "effective_n", "law", "remarks"})
     table.columns.emplace_back(name);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     std::vector<record::Cell> cells{static_cast<double>(i + 1), row.file,
                                     std::string(row.reason.empty() ? "fitted" : "failed")};
-    for (const std::string& name : names) {
-      const auto found = std::find_if(row.fit.parameters.begin(), row.fit.parameters.end(),
-                                      [&](const auto& one) { return column_of(one) == name; });
+    for (const fit::Estimate& parameter : parameters) {
+      const auto found =
+          std::find_if(row.fit.parameters.begin(), row.fit.parameters.end(),
+                       [&](const auto& one) { return column_of(one) == column_of(parameter); });
       const fit::Estimate none;
       const fit::Estimate& one = found == row.fit.parameters.end() ? none : *found;
       for (const double value : {one.estimate, one.ci95_low, one.ci95_high})
@@ -110,9 +116,10 @@ struct Population {
 };
 
 std::vector<Population> populations(const std::vector<Row>& rows,
-                                    const std::vector<std::string>& names) {
+                                    const std::vector<fit::Estimate>& parameters) {
   std::vector<Population> all;
-  for (const std::string& name : names) {
+  for (const fit::Estimate& parameter : parameters) {
+    const std::string name = column_of(parameter);
     Population one{.name = name, .sorted = {}};
     for (const Row& row : rows)
       for (const fit::Estimate& each : row.fit.parameters)
@@ -164,7 +171,8 @@ void say_population(const std::vector<Population>& all, const std::vector<Row>& 
 void write_folder(const Fit& command, const record::Table& rows, const record::Table& population,
                   const Talk& talk) {
   WholeFolder folder(command.out, "population of fits",
-                     command.force ? Replace::any : Replace::incomplete);
+                     command.force ? Replace::any : Replace::incomplete,
+                     record::csv_text(rows) + record::csv_text(population));
   folder.refuse_what_is_there();
   folder.open();
   folder.write("curves.csv", record::csv_text(rows));
@@ -196,9 +204,9 @@ void write_folder(const Fit& command, const record::Table& rows, const record::T
 
 int fit_many(const Fit& command, const Talk& talk) {
   const std::vector<Row> rows = fitted_rows(command, talk);
-  const std::vector<std::string> names = parameters_of(rows);
-  const std::vector<Population> all = populations(rows, names);
-  const record::Table table = row_table(rows, names);
+  const std::vector<fit::Estimate> parameters = parameters_of(rows);
+  const std::vector<Population> all = populations(rows, parameters);
+  const record::Table table = row_table(rows, parameters);
   print(record::csv_text(table));
   say_population(all, rows, talk);
   if (!command.out.empty()) write_folder(command, table, population_table(all), talk);

@@ -1,20 +1,21 @@
-// `palpate golden bless`: replaces expected results by today's, and records the reason.
+// `palpate golden`: keeps results of scenarios, compares with them, and blesses palpate's own.
+#include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
-#include <set>
 
 #include "base/document_writer.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "cli/checks.h"
+#include "cli/goldens.h"
 #include "cli/program.h"
+#include "cli/table_text.h"
 #include "cli/verbs.h"
-#include "fit/case_fits.h"
 #include "plot/process.h"
 #include "record/csv.h"
 #include "report/machine.h"
-#include "report/results.h"
-#include "run/family.h"
 
 namespace palpate::cli {
 namespace {
@@ -41,11 +42,14 @@ std::string uncommitted() {
   return changed;
 }
 
-void refuse_where_unsafe() {
+void refuse_to_machines() {
   if (const char* ci = std::getenv("CI"); ci != nullptr && *ci != '\0')
     refuse(
         "`CI` is set, and a machine must not bless its own results; "
         "run this by hand");
+}
+
+void refuse_dirty_tree() {
   if (const std::string changed = uncommitted(); !changed.empty())
     refuse("the tree has uncommitted changes (" + changed +
            "); commit them first, so that the blessing names the code");
@@ -53,44 +57,113 @@ void refuse_where_unsafe() {
 
 void bless_one(const std::string& name, const std::string& reason) {
   const std::string folder = "golden/" + name;
-  const scenario::Family family = scenario::read(folder + "/scenario.toml", {});
-  const auto scenes = run::build_all(family, 1);
-  const std::atomic<bool> stop = false;
-  const auto records = run::run_all(scenes, 1, stop, [](std::size_t, const record::CaseRecord&) {});
-  std::vector<fit::NamedFit> fits;
-  for (std::size_t i = 0; i < records.size(); ++i)
-    for (fit::NamedFit& named : fit::case_fits(scenes[i].scenario, records[i]))
-      fits.push_back(std::move(named));
-  const std::string expected = folder + "/expected";
-  make_folders(expected);
-  std::set<std::string> written;
-  for (const auto& [file, table] : report::csv_files(family, records, fits)) {
-    write_atomically(expected + "/" + file, record::csv_text(table));
-    written.insert(expected + "/" + file);
-  }
-  for (const std::string& file : entries_of(expected))
-    if (file.ends_with(".csv") && !written.contains(file)) fs::remove(file);  // no longer written
+  keep(compute(folder + "/scenario.toml", 1), folder + "/expected");
   const report::Build build = report::this_build();
   write_atomically(folder + "/blessed.toml", "reason = " + toml_text(reason) + "\ncommit = \"" +
                                                  trimmed(git({"rev-parse", "HEAD"})) +
                                                  "\"\ncompiler = \"" + build.compiler + "\"\n");
 }
 
-}  // namespace
-
-int perform(const Bless& command, const Arguments&, const Talk& talk) {
+int bless(const Golden& command, const Talk& talk) {
   if (trimmed(command.reason).empty())
     refuse("`--reason` is empty; say why the results may change");
-  for (const std::string& name : command.names)
+  for (const std::string& name : command.subjects)
     if (!fs::exists("golden/" + name + "/scenario.toml"))
       throw InputError({"golden/" + name + "/scenario.toml", 0, 0},
                        "is not there; name a folder below golden/ from the project's top");
-  refuse_where_unsafe();
-  for (const std::string& name : command.names) {
+  refuse_to_machines();
+  refuse_dirty_tree();
+  for (const std::string& name : command.subjects) {
     bless_one(name, command.reason);
     talk.say("golden/" + name + ": blessed; commit it");
   }
   return exit_good;
+}
+
+int add(const Golden& command, const Talk& talk) {
+  refuse_to_machines();
+  for (const std::string& scenario : command.subjects)
+    if (const KeptResult kept = KeptResult::of(scenario); kept.is_kept() && !command.force)
+      throw InputError({kept.expected, 0, 0},
+                       "holds the kept result of " + scenario +
+                           "; see what differs by `palpate golden check`, and give `--force` to "
+                           "replace it");
+  for (const std::string& scenario : command.subjects) {
+    const KeptResult kept = KeptResult::of(scenario);
+    keep(compute(kept.scenario, worker_count(command.jobs)), kept.expected);
+    talk.say(kept.expected + ": kept");
+  }
+  return exit_good;
+}
+
+std::vector<KeptResult> asked(const Golden& command) {
+  return kept_results(command.subjects.empty() ? std::vector<std::string>{"."} : command.subjects);
+}
+
+// Runs a scenario and compares. An error ends this check only; `code` becomes its exit code.
+compare::Check check_one(const KeptResult& kept, int workers, int& code) {
+  compare::Check check{.name = kept.scenario, .want = kept.expected};
+  const auto failed = [&](const std::exception& error, int its_code) {
+    check.error = kept.scenario + ": cannot be checked: " + error.what();
+    if (code == exit_good || code == exit_different) code = its_code;
+  };
+  try {
+    compare::Tolerances tolerances;
+    if (fs::exists(kept.tolerances)) tolerances = compare::read_tolerances(kept.tolerances);
+    compare::Tables got;
+    for (auto& [file, table] : compute(kept.scenario, workers))
+      got[file] = [table = std::move(table)] { return table; };
+    check.comparison =
+        compare::compare_tables(got, compare::tables_below(kept.expected), tolerances);
+    if (!check.equal() && code == exit_good) code = exit_different;
+  } catch (const InputError& error) {
+    failed(error, exit_input);
+  } catch (const MeshError& error) {
+    failed(error, exit_mesh);
+  }
+  return check;
+}
+
+int check(const Golden& command, const Talk& talk) {
+  const std::vector<KeptResult> all = asked(command);
+  std::vector<compare::Check> checks;
+  int code = exit_good;
+  for (const KeptResult& kept : all) {
+    talk.progress(bar(checks.size(), all.size()) + ", " + kept.scenario);
+    checks.push_back(check_one(kept, worker_count(command.jobs), code));
+  }
+  talk.progress("");
+  report_checks(checks, command.options, talk);
+  const auto equal = std::count_if(checks.begin(), checks.end(),
+                                   [](const compare::Check& one) { return one.equal(); });
+  talk.say(std::to_string(equal) + " of " + std::to_string(checks.size()) +
+           (checks.size() == 1 ? " scenario gives" : " scenarios give") + " the kept results");
+  return code;
+}
+
+int list(const Golden& command, const Talk& talk) {
+  record::Table table{{"scenario", "expected", "files", "tolerances"}, {}};
+  for (const KeptResult& kept : asked(command)) {
+    record::Cell tolerances;
+    if (fs::exists(kept.tolerances)) tolerances = kept.tolerances;
+    table.rows.push_back({kept.scenario, kept.expected,
+                          static_cast<double>(compare::tables_below(kept.expected).size()),
+                          tolerances});
+  }
+  print(talk.json() ? json_lines(table) : record::csv_text(table));
+  return exit_good;
+}
+
+}  // namespace
+
+int perform(const Golden& command, const Arguments&, const Talk& talk) {
+  switch (command.act) {
+    case Golden::Act::add: return add(command, talk);
+    case Golden::Act::check: return check(command, talk);
+    case Golden::Act::list: return list(command, talk);
+    case Golden::Act::bless: break;
+  }
+  return bless(command, talk);
 }
 
 }  // namespace palpate::cli

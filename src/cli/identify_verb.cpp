@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
@@ -13,6 +14,7 @@
 #include "identify/tables.h"
 #include "measured/measured.h"
 #include "report/machine.h"
+#include "report/results.h"
 
 namespace palpate::cli {
 namespace {
@@ -26,6 +28,16 @@ identify::Measurement read_measurement(const Identify& command, const Talk& talk
           .y_name = curve.y_axis.column,
           .x_dimension = curve.x_axis.dimension,
           .y_dimension = curve.y_axis.dimension};
+}
+
+// The arguments say how the data are read and what is unknown.
+std::string origin_of(const Identify& command, const Arguments& arguments,
+                      const scenario::Family& family) {
+  std::string text;
+  for (const std::string& word : arguments.given)
+    if (word != "--force" && word != "--quiet" && word != "-q" && word != "--json")
+      text += word + "\n";
+  return text + file_sha256(command.data) + "\n" + report::origin_of(family);
 }
 
 }  // namespace
@@ -43,7 +55,8 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
       identify::read_givens(command.givens, family.cases.front().scenario, unknowns);
   identify::set_givens(family, givens);
   WholeFolder folder((std::filesystem::path(command.out) / (family.name + "_identified")).string(),
-                     "identification", command.force ? Replace::any : Replace::incomplete);
+                     "identification", command.force ? Replace::any : Replace::incomplete,
+                     origin_of(command, arguments, family));
   folder.refuse_what_is_there();
   const identify::Measurement measured = read_measurement(command, talk);
   identify::IdentifyOptions options;

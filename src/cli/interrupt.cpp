@@ -13,7 +13,7 @@ std::atomic<bool> stop_requested = false;
 std::atomic<int> code_at_once = 0;
 
 void request_stop(int) {
-  // A second signal ends the program without waiting for the row.
+  // A second signal ends the program without waiting for the step.
   if (stop_requested.exchange(true)) ::_exit(code_at_once.load());
 }
 

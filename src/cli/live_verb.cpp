@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "cli/answer_lines.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
@@ -105,8 +106,6 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     return exit_good;
   }
   const std::string started = report::utc_now();
-  // A limit of file size must give an error message, like a full disk, and not end the program.
-  std::signal(SIGXFSZ, SIG_IGN);
   folder.open();
   const live::Live::Output output{
       .on_step =
@@ -142,6 +141,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     throw SystemError(std::string(error.what()) + "; the rows written before are in " +
                       output.rows_file);
   }
+  for (const std::string& line : answer_lines({result.record})) talk.say(line);
   talk.say(folder.path() + ": " + rows);
   talk.event("result", {{"scenario", family.name},
                         {"folder", folder.path()},

@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "base/whole_folder.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
@@ -113,8 +114,6 @@ void check_outputs(const Mesh& command) {
                : std::vector<std::string>{})
         if (fs::equivalent(file, read, unrelated))
           throw InputError({file, 0, 0}, "is the input file; give another name to `--out`");
-      if (!command.force)
-        throw InputError({file, 0, 0}, "is there already; give another name, or `--force`");
     }
 }
 
@@ -226,10 +225,26 @@ class Report {
   record::Table table_{{}, {{}}};
 };
 
-void write(const std::string& out, const geometry::TetMesh& mesh) {
-  if (ending_of(out) != ".vtu") return meshing::write_node_ele(out, mesh);
+std::string vtu_text(const geometry::TetMesh& mesh) {
   const std::vector<Vec3> still(mesh.nodes.size(), Vec3::Zero());
-  write_atomically(out, report::vtu_bytes({.mesh = mesh, .displacement = still}));
+  return report::vtu_bytes({.mesh = mesh, .displacement = still});
+}
+
+// Files with this very mesh are its own, and need not be replaced.
+void refuse_other_files(const std::string& out, const geometry::TetMesh& mesh) {
+  const bool own =
+      ending_of(out) == ".vtu" ? holds(out, vtu_text(mesh)) : meshing::holds_node_ele(out, mesh);
+  for (const std::string& file : files_of(out))
+    if (!own && fs::exists(file))
+      throw InputError({file, 0, 0},
+                       "is there already and is another mesh; give another name, or `--force`");
+}
+
+void write(const std::string& out, const geometry::TetMesh& mesh) {
+  if (ending_of(out) == ".vtu")
+    write_atomically(out, vtu_text(mesh));
+  else
+    meshing::write_node_ele(out, mesh);
 }
 
 }  // namespace
@@ -258,6 +273,8 @@ int perform(const Mesh& command, const Arguments&, const Talk& talk) {
     }
     report.mesh(mesh, nullptr);
   }
+  if (!command.force)
+    for (const std::string& out : command.out) refuse_other_files(out, mesh);
   for (const std::string& out : command.out) write(out, mesh);
   print(talk.json() ? json_lines(report.table()) : names_and_values(report.table()));
   return exit_good;

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <exception>
 #include <new>
 
@@ -34,6 +35,8 @@ void occupy_standard_streams() {
 
 int program(const std::vector<std::string>& given) {
   occupy_standard_streams();
+  // A limit of file size must give an error message, like a full disk, and not end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   end_at_interrupts(exit_interrupted);  // until a verb that has something to keep listens to them
   try {
     const auto parsed = parse(given);

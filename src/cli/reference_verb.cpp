@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/whole_folder.h"
 #include "chart/reference.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
@@ -16,8 +17,6 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
   const scenario::Family family = scenario::read(command.scenario, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   const fs::path file = fs::path(command.out) / (family.name + "_reference.csv");
-  if (!command.out.empty() && !command.force && fs::exists(file))
-    throw InputError({file.string(), 0, 0}, "is there already; give another folder, or `--force`");
   const std::atomic<bool> stop = false;
   std::vector<std::pair<std::string, chart::Reference>> found;
   bool diverged = false;
@@ -37,6 +36,10 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
   const record::Table table = chart::reference_table(found);
   print(talk.json() ? json_lines(table) : record::csv_text(table));
   if (!command.out.empty()) {
+    if (!command.force && fs::exists(file) && !holds(file.string(), record::csv_text(table)))
+      throw InputError({file.string(), 0, 0},
+                       "is there already and says something else; give another folder, or "
+                       "`--force`");
     make_folders(file.parent_path().string());
     write_atomically(file.string(), record::csv_text(table));
   }

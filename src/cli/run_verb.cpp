@@ -1,10 +1,12 @@
 // `palpate run`: runs scenarios one after the other, and the cases of each in parallel.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <set>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "cli/answer_lines.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
@@ -25,35 +27,11 @@ void refuse_same_names(const std::vector<scenario::Family>& families) {
                            "`; rename one, or run them one by one with `--out`");
 }
 
-// Prints the remarks of all cases; of remarks that differ in numbers only, the first.
 void say_remarks(const std::vector<record::CaseRecord>& records, const Talk& talk) {
-  struct Kind {
-    std::string without_numbers;
-    std::string first;  // a sentence
-    std::string case_name;
-    int cases = 0;
-  };
-  std::vector<Kind> kinds;
+  std::vector<NamedSentence> remarks;
   for (const record::CaseRecord& record : records)
-    for (const std::string& remark : record.remarks) {
-      std::string bare = remark;
-      std::erase_if(bare, [](char c) {
-        return std::string_view("0123456789.e+-").find(c) != std::string_view::npos;
-      });
-      const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) {
-        return kind.without_numbers == bare;
-      });
-      if (known == kinds.end())
-        kinds.push_back({bare, remark, record.name, 1});
-      else
-        ++known->cases;
-    }
-  for (const Kind& kind : kinds)
-    talk.say(kind.case_name +
-             (kind.cases == 1 ? ""
-                              : ", and so in " + std::to_string(kind.cases - 1) + " more" +
-                                    (kind.cases == 2 ? " case" : " cases")) +
-             ": " + kind.first + ".");
+    for (const std::string& remark : record.remarks) remarks.push_back({record.name, remark + "."});
+  for (const std::string& line : said_once(remarks)) talk.say(line);
 }
 
 // A family with its scenes and its result folder, ready to run.
@@ -71,7 +49,8 @@ Prepared prepare(const scenario::Family& family, const Run& command, const Talk&
   prepared.workers =
       static_cast<int>(std::min(as_index(worker_count(command.jobs)), family.cases.size()));
   prepared.folder = std::make_unique<report::ResultFolder>(
-      command.out, family, command.force ? Replace::any : Replace::incomplete);
+      command.out, family, command.force ? Replace::any : Replace::incomplete,
+      report::origin_of(family));
   prepared.scenes = run::build_all(family, prepared.workers);
   return prepared;
 }
@@ -98,7 +77,10 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
     talk.event("case", {{"scenario", family.name},
                         {"case", record.name},
                         {"outcome", record::outcome_word(record.outcome)},
-                        {"reason", record.reason}});
+                        {"reason", record.reason},
+                        {"model", record.answer.model},
+                        {"error", record.answer.error},
+                        {"left_out", record.answer.left_out}});
   };
   const std::vector<record::CaseRecord> records =
       run::run_all(scenes, prepared.workers, stop_requested, finished);
@@ -123,10 +105,33 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   }
   const auto warnings = folder.finish(records, fits, {arguments.given, started});
   for (const std::string& warning : warnings) talk.warn(warning);
+  for (const std::string& line : answer_lines(records)) talk.say(line);
+  if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))
+    talk.say("The page to look at is " + page + ".");
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
            std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases"));
   talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
   return ran;
+}
+
+// What a run would do, as far as the built scenes tell.
+void say_plan(const Prepared& prepared, const Talk& talk) {
+  const std::size_t count = prepared.scenes.size();
+  std::string text = prepared.folder->path() + ": " + std::to_string(count) +
+                     (count == 1 ? " case" : " cases") + " would be computed and written here\n";
+  for (const scene::Scene& scene : prepared.scenes) {
+    const std::string model = scenario::rung(scene.scenario.solver.model).word;
+    const scene::Forecast* forecast = scene.choice.taken();
+    text += "  " + scene.name + ": " + model;
+    if (forecast != nullptr) text += ", error about " + percent_text(forecast->error);
+    if (scene.specimen) text += ", " + std::to_string(scene.specimen->network.nodes()) + " nodes";
+    text += "\n";
+    talk.event("planned", {{"scenario", prepared.family->name},
+                           {"case", scene.name},
+                           {"model", model},
+                           {"folder", prepared.folder->path()}});
+  }
+  if (!talk.json()) print(text);
 }
 
 }  // namespace
@@ -148,6 +153,10 @@ int perform(const Run& command, const Arguments& arguments, const Talk& talk) {
   // here a signal may end the program at once, because nothing has been written.
   std::vector<Prepared> all;
   for (const scenario::Family& family : families) all.push_back(prepare(family, command, talk));
+  if (command.dry) {
+    for (const Prepared& prepared : all) say_plan(prepared, talk);
+    return exit_good;
+  }
   const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);
   Ran ran;
   for (const Prepared& prepared : all) {

@@ -6,6 +6,7 @@
 #include "cli/table_text.h"
 #include "cli/verbs.h"
 #include "record/csv.h"
+#include "report/results.h"
 #include "stability/stability.h"
 
 namespace palpate::cli {
@@ -14,7 +15,8 @@ int perform(const Stability& command, const Arguments&, const Talk& talk) {
   const scenario::Family family = scenario::read(command.scenario, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   WholeFolder folder((std::filesystem::path(command.out) / (family.name + "_stability")).string(),
-                     "stability map", command.force ? Replace::any : Replace::incomplete);
+                     "stability map", command.force ? Replace::any : Replace::incomplete,
+                     report::origin_of(family));
   folder.refuse_what_is_there();
   const scenario::Case& one = family.cases.front();
   if (family.cases.size() > 1)

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
+#include "report/family_figures.h"
 #include "sweep/columns.h"
 #include "sweep/merge.h"
 #include "sweep/response.h"
@@ -65,18 +66,32 @@ std::string status_text(const sweep::SweepTotals& totals, const sweep::SweepResu
   return text;
 }
 
-// Writes sensitivity, maps and curves beside the table. Returns notes on what could not be
-// computed; this is no failure of the merge.
+// Writes sensitivity, maps, curves and the page beside the table. Returns notes on what could not
+// be computed; this is no failure of the merge.
 std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& command,
-                                 WholeFolder& folder) {
+                                 const sweep::SweepTotals& totals, WholeFolder& folder) {
   const scenario::Family& family = plan.family;
   if (family.design.empty()) return {};
   const sweep::SweepColumns columns =
       sweep::read_sweep_columns(folder.file("results.csv"), family.design, command.show);
   std::optional<plot::DrawOptions> options;
   if (family.base.output.figures) options.emplace();
-  if (options && family.base.output.pdf) options->format = plot::PictureFormat::svg_and_pdf;
-  return sweep::draw_sweep(columns, family.title, folder, options);
+  if (options) options->formats = report::picture_formats(family.base.output);
+  const sweep::Sensitivity found = sweep::sensitivity(columns);
+  std::vector<std::string> remarks =
+      sweep::draw_sweep(columns, found, family.title, folder, options);
+  if (family.base.output.report)
+    sweep::write_sweep_page(
+        {.columns = columns,
+         .found = found,
+         .title = family.title,
+         .totals = std::to_string(totals.completed) + " of " + cases_text(totals.cases) +
+                   " completed, " + std::to_string(totals.diverged + totals.failed) + " failed, " +
+                   std::to_string(totals.missing) + " missing.",
+         .scenario = family.inputs.front().content,
+         .remarks = remarks},
+        folder);
+  return remarks;
 }
 
 }  // namespace
@@ -105,7 +120,7 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   sweep::merge_sweep(plan, results, totals, folder);
   for (const std::string& warning :
        folder.put(totals.missing == 0 ? State::complete : State::incomplete,
-                  look_at(plan, command, folder)))
+                  look_at(plan, command, totals, folder)))
     talk.warn(warning);
   std::string text = folder.path() + ": " + std::to_string(totals.completed) + " of " +
                      cases_text(totals.cases) + " completed";

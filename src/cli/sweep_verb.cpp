@@ -1,6 +1,4 @@
 // `palpate sweep`: dispatches to its verbs.
-#include <csignal>
-
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
 #include "cli/verbs.h"
@@ -12,8 +10,6 @@ std::string cases_text(std::size_t count) {
 }
 
 int perform(const Sweep& command, const Arguments&, const Talk& talk) {
-  // A limit of file size must give an error message, like a full disk, and not end the program.
-  std::signal(SIGXFSZ, SIG_IGN);
   switch (command.act) {
     case Sweep::Act::plan: return sweep_plan(command, talk);
     case Sweep::Act::run:

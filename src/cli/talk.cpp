@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -32,13 +34,22 @@ std::string shown(const std::string& text) {
 
 }  // namespace
 
-Talk::Talk(const Manner& manner) : manner_(manner), terminal_(::isatty(STDERR_FILENO) == 1) {}
+Talk::Talk(const Manner& manner) : manner_(manner), terminal_(::isatty(STDERR_FILENO) == 1) {
+  const char* no_color = std::getenv("NO_COLOR");  // https://no-color.org: set and not empty
+  const char* term = std::getenv("TERM");
+  const bool dumb = term == nullptr || std::string_view(term) == "dumb";
+  colours_ = terminal_ && !dumb && !manner.no_colour && (no_color == nullptr || *no_color == '\0');
+}
 
 void Talk::say(const std::string& sentence) const {
   if (!manner_.quiet) std::fprintf(stderr, "%s\n", shown(sentence).c_str());
 }
 
-void Talk::warn(const std::string& sentence) const { say("warning: " + sentence); }
+void Talk::warn(const std::string& sentence) const {
+  if (!manner_.quiet && colours_) std::fputs("\033[33m", stderr);  // yellow
+  say("warning: " + sentence);
+  if (!manner_.quiet && colours_) std::fputs("\033[0m", stderr);
+}
 
 void Talk::error(const std::string& sentence) {
   std::fprintf(stderr, "%s\n", shown(sentence).c_str());

@@ -14,7 +14,7 @@ class Talk {
   explicit Talk(const Manner& manner);
 
   void say(const std::string& sentence) const;     // stderr, unless quiet
-  void warn(const std::string& sentence) const;    // stderr, unless quiet
+  void warn(const std::string& sentence) const;    // stderr, unless quiet; yellow on terminals
   static void error(const std::string& sentence);  // stderr, always
 
   // Replaces the previous progress line, on terminals only; an empty line removes it.
@@ -26,11 +26,13 @@ class Talk {
 
   // Whether progress() shows anything.
   [[nodiscard]] bool shows_progress() const { return terminal_ && !manner_.quiet && !manner_.json; }
+  [[nodiscard]] bool quiet() const { return manner_.quiet; }
   [[nodiscard]] bool json() const { return manner_.json; }
 
  private:
   Manner manner_;
   bool terminal_ = false;
+  bool colours_ = false;
 };
 
 // A progress bar of 20 characters, with the numbers: `[##########..........] 5/10`.

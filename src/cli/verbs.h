@@ -13,7 +13,8 @@ namespace palpate::cli {
 [[nodiscard]] int perform(const Fit& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Data& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Compare& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int perform(const Bless& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Index& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Golden& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Mesh& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Reference& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Bench& command, const Arguments& arguments, const Talk& talk);
@@ -23,6 +24,10 @@ namespace palpate::cli {
 [[nodiscard]] int perform(const Identify& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Export& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Device& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const New& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Open& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Schema& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Completion& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Manual& command, const Arguments& arguments, const Talk& talk);
 
 // `run --device`.

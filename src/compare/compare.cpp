@@ -53,7 +53,8 @@ ColumnComparison compare_column(const Table& got, const Table& want, const std::
     if (found.excess > 1.0) ++column.differing;
     if (found.excess <= most) continue;
     most = found.excess;
-    column.worst = {i + 1, a, b, found.relative, found.allowed};
+    column.worst = {
+        .row = i + 1, .got = a, .want = b, .relative = found.relative, .allowed = found.allowed};
   }
   return column;
 }
@@ -65,8 +66,10 @@ std::string cell_text(const Cell& cell) {
 }
 
 std::string worst_text(const WorstRow& worst) {
-  std::string text = "row " + std::to_string(worst.row) + ": got " + cell_text(worst.got) +
-                     ", want " + cell_text(worst.want);
+  std::string text = "row " + std::to_string(worst.row) + ": ";
+  if (!worst.case_name.empty()) text += "case `" + worst.case_name + "`, ";
+  if (!worst.x_name.empty()) text += worst.x_name + " " + cell_text(worst.x) + ", ";
+  text += "got " + cell_text(worst.got) + ", want " + cell_text(worst.want);
   if (std::isfinite(worst.relative))
     text += ", relative difference " + rounded_text(worst.relative, 3);
   const bool numbers =
@@ -75,27 +78,54 @@ std::string worst_text(const WorstRow& worst) {
   return text;
 }
 
-std::string column_text(const ColumnComparison& column) {
-  switch (column.state) {
-    case State::ignored: return column.name + ": ignored";
-    case State::missing: return column.name + ": DIFFERS, the column is missing";
-    case State::extra: return column.name + ": DIFFERS, the column is not wanted";
-    case State::compared: break;
-  }
-  if (!column.worst) return column.name + ": the same";
-  if (column.differing == 0) return column.name + ": equal; worst " + worst_text(*column.worst);
-  return column.name + ": DIFFERS in " + std::to_string(column.differing) +
-         (column.differing == 1 ? " row" : " rows") + "; worst " + worst_text(*column.worst);
+// The column that tells where in a curve a row is: that of the tube, or time, or travel.
+std::string x_of(const Table& table, const std::optional<Tube>& tube) {
+  if (tube && table.find(tube->x) >= 0) return tube->x;
+  for (const char* known : {"time_s", "travel_mm"})
+    if (table.find(known) >= 0) return known;
+  return "";
+}
+
+// Adds the case and the x of the worst row, unless it is the column itself that differs.
+void locate(ColumnComparison& column, const Table& got, const std::string& x) {
+  if (!column.worst || column.worst->row == 0) return;
+  const auto& row = got.rows[column.worst->row - 1];
+  if (const int at = got.find("case"); at >= 0 && column.name != "case")
+    if (const auto* word = std::get_if<std::string>(&row[as_index(at)]))
+      column.worst->case_name = *word;
+  if (x.empty() || x == column.name) return;
+  column.worst->x_name = x;
+  column.worst->x = row[as_index(got.find(x))];
 }
 
 }  // namespace
+
+std::string verdict_text(const ColumnComparison& column) {
+  switch (column.state) {
+    case State::ignored: return "ignored";
+    case State::missing: return "DIFFERS, the column is missing";
+    case State::extra: return "DIFFERS, the column is not wanted";
+    case State::compared: break;
+  }
+  if (!column.worst) return "the same";
+  if (column.differing == 0) return "equal; worst " + worst_text(*column.worst);
+  return "DIFFERS in " + std::to_string(column.differing) +
+         (column.differing == 1 ? " row" : " rows") + "; worst " + worst_text(*column.worst);
+}
+
+std::string rows_text(const Comparison& comparison) {
+  return "DIFFERS, got " + std::to_string(comparison.rows_got) + ", want " +
+         std::to_string(comparison.rows_want);
+}
 
 bool ColumnComparison::equal() const {
   return state == State::ignored || (state == State::compared && differing == 0);
 }
 
+bool Comparison::rows_equal() const { return rows_got == rows_want || !rows_compared; }
+
 bool Comparison::equal() const {
-  return (rows_got == rows_want || !rows_compared) &&
+  return rows_equal() &&
          std::all_of(columns.begin(), columns.end(), [](const auto& each) { return each.equal(); });
 }
 
@@ -121,15 +151,17 @@ Comparison compare(const Table& got, const Table& want, const Tolerances& tolera
     if (want.find(name) < 0)
       comparison.columns.push_back(
           {.name = name, .state = tolerances.of(name).ignore ? State::ignored : State::extra});
+  const std::string x = x_of(got, tube);
+  for (ColumnComparison& column : comparison.columns) locate(column, got, x);
   return comparison;
 }
 
-std::string comparison_text(const Comparison& comparison) {
+std::string comparison_text(const Comparison& comparison, Show show) {
   std::string text;
-  if (comparison.rows_compared && comparison.rows_got != comparison.rows_want)
-    text += "rows: DIFFERS, got " + std::to_string(comparison.rows_got) + ", want " +
-            std::to_string(comparison.rows_want) + "\n";
-  for (const ColumnComparison& column : comparison.columns) text += column_text(column) + "\n";
+  if (!comparison.rows_equal()) text += "rows: " + rows_text(comparison) + "\n";
+  for (const ColumnComparison& column : comparison.columns)
+    if (show == Show::all || !column.equal())
+      text += column.name + ": " + verdict_text(column) + "\n";
   return text;
 }
 

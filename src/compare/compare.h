@@ -13,7 +13,10 @@ namespace palpate::compare {
 
 // The row with the largest difference relative to the tolerance.
 struct WorstRow {
-  std::size_t row = 0;  // in GOT, counted from 1 below the header
+  std::size_t row = 0;         // in GOT, counted from 1 below the header
+  std::string case_name = {};  // the row's word in the column `case`; empty without one
+  std::string x_name = {};     // the column that tells where the row is; empty if there is none
+  record::Cell x = {};
   record::Cell got = {};
   record::Cell want = {};
   double relative =
@@ -38,6 +41,7 @@ struct Comparison {
   std::size_t rows_want = 0;
   bool rows_compared = true;  // row by row; false in a tube
 
+  [[nodiscard]] bool rows_equal() const;  // as many rows as wanted, or compared in a tube
   [[nodiscard]] bool equal() const;
 };
 
@@ -47,7 +51,13 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const record::Table& got, const record::Table& want,
                                  const Tolerances& tolerances);
 
+// Which columns a text lists: all of them, or those that differ.
+enum class Show { all, differing };
+
 // One line per column with its worst row; each line ends with `\n`.
-[[nodiscard]] std::string comparison_text(const Comparison& comparison);
+[[nodiscard]] std::string comparison_text(const Comparison& comparison, Show show = Show::all);
+// The part of the line after the column's name: what differs, where, and both values.
+[[nodiscard]] std::string verdict_text(const ColumnComparison& column);
+[[nodiscard]] std::string rows_text(const Comparison& comparison);  // the numbers of rows differ
 
 }  // namespace palpate::compare

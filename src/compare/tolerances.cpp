@@ -46,6 +46,8 @@ class Reader {
       if (member.key == "default") continue;
       if (member.key == "tube") {
         tube(member, tolerances.tube.emplace());
+        if (const Member* x = member.value.find("x"))
+          tolerances.places.emplace_back(tolerances.tube->x, x->value.place);
         continue;
       }
       if (member.key != "column") {
@@ -58,6 +60,7 @@ class Reader {
           tolerance.reason.clear();
           table(column, tolerance);
           tolerances.columns[column.key] = tolerance;
+          tolerances.places.emplace_back(column.key, column.place);
         }
       }
     }

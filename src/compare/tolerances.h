@@ -5,6 +5,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
 
 namespace palpate::compare {
 
@@ -27,6 +31,8 @@ struct Tolerances {
   Tolerance standard;
   std::map<std::string, Tolerance> columns = {};
   std::optional<Tube> tube = {};
+  // Where the file names a column, that of the tube included.
+  std::vector<std::pair<std::string, Place>> places = {};
 
   [[nodiscard]] const Tolerance& of(const std::string& column) const;
 };

@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "commands/pages.h"
 #include "emulator/arm_server.h"
 #include "emulator/line_gauge.h"
 #include "emulator/mark10_link.h"
@@ -197,8 +198,16 @@ int parse_and_run(int argc, const char* const* argv) {
   const CLI::App* arm_verb = add_inverse3(app, arm);
   const CLI::App* faults_verb = app.add_subcommand("faults", "lists the faults for --fault");
   app.require_subcommand(1);
+  app.set_help_all_flag("--man", "prints the man page")->group("");
   try {
     app.parse(argc, argv);
+  } catch (const CLI::CallForAllHelp&) {
+    std::fputs(palpate::commands::man_page(
+                   {"palpate-emulator", 1, "a test stand and a haptic arm, played", "palpate"},
+                   palpate::commands::describe(app), "")
+                   .c_str(),
+               stdout);
+    return 0;
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {

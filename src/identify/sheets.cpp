@@ -9,13 +9,6 @@
 namespace palpate::identify {
 namespace {
 
-const std::string style =
-    "set datafile separator comma\nset datafile columnheaders\nset datafile missing NaN\n"
-    "set border 3 linewidth 1.1 linecolor rgb '#404040'\n"
-    "set tics nomirror out scale 0.6 textcolor rgb '#202020' font ',9'\n"
-    "set grid linetype 1 linewidth 0.5 linecolor rgb '#dcdcdc'\n"
-    "set format x '%g'\nset format y '%g'\n";
-
 std::string label(const char* name, const Unit& unit) {
   return *unit.symbol == '\0' ? name : std::string(name) + " (" + unit.symbol + ")";
 }
@@ -37,8 +30,9 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
   const identify::CurveWords& words = identify::words_of(found.kind);
   const auto [x, y] = axes(found.kind);
   const std::string file = "'residuals.csv' using 1";
-  std::string text = plot::gnuplot_head("curve", 640) + style +
-                     "set multiplot\nset lmargin at screen 0.12\nset rmargin at screen 0.97\n";
+  std::string text = plot::gnuplot_head("curve", 640, 12) +
+                     "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.12\nset "
+                     "rmargin at screen 0.97\n";
   text += "set title " + plot::gnuplot_quoted(title + ": measured and fitted") +
           "\nset tmargin at screen 0.93\nset bmargin at screen 0.42\n"
           "set format x ''\nset ylabel " +
@@ -50,9 +44,9 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
           ":3 smooth unique with lines linewidth 1.6 linecolor rgb '#D55E00' title 'model'\n";
   text +=
       "unset title\nunset key\nset tmargin at screen 0.36\nset bmargin at screen 0.11\n"
-      "set format x '%g'\nset xlabel " +
+      "set format x '%.10g'\nset xlabel " +
       plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
-      plot::gnuplot_quoted(label("Residual", words.y)) +
+      plot::gnuplot_quoted(label("Measured - model", words.y)) +
       "\nplot \\\n  0 with lines linewidth 1 linecolor rgb '#909090', \\\n  " + file +
       ":4 with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'\nunset multiplot\n";
   return {.name = "curve", .script = text, .reads = {"residuals.csv"}};
@@ -62,9 +56,10 @@ plot::Sheet profile_sheet(const std::string& title, const identify::Identificati
   const std::size_t panels = found.unknowns.size();
   const std::size_t columns = std::min<std::size_t>(panels, 2);
   const std::size_t rows = (panels + columns - 1) / columns;
-  std::string text = plot::gnuplot_head("profile", static_cast<int>(120 + 300 * rows)) + style;
-  text += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) +
-          " title " + plot::gnuplot_quoted(title + ": profile likelihood, 95 % below the line") +
+  std::string text = plot::gnuplot_head("profile", static_cast<int>(120 + 300 * rows), 12);
+  text += "set datafile missing NaN\nset multiplot layout " + std::to_string(rows) + "," +
+          std::to_string(columns) + " title " +
+          plot::gnuplot_quoted(title + ": profile likelihood, 95 % below the line") +
           "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset xtics autofreq rotate by -30\n"
           "set yrange [0:*]\n";
   for (const identify::Identified& one : found.unknowns) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "base/field_reader.h"
 #include "base/files.h"
@@ -66,14 +67,25 @@ void require(const Node& table, const std::string& name, const Place& place,
   for (const char* key : {"density", "young_modulus", "poisson_ratio"}) {
     if (table.find(key) == nullptr && !nearest(key, unknown))
       problems.push_back({place, "`" + name + "` lacks `" + key + "`; add `" + key +
-                                     " = { value = ..., source = \"...\" }`"});
+                                     " = ...`, or `{ value = ..., source = \"...\" }`"});
   }
   for (const Member& member : table.members) {
     if (member.value.kind != Node::Kind::table || is_unknown(member.key)) continue;
-    for (const char* key : {"value", "source"})
-      if (member.value.find(key) == nullptr)
-        problems.push_back({member.place, "`" + member.key + "` lacks `" + key +
-                                              "`; write `{ value = ..., source = \"...\" }`"});
+    if (member.value.find("value") == nullptr)
+      problems.push_back({member.place, "`" + member.key +
+                                            "` lacks `value`; write `{ value = ..., "
+                                            "source = \"...\" }`"});
+  }
+}
+
+// `density = "1000 kg/m^3"` means the same as `density = { value = "1000 kg/m^3" }`.
+void wrap_values(Node& table) {
+  for (Member& member : table.members) {
+    if (member.key == "title" || member.value.kind == Node::Kind::table) continue;
+    Node wrapped;
+    wrapped.place = member.place;
+    wrapped.members.push_back({"value", member.value.place, member.value});
+    member.value = std::move(wrapped);
   }
 }
 
@@ -107,9 +119,11 @@ Found find(const std::string& name, const std::string& folder, const Place& plac
                                 " here: " + (known.empty() ? "none" : joined(known, ", ")) +
                                 "; your own tables are written `file.toml#name`");
   }
-  Reading reading = read_fields(
-      member->value, [&](FieldVisitor& visitor) { fields(visitor, found.tissue, member->value); });
-  require(member->value, table_name, member->place, reading.problems);
+  Node table = member->value;
+  wrap_values(table);
+  Reading reading =
+      read_fields(table, [&](FieldVisitor& visitor) { fields(visitor, found.tissue, table); });
+  require(table, table_name, member->place, reading.problems);
   sort_by_place(reading.problems);
   if (!reading.problems.empty()) throw InputError(reading.problems);
   if (found.tissue.title.empty()) found.tissue.title = table_name;

@@ -1,5 +1,6 @@
 // Steps of a mesh whose motion reaches the force.
 #include "mechanics/couplings.h"
+#include "mechanics/monitor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,8 +132,7 @@ std::optional<std::string> ConsistentWithInertia::step_with(Linearised& method, 
   drag_load(to.touch, *part, drag_);
   act(drag_);
   method.begin(part->state, part->time_step, modal ? MemoryRule::held : MemoryRule::first_order);
-  if (!method.linearise(part->state.displacement, acting_))
-    return "the tangent stiffness is not positive";
+  if (!method.linearise(part->state.displacement, acting_)) return not_positive;
   reached_ = method.base();
   if (auto wrong = meet(reached_, share, to)) return wrong;
   acting_ = share * (part->load - drag_);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "mechanics/couplings.h"
+#include "mechanics/monitor.h"
 #include "scenario/integrators.h"
 
 namespace palpate::mechanics {
@@ -41,7 +42,7 @@ std::optional<std::string> FromMesh::balance(Linearised& method, MemoryRule rule
   method.begin(part->state, part->time_step, rule);
   for (int i = 0; i < most_linearisations; ++i) {
     if (!linear) influence.forget();
-    if (!method.linearise(reached_, drag_)) return "the tangent stiffness is not positive";
+    if (!method.linearise(reached_, drag_)) return not_positive;
     next_ = touch;
     if (auto wrong = find(method.base(), next_)) return wrong;
     contact_load(next_, *part, part->other_load);
@@ -50,7 +51,7 @@ std::optional<std::string> FromMesh::balance(Linearised& method, MemoryRule rule
     moved_ += method.base();
     const double change = (moved_ - reached_).cwiseAbs().maxCoeff();
     reached_ = moved_;
-    if (!std::isfinite(change)) return "the motion is no longer finite";
+    if (!std::isfinite(change)) return not_finite;
     if (linear || change <= settled_length) {
       method.finish(part->state, reached_, part->other_load);
       std::swap(touch, next_);

@@ -37,12 +37,12 @@ std::optional<std::string> EnergyMonitor::account(double work, double lost, doub
   work_ += work;
   lost_ += lost;
   held_ = held;
-  if (!std::isfinite(held_) || !std::isfinite(work_)) return "the motion is no longer finite";
+  if (!std::isfinite(held_) || !std::isfinite(work_)) return not_finite;
   greatest_ = std::max(greatest_, given_ + work_);
   // Near the stability limit the energy of the highest mode oscillates by the factor
   // 1 / (1 - (omega dt / 2)^2), 5 at 0.9 of the limit; a factor above 10 is a real growth.
   constexpr double swing = 10.0;
-  if (held_ > swing * greatest_ && held_ > 1e-30) return "energy grew without input";
+  if (held_ > swing * greatest_ && held_ > 1e-30) return energy_grew;
   return std::nullopt;
 }
 

@@ -8,6 +8,15 @@
 
 namespace palpate::mechanics {
 
+// Sentences on runs that end early, each with a remedy.
+inline constexpr const char* not_finite =
+    "the motion is no longer finite; take a smaller `solver.time_step`, and no "
+    "`solver.allow_unstable`";
+inline constexpr const char* energy_grew =
+    "energy grew without input; take a smaller `solver.time_step`, and no `solver.allow_unstable`";
+inline constexpr const char* not_positive =
+    "the tangent stiffness is not positive; press less deep, or take a smaller `solver.time_step`";
+
 class EnergyMonitor {
  public:
   explicit EnergyMonitor(const scene::SpringBody& body) : body_(&body) {}

@@ -157,7 +157,7 @@ std::optional<std::string> ResolvedContact::solve(Influence& influence) {
       gaps[static_cast<Index>(k)] = candidates_[as_index(sought[k])].gap;
     Eigen::VectorXd forces;
     if (!contact::press_apart(changes(sought, Eigen::all), gaps, pressed, forces))
-      return "the mesh does not resist the finger's forces";
+      return "the mesh does not resist the finger's forces; set `tissue.base = \"bonded\"`";
     const Eigen::VectorXd opened = changes * forces;
     bool settled = true;
     for (Index i = 0; i < count; ++i) {
@@ -193,7 +193,8 @@ std::optional<std::string> ResolvedContact::press(Influence& influence) {
         change = std::max(change, (candidates_[i].moved - before[i]).norm());
     if (change <= settled) return std::nullopt;
   }
-  return "the sphere's normals did not settle in 100 iterations";
+  return "the sphere's normals did not settle in 100 iterations; take smaller cells in "
+         "`tissue.mesh`, or a smaller `solver.time_step`";
 }
 
 std::optional<std::string> ResolvedContact::find(const Vec3& finger,

@@ -16,7 +16,8 @@ bool presses_as_one(const scene::Scene& scene) {
 
 std::string hollow_text(double kappa_2) {
   return "the tissue is hollow and conforms to the finger (curvature " + rounded_text(kappa_2) +
-         " 1/m): Hertz does not hold there";
+         " 1/m): Hertz does not hold there; take a smaller `finger.radius`, or press elsewhere "
+         "(`finger.x`, `finger.y`)";
 }
 
 void clear_corner(Eigen::MatrixXd& matrix, Eigen::Index count) {

@@ -116,12 +116,17 @@ std::optional<std::string> SkinContacts::settle(Touch& touch, const Complete& co
     begin_pass(touch);
     const Eigen::MatrixXd& whole = complete(approaches_, compliance_);
     const std::optional<double> change = balance(touch.contacts, whole, part_of_way);
-    if (!change) return "no penetration balances the contact: the layer is too thin for this depth";
+    if (!change)
+      return "no penetration balances the contact: the layer is too thin for this depth; press "
+             "less "
+             "deep";
     if (*change <= settled) return std::nullopt;
     if (*change > 0.7 * change_before) part_of_way *= 0.6;
     change_before = *change;
   }
-  if (passes > 1) return "the contact radius did not settle in 100 iterations";
+  if (passes > 1)
+    return "the contact radius did not settle in 100 iterations; take a smaller "
+           "`solver.time_step`, or press less deep";
   shape_patches(touch.contacts);
   return std::nullopt;
 }

@@ -11,6 +11,7 @@
 #include "integrate/modal.h"
 #include "integrate/semi_implicit_euler.h"
 #include "integrate/tr_bdf2.h"
+#include "mechanics/monitor.h"
 #include "scene/scene.h"
 
 namespace palpate::mechanics {
@@ -19,7 +20,7 @@ namespace palpate::mechanics {
 inline constexpr double settled_length = 1e-12;
 inline constexpr int most_linearisations = 100;
 inline constexpr const char* not_settled =
-    "the non-linear equations did not settle in 100 iterations";
+    "the non-linear equations did not settle in 100 iterations; take a smaller `solver.time_step`";
 
 class Stepper {
  public:
@@ -74,10 +75,10 @@ template <class Linearised>
   displacement = state.displacement;
   method.begin(state, time_step, rule);
   for (int i = 0; i < most_linearisations; ++i) {
-    if (!method.linearise(displacement, load)) return "the tangent stiffness is not positive";
+    if (!method.linearise(displacement, load)) return not_positive;
     const double change = (method.base() - displacement).cwiseAbs().maxCoeff();
     displacement = method.base();
-    if (!std::isfinite(change)) return "the motion is no longer finite";
+    if (!std::isfinite(change)) return not_finite;
     if (body.linear() || change <= settled_length) {
       method.finish(state, displacement, load);
       return std::nullopt;

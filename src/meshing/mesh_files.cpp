@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "base/whole_folder.h"
 #include "meshing/gmsh_file.h"
 #include "meshing/table_lines.h"
 
@@ -144,23 +145,8 @@ bool belong_together(const Pair& files) {
 // The old nodes, while only the new ones are in their place: no system call replaces two files.
 std::string replaced(const Pair& files) { return files.node + ".replaced"; }
 
-}  // namespace
-
-geometry::TetMesh read_node_ele(const std::string& path, double metres_per_unit) {
-  const Pair files = both_files(path);
-  if (!belong_together(files))
-    throw InputError({files.ele, 0, 0},
-                     "belongs to other nodes than those of `" + files.node +
-                         "`, as after an interrupted `palpate mesh`; run that again, or rename `" +
-                         replaced(files) + "` to `" + files.node + "`");
-  geometry::TetMesh mesh;
-  const int first = read_nodes(TableLines(files.node), metres_per_unit, mesh);
-  read_tetrahedra(TableLines(files.ele), first, mesh);
-  return mesh;
-}
-
-void write_node_ele(const std::string& path, const geometry::TetMesh& mesh) {
-  const Pair files = both_files(path);
+// The contents of the .node and the .ele file of a mesh.
+std::pair<std::string, std::string> node_ele_texts(const geometry::TetMesh& mesh) {
   std::string nodes = std::to_string(mesh.nodes.size()) + " 3 0 0\n";
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     nodes += std::to_string(n);
@@ -176,6 +162,33 @@ void write_node_ele(const std::string& path, const geometry::TetMesh& mesh) {
     tetrahedra += "\n";
   }
   tetrahedra += belongs_to + sha256(nodes) + "\n";
+  return {nodes, tetrahedra};
+}
+
+}  // namespace
+
+geometry::TetMesh read_node_ele(const std::string& path, double metres_per_unit) {
+  const Pair files = both_files(path);
+  if (!belong_together(files))
+    throw InputError({files.ele, 0, 0},
+                     "belongs to other nodes than those of `" + files.node +
+                         "`, as after an interrupted `palpate mesh`; run that again, or rename `" +
+                         replaced(files) + "` to `" + files.node + "`");
+  geometry::TetMesh mesh;
+  const int first = read_nodes(TableLines(files.node), metres_per_unit, mesh);
+  read_tetrahedra(TableLines(files.ele), first, mesh);
+  return mesh;
+}
+
+bool holds_node_ele(const std::string& path, const geometry::TetMesh& mesh) {
+  const Pair files = both_files(path);
+  const auto [nodes, tetrahedra] = node_ele_texts(mesh);
+  return holds(files.node, nodes) && holds(files.ele, tetrahedra);
+}
+
+void write_node_ele(const std::string& path, const geometry::TetMesh& mesh) {
+  const Pair files = both_files(path);
+  const auto [nodes, tetrahedra] = node_ele_texts(mesh);
   namespace fs = std::filesystem;
   std::error_code failed;
   if (fs::exists(replaced(files)) && fs::exists(files.ele) && !belong_together(files))

@@ -22,6 +22,9 @@ namespace palpate::meshing {
 // SystemError if a file cannot be written.
 void write_node_ele(const std::string& path, const geometry::TetMesh& mesh);
 
+// Whether both files exist and are what write_node_ele() would write. `path` names either file.
+[[nodiscard]] bool holds_node_ele(const std::string& path, const geometry::TetMesh& mesh);
+
 // Reads .node and .ele as above, or Gmsh's .msh as in gmsh_file.h, as the ending says. Throws
 // InputError for another ending too.
 [[nodiscard]] geometry::TetMesh read_mesh(const std::string& path, double metres_per_unit);

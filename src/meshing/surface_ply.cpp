@@ -87,7 +87,7 @@ Header header(const std::string& path, std::string_view content) {
     const std::vector<std::string> words = words_of(text);
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info" || line == 1) continue;
     if (words[0] == "end_header") break;
-    if (words[0] == "format" && words.size() == 3) {
+    if (words[0] == "format" && words.size() == 3 && words[2] == "1.0") {
       header.format = words[1];
     } else if (words[0] == "element" && words.size() == 3) {
       const double count = whole_number(words[2]).value_or(-1.0);

@@ -24,10 +24,19 @@ struct Series {
   double scale = 1.0;      // factor of y for display, of the fits too; stated in a default label
   std::string label = {};  // in the legend; empty: the case's name
   std::vector<FittedCurve> fits = {};
-  std::optional<int> step = {};  // rows of this step only
+  std::optional<int> step = {};      // rows of this step only
+  std::optional<double> shade = {};  // with a colour bar: the value that gives the colour; such
+                                     // series have one legend entry per label
 };
 
 enum class Axis { linear, logarithmic };
+
+// Colours by a number: from `low` to `high`, with a bar beside the plot.
+struct ColourBar {
+  std::string label = {};
+  double low = 0.0, high = 1.0;
+  Axis scale = Axis::linear;
+};
 
 struct Figure {
   std::string name = {};  // the files' name without its ending
@@ -36,7 +45,9 @@ struct Figure {
   std::string y_label = {};
   std::string fit_label = {};  // legend entry of all fits together
   Axis y_axis = Axis::linear;
+  double y_low = 0.0, y_high = 0.0;  // of a logarithmic axis, in the unit of the CSV file
   std::vector<Series> series = {};
+  std::optional<ColourBar> bar = {};
 };
 
 }  // namespace palpate::plot

@@ -91,9 +91,7 @@ Drawing draw(const Sheet& sheet, const std::string& folder, const DrawOptions& o
   const std::string script = sheet.name + ".gp";
   write_atomically((fs::path(folder) / script).string(), sheet.script);
   drawing.files.push_back(script);
-  std::vector<std::string> formats{"svg"};
-  if (options.format == PictureFormat::svg_and_pdf) formats.push_back("pdf");
-  for (const std::string& format : formats) {
+  for (const std::string& format : options.formats) {
     const Picture picture = draw_picture(sheet, format, folder, options);
     if (picture.drawn) drawing.files.push_back(sheet.name + "." + format);
     if (!drawing.warning.empty() && !picture.warning.empty()) drawing.warning += "\n";

@@ -9,14 +9,12 @@
 
 namespace palpate::plot {
 
-enum class PictureFormat { svg, svg_and_pdf };
-
 // The script NAME.gp, which reads the folder's CSV files by relative paths and writes NAME.svg, or
-// NAME.pdf if run as `gnuplot -e "format='pdf'" NAME.gp`.
+// NAME.pdf if run as `gnuplot -e "format='pdf'" NAME.gp`; `png` likewise.
 [[nodiscard]] std::string gnuplot_script(const Figure& figure);
 
 struct DrawOptions {
-  PictureFormat format = PictureFormat::svg;
+  std::vector<std::string> formats{"svg"};  // and `pdf`, `png`
   std::string program = "gnuplot";
   double limit = 30.0;  // s, per picture
 };

@@ -1,5 +1,6 @@
-// The text of a gnuplot script.
+// The text of the script of a figure with curves.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "base/text.h"
@@ -11,27 +12,80 @@ namespace {
 
 // Opacity of the data lines, so that a fit on top of them is visible.
 constexpr const char* pale = "70";
+// The last tenth of the palette is yellow, which is hard to see as a line on white.
+constexpr double brightest = 0.9;
 
-std::string frame(const Figure& figure) {
-  std::string text =
-      "set datafile separator comma\n"
-      "set datafile columnheaders\n"
-      "set title " +
-      gnuplot_quoted(figure.title) +
-      "\n"
-      "set xlabel " +
-      gnuplot_quoted(figure.x_label) +
-      "\n"
-      "set ylabel " +
-      gnuplot_quoted(figure.y_label) +
-      "\n"
-      "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
-      "set tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
-      "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n"
-      "set key outside right top Left reverse samplen 2.6 spacing 1.25 width -2\n"
-      "set tmargin 2.5\n"
-      "set samples 500\n";
-  if (figure.y_axis == Axis::logarithmic) text += "set logscale y\nset format y '%g'\n";
+std::string label(const Series& series) {
+  if (!series.label.empty()) return series.label;
+  return series.scale == 1.0 ? series.case_name
+                             : series.case_name + " × " + number_text(series.scale);
+}
+
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;  // not the later bytes of a letter
+  }));
+}
+
+// Where the legend is and how large it makes the picture.
+struct Legend {
+  std::vector<std::string> labels = {};  // in the order of the series, each once
+  std::size_t lines = 0;
+  std::size_t rows = 0;     // below the plot, where several labels stand side by side
+  bool below = false;       // long labels beside the plot would leave no place for it
+  bool beside_bar = false;  // the bar is beside the plot: short labels stand in rows below
+
+  explicit Legend(const Figure& figure) {
+    std::size_t longest = 0;
+    bool fits = false;
+    for (const Series& series : figure.series) {
+      fits = fits || !series.fits.empty();
+      if (std::find(labels.begin(), labels.end(), label(series)) == labels.end())
+        labels.push_back(label(series));
+      longest = std::max(longest, letters(labels.back()));
+    }
+    if (labels.size() == 1 && !fits) return;
+    lines = labels.size() + (fits ? 1 : 0);
+    if (fits) longest = std::max(longest, letters(figure.fit_label));
+    constexpr std::size_t most_letters_beside = 18;
+    below = longest > most_letters_beside;
+    constexpr std::size_t letters_of_a_row = 90, sample = 8;
+    const std::size_t columns = std::max<std::size_t>(1, letters_of_a_row / (longest + sample));
+    rows = (lines + columns - 1) / columns;
+    beside_bar = figure.bar.has_value();
+  }
+
+  [[nodiscard]] int height() const {
+    constexpr int plot = 500, line = 20;
+    const int text = line * static_cast<int>(lines);
+    if (below) return plot + line * static_cast<int>(rows);
+    return beside_bar ? plot + (lines > 0 ? 60 : 0) : std::max(plot, 120 + text);
+  }
+};
+
+std::string frame(const Figure& figure, const Legend& legend) {
+  std::string text = "set title " + gnuplot_quoted(figure.title) + "\nset xlabel " +
+                     gnuplot_quoted(figure.x_label) + "\nset ylabel " +
+                     gnuplot_quoted(figure.y_label) + "\nset tmargin 2.5\nset samples 500\n";
+  if (legend.lines == 0)
+    text += "unset key\nset rmargin 3\n";
+  else if (legend.below)
+    text += "set key below vertical maxrows " + std::to_string(legend.rows) +
+            " height 1 Left reverse samplen 2.6 spacing 1.25\nset rmargin 3\n";
+  else if (legend.beside_bar)
+    text += "set key below horizontal height 1 Left reverse samplen 2.6 spacing 1.25\n";
+  else
+    text += "set key outside right top Left reverse samplen 2.6 spacing 1.25 width -2\n";
+  if (figure.y_axis == Axis::logarithmic && figure.y_high > figure.y_low)
+    text += "set yrange [" + rounded_text(figure.y_low, 6) + ":" + rounded_text(figure.y_high, 6) +
+            "]\n" + gnuplot_logarithmic("y", figure.y_low, figure.y_high);
+  if (figure.bar) {
+    const ColourBar& bar = *figure.bar;
+    text += gnuplot_palette(brightest) + "set cbrange [" + number_text(bar.low) + ":" +
+            number_text(bar.high) + "]\nset cblabel " + gnuplot_quoted(bar.label) +
+            " offset 1,0\nset colorbox\n";
+    if (bar.scale == Axis::logarithmic) text += gnuplot_logarithmic("cb", bar.low, bar.high);
+  }
   return text;
 }
 
@@ -51,12 +105,6 @@ std::string scaled(double scale, const std::string& value) {
   return scale == 1.0 ? value : number_text(scale) + "*" + value;
 }
 
-std::string label(const Series& series) {
-  if (!series.label.empty()) return series.label;
-  return series.scale == 1.0 ? series.case_name
-                             : series.case_name + " × " + number_text(series.scale);
-}
-
 // The x of a series' rows; for other rows it is NaN, so that gnuplot skips them.
 std::string x_expression(const Series& series) {
   const std::string x = gnuplot_column(series.x_column);
@@ -71,88 +119,79 @@ std::string x_expression(const Series& series) {
   return condition.empty() ? "(" + x + ")" : "(" + condition + " ? " + x + " : NaN)";
 }
 
-std::string data_line(const Series& series, std::size_t i) {
-  const std::string colour = gnuplot_colours[i % gnuplot_colours.size()];
-  const std::string data = gnuplot_quoted(series.csv_file) + " using " + x_expression(series) +
-                           ":(" + scaled(series.scale, gnuplot_column(series.y_column)) + ")";
+// How a series is drawn: by its place in the list, or by its shade and its label.
+struct Look {
+  std::string colour;
+  std::size_t marker = 0;
+};
+Look look_of(const Figure& figure, const Legend& legend, std::size_t i) {
+  const Series& series = figure.series[i];
+  if (!figure.bar || !series.shade) return {line_colours[i % line_colours.size()], i};
+  const ColourBar& bar = *figure.bar;
+  const auto onto = [&](double value) {
+    return bar.scale == Axis::logarithmic ? std::log(value) : value;
+  };
+  const double width = onto(bar.high) - onto(bar.low);
+  const double share = width > 0.0 ? (onto(*series.shade) - onto(bar.low)) / width : 0.5;
+  const auto place = std::find(legend.labels.begin(), legend.labels.end(), label(series));
+  return {palette_colour(brightest * share),
+          static_cast<std::size_t>(place - legend.labels.begin())};
+}
+
+std::string point_style(std::size_t marker) {
+  return " pointtype " + std::to_string(gnuplot_markers[marker % gnuplot_markers.size()]) +
+         " pointsize 0.55 pointnumber 14";
+}
+
+std::string data_line(const Figure& figure, const Legend& legend, std::size_t i) {
+  const Series& series = figure.series[i];
+  const Look look = look_of(figure, legend, i);
+  const std::string width = figure.bar ? "1.8" : "3.5";
   // What was measured is drawn as points, what was computed as a line.
   if (series.y_column.starts_with("measured_"))
-    return data + " with points linewidth 1.2 linecolor rgb '#" + colour +
+    return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
+           scaled(series.scale, gnuplot_column(series.y_column)) +
+           ") with points linewidth 1.2 linecolor rgb '#" + look.colour +
            "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
-  return data + " with linespoints linewidth 3.5 linecolor rgb '#" + pale + colour +
-         "' pointtype " + std::to_string(gnuplot_markers[i % gnuplot_markers.size()]) +
-         " pointsize 0.55 pointnumber 14 title " + gnuplot_quoted(label(series));
+  return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
+         scaled(series.scale, gnuplot_column(series.y_column)) + ") with linespoints linewidth " +
+         width + " linecolor rgb '#" + (series.fits.empty() ? "" : pale) + look.colour + "'" +
+         point_style(look.marker) +
+         (figure.bar || legend.lines == 0 ? " notitle" : " title " + gnuplot_quoted(label(series)));
 }
 
 std::string fit_line(const Series& series, const FittedCurve& fit, const std::string& function,
-                     std::size_t i) {
+                     const std::string& colour) {
   const std::string x = fit.origin == 0.0 ? "x" : "x - (" + number_text(fit.origin) + ")";
   return "[" + number_text(fit.from) + ":" + number_text(fit.to) + "] " +
          scaled(series.scale, function + "(" + x + ")") +
-         " with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#" +
-         std::string(gnuplot_colours[i % gnuplot_colours.size()]) + "' notitle noautoscale";
+         " with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#" + colour +
+         "' notitle noautoscale";
 }
 
 }  // namespace
 
-std::string gnuplot_column(const std::string& name) {
-  return "column(" + gnuplot_quoted(name) + ")";
-}
-
-// A text that begins with an apostrophe would be read as an empty one, with a word behind it.
-// Double quotes are for such apostrophes only, because gnuplot runs commands in them.
-std::string gnuplot_quoted(const std::string& text) {
-  const std::size_t first = std::min(text.find_first_not_of('\''), text.size());
-  std::string result = first == 0 ? "'" : "\"" + text.substr(0, first) + "\".'";
-  for (const char c : text.substr(first)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f)
-      result += ' ';
-    else if (c == '\'')
-      result += "''";
-    else
-      result += c;
-  }
-  return result + "'";
-}
-
-std::string gnuplot_head(const std::string& name, int height) {
-  const std::string script = name + ".gp";
-  return "# Run in this folder: gnuplot " + script +
-         "\n"
-         "# For a PDF: gnuplot -e \"format='pdf'\" " +
-         script +
-         "\n"
-         "if (!exists(\"format\")) format = 'svg'\n"
-         "if (!exists(\"target\")) target = " +
-         gnuplot_quoted(name + ".") +
-         ".format\n"
-         "if (format eq 'pdf') {\n"
-         "  set terminal pdfcairo noenhanced size 18cm," +
-         rounded_text(0.022 * height, 3) +
-         "cm font 'sans-serif,11' linewidth 1.1\n"
-         "} else {\n"
-         "  set terminal svg noenhanced size 820," +
-         std::to_string(height) + " font 'sans-serif,15' name " + gnuplot_quoted(name) +
-         " background '#ffffff'\n"
-         "}\n"
-         "set encoding utf8\n"
-         "set output target\n";
-}
-
 std::string gnuplot_script(const Figure& figure) {
+  const Legend legend(figure);
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < figure.series.size(); ++i)
-    lines.push_back(data_line(figure.series[i], i));
+    lines.push_back(data_line(figure, legend, i));
+  if (figure.bar) {
+    for (std::size_t k = 0; k < legend.labels.size() && legend.lines > 0; ++k)
+      lines.push_back("keyentry with linespoints linewidth 1.8 linecolor rgb '#505050'" +
+                      point_style(k) + " title " + gnuplot_quoted(legend.labels[k]));
+    lines.push_back("NaN with lines linecolor palette notitle");  // without it there is no bar
+  }
   const std::size_t data_lines = lines.size();
   for (std::size_t i = 0; i < figure.series.size(); ++i)
     for (std::size_t k = 0; k < figure.series[i].fits.size(); ++k)
-      lines.push_back(fit_line(figure.series[i], figure.series[i].fits[k], function_name(i, k), i));
+      lines.push_back(fit_line(figure.series[i], figure.series[i].fits[k], function_name(i, k),
+                               look_of(figure, legend, i).colour));
   if (lines.size() > data_lines)  // one legend entry for all fits
     lines.push_back("NaN with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#404040' title " +
                     gnuplot_quoted(figure.fit_label));
-  return gnuplot_head(figure.name, 500) + frame(figure) + functions(figure) + "plot \\\n  " +
-         joined(lines, ", \\\n  ") + "\n";
+  return gnuplot_head(figure.name, legend.height()) + frame(figure, legend) + functions(figure) +
+         "plot \\\n  " + joined(lines, ", \\\n  ") + "\n";
 }
 
 }  // namespace palpate::plot

@@ -1,15 +1,13 @@
-// Parts that all scripts for gnuplot share.
+// Parts that all scripts for gnuplot share: the one style of all figures.
 #pragma once
 
 #include <array>
 #include <string>
 
+#include "plot/palette.h"
+
 namespace palpate::plot {
 
-// Okabe and Ito's colours (2008), which colour-blind readers can distinguish, without the yellow,
-// which is invisible on white. With 7 colours and 6 markers, 42 series differ.
-inline constexpr std::array<const char*, 7> gnuplot_colours{"0072B2", "D55E00", "009E73", "CC79A7",
-                                                            "E69F00", "56B4E9", "000000"};
 inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 
 // The text in single quotes: quotes are doubled, line breaks become spaces.
@@ -18,7 +16,20 @@ inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 // The value in a row of the CSV column with this name: `column('NAME')`.
 [[nodiscard]] std::string gnuplot_column(const std::string& name);
 
-// The head of the script NAME.gp: how to run it, terminal and output; 820 x `height` pixels.
-[[nodiscard]] std::string gnuplot_head(const std::string& name, int height);
+// The head of the script NAME.gp: how to run it, terminal, output and the style of data, frame,
+// ticks and grid; 820 x `height` pixels, with ticks in `tick_font` pixels.
+[[nodiscard]] std::string gnuplot_head(const std::string& name, int height, int tick_font = 14);
+
+// A number on an axis or a page, with `digits` significant digits: `0.02`, `500`, `2×10⁶`.
+[[nodiscard]] std::string tick_text(double value, int digits = 5);
+
+// A logarithmic scale with its ticks for the axis `x`, `y` or `cb` from `low` to `high`, both
+// positive: each power of ten is labelled, and 2 and 5 times it if the range is short.
+[[nodiscard]] std::string gnuplot_logarithmic(const std::string& axis, double low, double high);
+// A linear scale again.
+[[nodiscard]] std::string gnuplot_linear(const std::string& axis);
+
+// `set palette ...` for the colours of palette_colour() up to `most`.
+[[nodiscard]] std::string gnuplot_palette(double most = 1.0);
 
 }  // namespace palpate::plot

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -46,6 +47,8 @@ class Setup {
   posix_spawnattr_t attributes;
 };
 
+constexpr std::size_t most_output = std::size_t{1} << 20;
+
 // Reads until the other end is closed. Returns false if `end` comes first.
 bool drain(int pipe, Clock::time_point end, std::string& output) {
   std::array<char, 4096> buffer;
@@ -55,7 +58,7 @@ bool drain(int pipe, Clock::time_point end, std::string& output) {
     pollfd waiting{pipe, POLLIN, 0};
     if (::poll(&waiting, 1, static_cast<int>(left)) <= 0) continue;
     const ssize_t got = ::read(pipe, buffer.data(), buffer.size());
-    if (got > 0) output.append(buffer.data(), as_index(got));
+    if (got > 0) output.append(buffer.data(), std::min(as_index(got), most_output - output.size()));
     if (got == 0 || (got < 0 && errno != EINTR)) return true;
   }
 }

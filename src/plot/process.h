@@ -11,7 +11,7 @@ struct ProcessResult {
 
   End end = End::exited;
   int code = 0;             // exit status, or the number of the signal if killed
-  std::string output = {};  // stdout and stderr in one
+  std::string output = {};  // stdout and stderr in one, the first MiB
 };
 
 struct Command {

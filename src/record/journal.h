@@ -18,7 +18,8 @@ namespace palpate::record {
 // the row, of `identity` and of the version of this format, so that rows of another plan or chart,
 // or of another version, are recognised.
 [[nodiscard]] std::string sealed_line(const Table& row, std::string_view identity);
-// The row of such a line, given without its line feed; nothing if the seal does not match.
+// The row of such a line, given without its line feed; nothing if the seal does not match
+// or the content is not one row.
 [[nodiscard]] std::optional<Table> read_line(std::string_view line, std::string_view identity);
 
 // The value in a column of a one-row table; null if the column is missing or has another type.

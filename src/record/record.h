@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/tet_mesh.h"
+#include "record/answer.h"
 #include "record/pressure_map.h"
 #include "record/scene_picture.h"
 #include "record/table.h"
@@ -81,6 +82,7 @@ struct CaseRecord {
   ScenePicture picture;  // without faces if no picture is requested
   std::vector<Finding> findings;
   std::vector<std::string> remarks;  // sentences on the validity of the result
+  Answer answer;                     // of a case that has ended
   std::string chosen;                // values chosen for `auto`: `key = word`, comma-separated
   double seconds = 0.0;              // run time, for run.json only
   std::vector<std::pair<std::string, std::string>> attached;  // files of a live run: name, content

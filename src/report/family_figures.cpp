@@ -4,127 +4,251 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
+#include "base/units.h"
+#include "report/case_colours.h"
 #include "report/figures.h"
 
 namespace palpate::report {
 namespace {
 
-bool has_step(const scenario::Scenario& scenario, bool (*is)(const scenario::Step&)) {
-  return std::any_of(scenario.steps.begin(), scenario.steps.end(), is);
+using Records = std::vector<record::CaseRecord>;
+
+template <class Kind>
+bool has_step(const scenario::Scenario& scenario) {
+  return std::any_of(scenario.steps.begin(), scenario.steps.end(),
+                     [](const scenario::Step& step) { return std::holds_alternative<Kind>(step); });
 }
 
-bool is_logarithmic(const fit::NamedFit& named) {
-  // The fit of a scaled curve is left out: the figure scales this fit instead.
-  return named.curve == "force_indentation" && named.fit.model == fit::Model::logarithmic;
+double display_scale(const scenario::Family& family, const record::CaseRecord& record) {
+  const auto& scales = family.base.output.display_scale;
+  const auto scale = scales.find(record.name);
+  return scale == scales.end() ? 1.0 : scale->second;
 }
-bool is_creep(const fit::NamedFit& named) {
-  return named.curve == "creep" || named.curve == "recovery";
-}
-bool is_relaxation(const fit::NamedFit& named) { return named.curve == "relaxation"; }
 
-std::vector<plot::Series> series_of(const scenario::Family& family,
-                                    const std::vector<record::CaseRecord>& records,
-                                    const std::vector<fit::NamedFit>& fits,
-                                    bool (*wanted)(const fit::NamedFit&)) {
+// One series per case, without fits; if there are many cases, coloured by a swept number.
+plot::Figure with_cases(plot::Figure (*figure)(std::vector<plot::Series>),
+                        const scenario::Family& family, const Records& records) {
+  const std::optional<CaseColours> colours = case_colours(family);
   std::vector<plot::Series> all;
   for (const record::CaseRecord& record : records) {
-    plot::Series series;
-    series.case_name = record.name;
-    const auto& scales = family.base.output.display_scale;
-    const auto scale = scales.find(record.name);
-    if (scale != scales.end()) series.scale = scale->second;
-    for (const fit::NamedFit& named : fits) {
-      if (named.case_name != record.name || !wanted(named)) continue;
-      if (const auto curve = fitted_curve(named.fit)) series.fits.push_back(*curve);
+    plot::Series series{.case_name = record.name, .scale = display_scale(family, record)};
+    if (colours) {
+      const auto& [shade, label] = colours->cases.at(record.name);
+      series.shade = shade;
+      series.label = label;
     }
     all.push_back(series);
+  }
+  plot::Figure made = figure(std::move(all));
+  if (colours) made.bar = colours->bar;
+  return made;
+}
+
+// Draws the fits of these curves and models; `also` is the curve that is drawn beside `curve`.
+void add_fits(plot::Figure& figure, const std::vector<fit::NamedFit>& fits,
+              const std::string& curve, const std::optional<fit::Model>& model = {},
+              const std::string& also = {}) {
+  for (plot::Series& series : figure.series)
+    for (const fit::NamedFit& named : fits) {
+      // The fit of a scaled curve has another name and is left out: the figure scales this fit.
+      if (named.case_name != series.case_name || (model && named.fit.model != *model) ||
+          (named.curve != curve && (also.empty() || named.curve != also)))
+        continue;
+      if (const auto drawn = fitted_curve(named.fit)) series.fits.push_back(*drawn);
+    }
+}
+
+// Chooses a logarithmic axis if the largest values of the series differ so much that some would lie
+// on a linear axis. `depth` is the factor from the smallest of them down to the axis.
+void choose_axis(plot::Figure& figure, const std::vector<double>& peaks, double depth) {
+  constexpr double wide = 30.0;  // a curve of a thirtieth of the height cannot be told from 0
+  double low = INFINITY, high = 0.0;
+  for (const double peak : peaks) {
+    if (!(peak > 0.0)) continue;
+    low = std::min(low, peak);
+    high = std::max(high, peak);
+  }
+  if (!(high > wide * low) || !std::isfinite(low)) return;
+  figure.y_axis = plot::Axis::logarithmic;
+  figure.y_low = low / depth;
+  figure.y_high = 1.5 * high;
+}
+
+template <class Row>
+std::vector<double> peaks(const scenario::Family& family, const Records& records,
+                          std::vector<Row> record::CaseRecord::*rows, double Row::*value) {
+  std::vector<double> all;
+  for (const record::CaseRecord& record : records) {
+    double peak = 0.0;
+    for (const Row& row : record.*rows) peak = std::max(peak, row.*value);
+    all.push_back(display_scale(family, record) * peak);
   }
   return all;
 }
 
 bool has_measured_force(const record::CaseRecord& record) {
   return std::any_of(record.measured.begin(), record.measured.end(),
-                     [](const auto& row) { return std::isfinite(row.force); });
+                     [](const record::MeasuredRow& row) { return std::isfinite(row.force); });
 }
 
-// The number (from 1) of the first step for which `is` is true; 0 if there is none.
-int first_step(const scenario::Scenario& scenario, bool (*is)(const scenario::Step&)) {
-  const auto found = std::find_if(scenario.steps.begin(), scenario.steps.end(), is);
-  return found == scenario.steps.end() ? 0 : static_cast<int>(found - scenario.steps.begin()) + 1;
+// The regression that the scenario asks for, with the range of its R2 in the legend.
+void add_regression(plot::Figure& figure, const scenario::Family& family,
+                    const std::vector<fit::NamedFit>& fits) {
+  using Regression = scenario::Output::Regression;
+  const Regression asked = family.base.output.regression;
+  if (asked == Regression::none) return;
+  const fit::Model model = asked == Regression::logarithmic ? fit::Model::logarithmic
+                           : asked == Regression::power     ? fit::Model::power
+                                                            : fit::Model::exponential;
+  add_fits(figure, fits, "force_indentation", model);
+  double low = INFINITY, high = -INFINITY;
+  for (const fit::NamedFit& named : fits) {
+    if (named.curve != "force_indentation" || named.fit.model != model) continue;
+    low = std::min(low, named.fit.r2);
+    high = std::max(high, named.fit.r2);
+  }
+  figure.fit_label = asked == Regression::logarithmic ? "a + b ln h"
+                     : asked == Regression::power     ? "A h^n"
+                                                      : "B (exp(m h) - 1)";
+  if (!std::isfinite(low) || !std::isfinite(high)) return;
+  const std::string from = rounded_text(low, 2), to = rounded_text(high, 2);
+  figure.fit_label += ", R² " + (from == to ? from : from + "–" + to);
 }
 
-bool is_slide(const scenario::Step& step) { return std::holds_alternative<scenario::Slide>(step); }
+// The number (from 1) of the first step of this kind; 0 if there is none.
+template <class Kind>
+int first_step(const scenario::Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i)
+    if (std::holds_alternative<Kind>(scenario.steps[i])) return static_cast<int>(i) + 1;
+  return 0;
+}
 
 // Force over curvature, with one curve per material if `tissue.material` is swept. Nothing if the
 // cases have fewer than three different curvatures.
 std::optional<plot::Figure> curvature_figure(const scenario::Family& family,
-                                             const std::vector<record::CaseRecord>& records) {
-  std::vector<double> curvatures;
+                                             const Records& records) {
+  std::vector<double> curvatures, forces;
   for (const record::CaseRecord& record : records)
-    for (const record::Finding& finding : record.findings)
+    for (const record::Finding& finding : record.findings) {
       if (finding.name == "local_curvature_per_m")
         curvatures.push_back(std::get<double>(finding.value));
+      if (finding.name == "peak_force_N") forces.push_back(std::get<double>(finding.value));
+    }
   std::sort(curvatures.begin(), curvatures.end());
   curvatures.erase(std::unique(curvatures.begin(), curvatures.end()), curvatures.end());
   if (curvatures.size() < 3) return std::nullopt;
   std::vector<plot::Series> all;
   const std::vector<std::string>& keys = family.design.keys();
   const auto swept = std::find(keys.begin(), keys.end(), "tissue.material");
-  if (swept == keys.end()) return figure_force_curvature({{.label = "all cases"}});
+  if (swept == keys.end()) all.push_back({.label = "all cases"});
   for (const scenario::Case& one : family.cases) {
+    if (swept == keys.end()) break;
     const std::string& material = one.swept[as_index(swept - keys.begin())].second;
     if (std::none_of(all.begin(), all.end(),
                      [&](const plot::Series& series) { return series.case_name == material; }))
       all.push_back({.case_name = material, .column = "tissue.material"});
   }
-  return figure_force_curvature(all);
+  plot::Figure figure = figure_force_curvature(all);
+  choose_axis(figure, forces, 1.5);
+  return figure;
+}
+
+// Model and device over time; nothing if the run was not live or the device gave no force.
+std::optional<plot::Figure> live_figure(const Records& records) {
+  bool measured = false, sent = false;
+  for (const record::CaseRecord& record : records) {
+    measured = measured || has_measured_force(record);
+    for (const record::MeasuredRow& row : record.measured)
+      sent = sent || std::isfinite(row.sent[2]);
+  }
+  if (!measured && !sent) return std::nullopt;
+  std::vector<plot::Series> all;
+  if (measured) all.push_back({.y_column = "measured_force_N", .label = "measured"});
+  if (sent) all.push_back({.y_column = "sent_force_N", .label = "sent to the arm"});
+  all.push_back({.y_column = "force_N", .label = "model"});
+  plot::Figure figure = figure_force_time(all);
+  figure.name = "figure_live_force";
+  return figure;
+}
+
+std::vector<plot::Figure> press_figures(const scenario::Family& family, const Records& records,
+                                        const std::vector<fit::NamedFit>& fits) {
+  std::vector<plot::Figure> figures;
+  const std::vector<double> forces =
+      peaks(family, records, &record::CaseRecord::contact, &record::ContactRow::force);
+  constexpr double two_decades = 100.0;
+  figures.push_back(with_cases(figure_force_indentation, family, records));
+  choose_axis(figures.back(), forces, two_decades);
+  add_regression(figures.back(), family, fits);
+  for (const record::CaseRecord& record : records)
+    if (has_measured_force(record)) {
+      plot::Series measured{.csv_file = figures.back().series.front().csv_file,
+                            .case_name = record.name,
+                            .x_column = figures.back().series.front().x_column,
+                            .y_column = "measured_force_N",
+                            .label = "measured"};
+      figures.back().series.push_back(measured);
+    }
+  if (has_step<scenario::Hold>(family.base)) {
+    figures.push_back(with_cases(figure_force_time, family, records));
+    choose_axis(figures.back(), forces, two_decades);
+  }
+  if (const int slide = first_step<scenario::Slide>(family.base)) {
+    const auto& step = std::get<scenario::Slide>(family.base.steps[as_index(slide) - 1]);
+    const bool keeps_force = step.keep == scenario::Slide::Keep::force;
+    plot::Figure along =
+        with_cases(keeps_force ? figure_travel_slide : figure_force_slide, family, records);
+    for (plot::Series& series : along.series) series.step = slide;
+    if (!keeps_force) choose_axis(along, forces, two_decades);
+    figures.push_back(along);
+    for (plot::Series& series : figures.front().series) series.step = 1;  // not the slide
+  }
+  if (const auto figure = curvature_figure(family, records)) figures.push_back(*figure);
+  if (const auto figure = live_figure(records)) figures.push_back(*figure);
+  return figures;
+}
+
+std::vector<plot::Figure> uniform_figures(const scenario::Family& family, const Records& records,
+                                          const std::vector<fit::NamedFit>& fits) {
+  std::vector<plot::Figure> figures;
+  constexpr double two_decades = 100.0;
+  if (has_step<scenario::Creep>(family.base)) {
+    const bool solid = family.base.tissue.viscosity == tissue::Viscosity::standard_linear_solid;
+    plot::Figure figure = with_cases(figure_strain_time, family, records);
+    add_fits(figure, fits, "creep", {}, "recovery");
+    figure.fit_label = solid ? "Standard linear solid fit" : "Kelvin-Voigt fit";
+    choose_axis(figure,
+                peaks(family, records, &record::CaseRecord::strain, &record::StrainRow::strain),
+                two_decades);
+    figures.push_back(figure);
+  }
+  if (has_step<scenario::Relax>(family.base)) {
+    plot::Figure figure = with_cases(figure_stress_time, family, records);
+    add_fits(figure, fits, "relaxation");
+    std::vector<double> stresses =
+        peaks(family, records, &record::CaseRecord::strain, &record::StrainRow::stress);
+    for (double& stress : stresses) stress = unit::kPa.from_si(stress);
+    choose_axis(figure, stresses, two_decades);
+    figures.push_back(figure);
+  }
+  return figures;
 }
 
 }  // namespace
 
-std::vector<plot::Figure> family_figures(const scenario::Family& family,
-                                         const std::vector<record::CaseRecord>& records,
+std::vector<std::string> picture_formats(const scenario::Output& output) {
+  std::vector<std::string> formats{"svg"};
+  if (output.pdf) formats.emplace_back("pdf");
+  if (output.png) formats.emplace_back("png");
+  return formats;
+}
+
+std::vector<plot::Figure> family_figures(const scenario::Family& family, const Records& records,
                                          const std::vector<fit::NamedFit>& fits) {
-  std::vector<plot::Figure> figures;
-  if (records.empty()) return figures;
-  if (!family.base.uniform()) {
-    std::vector<plot::Series> forces = series_of(family, records, fits, is_logarithmic);
-    for (const record::CaseRecord& record : records)
-      if (has_measured_force(record))
-        forces.push_back(
-            {.case_name = record.name, .y_column = "measured_force_N", .label = "measured"});
-    figures.push_back(figure_force_indentation(forces));
-    if (const int slide = first_step(family.base, is_slide)) {
-      const auto nothing = [](const fit::NamedFit&) { return false; };
-      std::vector<plot::Series> along = series_of(family, records, fits, nothing);
-      for (plot::Series& series : along) series.step = slide;
-      const auto& step = family.base.steps[as_index(slide) - 1];
-      const bool keeps_force = std::get<scenario::Slide>(step).keep == scenario::Slide::Keep::force;
-      figures.push_back(keeps_force ? figure_travel_slide(along) : figure_force_slide(along));
-      for (plot::Series& series : figures.front().series) series.step = 1;  // not the slide
-    }
-    if (const auto figure = curvature_figure(family, records)) figures.push_back(*figure);
-  } else {
-    const bool solid = family.base.tissue.viscosity == tissue::Viscosity::standard_linear_solid;
-    const char* const fit_label = solid ? "Standard linear solid fit" : "Kelvin-Voigt fit";
-    if (has_step(family.base, [](const scenario::Step& step) {
-          return std::holds_alternative<scenario::Creep>(step);
-        })) {
-      plot::Figure figure = figure_strain_time(series_of(family, records, fits, is_creep));
-      figure.fit_label = fit_label;
-      figures.push_back(figure);
-    }
-    if (has_step(family.base, [](const scenario::Step& step) {
-          return std::holds_alternative<scenario::Relax>(step);
-        })) {
-      plot::Figure figure = figure_strain_time(series_of(family, records, fits, is_relaxation));
-      figure.name = "figure_stress_time";
-      figure.y_label = "Stress (kPa)";
-      figure.fit_label = "Standard linear solid fit";
-      for (plot::Series& series : figure.series) series.y_column = "stress_kPa";
-      figures.push_back(figure);
-    }
-  }
+  if (records.empty()) return {};
+  std::vector<plot::Figure> figures = family.base.uniform() ? uniform_figures(family, records, fits)
+                                                            : press_figures(family, records, fits);
   for (plot::Figure& figure : figures) figure.title = family.title;
   return figures;
 }

@@ -10,6 +10,9 @@
 
 namespace palpate::report {
 
+// The endings of the pictures that a scenario asks for: `svg`, then `pdf` and `png`.
+[[nodiscard]] std::vector<std::string> picture_formats(const scenario::Output& output);
+
 // Presses: force over indentation with its logarithmic regression; force or travel along a slide;
 // force over curvature if the cases have three curvatures or more. Uniform tests: strain over time
 // for creep, stress over time for relaxation, with their fits.

@@ -49,7 +49,6 @@ plot::Figure figure_force_indentation(std::vector<plot::Series> series) {
           .title = "Palpation force against indentation",
           .x_label = "Indentation h (mm)",
           .y_label = "Force F (N)",
-          .fit_label = "fit F = a + b ln h",
           .series =
               completed(std::move(series), {"force_indentation.csv", "indentation_mm", "force_N"})};
 }
@@ -87,6 +86,23 @@ plot::Figure figure_strain_time(std::vector<plot::Series> series) {
           .y_label = "Strain",
           .fit_label = "Kelvin-Voigt fit",
           .series = completed(std::move(series), {"strain_time.csv", "time_s", "strain"})};
+}
+
+plot::Figure figure_stress_time(std::vector<plot::Series> series) {
+  return {.name = "figure_stress_time",
+          .title = "Stress against time",
+          .x_label = "Time (s)",
+          .y_label = "Stress (kPa)",
+          .fit_label = "Standard linear solid fit",
+          .series = completed(std::move(series), {"strain_time.csv", "time_s", "stress_kPa"})};
+}
+
+plot::Figure figure_force_time(std::vector<plot::Series> series) {
+  return {.name = "figure_force_time",
+          .title = "Force against time",
+          .x_label = "Time (s)",
+          .y_label = "Force F (N)",
+          .series = completed(std::move(series), {"force_indentation.csv", "time_s", "force_N"})};
 }
 
 std::optional<plot::FittedCurve> fitted_curve(const fit::Fit& fit) {

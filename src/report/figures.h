@@ -27,6 +27,12 @@ namespace palpate::report {
 // Strain against time (Figure 7 of the paper): strain_time.csv, time_s, strain.
 [[nodiscard]] plot::Figure figure_strain_time(std::vector<plot::Series> series);
 
+// Stress against time in relaxation: strain_time.csv, time_s, stress_kPa.
+[[nodiscard]] plot::Figure figure_stress_time(std::vector<plot::Series> series);
+
+// Force over time, for holds and live runs: force_indentation.csv, time_s, force_N.
+[[nodiscard]] plot::Figure figure_force_time(std::vector<plot::Series> series);
+
 // A fit as a curve over its range of x; nothing if an estimate is not finite.
 [[nodiscard]] std::optional<plot::FittedCurve> fitted_curve(const fit::Fit& fit);
 

@@ -9,9 +9,11 @@
 #include "base/files.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
+#include "record/swept_column.h"
 #include "report/exr.h"
 #include "report/family_figures.h"
 #include "report/manifest.h"
+#include "report/run_page.h"
 #include "report/scene_picture.h"
 #include "report/vtu.h"
 #include "tissue/strain.h"
@@ -33,13 +35,32 @@ std::string case_file(const char* stem, std::size_t index, std::size_t cases, co
   return numbered((std::string(stem) + "_case").c_str(), index + 1, ending);
 }
 
+const scenario::Case& case_of(const scenario::Family& family, const record::CaseRecord& record) {
+  return *std::find_if(family.cases.begin(), family.cases.end(),
+                       [&](const auto& other) { return other.name == record.name; });
+}
+
+// The columns of the swept keys, with their units.
+std::vector<record::SweptColumn> swept_columns(const scenario::Family& family,
+                                               const std::vector<record::CaseRecord>& records) {
+  std::vector<record::SweptColumn> columns;
+  for (const std::string& key : family.design.keys()) columns.emplace_back(key);
+  for (const record::CaseRecord& record : records) {
+    const scenario::Case& one = case_of(family, record);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i].see(record::swept_cell(one.swept[i].second));
+  }
+  return columns;
+}
+
 }  // namespace
 
 record::Table findings_table(const scenario::Family& family,
                              const std::vector<record::CaseRecord>& records) {
   record::Table table;
   table.columns = {"case"};
-  for (const std::string& key : family.design.keys()) table.columns.push_back(key);
+  const std::vector<record::SweptColumn> swept = swept_columns(family, records);
+  for (const record::SweptColumn& column : swept) table.columns.push_back(column.name());
   const std::size_t fixed = table.columns.size();
   for (const record::CaseRecord& record : records)
     for (const record::Finding& finding : record.findings)
@@ -47,9 +68,9 @@ record::Table findings_table(const scenario::Family& family,
   for (const record::CaseRecord& record : records) {
     std::vector<record::Cell> row(table.columns.size());
     row[0] = record.name;
-    const auto one = std::find_if(family.cases.begin(), family.cases.end(),
-                                  [&](const auto& other) { return other.name == record.name; });
-    for (std::size_t i = 1; i < fixed; ++i) row[i] = one->swept[i - 1].second;
+    const scenario::Case& one = case_of(family, record);
+    for (std::size_t i = 1; i < fixed; ++i)
+      row[i] = swept[i - 1].cell(record::swept_cell(one.swept[i - 1].second));
     for (const record::Finding& finding : record.findings)
       row[as_index(table.find(finding.name))] = finding.value;
     table.rows.push_back(row);
@@ -86,8 +107,16 @@ CsvFiles csv_files(const scenario::Family& family, const std::vector<record::Cas
   return files;
 }
 
-ResultFolder::ResultFolder(const std::string& out, const scenario::Family& family, Replace replace)
-    : family_(&family), folder_((fs::path(out) / family.name).string(), "result", replace) {
+std::string origin_of(const scenario::Family& family) {
+  std::string text;
+  for (const scenario::InputFile& input : family.inputs)
+    text += input.name + " " + sha256(input.content) + "\n";
+  return text + scenario::echo(family);
+}
+
+ResultFolder::ResultFolder(const std::string& out, const scenario::Family& family, Replace replace,
+                           const std::string& origin)
+    : family_(&family), folder_((fs::path(out) / family.name).string(), "result", replace, origin) {
   folder_.refuse_what_is_there();
 }
 
@@ -144,6 +173,7 @@ void ResultFolder::write_tissue(const std::vector<record::CaseRecord>& records) 
 }
 
 void ResultFolder::write_pictures(const std::vector<record::CaseRecord>& records) {
+  if (!family_->base.output.picture) return;
   const bool several = family_->cases.size() > 1;
   for (std::size_t i = 0; i < records.size(); ++i)
     if (!records[i].picture.faces.empty())
@@ -183,12 +213,18 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   write_tissue(records);
   write_pictures(records);
 
+  std::vector<plot::Figure> figures;
   if (family_->base.output.figures) {
     plot::DrawOptions options;
-    if (family_->base.output.pdf) options.format = plot::PictureFormat::svg_and_pdf;
-    for (const plot::Figure& figure : family_figures(*family_, records, fits))
+    options.formats = picture_formats(family_->base.output);
+    figures = family_figures(*family_, records, fits);
+    for (const plot::Figure& figure : figures)
       plot::draw(plot::sheet_of(figure), folder_, warnings, options);
   }
+
+  if (family_->base.output.report)
+    write_run_page({.family = *family_, .records = records, .fits = fits, .figures = figures},
+                   folder_);
 
   Manifest manifest = begin_manifest(origin, family_->inputs);
   manifest.outputs = folder_.files();

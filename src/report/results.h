@@ -24,11 +24,17 @@ using CsvFiles = std::vector<std::pair<std::string, record::Table>>;
                                  const std::vector<record::CaseRecord>& records,
                                  const std::vector<fit::NamedFit>& fits);
 
+// A text that is equal for two families if both have the same inputs and settings, so that a run of
+// one repeats that of the other: for WholeFolder.
+[[nodiscard]] std::string origin_of(const scenario::Family& family);
+
 // The folder OUT/NAME of a family. During the run, finished cases are in OUT/NAME.partial-PID.
 class ResultFolder {
  public:
-  // Throws InputError if OUT/NAME exists and may not be replaced. Creates nothing yet.
-  ResultFolder(const std::string& out, const scenario::Family& family, Replace replace);
+  // Throws InputError if OUT/NAME exists and may not be replaced. Creates nothing yet. `origin` is
+  // that of WholeFolder: empty for a live run, which nothing can repeat.
+  ResultFolder(const std::string& out, const scenario::Family& family, Replace replace,
+               const std::string& origin = {});
 
   // Creates the partial folder. Throws SystemError if that fails.
   void open() { folder_.open(); }

@@ -265,6 +265,8 @@ constexpr const char* gradient =
 
 }  // namespace
 
+std::string region_colour(int region) { return hex(colour(region), 1.0); }
+
 std::string scene_svg(const ScenePicture& picture, const std::string& title) {
   assert(!picture.faces.empty());
   const View view = fitting(picture);

@@ -15,4 +15,7 @@ namespace palpate::report {
 // text has about 60 bytes per visible triangle. The same picture gives the same bytes.
 [[nodiscard]] std::string scene_svg(const record::ScenePicture& picture, const std::string& title);
 
+// The colour of a region, as `#ecbca0`.
+[[nodiscard]] std::string region_colour(int region);
+
 }  // namespace palpate::report

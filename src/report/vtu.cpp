@@ -1,6 +1,7 @@
 // Writes VTK's XML files with numbers in base64.
 #include "report/vtu.h"
 
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -55,9 +56,12 @@ std::string array(std::string_view type, const std::string& name, const std::str
          " format=\"binary\">" + base64(bytes) + "</DataArray>\n";
 }
 
-std::string doubles(const std::string& name, int components, const std::vector<double>& values) {
-  const std::string attributes =
+std::string doubles(const std::string& name, int components, const std::vector<double>& values,
+                    std::span<const char* const> component_names = {}) {
+  std::string attributes =
       components == 1 ? "" : " NumberOfComponents=\"" + std::to_string(components) + "\"";
+  for (std::size_t i = 0; i < component_names.size(); ++i)
+    attributes += " ComponentName" + std::to_string(i) + "=\"" + component_names[i] + "\"";
   return array("Float64", name, attributes, values);
 }
 
@@ -120,7 +124,8 @@ std::string cell_data(const VtuFrame& frame) {
       volume_changes.push_back(strain[0] + strain[1] + strain[2]);
       equivalents.push_back(equivalent(strain, volume_changes.back()));
     }
-    text += doubles("strain", 6, components) + doubles("volume_change", 1, volume_changes) +
+    constexpr std::array names{"xx", "yy", "zz", "xy", "yz", "xz"};
+    text += doubles("strain", 6, components, names) + doubles("volume_change", 1, volume_changes) +
             doubles("equivalent_strain", 1, equivalents);
   }
   return text + "</CellData>\n";

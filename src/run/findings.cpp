@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "run/answer.h"
 #include "run/known_failures.h"
 #include "run/readings.h"
 #include "scenario/integrators.h"
@@ -47,6 +48,7 @@ class Findings {
                "for what happens in them; set a shorter `output.interval` or more "
                "`solver.substeps`");
     }
+    record_.answer = answer(scene_, expected_, record_);
   }
 
  private:
@@ -178,8 +180,9 @@ class Findings {
       add("predicted_error", forecast->error);
       const bool states =
           scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent;
-      add("stated_error",
-          states ? forecast->error - forecast->of_mesh + peak.mesh_error : forecast->error);
+      const auto stated =
+          stated_error(scene_, expected_, states ? std::optional(peak.mesh_error) : std::nullopt);
+      add("stated_error", stated.value_or(forecast->error));
     }
     if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
     const scene::SurfaceTouch& touch = scene_.choice.touch;
@@ -197,56 +200,16 @@ class Findings {
   void validity(const record::ContactRow& peak) {
     const auto coupling = scene_.scenario.contact.coupling;
     const scene::Estimates& e = expected_;
-    const double tolerance = scene_.scenario.solver.tolerance;
     const bool mesh = rung_.meshed();
     const double depth = peak.indentation / scene_.law().radius;
     const auto& ratio = scene_.choice.depth_ratio;
-    if (!contact::mesh_is_tissue(coupling)) {
-      if (ratio && peak.travel > ratio->last_depth() && depth > 0.1)
-        remark("the travel reached " + quantity_text(peak.travel, unit::mm) +
-               ", and the factor for deep presses is known up to " +
-               quantity_text(ratio->last_depth(), unit::mm) + " here: the force is off by about " +
-               percent_text(std::abs(e.deep) + e.deep_error) +
-               "; press less deep, or compare with `coupling = \"resolved\"`");
-      else if (depth > 0.1 && !scene_.depth_ratio)
-        remark("the indentation reached " + rounded_text(depth, 2) +
-               " of the sphere's radius: in neo-Hookean tissue the force would be " +
-               (e.deep < 0.0 ? "lower" : "higher") + " by about " + percent_text(std::abs(e.deep)) +
-               (ratio ? "; `contact.depth = \"neo_hookean\"` takes this into account" : ""));
-    }
-    if (!rung_.thickness || coupling == contact::Coupling::one_way) {
-      if (e.thickness * e.tissue_share > tolerance)
-        remark("the force is that of a half-space: at this thickness it would be higher by about " +
-               percent_text(e.thickness));
-      if (e.sides > tolerance)
-        remark("the force is that of a half-space: free sides this near would lower it by about " +
-               percent_text(e.sides));
-      if (e.curved_body > tolerance)
-        remark(
-            "the force is that of an infinite body of this curvature: the finite width would "
-            "change it by up to about " +
-            percent_text(e.curved_body));
-    }
-    if (rung_.thickness && !rung_.sides && e.sides > tolerance)
-      remark("the layer has no sides: free sides this near would lower the force by about " +
-             percent_text(e.sides));
-    if (scene_.relaxation.elastic() && (!contact::mesh_is_tissue(coupling) || rung_.solid) &&
-        e.viscous > 0.2 * tolerance)
-      remark(
-          "the contact force is that of the relaxed tissue; with the tissue's viscosity it would "
-          "be "
-          "higher by about " +
-          percent_text(e.viscous) + " while it is pressed" +
-          (rung_.solid ? "" : ": give `contact.viscosity = \"tissue\"`"));
-    if (!rung_.inertia && e.inertia > tolerance)
-      remark("the formula leaves out the tissue's mass: waves would add about " +
-             percent_text(e.inertia) + " to the force of a press this fast");
-    if (rung_.inertia && e.inertia > tolerance && !scene::inertia_reaches_force(scene_.scenario) &&
-        !contact::mesh_is_tissue(coupling))
-      remark("the tissue's mass does not reach the contact force: waves would add about " +
-             percent_text(e.inertia) +
-             " at this rate; take an integrator with inertia and `viscosity = \"none\"`, or "
-             "`coupling = \"resolved\"`");
+    if (!contact::mesh_is_tissue(coupling) && ratio && peak.travel > ratio->last_depth() &&
+        depth > 0.1)
+      remark("the travel reached " + quantity_text(peak.travel, unit::mm) +
+             ", and the factor for deep presses is known up to " +
+             quantity_text(ratio->last_depth(), unit::mm) + " here: the force is off by about " +
+             percent_text(std::abs(e.deep) + e.deep_error) +
+             "; press less deep, or compare with `coupling = \"resolved\"`");
     if (mesh && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
              percent_text(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +

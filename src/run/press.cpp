@@ -75,7 +75,8 @@ class Press {
     first_ = scene::first_touch(scene).finger;
     touch_.finger = first_;
     if (scene.scenario.output.tissue) record_.mesh = scene.specimen->mesh;
-    if (scene.scenario.output.picture) record_.picture = make_picture(scene);
+    if (scene.scenario.output.picture || scene.scenario.output.report)
+      record_.picture = make_picture(scene);
   }
 
   void run() {
@@ -115,9 +116,9 @@ class Press {
       record_.findings.push_back({"sinking_mm", unit::mm.from_si(deepest_sinking_)});
     if (!mesh_ && (scene_.scenario.output.tissue || scene_.scenario.output.picture))
       record_.remarks.push_back(
-          "there is no mesh to show: `auto` chose `" +
-          std::string(scenario::rung(scene_.scenario.solver.model).word) +
-          "`; set `solver.model = \"mass_spring\"` for `output.tissue` and `output.picture`");
+          "`" + std::string(scenario::rung(scene_.scenario.solver.model).word) +
+          "` has no mesh to show; set `solver.model = \"coupled_springs\"` for `output.tissue` and "
+          "`output.picture`");
     if (on_crease_)
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "
@@ -164,8 +165,8 @@ class Press {
     const Pace pace = begin(motion);
     const double start = time_;
     for (int row = 0; row < pace.rows; ++row) {
-      if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
       for (int k = 1; k <= pace.steps; ++k) {
+        if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
         const double time = pace.time(row, k);
         if (!advance(motion, time, start + time)) return false;
         if (touch_.force() >= motion.force) {
@@ -184,7 +185,9 @@ class Press {
         folded_at_ = touch_.travel;
       }
     }
-    if (to_force) return diverged("the force of the step was not reached");
+    if (to_force)
+      return diverged(
+          "the force of the step was not reached; give a smaller force, or a travel as `to`");
     return true;
   }
 
@@ -237,7 +240,7 @@ class Press {
       if (!mesh_->forces_follow_finger() || std::abs(missing) <= 1e-9 * kept_force_)
         return std::nullopt;
     }
-    return "no depth gives the force that the slide keeps";
+    return "no depth gives the force that the slide keeps; give a smaller force before the slide";
   }
 
   bool diverged(const std::string& reason) {

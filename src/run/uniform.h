@@ -10,7 +10,7 @@
 namespace palpate::run {
 
 // Runs every `creep` or `relax` step as a separate test of an unloaded specimen; time continues
-// from step to step. If `stop` is set, the case ends as interrupted at the next row.
+// from step to step. If `stop` is set, the case ends as interrupted after some steps.
 void load_uniformly(const scene::Scene& scene, const std::atomic<bool>& stop,
                     record::CaseRecord& record);
 

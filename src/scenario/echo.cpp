@@ -115,6 +115,25 @@ std::string echo(const Family& family, const Chosen& chosen) {
   return text;
 }
 
+namespace {
+
+const std::string tissue_manual = R"(
+## Tissues of your own
+
+`tissue.material = "my_tissues.toml#gel"` takes the table `[gel]` of the file my_tissues.toml beside the scenario. A table needs `density`, `young_modulus` (of the relaxed tissue) and `poisson_ratio`:
+
+```
+[gel]
+density       = "1020 kg/m^3"
+young_modulus = "12 kPa"
+poisson_ratio = 0.45
+```
+
+On a mesh, and in the contact with `contact.viscosity = "tissue"`, the viscous law needs its property too: `retardation_time` for `kelvin_voigt`, which is the default, `relaxation_time` and `instantaneous_ratio` for `standard_linear_solid`, `drag` for `nodal_drag`; nothing for `none` and `prony`. A table may have a `title` for figures, and a property may say where it comes from: `young_modulus = { value = "12 kPa", source = "our rheometer, 2026" }`. A copy of the file is part of every result.
+)";
+
+}  // namespace
+
 std::string manual() {
   Scenario defaults;
   const std::string keys =
@@ -125,9 +144,13 @@ std::string manual() {
          "`\"72.4 kPa\"`, `\"5 mm/s\"`, `\"1100 kg/m^3\"`), pure numbers are bare. Unknown keys, "
          "wrong dimensions and keys that the chosen model cannot use are errors with file, line "
          "and column. `--set key=value` sets a key from the command line "
-         "(`--set tissue.young_modulus=\"60 kPa\"`, `--set step.1.to=\"2 mm\"`).\n\n"
-         "`[sweep]` makes a family of cases; it is described [at the end](#sweep).\n" +
-         keys + sweep_manual();
+         "(`--set tissue.young_modulus=\"60 kPa\"`, `--set step.1.to=\"2 mm\"`), also an entry of "
+         "a "
+         "list (`--set tissue.shape.size.3=\"40 mm\"`). A step is appended by its number and kind: "
+         "`--set step.2.kind=hold --set step.2.time=\"1 s\"`; so is a region.\n\n"
+         "Tissues of your own are described [below](#tissues-of-your-own), and `[sweep]`, which "
+         "makes a family of cases, [at the end](#sweep).\n" +
+         keys + tissue_manual + sweep_manual();
 }
 
 }  // namespace palpate::scenario

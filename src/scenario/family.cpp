@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "scenario/find.h"
 #include "scenario/trial.h"
 
 namespace palpate::scenario {
@@ -40,6 +41,9 @@ Opened open(const std::string& text, const std::string& path,
   return opened;
 }
 
+// The standard input has no name of its own.
+std::string name_of(const std::string& found) { return found == "-" ? "stdin" : found; }
+
 }  // namespace
 
 Family parse(const std::string& text, const std::string& path,
@@ -61,7 +65,8 @@ Family parse(const std::string& text, const std::string& path,
 }
 
 Family read(const std::string& path, const std::vector<std::string>& settings) {
-  return parse(read_text(path), path, settings);
+  const std::string found = find(path);
+  return parse(read_text(found), name_of(found), settings);
 }
 
 Family parse_case(const std::string& text, const std::string& path,
@@ -87,7 +92,8 @@ Family outline_text(const std::string& text, const std::string& path,
 }
 
 Family outline(const std::string& path, const std::vector<std::string>& settings) {
-  return outline_text(read_text(path), path, settings);
+  const std::string found = find(path);
+  return outline_text(read_text(found), name_of(found), settings);
 }
 
 Case make_case(const Family& family, std::size_t i) {

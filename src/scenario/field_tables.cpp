@@ -172,7 +172,19 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
                output.pressure_maps);
   visitor.flag({"fits", "Regressions of the curves."}, output.fits);
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
+  visitor.flag({"report", "A page with answer, figures and findings, `report.html`."},
+               output.report);
+  visitor.choice({"paper",
+                  "Which figure of Chen 2007 the page sets its results beside.",
+                  {output.report, "with `report`", Use::Otherwise::note}},
+                 output.paper, papers);
   visitor.flag({"pdf", "Figures as PDF too."}, output.pdf);
+  visitor.flag({"png", "Figures as PNG too."}, output.png);
+  visitor.choice(
+      {"regression",
+       "The regression of `fits.csv` that is drawn over the force in figures.",
+       {output.fits && output.figures, "with `fits` and `figures`", Use::Otherwise::note}},
+      output.regression, regressions);
   visitor.flag(
       {"tissue", "The deformed mesh at the end of every step, for ParaView.", use.pressed_mesh},
       output.tissue);

@@ -269,18 +269,24 @@ struct Relax {
 using Step = std::variant<Indent, Hold, Retract, Slide, Creep, Relax>;
 
 struct Output {
+  enum class Regression { none, logarithmic, power, exponential };
+  enum class Paper { none, figure_6, figure_7 };
   double interval = 1e-3;        // s
   std::vector<double> force_at;  // m, indentations at which the force is a finding
   bool pressure_maps = true;
   bool fits = true;
   bool figures = true;
+  bool report = true;         // report.html
+  Paper paper = Paper::none;  // compared on the page
   bool pdf = false;
+  bool png = false;
+  Regression regression = Regression::none;     // drawn over the force in figures
   bool tissue = false;                          // deformed meshes for ParaView
   bool picture = false;                         // of the scene
   std::map<std::string, double> display_scale;  // by case, only for figures and fits
 
-  // Leaves rows as the only result of a run: no maps, no deformed meshes and no picture.
-  void keep_rows_only() { pressure_maps = tissue = picture = false; }
+  // Leaves rows as the only result of a run: no maps, no deformed meshes, no picture and no page.
+  void keep_rows_only() { pressure_maps = tissue = picture = report = false; }
 };
 
 struct PlainScenario {

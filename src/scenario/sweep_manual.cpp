@@ -7,7 +7,7 @@ std::string sweep_manual() {
   return R"(
 ## `[sweep]`
 
-Makes a family of cases. Any key of this manual can be swept by its dotted path: `"finger.radius"`, `"step.1.to"`, and whole tables such as `"tissue.shape"`; an entry of a list (`"tissue.shape.size.3"`) if the file gives the list. `palpate run` takes up to 1000 cases, `palpate sweep` any number.
+Makes a family of cases. Any key of this manual can be swept by its dotted path: `"finger.radius"`, `"step.1.to"`, entries of lists such as `"tissue.shape.size.3"`, and whole tables such as `"tissue.shape"`. `palpate run` takes up to 1000 cases, `palpate sweep` any number.
 
 ```toml
 [sweep]                     # every value with every other

@@ -23,6 +23,15 @@ inline constexpr auto weights =
 inline constexpr auto calibrations = words_of<finger::Calibration>(
     {{"mass", "eq. (5) alone: together they press `spheres`^(5/6) times as hard"},
      {"force", "on a flat they exert the force of the single sphere of `radius`"}});
+inline constexpr auto regressions = words_of<Output::Regression>(
+    {{"none", "the computed curves alone"},
+     {"logarithmic", "`F = a + b ln h`, the paper's Fig. 6"},
+     {"power", "`F = A h^n`; Hertz's law has n = 1.5"},
+     {"exponential", "`F = B (exp(m h) - 1)`, as of measured fingerpads"}});
+inline constexpr auto papers =
+    words_of<Output::Paper>({{"none", "no comparison"},
+                             {"figure_6", "force against indentation and curvature"},
+                             {"figure_7", "creep and recovery"}});
 inline constexpr auto keeps =
     words_of<Slide::Keep>({{"travel", "the depth"}, {"force", "the force"}});
 inline constexpr auto laws =

@@ -20,43 +20,35 @@ using Integrator = scenario::Solver::Integrator;
 // The texts of a question, with its answers below and above the threshold; answers that contain
 // numbers are made where the question is evaluated.
 struct QuestionRow {
-  const char* word;  // the name of the enumerator
-  const char* text;
-  const char* measure;
+  const char* word;     // the name of the enumerator
+  const char* topic;    // one word
+  const char* measure;  // what the number is; empty if it only says yes or no
   const char* below;
   const char* above;
 };
 constexpr auto question_table = std::to_array<QuestionRow>({
-    {"uniform", "a uniform test?", "steps that load the end faces", "",
-     "yes: only a specimen can creep or relax"},
-    {"ratio_matters", "does nu matter?", "ends slide on their platens",
-     "no: springs have the right Young's modulus",
-     "yes: springs have a Poisson's ratio of their own"},
-    {"force_knows_mesh", "does the mesh affect the force?", "coupling is one_way",
-     "no: the force is eq. (2) alone, as with hertz", ""},
-    {"rigid_tissue", "rigid tissue?", "lambda_2 / (lambda_1 + lambda_2)",
-     "yes: only the finger deforms", "no: the tissue deforms"},
-    {"half_space", "half-space?", "change of the force by thickness and sides",
-     "yes: the specimen's size does not matter", ""},
-    {"layer", "layer?", "decrease of the force by the sides",
-     "yes: flat tissue of known thickness, exactly known", ""},
-    {"deep", "deep?", "change of the force in neo-Hookean tissue", "no: linear elasticity holds",
+    {"uniform", "test", "", "", "the end faces are loaded, which only a mesh can compute"},
+    {"ratio_matters", "ratio", "error of independent springs",
+     "independent springs have the right Young's modulus",
+     "independent springs have a Poisson's ratio of their own"},
+    {"force_knows_mesh", "coupling", "", "one_way: the force is that of hertz, whatever the mesh",
      ""},
-    {"curved", "curved?", "(1/R + kappa_1) / (1/R + kappa_2) - 1", "no: one curvature is enough",
-     "yes: both curvatures matter, the contact is elliptic"},
-    {"time_dependent", "time dependent?", "increase of the force by viscosity",
-     "no: the press is slow against the tissue's time constant", ""},
-    {"inertia", "inertia?", "increase of the force by waves",
-     "no: the loading is slow against them", ""},
-    {"shape_or_inclusion", "shape or inclusion?", "reasons for a mesh",
-     "no: there is a formula for this shape", ""},
+    {"rigid_tissue", "stiffness", "the tissue's share of the deformation",
+     "only the finger deforms", "the tissue deforms"},
+    {"half_space", "size", "error of a force that ignores the body's size",
+     "the body's size does not matter", ""},
+    {"layer", "sides", "decrease of the force by the sides", "the sides do not matter",
+     "the sides matter"},
+    {"deep", "depth", "change of the force by large strains", "small strains are enough", ""},
+    {"curved", "curvature", "difference between the two curvatures, finger included",
+     "one curvature is enough", "both curvatures matter, the contact is elliptic"},
+    {"time_dependent", "viscosity", "increase of the force by viscosity",
+     "the press is slow against the tissue's time constant", ""},
+    {"inertia", "inertia", "increase of the force by waves", "the loading is slow against waves",
+     ""},
+    {"shape_or_inclusion", "formula", "", "", ""},
 });
 static_assert(is_complete<Asked>(question_table), "every question has its text");
-
-// A narrow body reduces the force by this times a / (w/2): measured on cylinders and an ellipsoid.
-constexpr double width_of_body = 0.5;
-
-constexpr double doubt = 0.4;  // relative uncertainty of the effect of the sides, which is a fit
 
 // The error of cells that are coarse compared with the thickness, 0.15 (cell / thickness)^2:
 // measured on discs of 5 and 10 mm and on thin blocks. Flat layers have an exact law. Where the
@@ -105,7 +97,7 @@ class Chooser {
   void ask(Asked of, double number, double threshold, const std::string& above = "",
            const std::string& measure = "") {
     const QuestionRow& row = question_table[as_index(of)];
-    choice_.questions.push_back({row.text, measure.empty() ? row.measure : measure, number,
+    choice_.questions.push_back({row.topic, measure.empty() ? row.measure : measure, number,
                                  threshold,
                                  number < threshold ? row.below
                                  : above.empty()    ? row.above
@@ -132,12 +124,11 @@ class Chooser {
                                         : even_error;
     ask(Asked::uniform, 1.0, 0.5);
     ask(Asked::ratio_matters, ratio_error, tolerance(), "",
-        !prism   ? "independent springs on a shape that is no prism"
-        : uneven ? "|nu - 1/4| / 2, ends held or tissues mixed"
+        !prism   ? "error of independent springs on a shape that is no prism"
+        : uneven ? "error of independent springs with fixed ends or several tissues, |nu - 1/4| / 2"
                  : "");
     const double inertia = uniform_inertia(asked_);
-    ask(Asked::inertia, inertia, tolerance(), "yes: the specimen rings",
-        "change of the strain by waves");
+    ask(Asked::inertia, inertia, tolerance(), "the body rings", "change of the strain by waves");
     choice_.found.inertia_matters = inertia >= tolerance();
     const auto& integrator = case_.scenario.solver.integrator;
     const double left_out = integrator && !about(*integrator).inertia ? inertia : 0.0;
@@ -160,25 +151,25 @@ class Chooser {
       if (!choice_.given) model_ = Model::hertz;
       return;
     }
+    std::string formulas;
     for (const Rung& rung : scenario::ladder)
-      if (!rung.meshed() && !beyond(rung.of, asked_, choice_.touch)) reason.reset();
+      if (!rung.meshed() && !beyond(rung.of, asked_, choice_.touch))
+        formulas += (formulas.empty() ? "" : " or ") + std::string(rung.word);
     ask(Asked::rigid_tissue, e.tissue_share, std::min(limit, 0.02));
-    // A narrow curved body reduces the force as free sides do, while the thickness increases it.
-    narrow_ = std::min(0.99, e.sides + width_of_body * e.curved_body);
-    const double size = std::abs(change_by_size(e));
-    ask(Asked::half_space, size, limit,
-        "no: the thickness adds " + percent_text(e.thickness) +
+    ask(Asked::half_space, half_space_error(e), limit,
+        (e.thickness < 0.0 ? "the layers below take " : "the thickness adds ") +
+            percent_text(std::abs(e.thickness)) +
             (box ? ", the sides take " + percent_text(e.sides)
                  : ", the body's width changes up to " + percent_text(e.curved_body)));
-    ask(Asked::layer, box ? e.sides : 1.0, limit,
-        box ? "no: the sides matter" : "no: the tissue is not flat");
+    if (box) ask(Asked::layer, e.sides, limit);
     // A fifth of the tolerance, because depth that is left out adds to the model's error.
     ask(Asked::deep, std::abs(e.deep), 0.2 * limit, deep_answer(e));
     ask(Asked::curved, e.curvature_ratio - 1.0, 0.1);
     // A fifth of the tolerance, because viscosity that is left out adds to the model's error.
     ask(Asked::time_dependent, e.viscous, 0.2 * limit, viscous_answer());
     ask(Asked::inertia, e.inertia, limit, inertia_answer());
-    ask(Asked::shape_or_inclusion, reason ? 1.0 : 0.0, 1.0, reason ? "yes: " + *reason : "");
+    ask(Asked::shape_or_inclusion, 1.0, 0.0,
+        formulas.empty() ? "none, because " + reason.value_or("") : formulas);
 
     choice_.found = {.viscosity_matters = e.viscous >= 0.2 * limit,
                      .inertia_matters = e.inertia >= limit,
@@ -192,11 +183,9 @@ class Chooser {
     const scenario::Found& found = choice_.found;
     const double still = found.inertia_matters ? e.inertia : 0.0;
     switch (rung.of) {
-      case Model::hertz:
-        return std::abs(1.0 / (1.0 + change_by_size(e)) - 1.0) + doubt * narrow_ + still +
-               depth_error(e);
+      case Model::hertz: return half_space_error(e) + still + depth_error(e);
       case Model::layer:
-        return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt * e.sides + still +
+        return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt_of_narrow * e.sides + still +
                depth_error(e);
       case Model::mass_spring:
       case Model::coupled_springs: break;
@@ -244,23 +233,11 @@ class Chooser {
   }
 
   [[nodiscard]] std::string deep_answer(const Estimates& e) const {
-    const std::string change = "finite strain " + std::string(e.deep < 0.0 ? "lowers" : "raises") +
-                               " the force by " + percent_text(std::abs(e.deep));
+    const std::string change = std::string(e.deep < 0.0 ? "lower" : "raise") + " the force by " +
+                               percent_text(std::abs(e.deep));
     if (!choice_.depth_ratio)
-      return "yes: near this place " + change + ", but its factor is not known here";
-    return "yes: " + change + ", and a factor takes this into account";
-  }
-
-  // The change of the half-space's force by the size of the body. A narrow base lets a curved body
-  // yield as a whole; files and ligaments may stand on all of their underside, where the thickness
-  // acts alone.
-  [[nodiscard]] double change_by_size(const Estimates& e) const {
-    const auto& shape = asked_.tissue.shape;
-    const bool wide_base = std::holds_alternative<scenario::SurfaceFile>(shape) ||
-                           std::holds_alternative<scenario::AsMeshed>(shape) ||
-                           std::holds_alternative<scenario::Ligament>(shape);
-    const double both = (1.0 + e.thickness) * (1.0 - narrow_) - 1.0;
-    return wide_base && e.thickness > std::abs(both) ? e.thickness : both;
+      return "large strains " + change + " near this place, but the factor is not known here";
+    return "large strains " + change + ", and a factor takes this into account";
   }
 
   // Whether the tissue's inertia affects the force on a mesh.
@@ -268,14 +245,14 @@ class Chooser {
 
   [[nodiscard]] std::string viscous_answer() const {
     if (asked_.contact.viscosity == scenario::Contact::Viscosity::tissue)
-      return "yes: Lee and Radok's force while the contact grows, Ting's while it shrinks";
-    return "yes, but the scenario leaves it out of the contact (`contact.viscosity`): the force is "
-           "that of the relaxed tissue";
+      return "Lee and Radok's force while the contact grows, Ting's while it shrinks";
+    return "left out, because the scenario does not set `contact.viscosity`: the force is that of "
+           "the relaxed tissue";
   }
 
   [[nodiscard]] std::string inertia_answer() const {
-    if (moves()) return "yes: the mesh has the mass of the tissue";
-    return "yes, but the force of this scenario leaves it out: `consistent` includes it with "
+    if (moves()) return "a mesh includes it, a formula does not";
+    return "left out of the force of this scenario: `consistent` includes it with "
            "`viscosity` none, nodal_drag, or a solid that relaxes in the contact too; else use "
            "`resolved`";
   }
@@ -300,26 +277,13 @@ class Chooser {
   }
 
   void take_cheapest() {
-    if (choice_.given) return;
-    const Forecast* best = nullptr;
-    for (const Forecast& rung : choice_.rungs) {
-      if (!rung.cannot.empty()) continue;
-      // The force of a press is that of finite elements on either kind of springs, but motion and
-      // pictures of independent springs do not have the tissue's Poisson's ratio.
-      if (!asked_.uniform() && scenario::rung(rung.model).independent()) continue;
-      if (best == nullptr || rung.error < best->error) best = &rung;
-      if (rung.error > tolerance()) continue;
-      best = &rung;
-      break;
-    }
-    model_ = best->model;
+    if (!choice_.given) model_ = cheapest(choice_, asked_.uniform(), tolerance())->model;
   }
 
   const scenario::Case& case_;
   scenario::Resolved asked_;  // resolved with the most complete model, whatever the scenario names
   Model model_;               // the choice
   Choice choice_;
-  double narrow_ = 0.0;  // reduction of the force by sides, or by the width of a curved body
 };
 
 }  // namespace
@@ -330,10 +294,24 @@ const Forecast* Choice::forecast(Model model) const {
   return nullptr;
 }
 
+const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance) {
+  const Forecast* best = nullptr;
+  for (const Forecast& rung : choice.rungs) {
+    if (!rung.cannot.empty()) continue;
+    // The force of a press is that of finite elements on either kind of springs, but motion and
+    // pictures of independent springs do not have the tissue's Poisson's ratio.
+    if (!uniform && scenario::rung(rung.model).independent()) continue;
+    if (best == nullptr || rung.error < best->error) best = &rung;
+    if (rung.error > tolerance) continue;
+    return &rung;
+  }
+  return best;
+}
+
 std::string Choice::shortfall() const {
   const Forecast* rung = taken();
   if (given || rung == nullptr || !(rung->error > chosen.solver.tolerance)) return "";
-  return "no rung is predicted to be within the tolerance of " +
+  return "no model is expected to be within the tolerance of " +
          percent_text(chosen.solver.tolerance) + ": `" + scenario::rung(rung->model).word +
          "` comes nearest with about " + percent_text(rung->error) +
          (coarse_mesh(*this) ? "; a finer `tissue.mesh` may help" : "");

@@ -46,6 +46,23 @@ double fastest_rate(const scenario::Resolved& scenario) {
   return rate;
 }
 
+// The decrease of the force by the sides, or by the width of a curved body, which acts like them.
+double narrowness(const Estimates& e) {
+  constexpr double width_of_body = 0.5;  // of a / (w/2): measured on cylinders and an ellipsoid
+  return std::min(0.99, e.sides + width_of_body * e.curved_body);
+}
+
+// The change of the half-space's force by the size of the body. A narrow base lets a curved body
+// yield as a whole; files and ligaments may stand on all of their underside, where the thickness
+// acts alone.
+double change_by_size(const scenario::Shape& shape, const Estimates& e) {
+  const bool wide_base = std::holds_alternative<scenario::SurfaceFile>(shape) ||
+                         std::holds_alternative<scenario::AsMeshed>(shape) ||
+                         std::holds_alternative<scenario::Ligament>(shape);
+  const double both = (1.0 + e.thickness) * (1.0 - e.narrow) - 1.0;
+  return wide_base && e.thickness > std::abs(both) ? e.thickness : both;
+}
+
 // In a ramp of duration T, Kelvin-Voigt increases the force by tau F'/F = 3/2 tau/T, and a branch
 // of ratio b by about b x (1 - exp(-1/x)), x = tau/T.
 double viscous_effect(const scenario::Resolved::Tissue& tissue, double duration) {
@@ -179,11 +196,17 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
     found.curved_body =
         found.tissue_share * found.contact_radius / (0.5 * touch.size.minCoeff() * cosine * cosine);
   }
+  found.narrow = narrowness(found);
+  found.by_size = change_by_size(tissue.shape, found);
   press_deep(scenario, touch, law, found);
   found.viscous = found.tissue_share *
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
   found.inertia = found.tissue_share * inertia_effect(tissue, law, found.travel, found.rate);
   return found;
+}
+
+double half_space_error(const Estimates& estimates) {
+  return std::abs(1.0 / (1.0 + estimates.by_size) - 1.0) + doubt_of_narrow * estimates.narrow;
 }
 
 double uniform_inertia(const scenario::Resolved& scenario) {

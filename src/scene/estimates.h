@@ -16,6 +16,8 @@ struct Estimates {
   double thickness = 0.0;        // increase by the finite thickness
   double sides = 0.0;            // decrease by free sides near the contact
   double curved_body = 0.0;      // bound for the effect of the finite size of a curved body
+  double narrow = 0.0;           // decrease by the sides, or by the width of a curved body
+  double by_size = 0.0;          // change by thickness, sides and width together, of either sign
   double deep = 0.0;             // change in neo-Hookean tissue, of either sign; (62)
   double deep_error = 0.0;       // of 1 + `deep`, relative
   double viscous = 0.0;          // increase by the tissue's viscosity
@@ -32,6 +34,16 @@ struct Estimates {
 [[nodiscard]] inline Estimates estimate(const Choice& choice) {
   return estimate(choice.chosen, choice.touch);
 }
+
+inline constexpr double doubt_of_narrow = 0.4;  // relative, of `narrow`, which is a fit
+
+// The error of a half-space's force by the body's size, as a fraction of the body's force. Effects
+// that cancel in `by_size` are still uncertain.
+[[nodiscard]] double half_space_error(const Estimates& estimates);
+
+// The cheapest applicable model within the tolerance, or else the one with the least error, as
+// `auto` takes it; null without forecasts.
+[[nodiscard]] const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance);
 
 // The change of the strain in a creep test by the tissue's inertia, relative to the final strain;
 // 1 for tissue that rings, for relaxation tests and for shapes from files.

@@ -24,9 +24,9 @@ std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario,
   constexpr double least_cosine = 0.5;
   if (!touch.known()) return touch.cannot;
   const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
-  if (box != nullptr && leaves(scenario, *box)) return "the finger leaves the specimen's top";
+  if (box != nullptr && leaves(scenario, *box)) return "the finger leaves the top of the body";
   if (!touch.curved() && !touch.tilted()) return std::nullopt;
-  if (scenario.finger.spheres > 1) return "several spheres press a curved surface";
+  if (scenario.finger.spheres > 1) return "several spheres meet a curved surface";
   for (const scenario::Step& step : scenario.steps)
     if (std::holds_alternative<scenario::Slide>(step))
       return "the finger slides over a curved surface";
@@ -38,7 +38,7 @@ std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario,
   return std::nullopt;
 }
 
-constexpr const char* has_regions = "it has regions of other tissues";
+constexpr const char* has_regions = "the body has several tissues";
 
 }  // namespace
 
@@ -51,7 +51,7 @@ std::optional<std::string> beyond(scenario::Model model, const scenario::Resolve
     case scenario::Model::layer:
       if (!std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape))
         return "a layer is a `cuboid` pressed on its flat top";
-      if (scenario.finger.spheres > 1) return "several spheres press into one layer";
+      if (scenario.finger.spheres > 1) return "several spheres share one layer";
       if (!all_slabs(scenario)) return has_regions;
       return beyond_half_space(scenario, touch);
     case scenario::Model::mass_spring:

@@ -39,8 +39,8 @@ enum class Asked {
 
 // A question with its numbers.
 struct Question {
-  std::string asked;    // "rigid tissue?"
-  std::string measure;  // "lambda_2 / (lambda_1 + lambda_2)"
+  std::string asked;    // in a word: "sides"
+  std::string measure;  // "decrease of the force by the sides"; empty without a number
   double number = 0.0;
   double threshold = 0.0;
   std::string answer;  // the result as a sentence

@@ -54,7 +54,7 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
     touch.nowhere = true;
   } else if (found->on_edge) {
     touch.cannot = std::holds_alternative<geometry::Cuboid>(shape)
-                       ? "the finger leaves the specimen's top"
+                       ? "the finger leaves the top of the body"
                        : on_an_edge;
   } else {
     touch.curvature = found->curvature;
@@ -217,7 +217,7 @@ SurfaceTouch surface_touch(const Scenario& scenario, const std::string& folder,
     return touch;
   }
   SurfaceTouch touch;
-  touch.cannot = "its shape is that of a ready mesh";
+  touch.cannot = "its shape comes from a file of tetrahedra";
   return touch;
 }
 

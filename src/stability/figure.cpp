@@ -1,4 +1,7 @@
 // The stability map as a gnuplot script: nine panels and a strip.
+#include <algorithm>
+#include <cmath>
+
 #include "base/text.h"
 #include "plot/gnuplot_text.h"
 #include "stability/stability.h"
@@ -58,9 +61,45 @@ std::string curves(const stability::StabilityMap& map, std::span<const Curve> al
   return "plot \\\n  " + joined(lines, ", \\\n  ") + "\n";
 }
 
-std::string panel(const std::string& title, const std::string& x_label, const char* scale) {
-  return "\nunset logscale\nset logscale " + std::string(scale) + "\nset title '" + title +
-         "'\nset xlabel '" + x_label + "'\n";
+// The least and the largest of positive numbers.
+struct Range {
+  double low = INFINITY, high = 0.0;
+  void take(double value) {
+    if (!(value > 0.0) || !std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  // With a margin on both sides; from 1 to 10 if there are no numbers.
+  [[nodiscard]] Range wide() const {
+    if (!(high > 0.0)) return {1.0, 10.0};
+    return {low / 1.3, high * 1.3};
+  }
+};
+
+std::string scaled(const char* axis, const Range& range) {
+  const Range wide = range.wide();
+  return std::string("set ") + axis + "range [" + rounded_text(wide.low, 4) + ":" +
+         rounded_text(wide.high, 4) + "]\n" + plot::gnuplot_logarithmic(axis, wide.low, wide.high);
+}
+
+enum class Scale { linear_x, linear_y, logarithmic };
+
+// The frame of a panel. `axis` names the rows whose range it shows.
+std::string panel(const stability::StabilityMap& map, const std::string& axis, Scale scale,
+                  const std::string& title, const std::string& x_label) {
+  Range x, y;
+  for (const stability::LimitRow& row : map.limits) {
+    if (row.axis != axis || !row.measured || !row.theory) continue;
+    y.take(1e6 * *row.measured);
+    y.take(1e6 * *row.theory);
+    x.take(axis == "rung" ? 1e6 * *row.theory : row.value.value_or(0.0));
+  }
+  std::string text = "\n" + plot::gnuplot_linear("x") + plot::gnuplot_linear("y") +
+                     "set xrange [*:*]\nset yrange [*:*]\n";
+  if (scale != Scale::linear_x) text += scaled("x", x);
+  if (scale != Scale::linear_y) text += scaled("y", y);
+  return text + "set title " + plot::gnuplot_quoted(title) + "\nset xlabel " +
+         plot::gnuplot_quoted(x_label) + "\n";
 }
 
 // Measured over theoretical limits of every model and damping; equal ones lie on the diagonal.
@@ -73,17 +112,18 @@ std::string agreement(const stability::StabilityMap& map) {
                     std::to_string(curve.marker) + " linecolor rgb '#" + curve.colour +
                     "' title '" + curve.label + "'");
   }
-  return panel("Every rung and damping", "limit by theory, us", "xy") +
-         "set xtics 100\nset ytics 100\nset key top left Left reverse samplen 1 spacing 1.1 "
-         "font ',8'\nplot \\\n  " +
-         joined(lines, ", \\\n  ") + "\nunset key\nset xtics autofreq\nset ytics autofreq\n";
+  return panel(map, "rung", Scale::logarithmic, "Every rung and damping", "limit by theory, µs") +
+         "set key at screen 0.5, screen 0.945 center top horizontal samplen 1 font ',12'\n"
+         "plot \\\n  " +
+         joined(lines, ", \\\n  ") + "\nunset key\n";
 }
 
 std::string strip() {
   std::string text =
-      "\nunset logscale\nset key top right horizontal samplen 1 font ',9'\n"
+      "\n" + plot::gnuplot_linear("x") + plot::gnuplot_linear("y") +
+      "set key top right horizontal samplen 1 font ',12'\n"
       "set lmargin at screen 0.075\nset rmargin at screen 0.985\n"
-      "set tmargin at screen 0.16\nset bmargin at screen 0.055\n"
+      "set tmargin at screen 0.16\nset bmargin at screen 0.045\n"
       "set title 'Kinds of failure: one mark per setting that was tried'\n"
       "unset xlabel\nunset ylabel\nunset ytics\nset xrange [-0.5:7.5]\nset yrange [0:1]\n"
       "set xtics (";
@@ -110,38 +150,35 @@ std::string strip() {
 }  // namespace
 
 plot::Sheet stability_sheet(const std::string& title, const stability::StabilityMap& map) {
-  std::string text = plot::gnuplot_head("stability", 700);
+  std::string text = plot::gnuplot_head("stability", 960, 11);
   text +=
-      "set datafile separator comma\nset datafile columnheaders\nset datafile missing NaN\n"
-      "set border 3 linewidth 1.1 linecolor rgb '#404040'\n"
-      "set tics nomirror out scale 0.6 textcolor rgb '#202020' font ',8'\n"
-      "set xtics offset 0,0.5\nset ytics offset 0.7,0\n"
-      "set grid linetype 1 linewidth 0.5 linecolor rgb '#dcdcdc'\n"
-      "set title offset 0,-0.6 font ',10'\nset xlabel offset 0,1.4 font ',9'\n"
-      "unset key\n"
-      "set format x '%g'\nset format y '%g'\n"
-      "set multiplot layout 3,3 margins screen 0.075,0.985,0.275,0.915 spacing screen 0.085,0.105 "
+      "set datafile missing NaN\nset xtics offset 0,0.3\nset ytics offset 0.5,0\n"
+      "set title offset 0,-0.6 font ',13'\nset xlabel offset 0,0.9 font ',12'\nunset key\n"
+      "set multiplot layout 3,3 margins screen 0.075,0.985,0.255,0.89 spacing screen 0.085,0.085 "
       "title " +
-      plot::gnuplot_quoted("Limit of the time step (us), " + title +
+      plot::gnuplot_quoted("Limit of the time step (µs), " + title +
                            ": theory as lines, measurements as points") +
-      " font ',11'\n";
+      " font ',14'\n";
   text += agreement(map);
-  text += panel("Young''s modulus", "Pa", "xy") + "set xtics 1000\n" +
-          curves(map, methods, "young_modulus_Pa") + "set xtics autofreq\n";
-  text +=
-      panel("Volume term of coupled springs", "Poisson''s ratio", "y") +
-      "set key bottom left Left reverse samplen 1 spacing 1.1 font ',8'\nset xrange [0:0.52]\n" +
-      curves(map, volumes, "poisson_ratio", Legend::own) + "unset key\nset xrange [*:*]\n";
-  text +=
-      panel("Element size", "shortest edge, mm", "xy") + curves(map, methods, "shortest_edge_mm");
-  text += panel("Drag on nodes", "1/s", "xy") + curves(map, methods, "drag_per_s");
-  text += panel("Dashpots along springs", "retardation time, s", "xy") +
-          curves(map, methods, "retardation_time_s");
-  text += panel("Standard linear solid", "relaxation time, s", "x") +
-          curves(map, methods, "relaxation_time_s");
-  text += panel("Explicit contact", "contact stiffness, N/m", "xy") +
-          curves(map, methods, "contact_stiffness_N_per_m");
-  text += panel("Haptic frame", "device damping, N s/m", "xy") +
+  const auto of_methods = [&](const char* axis, Scale scale, const char* heading,
+                              const char* x_label) {
+    text += panel(map, axis, scale, heading, x_label) + curves(map, methods, axis);
+  };
+  of_methods("young_modulus_Pa", Scale::logarithmic, "Young's modulus", "Pa");
+  text += panel(map, "poisson_ratio", Scale::linear_x, "Volume term of coupled springs",
+                "Poisson's ratio") +
+          "set key bottom left Left reverse samplen 1 spacing 1.1 font ',11'\nset xrange [0:0.52]\n"
+          "set xtics 0.1\n" +
+          curves(map, volumes, "poisson_ratio", Legend::own) + "unset key\nset xrange [*:*]\n";
+  of_methods("shortest_edge_mm", Scale::logarithmic, "Element size", "shortest edge, mm");
+  of_methods("drag_per_s", Scale::logarithmic, "Drag on nodes", "1/s");
+  of_methods("retardation_time_s", Scale::logarithmic, "Dashpots along springs",
+             "retardation time, s");
+  of_methods("relaxation_time_s", Scale::linear_y, "Standard linear solid", "relaxation time, s");
+  of_methods("contact_stiffness_N_per_m", Scale::logarithmic, "Explicit contact",
+             "contact stiffness, N/m");
+  text += panel(map, "device_damping_N_s_per_m", Scale::logarithmic, "Haptic frame",
+                "device damping, N s/m") +
           curves(map, device, "device_damping_N_s_per_m");
   text += strip() + "\nunset multiplot\n";
   return {.name = "stability", .script = text, .reads = {"stability.csv", "failures.csv"}};

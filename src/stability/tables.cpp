@@ -1,6 +1,7 @@
 // The map as tables, and the result folder.
 #include <array>
 
+#include "page/page.h"
 #include "record/csv.h"
 #include "stability/stability.h"
 
@@ -58,6 +59,21 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
   folder.write("stability.csv", record::csv_text(limit_table(map)));
   folder.write("failures.csv", record::csv_text(failure_table(map)));
   plot::draw(stability_sheet(title, map), folder, warnings);
+  page::Page page("Stability of " + title, "stability map");
+  page.answer(map.sentences);
+  page.section(
+      "Figure", page::all_figures(folder, [](const std::string&) {
+        return "Longest stable time step over the model, each quantity of the scenario, and which "
+               "failures were seen: theory as lines, measurements as points.";
+      }));
+  constexpr std::size_t most = 60;
+  page.section("Limits", page::table_of_file("Limits of the time step, measured and by theory",
+                                             limit_table(map), "stability.csv", most));
+  page.section("Failures", page::table_of_file("Kinds of failure and whether they were seen",
+                                               failure_table(map), "failures.csv", most));
+  page.section("How it was made",
+               page::making({.command = "palpate stability " + title + ".toml"}, {}, folder));
+  page::write(std::move(page), folder);
   return folder.put(WholeFolder::State::complete, warnings);
 }
 

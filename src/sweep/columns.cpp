@@ -21,13 +21,13 @@ constexpr std::size_t most_outputs = 6;
 std::optional<std::size_t> rank(const std::string& column) {
   if (column.starts_with("force_at_")) return 0;
   constexpr std::array<const char*, 9> usual{"peak_force_N",
-                                             "force_indentation_logarithmic_a",
-                                             "force_indentation_logarithmic_b",
+                                             "force_indentation_logarithmic_a_N",
+                                             "force_indentation_logarithmic_b_N",
                                              "creep_half_time_s",
-                                             "creep_kelvin_voigt_tau",
-                                             "creep_standard_linear_solid_tau",
-                                             "relaxation_standard_linear_solid_tau",
-                                             "recovery_kelvin_voigt_recovery_tau",
+                                             "creep_kelvin_voigt_tau_s",
+                                             "creep_standard_linear_solid_tau_s",
+                                             "relaxation_standard_linear_solid_tau_s",
+                                             "recovery_kelvin_voigt_recovery_tau_s",
                                              "peak_strain"};
   for (std::size_t i = 0; i < usual.size(); ++i)
     if (column == usual[i]) return i + 1;

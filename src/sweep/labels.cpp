@@ -1,30 +1,19 @@
-// Labels made from the names of columns, and the palette.
+// Labels made from the names of columns.
 #include "sweep/labels.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
-#include <cstdio>
 
-#include "base/index.h"
 #include "fit/model.h"
+#include "record/swept_column.h"
 
 namespace palpate::sweep {
 namespace {
 
-// Nine colours of matplotlib's viridis, evenly apart.
-constexpr std::array<unsigned, 9> viridis{0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
-                                          0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
-
-std::string hexadecimal(unsigned colour) {
-  char text[8];
-  std::snprintf(text, sizeof text, "%06x", colour);
-  return text;
-}
-
 // Converts the unit in a column's name: `kg_per_m3` to `kg/m3`.
 std::string unit_symbol(std::string unit) {
+  if (unit == "us") return "µs";
   if (unit.starts_with("per_")) unit = "1_" + unit;
   const std::size_t per = unit.find("_per_");
   if (per != std::string::npos) unit.replace(per, 5, "/");
@@ -46,16 +35,18 @@ constexpr std::array<CurveUnits, 4> curves{
     CurveUnits{"force_indentation", "mm", "N"}, CurveUnits{"creep", "s", ""},
     CurveUnits{"recovery", "s", ""}, CurveUnits{"relaxation", "s", "kPa"}};
 
-// The label of a fitted parameter, a column CURVE_MODEL_PARAMETER; empty for other columns.
+// The label of a fitted parameter, a column CURVE_MODEL_PARAMETER_UNIT; empty for other columns.
 std::string fit_label(const std::string& column) {
   for (const CurveUnits& curve : curves)
     for (const fit::ModelInfo& model : fit::models())
       for (const fit::Parameter& parameter : model.parameters) {
         const std::string name(model.name);
-        if (column == std::string(curve.curve) + "_" + name + "_" + std::string(parameter.name))
+        const std::string unit = fit::unit_text(parameter.unit, curve.x, curve.y);
+        if (column == std::string(curve.curve) + "_" + name + "_" + std::string(parameter.name) +
+                          (unit.empty() ? "" : "_" + record::unit_word(unit)))
           return with_unit(std::string(parameter.name) + ", " + name + " fit" +
                                (&curve == curves.data() ? "" : std::string(", ") + curve.curve),
-                           fit::unit_text(parameter.unit, curve.x, curve.y));
+                           unit);
       }
   return {};
 }
@@ -89,26 +80,6 @@ std::string file_word(const std::string& column) {
 bool spread_wide(std::span<const double> values) {
   const auto [least, most] = ends(values);
   return least > 0.0 && most > 30.0 * least;
-}
-
-std::string palette_text() {
-  std::string text = "set palette defined (";
-  for (std::size_t i = 0; i < viridis.size(); ++i)
-    text += (i == 0 ? "" : ", ") + std::to_string(i) + " '#" + hexadecimal(viridis[i]) + "'";
-  return text + ")\n";
-}
-
-std::string palette_colour(double share) {
-  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(viridis.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
-  const double part = place - static_cast<double>(below);
-  unsigned colour = 0;
-  for (const unsigned shift : {16u, 8u, 0u}) {
-    const double a = (viridis[below] >> shift) & 0xffu;
-    const double b = (viridis[below + 1] >> shift) & 0xffu;
-    colour |= static_cast<unsigned>(std::lround(a + part * (b - a))) << shift;
-  }
-  return hexadecimal(colour);
 }
 
 }  // namespace palpate::sweep

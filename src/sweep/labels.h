@@ -1,4 +1,4 @@
-// Labels of a sweep's columns in figures, and the colours of values.
+// Labels of a sweep's columns in figures.
 #pragma once
 
 #include <span>
@@ -19,11 +19,5 @@ namespace palpate::sweep {
 
 // Whether values need a logarithmic scale: all positive, the largest over 30 times the smallest.
 [[nodiscard]] bool spread_wide(std::span<const double> values);
-
-// gnuplot's `set palette ...` for viridis (van der Walt and Smith, CC0), whose lightness rises
-// evenly, so that it can be read in grey and by the colour-blind.
-[[nodiscard]] std::string palette_text();
-// The colour of this palette at `share`, 0 to 1, as six hexadecimal digits.
-[[nodiscard]] std::string palette_colour(double share);
 
 }  // namespace palpate::sweep

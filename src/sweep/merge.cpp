@@ -8,8 +8,8 @@
 #include "base/files.h"
 #include "record/csv.h"
 #include "record/record.h"
+#include "record/swept_column.h"
 #include "sweep/slurm.h"
-#include "sweep/swept_columns.h"
 
 namespace palpate::sweep {
 namespace {
@@ -67,7 +67,7 @@ class Merge {
  private:
   void write_results() {
     std::vector<std::string> columns{"number", "id"};
-    for (const SweptColumn& one : swept_) columns.push_back(one.name());
+    for (const record::SweptColumn& one : swept_) columns.push_back(one.name());
     columns.insert(columns.end(), {"outcome", "reason"});
     const std::size_t fixed = columns.size();
     columns.insert(columns.end(), found_.names().begin(), found_.names().end());
@@ -113,7 +113,7 @@ class Merge {
   const SweepPlan& plan_;
   const SweepResults& results_;
   WholeFolder& folder_;
-  std::vector<SweptColumn> swept_;
+  std::vector<record::SweptColumn> swept_;
   ResultColumns found_;
 };
 

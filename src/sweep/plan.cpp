@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "base/whole_folder.h"
 #include "record/csv.h"
+#include "record/swept_column.h"
 #include "run/share_out.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
@@ -121,7 +122,7 @@ void write_cases(const std::string& path, const scenario::Family& original,
       std::vector<record::Cell> row{static_cast<double>(first + i + 1), id_text(planned[i].id)};
       for (std::string& word : planned[i].words) {
         std::replace(word.begin(), word.end(), '\n', ' ');  // one line per case
-        row.push_back(plan_cell(word));
+        row.push_back(record::swept_cell(word));
       }
       file.add(std::move(row));
       ids.push_back(planned[i].id);

@@ -61,10 +61,4 @@ std::string differences(const PlanFile& a, const PlanFile& b) {
   return joined(names, ", ");
 }
 
-record::Cell plan_cell(const std::string& word) {
-  if (const auto number = whole_number(word); number && number_text(*number) == word)
-    return *number;
-  return word;
-}
-
 }  // namespace palpate::sweep

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "record/table.h"
 #include "sweep/plan.h"
 
 namespace palpate::sweep {
@@ -27,8 +26,5 @@ struct PlanFile {
 
 // Lists the differences between two plans, such as "`--curves`, `--set`".
 [[nodiscard]] std::string differences(const PlanFile& a, const PlanFile& b);
-
-// A swept word as a cell: a number if the number is written in the same way, otherwise the text.
-[[nodiscard]] record::Cell plan_cell(const std::string& word);
 
 }  // namespace palpate::sweep

@@ -59,9 +59,10 @@ std::string axis(const std::string& name, const Shown& what) {
   const double air = what.logarithmic ? std::pow(high / low, 0.04) : 0.04 * (high - low);
   const double from = what.logarithmic ? low / air : low - air;
   const double to = what.logarithmic ? high * air : high + air;
-  return (what.logarithmic ? "set logscale " : "unset logscale ") + name + "\nset " + name +
-         "range [" + rounded_text(from, 6) + ":" + rounded_text(to, 6) + "]\nset " + name +
-         "label " + plot::gnuplot_quoted(what.label) + "\n";
+  return (what.logarithmic ? plot::gnuplot_logarithmic(name, from, to)
+                           : plot::gnuplot_linear(name)) +
+         "set " + name + "range [" + rounded_text(from, 6) + ":" + rounded_text(to, 6) + "]\nset " +
+         name + "label " + plot::gnuplot_quoted(what.label) + "\n";
 }
 
 std::string panel(const Shown& x, const Shown& y, const Shown& colour, const std::string& output,
@@ -127,16 +128,11 @@ std::optional<plot::Sheet> points_sheet(const sweep::SweepColumns& columns,
   if (every(columns) > 1) whole += ", one case in " + std::to_string(every(columns));
   if (failed) whole += "; crosses: no value";
   const int height = 60 + 330 * static_cast<int>(rows);
-  std::string text = plot::gnuplot_head(name, height) +
-                     "set datafile separator comma\nset datafile columnheaders\n"
-                     "set border 3 linewidth 1.1 linecolor rgb '#404040'\n"
-                     "set tics nomirror out scale 0.5 textcolor rgb '#202020' font ',10'\n"
-                     "set grid linetype 1 linewidth 0.5 linecolor rgb '#dcdcdc'\nunset key\n"
-                     "set format x '%g'\nset format y '%g'\nset format cb '%g'\n"
-                     "set xlabel font ',11' offset 0,0.4\nset ylabel font ',11' offset 1,0\n"
-                     "set cblabel font ',11' offset -0.8,0\nset cbtics font ',10'\n" +
-                     palette_text() + "set multiplot layout " + std::to_string(rows) + "," +
-                     std::to_string(across) + " margins screen 0.1,0.905," +
+  std::string text = plot::gnuplot_head(name, height, 12) +
+                     "unset key\nset xlabel font ',12' offset 0,0.4\n"
+                     "set ylabel font ',12' offset 1,0\nset cblabel font ',12' offset -0.8,0\n" +
+                     plot::gnuplot_palette() + "set multiplot layout " + std::to_string(rows) +
+                     "," + std::to_string(across) + " margins screen 0.1,0.905," +
                      rounded_text(60.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
                      " spacing screen 0.225," + rounded_text(75.0 / height, 3) + " title " +
                      plot::gnuplot_quoted(whole) + " font ',15'\n";

@@ -56,10 +56,24 @@ struct Response {
 [[nodiscard]] std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
                                                            const std::string& title);
 
-// Writes all tables and figures of a sweep into `folder`; without `options` no figures. Returns
-// sentences on what could not be drawn or computed. Throws SystemError if a file cannot be written.
+// Writes all tables and figures of a sweep and of its sensitivity() into `folder`; without
+// `options` no figures. Returns sentences on what could not be drawn or computed. Throws
+// SystemError if a file cannot be written.
 [[nodiscard]] std::vector<std::string> draw_sweep(
-    const sweep::SweepColumns& columns, const std::string& title, WholeFolder& folder,
-    const std::optional<plot::DrawOptions>& options = plot::DrawOptions{});
+    const SweepColumns& columns, const Sensitivity& found, const std::string& title,
+    WholeFolder& folder, const std::optional<plot::DrawOptions>& options = plot::DrawOptions{});
+
+// What the page of a merged sweep shows.
+struct SweepShown {
+  const SweepColumns& columns;
+  const Sensitivity& found;
+  std::string title;
+  std::string totals;                // a sentence: how many cases were completed
+  std::string scenario;              // the text that was planned
+  std::vector<std::string> remarks;  // sentences
+};
+
+// Writes report.html into the folder, whose tables and figures draw_sweep() has written.
+void write_sweep_page(const SweepShown& shown, WholeFolder& folder);
 
 }  // namespace palpate::sweep

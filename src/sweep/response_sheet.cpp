@@ -5,6 +5,7 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "plot/gnuplot_text.h"
+#include "plot/palette.h"
 #include "sweep/labels.h"
 #include "sweep/response.h"
 
@@ -21,7 +22,7 @@ std::string csv(const Response& response) { return plot::gnuplot_quoted(response
 
 std::string axis(const char* name, const sweep::FactorChoice& factor, double low, double high) {
   return std::string("set ") + name + "range [" + number_text(low) + ":" + number_text(high) +
-         "]\n" + (logarithmic(factor) ? std::string("set logscale ") + name + "\n" : "");
+         "]\n" + (logarithmic(factor) ? plot::gnuplot_logarithmic(name, low, high) : "");
 }
 
 double onto(double value, bool log) { return log ? std::log(value) : value; }
@@ -82,7 +83,7 @@ std::string names_of_lines(const Response& response, const Lines& lines) {
     taken.push_back(*place);
     const double x = xs.front() + place->first * (xs.back() - xs.front());
     const double y = ys.front() + place->second * (ys.back() - ys.front());
-    text += "set label " + plot::gnuplot_quoted(rounded_text(level, 3)) + " at first " +
+    text += "set label " + plot::gnuplot_quoted(plot::tick_text(level)) + " at first " +
             rounded_text(back(x, logarithmic(response.across)), 6) + ", first " +
             rounded_text(back(y, logarithmic(*response.along)), 6) +
             " center front boxed font ',12' textcolor rgb '#202020'\n";
@@ -126,12 +127,13 @@ std::string map(const Response& response) {
   const auto [left, right] = outer(table, x);
   const auto [low, high] = outer(table, y);
   const Lines lines = lines_of(response);
+  const Ends values = ends(response.grid.values);
   const std::string known = "strcol(" + plot::gnuplot_quoted(response.output) + ") eq ''";
   std::string text =
       axis("x", response.across, left, right) + axis("y", *response.along, low, high) +
       "set ylabel " + plot::gnuplot_quoted(factor_label(*response.along)) + "\n" +
-      (response.logarithmic ? "set logscale cb\n" : "") + "set format cb '%g'\n" + "set cblabel " +
-      plot::gnuplot_quoted(output_label(response.output)) + " offset 1,0\n" +
+      (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
+      "set cblabel " + plot::gnuplot_quoted(output_label(response.output)) + " offset 1,0\n" +
       "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.37\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.4\n" +
       names_of_lines(response, lines);
@@ -151,8 +153,8 @@ std::string map(const Response& response) {
                     " : NaN):(" + plot::gnuplot_column(y) +
                     ") with points pointtype 2 pointsize 0.8 linewidth 1.2 linecolor rgb '#D55E00' "
                     "notitle");
-  return text + "plot \\\n  " + joined(plots, ", \\\n  ") + "\n" +
-         "unset label\nunset logscale cb\nunset logscale y\nset yrange [*:*]\n";
+  return text + "plot \\\n  " + joined(plots, ", \\\n  ") + "\n" + "unset label\n" +
+         plot::gnuplot_linear("cb") + plot::gnuplot_linear("y") + "set yrange [*:*]\n";
 }
 
 // The curves that are drawn if there are many: the first, the last, and others evenly between.
@@ -181,11 +183,10 @@ std::string curves(const Response& response) {
   std::string text;
   if (response.logarithmic) {
     const Ends range = ends(grid.values);
-    text += "set logscale y\nset yrange [" + rounded_text(range.low / 1.15, 4) + ":" +
-            rounded_text(range.high * 1.15, 4) + "]\n";
+    text += plot::gnuplot_logarithmic("y", range.low / 1.15, range.high * 1.15) + "set yrange [" +
+            rounded_text(range.low / 1.15, 4) + ":" + rounded_text(range.high * 1.15, 4) + "]\n";
   }
-  text +=
-      "set format y '%g'\nset ylabel " + plot::gnuplot_quoted(output_label(response.output)) + "\n";
+  text += "set ylabel " + plot::gnuplot_quoted(output_label(response.output)) + "\n";
   if (response.along)
     text += "set key title " + plot::gnuplot_quoted(narrow_label(*response.along)) + " left\n";
   std::vector<std::string> plots;
@@ -193,8 +194,8 @@ std::string curves(const Response& response) {
     const double share = count > 1 ? static_cast<double>(j) / static_cast<double>(count - 1) : 0.0;
     // The brightest colours are left out, being hard to see on white; words have no order.
     const std::string colour = named || !response.along
-                                   ? plot::gnuplot_colours[j % plot::gnuplot_colours.size()]
-                                   : palette_colour(0.88 * share);
+                                   ? plot::line_colours[j % plot::line_colours.size()]
+                                   : plot::palette_colour(0.88 * share);
     const std::string title =
         !response.along
             ? "notitle"
@@ -217,13 +218,7 @@ std::string curves(const Response& response) {
 plot::Sheet response_sheet(const Response& response) {
   const bool both = response.is_map();
   std::string text = plot::gnuplot_head(response.name, both ? 860 : 470) +
-                     "set datafile separator comma\n"
-                     "set datafile columnheaders\n"
-                     "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
-                     "set tics nomirror out scale 0.6 textcolor rgb '#202020'\n"
-                     "set format x '%g'\nset format y '%g'\n"
-                     "set xlabel offset 0,0.6\nset ylabel offset 0.6,0\n" +
-                     palette_text();
+                     "set xlabel offset 0,0.6\nset ylabel offset 0.6,0\n" + plot::gnuplot_palette();
   const std::string title = plot::gnuplot_quoted(response.title);
   const std::string label =
       "set xlabel " + plot::gnuplot_quoted(factor_label(response.across)) + "\n";

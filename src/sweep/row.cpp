@@ -2,7 +2,10 @@
 #include "sweep/row.h"
 
 #include <charconv>
+#include <limits>
+#include <utility>
 
+#include "base/error.h"
 #include "record/csv.h"
 
 namespace palpate::sweep {
@@ -52,7 +55,8 @@ std::optional<SweepHead> head_of(const record::Table& row) {
     if (record::value_in<std::string>(row, column) == nullptr) return std::nullopt;
   const auto id = id_of(*record::value_in<std::string>(row, "id"));
   const auto* attempt = record::value_in<double>(row, "attempt");
-  if (!id || attempt == nullptr) return std::nullopt;
+  constexpr double most = std::numeric_limits<std::uint32_t>::max();
+  if (!id || attempt == nullptr || !(*attempt >= 1.0 && *attempt <= most)) return std::nullopt;
   for (const SweepOutcome one :
        {SweepOutcome::completed, SweepOutcome::diverged, SweepOutcome::failed})
     if (*record::value_in<std::string>(row, "outcome") == outcome_word(one))
@@ -69,11 +73,21 @@ std::optional<SweepRow> row_of(const record::Table& row) {
                 .outcome = head->outcome,
                 .reason = word("reason"),
                 .name = word("name")};
-  for (auto& value : record::parse_csv(word("values"), "values").rows)
-    read.values.push_back({std::get<std::string>(value[0]), std::move(value[1])});
-  for (const auto& remark : record::parse_csv(word("remarks"), "remarks").rows)
-    read.remarks.push_back(std::get<std::string>(remark[0]));
-  if (!word("curve").empty()) read.curve = record::parse_csv(word("curve"), "curve");
+  try {
+    for (auto& value : record::parse_csv(word("values"), "values").rows) {
+      const auto* name = std::get_if<std::string>(value.data());
+      if (name == nullptr || value.size() != 2) return std::nullopt;
+      read.values.push_back({*name, std::move(value[1])});
+    }
+    for (const auto& remark : record::parse_csv(word("remarks"), "remarks").rows) {
+      const auto* sentence = std::get_if<std::string>(remark.data());
+      if (sentence == nullptr) return std::nullopt;
+      read.remarks.push_back(*sentence);
+    }
+    if (!word("curve").empty()) read.curve = record::parse_csv(word("curve"), "curve");
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
   return read;
 }
 

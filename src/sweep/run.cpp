@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "fit/case_fits.h"
+#include "record/swept_column.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
 #include "scene/estimates.h"
@@ -50,9 +51,11 @@ void add_fits(const std::vector<fit::NamedFit>& fits, SweepRow& row) {
     const std::string curve =
         column_word(named.curve) + "_" + std::string(fit::info(named.fit.model).name);
     for (const fit::Estimate& parameter : named.fit.parameters) {
-      row.values.push_back({curve + "_" + parameter.name, known(parameter.estimate)});
-      row.values.push_back(
-          {curve + "_" + parameter.name + "_std_error", known(parameter.std_error)});
+      const std::string unit =
+          parameter.unit.empty() ? "" : "_" + record::unit_word(parameter.unit);
+      const std::string name = curve + "_" + parameter.name;
+      row.values.push_back({name + unit, known(parameter.estimate)});
+      row.values.push_back({name + "_std_error" + unit, known(parameter.std_error)});
     }
     row.values.push_back({curve + "_r2", known(named.fit.r2)});
   }
@@ -246,6 +249,7 @@ class Runner {
 
   [[nodiscard]] SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record) const {
     SweepRow row{.reason = record.reason, .name = record.name, .remarks = record.remarks};
+    if (!record.answer.complete) row.remarks.push_back(record.answer.left_out);
     if (record.outcome == record::Outcome::diverged) row.outcome = SweepOutcome::diverged;
     for (const record::Finding& finding : record.findings)
       if (finding.name != "outcome") row.values.push_back(finding);

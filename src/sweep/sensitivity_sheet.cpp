@@ -64,10 +64,7 @@ std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
   const double margin = std::min(0.45, 0.04 + 0.0108 * static_cast<double>(longest));
   std::string text =
       plot::gnuplot_head("sensitivity", height) +
-      "set datafile separator comma\nset datafile columnheaders\n"
-      "set border 3 linewidth 1.1 linecolor rgb '#404040'\n"
-      "set tics nomirror out scale 0.5 textcolor rgb '#202020'\n"
-      "set grid xtics linetype 1 linewidth 0.5 linecolor rgb '#dcdcdc'\nunset key\n"
+      "unset grid\nset grid xtics linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\nunset key\n"
       "set xrange [" +
       rounded_text(least < 0.0 ? least - 0.02 : 0.0, 4) + ":" + rounded_text(most + 0.02, 4) +
       "]\nset yrange [" + number_text(0.5 - static_cast<double>(factors)) +
@@ -83,7 +80,7 @@ std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
       tics.push_back(plot::gnuplot_quoted(rows[i].factor) + " " +
                      number_text(-static_cast<double>(i)));
     const bool last = &rows == &outputs.back();
-    text += std::string("set format x '") + (last ? "%g" : "") + "'\n";
+    text += std::string("set format x '") + (last ? "%.10g" : "") + "'\n";
     if (last)
       text +=
           "set label 1 'blue: by itself (first order)   orange: with its interactions (total)' at "
@@ -97,14 +94,13 @@ std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
   return plot::Sheet{"sensitivity", text + "unset multiplot\n", {"sensitivity.csv"}};
 }
 
-std::vector<std::string> draw_sweep(const sweep::SweepColumns& columns, const std::string& title,
-                                    WholeFolder& folder,
+std::vector<std::string> draw_sweep(const SweepColumns& columns, const Sensitivity& found,
+                                    const std::string& title, WholeFolder& folder,
                                     const std::optional<plot::DrawOptions>& options) {
   std::vector<std::string> warnings = columns.notes;
   const auto picture = [&](const plot::Sheet& sheet) {
     if (options) plot::draw(sheet, folder, warnings, *options);
   };
-  const sweep::Sensitivity found = sweep::sensitivity(columns);
   warnings.insert(warnings.end(), found.notes.begin(), found.notes.end());
   if (!found.indices.empty())
     folder.write("sensitivity.csv", record::csv_text(sweep::sensitivity_table(found)));

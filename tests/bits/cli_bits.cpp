@@ -36,8 +36,8 @@ TEST(Bits, any_number_of_workers) {
     expect_run(folder.path(), {scenario, "--jobs", jobs, "--out", std::string("out") + jobs});
   const std::string name = "/figure6_force_indentation";
   const auto files = names_in(folder / ("out1" + name));
-  for (const char* file : {"force_indentation.csv", "pressure_005.exr", "scenario.toml",
-                           "figure_force_indentation.svg"})
+  for (const char* file : {"force_indentation.csv", "pressure_005.exr", "report.html",
+                           "scenario.toml", "figure_force_indentation.svg"})
     EXPECT_TRUE(files.contains(file)) << file;
   expect_same_files(folder / ("out1" + name), folder / ("out2" + name));
   expect_same_files(folder / ("out1" + name), folder / ("out3" + name));

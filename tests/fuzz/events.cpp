@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "device/events.h"
+#include "fuzzing.h"
 
 namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 bool has(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
@@ -23,6 +19,7 @@ bool has(std::string_view text, std::string_view part) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace palpate::device;
+  using palpate::fuzz::require;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const Event event = inverse3::parse_event(bytes, "049D");
   require(event_text(event) != "unknown");

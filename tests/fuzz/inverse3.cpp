@@ -1,21 +1,14 @@
 // Any bytes from a socket: a position that is taken is finite and near, and nothing crashes.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "device/inverse3_protocol.h"
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
+#include "fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace palpate::device;
+  using palpate::fuzz::require;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const auto reply = inverse3::parse_reply(bytes, "049D");
   if (reply.position) {

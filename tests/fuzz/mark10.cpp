@@ -3,23 +3,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "device/line_buffer.h"
 #include "device/mark10_protocol.h"
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
+#include "fuzzing.h"
 
 // The first byte says in what portions the rest arrives.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace palpate::device;
+  using palpate::fuzz::require;
   if (size == 0) return 0;
   const std::size_t portion = 1 + data[0];
   std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);

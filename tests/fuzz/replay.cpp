@@ -1,5 +1,6 @@
 // Runs kept inputs, and variations of them, through a fuzz target without a fuzzer's library:
-//   PROGRAM INPUTS.hex VARIATIONS       each input and so many variations of it
+//   PROGRAM INPUTS.hex VARIATIONS [WORDS.dict]
+//                                       each input and so many variations of it
 //   PROGRAM INPUTS.hex --unpack FOLDER  one file an input, as a fuzzer wants them
 //   PROGRAM INPUTS.hex --pack FOLDER    adds the folder's files that are not in it, the shortest
 //                                       first
@@ -32,14 +33,36 @@ std::vector<std::string> read_inputs(const char* path) {
   return inputs;
 }
 
-std::string variation(std::string text, std::mt19937& random) {
+// The words of a dictionary in libFuzzer's form: `"text"` with the escapes \\, \" and \xAB.
+std::vector<std::string> read_words(const char* path) {
+  std::ifstream stream(path);
+  std::vector<std::string> words;
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with('"')) continue;
+    std::string word;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+      if (line[i] == '\\' && line[++i] == 'x') {
+        word += static_cast<char>(std::stoi(line.substr(i + 1, 2), nullptr, 16));
+        i += 2;
+      } else {
+        word += line[i];
+      }
+    }
+    words.push_back(word);
+  }
+  return words;
+}
+
+std::string variation(std::string text, const std::vector<std::string>& words,
+                      std::mt19937& random) {
   for (unsigned edits = 1 + random() % 4; edits > 0 && !text.empty(); --edits) {
     const std::size_t at = random() % text.size();
-    switch (random() % 4) {
+    switch (random() % (words.empty() ? 4 : 5)) {
       case 0: text[at] = static_cast<char>(random() % 256); break;
       case 1: text.erase(at, 1 + random() % 8); break;
       case 2: text.insert(at, text.substr(random() % text.size(), random() % 16)); break;
-      default: text[at] = static_cast<char>(text[at] ^ (1 << random() % 8)); break;
+      case 3: text[at] = static_cast<char>(text[at] ^ (1 << random() % 8)); break;
+      default: text.insert(at, words[random() % words.size()]); break;
     }
   }
   return text;
@@ -81,7 +104,8 @@ int main(int argc, char** argv) {
   const std::vector<std::string> inputs =
       argc > 2 ? read_inputs(argv[1]) : std::vector<std::string>();
   if (inputs.empty()) {
-    std::fprintf(stderr, "usage: %s INPUTS.hex VARIATIONS|--unpack FOLDER|--pack FOLDER\n",
+    std::fprintf(stderr,
+                 "usage: %s INPUTS.hex VARIATIONS [WORDS.dict]|--unpack FOLDER|--pack FOLDER\n",
                  argv[0]);
     return 2;
   }
@@ -96,12 +120,13 @@ int main(int argc, char** argv) {
           << inputs[i];
     return 0;
   }
+  const auto words = argc > 3 ? read_words(argv[3]) : std::vector<std::string>();
   std::mt19937 random(1);
   long runs = 0;
   for (const std::string& input : inputs) {
     run(input);
     ++runs;
-    for (int i = std::atoi(what.c_str()); i > 0; --i, ++runs) run(variation(input, random));
+    for (int i = std::atoi(what.c_str()); i > 0; --i, ++runs) run(variation(input, words, random));
   }
   std::printf("%ld inputs\n", runs);
   return 0;

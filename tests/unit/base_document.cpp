@@ -207,6 +207,24 @@ TEST(Setting, ValuesAreTomlOrBareText) {
   EXPECT_EQ(parse_assignment(" a.b = 1").first, "a.b");
 }
 
+TEST(Setting, TheNumberAfterTheLastAppends) {
+  Node root = parse_toml("e = []\n[[step]]\nto = 1\n", "a.toml");
+  for (const char* setting : {"step.2.kind=hold", "step.2.time=1 s", "e.1=5", "region.1.kind=slab",
+                              "region.1.top=1 mm", "step.3={to = 2}"}) {
+    const auto [path, value] = parse_assignment(setting);
+    set_value(root, path, value, value.place);
+  }
+  const Node& steps = root.find("step")->value;
+  ASSERT_EQ(steps.items.size(), 3U);
+  EXPECT_EQ(steps.items[1].find("kind")->value.text, "hold");
+  EXPECT_EQ(steps.items[1].find("time")->value.text, "1 s");
+  EXPECT_EQ(steps.items[2].find("to")->value.number, 2.0);
+  EXPECT_EQ(root.find("e")->value.items.at(0).number, 5.0);
+  const Node& regions = root.find("region")->value;
+  EXPECT_EQ(regions.kind, Node::Kind::array);
+  EXPECT_EQ(regions.items.at(0).find("top")->value.text, "1 mm");
+}
+
 TEST(Setting, WhatCannotBeSetIsRefused) {
   const std::string text = "a = 1\ne = []\n[[step]]\nto = 1\n";
   const std::pair<const char*, const char*> cases[] = {
@@ -217,14 +235,16 @@ TEST(Setting, WhatCannotBeSetIsRefused) {
        "of a table"},
       {"step.2.to=1",
        "--set step.2.to=1: `step.2.to` cannot be set: `2` is none of the list's "
-       "entries; count them from 1 to 1"},
+       "entries; count them from 1 to 1, or append one by `2.kind`"},
       {"step.nan.to=1",
        "--set step.nan.to=1: `step.nan.to` cannot be set: `nan` is none of the "
-       "list's entries; count them from 1 to 1"},
+       "list's entries; count them from 1 to 1, or append one by `2.kind`"},
       {"step.to=1",
        "--set step.to=1: `step.to` cannot be set: `to` is none of the list's entries; "
-       "count them from 1 to 1"},
-      {"e.1=1", "--set e.1=1: `e.1` cannot be set: the list is empty; give it entries first"},
+       "count them from 1 to 1, or append one by `2.kind`"},
+      {"e.1.to=1",
+       "--set e.1.to=1: `e.1.to` cannot be set: `1` is none of the list's entries; append one by "
+       "`1.kind`"},
       {"b..c=1",
        "--set b..c=1: `b..c` has an empty word; join the names of tables and a key by "
        "single dots, as `tissue.material`"},

@@ -365,7 +365,7 @@ TEST_F(WholeFolders, KilledAnywhereItIsTheOldOneOrTheNewOne) {
         }
         test::file_faults.has_exchange = exchange;
         const int ended = in_a_child([&] {
-          test::file_faults.calls = 0;
+          test::file_faults.changes = 0;
           test::file_faults.kill_before = at;
           (void)put(fresh);
         });
@@ -404,12 +404,12 @@ TEST_F(WholeFolders, KilledWhileItClearsUpIsNoHarmEither) {
         write(place_ + "/notes.txt", "mine");
         test::file_faults.has_exchange = exchange;
         (void)in_a_child([&] {
-          test::file_faults.calls = 0;
+          test::file_faults.changes = 0;
           test::file_faults.kill_before = first;
           (void)put({{"new.csv", "new"}});
         });
         const int ended = in_a_child([&] {
-          test::file_faults.calls = 0;
+          test::file_faults.changes = 0;
           test::file_faults.kill_before = at;
           (void)WholeFolder(place_, "result", Replace::incomplete);
         });
@@ -425,13 +425,13 @@ TEST_F(WholeFolders, KilledWhileItClearsUpIsNoHarmEither) {
 // What an interrupted run kept is not put in place by anybody but a user.
 TEST_F(WholeFolders, AnIncompleteResultThatWasKilledStaysBeside) {
   killed_after([&] {
-    test::file_faults.calls = 0;
+    test::file_faults.changes = 0;
     WholeFolder folder(place_, "result", Replace::any);
     folder.open();
     folder.keep("case_001/findings.csv");
     write(folder.file("case_001/findings.csv"), "1");
     folder.write("a.csv", "1");
-    test::file_faults.kill_before = test::file_faults.calls + 5;
+    test::file_faults.kill_before = test::file_faults.changes + 5;
     (void)folder.put(State::incomplete);
   });
   (void)WholeFolder(place_, "result", Replace::any);

@@ -60,8 +60,11 @@ TEST(Arguments, OfTheOtherVerbs) {
   EXPECT_EQ(identify.columns.skip, 3);
   const Compare compare = accepted<Compare>({"compare", "a", "b", "--tolerances", "t.toml"});
   EXPECT_EQ(compare.got + compare.want + compare.tolerances, "abt.toml");
-  const Bless bless = accepted<Bless>({"golden", "bless", "one", "two", "--reason", "why"});
-  EXPECT_EQ(bless.names, (Words{"one", "two"}));
+  const Golden bless = accepted<Golden>({"golden", "bless", "one", "two", "--reason", "why"});
+  EXPECT_EQ(bless.subjects, (Words{"one", "two"}));
+  EXPECT_EQ(bless.act, Golden::Act::bless);
+  const Golden check = accepted<Golden>({"golden", "check", "mine", "--junit", "a.xml"});
+  EXPECT_EQ(check.options.junit, "a.xml");
   const Mesh mesh = accepted<Mesh>({"mesh", "leg.stl", "--unit", "mm", "--edge", "3 mm", "--out",
                                     "a.node", "--out", "a.vtu", "--force"});
   EXPECT_EQ(mesh.subject + mesh.unit + mesh.edge, "leg.stlmm3 mm");
@@ -81,7 +84,7 @@ TEST(Arguments, OfEveryVerbStandBeforeOrAfterIt) {
 }
 
 TEST(Arguments, AValueMayLookLikeAnythingElse) {
-  EXPECT_EQ(accepted<Bless>({"golden", "bless", "one", "--reason", "--quiet is quiet"}).reason,
+  EXPECT_EQ(accepted<Golden>({"golden", "bless", "one", "--reason", "--quiet is quiet"}).reason,
             "--quiet is quiet");
   EXPECT_EQ(accepted<RunCommand>({"run", "a.toml", "--out", "--there"}).out, "--there");
   EXPECT_EQ(accepted<RunCommand>({"run", "manual"}).scenarios, Words{"manual"});
@@ -91,19 +94,21 @@ TEST(Arguments, AValueMayLookLikeAnythingElse) {
 TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
   const std::pair<Words, const char*> cases[] = {
       {{},
-       "`palpate` wants a verb: run, explain, fit, data, compare, golden, mesh, reference, bench, "
-       "chart, "
-       "stability, sweep, identify, export, device, manual; `palpate "
+       "`palpate` wants a verb: help, run, explain, fit, data, compare, report, golden, mesh, "
+       "reference, bench, chart, stability, sweep, identify, export, device, new, open, manual, "
+       "schema, completion; "
+       "`palpate "
        "--help` shows "
        "how to write it"},
       {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
       {{"xyzzy"},
-       "unknown verb `xyzzy`; known: run, explain, fit, data, compare, golden, mesh, reference, "
-       "bench, "
-       "chart, stability, sweep, identify, export, device, manual"},
+       "unknown verb `xyzzy`; known: help, run, explain, fit, data, compare, report, golden, mesh, "
+       "reference, bench, chart, stability, sweep, identify, export, device, new, open, manual, "
+       "schema, completion"},
       {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
       {{"golden"},
-       "`palpate golden` wants a verb: bless; `palpate golden --help` shows how to write "
+       "`palpate golden` wants a verb: add, check, list, bless; `palpate golden --help` shows how "
+       "to write "
        "it"},
       {{"run", "a.toml", "--forse"}, "unknown option `--forse`; did you mean `--force`?"},
       {{"run", "a.toml", "--sett=x=1"}, "unknown option `--sett`; did you mean `--set`?"},
@@ -124,7 +129,7 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
        "--help` "
        "shows how to write it"},
       {{"run", "a.toml", "--out"},
-       "`palpate run` cannot be read: --out: 1 required TEXT missing; `palpate run --help` shows "
+       "`palpate run` cannot be read: --out: 1 required FOLDER missing; `palpate run --help` shows "
        "how "
        "to write it"},
       {{"compare", "a", "b", "c"},

@@ -1,9 +1,11 @@
 // `palpate chart` on scenarios that cost nothing: its files, its refusals, how it goes on.
 #include <gtest/gtest.h>
 
+#include "browser.h"
 #include "program.h"
 #include "record/csv.h"
 #include "record/journal.h"
+#include "svg_text.h"
 
 namespace palpate::test {
 namespace {
@@ -52,6 +54,10 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
   EXPECT_NE(ended.out.find("Within the tolerance of 5 %, the cheapest is `"), std::string::npos);
   EXPECT_NE(read_file(folder_ / "out/small_chart/chart.svg").find("taken by auto"),
             std::string::npos);
+  EXPECT_EQ(SvgPicture(read_file(folder_ / "out/small_chart/chart.svg")).faults(),
+            std::vector<std::string>{});
+  EXPECT_EQ(faults_of_pages(folder_ / "out/small_chart", {"report.html"}, Scheme::dark),
+            std::vector<std::string>{});
   const record::Table all = table();
   const auto status = column(all, "status");
   const auto variant = column(all, "variant");
@@ -93,12 +99,12 @@ TEST_F(ChartVerb, AHalfSpaceIsForHertzAlone) {
 
 TEST_F(ChartVerb, AFinishedChartIsNotOverwritten) {
   ASSERT_EQ(chart(half_space).code, 0);
-  const Ended again = chart(half_space);
+  const Ended again = chart(half_space, {"--set", "finger.radius=8 mm"});
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.err,
-            "out/small_chart: holds a finished chart; give `--force` to replace it, or another "
-            "`--out`\n");
-  EXPECT_EQ(chart(half_space, {"--force"}).code, 0);
+            "out/small_chart: holds a finished chart of other inputs or settings; give `--force` "
+            "to replace it, or another `--out`\n");
+  EXPECT_EQ(chart(half_space).code, 0) << "the same call";
 }
 
 TEST_F(ChartVerb, InterruptedItGoesOn) {

@@ -34,7 +34,7 @@ TEST_F(CompareVerb, equal) { expect(compare(base_, base_), 0, "case: the same\na
 TEST_F(CompareVerb, the_worst_row_is_named) {
   expect(compare("case,a_mm\nskin,1.5\nskin,2.5\nskin,8\n", base_), 3,
          "case: the same\n"
-         "a_mm: DIFFERS in 3 rows; worst row 3: got 8, want 4, relative difference 1, "
+         "a_mm: DIFFERS in 3 rows; worst row 3: case `skin`, got 8, want 4, relative difference 1, "
          "allowed 4e-09\n");
 }
 
@@ -42,7 +42,8 @@ TEST_F(CompareVerb, within_a_tolerance) {
   const std::string tolerances = "[column.a_mm]\nrel = 0.01\nreason = \"a test\"\n";
   expect(compare("case,a_mm\nskin,1\nskin,2.01\nskin,4\n", base_, tolerances), 0,
          "case: the same\n"
-         "a_mm: equal; worst row 2: got 2.01, want 2, relative difference 0.005, allowed 0.02\n");
+         "a_mm: equal; worst row 2: case `skin`, got 2.01, want 2, relative difference 0.005, "
+         "allowed 0.02\n");
   EXPECT_EQ(compare("case,a_mm\nskin,1\nskin,2.03\nskin,4\n", base_, tolerances).code, 3);
 }
 
@@ -81,6 +82,50 @@ TEST_F(CompareVerb, folders) {
   ended = palpate(folder_.path(), {"compare", "b", "a"});
   EXPECT_EQ(ended.code, 3);
   EXPECT_NE(ended.out.find("y.csv: DIFFERS, the file is not wanted\n"), std::string::npos);
+}
+
+TEST_F(CompareVerb, for_pipelines) {
+  const std::string curve = "case,time_s,a_mm\nskin,0,1\nskin,0.5,2\n";
+  const std::string other = "case,time_s,a_mm\nskin,0,1\nskin,0.5,3\n";
+  write_file(folder_ / "a/x.csv", other);
+  write_file(folder_ / "b/x.csv", curve);
+  write_file(folder_ / "b/y.csv", curve);
+  const Ended quiet = palpate(folder_.path(), {"compare", "a", "b", "--quiet", "--junit", "j.xml",
+                                               "--annotations", "github"});
+  EXPECT_EQ(quiet.code, 3);
+  EXPECT_EQ(quiet.out,
+            "x.csv: DIFFERS\n"
+            "a_mm: DIFFERS in 1 row; worst row 2: case `skin`, time_s 0.5, got 3, want 2, relative "
+            "difference 0.5, allowed 2e-09\n"
+            "y.csv: DIFFERS, the file is missing\n");
+  EXPECT_EQ(quiet.err,
+            "::error file=b/x.csv,line=3,title=palpate%3A a::x.csv, a_mm: DIFFERS in 1 row; worst "
+            "row 2: case `skin`, time_s 0.5, got 3, want 2, relative difference 0.5, allowed "
+            "2e-09\n"
+            "::error file=b/y.csv,title=palpate%3A a::y.csv, file: DIFFERS, the file is missing\n");
+  const std::string junit = read_file(folder_ / "j.xml");
+  EXPECT_NE(junit.find("<testsuites name=\"palpate\" tests=\"4\" failures=\"2\" errors=\"0\" "
+                       "skipped=\"0\">"),
+            std::string::npos)
+      << junit;
+  const Ended json = palpate(folder_.path(), {"compare", "a", "b", "--json"});
+  EXPECT_EQ(json.code, 3);
+  EXPECT_NE(json.out.find("{\"file\":\"x.csv\",\"column\":\"a_mm\",\"state\":\"differs\","
+                          "\"rows_differing\":1,\"row\":2,\"case\":\"skin\",\"x_name\":\"time_s\","
+                          "\"x\":0.5,\"got\":3,\"want\":2,\"relative\":0.5,\"allowed\":2e-09}\n"),
+            std::string::npos)
+      << json.out;
+  EXPECT_EQ(palpate(folder_.path(), {"compare", "a", "a", "--quiet"}).out, "");
+}
+
+TEST_F(CompareVerb, tolerances_of_unknown_columns_are_mistakes) {
+  const Ended ended =
+      compare(base_, base_, "[column.b_mm]\nrel = 1\n[tube]\nx = \"time\"\nwidth = 1\n");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err,
+            "tolerances.toml:1:9: `b_mm` is no column of these files; did you mean `a_mm`?\n"
+            "tolerances.toml:4:5: `time` is no column of these files; take it out, or name one of "
+            "a_mm, case\n");
 }
 
 TEST_F(CompareVerb, what_cannot_be_compared) {

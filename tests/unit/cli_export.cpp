@@ -290,11 +290,13 @@ TEST_F(ExportVerb, refusals_leave_nothing_behind) {
 
 TEST_F(ExportVerb, nothing_is_replaced_unasked) {
   ASSERT_EQ(run("press", "afm-tab").code, 0);
+  EXPECT_EQ(run("press", "afm-tab").code, 0) << "the same content";
+  write_file(folder_ / "out/soft.tab", "mine");
   const Ended again = run("press", "afm-tab");
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.err,
-            "out/soft.tab: is there already; give `--force` to replace it, or another "
-            "`--out`\n");
+            "out/soft.tab: is there already and says something else; give `--force` to replace it, "
+            "or another `--out`\n");
   EXPECT_EQ(run("press", "afm-tab", {"--force"}).code, 0);
   // The source itself stays, whatever is asked for.
   const Ended self = palpate(folder_.path(), {"export", "own.csv", "--to", "csv-si", "--force"});

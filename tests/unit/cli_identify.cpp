@@ -5,6 +5,7 @@
 
 #include "program.h"
 #include "record/csv.h"
+#include "svg_text.h"
 
 namespace palpate::test {
 namespace {
@@ -56,6 +57,9 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
                            "profile.gp", "scenario.toml", "run.json"})
     EXPECT_TRUE(std::filesystem::exists(result / name)) << name;
 
+  for (const char* name : {"curve.svg", "profile.svg"})
+    EXPECT_EQ(SvgPicture(read_file(result / name)).faults(), std::vector<std::string>{}) << name;
+
   write_file(folder_ / "again.toml", read_file(result / "scenario.toml"));
   const auto run = palpate(folder_.path(), {"run", "again.toml"});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -74,10 +78,11 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
 TEST_F(IdentifyVerb, DoesNotReplaceUnasked) {
   const std::vector<std::string> words{"--unknown", "tissue.young_modulus=1..500 kPa"};
   ASSERT_EQ(identify(words).code, 0);
-  const auto again = identify(words);
-  EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.err.find("holds a finished identification"), std::string::npos);
+  const auto other = identify({"--unknown", "tissue.young_modulus=1..400 kPa"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("holds a finished identification"), std::string::npos);
   EXPECT_EQ(identify({"--unknown", "tissue.young_modulus=1..500 kPa", "--force"}).code, 0);
+  EXPECT_EQ(identify(words).code, 0) << "the same call as the first";
 }
 
 TEST_F(IdentifyVerb, RefusesInSentences) {

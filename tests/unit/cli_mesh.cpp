@@ -185,6 +185,7 @@ TEST_F(MeshVerb, ReplacesFilesOnlyWhereTold) {
   EXPECT_EQ(read_file(folder_ / "mine.ele"), "precious") << "a refused surface leaves all as it is";
   (void)quality({"cube.off", "--unit", "mm", "--out", "mine.node", "--force"});
   EXPECT_NE(read_file(folder_ / "mine.ele"), "precious");
+  (void)quality({"cube.off", "--unit", "mm", "--out", "mine.node"});  // the same mesh again
   const std::string before = read_file(folder_ / "box.node");
   expect_refused(2, {"box.ele", "--unit", "mm", "--out", "box.node", "--force"},
                  "box.node: is the input file");

@@ -295,14 +295,14 @@ TEST_F(RunMeshes, hertz_refuses_what_only_a_mesh_knows) {
   };
   const std::string cylinder = hertz + "[tissue]\nshape = { kind = \"cylinder\" }\n";
   expect_refused(cylinder + "[finger]\nspheres = 3\n", 2,
-                 sentence("several spheres press a curved surface"));
+                 sentence("several spheres meet a curved surface"));
   expect_refused(cylinder + "[[step]]\nkind = \"slide\"\n", 2,
                  sentence("the finger slides over a curved surface"));
-  expect_refused(hertz + "[[region]]\ntag = 1\n", 2, sentence("it has regions of other tissues"));
+  expect_refused(hertz + "[[region]]\ntag = 1\n", 2, sentence("the body has several tissues"));
   expect_refused(hertz + "[finger]\ny = \"61 mm\"\n", 2,
-                 sentence("the finger leaves the specimen's top"));
+                 sentence("the finger leaves the top of the body"));
   expect_refused(hertz + "[[step]]\nkind = \"slide\"\nby = \"31 mm\"\n", 2,
-                 sentence("the finger leaves the specimen's top"));
+                 sentence("the finger leaves the top of the body"));
   EXPECT_EQ(run(cylinder).code, 0);
   EXPECT_EQ(run(hertz + "[[step]]\nkind = \"slide\"\nby = \"29 mm\"\n").code, 0);
 }

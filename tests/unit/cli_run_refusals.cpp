@@ -37,12 +37,28 @@ class RunRefusals : public testing::Test {
 
 TEST_F(RunRefusals, a_finished_result_stays) {
   finish_one();
-  const Ended ended = palpate(folder_.path(), {"run", "press.toml"});
+  Ended ended = palpate(folder_.path(), {"run", "press.toml", "--set", "finger.radius=8 mm"});
   EXPECT_EQ(ended.code, 2);
-  EXPECT_EQ(
-      ended.err,
-      "out/press: holds a finished result; give `--force` to replace it, or another `--out`\n");
+  EXPECT_EQ(ended.err,
+            "out/press: holds a finished result of other inputs or settings; give `--force` to "
+            "replace it, or another `--out`\n");
+  write_file(folder_ / "out/press/findings.csv", "edited");
+  ended = palpate(folder_.path(), {"run", "press.toml"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err,
+            "out/press: holds a finished result whose `findings.csv` was changed or removed since; "
+            "give `--force` to replace it, or another `--out`\n");
   EXPECT_TRUE(old_is_there());
+  EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"press"});
+}
+
+TEST_F(RunRefusals, the_same_run_again_replaces_its_result_and_nothing_else) {
+  finish_one();
+  write_file(folder_ / "out/press/notes.txt", "mine");
+  const Ended ended = palpate(folder_.path(), {"run", "press.toml", "--jobs", "1"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_FALSE(old_is_there()) << "run.json has another time";
+  EXPECT_EQ(read_file(folder_ / "out/press/notes.txt"), "mine");
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"press"});
 }
 
@@ -106,7 +122,6 @@ TEST_F(RunRefusals, a_write_that_fails_keeps_the_old_result) {
   finish_one();
   const Ended ended = run_program(
       {.arguments = {"run", "press.toml", "--force"}, .folder = folder_.path(), .before = [] {
-         ::signal(SIGXFSZ, SIG_IGN);
          const rlimit limit{16384, 16384};
          ::setrlimit(RLIMIT_FSIZE, &limit);
        }});

@@ -63,7 +63,7 @@ TEST_F(OfAPress, has_all_its_files) {
             (std::set<std::string>{"contents.sha256", "figure_force_indentation.gp",
                                    "figure_force_indentation.svg", "findings.csv", "fits.csv",
                                    "force_indentation.csv", "pressure_001.exr", "pressure_002.exr",
-                                   "run.json", "scenario.toml"}));
+                                   "report.html", "run.json", "scenario.toml"}));
   EXPECT_EQ(names_in(*folder_ / "out"), std::set<std::string>{"press"}) << "nothing is left beside";
 }
 
@@ -118,8 +118,8 @@ TEST(RunResults, a_uniform_test_has_a_strain_curve) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(names_in(folder / "out/creep"),
             (std::set<std::string>{"contents.sha256", "figure_strain_time.gp",
-                                   "figure_strain_time.svg", "findings.csv", "fits.csv", "run.json",
-                                   "scenario.toml", "strain_time.csv"}));
+                                   "figure_strain_time.svg", "findings.csv", "fits.csv",
+                                   "report.html", "run.json", "scenario.toml", "strain_time.csv"}));
   EXPECT_EQ(record::read_csv(folder / "out/creep/strain_time.csv").columns,
             (Strings{"case", "step", "time_s", "stress_kPa", "strain"}));
 }

@@ -59,13 +59,32 @@ TEST_F(RunStops, an_interrupted_run_keeps_its_finished_cases) {
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"slow"}) << "no leftovers";
   EXPECT_EQ(names_in(folder_ / "out/slow"),
             (std::set<std::string>{"contents.sha256", "findings.csv", "force_indentation.csv",
-                                   "pressure_001.exr", "run.json", "scenario.toml"}))
+                                   "pressure_001.exr", "report.html", "run.json", "scenario.toml"}))
       << "no half files";
   const record::Table findings = record::read_csv(folder_ / "out/slow/findings.csv");
   ASSERT_EQ(findings.rows.size(), 1U);
   EXPECT_EQ(findings.rows[0][0], record::Cell("0.005 mm"));
   EXPECT_NE(read_file(folder_ / "out/slow/run.json").find("\"complete\": false"),
             std::string::npos);
+}
+
+// The row of the second case has some ten million steps.
+TEST_F(RunStops, an_interrupt_does_not_wait_for_a_row) {
+  const std::vector<std::string> press{"--set", "output.interval=1000 s"};
+  const std::vector<std::string> creep{
+      "--set", "step.1={kind=\"creep\",stress=\"1 kPa\",load_time=\"1 ms\"}",
+      "--set", "tissue.shape={kind=\"cuboid\",size=[\"20 mm\",\"20 mm\",\"20 mm\"]}",
+      "--set", "sweep={\"step.1.load_time\"=[\"1 ms\",\"1000 s\"]}",
+      "--set", "output.interval=1000 s"};
+  for (const auto& more : {press, creep}) {
+    Running running(call(more));
+    wait_for_first_case(running);
+    running.send(SIGINT);
+    const Ended ended = running.wait();
+    EXPECT_EQ(ended.code, 130) << ended.err;
+    EXPECT_TRUE(says(ended, "finished cases are kept")) << ended.err;
+    fs::remove_all(folder_ / "out");
+  }
 }
 
 TEST_F(RunStops, an_incomplete_result_is_run_again_without_force) {

@@ -73,7 +73,7 @@ TEST_F(RunSurfaces, are_explained) {
   EXPECT_NE(ended.out.find("top          curvatures 20"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("mm, where the surface is inclined by 30 degrees"), std::string::npos)
       << ended.out;
-  EXPECT_NE(ended.out.find("half-space? change of the force by thickness and sides"),
+  EXPECT_NE(ended.out.find("size         error of a force that ignores the body's size"),
             std::string::npos);
 }
 

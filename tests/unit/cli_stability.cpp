@@ -1,8 +1,10 @@
 // `palpate stability`: its files, its sentences, its refusals, and that it leaves nothing half.
 #include <gtest/gtest.h>
 
+#include "browser.h"
 #include "program.h"
 #include "record/csv.h"
+#include "svg_text.h"
 
 namespace palpate::test {
 namespace {
@@ -34,7 +36,9 @@ TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
     EXPECT_TRUE(names.contains(name)) << name;
   if (names.contains("stability.svg")) {  // gnuplot is there
     EXPECT_EQ(ended.err.find("warning"), std::string::npos) << ended.err;
+    EXPECT_EQ(SvgPicture(read_file(result / "stability.svg")).faults(), std::vector<std::string>{});
   }
+  EXPECT_EQ(faults_of_pages(result, {"report.html"}, Scheme::light), std::vector<std::string>{});
   const record::Table limits = record::read_csv(result / "stability.csv");
   EXPECT_EQ(limits.columns,
             (std::vector<std::string>{"rung", "volume", "integrator", "damping", "axis", "value",
@@ -45,9 +49,9 @@ TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
             (std::vector<std::string>{"failure", "rung", "integrator", "setting", "setting_unit",
                                       "measure", "measured", "theory", "seen", "note"}));
   // A finished map is not replaced unless that is asked for.
-  const Ended again = map({});
+  const Ended again = map({"--set", "finger.radius=8 mm"});
   EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.err.find("holds a finished stability map; give `--force`"), std::string::npos)
+  EXPECT_NE(again.err.find("holds a finished stability map of other inputs"), std::string::npos)
       << again.err;
   write_file(result / "mark", "old");
   const std::string rows = read_file(result / "stability.csv");

@@ -72,11 +72,12 @@ TEST(Compare, NamesTheWorstRow) {
   EXPECT_EQ(result.columns[1].worst->allowed, 0.125);
   EXPECT_EQ(comparison_text(result),
             "case: the same\n"
-            "force_N: DIFFERS in 2 rows; worst row 2: got 2.5, want 2, relative difference 0.25, "
-            "allowed 0.125\n");
+            "force_N: DIFFERS in 2 rows; worst row 2: case `b`, got 2.5, want 2, relative "
+            "difference 0.25, allowed 0.125\n");
   EXPECT_EQ(comparison_text(compare(got, want, {.standard = {.rel = 0.5}})),
             "case: the same\n"
-            "force_N: equal; worst row 2: got 2.5, want 2, relative difference 0.25, allowed 1\n");
+            "force_N: equal; worst row 2: case `b`, got 2.5, want 2, relative difference "
+            "0.25, allowed 1\n");
 }
 
 TEST(Compare, ColumnsByNameAndRowsByNumber) {

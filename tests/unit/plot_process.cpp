@@ -64,6 +64,9 @@ TEST(Process, MuchOutput) {
   const ProcessResult result =
       run_process({.argv = {"sh", "-c", "head -c 1000000 /dev/zero"}});  // more than a pipe holds
   EXPECT_EQ(result.output.size(), 1000000U);
+  const ProcessResult endless = run_process({.argv = {"sh", "-c", "yes | head -c 100000000"}});
+  EXPECT_EQ(endless.code, 0) << "all of it was read";
+  EXPECT_EQ(endless.output.size(), 1U << 20);
 }
 
 }  // namespace

@@ -57,6 +57,13 @@ TEST(SealedLine, ColumnsAreFoundByTheirNames) {
   EXPECT_EQ(value_in<double>(*back, "missing"), nullptr);
 }
 
+// A seal is no secret: another program may have written what is behind a good one.
+TEST(SealedLine, OneThatIsNotOneRowIsNone) {
+  EXPECT_FALSE(read_line(line_of({{"number"}, {}}), identity)) << "no row";
+  EXPECT_FALSE(read_line(line_of({{"number"}, {{1.0}, {2.0}}}), identity)) << "two rows";
+  EXPECT_FALSE(read_line(line_of({{"twice", "twice"}, {{1.0, 2.0}}}), identity)) << "no table";
+}
+
 TEST(SealedLine, OneThatIsTornIsNone) {
   const std::string line = line_of(row(1.0));
   for (std::size_t length = 0; length < line.size(); ++length) {

@@ -51,6 +51,86 @@ TEST(FamilyFigures, ASlideIsDrawnAlongItsWay) {
   EXPECT_EQ(travel[1].series.at(0).y_column, "travel_mm");
 }
 
+TEST(FamilyFigures, AHoldIsDrawnOverTime) {
+  const auto family =
+      scenario::parse("schema = 1\n" + indent + "[[step]]\nkind = \"hold\"\n", "test.toml", {});
+  record::CaseRecord record;
+  record.name = "test";
+  const auto figures = report::family_figures(family, {record}, {});
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[1].name, "figure_force_time");
+  EXPECT_EQ(figures[1].series.at(0).x_column, "time_s");
+}
+
+TEST(FamilyFigures, TheDeviceIsDrawnBesideTheModel) {
+  const auto family = scenario::parse("schema = 1\n" + indent, "test.toml", {});
+  record::CaseRecord record;
+  record.name = "test";
+  record.contact.resize(1);
+  record.measured.resize(1);
+  EXPECT_EQ(report::family_figures(family, {record}, {}).size(), 1U) << "no force was measured";
+  record.measured[0].force = 1.0;
+  const auto figures = report::family_figures(family, {record}, {});
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[1].name, "figure_live_force");
+  EXPECT_EQ(figures[1].series.at(0).y_column, "measured_force_N");
+  EXPECT_EQ(figures[1].series.at(1).y_column, "force_N");
+}
+
+TEST(FamilyFigures, RegressionsAreDrawnWhereTheyAreAskedFor) {
+  fit::Fit fit{.model = fit::Model::logarithmic, .r2 = 0.671};
+  fit.parameters = {{.name = "a", .estimate = 0.5}, {.name = "b", .estimate = 0.25}};
+  record::CaseRecord record;
+  record.name = "test";
+  const auto drawn = [&](const std::string& more) {
+    const auto family = scenario::parse("schema = 1\n" + indent + more, "test.toml", {});
+    return report::family_figures(family, {record}, {{"test", "force_indentation", fit}}).at(0);
+  };
+  EXPECT_TRUE(drawn("").series.at(0).fits.empty());
+  const auto asked = drawn("[output]\nregression = \"logarithmic\"\n");
+  EXPECT_EQ(asked.series.at(0).fits.size(), 1U);
+  EXPECT_EQ(asked.fit_label, "a + b ln h, R² 0.67");
+}
+
+TEST(FamilyFigures, AnAxisIsLogarithmicWhereCurvesWouldLieOnIt) {
+  const auto drawn = [](double ratio) {
+    const auto family = scenario::parse("schema = 1\n" + indent, "test.toml", {});
+    std::vector<record::CaseRecord> records(2);
+    for (auto& record : records) record.contact.resize(1);
+    records[0].contact[0].force = 1.0;
+    records[1].contact[0].force = ratio;
+    return report::family_figures(family, records, {}).at(0);
+  };
+  EXPECT_EQ(drawn(29.0).y_axis, plot::Axis::linear);
+  EXPECT_EQ(drawn(31.0).y_axis, plot::Axis::logarithmic);
+  EXPECT_EQ(drawn(31.0).y_low, 0.01);
+  EXPECT_EQ(drawn(31.0).y_high, 46.5);
+}
+
+TEST(FamilyFigures, ManyCasesAreColouredByTheSweptNumber) {
+  const auto drawn = [](const std::string& depths) {
+    const auto family =
+        scenario::parse("schema = 1\n" + indent +
+                            "[sweep]\n\"tissue.material\" = [\"skin\", \"muscle\"]\n"
+                            "\"step.1.to\" = [" +
+                            depths + "]\n",
+                        "test.toml", {});
+    std::vector<record::CaseRecord> records;
+    for (const auto& one : family.cases) {
+      records.emplace_back();
+      records.back().name = one.name;
+    }
+    return report::family_figures(family, records, {}).at(0);
+  };
+  EXPECT_FALSE(drawn("\"1 mm\", \"2 mm\", \"3 mm\", \"4 mm\"").bar) << "eight have a legend";
+  const auto many = drawn("\"1 mm\", \"2 mm\", \"3 mm\", \"4 mm\", \"5 mm\"");
+  ASSERT_TRUE(many.bar);
+  EXPECT_EQ(many.bar->label, "step.1.to (mm)");
+  EXPECT_EQ(many.bar->high, 5.0);
+  EXPECT_EQ(many.series.at(1).shade, 2.0);
+  EXPECT_EQ(many.series.at(9).label, "muscle");
+}
+
 TEST(FamilyFigures, CurvaturesAreDrawnWhereThreeDiffer) {
   const auto family = scenario::parse(
       "schema = 1\n" + indent + "[sweep]\n\"tissue.material\" = [\"skin\", \"muscle\"]\n",

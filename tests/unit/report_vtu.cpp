@@ -225,6 +225,7 @@ TEST_F(Vtu, CarriesStrain) {
   const Element file = piece(vtu_bytes(frame()));
   const Element& data = file.child("CellData");
   EXPECT_EQ(data.array("strain").attributes.at("NumberOfComponents"), "6");
+  EXPECT_EQ(data.array("strain").attributes.at("ComponentName3"), "xy");
   const std::vector<double> strain = doubles(data.array("strain"));
   ASSERT_EQ(strain.size(), 72u);
   for (std::size_t i = 0; i < 72; ++i) EXPECT_EQ(strain[i], strain_[i / 6][i % 6]);

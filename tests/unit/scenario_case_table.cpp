@@ -144,7 +144,7 @@ TEST_F(Tables, TellTheCellOfAMistake) {
        "cases.csv:1:1: `frictoin` is not a key here; did you mean `friction`?"},
       {"step.2.to\n1 mm\n",
        "cases.csv:1:1: `step.2.to` cannot be set: `2` is none of the list's entries; count them "
-       "from 1 to 1"},
+       "from 1 to 1, or append one by `2.kind`"},
       {"\x01\x02", "cases.csv:1:1: this is not a text file; give a CSV file"},
       {"title\n\xff\n", "cases.csv:2:1: this is not UTF-8 text; save the file as UTF-8"},
   };

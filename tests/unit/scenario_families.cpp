@@ -78,7 +78,7 @@ TEST(Sweep, MistakesAreToldOnceAndAtTheirValue) {
        "press.toml:6:1: `tissue.material` is swept twice; keep one of the two"},
       {"\"step.2.to\" = [\"1 mm\"]\n",
        "press.toml:5:1: `step.2.to` cannot be set: `2` is none of the list's entries; count them "
-       "from 1 to 1"},
+       "from 1 to 1, or append one by `2.kind`"},
   };
   for (const auto& [text, sentence] : cases)
     EXPECT_EQ(refusal(press + "[sweep]\n" + text), sentence) << text;
@@ -225,18 +225,28 @@ TEST_F(Files, TablesThatCannotBeUsed) {
   EXPECT_EQ(said("[tissue]\nmaterial = \"my.toml#gel\"\n"),
             "press.toml:5:12: `my.toml#gel` has no `retardation_time`; give "
             "`tissue.retardation_time`, or set another `tissue.viscosity`");
-  EXPECT_EQ(
-      said("[tissue]\nmaterial = \"bad.toml#gel\"\n"),
-      "bad.toml:1:2: `gel` lacks `poisson_ratio`; add `poisson_ratio = { value = ..., source = "
-      "\"...\" }`\n"
-      "bad.toml:2:1: `densitty` is not a key here; did you mean `density`?\n"
-      "bad.toml:3:1: `young_modulus` lacks `source`; write `{ value = ..., source = \"...\" }`\n"
-      "bad.toml:3:27: `value` must be above 0 kPa, got `0 kPa`; give a value in that range");
+  EXPECT_EQ(said("[tissue]\nmaterial = \"bad.toml#gel\"\n"),
+            "bad.toml:1:2: `gel` lacks `poisson_ratio`; add `poisson_ratio = ...`, or `{ value = "
+            "..., source = \"...\" }`\n"
+            "bad.toml:2:1: `densitty` is not a key here; did you mean `density`?\n"
+            "bad.toml:3:27: `value` must be above 0 kPa, got `0 kPa`; give a value in that range");
   EXPECT_EQ(said("[tissue]\nmaterial = \"rubbish.toml#gel\"\n"),
             "rubbish.toml:1:1: this is not a text file; give a TOML file");
   EXPECT_EQ(said("[tissue]\nmaterial = \"finger\"\n"),
             "press.toml:5:12: `finger` has a Poisson's ratio of 0.5, and a tissue needs less; set "
             "`tissue.poisson_ratio = 0.49`");
+}
+
+TEST_F(Files, ATableNeedsThreeNumbers) {
+  write("my.toml",
+        "[gel]\ndensity = \"1020 kg/m^3\"\nyoung_modulus = \"12 kPa\"\n"
+        "poisson_ratio = 0.45\n[block]\ndensity = 1020\n"
+        "young_modulus = { value = \"12 kPa\" }\npoisson_ratio = 0.5\n");
+  EXPECT_EQ(said("[tissue]\nmaterial = \"my.toml#gel\"\n[solver]\nmodel = \"hertz\"\n"),
+            "accepted");
+  EXPECT_EQ(said("[tissue]\nmaterial = \"my.toml#block\"\n"),
+            "my.toml:6:11: `value` wants a density with its unit, as text, got an integer `1020`; "
+            "write it as `value = \"1020 kg/m^3\"`");
 }
 
 TEST_F(Files, CopiesBesideTheEchoMustNotClash) {

@@ -77,7 +77,7 @@ TEST(Choose, TheToleranceDecides) {
   EXPECT_EQ(choose(one).shortfall(), "");
   one.scenario.solver.tolerance = 0.001;
   EXPECT_EQ(choose(one).shortfall().substr(0, 62),
-            "no rung is predicted to be within the tolerance of 0.1 %: `cou");
+            "no model is expected to be within the tolerance of 0.1 %: `cou");
 }
 
 TEST(Choose, ARefinedMeshIsForecastByItsTolerance) {

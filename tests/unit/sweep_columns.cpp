@@ -32,7 +32,7 @@ record::Table results() {
                    "peak_force_N",
                    "force_at_2_mm_N",
                    "force_indentation_power_n",
-                   "force_indentation_logarithmic_b",
+                   "force_indentation_logarithmic_b_N",
                    "force_at_1_mm_N"};
   const auto row = [&](double modulus, const char* material, const char* outcome, double force) {
     table.rows.push_back({1.0, std::string("a"), modulus, std::string(material),

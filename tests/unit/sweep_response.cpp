@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "plot/palette.h"
 #include "plot/process.h"
 #include "record/csv.h"
+#include "svg_text.h"
 #include "sweep/labels.h"
 #include "temporary_folder.h"
 
@@ -166,6 +168,10 @@ std::vector<std::string> names_in(const WholeFolder& folder) {
   for (const HashedFile& file : folder.files()) {
     EXPECT_GT(fs::file_size(folder.file(file.path)), 20u) << file.path;
     names.push_back(file.path);
+    if (file.path.ends_with(".svg"))
+      EXPECT_EQ(test::SvgPicture(read_text(folder.file(file.path))).faults(),
+                std::vector<std::string>{})
+          << file.path;
   }
   return names;
 }
@@ -175,7 +181,8 @@ std::vector<std::string> drawn(const sweep::SweepColumns& columns) {
   const test::TemporaryFolder place;
   WholeFolder folder((place / "drawn").string(), "sweep", Replace::incomplete);
   folder.open();
-  for (const std::string& warning : draw_sweep(columns, "It's a sweep", folder))
+  for (const std::string& warning :
+       draw_sweep(columns, sensitivity(columns), "It's a sweep", folder))
     EXPECT_EQ(warning.find("gnuplot"), std::string::npos) << warning;
   return names_in(folder);
 }
@@ -207,7 +214,8 @@ TEST(Response, WithoutOptionsOnlyTablesAreWritten) {
   const test::TemporaryFolder place;
   WholeFolder folder((place / "drawn").string(), "sweep", Replace::incomplete);
   folder.open();
-  (void)draw_sweep(sample(Kind::sobol), "Sweep", folder, std::nullopt);
+  (void)draw_sweep(sample(Kind::sobol), sensitivity(sample(Kind::sobol)), "Sweep", folder,
+                   std::nullopt);
   EXPECT_EQ(names_in(folder), (std::vector<std::string>{"correlation.csv", "sweep_points.csv"}));
 }
 
@@ -224,16 +232,16 @@ TEST(Response, AScriptIsTheSameTwice) {
 TEST(SweepLabels, NameOutputsAndFactorsWithTheirUnits) {
   EXPECT_EQ(output_label("force_at_1.5_mm_N"), "Force at 1.5 mm (N)");
   EXPECT_EQ(output_label("peak_strain"), "Peak strain");
-  EXPECT_EQ(output_label("force_indentation_logarithmic_a"), "a, logarithmic fit (N)");
-  EXPECT_EQ(output_label("creep_kelvin_voigt_tau"), "tau, kelvin_voigt fit, creep (s)");
+  EXPECT_EQ(output_label("force_indentation_logarithmic_a_N"), "a, logarithmic fit (N)");
+  EXPECT_EQ(output_label("creep_kelvin_voigt_tau_s"), "tau, kelvin_voigt fit, creep (s)");
   EXPECT_EQ(factor_label({.name = "tissue.density", .column = "tissue.density_kg_per_m3"}),
             "tissue.density (kg/m3)");
   EXPECT_EQ(factor_label({.name = "tissue.drag", .column = "tissue.drag_per_s"}),
             "tissue.drag (1/s)");
   EXPECT_EQ(factor_label({.name = "a.b + c.d", .column = "a.b_kPa"}), "a.b + c.d (kPa)");
   EXPECT_EQ(file_word("a b/c_1.5"), "a_b_c_1_5");
-  EXPECT_EQ(palette_colour(0.0), "440154");
-  EXPECT_EQ(palette_colour(1.0), "fde725");
+  EXPECT_EQ(plot::palette_colour(0.0), "440154");
+  EXPECT_EQ(plot::palette_colour(1.0), "fde725");
 }
 
 }  // namespace

@@ -79,6 +79,21 @@ TEST(SweepRow, one_without_anything_is_read_back) {
   EXPECT_TRUE(back->curve.columns.empty());
 }
 
+TEST(SweepRow, one_with_cells_of_another_kind_is_none) {
+  const auto with = [](const char* column, record::Cell cell) {
+    record::Table row = journal_row(example());
+    row.rows.front()[static_cast<std::size_t>(row.find(column))] = std::move(cell);
+    return row;
+  };
+  EXPECT_TRUE(row_of(with("name", std::string("other"))));
+  for (const double attempt : {0.0, -1.0, 1e300, std::nan("")})
+    EXPECT_FALSE(row_of(with("attempt", attempt))) << attempt;
+  for (const char* text : {"name,value\n1,2\n", "name\nx\n", "name,value\nx\n", ""})
+    EXPECT_FALSE(row_of(with("values", std::string(text)))) << text;
+  EXPECT_FALSE(row_of(with("remarks", std::string("remark\n1\n"))));
+  EXPECT_FALSE(row_of(with("curve", std::string("a,a\n1,2\n"))));
+}
+
 TEST(SweepRow, its_head_is_read_alone) {
   const auto head = head_of(journal_row(example()));
   ASSERT_TRUE(head);

@@ -1,9 +1,9 @@
 // Swept words as numbers with a unit, numbers as ranges, words for a shell.
 #include <gtest/gtest.h>
 
+#include "record/swept_column.h"
 #include "sweep/plan_file.h"
 #include "sweep/slurm.h"
-#include "sweep/swept_columns.h"
 
 namespace palpate::sweep {
 namespace {
@@ -17,10 +17,10 @@ struct Column {
 };
 
 Column column(const std::vector<std::string>& words) {
-  SweptColumn swept("k");
-  for (const std::string& word : words) swept.see(plan_cell(word));
+  record::SweptColumn swept("k");
+  for (const std::string& word : words) swept.see(record::swept_cell(word));
   Column made{swept.name(), {}};
-  for (const std::string& word : words) made.cells.push_back(swept.cell(plan_cell(word)));
+  for (const std::string& word : words) made.cells.push_back(swept.cell(record::swept_cell(word)));
   return made;
 }
 

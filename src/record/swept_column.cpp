@@ -1,12 +1,12 @@
 // The unit of a swept column is that of its first value, if results use that unit.
-#include "sweep/swept_columns.h"
+#include "record/swept_column.h"
 
 #include <array>
 #include <stdexcept>
 
 #include "base/text.h"
 
-namespace palpate::sweep {
+namespace palpate::record {
 namespace {
 
 const std::array units{&unit::mm,        &unit::kPa,        &unit::density,   &unit::s,
@@ -37,13 +37,20 @@ const Unit* unit_of(std::string_view text) {
 
 }  // namespace
 
+Cell swept_cell(const std::string& text) {
+  if (const auto number = whole_number(text); number && number_text(*number) == text)
+    return *number;
+  return text;
+}
+
 std::string unit_word(std::string_view symbol) {
   std::string text;
   if (symbol.starts_with("1/")) symbol.remove_prefix(1);
-  for (const char c : symbol) {
+  for (std::size_t i = 0; i < symbol.size(); ++i) {
+    const char c = symbol[i];
     if (c == '/')
       text += text.empty() ? "per_" : "_per_";
-    else if (c == ' ')
+    else if (c == ' ' || (c == '^' && symbol.substr(i + 1, 1) == "n"))
       text += '_';
     else if (c != '^')
       text += c;
@@ -51,7 +58,7 @@ std::string unit_word(std::string_view symbol) {
   return text;
 }
 
-void SweptColumn::see(const record::Cell& value) {
+void SweptColumn::see(const Cell& value) {
   if (kind_ == Kind::words) return;
   const auto* word = std::get_if<std::string>(&value);
   if (kind_ == Kind::unseen) {
@@ -67,7 +74,7 @@ std::string SweptColumn::name() const {
   return kind_ == Kind::quantities ? key_ + "_" + unit_word(unit_->symbol) : key_;
 }
 
-record::Cell SweptColumn::cell(const record::Cell& value) const {
+Cell SweptColumn::cell(const Cell& value) const {
   if (const auto* word = std::get_if<std::string>(&value)) {
     if (kind_ != Kind::quantities) return *word;
     return quantity(*word, *unit_).value_or(0.0);
@@ -77,4 +84,4 @@ record::Cell SweptColumn::cell(const record::Cell& value) const {
   return value;
 }
 
-}  // namespace palpate::sweep
+}  // namespace palpate::record

@@ -10,7 +10,7 @@ class App;
 class ParseError;
 }  // namespace CLI
 
-namespace palpate::cli {
+namespace palpate::commands {
 
 // The message on the first word that is neither a verb nor an option of `app`, if there is one.
 [[nodiscard]] std::optional<std::string> wrong_word(const CLI::App& app,
@@ -19,4 +19,4 @@ namespace palpate::cli {
 // The message for an error of CLI11.
 [[nodiscard]] std::string sentence(const CLI::App& app, const CLI::ParseError& error);
 
-}  // namespace palpate::cli
+}  // namespace palpate::commands

@@ -9,7 +9,11 @@
 #include "base/units.h"
 #include "record/table.h"
 
-namespace palpate::sweep {
+namespace palpate::record {
+
+// The cell for the text of a swept value: a number if it is written as number_text() writes it,
+// otherwise a word.
+[[nodiscard]] Cell swept_cell(const std::string& text);
 
 // The column of one swept key: `KEY_UNIT` with numbers if all values are quantities of one
 // dimension, `KEY` with numbers if all are pure numbers, otherwise `KEY` with words.
@@ -18,10 +22,10 @@ class SweptColumn {
   explicit SweptColumn(std::string key) : key_(std::move(key)) {}
 
   // Call see() with every value before name() and cell().
-  void see(const record::Cell& value);
+  void see(const Cell& value);
 
   [[nodiscard]] std::string name() const;
-  [[nodiscard]] record::Cell cell(const record::Cell& value) const;
+  [[nodiscard]] Cell cell(const Cell& value) const;
 
  private:
   enum class Kind { unseen, numbers, quantities, words };
@@ -30,7 +34,7 @@ class SweptColumn {
   const Unit* unit_ = nullptr;
 };
 
-// A unit as the last part of a column's name: `kg/m^3` as `kg_per_m3`.
+// A unit as the last part of a column's name: `kg/m^3` as `kg_per_m3`, `N/mm^n` as `N_per_mm_n`.
 [[nodiscard]] std::string unit_word(std::string_view symbol);
 
-}  // namespace palpate::sweep
+}  // namespace palpate::record

@@ -1,11 +1,11 @@
 // Finds wrong words before CLI11 parses, so that the message can suggest the nearest word.
-#include "cli/wrong_words.h"
+#include "commands/wrong_words.h"
 
 #include <CLI/CLI.hpp>
 
 #include "base/text.h"
 
-namespace palpate::cli {
+namespace palpate::commands {
 namespace {
 
 std::vector<std::string> verb_names(const CLI::App& app) {
@@ -93,4 +93,4 @@ std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
   return "`" + command + "` cannot be read: " + what + help;
 }
 
-}  // namespace palpate::cli
+}  // namespace palpate::commands

@@ -1,0 +1,140 @@
+// Sums up the answers of the cases of a scenario.
+#include "cli/answer_lines.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "base/text.h"
+
+namespace palpate::cli {
+namespace {
+
+std::string without_numbers(std::string sentence) {
+  std::erase_if(sentence, [](char c) {
+    return std::string_view("0123456789.e+-").find(c) != std::string_view::npos;
+  });
+  return sentence;
+}
+
+const record::Cell* finding(const record::CaseRecord& record, std::string_view name) {
+  for (const record::Finding& one : record.findings)
+    if (one.name == name) return &one.value;
+  return nullptr;
+}
+
+// The case with the smallest and that with the largest value of a finding.
+struct Range {
+  const record::CaseRecord* least = nullptr;
+  const record::CaseRecord* most = nullptr;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+std::optional<double> number(const record::CaseRecord& record, std::string_view name) {
+  const record::Cell* cell = finding(record, name);
+  const double* value = cell == nullptr ? nullptr : std::get_if<double>(cell);
+  return value == nullptr ? std::nullopt : std::optional(*value);
+}
+
+// Of the cases for which `value_of` has a value; nothing if there is none.
+template <class ValueOf>
+std::optional<Range> range_of(const std::vector<record::CaseRecord>& records,
+                              const ValueOf& value_of) {
+  Range range;
+  for (const record::CaseRecord& record : records) {
+    const std::optional<double> value = value_of(record);
+    if (!value) continue;
+    if (range.least == nullptr || *value < range.low) {
+      range.least = &record;
+      range.low = *value;
+    }
+    if (range.most == nullptr || *value > range.high) {
+      range.most = &record;
+      range.high = *value;
+    }
+  }
+  if (range.least == nullptr) return std::nullopt;
+  return range;
+}
+
+// "Peak force: 0.1 N (`skin`) to 2 N (`bone`)"
+std::string range_text(const char* what, const Range& range, const char* unit) {
+  return std::string(what) + ": " + rounded_text(range.low, 3) + unit + " (" +
+         ticked(range.least->name) + ") to " + rounded_text(range.high, 3) + unit + " (" +
+         ticked(range.most->name) + ")";
+}
+
+std::string models(const std::vector<record::CaseRecord>& records) {
+  std::map<std::string, int> counts;
+  for (const record::CaseRecord& record : records)
+    if (const record::Cell* model = finding(record, "model"))
+      ++counts[std::get<std::string>(*model)];
+  std::string text = "Models: ";
+  for (const auto& [model, count] : counts)
+    text += (text.ends_with(": ") ? "" : ", ") + model + " in " + std::to_string(count) + " of " +
+            std::to_string(records.size());
+  return text + "; `palpate explain` says why.";
+}
+
+std::string peaks(const std::vector<record::CaseRecord>& records) {
+  const auto force = range_of(records, [](const auto& one) { return number(one, "peak_force_N"); });
+  const auto strain = range_of(records, [](const auto& one) { return number(one, "peak_strain"); });
+  std::string text = force    ? range_text("Peak force", *force, " N")
+                     : strain ? range_text("Peak strain", *strain, "")
+                              : "Nothing was reached";
+  if (const auto error = range_of(records, [](const auto& one) { return one.answer.stated_error; }))
+    text +=
+        ", with errors of about " + percent_text(error->low) + " to " + percent_text(error->high);
+  return text + ".";
+}
+
+}  // namespace
+
+std::vector<std::string> said_once(const std::vector<NamedSentence>& all) {
+  struct Kind {
+    std::string bare;
+    NamedSentence first;
+    int cases = 0;
+  };
+  std::vector<Kind> kinds;
+  for (const NamedSentence& one : all) {
+    const std::string bare = without_numbers(one.sentence);
+    const auto known = std::find_if(kinds.begin(), kinds.end(),
+                                    [&](const Kind& kind) { return kind.bare == bare; });
+    if (known == kinds.end())
+      kinds.push_back({bare, one, 1});
+    else
+      ++known->cases;
+  }
+  std::vector<std::string> lines;
+  for (const Kind& kind : kinds)
+    lines.push_back(kind.first.name +
+                    (kind.cases == 1 ? ""
+                                     : ", and so in " + std::to_string(kind.cases - 1) + " more" +
+                                           (kind.cases == 2 ? " case" : " cases")) +
+                    ": " + kind.first.sentence);
+  return lines;
+}
+
+std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& records) {
+  if (records.empty()) return {};
+  if (records.size() == 1) {
+    const record::Answer& answer = records.front().answer;
+    return {answer.model, answer.error, answer.left_out};
+  }
+  std::vector<std::string> lines{models(records), peaks(records)};
+  std::vector<NamedSentence> left_out;
+  for (const record::CaseRecord& record : records)
+    if (!record.answer.complete) left_out.push_back({record.name, record.answer.left_out});
+  if (left_out.empty())
+    lines.push_back(records.front().answer.left_out);
+  else
+    for (std::string& line : said_once(left_out)) lines.push_back(std::move(line));
+  return lines;
+}
+
+}  // namespace palpate::cli

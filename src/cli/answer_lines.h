@@ -1,0 +1,24 @@
+// What `run` says about its answers: short, however many cases a scenario has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "record/record.h"
+
+namespace palpate::cli {
+
+struct NamedSentence {
+  std::string name;  // of a case
+  std::string sentence;
+};
+
+// One line per kind of sentence. Of sentences that differ in numbers only, the first is kept, with
+// the number of others: `10 kPa, and so in 2 more cases: ...`.
+[[nodiscard]] std::vector<std::string> said_once(const std::vector<NamedSentence>& all);
+
+// Of one case the three sentences of its answer. Of several: the models, the range of the largest
+// force (or strain) with its errors, and one line per kind of what is left out.
+[[nodiscard]] std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& records);
+
+}  // namespace palpate::cli

@@ -1,0 +1,64 @@
+// `palpate report FOLDER`: an index of all reports below a folder.
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/program.h"
+#include "cli/verbs.h"
+#include "page/page.h"
+
+namespace palpate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The reports below a folder, relative to it, by name. Partial folders of running or killed
+// processes have a dot in their names and are left out.
+std::vector<std::string> reports_below(const fs::path& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator
+           at(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       !error && at != end; at.increment(error)) {
+    if (at->is_directory() && at->path().filename().string().find(".partial") != std::string::npos)
+      at.disable_recursion_pending();
+    else if (at->path().filename() == page::file_name)
+      found.push_back(fs::relative(at->path(), folder).generic_string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+int perform(const Index& command, const Arguments&, const Talk& talk) {
+  const fs::path folder = command.folder;
+  if (!fs::is_directory(folder))
+    throw InputError({command.folder, 0, 0}, "is no folder; give the one that `--out` names");
+  const std::vector<std::string> reports = reports_below(folder);
+  if (reports.empty())
+    throw InputError({command.folder, 0, 0}, std::string("holds no `") + page::file_name +
+                                                 "`; run a scenario with `--out` " +
+                                                 command.folder + " first");
+  page::Page page("Results", "index");
+  page.answer({std::to_string(reports.size()) + (reports.size() == 1 ? " report." : " reports.")});
+  page::Markup items;
+  for (const std::string& report : reports) {
+    const page::Summary summary = page::summary_of(read_text((folder / report).string()));
+    items += page::element(
+        "section",
+        page::element("h3", page::link(report, summary.title.empty() ? report : summary.title)) +
+            page::element("p", summary.answer));
+  }
+  page.section("Reports", items);
+  const std::string index = (folder / "index.html").string();
+  write_atomically(index, page.html());
+  talk.say(index + ": " + std::to_string(reports.size()) + " reports");
+  return exit_good;
+}
+
+}  // namespace palpate::cli

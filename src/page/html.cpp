@@ -1,0 +1,117 @@
+// Escapes texts and puts tags around them.
+#include "page/html.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/text.h"
+#include "plot/gnuplot_text.h"
+
+namespace palpate::page {
+
+Markup Markup::ready(std::string html) {
+  Markup made;
+  made.html_ = std::move(html);
+  return made;
+}
+
+Markup operator+(Markup first, const Markup& second) { return first += second; }
+
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&': safe += "&amp;"; break;
+      case '<': safe += "&lt;"; break;
+      case '>': safe += "&gt;"; break;
+      case '"': safe += "&quot;"; break;
+      case '\'': safe += "&#39;"; break;
+      default: {
+        const auto byte = static_cast<unsigned char>(letter);
+        safe += (byte < 0x20 && letter != '\n') || byte == 0x7f ? ' ' : letter;
+      }
+    }
+  }
+  return safe;
+}
+
+Markup text(std::string_view words) { return Markup::ready(escaped(words)); }
+
+Markup element(std::string_view tag, const Markup& inner, const Attributes& attributes) {
+  constexpr std::array<std::string_view, 3> without_end{"img", "input", "meta"};
+  std::string html = "<" + std::string(tag);
+  for (const auto& [name, value] : attributes)
+    html += " " + std::string(name) + "=\"" + escaped(value) + "\"";
+  html += ">";
+  if (std::find(without_end.begin(), without_end.end(), tag) == without_end.end())
+    html += inner.html() + "</" + std::string(tag) + ">";
+  return Markup::ready(html);
+}
+
+Markup element(std::string_view tag, std::string_view words, const Attributes& attributes) {
+  return element(tag, text(words), attributes);
+}
+
+Markup link(const std::string& target, std::string_view words) {
+  return element("a", words, {{"href", target}});
+}
+
+Markup sentence(std::string_view words) {
+  Markup all;
+  bool code = false;
+  for (const std::string& part : split(words, '`')) {
+    all += code ? element("code", part) : text(part);
+    code = !code;
+  }
+  return all;
+}
+
+Markup paragraphs(const std::vector<std::string>& sentences) {
+  Markup all;
+  for (const std::string& one : sentences) all += element("p", sentence(one));
+  return all;
+}
+
+namespace {
+
+Markup cell(const record::Cell& value, bool heading) {
+  if (const auto* number = std::get_if<double>(&value))
+    return element(heading ? "th" : "td", plot::tick_text(*number, 4),
+                   heading ? Attributes{{"scope", "row"}} : Attributes{{"class", "number"}});
+  const auto* word = std::get_if<std::string>(&value);
+  return element(heading ? "th" : "td", word == nullptr ? std::string("–") : *word,
+                 heading ? Attributes{{"scope", "row"}} : Attributes{});
+}
+
+}  // namespace
+
+Markup table(const std::string& caption, const record::Table& content) {
+  Markup head;
+  for (const std::string& column : content.columns)
+    head += element("th", column, {{"scope", "col"}});
+  Markup body;
+  for (const auto& row : content.rows) {
+    Markup cells;
+    for (std::size_t i = 0; i < row.size(); ++i) cells += cell(row[i], i == 0);
+    body += element("tr", cells) + Markup::ready("\n");
+  }
+  return element(
+      "div",
+      element("table", element("caption", caption) + element("thead", element("tr", head)) +
+                           element("tbody", body)),
+      {{"class", "wide"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", caption}});
+}
+
+Markup table_of_file(const std::string& caption, const record::Table& content,
+                     const std::string& file, std::size_t most) {
+  record::Table shown = content;
+  if (shown.rows.size() > most) shown.rows.resize(most);
+  const std::string what = shown.rows.size() < content.rows.size()
+                               ? "The first " + std::to_string(most) + " of " +
+                                     std::to_string(content.rows.size()) +
+                                     " rows; all of them are in "
+                               : "All digits are in ";
+  return table(caption, shown) + element("p", text(what) + link(file, file) + text("."));
+}
+
+}  // namespace palpate::page

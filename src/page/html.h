@@ -1,0 +1,55 @@
+// HTML in pieces. A text becomes part of a page only through these functions, which escape it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "record/table.h"
+
+namespace palpate::page {
+
+// A piece of HTML that is well formed and escaped.
+class Markup {
+ public:
+  Markup() = default;
+  Markup& operator+=(const Markup& more) {
+    html_ += more.html_;
+    return *this;
+  }
+  [[nodiscard]] const std::string& html() const { return html_; }
+  [[nodiscard]] bool empty() const { return html_.empty(); }
+
+  // Takes a text that is HTML or SVG already, made by this program or by gnuplot for it.
+  [[nodiscard]] static Markup ready(std::string html);
+
+ private:
+  std::string html_;
+};
+[[nodiscard]] Markup operator+(Markup first, const Markup& second);
+
+// The text with & < > " ' escaped and control characters, which HTML forbids, as spaces.
+[[nodiscard]] std::string escaped(std::string_view text);
+[[nodiscard]] Markup text(std::string_view words);
+
+using Attributes = std::vector<std::pair<std::string_view, std::string>>;
+// <tag attributes>inner</tag>; `img`, `input` and `meta` have no inner part and no end.
+[[nodiscard]] Markup element(std::string_view tag, const Markup& inner,
+                             const Attributes& attributes = {});
+[[nodiscard]] Markup element(std::string_view tag, std::string_view words,
+                             const Attributes& attributes = {});
+// A link to a file beside the page, or to a place on it (`#id`).
+[[nodiscard]] Markup link(const std::string& target, std::string_view words);
+// A sentence in which what stands between back-quotes becomes code; and sentences as paragraphs.
+[[nodiscard]] Markup sentence(std::string_view words);
+[[nodiscard]] Markup paragraphs(const std::vector<std::string>& sentences);
+
+// A table with a caption and row headings in its first column. Numbers have four digits and stand
+// to the right. It scrolls by itself, also by keyboard, if it is wider than the page.
+[[nodiscard]] Markup table(const std::string& caption, const record::Table& content);
+// Of a large table the first `most` rows, with a link to the file that holds all of them.
+[[nodiscard]] Markup table_of_file(const std::string& caption, const record::Table& content,
+                                   const std::string& file, std::size_t most);
+
+}  // namespace palpate::page

@@ -1,0 +1,78 @@
+// One self-contained page: the answer, then sections. It opens from the disk, prints, and can be
+// read in light and dark, on a phone, by keyboard and by a screen reader; it loads nothing.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/whole_folder.h"
+#include "page/html.h"
+
+namespace palpate::page {
+
+inline constexpr const char* file_name = "report.html";
+
+class Page {
+ public:
+  // `kind` says what the page is about: `run`, `sweep`, ...
+  Page(std::string title, std::string kind);
+
+  // Sentences at the head of the page.
+  void answer(const std::vector<std::string>& sentences);
+  // A section with an entry in the contents. An empty body makes no section.
+  void section(const std::string& heading, const Markup& body);
+  // A script of our own, which the page runs when it has been read.
+  void script(std::string code);
+
+  // The whole page, always the same for the same content.
+  [[nodiscard]] std::string html() const;
+
+ private:
+  std::string title_, kind_;
+  Markup answer_, contents_, body_;
+  std::string script_;
+};
+
+// A picture of a folder, which is shown inline, with its description and its data.
+struct ShownFigure {
+  std::string name = {};               // of the files NAME.svg and NAME.gp
+  std::string caption = {};            // also what a screen reader says
+  std::vector<std::string> data = {};  // files
+};
+
+// The figures of a folder. For a picture that was not drawn, the files with the data are named.
+[[nodiscard]] Markup figures(const std::vector<ShownFigure>& shown, const WholeFolder& folder);
+
+// All figures of a folder whose scripts are listed in it, in that order. `words` gives the caption
+// of the figure NAME; an empty caption leaves the figure out.
+[[nodiscard]] Markup all_figures(const WholeFolder& folder,
+                                 const std::function<std::string(const std::string&)>& words);
+
+// A picture as part of the page: without prolog and size, with ids that begin with `prefix`, and
+// named for screen readers.
+[[nodiscard]] Markup inline_svg(const std::string& svg, const std::string& prefix,
+                                const std::string& description);
+
+// How the result was made and how to repeat it: program, command, and the SHA-256 of the files.
+struct Making {
+  std::string command = {};  // that repeats the result, run in its folder
+  std::string remark = {};   // a sentence; may be empty
+};
+[[nodiscard]] Markup making(const Making& made, const std::vector<HashedFile>& inputs,
+                            const WholeFolder& folder);
+
+// A long text, folded up.
+[[nodiscard]] Markup folded(const std::string& summary, const std::string& content);
+
+// The title and the answer of a page that write() made, as plain text; empty where there is none.
+struct Summary {
+  std::string title = {};
+  std::string answer = {};
+};
+[[nodiscard]] Summary summary_of(const std::string& html);
+
+// Adds the files of a folder, the last section, and writes report.html.
+void write(Page page, WholeFolder& folder);
+
+}  // namespace palpate::page

@@ -1,0 +1,124 @@
+// The style of all figures, and numbers and texts in gnuplot's language.
+#include "plot/gnuplot_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+
+namespace palpate::plot {
+namespace {
+
+std::string superscript(int power) {
+  constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = power < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(power)))
+    text += digits[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
+
+}  // namespace
+
+std::string gnuplot_column(const std::string& name) {
+  return "column(" + gnuplot_quoted(name) + ")";
+}
+
+// A text that begins with an apostrophe would be read as an empty one, with a word behind it.
+// Double quotes are for such apostrophes only, because gnuplot runs commands in them.
+std::string gnuplot_quoted(const std::string& text) {
+  const std::size_t first = std::min(text.find_first_not_of('\''), text.size());
+  std::string result = first == 0 ? "'" : "\"" + text.substr(0, first) + "\".'";
+  for (const char c : text.substr(first)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f)
+      result += ' ';
+    else if (c == '\'')
+      result += "''";
+    else
+      result += c;
+  }
+  return result + "'";
+}
+
+std::string gnuplot_head(const std::string& name, int height, int tick_font) {
+  const std::string script = name + ".gp";
+  return "# Run in this folder: gnuplot " + script +
+         "\n"
+         "# For a PDF or PNG: gnuplot -e \"format='pdf'\" " +
+         script +
+         "\n"
+         "if (!exists(\"format\")) format = 'svg'\n"
+         "if (!exists(\"target\")) target = " +
+         gnuplot_quoted(name + ".") +
+         ".format\n"
+         "if (format eq 'pdf') {\n"
+         "  set terminal pdfcairo noenhanced size 18cm," +
+         rounded_text(0.022 * height, 3) +
+         "cm font 'sans-serif,11' linewidth 1.1\n"
+         "} else { if (format eq 'png') {\n"
+         "  set terminal pngcairo noenhanced size 1640," +
+         std::to_string(2 * height) +
+         " font 'sans-serif,11' fontscale 2 linewidth 2 background '#ffffff'\n"
+         "} else {\n"
+         "  set terminal svg noenhanced size 820," +
+         std::to_string(height) + " font 'sans-serif,15' name " + gnuplot_quoted(name) +
+         " background '#ffffff'\n"
+         "} }\n"
+         "set encoding utf8\n"
+         "set output target\n"
+         "set datafile separator comma\n"
+         "set datafile columnheaders\n"
+         "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
+         "set tics nomirror out scale 0.6 textcolor rgb '#202020' font '," +
+         std::to_string(tick_font) +
+         "'\n"
+         "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n"
+         "set format x '%.10g'\nset format y '%.10g'\nset format cb '%.10g'\n";
+}
+
+std::string tick_text(double value, int digits) {
+  const double size = std::abs(value);
+  if (size == 0.0 || !std::isfinite(size) || (size > 0.999e-3 && size < 0.999e5))
+    return rounded_text(value, digits);
+  const int power = static_cast<int>(std::floor(std::log10(size) + 1e-9));
+  const std::string front = rounded_text(value / std::pow(10.0, power), digits);
+  return (front == "1" ? "" : front + "×") + "10" + superscript(power);
+}
+
+std::string gnuplot_logarithmic(const std::string& axis, double low, double high) {
+  const double decades = std::log10(high / low);
+  const int apart = std::max(1, static_cast<int>(std::ceil(decades / 8.0)));
+  std::string tics;
+  const auto add = [&](double value, const std::string& text, bool labelled) {
+    if (value < low * (1.0 - 1e-9) || value > high * (1.0 + 1e-9)) return;
+    tics += (tics.empty() ? "" : ", ") + gnuplot_quoted(labelled ? text : "") + " " +
+            rounded_text(value, 5) + (labelled ? "" : " 1");
+  };
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  for (int power = first; power <= first + static_cast<int>(decades) + 2; ++power)
+    for (int digit = 1; digit < 10; ++digit) {
+      const double value =
+          power < 0 ? digit / std::pow(10.0, -power) : digit * std::pow(10.0, power);
+      const bool labelled = digit == 1   ? power % apart == 0
+                            : digit == 2 ? decades < 2.4
+                            : digit == 5 ? decades < 2.4
+                                         : decades < 0.5;
+      if (labelled || apart == 1) add(value, tick_text(value), labelled);
+    }
+  return "set logscale " + axis + "\nset " + axis + "tics (" + tics + ")\n";
+}
+
+std::string gnuplot_linear(const std::string& axis) {
+  return "unset logscale " + axis + "\nset " + axis + "tics autofreq\n";
+}
+
+std::string gnuplot_palette(double most) {
+  std::string text = "set palette defined (";
+  constexpr int colours = 8;
+  for (int i = 0; i <= colours; ++i)
+    text +=
+        (i == 0 ? "" : ", ") + std::to_string(i) + " '#" + palette_colour(most * i / colours) + "'";
+  return text + ")\n";
+}
+
+}  // namespace palpate::plot

@@ -1,0 +1,66 @@
+// Pressure as colour.
+#include "report/map_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/index.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "page/png.h"
+
+namespace palpate::report {
+namespace {
+
+using page::element;
+
+// The picture has at most 96 pixels a side: of the pixels that one replaces, the largest counts.
+constexpr int most_side = 96;
+
+}  // namespace
+
+page::Markup map_picture(const record::PressureMap& map, const std::string& name) {
+  const float most =
+      map.pressure.empty() ? 0.0F : *std::max_element(map.pressure.begin(), map.pressure.end());
+  const int every = std::max(
+      {1, (map.width + most_side - 1) / most_side, (map.height + most_side - 1) / most_side});
+  const int width = (map.width + every - 1) / every, height = (map.height + every - 1) / every;
+  std::vector<unsigned char> shades(as_index(width) * as_index(height), 0);
+  for (int row = 0; row < map.height; ++row)
+    for (int column = 0; column < map.width; ++column) {
+      const float pressure = map.pressure[as_index(row) * as_index(map.width) + as_index(column)];
+      if (!(pressure > 0.0F)) continue;
+      const auto shade =
+          static_cast<unsigned char>(1 + std::lround(254.0 * double{pressure} / double{most}));
+      // Row 0 of a map has the lowest y, row 0 of a picture is at the top.
+      unsigned char& pixel =
+          shades[as_index(height - 1 - row / every) * as_index(width) + as_index(column / every)];
+      pixel = std::max(pixel, shade);
+    }
+  const auto mm = [](double metres) { return rounded_text(unit::mm.from_si(metres), 3) + " mm"; };
+  const std::string highest = rounded_text(unit::kPa.from_si(double{most}), 3) + " kPa";
+  const std::string words = (name.empty() ? "Step " : name + ", step ") + std::to_string(map.step) +
+                            ", " + rounded_text(map.time, 3) + " s: at most " + highest + ", " +
+                            rounded_text(map.contact_force, 3) + " N in all; the picture is " +
+                            mm(map.pitch * map.width) + " wide and " + mm(map.pitch * map.height) +
+                            " high.";
+  std::vector<unsigned char> scale(255);
+  for (std::size_t i = 0; i < scale.size(); ++i) scale[i] = static_cast<unsigned char>(i + 1);
+  return element("figure", element("img", page::Markup(),
+                                   {{"src", page::png_address(width, height, shades)},
+                                    {"alt", "Pressure map. " + words},
+                                    {"width", std::to_string(width)},
+                                    {"height", std::to_string(height)}}) +
+                               element("img", page::Markup(),
+                                       {{"class", "scale"},
+                                        {"alt", ""},
+                                        {"src", page::png_address(255, 1, scale)},
+                                        {"width", "255"},
+                                        {"height", "1"}}) +
+                               element("div", element("span", "0") + element("span", highest),
+                                       {{"class", "bar"}}) +
+                               element("figcaption", words));
+}
+
+}  // namespace palpate::report

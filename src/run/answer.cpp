@@ -1,0 +1,222 @@
+// Turns the choice of the model, its forecasts and the estimates into sentences. Their words are
+// those of everyday use: tests/unit/cli_answers.cpp compares them with the glossary.
+#include "run/answer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "base/units.h"
+#include "run/mesh_error.h"
+
+namespace palpate::run {
+namespace {
+
+using scenario::Model;
+
+std::string word(Model model) { return scenario::rung(model).word; }
+
+const char* plain_word(Model model) {
+  switch (model) {
+    case Model::hertz: return "the formula for deep, wide tissue";
+    case Model::layer: return "the exact formula for a flat layer";
+    case Model::mass_spring: return "a mesh of springs";
+    case Model::coupled_springs: return "a mesh with the tissue's elasticity";
+    case Model::neo_hookean: return "a mesh for large strains";
+  }
+  return "";
+}
+
+class Words {
+ public:
+  Words(const scene::Scene& scene, const scene::Estimates& estimates)
+      : scene_(scene), rung_(scenario::rung(scene.scenario.solver.model)), e_(estimates) {}
+
+  [[nodiscard]] std::string model() const {
+    std::string text = (scene_.choice.given ? "Named by the scenario: " : "Chosen: ") +
+                       std::string(rung_.word) + ", " + plain_word(rung_.of);
+    const bool viscous = !scene_.scenario.uniform() && !scene_.relaxation.elastic();
+    if (viscous) text += ", with viscosity";
+    if (scene_.depth_ratio) text += std::string(viscous ? " and" : ", with") + " large strains";
+    return text + ". " + why();
+  }
+
+  // Of the force at its largest, or of the strain.
+  [[nodiscard]] std::string error(std::optional<double> error) const {
+    if (!error) return "an error that is not estimated";
+    std::string text = "an error of about " + percent_text(*error) + " (asked " +
+                       percent_text(scene_.scenario.solver.tolerance);
+    if (scene_.choice.given || *error <= scene_.scenario.solver.tolerance) return text + ")";
+    return text + ", and no model comes nearer)";
+  }
+
+  [[nodiscard]] static std::string left_out(const std::vector<LeftOut>& all, double tolerance) {
+    if (all.empty())
+      return "Left out: nothing that would add more than " + percent_text(0.2 * tolerance) +
+             " to this error.";
+    std::string text;
+    for (const LeftOut& one : all)
+      text += (text.empty() ? "Left out: " : " Also left out: ") + one.what + ", " + one.when +
+              (one.remedy.empty() ? "" : "; " + one.remedy) + ".";
+    return text;
+  }
+
+ private:
+  // Why this model, or what another would do.
+  [[nodiscard]] std::string why() const {
+    const scene::Choice& choice = scene_.choice;
+    const bool uniform = scene_.scenario.uniform();
+    if (!uniform && scene_.scenario.contact.coupling == contact::Coupling::one_way)
+      return "`contact.coupling = \"one_way\"` takes the force of hertz, whatever the body.";
+    if (choice.given) {
+      const auto* other = scene::cheapest(choice, uniform, scene_.scenario.solver.tolerance);
+      if (other == nullptr) return "No other was considered.";
+      if (other->model == rung_.of) return "It would also be chosen without being named.";
+      const std::string reason = rung_.meshed() ? "" : " " + against(rung_.of, " is ");
+      return "Without a name the choice would be " + word(other->model) + ", about " +
+             percent_text(other->error) + " off." + reason;
+    }
+    if (uniform) {
+      const auto* springs = choice.forecast(Model::mass_spring);
+      if (rung_.of == Model::mass_spring || springs == nullptr)
+        return "Only a mesh can be loaded between plates.";
+      return "mass_spring would be about " + percent_text(springs->error) +
+             " off, because its springs do not have the tissue's Poisson's ratio.";
+    }
+    if (rung_.of == Model::hertz) return enough();
+    std::string text = against(Model::hertz);
+    if (rung_.meshed() && std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape))
+      if (const std::string layer = against(Model::layer); !layer.ends_with(tail(text)))
+        text += " " + layer;
+    return text;
+  }
+
+  // The reason after the model's name, which two models may share.
+  [[nodiscard]] static std::string tail(const std::string& sentence) {
+    return sentence.substr(std::min(sentence.size(), sentence.find(' ')));
+  }
+
+  // Why hertz is enough.
+  [[nodiscard]] std::string enough() const {
+    if (!scene_.choice.touch.size.allFinite())
+      return "The tissue has neither an underside nor sides.";
+    const bool box = std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape);
+    return std::string("Thickness and ") + (box ? "sides" : "width") +
+           " of the body change the force by about " + percent_text(std::abs(e_.by_size)) +
+           " only.";
+  }
+
+  // What a formula would do in this scene: "hertz would be 14 % low: ..."
+  [[nodiscard]] std::string against(Model model, const std::string& verb = " would be ") const {
+    const auto& rungs = scene_.choice.rungs;
+    const auto found = std::find_if(rungs.begin(), rungs.end(),
+                                    [&](const auto& rung) { return rung.model == model; });
+    if (found == rungs.end()) return "";
+    if (!found->cannot.empty()) return word(model) + " does not apply: " + found->cannot + ".";
+    const bool thickness = model == Model::layer;  // is represented
+    const double size =
+        thickness ? 1.0 / (1.0 - std::min(e_.sides, 0.99)) - 1.0 : 1.0 / (1.0 + e_.by_size) - 1.0;
+    const double uncertain = thickness ? e_.sides : e_.narrow;
+    const double waves = scene_.choice.found.inertia_matters ? e_.inertia : 0.0;
+    const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep);
+    const std::string would = word(model) + verb;
+    const std::string off = would + "about " + percent_text(found->error) + " off";
+    if (waves > std::max({std::abs(size), uncertain, deep}))
+      return off + ": waves in the tissue add " + percent_text(waves) + " of force at this speed.";
+    if (deep > std::max(std::abs(size), uncertain))
+      return off + ": large strains change the force by " + percent_text(deep) + ".";
+    if (!std::isfinite(e_.thickness) && !thickness)
+      return would + "far too low: the tissue is too thin for it.";
+    const std::string by = effects(thickness);
+    if (by.empty()) return off + ".";
+    // Effects that cancel in the estimate leave an error without a sign.
+    if (std::abs(size) < scene::doubt_of_narrow * uncertain) return off + ": " + by + ".";
+    return would + percent_text(std::abs(size)) + (size < 0.0 ? " low: " : " high: ") + by + ".";
+  }
+
+  [[nodiscard]] std::string effects(bool thickness_is_known) const {
+    const bool box = std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape);
+    std::string text;
+    if (!thickness_is_known && e_.thickness > 0.005)
+      text = rounded_text(unit::mm.from_si(scene_.choice.touch.thickness), 3) +
+             " mm of tissue on a hard support add " + percent_text(e_.thickness) + " of force";
+    if (e_.narrow <= 0.005 || (!text.empty() && e_.narrow < 0.2 * e_.thickness)) return text;
+    return text + (text.empty() ? "" : ", ") +
+           (box ? "the sides take " : "the small width of the body takes about ") +
+           percent_text(e_.narrow) + (text.empty() ? " of force" : " away");
+  }
+
+  const scene::Scene& scene_;
+  const scenario::Rung& rung_;
+  const scene::Estimates& e_;
+};
+
+std::optional<double> number(const record::CaseRecord& record, const std::string& name) {
+  for (const record::Finding& finding : record.findings)
+    if (const double* value = std::get_if<double>(&finding.value);
+        value != nullptr && finding.name == name)
+      return *value;
+  return std::nullopt;
+}
+
+// The largest force, strain or stress of a case, as the start of a sentence.
+std::string peak(const scene::Scene& scene, const record::CaseRecord& record) {
+  if (const auto force = number(record, "peak_force_N"))
+    return "Peak force: " + rounded_text(*force, 3) + " N";
+  if (!std::holds_alternative<scenario::Relax>(scene.scenario.steps.front()))
+    if (const auto strain = number(record, "peak_strain"))
+      return "Peak strain: " + rounded_text(*strain, 3);
+  if (record.strain.empty()) return "Peak force: none";
+  double stress = 0.0;
+  for (const record::StrainRow& row : record.strain)
+    stress = std::max(stress, std::abs(row.stress));
+  return "Peak stress: " + rounded_text(unit::kPa.from_si(stress), 3) + " kPa";
+}
+
+}  // namespace
+
+std::optional<double> stated_error(const scene::Scene& scene, const scene::Estimates& estimates,
+                                   std::optional<double> mesh_error) {
+  if (const scene::Forecast* forecast = scene.choice.taken())
+    return mesh_error ? forecast->error - forecast->of_mesh + *mesh_error : forecast->error;
+  // Without forecasts the force is that of a half-space, because of `one_way`, or unjudged.
+  if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::one_way)
+    return std::nullopt;
+  return scene::half_space_error(estimates) + estimates.inertia + estimates.deep_error +
+         (scene.depth_ratio ? 0.0 : std::abs(estimates.deep));
+}
+
+Expected expect(const scene::Scene& scene) {
+  const bool uniform = scene.scenario.uniform();
+  const scene::Estimates estimates =
+      uniform ? scene::Estimates{} : scene::estimate(scene.scenario, scene.choice.touch);
+  Expected expected;
+  expected.mesh_error = mesh_error(scene);
+  const std::optional<double> error = stated_error(scene, estimates, expected.mesh_error);
+  expected.left_out = left_out(scene, estimates);
+  const Words words(scene, estimates);
+  expected.answer = {
+      words.model(),
+      std::string(uniform ? "The strain" : "The force") + " has " + words.error(error) + ".",
+      Words::left_out(expected.left_out, scene.scenario.solver.tolerance),
+      expected.left_out.empty(), error};
+  return expected;
+}
+
+record::Answer answer(const scene::Scene& scene, const scene::Estimates& estimates,
+                      const record::CaseRecord& record) {
+  const Words words(scene, estimates);
+  std::string result = peak(scene, record);
+  std::optional<double> error;
+  if (record.outcome == record::Outcome::completed)
+    error = stated_error(scene, estimates, number(record, "mesh_error"));
+  if (record.outcome == record::Outcome::completed)
+    result += ", with " + words.error(error) + ".";
+  else
+    result += " up to where the run ended; no error is stated.";
+  const std::vector<LeftOut> effects = left_out(scene, estimates);
+  return {words.model(), result, Words::left_out(effects, scene.scenario.solver.tolerance),
+          effects.empty(), error};
+}
+
+}  // namespace palpate::run

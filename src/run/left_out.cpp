@@ -1,0 +1,130 @@
+// Compares what a model represents with the estimates of all effects.
+#include "run/left_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "scenario/integrators.h"
+
+namespace palpate::run {
+namespace {
+
+std::string signed_percent(double change) {
+  return (change < 0.0 ? "-" : "+") + percent_text(std::abs(change));
+}
+
+class LeftOuts {
+ public:
+  LeftOuts(const scene::Scene& scene, const scene::Estimates& estimates)
+      : scene_(scene), rung_(scenario::rung(scene.scenario.solver.model)), e_(estimates) {}
+
+  std::vector<LeftOut> all() {
+    if (scene_.scenario.uniform()) {
+      ringing();
+    } else {
+      size();
+      double_counting();
+      large_strains();
+      viscosity();
+      waves();
+    }
+    std::stable_sort(all_.begin(), all_.end(), [](const LeftOut& a, const LeftOut& b) {
+      return std::abs(a.change) > std::abs(b.change);
+    });
+    return std::move(all_);
+  }
+
+ private:
+  [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
+  [[nodiscard]] bool one_way() const {
+    return scene_.scenario.contact.coupling == contact::Coupling::one_way;
+  }
+  [[nodiscard]] bool mesh_is_tissue() const {
+    return contact::mesh_is_tissue(scene_.scenario.contact.coupling);
+  }
+  void add(const std::string& what, double change, const std::string& when,
+           const std::string& remedy = "") {
+    all_.push_back({what, change, when, remedy});
+  }
+
+  void size() {
+    const std::string free = one_way()             ? "leave out `contact.coupling`"
+                             : scene_.choice.given ? "leave out `solver.model`"
+                                                   : "";
+    const bool none = !rung_.thickness || one_way();
+    if (none && e_.thickness * e_.tissue_share > tolerance())
+      add("the thickness of the tissue", e_.thickness, signed_percent(e_.thickness), free);
+    if ((none || !rung_.sides) && e_.sides > tolerance())
+      add("the sides of the body", -e_.sides, signed_percent(-e_.sides), free);
+    if (none && e_.curved_body > tolerance())
+      add("the width of the body", e_.curved_body,
+          "up to " + percent_text(e_.curved_body) + " more or less", free);
+  }
+
+  // By how much a half-space under `series` is too soft.                    docs/theory.md (10)
+  void double_counting() {
+    if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
+    const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;
+    add("counting the softness of the tissue once only", change, signed_percent(change),
+        "leave out `contact.coupling`");
+  }
+
+  void large_strains() {
+    if (rung_.solid || scene_.depth_ratio || std::abs(e_.deep) < 0.2 * tolerance()) return;
+    std::string remedy;
+    if (mesh_is_tissue())
+      remedy = "set `solver.model = \"neo_hookean\"`";
+    else if (scene_.choice.depth_ratio)
+      remedy = "add `contact.depth = \"neo_hookean\"`";
+    add("large strains", e_.deep, signed_percent(e_.deep) + " at the deepest point", remedy);
+  }
+
+  void viscosity() {
+    if (!scene_.relaxation.elastic() || (mesh_is_tissue() && !rung_.solid) ||
+        e_.viscous <= 0.2 * tolerance())
+      return;
+    std::string remedy = "add `contact.viscosity = \"tissue\"`";
+    if (rung_.solid) remedy = "";
+    if (one_way()) remedy += " and leave out `contact.coupling`";
+    add("viscosity", e_.viscous, signed_percent(e_.viscous) + " while pressing", remedy);
+  }
+
+  void waves() {
+    if (e_.inertia <= tolerance()) return;
+    const std::string when = signed_percent(e_.inertia) + " at this speed";
+    if (!rung_.inertia) return add("waves in the tissue", e_.inertia, when, mesh_with_waves());
+    if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
+    add("waves in the tissue", e_.inertia, when,
+        "take an integrator with inertia and `tissue.viscosity = \"none\"`, or "
+        "`contact.coupling = \"resolved\"`");
+  }
+
+  // Waves reach the force of a mesh where its springs do not damp them.
+  [[nodiscard]] std::string mesh_with_waves() const {
+    if (rung_.solid) return "";
+    const std::string mesh = "set `solver.model = \"coupled_springs\"`";
+    if (scene_.scenario.tissue.viscosity == tissue::Viscosity::none) return mesh;
+    return mesh + " and `tissue.viscosity = \"none\"`";
+  }
+
+  void ringing() {
+    const double inertia = scene::uniform_inertia(scene_.scenario);
+    if (about(scene_.scenario.solver.integrator).inertia || inertia < tolerance()) return;
+    add("the ringing of the body", inertia, "up to " + percent_text(inertia) + " of the strain",
+        "set `solver.integrator = \"central_difference\"`");
+  }
+
+  const scene::Scene& scene_;
+  const scenario::Rung& rung_;
+  const scene::Estimates& e_;
+  std::vector<LeftOut> all_;
+};
+
+}  // namespace
+
+std::vector<LeftOut> left_out(const scene::Scene& scene, const scene::Estimates& estimates) {
+  return LeftOuts(scene, estimates).all();
+}
+
+}  // namespace palpate::run

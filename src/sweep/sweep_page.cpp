@@ -1,0 +1,69 @@
+// report.html of a merged sweep.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "page/page.h"
+#include "sweep/labels.h"
+#include "sweep/response.h"
+
+namespace palpate::sweep {
+namespace {
+
+// For each output its range, and the factor on which it depends most.
+std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivity& found) {
+  std::vector<std::string> all;
+  for (const OutputColumn& output : columns.outputs) {
+    const Ends range = ends(output.values);
+    if (!(range.low <= range.high)) continue;
+    std::string sentence = output_label(output.name) + ": " + rounded_text(range.low, 3) + " to " +
+                           rounded_text(range.high, 3);
+    const SensitivityRow* strongest = nullptr;
+    for (const SensitivityRow& row : found.indices)
+      if (row.output == output.name && std::isfinite(row.indices.total.value) &&
+          (strongest == nullptr || row.indices.total.value > strongest->indices.total.value))
+        strongest = &row;
+    if (strongest != nullptr)
+      sentence += "; most of it follows `" + strongest->factor + "`, with " +
+                  percent_text(strongest->indices.total.value) + " of the variance";
+    all.push_back(sentence + ".");
+  }
+  return all;
+}
+
+std::string figure_words(const std::string& name) {
+  if (name == "sensitivity")
+    return "Share of the variance of each output that follows each swept key.";
+  std::string output = name.substr(name.find('_') + 1);
+  std::replace(output.begin(), output.end(), '_', ' ');
+  return "The output " + output + " over the swept keys.";
+}
+
+}  // namespace
+
+void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
+  const Sensitivity& found = shown.found;
+  page::Page page(shown.title, "sweep");
+  std::vector<std::string> answer{shown.totals};
+  for (const std::string& sentence : sentences(shown.columns, found)) answer.push_back(sentence);
+  page.answer(answer);
+  page.section("Figures", page::all_figures(folder, figure_words));
+  constexpr std::size_t most = 100;
+  page::Markup tables;
+  if (!found.indices.empty())
+    tables += page::table_of_file("Shares of the variance", sensitivity_table(found),
+                                  "sensitivity.csv", most);
+  if (!found.correlations.empty())
+    tables +=
+        page::table_of_file("Rank correlations", correlation_table(found), "correlation.csv", most);
+  page.section("Sensitivity", tables);
+  page.section("Remarks", page::paragraphs(shown.remarks));
+  page.section("What was asked", page::folded("The scenario as written", shown.scenario));
+  page.section("How it was made",
+               page::making({.command = "palpate sweep plan SCENARIO.toml --out PLAN\n"
+                                        "palpate sweep run PLAN\npalpate sweep merge PLAN"},
+                            {}, folder));
+  page::write(std::move(page), folder);
+}
+
+}  // namespace palpate::sweep

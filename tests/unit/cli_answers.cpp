@@ -1,0 +1,222 @@
+// What `explain` and `run` say first: plain sentences, without a word of the glossary.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "program.h"
+#include "revolved_bodies.h"
+
+namespace palpate::test {
+namespace {
+
+// Lower-case words with one blank before, between and after them; what stands in back-quotes is to
+// be typed, and is left out.
+std::string plain_words(const std::string& text) {
+  std::string words = " ";
+  bool typed = false;
+  for (const char c : text) {
+    if (c == '`') typed = !typed;
+    const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0 && !typed;
+    if (letter)
+      words += c;
+    else if (words.back() != ' ')
+      words += ' ';
+  }
+  return lower_case(words + " ");
+}
+
+// The words and phrases of the first column of docs/style.md's glossary.
+std::vector<std::string> glossary() {
+  std::vector<std::string> found;
+  const std::string style = read_file(project_file("docs/style.md"));
+  for (const std::string& line : split(style.substr(style.find("## Glossary")), '\n')) {
+    if (!line.starts_with("| ") || line.starts_with("| word |")) continue;
+    const std::string cell = split(line, '|')[1];
+    for (const std::string& word : split(cell.substr(0, cell.find('(')), ','))
+      found.push_back(plain_words(word));
+  }
+  return found;
+}
+
+struct Scene {
+  const char* name;
+  std::string text;   // without `schema` and the title; empty: a file of scenarios/
+  const char* model;  // that is named; empty: any
+  std::string left_out;
+};
+
+const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\nrate = \"5 mm/s\"\n";
+const std::string lasting = "[tissue]\nmaterial = \"skin\"\nviscosity = \"kelvin_voigt\"\n";
+
+const std::vector<Scene>& scenes() {
+  static const std::vector<Scene> all{
+      {"quickstart", "", "layer", "viscosity, +"},
+      {"figure6_ligament", "", "mass_spring", ""},
+      {"thin",
+       "[tissue]\nshape = { size = [\"60 mm\", \"60 mm\", \"2 mm\"] }\n[solver]\nmodel = "
+       "\"hertz\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n",
+       "hertz", "the thickness of the tissue, +"},
+      {"dome",
+       "[tissue]\nshape = { kind = \"ellipsoid\", size = [\"80 mm\", \"80 mm\", \"40 mm\"] }\nmesh "
+       "= { kind = \"tetgen\", nodes = 400 }\n" +
+           press,
+       "coupled_springs", "viscosity, +"},
+      {"skin_over_muscle", "", "layer", ""},
+      {"lump",
+       "[tissue]\nmesh = { kind = \"tetgen\", nodes = 400 }\n[[region]]\nkind = "
+       "\"sphere\"\ncentre = [\"30 mm\", \"30 mm\", \"15 mm\"]\nradius = \"8 mm\"\nmaterial = "
+       "\"bone\"\n" +
+           press,
+       "coupled_springs", "viscosity, +"},
+      {"file",
+       "[tissue]\nshape = { file = \"disc.off\", unit = \"mm\" }\nmesh = { kind = \"tetgen\", "
+       "nodes "
+       "= 400 }\n[finger]\nx = \"0 mm\"\ny = \"0 mm\"\n" +
+           press,
+       "coupled_springs", "viscosity, +"},
+      {"creep", lasting + "[[step]]\nkind = \"creep\"\n", "mass_spring", "nothing"},
+      {"relax", "[[step]]\nkind = \"relax\"\n", "mass_spring", ""},
+      {"deep",
+       "[tissue]\npoisson_ratio = 0.49\nviscosity = \"none\"\n[contact]\ndepth = \"hertz\"\n"
+       "[[step]]\nkind = \"indent\"\nto = \"8 mm\"\n",
+       "", "large strains, "},
+      {"tap", "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"2 m/s\"\n", "layer",
+       "viscosity, +"},
+      {"slow", "[tissue]\nshape = { kind = \"half_space\" }\nviscosity = \"none\"\n" + press,
+       "hertz", "nothing"}};
+  return all;
+}
+
+class Answers : public testing::TestWithParam<Scene> {
+ protected:
+  // The path of a scene's scenario in the folder.
+  std::string file() {
+    const Scene& scene = GetParam();
+    if (scene.text.empty()) return project_file("scenarios/" + std::string(scene.name) + ".toml");
+    const std::string name = std::string(scene.name) + ".toml";
+    write_file(folder_ / name, scene.text);
+    if (scene.text.find("disc.off") != std::string::npos)
+      (void)write_surface(disc(30.0, 10.0, 4.0), 4.0, folder_ / "disc.off");
+    return name;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_P(Answers, start_with_three_plain_sentences) {
+  const Ended ended = palpate(folder_.path(), {"explain", file()});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::vector<std::string> lines = split(ended.out, '\n');
+  ASSERT_GT(lines.size(), 3U);
+  EXPECT_NE(lines[0].find(GetParam().model), std::string::npos) << lines[0];
+  EXPECT_NE(lines[1].find("error of about "), std::string::npos) << lines[1];
+  EXPECT_NE(lines[1].find(" % (asked "), std::string::npos) << lines[1];
+  EXPECT_TRUE(lines[2].starts_with("Left out: " + GetParam().left_out)) << lines[2];
+  const std::string words = plain_words(lines[0] + "\n" + lines[1] + "\n" + lines[2]);
+  const std::vector<std::string> known = glossary();
+  ASSERT_GT(known.size(), 100U);
+  for (const std::string& term : known) {
+    EXPECT_EQ(words.find(term), std::string::npos) << term << ended.out;
+    EXPECT_EQ(words.find(term.substr(0, term.size() - 1) + "s "), std::string::npos)
+        << term << ended.out;
+  }
+  EXPECT_EQ(words.find(" half space "), std::string::npos) << ended.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(of, Answers, testing::ValuesIn(scenes()),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+class Quickstart : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::string file_ = project_file("scenarios/quickstart.toml");
+};
+
+TEST_F(Quickstart, runs_without_a_warning_and_says_what_explain_said) {
+  const std::vector<std::string> before =
+      split(palpate(folder_.path(), {"explain", file_}).out, '\n');
+  const Ended ended = palpate(folder_.path(), {"run", file_});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::vector<std::string> lines = split(trimmed(ended.err), '\n');
+  ASSERT_GE(lines.size(), 4U) << ended.err;
+  EXPECT_EQ(lines[0], before[0]);
+  EXPECT_TRUE(lines[1].starts_with("Peak force: ")) << lines[1];
+  // The error is the one before the run: no mesh has been made that would know better.
+  EXPECT_EQ(lines[1].substr(lines[1].find("an error")),
+            before[1].substr(before[1].find("an error")));
+  EXPECT_EQ(lines[2], before[2]);
+  EXPECT_EQ(lines.back(), "out/quickstart: 1 of 1 case");
+  const bool page = fs::exists(folder_ / "out/quickstart/report.html");
+  EXPECT_EQ(lines.size(), page ? 5U : 4U) << ended.err;
+  EXPECT_EQ(says(ended, "\nThe page to look at is out/quickstart/report.html.\n"), page);
+}
+
+TEST_F(Quickstart, is_explained_to_machines) {
+  const std::string out = palpate(folder_.path(), {"explain", "--json", file_}).out;
+  ASSERT_EQ(out.find('\n'), out.size() - 1) << "one line";
+  const auto object = nlohmann::json::parse(out);
+  EXPECT_EQ(object["model"], "layer");
+  EXPECT_NEAR(object["tolerance"].get<double>(), 0.05, 1e-12);  // rounding
+  EXPECT_LT(object["error"].get<double>(), 0.05);
+  EXPECT_EQ(object["left_out"][0]["effect"], "viscosity");
+  EXPECT_GT(object["left_out"][0]["change"].get<double>(), 0.1);
+  EXPECT_EQ(object["left_out"][0]["remedy"], "add `contact.viscosity = \"tissue\"`");
+  EXPECT_GT(object["models"].size(), 3U);
+  EXPECT_GT(object["criteria"].size(), 5U);
+  const auto text = palpate(folder_.path(), {"explain", file_}).out;
+  EXPECT_EQ(object["sentences"]["model"], split(text, '\n')[0]);
+  const auto key =
+      nlohmann::json::parse(palpate(folder_.path(), {"explain", "--json", "contact.friction"}).out);
+  EXPECT_EQ(key["subject"], "contact.friction");
+}
+
+TEST_F(Quickstart, has_its_sentences_in_the_events_of_a_run) {
+  const Ended ended = palpate(folder_.path(), {"run", "--json", "--quiet", file_});
+  EXPECT_EQ(ended.err, "");
+  const auto object = nlohmann::json::parse(split(ended.out, '\n').front());
+  EXPECT_EQ(object["event"], "case");
+  EXPECT_TRUE(object["model"].get<std::string>().starts_with("Chosen: layer, "));
+  EXPECT_TRUE(object["error"].get<std::string>().starts_with("Peak force: "));
+  EXPECT_TRUE(object["left_out"].get<std::string>().starts_with("Left out: viscosity, "));
+}
+
+// A sweep is summed up in as many lines as it has kinds of answers.
+TEST_F(Quickstart, of_many_cases_is_summed_up) {
+  write_file(folder_ / "many.toml", press +
+                                        "[output]\nfigures = false\n[sweep]\n"
+                                        "\"tissue.young_modulus\" = { from = \"10 kPa\", to = "
+                                        "\"90 kPa\", points = 9 }\n");
+  const Ended ended = palpate(folder_.path(), {"run", "many.toml"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(says(ended, "Models: layer in 9 of 9; ")) << ended.err;
+  EXPECT_TRUE(says(ended, "Peak force: ")) << ended.err;
+  EXPECT_TRUE(says(ended, "and so in 8 more cases: Left out: viscosity, +")) << ended.err;
+  EXPECT_LE(split(trimmed(ended.err), '\n').size(), 5U) << ended.err;
+}
+
+// A disc whose width takes as much force as its thickness adds is not one whose size does not
+// matter, and a formula that does not apply is not said to.
+TEST_F(Quickstart, contradictions_are_not_explained) {
+  write_file(folder_ / "disc.toml",
+             "[tissue]\nshape = { kind = \"cylinder\", radius = \"20 mm\", length = \"80 mm\" }\n"
+             "[solver]\nmodel = \"hertz\"\n" +
+                 press);
+  const std::string disc = palpate(folder_.path(), {"explain", "disc.toml"}).out;
+  EXPECT_NE(disc.find("    size"), std::string::npos) << disc;
+  EXPECT_EQ(disc.find("the body's size does not matter"), std::string::npos) << disc;
+  write_file(
+      folder_ / "lump.toml",
+      "[tissue]\nmesh = { kind = \"tetgen\", nodes = 400 }\n[[region]]\nkind = "
+      "\"sphere\"\ncentre = [\"30 mm\", \"30 mm\", \"15 mm\"]\nradius = \"8 mm\"\nmaterial = "
+      "\"bone\"\n" +
+          press);
+  const std::string lump = palpate(folder_.path(), {"explain", "lump.toml"}).out;
+  EXPECT_NE(lump.find("    formula      none, because the body has several tissues"),
+            std::string::npos)
+      << lump;
+  EXPECT_EQ(lump.find("exactly known"), std::string::npos) << lump;
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,118 @@
+// Pages: escaping, links, inline pictures, contrast.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+#include "page/page.h"
+#include "page/png.h"
+#include "page/style.h"
+#include "temporary_folder.h"
+
+namespace palpate::page {
+namespace {
+
+TEST(Html, NothingGetsInUnescaped) {
+  const std::string evil = "<script>\"it's\" & \x1b</script>";
+  const std::string safe = "&lt;script&gt;&quot;it&#39;s&quot; &amp;  &lt;/script&gt;";
+  EXPECT_EQ(text(evil).html(), safe);
+  EXPECT_EQ(element("p", evil, {{"title", evil}}).html(),
+            "<p title=\"" + safe + "\">" + safe + "</p>");
+  EXPECT_EQ(link(evil, "x").html(), "<a href=\"" + safe + "\">x</a>");
+  EXPECT_EQ(paragraphs({"set `a<b` now"}).html(), "<p>set <code>a&lt;b</code> now</p>");
+  Page page(evil, "run");
+  page.answer({evil});
+  page.section("One", table(evil, {{evil}, {{record::Cell(evil)}}}));
+  EXPECT_EQ(page.html().find("<script>"), std::string::npos);
+}
+
+TEST(Html, TablesHaveHeadingsAndFourDigits) {
+  const std::string html =
+      table("Forces", {{"case", "force"}, {{record::Cell("a"), 1.23456789}, {"b", {}}}}).html();
+  for (const char* part :
+       {"<caption>Forces</caption>", "<th scope=\"col\">force</th>", "<th scope=\"row\">a</th>",
+        "<td class=\"number\">1.235</td>", "<td>–</td>"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  const record::Table long_one{{"n"}, {{1.0}, {2.0}, {3.0}}};
+  const std::string cut = table_of_file("n", long_one, "n.csv", 2).html();
+  EXPECT_NE(cut.find("The first 2 of 3 rows"), std::string::npos);
+  EXPECT_EQ(cut.find(">3<"), std::string::npos);
+}
+
+TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {
+  const auto made = [] {
+    Page page("A & B", "run");
+    page.answer({"It is 3 < 4 N.", "So."});
+    page.section("Figures", text("x"));
+    page.section("Empty", Markup());
+    return page.html();
+  };
+  EXPECT_EQ(made(), made());
+  EXPECT_NE(made().find("<a href=\"#figures\">Figures</a>"), std::string::npos);
+  EXPECT_EQ(made().find("Empty"), std::string::npos);
+  EXPECT_EQ(summary_of(made()).title, "A & B – palpate run");
+  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4 N. So.");
+  EXPECT_EQ(summary_of("<p>another page</p>").title, "");
+}
+
+TEST(Page, PicturesKeepTheirNamesApart) {
+  const std::string svg =
+      "<?xml version=\"1.0\"?>\n<svg \n width=\"820\" height=\"500\"\n viewBox=\"0 0 820 500\">"
+      "<g id=\"a\"/><path id='b'/><use xlink:href='#b'/><rect fill=\"url(#a)\"/></svg>";
+  EXPECT_EQ(inline_svg(svg, "f", "Force < 1").html(),
+            "<svg \n\n viewBox=\"0 0 820 500\" role=\"img\" aria-label=\"Force &lt; 1\"><g "
+            "id=\"f-a\"/><path id='f-b'/><use xlink:href='#f-b'/><rect fill=\"url(#f-a)\"/></svg>");
+  EXPECT_TRUE(inline_svg("no picture", "f", "x").empty());
+}
+
+TEST(Page, MissingPicturesAreSaid) {
+  const test::TemporaryFolder place;
+  WholeFolder folder((place / "out").string(), "result", Replace::incomplete);
+  folder.open();
+  folder.write("data.csv", "x\n");
+  folder.write("plot.gp", "plot 'data.csv'\n");
+  const Markup shown = all_figures(folder, [](const std::string&) { return "Force."; });
+  EXPECT_NE(shown.html().find("plot.svg could not be drawn here"), std::string::npos);
+  EXPECT_NE(shown.html().find("<a href=\"data.csv\">"), std::string::npos);
+}
+
+// The bytes of a 2 x 1 picture, checked against libpng once: transparent, then the last colour.
+TEST(Png, IsAPicture) {
+  const std::vector<unsigned char> shades{0, 255};
+  const std::string address = png_address(2, 1, shades);
+  EXPECT_TRUE(address.starts_with("data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAMAAAD"))
+      << address.substr(0, 80);
+  EXPECT_TRUE(address.ends_with("AAAABJRU5ErkJggg==") || address.ends_with("SUVORK5CYII="))
+      << address.substr(address.size() - 30);
+}
+
+double luminance(const std::string& colour) {
+  double sum = 0.0;
+  const double weights[] = {0.2126, 0.7152, 0.0722};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double part = std::stoi(colour.substr(2 * k, 2), nullptr, 16) / 255.0;
+    sum += weights[k] * (part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+
+// WCAG 2.1, 1.4.3: a ratio of at least 4.5, in both schemes, of every text on both grounds.
+TEST(Style, HasEnoughContrast) {
+  const std::string css = style();
+  const std::regex colour("--([a-z]+): #([0-9a-f]{6})");
+  std::vector<std::map<std::string, std::string>> schemes;
+  for (std::sregex_iterator at(css.begin(), css.end(), colour), end; at != end; ++at) {
+    if ((*at)[1] == "back") schemes.emplace_back();
+    schemes.back()[(*at)[1]] = (*at)[2];
+  }
+  ASSERT_EQ(schemes.size(), 2U);
+  for (auto& scheme : schemes)
+    for (const char* ink : {"ink", "soft", "link"})
+      for (const char* ground : {"back", "card"}) {
+        const double a = luminance(scheme.at(ink)), b = luminance(scheme.at(ground));
+        EXPECT_GE((std::max(a, b) + 0.05) / (std::min(a, b) + 0.05), 4.5) << ink << ground;
+      }
+}
+
+}  // namespace
+}  // namespace palpate::page
