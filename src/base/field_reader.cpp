@@ -245,7 +245,7 @@ class Reader final : public FieldVisitor {
     problem(node.place,
             ticked(key.name) + " must be " + range_text(range, unit) + ", got " +
                 ticked(node.shown()) +
-                (range.low == range.high ? "; write that" : "; give a value in that range"));
+                (range.low == range.high ? "; write that" : std::string("; ") + range.remedy));
     return false;
   }
 

@@ -38,6 +38,7 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool low_allowed = true;
   bool high_allowed = true;
+  const char* remedy = "give a value in that range";
 
   [[nodiscard]] bool holds(double value) const {
     return (low_allowed ? value >= low : value > low) &&

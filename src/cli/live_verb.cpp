@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "cli/answer_lines.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
@@ -14,6 +13,7 @@
 #include "live/as_moved.h"
 #include "live/guide.h"
 #include "live/live.h"
+#include "report/answer_lines.h"
 #include "report/machine.h"
 #include "report/results.h"
 #include "run/family.h"
@@ -141,7 +141,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     throw SystemError(std::string(error.what()) + "; the rows written before are in " +
                       output.rows_file);
   }
-  for (const std::string& line : answer_lines({result.record})) talk.say(line);
+  for (const std::string& line : report::answer_lines({result.record})) talk.say(line);
   talk.say(folder.path() + ": " + rows);
   talk.event("result", {{"scenario", family.name},
                         {"folder", folder.path()},

@@ -6,11 +6,11 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "cli/answer_lines.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/case_fits.h"
+#include "report/answer_lines.h"
 #include "report/machine.h"
 #include "report/results.h"
 #include "run/family.h"
@@ -28,10 +28,10 @@ void refuse_same_names(const std::vector<scenario::Family>& families) {
 }
 
 void say_remarks(const std::vector<record::CaseRecord>& records, const Talk& talk) {
-  std::vector<NamedSentence> remarks;
+  std::vector<report::NamedSentence> remarks;
   for (const record::CaseRecord& record : records)
     for (const std::string& remark : record.remarks) remarks.push_back({record.name, remark + "."});
-  for (const std::string& line : said_once(remarks)) talk.say(line);
+  for (const std::string& line : report::said_once(remarks)) talk.say(line);
 }
 
 // A family with its scenes and its result folder, ready to run.
@@ -105,7 +105,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   }
   const auto warnings = folder.finish(records, fits, {arguments.given, started});
   for (const std::string& warning : warnings) talk.warn(warning);
-  for (const std::string& line : answer_lines(records)) talk.say(line);
+  for (const std::string& line : report::answer_lines(records)) talk.say(line);
   if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))
     talk.say("The page to look at is " + page + ".");
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +

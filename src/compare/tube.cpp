@@ -183,7 +183,7 @@ ColumnComparison compare_ends(const Table& got, const Table& want, const Tube& t
       const double distance = std::abs(there - wanted);
       if (distance <= tube.width) continue;
       ++column.differing;
-      WorstRow worst;
+      WorstRow& worst = column.worst.emplace();
       if (!none) {
         worst.row = (first ? found->second.rows.front() : found->second.rows.back()) + 1;
         worst.got = there;
@@ -191,7 +191,6 @@ ColumnComparison compare_ends(const Table& got, const Table& want, const Tube& t
       worst.want = wanted;
       worst.relative = wanted != 0.0 ? distance / std::abs(wanted) : infinity;
       worst.allowed = tube.width;
-      column.worst = std::move(worst);
     }
   }
   return column;

@@ -90,11 +90,11 @@ LayerLaw::LayerLaw(const LayerTable& table, double share) : scale_{table.top_, t
       ratio = std::clamp(ratio + change, 0.0, of_ratio.last);
     }
     const double at = of_ratio.place(ratio);
-    const double load = 1.0 + ratio * chebyshev_sum(force, at).value;
+    const double load = 1.0 + ratio * chebyshev_value(force, at);
     force_factor[i] = (load / (deep * std::sqrt(deep)) - 1.0) / chi;
     radius_factor[i] = (1.0 / std::sqrt(deep) - 1.0) / chi;
     for (std::size_t k = 0; k < profile; ++k)
-      pressures[k][i] = ratio / chi * chebyshev_sum(pressure[k], at).value;
+      pressures[k][i] = ratio / chi * chebyshev_value(pressure[k], at);
   }
   force_ = fitted(force_factor);
   radius_ = fitted(radius_factor);
@@ -118,7 +118,7 @@ double LayerLaw::stiffness_factor(double chi) const {
 }
 
 double LayerLaw::radius_factor(double chi) const {
-  return known(chi) ? 1.0 + chi * chebyshev_sum(radius_, scale_.place(chi)).value : unknown;
+  return known(chi) ? 1.0 + chi * chebyshev_value(radius_, scale_.place(chi)) : unknown;
 }
 
 PressureProfile LayerLaw::pressure(double chi) const {
@@ -128,7 +128,7 @@ PressureProfile LayerLaw::pressure(double chi) const {
     return profile;
   }
   for (std::size_t k = 0; k < pressure_.size(); ++k)
-    profile.coefficients[k] = chi * chebyshev_sum(pressure_[k], scale_.place(chi)).value;
+    profile.coefficients[k] = chi * chebyshev_value(pressure_[k], scale_.place(chi));
   profile.coefficients[0] += 1.5;
   return profile;
 }

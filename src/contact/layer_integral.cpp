@@ -97,7 +97,7 @@ ProfileMap mean_along_chord() {
     for (std::size_t i = 0; i < terms; ++i)
       for (std::size_t j = 0; j < terms; ++j)
         means[i] += weights[j] *
-                    chebyshev_sum(series, chebyshev_node(i, terms) * (1.0 - tau[j] * tau[j])).value;
+                    chebyshev_value(series, chebyshev_node(i, terms) * (1.0 - tau[j] * tau[j]));
     chebyshev_fit(means, coefficients);
     for (std::size_t k = 0; k < terms; ++k) map[k][of] = coefficients[k];
   }
@@ -108,7 +108,7 @@ ProfileMap mean_along_chord() {
 
 double PressureProfile::at(double radius_ratio) const {
   const double z = 1.0 - radius_ratio * radius_ratio;
-  return z > 0.0 ? std::sqrt(z) * chebyshev_sum(coefficients, z).value : 0.0;
+  return z > 0.0 ? std::sqrt(z) * chebyshev_value(coefficients, z) : 0.0;
 }
 
 double Layer::top() const {
@@ -293,6 +293,17 @@ ChebyshevSum chebyshev_sum(std::span<const double> coefficients, double z) {
     db = db_next;
   }
   return {.value = y * b - b_before + coefficients[0], .slope = 2.0 * (y * db - db_before + b)};
+}
+
+double chebyshev_value(std::span<const double> coefficients, double z) {
+  const double y = 2.0 * z - 1.0;
+  double b = 0.0, b_before = 0.0;
+  for (std::size_t k = coefficients.size() - 1; k > 0; --k) {
+    const double b_next = 2.0 * y * b - b_before + coefficients[k];
+    b_before = b;
+    b = b_next;
+  }
+  return y * b - b_before + coefficients[0];
 }
 
 double chebyshev_node(std::size_t i, std::size_t n) {

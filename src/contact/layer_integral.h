@@ -124,6 +124,8 @@ struct ChebyshevSum {
   double value = 0.0, slope = 0.0;
 };
 [[nodiscard]] ChebyshevSum chebyshev_sum(std::span<const double> coefficients, double z);
+// The value alone, with the same bits, in half the time.
+[[nodiscard]] double chebyshev_value(std::span<const double> coefficients, double z);
 
 // Chebyshev node i of n, of the first kind: z in (0, 1), in descending order.
 [[nodiscard]] double chebyshev_node(std::size_t i, std::size_t n);

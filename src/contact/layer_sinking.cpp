@@ -4,6 +4,7 @@
 #include <math.h>  // j0, j1: POSIX
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "base/index.h"
@@ -17,12 +18,13 @@ constexpr int waves_for_bessel =
 
 }  // namespace
 
-LayerSinking::LayerSinking(const Layer& layer) {
+LayerSinking::LayerSinking(const Layer& layer, double farthest) {
   const auto tabulate = [&](double last, int pieces, int count) {
     const auto waves = layer_waves(layer, count);
-    Table table{last, {}};
-    table.knots.reserve(as_index(pieces) + 1);
-    for (int i = 0; i <= pieces; ++i) {
+    Table table{last, pieces, {}};
+    // One piece more than is needed, because of rounding.
+    const double most = std::min(farthest * pieces / last + 2.0, static_cast<double>(pieces));
+    for (int i = 0; i <= most; ++i) {
       const double rho = last * i / pieces;
       Knot knot{0.0, 0.0};
       // The Bessel functions of the C library agree with std::cyl_bessel_j to the last digits and
@@ -38,17 +40,18 @@ LayerSinking::LayerSinking(const Layer& layer) {
   // Near the force the shortest length is the top layer's thickness, far away it is the distance.
   const double top = layer.top();
   tabulate(last_rho * top, 480, waves_for_bessel);
-  if (!layer.below.empty()) tabulate(last_rho, 64, static_cast<int>(waves_for_bessel / top));
+  if (!layer.below.empty() && farthest >= last_rho * top)
+    tabulate(last_rho, 64, static_cast<int>(waves_for_bessel / top));
 }
 
 double LayerSinking::gamma(double rho) const {
   const auto table = std::find_if(tables_.begin(), tables_.end(),
                                   [&](const Table& one) { return rho < one.last_rho; });
   if (table == tables_.end()) return 1.0 / rho;
-  const int pieces = static_cast<int>(table->knots.size()) - 1;
-  const double width = table->last_rho / pieces;
+  const double width = table->last_rho / table->pieces;
   const double at = rho / width;
-  const int piece = std::min(static_cast<int>(at), pieces - 1);
+  const int piece = std::min(static_cast<int>(at), table->pieces - 1);
+  assert(as_index(piece) + 1 < table->knots.size());
   const Knot& left = table->knots[as_index(piece)];
   const Knot& right = table->knots[as_index(piece) + 1];
   const double t = at - piece;

@@ -12,7 +12,7 @@ namespace {
 constexpr double half_breadth = 9.0;
 constexpr double nail_height = 8.0;  // above the axis
 constexpr double pad_depth = 7.0;    // below it
-constexpr double length = 26.0;
+constexpr double whole_length = 26.0;
 constexpr double tip_length = 10.0;  // the rounded part of the length
 
 // A ring: `cosine` is 0 on the finger's body and 1 at the tip.
@@ -27,7 +27,7 @@ struct Ring {
 // 2 (6 + 12 + 4 x 16) + 15 = 179.
 std::array<Ring, 7> rings() {
   const double half_root_3 = std::sqrt(3.0) / 2.0;
-  const double body = length - tip_length;
+  const double body = whole_length - tip_length;
   return {{{6, half_root_3, body + tip_length * half_root_3},  // 30 degrees off the axis
            {12, 0.5, body + tip_length * 0.5},                 // 60 degrees
            {16, 0.0, body},
@@ -78,7 +78,7 @@ void join(int inner_first, int inner, int outer_first, int outer, Surface& surfa
 
 Surface fingertip(double volume) {
   Surface surface;
-  surface.vertices.emplace_back(length, 0.0, 0.0);
+  surface.vertices.emplace_back(whole_length, 0.0, 0.0);
   int inner_first = 0;
   int inner = 1;
   for (const Ring& ring : rings()) {

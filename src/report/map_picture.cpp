@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "page/png.h"
+#include "plot/gnuplot_text.h"
 
 namespace palpate::report {
 namespace {
@@ -18,11 +19,44 @@ using page::element;
 // The picture has at most 96 pixels a side: of the pixels that one replaces, the largest counts.
 constexpr int most_side = 96;
 
+float highest_pressure(const record::PressureMap& map) {
+  return map.pressure.empty() ? 0.0F : *std::max_element(map.pressure.begin(), map.pressure.end());
+}
+
 }  // namespace
 
+plot::Sheet map_sheet(const record::PressureMap& map, const std::string& file) {
+  const auto mm = [](double metres) { return rounded_text(unit::mm.from_si(metres), 6); };
+  std::string rows;
+  for (int row = 0; row < map.height; ++row) {
+    for (int column = 0; column < map.width; ++column) {
+      const double pressure =
+          double{map.pressure[as_index(row) * as_index(map.width) + as_index(column)]};
+      rows += (column > 0 ? "," : "") +
+              (pressure > 0.0 ? rounded_text(unit::kPa.from_si(pressure), 4) : "NaN");
+    }
+    rows += '\n';
+  }
+  const auto axis = [&](const std::string& name, double first, int count) {
+    return "set " + name + "label " + plot::gnuplot_quoted(name + " (mm)") + "\nset " + name +
+           "range [" + mm(first - 0.5 * map.pitch) + ":" + mm(first + (count - 0.5) * map.pitch) +
+           "]\n";
+  };
+  const std::string highest =
+      rounded_text(unit::kPa.from_si(double{std::max(highest_pressure(map), 1.0F)}), 4);
+  return {.name = file,
+          .script = plot::gnuplot_head(file, 680) + plot::gnuplot_palette() +
+                    "unset datafile columnheaders\n"
+                    "$pressure << END\n" +
+                    rows + "END\nset size ratio -1\n" + axis("x", map.origin.x(), map.width) +
+                    axis("y", map.origin.y(), map.height) + "set cbrange [0:" + highest +
+                    "]\nset cblabel 'Pressure (kPa)'\n" + "plot $pressure matrix using (" +
+                    mm(map.origin.x()) + " + $1 * " + mm(map.pitch) + "):(" + mm(map.origin.y()) +
+                    " + $2 * " + mm(map.pitch) + "):3 with image notitle\n"};
+}
+
 page::Markup map_picture(const record::PressureMap& map, const std::string& name) {
-  const float most =
-      map.pressure.empty() ? 0.0F : *std::max_element(map.pressure.begin(), map.pressure.end());
+  const float most = highest_pressure(map);
   const int every = std::max(
       {1, (map.width + most_side - 1) / most_side, (map.height + most_side - 1) / most_side});
   const int width = (map.width + every - 1) / every, height = (map.height + every - 1) / every;

@@ -13,6 +13,7 @@
 #include "report/exr.h"
 #include "report/family_figures.h"
 #include "report/manifest.h"
+#include "report/map_picture.h"
 #include "report/run_page.h"
 #include "report/scene_picture.h"
 #include "report/vtu.h"
@@ -207,9 +208,12 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   const std::string hash = sha256(echo);
   std::size_t number = 0;
   for (const record::CaseRecord& record : records)
-    for (const record::PressureMap& map : record.maps)
-      folder_.write(numbered("pressure", ++number, ".exr"),
-                    exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
+    for (const record::PressureMap& map : record.maps) {
+      const std::string name = numbered("pressure", ++number, "");
+      folder_.write(name + ".exr", exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
+      if (family_->base.output.png)
+        plot::draw(map_sheet(map, name), folder_, warnings, {.formats = {"png"}});
+    }
   write_tissue(records);
   write_pictures(records);
 

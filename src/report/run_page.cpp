@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "base/text.h"
 #include "page/page.h"
+#include "report/answer_lines.h"
 #include "report/finding_words.h"
 #include "report/map_picture.h"
 #include "report/paper_section.h"
@@ -134,43 +134,6 @@ Markup fits(const std::vector<fit::NamedFit>& fits) {
          page::table_of_file("Fits", table, "fits.csv", most);
 }
 
-std::vector<std::string> answer(const Records& records) {
-  std::vector<std::string> sentences;
-  double low = INFINITY, high = -INFINITY, worst = 0.0;
-  std::set<std::string> models;
-  std::size_t diverged = 0;
-  bool press = false;
-  for (const record::CaseRecord& record : records) {
-    const double force = finding_number(record, "peak_force_N");
-    const double strain = finding_number(record, "peak_strain");
-    press = press || std::isfinite(force);
-    const double peak = std::isfinite(force) ? force : strain;
-    if (std::isfinite(peak)) {
-      low = std::min(low, peak);
-      high = std::max(high, peak);
-    }
-    const double error = finding_number(record, "stated_error");
-    if (std::isfinite(error)) worst = std::max(worst, error);
-    models.insert(finding_word(record, "model"));
-    if (record.outcome == record::Outcome::diverged) ++diverged;
-  }
-  const auto number = [&](double value) {
-    return press ? rounded_text(value, 3) + " N" : rounded_text(100.0 * value, 3) + " %";
-  };
-  if (high >= low)
-    sentences.push_back(std::string(press ? "The largest force is " : "The largest strain is ") +
-                        (records.size() == 1 || low == high
-                             ? number(high)
-                             : "between " + number(low) + " and " + number(high)) +
-                        (worst > 0.0 ? ", with an estimated error of " + percent_text(worst) +
-                                           (records.size() > 1 ? " at most." : ".")
-                                     : std::string(".")));
-  if (diverged > 0)
-    sentences.push_back(std::to_string(diverged) + " of " + std::to_string(records.size()) +
-                        " cases ended early, because the numbers diverged.");
-  return sentences;
-}
-
 Markup remarks(const Records& records) {
   Markup items;
   for (const record::CaseRecord& record : records)
@@ -209,7 +172,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   const scenario::Family& family = shown.family;
   const Records& records = shown.records;
   page::Page page(family.title, "run");
-  page.answer(answer(records));
+  page.answer(answer_lines(records));
   page.section("Figures", figures(shown, folder));
   page.section("Beside the paper", paper_section(family, records, shown.fits));
   page.section("Remarks", remarks(records));

@@ -98,7 +98,7 @@ class Press {
           kept_modes_ = kept;
       }
       if (scene_.scenario.output.pressure_maps) add_map();
-      if (scene_.scenario.output.tissue && mesh_) add_frame();
+      if (wants_meshes_at(scenario::Output::Meshes::steps)) add_frame();
     }
     if (mesh_) {
       if (const auto imbalance = mesh_->imbalance())
@@ -196,7 +196,9 @@ class Press {
   [[nodiscard]] bool looks_for_folds(bool last_row) const {
     const auto& output = scene_.scenario.output;
     if (!mesh_->keeps_load_alone()) return true;
-    return (output.tissue || output.picture) && (last_row || !mesh_->shows_slowly());
+    const bool before_a_picture =
+        last_row || wants_meshes_at(scenario::Output::Meshes::rows) || !mesh_->shows_slowly();
+    return (output.tissue || output.picture) && before_a_picture;
   }
 
   // Advances to the finger's position after `time` s of the motion, at `now` (s).
@@ -263,6 +265,12 @@ class Press {
       for (const mechanics::SphereContact& one : touch_.contacts)
         deepest_sinking_ = std::max(deepest_sinking_, sunk(one));
     if (!mesh_) record_.last_stable_time = time_;
+    if (wants_meshes_at(scenario::Output::Meshes::rows)) add_frame();
+  }
+
+  [[nodiscard]] bool wants_meshes_at(scenario::Output::Meshes when) const {
+    const scenario::Output& output = scene_.scenario.output;
+    return mesh_ && output.tissue && output.tissue_at == when;
   }
 
   // Mean displacement of the nodes under a contact, weighted by their shares of its force, m.

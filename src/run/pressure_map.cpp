@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "contact/half_space.h"
+#include "contact/layer_sinking.h"
 #include "run/nodal_map.h"
 
 namespace palpate::run {
@@ -48,7 +49,8 @@ struct View {
 
 // The vertical gap between finger and tissue, m: the parabolic height of the spheres above the
 // curved tissue, minus the depth, plus the displacement of the half-space or layer; 0 in contact.
-double gap(const std::vector<View>& views, const scene::Scene& scene, double x, double y) {
+double gap(const std::vector<View>& views, const scene::Scene& scene,
+           const std::optional<contact::LayerSinking>& layer, double x, double y) {
   double least = std::numeric_limits<double>::infinity();
   double sinking = 0.0;
   for (const View& view : views) {
@@ -56,8 +58,8 @@ double gap(const std::vector<View>& views, const scene::Scene& scene, double x, 
     const double modulus = scene.finger.sphere_modulus;
     sinking +=
         contact::half_space_sinking(r, view.contact->force, view.contact->patch.radius(), modulus);
-    if (scene.layer)
-      sinking -= view.contact->force * scene.layer_sinking->gamma(r / scene.layer->thickness) /
+    if (layer)
+      sinking -= view.contact->force * layer->gamma(r / scene.layer->thickness) /
                  (std::numbers::pi * modulus * scene.layer->thickness);
   }
   const double sphere = scene.finger.sphere_radius;
@@ -69,6 +71,24 @@ double gap(const std::vector<View>& views, const scene::Scene& scene, double x, 
   }
   return std::isfinite(least) ? std::max(0.0, least + sinking)
                               : std::numeric_limits<double>::infinity();
+}
+
+// How the layer sinks around a contact, as far as the map reaches.
+std::optional<contact::LayerSinking> sinking_of_layer(const std::vector<View>& views,
+                                                      const scene::Scene& scene,
+                                                      const record::PressureMap& map) {
+  if (!scene.layer) return {};
+  double farthest = 0.0;  // m; at a corner
+  for (const View& view : views)
+    for (const int row : {0, map.height - 1})
+      for (const int column : {0, map.width - 1}) {
+        const double x = map.origin.x() + column * map.pitch;
+        const double y = map.origin.y() + row * map.pitch;
+        farthest = std::max(farthest, view.arm(x, y).norm());
+      }
+  const contact::Layer layer =
+      scene::layers_of(scene.scenario, 1.0 - scene.finger.compliance_share);
+  return contact::LayerSinking(layer, farthest / scene.layer->thickness);
 }
 
 }  // namespace
@@ -110,6 +130,7 @@ record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& 
     draw_nodes(scene, touch, map);
     return map;
   }
+  const std::optional<contact::LayerSinking> layer = sinking_of_layer(views, scene, map);
   for (int row = 0; row < map.height; ++row) {
     for (int column = 0; column < map.width; ++column) {
       double pressure = 0.0;
@@ -136,7 +157,7 @@ record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& 
       map.traction_z.push_back(static_cast<float>(traction.z()));
       const double x = map.origin.x() + column * map.pitch;
       const double y = map.origin.y() + row * map.pitch;
-      map.gap.push_back(pressure > 0.0 ? 0.0F : static_cast<float>(gap(views, scene, x, y)));
+      map.gap.push_back(pressure > 0.0 ? 0.0F : static_cast<float>(gap(views, scene, layer, x, y)));
     }
   }
   return map;

@@ -179,15 +179,17 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
                   {output.report, "with `report`", Use::Otherwise::note}},
                  output.paper, papers);
   visitor.flag({"pdf", "Figures as PDF too."}, output.pdf);
-  visitor.flag({"png", "Figures as PNG too."}, output.png);
+  visitor.flag({"png", "Figures and pressure maps as PNG too."}, output.png);
   visitor.choice(
       {"regression",
        "The regression of `fits.csv` that is drawn over the force in figures.",
        {output.fits && output.figures, "with `fits` and `figures`", Use::Otherwise::note}},
       output.regression, regressions);
-  visitor.flag(
-      {"tissue", "The deformed mesh at the end of every step, for ParaView.", use.pressed_mesh},
-      output.tissue);
+  visitor.flag({"tissue", "Deformed meshes for ParaView.", use.pressed_mesh}, output.tissue);
+  visitor.choice({"tissue_at",
+                  "When the meshes of `tissue` are written.",
+                  {output.tissue, "with `tissue`", Use::Otherwise::note}},
+                 output.tissue_at, meshes_at);
   visitor.flag({"picture", "A picture of the scene.", use.pressed_mesh}, output.picture);
   visitor.numbers_by_name(
       {"display_scale", "Factors by case, for figures and an extra fit; CSV stays in newtons."},

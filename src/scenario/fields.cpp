@@ -176,7 +176,13 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
       {"poisson_ratio",
        "Default: the material's. With `mass_spring` it affects the contact and the volume "
        "term only: independent springs have a ratio of their own, near 1/4."},
-      tissue.poisson_ratio, {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false});
+      tissue.poisson_ratio,
+      {.low = -1,
+       .high = 0.5,
+       .low_allowed = false,
+       .high_allowed = false,
+       .remedy = "for a tissue that keeps its volume give 0.49, which lowers the force by 1.3 % on "
+                 "deep tissue and by more on a thin layer"});
   visitor.quantity({"density", "Default: the material's.", use.mesh_physics}, tissue.density,
                    unit::density, above(0));
   visitor.choice({"viscosity", "The viscous law of the tissue."}, tissue.viscosity, viscosities);

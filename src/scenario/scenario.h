@@ -271,6 +271,7 @@ using Step = std::variant<Indent, Hold, Retract, Slide, Creep, Relax>;
 struct Output {
   enum class Regression { none, logarithmic, power, exponential };
   enum class Paper { none, figure_6, figure_7 };
+  enum class Meshes { steps, rows };
   double interval = 1e-3;        // s
   std::vector<double> force_at;  // m, indentations at which the force is a finding
   bool pressure_maps = true;
@@ -282,6 +283,7 @@ struct Output {
   bool png = false;
   Regression regression = Regression::none;     // drawn over the force in figures
   bool tissue = false;                          // deformed meshes for ParaView
+  Meshes tissue_at = Meshes::steps;             // at their ends, or at every row of the CSV files
   bool picture = false;                         // of the scene
   std::map<std::string, double> display_scale;  // by case, only for figures and fits
 

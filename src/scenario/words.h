@@ -32,6 +32,8 @@ inline constexpr auto papers =
     words_of<Output::Paper>({{"none", "no comparison"},
                              {"figure_6", "force against indentation and curvature"},
                              {"figure_7", "creep and recovery"}});
+inline constexpr auto meshes_at = words_of<Output::Meshes>(
+    {{"steps", "the end of every step"}, {"rows", "every row of the CSV files"}});
 inline constexpr auto keeps =
     words_of<Slide::Keep>({{"travel", "the depth"}, {"force", "the force"}});
 inline constexpr auto laws =

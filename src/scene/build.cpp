@@ -280,8 +280,6 @@ namespace {
 void set_layer(Scene& scene, SpecimenShapes& shapes) {
   const contact::Layer layer = layers_of(scene.scenario, 1.0 - scene.finger.compliance_share);
   scene.layer = make_layer(scene.scenario, scene.finger, shapes.layer_law(layer));
-  // The displacement around the contact is needed for pressure maps only.
-  if (scene.scenario.output.pressure_maps) scene.layer_sinking = shapes.layer_sinking(layer);
 }
 
 void set_depth_ratio(Scene& scene, const scenario::Family& family) {

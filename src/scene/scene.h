@@ -9,7 +9,6 @@
 #include "contact/depth_ratio.h"
 #include "contact/law.h"
 #include "contact/layer.h"
-#include "contact/layer_sinking.h"
 #include "contact/relaxation.h"
 #include "geometry/smooth_surface.h"
 #include "scenario/resolved.h"
@@ -143,9 +142,8 @@ struct Scene {
   contact::Relaxation relaxation;                  // of the contact's modulus; empty if elastic
   std::optional<contact::DepthRatio> depth_ratio;  // with `contact.depth = "neo_hookean"`
   std::optional<contact::LayerContact> layer;  // for `layer`, and for `consistent` on flat layers
-  std::optional<contact::LayerSinking> layer_sinking;  // around a contact, for maps
-  std::unique_ptr<Specimen> specimen;                  // null for `hertz` and `layer`
-  SinkingStore* sinkings = nullptr;  // of cases that share bodies; outlives the scene
+  std::unique_ptr<Specimen> specimen;          // null for `hertz` and `layer`
+  SinkingStore* sinkings = nullptr;            // of cases that share bodies; outlives the scene
 
   // From the top (without a mesh: the touch) to the base, m; infinite for shapes without size.
   [[nodiscard]] double thickness() const;

@@ -163,25 +163,21 @@ std::vector<double> numbers_of(const contact::Layer& layer) {
 // A search that varies nu needs a new layer every time; at this number all tables are removed.
 constexpr std::size_t most_layers = 100;
 
-template <class Table>
-Table cached(std::map<std::vector<double>, Table>& tables, std::mutex& mutex,
-             const contact::Layer& layer) {
-  const std::vector<double> key = numbers_of(layer);
-  {
-    const std::lock_guard lock(mutex);
-    if (const auto known = tables.find(key); known != tables.end()) return known->second;
-  }
-  Table table(layer);  // two threads may build the same table; both have the same bits
-  const std::lock_guard lock(mutex);
-  if (tables.size() >= most_layers) tables.clear();
-  tables.emplace(key, table);
-  return table;
-}
-
 }  // namespace
 
 contact::LayerLaw SpecimenShapes::layer_law(const contact::Layer& layer) {
-  if (!layer.below.empty()) return cached(laws_, looking_up_layer_, layer);
+  if (!layer.below.empty()) {
+    const std::vector<double> key = numbers_of(layer);
+    {
+      const std::lock_guard lock(looking_up_layer_);
+      if (const auto known = laws_.find(key); known != laws_.end()) return known->second;
+    }
+    contact::LayerLaw law(layer);  // two threads may build the same one; both have the same bits
+    const std::lock_guard lock(looking_up_layer_);
+    if (laws_.size() >= most_layers) laws_.clear();
+    laws_.emplace(key, law);
+    return law;
+  }
   // Of one layer the table serves every finger and modulus.
   contact::Layer any = layer;
   any.share = 1.0;
@@ -197,10 +193,6 @@ contact::LayerLaw SpecimenShapes::layer_law(const contact::Layer& layer) {
   if (tables_.size() >= most_layers) tables_.clear();
   tables_.emplace(key, std::move(table));
   return law;
-}
-
-contact::LayerSinking SpecimenShapes::layer_sinking(const contact::Layer& layer) {
-  return cached(sinkings_, looking_up_layer_, layer);
 }
 
 }  // namespace palpate::scene

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "contact/layer.h"
-#include "contact/layer_sinking.h"
 #include "geometry/smooth_surface.h"
 #include "geometry/tet_mesh.h"
 #include "scenario/resolved.h"
@@ -70,9 +69,8 @@ class SpecimenShapes {
   // The number of shapes.
   [[nodiscard]] std::size_t size();
 
-  // Tables for a layer; building one takes as long as a thousand presses.
+  // The table of a layer; building it takes as long as a thousand presses.
   [[nodiscard]] contact::LayerLaw layer_law(const contact::Layer& layer);
-  [[nodiscard]] contact::LayerSinking layer_sinking(const contact::Layer& layer);
 
  private:
   struct Entry {
@@ -89,7 +87,6 @@ class SpecimenShapes {
   std::mutex looking_up_layer_;
   std::map<std::vector<double>, contact::LayerLaw> laws_;      // of stacks, by all their numbers
   std::map<std::vector<double>, contact::LayerTable> tables_;  // of one layer, likewise
-  std::map<std::vector<double>, contact::LayerSinking> sinkings_;
 };
 
 }  // namespace palpate::scene

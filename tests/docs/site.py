@@ -1,11 +1,16 @@
 """Builds the site with mkdocs and checks it: site.py PALPATE SITE_FOLDER. Every link and every part of
-a page that a link names is there, and the search finds each page by its title."""
+a page that a link names is there, the search's index knows every page, and its page lists what it finds
+in Chromium."""
 
 import json
 import os
 import subprocess
 import sys
+import threading
+import time
+from functools import partial
 from html.parser import HTMLParser
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -56,15 +61,51 @@ def search_faults(site):
             yield f"the search does not know {path.name}"
 
 
+class Server(SimpleHTTPRequestHandler):
+    """The site, and its first page once more as /searched.html, with a picture that comes late: Chromium
+    shows a page when its pictures are there, and the search runs in a thread of its own before that."""
+
+    def do_GET(self):
+        if self.path == "/late.png":
+            time.sleep(5)
+            self.send_error(404)
+        elif self.path.startswith("/searched.html"):
+            text = (Path(self.directory) / "index.html").read_bytes()
+            self.send_response(200)
+            self.send_header("Content-Type", "text/html")
+            self.end_headers()
+            self.wfile.write(text.replace(b"</body>", b'<img src="late.png"></body>'))
+        else:
+            super().do_GET()
+
+    def log_message(self, *_):
+        pass
+
+
+def browser_faults(site):
+    """What Chromium shows for a search: its index is read by a script, which needs a server."""
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Server, directory=str(site)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    for wanted, shown in (("saltelli", "theory.html#sensitivity-of-a-sweep"), ("nonsenseword", "No results found</p>")):
+        address = f"http://127.0.0.1:{server.server_port}/searched.html?q={wanted}"
+        page = subprocess.run(
+            ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", address],
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=120, check=True,
+        ).stdout
+        if shown not in page.partition('id="mkdocs-search-results"')[2].partition("modal-footer")[0]:
+            yield f"in Chromium the search for `{wanted}` does not show `{shown}`"
+    server.shutdown()
+
+
 def main():
     program, site = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     subprocess.run(
-        ["mkdocs", "build", "--strict", "--quiet", "--clean", "--site-dir", str(site)],
+        ["mkdocs", "build", "--config-file", str(TOP / "tests/docs/mkdocs.yml"), "--strict", "--quiet", "--clean", "--site-dir", str(site)],
         cwd=TOP,
         env={**os.environ, "PALPATE": str(program), "PYTHONDONTWRITEBYTECODE": "1"},
         check=True,
     )
-    found = [*faults(site), *search_faults(site)]
+    found = [*faults(site), *search_faults(site), *browser_faults(site)]
     print("\n".join(found) or f"{len(list(site.rglob('*.html')))} pages: all links and the search are good")
     sys.exit(bool(found))
 

@@ -95,6 +95,36 @@ TEST(RunOutputs, show_a_hidden_lump) {
       << "the skin is the glass";
 }
 
+// Of 5 rows the first is that before the press; two steps share none.
+TEST(RunOutputs, meshes_at_every_row) {
+  const TemporaryFolder folder;
+  write_file(folder / "press.toml", press_given);
+  const Ended ended = palpate(folder.path(), {"run", "press.toml", "--set", "output.tissue_at=rows",
+                                              "--set", "output.interval=100 ms"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::string series = read_file(folder / "out/press/tissue.pvd");
+  for (const char* time : {"0", "0.1", "0.2", "0.3", "0.4"})
+    EXPECT_NE(series.find("timestep=\"" + std::string(time) + "\""), std::string::npos) << time;
+  EXPECT_EQ(files_of(folder / "out/press").size(), 7U) << "five meshes, their list and the scene";
+}
+
+TEST(RunOutputs, pressure_maps_as_pictures) {
+  const TemporaryFolder folder;
+  write_file(folder / "press.toml",
+             "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\npng = true\n");
+  const Ended ended = palpate(folder.path(), {"run", "press.toml"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.err.find("gnuplot"), std::string::npos) << ended.err;
+  const fs::path result = folder / "out/press";
+  EXPECT_TRUE(read_file(result / "pressure_001.png").starts_with("\x89PNG"));
+  const std::string script = read_file(result / "pressure_001.gp");
+  EXPECT_NE(script.find("set cblabel 'Pressure (kPa)'"), std::string::npos);
+  const auto manifest = nlohmann::json::parse(read_file(result / "run.json"));
+  std::set<std::string> named;
+  for (const auto& output : manifest["outputs"]) named.insert(output["path"]);
+  EXPECT_TRUE(named.contains("pressure_001.png"));
+}
+
 TEST(RunOutputs, only_on_request) {
   const TemporaryFolder folder;
   write_file(folder / "press.toml", press_given);

@@ -99,15 +99,21 @@ TEST(LayerStack, TheLawFindsTheDepthOfALoad) {
 
 // Far from the force the whole stack is felt, near it the top layer: the two tables meet.
 TEST(LayerStack, SinkingGoesOnFromTableToTable) {
-  const LayerSinking sinking(skin_on(0.3));
+  const LayerSinking sinking(skin_on(0.3), 20.0);
   const double border = 12.0 * 0.15;
   EXPECT_NEAR(sinking.gamma(border * (1.0 + 1e-12)), sinking.gamma(border * (1.0 - 1e-12)), 3e-5);
   EXPECT_NEAR(sinking.gamma(12.0), 1.0 / 12.0, 1e-6);  // the rigid base holds it
   // One tissue in layers is one layer.
-  const LayerSinking one(Layer{.poisson_ratio = 0.3});
-  const LayerSinking split(alike(0.3, LayerBase::bonded));
+  const LayerSinking one(Layer{.poisson_ratio = 0.3}, 11.0);
+  const LayerSinking split(alike(0.3, LayerBase::bonded), 11.0);
   for (const double rho : {0.0, 0.1, 0.5, 1.0, 2.3, 5.0, 11.0})
     EXPECT_NEAR(split.gamma(rho), one.gamma(rho), 1e-6) << rho;
+  // How far the table reaches does not matter.
+  for (const double farthest : {0.0, 0.3, 1.8, 5.0}) {
+    const LayerSinking near(skin_on(0.3), farthest);
+    for (const double part : {0.0, 0.7, 1.0})
+      EXPECT_EQ(near.gamma(part * farthest), sinking.gamma(part * farthest)) << farthest;
+  }
 }
 
 }  // namespace

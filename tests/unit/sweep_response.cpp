@@ -168,10 +168,11 @@ std::vector<std::string> names_in(const WholeFolder& folder) {
   for (const HashedFile& file : folder.files()) {
     EXPECT_GT(fs::file_size(folder.file(file.path)), 20u) << file.path;
     names.push_back(file.path);
-    if (file.path.ends_with(".svg"))
+    if (file.path.ends_with(".svg")) {
       EXPECT_EQ(test::SvgPicture(read_text(folder.file(file.path))).faults(),
                 std::vector<std::string>{})
           << file.path;
+    }
   }
   return names;
 }

@@ -1,4 +1,4 @@
-// What `run` says about its answers: short, however many cases a scenario has.
+// The answers of a run, as `run` and its page say them: short, however many cases a scenario has.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "record/record.h"
 
-namespace palpate::cli {
+namespace palpate::report {
 
 struct NamedSentence {
   std::string name;  // of a case
@@ -21,4 +21,4 @@ struct NamedSentence {
 // force (or strain) with its errors, and one line per kind of what is left out.
 [[nodiscard]] std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& records);
 
-}  // namespace palpate::cli
+}  // namespace palpate::report

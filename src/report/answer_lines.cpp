@@ -1,5 +1,5 @@
 // Sums up the answers of the cases of a scenario.
-#include "cli/answer_lines.h"
+#include "report/answer_lines.h"
 
 #include <algorithm>
 #include <map>
@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 
-namespace palpate::cli {
+namespace palpate::report {
 namespace {
 
 std::string without_numbers(std::string sentence) {
@@ -137,4 +137,4 @@ std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& rec
   return lines;
 }
 
-}  // namespace palpate::cli
+}  // namespace palpate::report
