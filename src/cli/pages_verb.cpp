@@ -79,6 +79,7 @@ int perform(const New& command, const Arguments&, const Talk& talk) {
     const std::string file = command.file.empty() ? command.kind + ".toml" : command.file;
     if (!command.force && std::filesystem::exists(file))
       throw InputError({file, 0, 0}, "exists; give another name, or `--force` to replace it");
+    make_folders(std::filesystem::path(file).parent_path().string());
     write_atomically(file, starter.text);
     talk.say(file + ": " + starter.word.meaning + "; `palpate run " + file + "` runs it");
   }
