@@ -87,13 +87,18 @@ std::vector<std::string> draw_all(const std::vector<chart::CaseChart>& charts,
   return warnings;
 }
 
-// The page of a chart. `text` is chart.md, whose lines that are no headings are the answer.
+// The page of a chart. `text` is chart.md, whose sentences are the answer: what its lists and its
+// table say stands in the table of variants.
 void write_page(const scenario::Family& family, const std::string& text, const record::Table& table,
                 WholeFolder& folder) {
   page::Page page(family.title, "chart of speed and accuracy");
   std::vector<std::string> sentences;
+  const bool several = family.cases.size() > 1;
   for (const std::string& line : split(text, '\n'))
-    if (!line.empty() && line.front() != '#') sentences.push_back(line);
+    if (line.starts_with("## ") && several)
+      sentences.push_back(line.substr(3) + ":");
+    else if (line.ends_with('.') && !line.starts_with("- "))
+      sentences.push_back(line);
   page.answer(sentences);
   page.section("Figures", page::all_figures(folder, [](const std::string&) {
                  return "Error against cost of every variant; the line joins the variants that no "

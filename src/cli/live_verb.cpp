@@ -127,6 +127,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     talk.say(result.record.name + ": " + remark + ".");
   const std::string rows = std::to_string(result.rows) + " rows";
   const int code = code_of(result.end.why);
+  if (result.verdict) result.record.answer.verdict = live::verdict_sentence(*result.verdict);
   const std::string ended = "palpate: " + options.link + ": " + result.end.sentence;
   try {
     folder.keep(0, result.record);
@@ -149,7 +150,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
                         {"reason", result.record.reason}});
   if (code != exit_good) Talk::error(ended + "; " + rows + " are kept");
   if (!result.verdict) return code;
-  const std::string verdict = result.record.name + ": " + live::verdict_sentence(*result.verdict);
+  const std::string verdict = result.record.name + ": " + result.record.answer.verdict;
   const bool agrees = result.verdict->outcome == live::Verdict::Outcome::agrees;
   if (code != exit_good || !command.device.expect || agrees) {
     talk.say(verdict);

@@ -1,5 +1,6 @@
 // gnuplot scripts of the data, model, residuals and profiles.
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "identify/folder.h"
@@ -24,6 +25,17 @@ std::pair<const char*, const char*> axes(identify::CurveKind kind) {
   return {"", ""};
 }
 
+// The power of a thousand in which the largest residual has one to three digits before the point;
+// 1 for those from 0.001 on, and where all of them are zero.
+double residual_scale(const Identification& found) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < found.x.size(); ++i)
+    most = std::max(most, std::abs(found.measured[i] - found.model[i]));
+  most = words_of(found.kind).y.from_si(most);
+  if (most >= 1e-3 || most == 0.0) return 1.0;
+  return std::pow(10.0, 3.0 * std::floor(std::log10(most) / 3.0));
+}
+
 }  // namespace
 
 plot::Sheet identified_sheet(const std::string& title, const identify::Identification& found) {
@@ -42,13 +54,16 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
           "  " +
           file +
           ":3 smooth unique with lines linewidth 1.6 linecolor rgb '#D55E00' title 'model'\n";
+  const double scale = residual_scale(found);
+  const std::string power = scale == 1.0 ? "" : ", " + plot::tick_text(scale);
   text +=
       "unset title\nunset key\nset tmargin at screen 0.36\nset bmargin at screen 0.11\n"
       "set format x '%.10g'\nset xlabel " +
       plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
-      plot::gnuplot_quoted(label("Measured - model", words.y)) +
-      "\nplot \\\n  0 with lines linewidth 1 linecolor rgb '#909090', \\\n  " + file +
-      ":4 with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'\nunset multiplot\n";
+      plot::gnuplot_quoted(label("Measured - model", words.y) + power) +
+      "\nplot \\\n  0 with lines linewidth 1 linecolor rgb '#909090', \\\n  " + file + ":($4 / " +
+      rounded_text(scale, 3) +
+      ") with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'\nunset multiplot\n";
   return {.name = "curve", .script = text, .reads = {"residuals.csv"}};
 }
 

@@ -79,8 +79,11 @@ Markup cell(const record::Cell& value, bool heading) {
     return element(heading ? "th" : "td", plot::tick_text(*number, 4),
                    heading ? Attributes{{"scope", "row"}} : Attributes{{"class", "number"}});
   const auto* word = std::get_if<std::string>(&value);
-  return element(heading ? "th" : "td", word == nullptr ? std::string("–") : *word,
-                 heading ? Attributes{{"scope", "row"}} : Attributes{});
+  Attributes attributes;
+  if (heading) attributes.emplace_back("scope", "row");
+  constexpr std::size_t sentence = 50;  // letters; a column of such texts is not made narrow
+  if (word != nullptr && word->size() > sentence) attributes.emplace_back("class", "words");
+  return element(heading ? "th" : "td", word == nullptr ? std::string("–") : *word, attributes);
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ std::string between(const std::string& html, std::string_view from, std::string_
   bool tag = false;
   for (std::size_t at = start + from.size(); at < end; ++at) {
     const char letter = html[at];
-    if (letter == '<' && !plain.empty() && plain.back() != ' ') plain += ' ';
+    if (html.compare(at, 4, "</p>") == 0) plain += ' ';
     if (letter == '<' || letter == '>')
       tag = letter == '<';
     else if (!tag)

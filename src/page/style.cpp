@@ -36,6 +36,7 @@ figure svg { display: block; width: 100%; min-width: 34rem; max-width: 51rem; he
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; overflow-wrap: normal; }
 th, td { border-bottom: 1px solid var(--line); padding: .25rem .8rem .25rem 0; text-align: left;
   vertical-align: top; } th { font-weight: 600; } .number { text-align: right; }
+.words { min-width: 24rem; }
 code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--card);
   padding: .8rem; overflow-x: auto; overflow-wrap: normal; } code { background: var(--card); }
 summary { cursor: pointer; } footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }

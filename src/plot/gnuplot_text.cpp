@@ -54,11 +54,11 @@ std::string gnuplot_head(const std::string& name, int height, int tick_font) {
          "if (format eq 'pdf') {\n"
          "  set terminal pdfcairo noenhanced size 18cm," +
          rounded_text(0.022 * height, 3) +
-         "cm font 'sans-serif,11' linewidth 1.1\n"
+         "cm font 'sans-serif,15' fontscale 0.62 linewidth 1.1\n"
          "} else { if (format eq 'png') {\n"
          "  set terminal pngcairo noenhanced size 1640," +
          std::to_string(2 * height) +
-         " font 'sans-serif,11' fontscale 2 linewidth 2 background '#ffffff'\n"
+         " font 'sans-serif,15' fontscale 1.5 linewidth 2 background '#ffffff'\n"
          "} else {\n"
          "  set terminal svg noenhanced size 820," +
          std::to_string(height) + " font 'sans-serif,15' name " + gnuplot_quoted(name) +
@@ -76,9 +76,9 @@ std::string gnuplot_head(const std::string& name, int height, int tick_font) {
          "set format x '%.10g'\nset format y '%.10g'\nset format cb '%.10g'\n";
 }
 
-std::string tick_text(double value, int digits) {
+std::string tick_text(double value, int digits, double powers_from) {
   const double size = std::abs(value);
-  if (size == 0.0 || !std::isfinite(size) || (size > 0.999e-3 && size < 0.999e5))
+  if (size == 0.0 || !std::isfinite(size) || (size > 0.999e-3 && size < 0.999 * powers_from))
     return rounded_text(value, digits);
   const int power = static_cast<int>(std::floor(std::log10(size) + 1e-9));
   const std::string front = rounded_text(value / std::pow(10.0, power), digits);
@@ -103,7 +103,7 @@ std::string gnuplot_logarithmic(const std::string& axis, double low, double high
                             : digit == 2 ? decades < 2.4
                             : digit == 5 ? decades < 2.4
                                          : decades < 0.5;
-      if (labelled || apart == 1) add(value, tick_text(value), labelled);
+      if (labelled || apart == 1) add(value, tick_text(value, 5, 1e4), labelled);
     }
   return "set logscale " + axis + "\nset " + axis + "tics (" + tics + ")\n";
 }

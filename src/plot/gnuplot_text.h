@@ -20,8 +20,9 @@ inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 // ticks and grid; 820 x `height` pixels, with ticks in `tick_font` pixels.
 [[nodiscard]] std::string gnuplot_head(const std::string& name, int height, int tick_font = 14);
 
-// A number on an axis or a page, with `digits` significant digits: `0.02`, `500`, `2×10⁶`.
-[[nodiscard]] std::string tick_text(double value, int digits = 5);
+// A number on an axis or a page, with `digits` significant digits: `0.02`, `500`, `2×10⁶`. Powers
+// of ten are written below 0.001 and from `powers_from` on.
+[[nodiscard]] std::string tick_text(double value, int digits = 5, double powers_from = 1e5);
 
 // A logarithmic scale with its ticks for the axis `x`, `y` or `cb` from `low` to `high`, both
 // positive: each power of ten is labelled, and 2 and 5 times it if the range is short.

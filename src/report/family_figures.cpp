@@ -190,7 +190,8 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
                             .label = "measured"};
       figures.back().series.push_back(measured);
     }
-  if (has_step<scenario::Hold>(family.base)) {
+  const bool live = std::any_of(records.begin(), records.end(), has_measured_force);
+  if (has_step<scenario::Hold>(family.base) && !live) {  // that of a live run is figure_live_force
     figures.push_back(with_cases(figure_force_time, family, records));
     choose_axis(figures.back(), forces, two_decades);
   }

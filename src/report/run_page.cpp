@@ -173,6 +173,9 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   const Records& records = shown.records;
   page::Page page(family.title, "run");
   page.answer(answer_lines(records));
+  for (const record::CaseRecord& record : records)
+    if (!record.answer.verdict.empty())
+      page.answer({"Beside the device: " + record.answer.verdict + "."});
   page.section("Figures", figures(shown, folder));
   page.section("Beside the paper", paper_section(family, records, shown.fits));
   page.section("Remarks", remarks(records));

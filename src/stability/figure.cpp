@@ -113,7 +113,8 @@ std::string agreement(const stability::StabilityMap& map) {
                     "' title '" + curve.label + "'");
   }
   return panel(map, "rung", Scale::logarithmic, "Every rung and damping", "limit by theory, µs") +
-         "set key at screen 0.5, screen 0.945 center top horizontal samplen 1 font ',12'\n"
+         "set key at screen 0.5, screen 0.955 center top vertical maxrows 1 Left reverse samplen 1 "
+         "font ',12'\n"
          "plot \\\n  " +
          joined(lines, ", \\\n  ") + "\nunset key\n";
 }
@@ -121,7 +122,7 @@ std::string agreement(const stability::StabilityMap& map) {
 std::string strip() {
   std::string text =
       "\n" + plot::gnuplot_linear("x") + plot::gnuplot_linear("y") +
-      "set key top right horizontal samplen 1 font ',12'\n"
+      "set key default top right horizontal Left reverse samplen 1 font ',12'\n"
       "set lmargin at screen 0.075\nset rmargin at screen 0.985\n"
       "set tmargin at screen 0.16\nset bmargin at screen 0.045\n"
       "set title 'Kinds of failure: one mark per setting that was tried'\n"
@@ -167,7 +168,8 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
   of_methods("young_modulus_Pa", Scale::logarithmic, "Young's modulus", "Pa");
   text += panel(map, "poisson_ratio", Scale::linear_x, "Volume term of coupled springs",
                 "Poisson's ratio") +
-          "set key bottom left Left reverse samplen 1 spacing 1.1 font ',11'\nset xrange [0:0.52]\n"
+          "set key default bottom left Left reverse samplen 1 spacing 1.1 font ',11'\nset xrange "
+          "[0:0.52]\n"
           "set xtics 0.1\n" +
           curves(map, volumes, "poisson_ratio", Legend::own) + "unset key\nset xrange [*:*]\n";
   of_methods("shortest_edge_mm", Scale::logarithmic, "Element size", "shortest edge, mm");

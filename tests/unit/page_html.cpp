@@ -42,7 +42,7 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
 TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {
   const auto made = [] {
     Page page("A & B", "run");
-    page.answer({"It is 3 < 4 N.", "So."});
+    page.answer({"It is 3 < 4 N (`h`).", "So."});
     page.section("Figures", text("x"));
     page.section("Empty", Markup());
     return page.html();
@@ -51,7 +51,7 @@ TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {
   EXPECT_NE(made().find("<a href=\"#figures\">Figures</a>"), std::string::npos);
   EXPECT_EQ(made().find("Empty"), std::string::npos);
   EXPECT_EQ(summary_of(made()).title, "A & B – palpate run");
-  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4 N. So.");
+  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4 N (h). So.");
   EXPECT_EQ(summary_of("<p>another page</p>").title, "");
 }
 
