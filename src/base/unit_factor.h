@@ -22,8 +22,8 @@ struct UnitFactor {
 // Parses a unit expression in the syntax of parse_quantity(); empty if it is not one.
 [[nodiscard]] std::optional<UnitFactor> unit_factor(std::string_view text);
 
-// A regular expression (ECMA) of the units of a dimension: every single symbol that has it, with any
-// prefix, and every product, quotient or power, whatever its dimension.
+// A regular expression (ECMA) of the units of a dimension: every single symbol that has it, with
+// any prefix, and every product, quotient or power, whatever its dimension.
 [[nodiscard]] std::string unit_pattern(const Dimension& dimension);
 
 // The SI unit of a dimension: `m`, `N`, `Pa`, `m^-3*kg`; empty for a pure number.

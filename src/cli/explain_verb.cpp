@@ -372,15 +372,14 @@ class Explanation {
 }  // namespace
 
 int perform(const Explain& command, const Arguments&, const Talk& talk) {
-  const std::string subject = scenario::find(command.subject);  // with an ending, if it is an example
+  const std::string subject = scenario::find(command.subject);  // an example with its ending
   const bool file =
       subject == "-" || subject.ends_with(".toml") || std::filesystem::exists(subject);
   if (!file) {
-    const std::string found = meaning(command.subject);
     if (talk.json())
-      talk.event("key", {{"subject", command.subject}, {"text", found}});
+      talk.event("key", {{"subject", command.subject}, {"text", meaning(command.subject)}});
     else
-      print(found);
+      print(meaning(command.subject));
     return exit_good;
   }
   const scenario::Family family = scenario::read(command.subject, command.settings);

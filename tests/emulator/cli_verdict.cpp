@@ -1,6 +1,7 @@
 // A live run judges itself: what is wrong with a session is found, named, and an exit code.
 #include <gtest/gtest.h>
 
+#include "browser.h"
 #include "live_session.h"
 
 namespace palpate {
@@ -83,7 +84,7 @@ TEST(LiveVerdict, OfARecordingIsThatOfItsGauge) {
   EXPECT_TRUE(has(again.err, "wrong sign: ")) << again.err;
 }
 
-// The figure shows measured points beside the model's curve.
+// The figure shows measured points beside the model's curve, and the page says whether they agree.
 TEST(LiveVerdict, MeasuredPointsAreInTheFigure) {
   const Played live(Session{.options = {"--arm", "--set", "output.figures=true"}});
   ASSERT_EQ(live.ended.code, 0) << live.ended.err;
@@ -91,6 +92,11 @@ TEST(LiveVerdict, MeasuredPointsAreInTheFigure) {
       test::read_file(live.result("device_stand") / "figure_force_indentation.gp");
   EXPECT_TRUE(has(script, "column('measured_force_N')) with points")) << script;
   EXPECT_TRUE(has(script, "title 'measured'"));
+  const test::fs::path result = live.result("device_stand");
+  EXPECT_TRUE(
+      has(test::read_file(result / "report.html"), "Beside the device: measured and model agree"));
+  EXPECT_EQ(test::faults_of_pages(result, {"report.html"}, test::Scheme::light),
+            std::vector<std::string>{});
 }
 
 // Readings that are older than their replies: the programme as it was planned gives a soft, slow
