@@ -196,10 +196,13 @@ Expected expect(const scene::Scene& scene) {
   expected.left_out = left_out(scene, estimates);
   const Words words(scene, estimates);
   expected.answer = {
-      words.model(),
-      std::string(uniform ? "The strain" : "The force") + " has " + words.error(error) + ".",
-      Words::left_out(expected.left_out, scene.scenario.solver.tolerance),
-      expected.left_out.empty(), error};
+      .model = words.model(),
+      .error =
+          std::string(uniform ? "The strain" : "The force") + " has " + words.error(error) + ".",
+      .left_out = Words::left_out(expected.left_out, scene.scenario.solver.tolerance),
+      .verdict = {},
+      .complete = expected.left_out.empty(),
+      .stated_error = error};
   return expected;
 }
 
@@ -215,8 +218,12 @@ record::Answer answer(const scene::Scene& scene, const scene::Estimates& estimat
   else
     result += " up to where the run ended; no error is stated.";
   const std::vector<LeftOut> effects = left_out(scene, estimates);
-  return {words.model(), result, Words::left_out(effects, scene.scenario.solver.tolerance),
-          effects.empty(), error};
+  return {.model = words.model(),
+          .error = result,
+          .left_out = Words::left_out(effects, scene.scenario.solver.tolerance),
+          .verdict = {},
+          .complete = effects.empty(),
+          .stated_error = error};
 }
 
 }  // namespace palpate::run

@@ -1,5 +1,7 @@
 // Any bytes from a server. The first byte says where: as frames after the handshake, in place of
 // the answer to the handshake, or in place of the answer to an HTTP request.
+#include <utility>  // which Boost 1.74 forgets
+
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
