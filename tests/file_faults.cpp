@@ -44,8 +44,9 @@ void mark() {
   ::syscall(SYS_close, file);
 }
 
-// Counts the call. Returns whether it fails, with errno set.
-bool fails(Call call) {
+// Counts the call. Returns whether it fails, with errno set. Signals interrupt only calls that may
+// wait (POSIX: open, read, write, fsync), not those that change a folder.
+bool fails(Call call, bool may_wait = false) {
   FileFaults& faults = file_faults;
   ++faults.calls;
   if (call != Call::reads && ++faults.changes == faults.kill_before) {
@@ -53,6 +54,10 @@ bool fails(Call call) {
     for (;;) ::pause();
   }
   if (faults.fail_at == 0 || faults.calls < faults.fail_at) return false;
+  if (faults.fail_with == EINTR && !may_wait) {
+    if (faults.calls == faults.fail_at) ++faults.fail_at;  // the next one then
+    return false;
+  }
   if (faults.calls == faults.fail_at) mark();
   const bool full = faults.stays && call == Call::changes;
   if (faults.calls > faults.fail_at && !full) return false;
@@ -69,7 +74,7 @@ int result(long code) { return static_cast<int>(code); }
 
 int opened(const char* name, int flags, mode_t mode) {
   const bool changes = (flags & (O_CREAT | O_TRUNC)) != 0;
-  if (fails(changes ? Call::changes : Call::reads)) return -1;
+  if (fails(changes ? Call::changes : Call::reads, true)) return -1;
   return result(::syscall(SYS_openat, AT_FDCWD, name, flags, mode));
 }
 
@@ -105,20 +110,20 @@ int open(const char* name, int flags, ...) {
 // Of a file, not of a stream: those come first.
 ssize_t write(int file, const void* bytes, size_t size) {
   if (file > STDERR_FILENO) {
-    if (fails(Call::changes)) return -1;
+    if (fails(Call::changes, true)) return -1;
     size = at_most(size);
   }
   return ::syscall(SYS_write, file, bytes, size);
 }
 ssize_t read(int file, void* bytes, size_t size) {
   if (file > STDERR_FILENO) {
-    if (fails(Call::reads)) return -1;
+    if (fails(Call::reads, true)) return -1;
     size = at_most(size);
   }
   return ::syscall(SYS_read, file, bytes, size);
 }
 int fsync(int file) {
-  if (fails(Call::reads)) return -1;
+  if (fails(Call::reads, true)) return -1;
   return result(::syscall(SYS_fsync, file));
 }
 int rename(const char* from, const char* to) noexcept {

@@ -1,5 +1,6 @@
 // By LD_PRELOAD: the allocation PALPATE_TEST_FAIL_MEMORY fails, and the clock of the day is set
 // back and forth by PALPATE_TEST_CLOCK_JUMP seconds.
+#include <dlfcn.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -21,16 +22,34 @@ long value_of(const char* variable) {
   return text == nullptr ? 0 : std::atol(text);
 }
 
+std::atomic<bool> main_has_begun = false;
+int (*real_main)(int, char**, char**) = nullptr;
+
 }  // namespace
 
 extern "C" {
+
+// Libraries allocate before main(), where nobody can catch anything: what counts begins with it.
+using Main = int (*)(int, char**, char**);
+int __libc_start_main(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);
+int counted_main(int count, char** words, char** environment) {
+  main_has_begun = true;
+  return real_main(count, words, environment);
+}
+int __libc_start_main(Main program, int count, char** words, void (*begin)(), void (*end)(),
+                      void (*loader_end)(), void* stack) {
+  real_main = program;
+  const auto next =
+      reinterpret_cast<decltype(&__libc_start_main)>(::dlsym(RTLD_NEXT, "__libc_start_main"));
+  return next(&counted_main, count, words, begin, end, loader_end, stack);
+}
 
 #ifndef __SANITIZE_ADDRESS__  // which has a malloc of its own
 void* __libc_malloc(std::size_t size);
 void* malloc(std::size_t size) {
   static const long fail_at = value_of("PALPATE_TEST_FAIL_MEMORY");
   static std::atomic<long> count = 0;
-  if (fail_at > 0 && ++count == fail_at) {
+  if (main_has_begun && fail_at > 0 && ++count == fail_at) {
     errno = ENOMEM;
     return nullptr;
   }

@@ -18,8 +18,10 @@ inline Content content(const fs::path& folder) {
   if (!fs::exists(folder)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(entry.path(), folder).string();
+    // An old file that could not be read is kept as `NAME.before`: it might be somebody's.
     const bool other = name == "run.json" || name == "contents.sha256" ||
-                       name.ends_with(".replaced") || name.find(".part") != std::string::npos;
+                       name.ends_with(".replaced") || name.find(".before") != std::string::npos ||
+                       name.find(".part") != std::string::npos;
     if (entry.is_regular_file() && !other) files[name] = read_file(entry.path());
   }
   return files;
@@ -110,6 +112,16 @@ class Hindered : public testing::TestWithParam<ResultVerb> {
   [[nodiscard]] bool is_new() const {
     return GetParam().varies ? is_whole(place()) : content(place()) == after_;
   }
+  // The names of files that are not those of the new result.
+  [[nodiscard]] std::string others() const {
+    std::string names;
+    const Content now = content(place());
+    for (const auto& [name, bytes] : now)
+      if (!after_.contains(name) || after_.at(name) != bytes) names += " " + name;
+    for (const auto& [name, bytes] : after_)
+      if (!now.contains(name)) names += " no " + name;
+    return names;
+  }
   // Whether every call of a verb is hindered in turn, in place of some.
   [[nodiscard]] static bool every() { return std::getenv("PALPATE_EVERY_FAULT") != nullptr; }
 
@@ -168,7 +180,9 @@ inline std::vector<ResultVerb> result_verbs() {
        "f",
        "0.5",
        "0.45",
-       1},
+       1,
+       {},
+       true},  // a curve that cannot be read is a row with the reason
   };
 }
 

@@ -195,15 +195,19 @@ std::string changed_file(const fs::path& folder) {
   return "";
 }
 
+// What a list says that its folder holds.
+State state_by(const std::string& list, const std::string& kind) {
+  for (const State content : {State::complete, State::incomplete})
+    if (list.starts_with(first_line(kind, content))) return content;
+  return State::foreign;
+}
+
 State state_of(const std::string& folder, const std::string& kind) {
   std::error_code ignored;
   if (!is_there(folder)) return State::free;
   if (!fs::is_directory(folder, ignored)) return State::foreign;
   if (fs::is_empty(folder, ignored)) return State::free;
-  const std::string list = list_of(folder).value_or("");
-  for (const State content : {State::complete, State::incomplete})
-    if (list.starts_with(first_line(kind, content))) return content;
-  return State::foreign;
+  return state_by(list_of(folder).value_or(""), kind);
 }
 
 }  // namespace
@@ -339,7 +343,13 @@ void WholeFolder::keep(const std::string& name) {
 
 std::vector<std::string> WholeFolder::put(State content, std::vector<std::string> warnings) {
   const auto may_replace = [&](const std::string& folder) {
-    const State there = state_of(folder, kind_);
+    const std::optional<std::string> there_listed = list_of(folder);
+    if (!there_listed && is_there(fs::path(folder) / list_name))
+      throw SystemError(folder + "/" + list_name +
+                        " cannot be read, so that nothing is replaced; the result of this run is "
+                        "in " +
+                        partial_);
+    const State there = there_listed ? state_by(*there_listed, kind_) : state_of(folder, kind_);
     if (there == State::complete)
       return content == State::complete &&
              (replace_ == Replace::any ||

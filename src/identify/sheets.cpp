@@ -57,7 +57,7 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
   const double scale = residual_scale(found);
   const std::string power = scale == 1.0 ? "" : ", " + plot::tick_text(scale);
   text +=
-      "unset title\nunset key\nset tmargin at screen 0.36\nset bmargin at screen 0.11\n"
+      "unset title\nunset key\nset tmargin at screen 0.37\nset bmargin at screen 0.125\n"
       "set format x '%.10g'\nset xlabel " +
       plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
       plot::gnuplot_quoted(label("Measured - model", words.y) + power) +

@@ -43,8 +43,8 @@ class LeftOuts {
   [[nodiscard]] bool mesh_is_tissue() const {
     return contact::mesh_is_tissue(scene_.scenario.contact.coupling);
   }
-  void add(const std::string& what, double change, const std::string& when,
-           const std::string& remedy = "") {
+  void omit(const std::string& what, double change, const std::string& when,
+            const std::string& remedy = "") {
     all_.push_back({what, change, when, remedy});
   }
 
@@ -54,20 +54,20 @@ class LeftOuts {
                                                    : "";
     const bool none = !rung_.thickness || one_way();
     if (none && e_.thickness * e_.tissue_share > tolerance())
-      add("the thickness of the tissue", e_.thickness, signed_percent(e_.thickness), free);
+      omit("the thickness of the tissue", e_.thickness, signed_percent(e_.thickness), free);
     if ((none || !rung_.sides) && e_.sides > tolerance())
-      add("the sides of the body", -e_.sides, signed_percent(-e_.sides), free);
+      omit("the sides of the body", -e_.sides, signed_percent(-e_.sides), free);
     if (none && e_.curved_body > tolerance())
-      add("the width of the body", e_.curved_body,
-          "up to " + percent_text(e_.curved_body) + " more or less", free);
+      omit("the width of the body", e_.curved_body,
+           "up to " + percent_text(e_.curved_body) + " more or less", free);
   }
 
   // By how much a half-space under `series` is too soft.                    docs/theory.md (10)
   void double_counting() {
     if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
     const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;
-    add("counting the softness of the tissue once only", change, signed_percent(change),
-        "leave out `contact.coupling`");
+    omit("counting the softness of the tissue once only", change, signed_percent(change),
+         "leave out `contact.coupling`");
   }
 
   void large_strains() {
@@ -77,7 +77,7 @@ class LeftOuts {
       remedy = "set `solver.model = \"neo_hookean\"`";
     else if (scene_.choice.depth_ratio)
       remedy = "add `contact.depth = \"neo_hookean\"`";
-    add("large strains", e_.deep, signed_percent(e_.deep) + " at the deepest point", remedy);
+    omit("large strains", e_.deep, signed_percent(e_.deep) + " at the deepest point", remedy);
   }
 
   void viscosity() {
@@ -87,17 +87,17 @@ class LeftOuts {
     std::string remedy = "add `contact.viscosity = \"tissue\"`";
     if (rung_.solid) remedy = "";
     if (one_way()) remedy += " and leave out `contact.coupling`";
-    add("viscosity", e_.viscous, signed_percent(e_.viscous) + " while pressing", remedy);
+    omit("viscosity", e_.viscous, signed_percent(e_.viscous) + " while pressing", remedy);
   }
 
   void waves() {
     if (e_.inertia <= tolerance()) return;
     const std::string when = signed_percent(e_.inertia) + " at this speed";
-    if (!rung_.inertia) return add("waves in the tissue", e_.inertia, when, mesh_with_waves());
+    if (!rung_.inertia) return omit("waves in the tissue", e_.inertia, when, mesh_with_waves());
     if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
-    add("waves in the tissue", e_.inertia, when,
-        "take an integrator with inertia and `tissue.viscosity = \"none\"`, or "
-        "`contact.coupling = \"resolved\"`");
+    omit("waves in the tissue", e_.inertia, when,
+         "take an integrator with inertia and `tissue.viscosity = \"none\"`, or "
+         "`contact.coupling = \"resolved\"`");
   }
 
   // Waves reach the force of a mesh where its springs do not damp them.
@@ -111,8 +111,8 @@ class LeftOuts {
   void ringing() {
     const double inertia = scene::uniform_inertia(scene_.scenario);
     if (about(scene_.scenario.solver.integrator).inertia || inertia < tolerance()) return;
-    add("the ringing of the body", inertia, "up to " + percent_text(inertia) + " of the strain",
-        "set `solver.integrator = \"central_difference\"`");
+    omit("the ringing of the body", inertia, "up to " + percent_text(inertia) + " of the strain",
+         "set `solver.integrator = \"central_difference\"`");
   }
 
   const scene::Scene& scene_;

@@ -127,13 +127,13 @@ std::optional<plot::Sheet> points_sheet(const sweep::SweepColumns& columns,
   std::string whole = title + ": " + of_output.label;
   if (every(columns) > 1) whole += ", one case in " + std::to_string(every(columns));
   if (failed) whole += "; crosses: no value";
-  const int height = 60 + 330 * static_cast<int>(rows);
+  const int height = 72 + 330 * static_cast<int>(rows);
   std::string text = plot::gnuplot_head(name, height, 12) +
                      "unset key\nset xlabel font ',12' offset 0,0.4\n"
                      "set ylabel font ',12' offset 1,0\nset cblabel font ',12' offset -0.8,0\n" +
                      plot::gnuplot_palette() + "set multiplot layout " + std::to_string(rows) +
                      "," + std::to_string(across) + " margins screen 0.1,0.905," +
-                     rounded_text(60.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
+                     rounded_text(72.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
                      " spacing screen 0.225," + rounded_text(75.0 / height, 3) + " title " +
                      plot::gnuplot_quoted(whole) + " font ',15'\n";
   for (const std::string& one : panels) text += one;

@@ -228,7 +228,7 @@ plot::Sheet response_sheet(const Response& response) {
     text += "set multiplot\nset lmargin at screen 0.12\nset rmargin at screen 0.79\nset title " +
             title + "\nset tmargin at screen 0.945\nset bmargin at screen 0.545\n" + label +
             map(response) +
-            "unset title\nset tmargin at screen 0.455\nset bmargin at screen 0.085\n"
+            "unset title\nset tmargin at screen 0.46\nset bmargin at screen 0.095\n"
             "set key at screen 0.805, screen 0.455 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +

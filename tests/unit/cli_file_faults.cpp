@@ -27,7 +27,7 @@ class FileFaults : public Hindered {
         << what << ": " << ended.code << ended.err;
     EXPECT_TRUE(ended.code == 0 || !ended.err.empty()) << what << ": no sentence";
     if (ended.code == 0) {
-      EXPECT_TRUE(is_new()) << what << ": exit code 0 and no result";
+      EXPECT_TRUE(is_new()) << what << ": exit code 0 and no result:" << others() << ended.err;
     }
     // The two files of a mesh are replaced one by one, and a pair of two meshes is refused.
     const bool pair = std::string(GetParam().name) == "mesh" && ended.code != 0;

@@ -61,7 +61,8 @@ TEST_F(OfAPress, has_all_its_files) {
   ASSERT_EQ(ended_.code, 0) << ended_.err;
   EXPECT_EQ(names_in(result()),
             (std::set<std::string>{"contents.sha256", "figure_force_indentation.gp",
-                                   "figure_force_indentation.svg", "findings.csv", "fits.csv",
+                                   "figure_force_indentation.svg", "figure_force_time.gp",
+                                   "figure_force_time.svg", "findings.csv", "fits.csv",
                                    "force_indentation.csv", "pressure_001.exr", "pressure_002.exr",
                                    "report.html", "run.json", "scenario.toml"}));
   EXPECT_EQ(names_in(*folder_ / "out"), std::set<std::string>{"press"}) << "nothing is left beside";
@@ -187,11 +188,11 @@ TEST(RunResults, findings_lead_with_the_swept_keys) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   const record::Table findings = record::read_csv(folder / "out/sweep/findings.csv");
   EXPECT_EQ(Strings(findings.columns.begin(), findings.columns.begin() + 3),
-            (Strings{"case", "tissue.material", "finger.radius"}));
+            (Strings{"case", "tissue.material", "finger.radius_mm"}));
   ASSERT_EQ(findings.rows.size(), 4U);
   EXPECT_EQ(findings.rows[1][0], record::Cell("skin_11 mm"));
   EXPECT_EQ(findings.rows[2][1], record::Cell("bone"));
-  EXPECT_EQ(findings.rows[2][2], record::Cell("8 mm"));
+  EXPECT_EQ(findings.rows[2][2], record::Cell(8.0));
 }
 
 TEST(RunResults, pdf_on_request) {

@@ -78,7 +78,8 @@ TEST_F(RunTalk, json_is_one_object_a_line) {
 
 TEST_F(RunTalk, json_keeps_stdout_clean_on_errors) {
   ASSERT_EQ(run({"--quiet"}).code, 0);
-  const Ended again = run({"--json"});
+  const Ended again =
+      run({"--json", "--set", "finger.radius=9 mm"});  // another result stands there
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.out, "");
 }
