@@ -72,7 +72,9 @@ class Program {
     send(SIGTERM);
     return wait();
   }
-  void send(int signal) const { ::kill(child_, signal); }
+  void send(int signal) const {
+    if (child_ > 0) ::kill(child_, signal);  // -1 would be every process
+  }
   int wait() {
     int status = 0;
     ::waitpid(child_, &status, 0);

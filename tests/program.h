@@ -82,7 +82,9 @@ class Running {
   Running& operator=(const Running&) = delete;
 
   [[nodiscard]] pid_t id() const { return child_; }
-  void send(int signal) const { ::kill(child_, signal); }
+  void send(int signal) const {
+    if (child_ > 0) ::kill(child_, signal);  // -1 would be every process
+  }
 
   // Waits for something that the program does; false where it ends, or patience does, first.
   bool until(const std::function<bool()>& there) {

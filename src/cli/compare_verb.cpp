@@ -64,6 +64,7 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
                    : std::to_string(differing) + " of " + std::to_string(comparison.files.size()) +
                          " files differ by more than the tolerances."});
   page.section("Columns", tables);
+  make_folders(std::filesystem::path(command.report).parent_path().string());
   write_atomically(command.report, page.html());
 }
 

@@ -43,7 +43,7 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
   const auto [x, y] = axes(found.kind);
   const std::string file = "'residuals.csv' using 1";
   std::string text = plot::gnuplot_head("curve", 640, 12) +
-                     "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.12\nset "
+                     "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.15\nset "
                      "rmargin at screen 0.97\n";
   text += "set title " + plot::gnuplot_quoted(title + ": measured and fitted") +
           "\nset tmargin at screen 0.93\nset bmargin at screen 0.42\n"

@@ -32,8 +32,7 @@ plot::Sheet map_sheet(const record::PressureMap& map, const std::string& file) {
     for (int column = 0; column < map.width; ++column) {
       const double pressure =
           double{map.pressure[as_index(row) * as_index(map.width) + as_index(column)]};
-      rows += (column > 0 ? "," : "") +
-              (pressure > 0.0 ? rounded_text(unit::kPa.from_si(pressure), 4) : "NaN");
+      rows += (column > 0 ? "," : "") + rounded_text(unit::kPa.from_si(pressure), 4);
     }
     rows += '\n';
   }
@@ -52,7 +51,7 @@ plot::Sheet map_sheet(const record::PressureMap& map, const std::string& file) {
                     axis("y", map.origin.y(), map.height) + "set cbrange [0:" + highest +
                     "]\nset cblabel 'Pressure (kPa)'\n" + "plot $pressure matrix using (" +
                     mm(map.origin.x()) + " + $1 * " + mm(map.pitch) + "):(" + mm(map.origin.y()) +
-                    " + $2 * " + mm(map.pitch) + "):3 with image notitle\n"};
+                    " + $2 * " + mm(map.pitch) + "):($3 > 0 ? $3 : NaN) with image notitle\n"};
 }
 
 page::Markup map_picture(const record::PressureMap& map, const std::string& name) {

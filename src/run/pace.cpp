@@ -20,7 +20,12 @@ int steps_a_row(const scene::Scene& scene) {
 Pace make_pace(const scene::Scene& scene, double duration) {
   // Rounding errors in a duration of a whole number of intervals add no row.
   const double rows = std::ceil(duration / scene.scenario.output.interval - 1e-6);
-  return {duration, std::max(1, static_cast<int>(rows)), steps_a_row(scene)};
+  int steps = steps_a_row(scene);
+  // One short row does not need the steps of a whole interval.
+  if (rows <= 1.0)
+    steps = std::max(
+        1, static_cast<int>(std::ceil(steps * duration / scene.scenario.output.interval - 1e-6)));
+  return {duration, std::max(1, static_cast<int>(rows)), steps};
 }
 
 Pace make_open_pace(const scene::Scene& scene, double longest) {

@@ -97,7 +97,8 @@ TEST_F(GoldenCheck, tolerances_beside_the_scenario_count) {
   change("mine/soft/scenario.toml", "5 kPa", "5.001 kPa");
   EXPECT_EQ(golden({"check", "mine/soft"}).code, 3);
   write_file(folder_ / "mine/soft/tolerances.toml",
-             "[default]\nrel = 1e-3\nreason = \"the modulus is known to a thousandth\"\n");
+             "[default]\nrel = 1e-3\nabs = 1e-6\n"
+             "reason = \"the modulus is known to a thousandth, and residuals are rounding\"\n");
   EXPECT_EQ(golden({"check", "mine/soft/scenario.toml"}).code, 0);
   write_file(folder_ / "mine/soft/tolerances.toml", "[column.force_n]\nrel = 1e-3\n");
   const Ended misspelt = golden({"check", "mine/soft"});

@@ -34,8 +34,7 @@ class RunStops : public testing::Test {
   void wait_for_first_case(Running& running) const {
     ASSERT_TRUE(running.until([&] {
       return fs::exists(partial(running) / "case_001/findings.csv");
-    })) << "the first case does not end: "
-        << running.wait().err;
+    })) << "the first case does not end";
   }
 
   // A finished result of the same name, known again by a mark.
