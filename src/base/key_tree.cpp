@@ -76,7 +76,7 @@ class Collector final : public FieldVisitor {
 
  private:
   KeyTree& add(const Key& key, Kind kind) {
-    KeyTree one{.name = key.name, .meaning = key.meaning, .kind = kind};
+    KeyTree one{.name = key.name, .meaning = key.meaning, .kind = kind, .alternatives = {}};
     if (!key.use.when.empty()) one.meaning += " Used only " + key.use.when + ".";
     keys_->push_back(std::move(one));
     return keys_->back();

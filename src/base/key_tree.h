@@ -17,14 +17,14 @@ struct KeyTree {
   std::string name = {};
   std::string meaning = {};  // with the condition of its use
   Kind kind = Kind::table;
-  Kind item = Kind::number;              // of a list's entries
-  Range range = {};                      // of numbers and quantities, SI
-  std::vector<Unit> units = {};          // of a quantity: of one dimension or of either of two
-  const char* open = nullptr;            // a word that may stand for a number; null if none may
-  std::optional<std::size_t> size = {};  // of a list; nothing: any
-  std::vector<Word> words = {};          // of a word
-  std::vector<KeyTree> keys = {};        // of a table without alternatives
-  std::vector<Alternative> alternatives = {};
+  Kind item = Kind::number;               // of a list's entries
+  Range range = {};                       // of numbers and quantities, SI
+  std::vector<Unit> units = {};           // of a quantity: of one dimension or of either of two
+  const char* open = nullptr;             // a word that may stand for a number; null if none may
+  std::optional<std::size_t> size = {};   // of a list; nothing: any
+  std::vector<Word> words = {};           // of a word
+  std::vector<KeyTree> keys = {};         // of a table without alternatives
+  std::vector<Alternative> alternatives;  // without `= {}`: its type is complete below
 };
 
 // One kind of a table with a key `kind`.

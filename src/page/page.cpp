@@ -59,7 +59,7 @@ void Page::section(const std::string& heading, const Markup& body) {
            line();
 }
 
-void Page::script(std::string code) { script_ += std::move(code); }
+void Page::script(const std::string& code) { script_ += code; }
 
 std::string Page::html() const {
   const Markup head =

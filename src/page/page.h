@@ -23,7 +23,7 @@ class Page {
   // A section with an entry in the contents. An empty body makes no section.
   void section(const std::string& heading, const Markup& body);
   // A script of our own, which the page runs when it has been read.
-  void script(std::string code);
+  void script(const std::string& code);
 
   // The whole page, always the same for the same content.
   [[nodiscard]] std::string html() const;

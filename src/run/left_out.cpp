@@ -103,9 +103,10 @@ class LeftOuts {
   // Waves reach the force of a mesh where its springs do not damp them.
   [[nodiscard]] std::string mesh_with_waves() const {
     if (rung_.solid) return "";
-    const std::string mesh = "set `solver.model = \"coupled_springs\"`";
-    if (scene_.scenario.tissue.viscosity == tissue::Viscosity::none) return mesh;
-    return mesh + " and `tissue.viscosity = \"none\"`";
+    std::string mesh = "set `solver.model = \"coupled_springs\"`";
+    if (scene_.scenario.tissue.viscosity != tissue::Viscosity::none)
+      mesh += " and `tissue.viscosity = \"none\"`";
+    return mesh;
   }
 
   void ringing() {
