@@ -157,7 +157,8 @@ TEST(StandStop, IsAVerb) {
   const test::Ended recording =
       test::palpate(feeling.folder(), {"device", "stop", "replay:none.csv"});
   EXPECT_EQ(recording.code, 2) << recording.err;
-  EXPECT_TRUE(has(recording.err, "wants a device that moves, got `replay:none.csv`")) << recording.err;
+  EXPECT_TRUE(has(recording.err, "wants a device that moves, got `replay:none.csv`"))
+      << recording.err;
 }
 
 TEST(StandProbe, SaysThatTheStandIsMoving) {
