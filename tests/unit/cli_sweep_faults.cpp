@@ -85,6 +85,7 @@ TEST_F(SweepFaults, OnePartIsNotRunTwiceAtOnce) {
   plan(slow_sweep(20));
   Running running(call({"run", "out/s_sweep", "--jobs", "1", "--shard", "1/2"}));
   ASSERT_TRUE(running.until([&] { return fs::exists(folder_ / "out/s_sweep/results"); }));
+  running.send(SIGSTOP);  // so that it does not end before the others have begun
   const Ended second = sweep({"run", "out/s_sweep", "--shard", "1/2"});
   EXPECT_EQ(second.code, 2);
   EXPECT_TRUE(second.err.starts_with("out/s_sweep: part 1-of-2 is run already, by process " +
@@ -131,7 +132,9 @@ TEST_F(SweepFaults, AVanishedFolderIsAnError) {
   plan(slow_sweep(20));
   Running running(call({"run", "out/s_sweep", "--jobs", "1"}));
   ASSERT_TRUE(running.until([&] { return fs::exists(folder_ / "out/s_sweep/results"); }));
+  running.send(SIGSTOP);  // so that cases are left when the folder is gone
   fs::rename(folder_ / "out", folder_ / "moved");
+  running.send(SIGCONT);
   const Ended ended = running.wait();
   EXPECT_EQ(ended.code, 1) << ended.err;
   EXPECT_NE(ended.err.find("has vanished while its cases ran"), std::string::npos) << ended.err;
