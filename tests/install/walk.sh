@@ -16,7 +16,7 @@ trap 'umount "$root/proc" 2>/dev/null || true' EXIT
 if [[ ! -d $root/usr ]]; then
   step "debootstrap --variant=minbase bookworm"
   mirror=$(sed -n 's/^deb \(\[[^]]*\] \)\?\(http[^ ]*\) bookworm .*/\2/p; s/^URIs: *//p' /etc/apt/sources.list \
-    /etc/apt/sources.list.d/* 2>/dev/null | head -n 1)
+    /etc/apt/sources.list.d/* 2>/dev/null | head -n 1) || true
   debootstrap --variant=minbase bookworm "$root" ${mirror:+"$mirror"} >"$root.log" 2>&1 || die "see $root.log"
 fi
 mount -t proc proc "$root/proc"
