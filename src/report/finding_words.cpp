@@ -10,7 +10,7 @@
 namespace palpate::report {
 namespace {
 
-enum Group : std::size_t { course, peak, error, validity, mesh, time, checks };
+enum Group : std::size_t { course, peak, error, gauge, validity, mesh, time, checks };
 
 struct Row {
   std::string_view name;
@@ -41,6 +41,22 @@ constexpr std::array rows{
     Row{"mesh_error", error, "%", "error of the mesh in the largest force"},
     Row{"predicted_force_over_hertz", error, "", "force over Hertz's force, estimated"},
     Row{"force_over_hertz", error, "", "force over Hertz's force, computed"},
+    Row{"measured_verdict", gauge, "", "measured force against the model's"},
+    Row{"measured_causes", gauge, "", "likely causes of the difference"},
+    Row{"measured_difference_N", gauge, "N", "measured minus computed force, root mean square"},
+    Row{"measured_difference", gauge, "%", "the same over the largest computed force"},
+    Row{"measured_allowed", gauge, "%", "difference that is allowed"},
+    Row{"measured_offset_N", gauge, "N", "force before contact, median"},
+    Row{"measured_noise_N", gauge, "N", "force before contact, standard deviation"},
+    Row{"measured_drift_N", gauge, "N", "force after contact minus before"},
+    Row{"measured_stiffness", gauge, "", "measured over computed force, by least squares"},
+    Row{"measured_surface_mm", gauge, "mm", "how much lower the specimen lies"},
+    Row{"measured_hysteresis", gauge, "%", "energy lost in the cycle, measured"},
+    Row{"model_hysteresis", gauge, "%", "energy lost in the cycle, computed"},
+    Row{"measured_contact_mm", gauge, "mm", "travel at first contact, measured"},
+    Row{"model_contact_mm", gauge, "mm", "travel at first contact, computed"},
+    Row{"measured_release_mm", gauge, "mm", "travel at release, measured"},
+    Row{"model_release_mm", gauge, "mm", "travel at release, computed"},
     Row{"depth_ratio", validity, "", "indentation over radius, h / R"},
     Row{"contact_radius_ratio", validity, "", "contact radius over radius, a / R"},
     Row{"thickness_ratio", validity, "", "contact radius over the height of the specimen"},
@@ -84,6 +100,7 @@ const std::vector<FindingGroup>& finding_groups() {
       {"Course", "How the case ran and ended."},
       {"Peak", "The values at the largest force or strain."},
       {"Error of the model", "What is known about the error of the force, as a part of it."},
+      {"Measured and computed", "The gauge of a live run against the model."},
       {"Validity",
        "Sizes that decide whether the model's assumptions hold; a change is a part of the force."},
       {"Mesh", "The mesh that stood for the tissue."},
