@@ -2,6 +2,7 @@
 #include "file_faults.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -31,6 +32,7 @@ FileFaults from_environment() {
   faults.fail_with = number_of("PALPATE_TEST_FAIL_WITH");
   faults.stays = number_of("PALPATE_TEST_STAYS") != 0;
   faults.most_bytes = number_of("PALPATE_TEST_MOST_BYTES");
+  faults.wait_ms = number_of("PALPATE_TEST_WAIT_MS");
   faults.has_exchange = std::getenv("PALPATE_TEST_NO_EXCHANGE") == nullptr;
   return faults;
 }
@@ -49,6 +51,7 @@ void mark() {
 bool fails(Call call, bool may_wait = false) {
   FileFaults& faults = file_faults;
   ++faults.calls;
+  if (faults.wait_ms > 0) ::poll(nullptr, 0, faults.wait_ms);
   if (call != Call::reads && ++faults.changes == faults.kill_before) {
     ::kill(::getpid(), SIGKILL);
     for (;;) ::pause();

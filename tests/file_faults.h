@@ -10,6 +10,7 @@ struct FileFaults {
   int fail_with = 0;    // errno
   bool stays = false;   // as do all later calls that change a file, but for removals: a full disk
   int most_bytes = 0;   // per read() and write(); 0: any number
+  int wait_ms = 0;      // before each call: a slow disk
   bool has_exchange = true;  // whether renameat2() knows RENAME_EXCHANGE
   // So far: open() of a file to write, write(), rename, renameat2, unlink, unlinkat, rmdir, remove,
   // mkdir; and these with open() to read, read() and fsync().
@@ -20,7 +21,8 @@ struct FileFaults {
 // Of this program. A test program links tests/file_faults.cpp, whose functions come before those of
 // the C library; another program has them by LD_PRELOAD and takes its faults from the environment:
 // PALPATE_TEST_KILL_BEFORE, PALPATE_TEST_FAIL_AT, PALPATE_TEST_FAIL_WITH, PALPATE_TEST_STAYS,
-// PALPATE_TEST_MOST_BYTES, PALPATE_TEST_NO_EXCHANGE. The fault leaves the file PALPATE_TEST_MARK.
+// PALPATE_TEST_MOST_BYTES, PALPATE_TEST_WAIT_MS, PALPATE_TEST_NO_EXCHANGE. A fault leaves
+// PALPATE_TEST_MARK.
 extern FileFaults file_faults;
 
 }  // namespace palpate::test

@@ -7,7 +7,9 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
@@ -102,6 +104,17 @@ Endpoints endpoints(const Host& host, int port) {
     if (!error) all.emplace_back(address, static_cast<unsigned short>(port));
   }
   return all;
+}
+
+// Lets the kernel ask the other side for a sign of life while it says nothing. Otherwise a socket
+// that only receives looks the same whether its service is quiet or its machine is gone. It breaks
+// after 4 s without an answer.
+void ask_for_signs_of_life(Socket& socket) {
+  for (const auto& [level, name, value] : {std::array<int, 3>{SOL_SOCKET, SO_KEEPALIVE, 1},
+                                           std::array<int, 3>{IPPROTO_TCP, TCP_KEEPIDLE, 1},
+                                           std::array<int, 3>{IPPROTO_TCP, TCP_KEEPINTVL, 1},
+                                           std::array<int, 3>{IPPROTO_TCP, TCP_KEEPCNT, 3}})
+    (void)::setsockopt(socket.native_handle(), level, name, &value, sizeof value);
 }
 
 std::chrono::steady_clock::duration duration(double seconds) {
@@ -216,6 +229,7 @@ WebSocket::WebSocket(const Host& host, int port, double until)
     if (error)
       throw LinkError("palpate: " + place(host, port) + " cannot be reached: " + error.message());
     socket.set_option(net::ip::tcp::no_delay(true));
+    ask_for_signs_of_life(socket);
     it.stream.async_handshake(place(host, port), "/", [&](Error got) {
       error = got;
       done = true;

@@ -61,6 +61,12 @@ TEST_P(FileFaults, ShortReadsAndWritesChangeNothing) {
   EXPECT_TRUE(is_new());
 }
 
+TEST_P(FileFaults, ASlowDiskChangesNothing) {
+  const Ended ended = hindered({{"PALPATE_TEST_WAIT_MS", "1"}});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(is_new());
+}
+
 TEST_P(FileFaults, AClockThatJumpsChangesNothing) {
   const Ended ended = hindered({{"PALPATE_TEST_CLOCK_JUMP", "100000000"}});
   EXPECT_EQ(ended.code, 0) << ended.err;

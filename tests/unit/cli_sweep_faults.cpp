@@ -131,7 +131,8 @@ TEST_F(SweepFaults, ACorruptRowIsMissingAndSaid) {
 TEST_F(SweepFaults, AVanishedFolderIsAnError) {
   plan(slow_sweep(20));
   Running running(call({"run", "out/s_sweep", "--jobs", "1"}));
-  ASSERT_TRUE(running.until([&] { return fs::exists(folder_ / "out/s_sweep/results"); }));
+  const fs::path rows = folder_ / "out/s_sweep/results";
+  ASSERT_TRUE(running.until([&] { return fs::exists(rows) && !fs::is_empty(rows); }));
   running.send(SIGSTOP);  // so that cases are left when the folder is gone
   fs::rename(folder_ / "out", folder_ / "moved");
   running.send(SIGCONT);

@@ -1,11 +1,17 @@
 // Each way in which a service can keep us waiting while we connect ends by the deadline, with a
 // sentence of its own: a name service, a host, a listener and a web server that say nothing.
+#include <utility>  // before asio.hpp, which needs std::exchange and does not include it
+
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+
 #include <arpa/inet.h>
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <netdb.h>
-#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -44,7 +50,9 @@ namespace {
 
 constexpr double short_time = 0.05;  // s: all of these would wait for ever
 
-std::string refusal(const std::function<void()>& act) { return test::refusal<LinkError>(act); }
+std::string connecting_refusal(const std::function<void()>& act) {
+  return test::refusal<LinkError>(act);
+}
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -52,12 +60,12 @@ bool has(const std::string& text, const std::string& part) {
 
 TEST(Connecting, WaitsForANameServiceTillItsDeadline) {
   const std::string late =
-      refusal([] { static_cast<void>(look_up("slow.test", wire_time() + short_time)); });
+      connecting_refusal([] { static_cast<void>(look_up("slow.test", wire_time() + short_time)); });
   EXPECT_TRUE(has(late, "`slow.test` could not be looked up in time")) << late;
   EXPECT_TRUE(has(late, "address")) << late;
   name_service_answers = true;
   const std::string unknown =
-      refusal([] { static_cast<void>(look_up("slow.test", wire_time() + 60.0)); });
+      connecting_refusal([] { static_cast<void>(look_up("slow.test", wire_time() + 60.0)); });
   EXPECT_TRUE(has(unknown, "`slow.test` is not known")) << unknown;
 }
 
@@ -117,16 +125,16 @@ const Host this_machine{"localhost", {"127.0.0.1"}};
 TEST(Connecting, WaitsForAHostThatDoesNotAnswerTillItsDeadline) {
   Listener listener(0);
   listener.fill();
-  const std::string late =
-      refusal([&] { WebSocket(this_machine, listener.port(), wire_time() + short_time); });
+  const std::string late = connecting_refusal(
+      [&] { WebSocket(this_machine, listener.port(), wire_time() + short_time); });
   EXPECT_TRUE(has(late, "localhost:" + std::to_string(listener.port()) + " does not answer"))
       << late;
 }
 
 TEST(Connecting, WaitsForAHandshakeTillItsDeadline) {
   const Listener listener(8);
-  const std::string late =
-      refusal([&] { WebSocket(this_machine, listener.port(), wire_time() + short_time); });
+  const std::string late = connecting_refusal(
+      [&] { WebSocket(this_machine, listener.port(), wire_time() + short_time); });
   EXPECT_TRUE(has(late, "takes the connection but says nothing")) << late;
   EXPECT_EQ(http_get(this_machine, listener.port(), "/version", wire_time() + short_time),
             std::nullopt);
@@ -135,10 +143,35 @@ TEST(Connecting, WaitsForAHandshakeTillItsDeadline) {
 // A host with several addresses is asked at each.
 TEST(Connecting, TriesEveryAddress) {
   const Listener listener(8);
-  const std::string late = refusal([&] {
+  const std::string late = connecting_refusal([&] {
     WebSocket({"two", {"::1", "127.0.0.1"}}, listener.port(), wire_time() + short_time);
   });
   EXPECT_TRUE(has(late, "takes the connection but says nothing")) << late;
+}
+
+// A machine that is gone neither closes a connection nor answers. TCP_REPAIR lets a socket vanish
+// in the same way.
+TEST(Connected, NoticesThatTheOtherMachineIsGone) {
+  namespace net = boost::asio;
+  net::io_context context;
+  net::ip::tcp::acceptor acceptor(context, {net::ip::address_v4::loopback(), 0});
+  boost::beast::websocket::stream<net::ip::tcp::socket> server(context);
+  std::thread service([&] {
+    acceptor.accept(server.next_layer());
+    server.accept();
+  });
+  WebSocket socket(this_machine, acceptor.local_endpoint().port(), wire_time() + 5.0);
+  service.join();
+  const double quiet = wire_time() + 1.5;
+  while (wire_time() < quiet)
+    ASSERT_EQ(socket.receive(quiet).outcome, WebSocket::Outcome::nothing) << socket.why_closed();
+  const int vanishing = 1;
+  if (::setsockopt(server.next_layer().native_handle(), IPPROTO_TCP, TCP_REPAIR, &vanishing,
+                   sizeof vanishing) != 0)
+    GTEST_SKIP() << "only root may let a socket vanish";
+  server.next_layer().close();
+  EXPECT_EQ(socket.receive(wire_time() + 10.0).outcome, WebSocket::Outcome::closed);
+  EXPECT_TRUE(socket.closed());
 }
 
 }  // namespace
