@@ -19,7 +19,7 @@ std::string word(Model model) { return scenario::rung(model).word; }
 const char* plain_word(Model model) {
   switch (model) {
     case Model::hertz: return "the formula for deep, wide tissue";
-    case Model::layer: return "the exact formula for a flat layer";
+    case Model::layer: return "the formula for a flat layer";
     case Model::mass_spring: return "a mesh of springs";
     case Model::coupled_springs: return "a mesh with the tissue's elasticity";
     case Model::neo_hookean: return "a mesh for large strains";
@@ -33,7 +33,7 @@ class Words {
       : scene_(scene), rung_(scenario::rung(scene.scenario.solver.model)), e_(estimates) {}
 
   [[nodiscard]] std::string model() const {
-    std::string text = (scene_.choice.given ? "Named by the scenario: " : "Chosen: ") +
+    std::string text = (scene_.choice.given ? "Prescribed by the scenario: " : "Chosen: ") +
                        std::string(rung_.word) + ", " + plain_word(rung_.of);
     const bool viscous = !scene_.scenario.uniform() && !scene_.relaxation.elastic();
     if (viscous) text += ", with viscosity";
@@ -42,12 +42,18 @@ class Words {
   }
 
   // Of the force at its largest, or of the strain.
-  [[nodiscard]] std::string error(std::optional<double> error) const {
+  [[nodiscard]] std::string error(std::optional<double> error,
+                                  const std::vector<LeftOut>& left_out) const {
     if (!error) return "an error that is not estimated";
+    std::string uncounted;
+    for (const LeftOut& one : left_out)
+      if (!one.beside.empty()) uncounted += (uncounted.empty() ? "" : " and ") + one.beside;
     std::string text = "an error of about " + percent_text(*error) + " (asked " +
                        percent_text(scene_.scenario.solver.tolerance);
-    if (scene_.choice.given || *error <= scene_.scenario.solver.tolerance) return text + ")";
-    return text + ", and no model comes nearer)";
+    text += scene_.choice.given || *error <= scene_.scenario.solver.tolerance
+                ? ")"
+                : ", and no model comes nearer)";
+    return text + (uncounted.empty() ? "" : ", not counting " + uncounted);
   }
 
   [[nodiscard]] static std::string left_out(const std::vector<LeftOut>& all, double tolerance) {
@@ -67,14 +73,15 @@ class Words {
     const scene::Choice& choice = scene_.choice;
     const bool uniform = scene_.scenario.uniform();
     if (!uniform && scene_.scenario.contact.coupling == contact::Coupling::one_way)
-      return "`contact.coupling = \"one_way\"` takes the force of hertz, whatever the body.";
+      return "With `contact.coupling = \"one_way\"` the mesh gives the shape; the force is that of "
+             "hertz, whatever the size of the body.";
     if (choice.given) {
       const auto* other = scene::cheapest(choice, uniform, scene_.scenario.solver.tolerance);
       if (other == nullptr) return "No other was considered.";
-      if (other->model == rung_.of) return "It would also be chosen without being named.";
+      if (other->model == rung_.of) return "It would be chosen anyway.";
       const std::string reason = rung_.meshed() ? "" : " " + against(rung_.of, " is ");
-      return "Without a name the choice would be " + word(other->model) + ", about " +
-             percent_text(other->error) + " off." + reason;
+      return "Without `solver.model` it would be " + word(other->model) + ", about " +
+             percent_text(other->error) + " from the true force." + reason;
     }
     if (uniform) {
       const auto* springs = choice.forecast(Model::mass_spring);
@@ -197,8 +204,8 @@ Expected expect(const scene::Scene& scene) {
   const Words words(scene, estimates);
   expected.answer = {
       .model = words.model(),
-      .error =
-          std::string(uniform ? "The strain" : "The force") + " has " + words.error(error) + ".",
+      .error = std::string(uniform ? "The strain" : "The force") + " has " +
+               words.error(error, expected.left_out) + ".",
       .left_out = Words::left_out(expected.left_out, scene.scenario.solver.tolerance),
       .verdict = {},
       .complete = expected.left_out.empty(),
@@ -213,11 +220,11 @@ record::Answer answer(const scene::Scene& scene, const scene::Estimates& estimat
   std::optional<double> error;
   if (record.outcome == record::Outcome::completed)
     error = stated_error(scene, estimates, number(record, "mesh_error"));
+  const std::vector<LeftOut> effects = left_out(scene, estimates);
   if (record.outcome == record::Outcome::completed)
-    result += ", with " + words.error(error) + ".";
+    result += ", with " + words.error(error, effects) + ".";
   else
     result += " up to where the run ended; no error is stated.";
-  const std::vector<LeftOut> effects = left_out(scene, estimates);
   return {.model = words.model(),
           .error = result,
           .left_out = Words::left_out(effects, scene.scenario.solver.tolerance),

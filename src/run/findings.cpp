@@ -176,14 +176,12 @@ class Findings {
     add("viscous_effect", expected_.viscous);
     add("inertia_effect", expected_.inertia);
     add("curvature_ratio", expected_.curvature_ratio);
-    if (const auto* forecast = scene_.choice.taken()) {
-      add("predicted_error", forecast->error);
-      const bool states =
-          scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent;
-      const auto stated =
-          stated_error(scene_, expected_, states ? std::optional(peak.mesh_error) : std::nullopt);
-      add("stated_error", stated.value_or(forecast->error));
-    }
+    if (const auto* forecast = scene_.choice.taken()) add("predicted_error", forecast->error);
+    const bool states =
+        scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent;
+    if (const auto stated =
+            stated_error(scene_, expected_, states ? std::optional(peak.mesh_error) : std::nullopt))
+      add("stated_error", *stated);
     if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     if (!touch.known() || peak.travel <= 0.0) return;

@@ -10,8 +10,9 @@
 namespace palpate::run {
 namespace {
 
-std::string signed_percent(double change) {
-  return (change < 0.0 ? "-" : "+") + percent_text(std::abs(change));
+std::string would(double change) {
+  return std::string("which would ") + (change < 0.0 ? "take " : "add ") +
+         percent_text(std::abs(change)) + (change < 0.0 ? " off" : " to") + " the force";
 }
 
 class LeftOuts {
@@ -44,8 +45,8 @@ class LeftOuts {
     return contact::mesh_is_tissue(scene_.scenario.contact.coupling);
   }
   void omit(const std::string& what, double change, const std::string& when,
-            const std::string& remedy = "") {
-    all_.push_back({what, change, when, remedy});
+            const std::string& remedy = "", const std::string& beside = "") {
+    all_.push_back({what, change, when, remedy, beside});
   }
 
   void size() {
@@ -54,20 +55,20 @@ class LeftOuts {
                                                    : "";
     const bool none = !rung_.thickness || one_way();
     if (none && e_.thickness * e_.tissue_share > tolerance())
-      omit("the thickness of the tissue", e_.thickness, signed_percent(e_.thickness), free);
+      omit("the thickness of the tissue", e_.thickness, would(e_.thickness), free);
     if ((none || !rung_.sides) && e_.sides > tolerance())
-      omit("the sides of the body", -e_.sides, signed_percent(-e_.sides), free);
+      omit("the sides of the body", -e_.sides, would(-e_.sides), free);
     if (none && e_.curved_body > tolerance())
       omit("the width of the body", e_.curved_body,
-           "up to " + percent_text(e_.curved_body) + " more or less", free);
+           "which would change the force by up to " + percent_text(e_.curved_body), free);
   }
 
   // By how much a half-space under `series` is too soft.                    docs/theory.md (10)
   void double_counting() {
     if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
     const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;
-    omit("counting the softness of the tissue once only", change, signed_percent(change),
-         "leave out `contact.coupling`");
+    omit("counting the softness of the tissue once only", change, would(change),
+         "leave out `contact.coupling`", "the softness that counts twice");
   }
 
   void large_strains() {
@@ -77,7 +78,7 @@ class LeftOuts {
       remedy = "set `solver.model = \"neo_hookean\"`";
     else if (scene_.choice.depth_ratio)
       remedy = "add `contact.depth = \"neo_hookean\"`";
-    omit("large strains", e_.deep, signed_percent(e_.deep) + " at the deepest point", remedy);
+    omit("large strains", e_.deep, would(e_.deep) + " where it is deepest", remedy);
   }
 
   void viscosity() {
@@ -87,12 +88,12 @@ class LeftOuts {
     std::string remedy = "add `contact.viscosity = \"tissue\"`";
     if (rung_.solid) remedy = "";
     if (one_way()) remedy += " and leave out `contact.coupling`";
-    omit("viscosity", e_.viscous, signed_percent(e_.viscous) + " while pressing", remedy);
+    omit("viscosity", e_.viscous, would(e_.viscous) + " while pressing", remedy, "viscosity");
   }
 
   void waves() {
     if (e_.inertia <= tolerance()) return;
-    const std::string when = signed_percent(e_.inertia) + " at this speed";
+    const std::string when = would(e_.inertia) + " at this speed";
     if (!rung_.inertia) return omit("waves in the tissue", e_.inertia, when, mesh_with_waves());
     if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
     omit("waves in the tissue", e_.inertia, when,
@@ -112,7 +113,8 @@ class LeftOuts {
   void ringing() {
     const double inertia = scene::uniform_inertia(scene_.scenario);
     if (about(scene_.scenario.solver.integrator).inertia || inertia < tolerance()) return;
-    omit("the ringing of the body", inertia, "up to " + percent_text(inertia) + " of the strain",
+    omit("the ringing of the body", inertia,
+         "which would change the strain by up to " + percent_text(inertia),
          "set `solver.integrator = \"central_difference\"`");
   }
 

@@ -11,12 +11,14 @@ namespace palpate::run {
 struct LeftOut {
   std::string what;     // "viscosity"
   double change = 0.0;  // of the force (in a uniform test of the strain) by the effect, relative
-  std::string when;     // the change in words: "+36 % while pressing"
+  std::string when;     // the change in words: "which would add 36 % to the force while pressing"
   std::string remedy;   // an instruction such as "add `key = value`"; empty if there is none
+  std::string
+      beside;  // what the stated error does not contain: "viscosity"; empty if it contains it
 };
 
-// Effects that the stated error does not contain count from a fifth of `solver.tolerance` on, the
-// others from the tolerance on. The largest is the first. `estimates` are those of the scene; a
+// Viscosity and large strains count from a fifth of `solver.tolerance` on, the others from the
+// tolerance on. The largest is the first. `estimates` are those of the scene; a
 // uniform test does not use them.
 [[nodiscard]] std::vector<LeftOut> left_out(const scene::Scene& scene,
                                             const scene::Estimates& estimates);

@@ -177,7 +177,8 @@ TEST_F(Failure, ThinLayer) {
   ASSERT_EQ(run_without_fault(name).code, 0);
   EXPECT_EQ(cell(name, "model"), record::Cell("layer"));
   const double exact = found(name, "peak_force_N");
-  expect_failure(name, 0, "Left out: the thickness of the tissue, +420 %");
+  expect_failure(name, 0,
+                 "Left out: the thickness of the tissue, which would add 420 % to the force");
   EXPECT_NEAR(found(name, "thickness_ratio"), 2.0, 1e-9);  // of the travel's digits
   // What it says is missing is what the layer's own solution has.
   EXPECT_NEAR(1.0 + found(name, "thickness_effect"), exact / found(name, "peak_force_N"), 1e-3);

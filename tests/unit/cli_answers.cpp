@@ -52,30 +52,30 @@ const std::string lasting = "[tissue]\nmaterial = \"skin\"\nviscosity = \"kelvin
 
 const std::vector<Scene>& scenes() {
   static const std::vector<Scene> all{
-      {"quickstart", "", "layer", "viscosity, +"},
+      {"quickstart", "", "layer", "viscosity, which would add "},
       {"figure6_ligament", "", "mass_spring", ""},
       {"thin",
        "[tissue]\nshape = { size = [\"60 mm\", \"60 mm\", \"2 mm\"] }\n[solver]\nmodel = "
        "\"hertz\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n",
-       "hertz", "the thickness of the tissue, +"},
+       "hertz", "the thickness of the tissue, which would add "},
       {"dome",
        "[tissue]\nshape = { kind = \"ellipsoid\", size = [\"80 mm\", \"80 mm\", \"40 mm\"] }\nmesh "
        "= { kind = \"tetgen\", nodes = 400 }\n" +
            press,
-       "coupled_springs", "viscosity, +"},
+       "coupled_springs", "viscosity, which would add "},
       {"skin_over_muscle", "", "layer", ""},
       {"lump",
        "[tissue]\nmesh = { kind = \"tetgen\", nodes = 400 }\n[[region]]\nkind = "
        "\"sphere\"\ncentre = [\"30 mm\", \"30 mm\", \"15 mm\"]\nradius = \"8 mm\"\nmaterial = "
        "\"bone\"\n" +
            press,
-       "coupled_springs", "viscosity, +"},
+       "coupled_springs", "viscosity, which would add "},
       {"file",
        "[tissue]\nshape = { file = \"disc.off\", unit = \"mm\" }\nmesh = { kind = \"tetgen\", "
        "nodes "
        "= 400 }\n[finger]\nx = \"0 mm\"\ny = \"0 mm\"\n" +
            press,
-       "coupled_springs", "viscosity, +"},
+       "coupled_springs", "viscosity, which would add "},
       {"creep", lasting + "[[step]]\nkind = \"creep\"\n", "mass_spring", "nothing"},
       {"relax", "[[step]]\nkind = \"relax\"\n", "mass_spring", ""},
       {"deep",
@@ -83,7 +83,7 @@ const std::vector<Scene>& scenes() {
        "[[step]]\nkind = \"indent\"\nto = \"8 mm\"\n",
        "", "large strains, "},
       {"tap", "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"2 m/s\"\n", "layer",
-       "viscosity, +"},
+       "viscosity, which would add "},
       {"slow", "[tissue]\nshape = { kind = \"half_space\" }\nviscosity = \"none\"\n" + press,
        "hertz", "nothing"}};
   return all;
@@ -191,7 +191,8 @@ TEST_F(Quickstart, of_many_cases_is_summed_up) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_TRUE(says(ended, "Models: layer in 9 of 9; ")) << ended.err;
   EXPECT_TRUE(says(ended, "Peak force: ")) << ended.err;
-  EXPECT_TRUE(says(ended, "and so in 8 more cases: Left out: viscosity, +")) << ended.err;
+  EXPECT_TRUE(says(ended, "and so in 8 more cases: Left out: viscosity, which would add "))
+      << ended.err;
   EXPECT_LE(split(trimmed(ended.err), '\n').size(), 5U) << ended.err;
 }
 
