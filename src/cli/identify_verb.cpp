@@ -44,6 +44,10 @@ std::string origin_of(const Identify& command, const Arguments& arguments,
 
 int perform(const Identify& command, const Arguments& arguments, const Talk& talk) {
   const std::string started = report::utc_now();
+  if (command.data.ends_with(".toml") && !command.scenario.ends_with(".toml"))
+    throw InputError({command.data, 0, 0},
+                     "is a scenario, and the measurement comes first; write `palpate identify " +
+                         command.scenario + " " + command.data + "`");
   scenario::Family family = scenario::read(command.scenario, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   if (family.cases.size() > 1)

@@ -34,7 +34,7 @@ double number_of(const std::string& text, const std::string& written,
   }
 }
 
-Given read_one(const std::string& text, const std::vector<scenario::NumericKey>& keys) {
+Given read_given(const std::string& text, const std::vector<scenario::NumericKey>& keys) {
   const std::string remedy = "is written `KEY=VALUE +- SD`, as `finger.radius=11 mm +- 0.2 mm`";
   const std::size_t equals = text.find('=');
   std::size_t sign = text.find("+-");
@@ -88,7 +88,7 @@ std::vector<Given> read_givens(const std::vector<std::string>& texts,
   const std::vector<scenario::NumericKey> keys = scenario::numeric_keys(scenario);
   std::vector<Given> givens;
   for (const std::string& text : texts) {
-    givens.push_back(read_one(text, keys));
+    givens.push_back(read_given(text, keys));
     for (const Unknown& one : unknowns)
       if (one.key == givens.back().key)
         refuse_given(text, "names an unknown; leave one of the two out");

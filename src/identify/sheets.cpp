@@ -67,6 +67,21 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
   return {.name = "curve", .script = text, .reads = {"residuals.csv"}};
 }
 
+namespace {
+
+// What a profile's values are drawn from: the estimate where they differ in the fourth digit or
+// later, which the numbers at the axis would not show; else 0.
+double profile_origin(const Identification& found, std::size_t i) {
+  const Unknown& unknown = found.unknowns[i].unknown;
+  const double estimate = unknown.shown(found.unknowns[i].estimate);
+  double far = 0.0;
+  for (const ProfilePoint& point : found.profile)
+    if (point.unknown == i) far = std::max(far, std::abs(unknown.shown(point.value) - estimate));
+  return far < 1e-3 * std::abs(estimate) ? estimate : 0.0;
+}
+
+}  // namespace
+
 plot::Sheet profile_sheet(const std::string& title, const identify::Identification& found) {
   const std::size_t panels = found.unknowns.size();
   const std::size_t columns = std::min<std::size_t>(panels, 2);
@@ -77,13 +92,17 @@ plot::Sheet profile_sheet(const std::string& title, const identify::Identificati
           plot::gnuplot_quoted(title + ": profile likelihood, 95 % below the line") +
           "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset xtics autofreq rotate by -30\n"
           "set yrange [0:*]\n";
-  for (const identify::Identified& one : found.unknowns) {
+  for (std::size_t i = 0; i < panels; ++i) {
+    const identify::Identified& one = found.unknowns[i];
     const std::string unit = one.unknown.unit_text();
-    const std::string pick = "(strcol('unknown') eq '" + one.unknown.key +
-                             "' ? column('value') : "
-                             "NaN)";
+    const double origin = profile_origin(found, i);
+    const std::string from = origin == 0.0 ? "" : " - " + number_text(origin);
+    const std::string pick =
+        "(strcol('unknown') eq '" + one.unknown.key + "' ? column('value')" + from + " : NaN)";
     text += "set xlabel " +
-            plot::gnuplot_quoted(one.unknown.key + (unit.empty() ? "" : " (" + unit + ")")) +
+            plot::gnuplot_quoted(one.unknown.key +
+                                 (origin == 0.0 ? "" : " - " + rounded_text(origin, 4)) +
+                                 (unit.empty() ? "" : " (" + unit + ")")) +
             " noenhanced\nplot \\\n  'profile.csv' using " + pick +
             ":(column('threshold')) with lines linewidth 1 linecolor rgb '#909090', \\\n"
             "  'profile.csv' using " +

@@ -2,6 +2,7 @@
 #include "identify/tables.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/text.h"
@@ -46,7 +47,7 @@ std::string combination_sentence(const Identification& found, const Combination&
   return joined(names, " and ") + " are tied: these data cannot tell them apart. Determined is " +
          one.text + " = " + with_unit(one.estimate, one.unit) + ", 95 % " +
          rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4) +
-         "; set one of them by `--set`";
+         "; set one of them by `--set`.";
 }
 
 std::string model_sentence(const Identification& found) {
@@ -61,7 +62,8 @@ std::string model_sentence(const Identification& found) {
     text += "; large strain changes the force at the deepest by " +
             std::string(*found.deep_effect > 0.0 ? "+" : "-") +
             percent_text(std::abs(*found.deep_effect)) + ", which is taken into account";
-  return text;
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + ".";
 }
 
 }  // namespace
@@ -162,10 +164,10 @@ std::vector<std::string> identified_sentences(const Identification& found) {
   for (const GivenPart& part : found.givens)
     for (std::size_t i = 0; i < found.unknowns.size(); ++i)
       if (const Unknown& unknown = found.unknowns[i].unknown; !found.unknowns[i].tied)
-        lines.push_back("of this, `" + part.key + "` = " + part.value + " +- " + part.deviation +
+        lines.push_back("Of this, `" + part.key + "` = " + part.value + " +- " + part.deviation +
                         " adds a standard error of " +
                         with_unit(unknown.shown(part.deviations[i]), unknown.unit_text()) +
-                        " to `" + unknown.key + "`");
+                        " to `" + unknown.key + "`.");
   lines.push_back(model_sentence(found));
   const CurveWords& words = words_of(found.kind);
   lines.push_back(
@@ -175,16 +177,16 @@ std::vector<std::string> identified_sentences(const Identification& found) {
            ? ", worth " + rounded_text(std::max(1.0, found.effective_size), 3) + " independent ones"
            : "") +
       ", RMSE " + with_unit(words.y.from_si(found.rmse), words.y.symbol) + ", R2 " +
-      rounded_text(found.r2, 6) + ", Durbin-Watson " + rounded_text(found.durbin_watson, 3));
+      rounded_text(found.r2, 6) + ", Durbin-Watson " + rounded_text(found.durbin_watson, 3) + ".");
   for (const Identified& one : found.unknowns)
     if (one.moved_down && one.moved_up)
       lines.push_back(std::string(found.kind == CurveKind::force_travel ||
                                           found.kind == CurveKind::tangential_slide
-                                      ? "a contact point "
-                                      : "a start ") +
+                                      ? "A contact point "
+                                      : "A start ") +
                       with_unit(words.x.from_si(found.contact_shift), words.x.symbol) +
                       " earlier or later changes `" + one.unknown.key + "` by " +
-                      change(*one.moved_down, one) + " or " + change(*one.moved_up, one));
+                      change(*one.moved_down, one) + " or " + change(*one.moved_up, one) + ".");
   return lines;
 }
 

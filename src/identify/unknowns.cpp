@@ -81,7 +81,7 @@ scenario::NumericKey find_key(const std::string& text, const std::string& name,
   return *known;
 }
 
-Unknown read_one(const std::string& text, const std::vector<scenario::NumericKey>& keys) {
+Unknown read_unknown(const std::string& text, const std::vector<scenario::NumericKey>& keys) {
   const Parts parts = parts_of(text);
   const scenario::NumericKey key = find_key(text, parts.key, keys);
   Unknown unknown;
@@ -129,7 +129,7 @@ std::vector<Unknown> read_unknowns(const std::vector<std::string>& texts,
   const std::vector<scenario::NumericKey> keys = scenario::numeric_keys(scenario);
   std::vector<Unknown> unknowns;
   for (const std::string& text : texts) {
-    unknowns.push_back(read_one(text, keys));
+    unknowns.push_back(read_unknown(text, keys));
     for (std::size_t i = 0; i + 1 < unknowns.size(); ++i)
       if (unknowns[i].key == unknowns.back().key)
         refuse(text, "is given twice; keep one of the two ranges");

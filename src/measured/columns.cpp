@@ -90,8 +90,11 @@ std::vector<std::string> usual_names(const RawTable& table, Role role) {
       return x ? std::vector<std::string>{"tip position",   "verticalTipPosition",    "tipPosition",
                                           "measuredHeight", "capacitiveSensorHeight", "height"}
                : std::vector<std::string>{"vDeflection"};
-    default: return {};
+    default: break;
   }
+  // force_indentation.csv of `palpate run`: what a device would measure.
+  if (!columns_named(table, "contact_force_N").empty()) return {x ? "travel_mm" : "force_N"};
+  return {};
 }
 
 // Whether the bare name of a column is one that testing machines give to depth or force.

@@ -41,12 +41,34 @@ class IdentifyVerb : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(IdentifyVerb, ReadsTheCurveOfARunAsItIs) {
+  ASSERT_EQ(palpate(folder_.path(), {"run", "press.toml", "--out", "ran"}).code, 0);
+  const Ended done =
+      palpate(folder_.path(), {"identify", "ran/press/force_indentation.csv", "press.toml",
+                               "--unknown", "tissue.young_modulus=1..500 kPa"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const record::Table table =
+      record::read_csv((folder_ / "out/press_identified/identified.csv").string());
+  const auto estimate = static_cast<std::size_t>(table.find("estimate"));
+  EXPECT_NEAR(std::get<double>(table.rows.at(0)[estimate]), 72.4,
+              1e-6);  // skin, which `press.toml` has
+}
+
+TEST_F(IdentifyVerb, SaysThatTheFilesAreInTheWrongOrder) {
+  const Ended done = palpate(folder_.path(), {"identify", "press.toml", "measured.csv", "--unknown",
+                                              "tissue.young_modulus=1..500 kPa"});
+  EXPECT_EQ(done.code, 2);
+  EXPECT_EQ(done.err,
+            "press.toml: is a scenario, and the measurement comes first; write `palpate identify "
+            "measured.csv press.toml`\n");
+}
+
 TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
   const auto done = identify({"--unknown", "tissue.young_modulus=1..500 kPa"});
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("tissue.young_modulus"), std::string::npos);
   EXPECT_NE(done.out.find("by `hertz`"), std::string::npos);
-  EXPECT_NE(done.out.find("a contact point 0.05 mm earlier or later"), std::string::npos);
+  EXPECT_NE(done.out.find("A contact point 0.05 mm earlier or later"), std::string::npos);
   const auto result = folder_ / "out/press_identified";
   const record::Table table = record::read_csv((result / "identified.csv").string());
   ASSERT_EQ(table.rows.size(), 1U);
