@@ -35,4 +35,8 @@ inline record::Cell finding(const record::CaseRecord& record, const std::string&
   return {};
 }
 
+inline double found(const record::CaseRecord& record, const std::string& name) {
+  return std::get<double>(finding(record, name));
+}
+
 }  // namespace palpate::test

@@ -13,6 +13,7 @@ namespace palpate::scenario {
 
 // Three lines each; what is tested starts on line 4.
 inline const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
+inline const std::string small_press = "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n";
 inline const std::string creep = "[[step]]\nkind = \"creep\"\nstress = \"1 kPa\"\n";
 
 inline Case read_case(const std::string& text) { return parse(text, "press.toml", {}).cases.at(0); }

@@ -21,7 +21,7 @@ std::string Problem::text() const {
 
 namespace {
 
-std::string joined(const std::vector<Problem>& problems) {
+std::string joined_problems(const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& problem : problems) {
     if (!text.empty()) text += "\n";
@@ -45,7 +45,7 @@ void sort_by_place(std::vector<Problem>& problems) {
 }
 
 InputError::InputError(std::vector<Problem> problems)
-    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+    : std::runtime_error(joined_problems(problems)), problems_(std::move(problems)) {}
 
 InputError::InputError(Place place, std::string message)
     : InputError(std::vector<Problem>{{std::move(place), std::move(message)}}) {}

@@ -14,7 +14,7 @@ namespace {
 using Kind = KeyTree::Kind;
 
 // TOML's texts in double quotes are JSON's.
-std::string quoted(const std::string& text) { return toml_text(text); }
+std::string json_text(const std::string& text) { return toml_text(text); }
 
 std::string any_of(std::vector<std::string> schemas) {
   std::vector<std::string> different;
@@ -25,7 +25,7 @@ std::string any_of(std::vector<std::string> schemas) {
 }
 
 std::string number(Kind kind, const Range& range) {
-  JsonMembers members{{"type", kind == Kind::whole ? quoted("integer") : quoted("number")}};
+  JsonMembers members{{"type", kind == Kind::whole ? json_text("integer") : json_text("number")}};
   if (std::isfinite(range.low))
     members.emplace_back(range.low_allowed ? "minimum" : "exclusiveMinimum",
                          number_text(range.low));
@@ -42,8 +42,8 @@ std::string quantity(const KeyTree& key) {
     units += (units.empty() ? "" : "|") + unit_pattern(unit.dimension);
   const std::string sign = key.range.low >= 0.0 ? "\\+?" : "[-+]?";
   return json_object(
-      {{"type", quoted("string")},
-       {"pattern", quoted("^\\s*" + sign + "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*(" +
+      {{"type", json_text("string")},
+       {"pattern", json_text("^\\s*" + sign + "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*(" +
                           units + ")\\s*$")}});
 }
 
@@ -51,7 +51,7 @@ std::string one_value(const KeyTree& key, Kind kind) {
   return kind == Kind::quantity ? quantity(key) : number(kind, key.range);
 }
 
-std::string one_word(const std::string& word) { return json_object({{"const", quoted(word)}}); }
+std::string one_word(const std::string& word) { return json_object({{"const", json_text(word)}}); }
 
 std::string table(const KeyTree& key, JsonMembers members, const JsonMembers& further);
 
@@ -66,35 +66,35 @@ std::string value(const KeyTree& key) {
                                                            : any_of({one_value(key, key.kind),
                                                                      one_word(key.open)})})}};
       break;
-    case Kind::text: members = {{"type", quoted("string")}}; break;
-    case Kind::flag: members = {{"type", quoted("boolean")}}; break;
+    case Kind::text: members = {{"type", json_text("string")}}; break;
+    case Kind::flag: members = {{"type", json_text("boolean")}}; break;
     case Kind::word: {
       std::vector<std::string> words;
       for (const Word& word : key.words) {
-        words.push_back(quoted(word.word));
+        words.push_back(json_text(word.word));
         if (*word.meaning != '\0') meaning += std::string(" `") + word.word + "`: " + word.meaning;
       }
       members = {{"enum", json_array(words)}};
       break;
     }
     case Kind::list:
-      members = {{"type", quoted("array")}, {"items", one_value(key, key.item)}};
+      members = {{"type", json_text("array")}, {"items", one_value(key, key.item)}};
       if (key.size) {
         members.emplace_back("minItems", std::to_string(*key.size));
         members.emplace_back("maxItems", std::to_string(*key.size));
       }
       break;
     case Kind::names:
-      members = {{"type", quoted("object")},
+      members = {{"type", json_text("object")},
                  {"additionalProperties", number(Kind::number, key.range)}};
       break;
-    case Kind::table: return table(key, {{"description", quoted(meaning)}}, {});
+    case Kind::table: return table(key, {{"description", json_text(meaning)}}, {});
     case Kind::tables:
-      return json_object({{"description", quoted(meaning)},
-                          {"type", quoted("array")},
+      return json_object({{"description", json_text(meaning)},
+                          {"type", json_text("array")},
                           {"items", table(key, {}, {})}});
   }
-  members.insert(members.begin(), {"description", quoted(meaning)});
+  members.insert(members.begin(), {"description", json_text(meaning)});
   return json_object(members);
 }
 
@@ -110,22 +110,22 @@ std::string table(const KeyTree& key, JsonMembers members, const JsonMembers& fu
   std::vector<std::string> conditions;
   for (const KeyTree& one : key.keys) add(one.name, value(one));
   for (const KeyTree::Alternative& alternative : key.alternatives) {
-    kinds.push_back(quoted(alternative.word.word));
-    std::vector<std::string> names{quoted("kind")};
+    kinds.push_back(json_text(alternative.word.word));
+    std::vector<std::string> names{json_text("kind")};
     for (const KeyTree& one : alternative.keys) {
       add(one.name, value(one));
-      names.push_back(quoted(one.name));
+      names.push_back(json_text(one.name));
     }
     const std::string is_it = json_object({{"kind", one_word(alternative.word.word)}});
     conditions.push_back(json_object(
-        {{"if", json_object({{"properties", is_it}, {"required", json_array({quoted("kind")})}})},
+        {{"if", json_object({{"properties", is_it}, {"required", json_array({json_text("kind")})}})},
          {"then", json_object({{"propertyNames", json_object({{"enum", json_array(names)}})}})}}));
   }
   JsonMembers properties;
   if (!kinds.empty()) properties.emplace_back("kind", json_object({{"enum", json_array(kinds)}}));
   for (const std::string& name : order) properties.emplace_back(name, any_of(schemas[name]));
   properties.insert(properties.end(), further.begin(), further.end());
-  members.emplace_back("type", quoted("object"));
+  members.emplace_back("type", json_text("object"));
   members.emplace_back("properties", json_object(properties));
   members.emplace_back("additionalProperties", "false");
   if (!conditions.empty()) members.emplace_back("allOf", json_array(conditions));
@@ -136,7 +136,7 @@ std::string table(const KeyTree& key, JsonMembers members, const JsonMembers& fu
 
 std::string json_object(const JsonMembers& members) {
   std::vector<std::string> items;
-  for (const auto& [name, json] : members) items.push_back(quoted(name) + ": " + json);
+  for (const auto& [name, json] : members) items.push_back(json_text(name) + ": " + json);
   return "{" + joined(items, ", ") + "}";
 }
 
@@ -146,8 +146,8 @@ std::string json_array(const std::vector<std::string>& items) {
 
 std::string json_schema(const KeyTree& tree, const std::string& title, const JsonMembers& further) {
   return table(tree,
-               {{"$schema", quoted("http://json-schema.org/draft-07/schema#")},
-                {"title", quoted(title)}},
+               {{"$schema", json_text("http://json-schema.org/draft-07/schema#")},
+                {"title", json_text(title)}},
                further) +
          "\n";
 }

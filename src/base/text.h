@@ -46,6 +46,7 @@ struct LeadingNumber {
 [[nodiscard]] std::string percent_text(double part);
 
 // With the letters A to Z in lower case.
+[[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }  // ASCII
 [[nodiscard]] std::string lower_case(std::string_view text);
 
 [[nodiscard]] std::string trimmed(std::string_view text);

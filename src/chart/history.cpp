@@ -7,16 +7,16 @@
 namespace palpate::chart {
 namespace {
 
-using Scenario = scenario::PlainScenario;
+using Plain = scenario::PlainScenario;
 
 // Deviations are relative to the largest value in steps of the same kind: strains to strains.
-std::size_t kind_of(const Scenario& scenario, int step) {
+std::size_t kind_of(const Plain& scenario, int step) {
   if (!scenario.uniform()) return 0;
   return scenario.steps[as_index(step) - 1].index();
 }
 
 // By step (from 1): the largest value in steps of its kind; 0 if there is none.
-std::vector<double> scales(const Scenario& scenario, const History& reference) {
+std::vector<double> scales(const Plain& scenario, const History& reference) {
   std::vector<double> by_kind(std::variant_size_v<scenario::Step>, 0.0);
   for (const Moment& moment : reference) {
     double& most = by_kind[kind_of(scenario, moment.step)];
@@ -56,7 +56,7 @@ std::optional<double> value_at(const History& part, double time) {
 
 // Largest, last and mean square of `error(moment)` divided by the scale of its step.
 template <class Error>
-std::optional<Deviation> summed_up(const Scenario& scenario, const History& reference,
+std::optional<Deviation> summed_up(const Plain& scenario, const History& reference,
                                    const Error& error) {
   const std::vector<double> scale = scales(scenario, reference);
   Deviation deviation;
@@ -76,7 +76,7 @@ std::optional<Deviation> summed_up(const Scenario& scenario, const History& refe
 
 }  // namespace
 
-History history(const Scenario& scenario, const record::CaseRecord& record) {
+History history(const Plain& scenario, const record::CaseRecord& record) {
   History all;
   for (const record::ContactRow& row : record.contact)
     all.push_back({row.step, row.time, row.contact_force});
@@ -88,7 +88,7 @@ History history(const Scenario& scenario, const record::CaseRecord& record) {
   return all;
 }
 
-double start_of(const Scenario& scenario, int step) {
+double start_of(const Plain& scenario, int step) {
   double start = 0.0;
   for (int i = 1; i < step; ++i) {
     const auto& one = scenario.steps[as_index(i) - 1];
@@ -100,7 +100,7 @@ double start_of(const Scenario& scenario, int step) {
   return start;
 }
 
-History without_starts(const Scenario& scenario, const History& all) {
+History without_starts(const Plain& scenario, const History& all) {
   if (!scenario.uniform()) return all;
   History kept;
   for (const Moment& moment : all) {
@@ -110,7 +110,7 @@ History without_starts(const Scenario& scenario, const History& all) {
   return kept;
 }
 
-std::optional<Deviation> deviation(const Scenario& scenario, const History& got,
+std::optional<Deviation> deviation(const Plain& scenario, const History& got,
                                    const History& reference) {
   std::vector<History> parts{{}};
   for (std::size_t i = 1; i <= scenario.steps.size(); ++i)
@@ -122,7 +122,7 @@ std::optional<Deviation> deviation(const Scenario& scenario, const History& got,
   });
 }
 
-Deviation own_error(const Scenario& scenario, const History& reference) {
+Deviation own_error(const Plain& scenario, const History& reference) {
   return summed_up(scenario, reference,
                    [](const Moment& moment) -> std::optional<double> { return moment.error; })
       .value_or(Deviation{});

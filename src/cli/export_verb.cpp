@@ -31,7 +31,7 @@ const report::ExportFormat& format_of(const std::string& name) {
 }
 
 // The file of the curves in a result folder, or the file itself.
-std::string table_of(const std::string& result) {
+std::string curve_file_of(const std::string& result) {
   if (!fs::is_directory(result)) return result;
   for (const char* name : {"force_indentation.csv", "strain_time.csv"})
     if (const fs::path file = fs::path(result) / name; fs::exists(file)) return file.string();
@@ -87,7 +87,7 @@ std::string file_name(const std::string& name) {
 
 int perform(const Export& command, const Arguments&, const Talk& talk) {
   const report::ExportFormat& format = format_of(command.format);
-  const std::string file = table_of(command.result);
+  const std::string file = curve_file_of(command.result);
   std::vector<report::ExportCurve> curves =
       report::export_curves(record::read_csv(file), name_of(command.result));
   if (curves.empty())

@@ -15,8 +15,6 @@
 namespace palpate::compare {
 namespace {
 
-using State = FileComparison::State;
-
 using record::Cell;
 
 // Refuses tolerances for columns that no table has: a misspelt name would allow nothing.
@@ -45,9 +43,9 @@ FileComparison compare_file(const std::string& file, const Tables& got, const Ta
   columns.insert(left.columns.begin(), left.columns.end());
   columns.insert(right.columns.begin(), right.columns.end());
   if (ours == got.end())
-    result.state = State::missing;
+    result.state = FileComparison::State::missing;
   else if (theirs == want.end())
-    result.state = State::extra;
+    result.state = FileComparison::State::extra;
   else
     result.comparison = compare(left, right, tolerances);
   return result;
@@ -130,9 +128,9 @@ FolderComparison compare_folders(const std::string& got, const std::string& want
 
 std::string verdict_text(FileComparison::State state) {
   switch (state) {
-    case State::missing: return "DIFFERS, the file is missing";
-    case State::extra: return "DIFFERS, the file is not wanted";
-    case State::compared: break;
+    case FileComparison::State::missing: return "DIFFERS, the file is missing";
+    case FileComparison::State::extra: return "DIFFERS, the file is not wanted";
+    case FileComparison::State::compared: break;
   }
   return "compared";
 }
@@ -141,7 +139,7 @@ std::string comparison_text(const FolderComparison& comparison, Show show) {
   std::string text;
   for (const FileComparison& file : comparison.files) {
     if (show == Show::differing && file.equal()) continue;
-    if (file.state != State::compared) {
+    if (file.state != FileComparison::State::compared) {
       text += file.file + ": " + verdict_text(file.state) + "\n";
       continue;
     }
@@ -156,9 +154,9 @@ record::Table comparison_table(const FolderComparison& comparison) {
                        "got", "want", "relative", "allowed"},
                       {}};
   for (const FileComparison& file : comparison.files) {
-    if (file.state != State::compared) {
-      table.rows.push_back(
-          row_without_column(file.file, file.state == State::missing ? "missing" : "extra"));
+    if (file.state != FileComparison::State::compared) {
+      table.rows.push_back(row_without_column(
+          file.file, file.state == FileComparison::State::missing ? "missing" : "extra"));
       continue;
     }
     if (!file.comparison.rows_equal()) {

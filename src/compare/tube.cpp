@@ -14,7 +14,7 @@ namespace {
 using record::Cell;
 using record::Table;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // The rows of one case with their x. Rows without a finite x are left out.
 struct Course {
@@ -46,7 +46,7 @@ const double* finite(const Cell& cell) {
 
 // The values of WANT in a window of x.
 struct Window {
-  double low = infinity, high = -infinity;
+  double low = unbounded, high = -unbounded;
   bool met = false;  // one of them is identical to the value of GOT
 
   void take(double value) {
@@ -114,7 +114,7 @@ Judged judge(const Cell& got, const Window& window, const Tolerance& tolerance) 
   Judged judged;
   judged.row.got = got;
   if (window.met) return judged;
-  judged.excess = judged.row.relative = infinity;
+  judged.excess = judged.row.relative = unbounded;
   const double* value = finite(got);
   if (value == nullptr || window.low > window.high) return judged;
   const double nearest = std::clamp(*value, window.low, window.high);
@@ -140,7 +140,7 @@ bool same(const Cell& got, const Cell& want) {
 
 double excess(double size, double allowed) {
   if (size <= allowed) return size / allowed;  // at most 1
-  return allowed > 0.0 ? std::max(size / allowed, std::nextafter(1.0, 2.0)) : infinity;
+  return allowed > 0.0 ? std::max(size / allowed, std::nextafter(1.0, 2.0)) : unbounded;
 }
 
 ColumnComparison compare_in_tube(const Table& got, const Table& want, const std::string& name,
@@ -177,7 +177,7 @@ ColumnComparison compare_ends(const Table& got, const Table& want, const Tube& t
     const bool none = found == ours.end();
     for (const bool first : {true, false}) {
       const double wanted = first ? theirs.x.front() : theirs.x.back();
-      const double there = none    ? infinity
+      const double there = none    ? unbounded
                            : first ? found->second.x.front()
                                    : found->second.x.back();
       const double distance = std::abs(there - wanted);
@@ -189,7 +189,7 @@ ColumnComparison compare_ends(const Table& got, const Table& want, const Tube& t
         worst.got = there;
       }
       worst.want = wanted;
-      worst.relative = wanted != 0.0 ? distance / std::abs(wanted) : infinity;
+      worst.relative = wanted != 0.0 ? distance / std::abs(wanted) : unbounded;
       worst.allowed = tube.width;
     }
   }

@@ -3,12 +3,9 @@
 
 #include <charconv>
 
+#include "base/text.h"
+
 namespace palpate::device {
-namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-}  // namespace
 
 void JsonScanner::space() {
   while (at_ < text_.size() &&

@@ -14,8 +14,9 @@ constexpr double into_channel = 15e-3;    // s, pause after `/`, as in the publi
 constexpr double out_of_channel = 10e-3;  // s, pause after `\`
 constexpr double planned_period = 0.02;   // s: 50 Hz, as LabKit polls
 constexpr double longest_wait = 0.2 * GuardProcess::silence;  // s
-constexpr std::size_t diagnosis_bytes = 400;
-constexpr int most_reads = 64;  // of 256 bytes: twice what a line at 115200 baud carries in 0.7 s
+constexpr std::size_t greeting_bytes = 400;
+constexpr int most_waiting_reads =
+    64;  // of 256 bytes: twice what a line at 115200 baud carries in 0.7 s
 // ESM303 data sheet: 0.5 to 1100 mm/min. They cannot be requested: `j` and `k` select them.
 constexpr double slowest = 0.5e-3 / 60.0;     // m/s
 constexpr double fastest = 1100.0e-3 / 60.0;  // m/s
@@ -36,7 +37,7 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
   limits_.period = planned_period;
   limits_.stale_after = 3.0 * planned_period;
   limits_.lost_after = 0.25;
-  first_bytes_.reserve(diagnosis_bytes);
+  first_bytes_.reserve(greeting_bytes);
   if (purpose_ == Purpose::stop) {
     send("\\s");  // the channel to the gauge may be open
     return;
@@ -86,18 +87,18 @@ void Mark10::receive(double until) {
   if (read.outcome != SerialPort::Outcome::bytes) return;
   heard_ = true;
   const std::string_view got(bytes.data(), read.size);
-  if (greeting_ && first_bytes_.size() < diagnosis_bytes)
-    first_bytes_ += got.substr(0, diagnosis_bytes - first_bytes_.size());
+  if (greeting_ && first_bytes_.size() < greeting_bytes)
+    first_bytes_ += got.substr(0, greeting_bytes - first_bytes_.size());
   lines_.feed(got);
 }
 
 void Mark10::drain() {
   std::array<char, 256> bytes;
-  for (int reads = 0; reads < most_reads; ++reads) {
+  for (int reads = 0; reads < most_waiting_reads; ++reads) {
     const auto read = port_.read(bytes, 0.0);
     if (read.outcome != SerialPort::Outcome::bytes) break;
-    if (greeting_ && first_bytes_.size() < diagnosis_bytes)
-      first_bytes_.append(bytes.data(), std::min(read.size, diagnosis_bytes - first_bytes_.size()));
+    if (greeting_ && first_bytes_.size() < greeting_bytes)
+      first_bytes_.append(bytes.data(), std::min(read.size, greeting_bytes - first_bytes_.size()));
     traffic_.discarded += read.size;
   }
   traffic_.discarded += lines_.rest().size();

@@ -7,7 +7,7 @@
 namespace palpate::device {
 namespace {
 
-constexpr double stop_time = 0.5;  // s, during which stop() repeats the command
+constexpr double stop_repeat_time = 0.5;  // s, during which stop() repeats the command
 
 }  // namespace
 
@@ -82,7 +82,7 @@ bool Mark10::stop() {
 
 bool Mark10::confirm_stop() {
   // The stand brakes from its highest speed in about 0.1 s.
-  const double until = wire_time() + patience(stop_time);
+  const double until = wire_time() + patience(stop_repeat_time);
   while (!has_status_ && wire_time() < until && !port_.lost()) {
     send("s");
     if (stands_still(2.0 * limits_.period)) return true;

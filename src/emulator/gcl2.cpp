@@ -12,12 +12,12 @@ constexpr std::string_view not_applicable = "*11\r\n";
 constexpr std::string_view bad_specifier = "*12\r\n";
 constexpr std::string_view too_large = "*22\r\n";
 
-struct Mode {
+struct GaugeMode {
   std::string_view word;
   Reading reading;
 };
-constexpr std::array modes{Mode{"CUR", Reading::current}, Mode{"PT", Reading::peak_tension},
-                           Mode{"PC", Reading::peak_compression}};
+constexpr std::array modes{GaugeMode{"CUR", Reading::current}, GaugeMode{"PT", Reading::peak_tension},
+                           GaugeMode{"PC", Reading::peak_compression}};
 
 constexpr std::array output_rates{0, 1, 2, 5, 10, 25, 50, 125, 250};  // per second
 
@@ -39,7 +39,7 @@ constexpr auto any = [](int) { return true; };
 
 std::string list(const Gcl2& language, const Gauge& gauge) {
   std::string text = "V1.00;" + std::string(force_units[gauge.unit].listed) + ";";
-  for (const Mode& mode : modes)
+  for (const GaugeMode& mode : modes)
     if (mode.reading == gauge.mode) text += std::string(mode.word) + ";";
   text += "FLTC" + std::to_string(gauge.filter) + ";FLTP" + std::to_string(gauge.peak_filter);
   const std::string rate = std::to_string(language.auto_output);
@@ -72,7 +72,7 @@ std::string set_hidden_sign(Gauge& gauge, std::string_view digits) {
 
 // Carries out a setter without a number; false if `command` is not such a setter.
 bool set_word(Gauge& gauge, std::string_view command) {
-  for (const Mode& mode : modes)
+  for (const GaugeMode& mode : modes)
     if (command == mode.word) return gauge.mode = mode.reading, true;
   if (command == "CLR") return clear_peaks(gauge), true;
   if (command == "Z") return set_zero(gauge), true;

@@ -10,7 +10,7 @@ namespace emulator {
 namespace {
 
 // The byte that arrives at a wrong baud rate: never a printable one, so never a command.
-char noise(char byte) {
+char at_wrong_baud(char byte) {
   return static_cast<char>((static_cast<unsigned char>(byte) * 37U + 11U) | 0x80U);
 }
 
@@ -146,7 +146,8 @@ std::string Mark10::spoilt(std::string reply) {
     for (const char byte : reply) (wide += byte) += '\0';
     reply = wide;
   }
-  if (faults_.spoils("garbage")) std::transform(reply.begin(), reply.end(), reply.begin(), noise);
+  if (faults_.spoils("garbage"))
+    std::transform(reply.begin(), reply.end(), reply.begin(), at_wrong_baud);
   if (faults_.spoils("drop")) reply.clear();
   return reply;
 }
@@ -158,7 +159,7 @@ void Mark10::send(const std::string& bytes) {
     out_ += bytes;
     return;
   }
-  for (const char byte : bytes) out_ += noise(byte);
+  for (const char byte : bytes) out_ += at_wrong_baud(byte);
 }
 
 Nanoseconds Mark10::age_of_reading() {
@@ -177,7 +178,7 @@ void Mark10::take(char byte, Rate rate_of_other_side) {
   go_to(lockstep ? now_ + byte_time() : now_);
   if (unplugged_) return;
   const bool garbled = rate_of_other_side == Rate::other || faults_.lasts("wrong_baud", now_);
-  const char heard = garbled ? noise(byte) : byte;
+  const char heard = garbled ? at_wrong_baud(byte) : byte;
   if (faults_.lasts("deaf", now_)) {
     log_row("in", "(unheard) " + std::string(1, heard));
     return;
@@ -192,7 +193,7 @@ void Mark10::take(char byte, Rate rate_of_other_side) {
   if (request && lockstep) go_to(due);
   if (between_commands(stand_)) log_row("in", std::exchange(command_, {}));
   if (rate_of_other_side == Rate::other) {
-    for (const char sent : reply) send(std::string(1, noise(sent)));
+    for (const char sent : reply) send(std::string(1, at_wrong_baud(sent)));
   } else {
     send(reply);
   }

@@ -17,15 +17,15 @@ namespace palpate::fit {
 namespace {
 
 // The usable points.
-struct Points {
+struct CurvePoints {
   std::vector<double> x;  // minus x_origin
   std::vector<double> y;  // divided by y_scale
   double y_scale = 1.0;   // largest |y|
 };
 
-Points usable(std::span<const double> x, std::span<const double> y, const Options& options,
-              Fit& fit) {
-  Points points;
+CurvePoints usable(std::span<const double> x, std::span<const double> y, const Options& options,
+                   Fit& fit) {
+  CurvePoints points;
   double largest = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double from_origin = x[i] - options.x_origin;
@@ -134,7 +134,7 @@ Fit regress(std::span<const double> x, std::span<const double> y, Model model,
   for (const Parameter& parameter : info(model).parameters)
     fit.parameters.push_back({.name = std::string(parameter.name),
                               .unit = unit_text(parameter.unit, options.x_unit, options.y_unit)});
-  const Points points = usable(x, y, options, fit);
+  const CurvePoints points = usable(x, y, options, fit);
   refuse_too_few(fit);
 
   const auto start = initial_guess(points.x, points.y, model);

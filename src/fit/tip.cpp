@@ -43,7 +43,7 @@ struct Row {
   const char* law;
 };
 
-constexpr std::array<Row, 6> table{{
+constexpr std::array<Row, 6> tips{{
     {Tip::Kind::paraboloid, "paraboloid",
      "F = 4/3 E/(1-nu^2) sqrt(R) (h-h_0)^(3/2), Hertz 1881, Sneddon 1965"},
     {Tip::Kind::sphere, "sphere",
@@ -80,14 +80,14 @@ TipForce tip_force(const Tip& tip, double depth) {
   return {0.0, 0.0};
 }
 
-std::string_view word(Tip::Kind kind) { return table[as_index(kind)].word; }
+std::string_view word(Tip::Kind kind) { return tips[as_index(kind)].word; }
 
 std::optional<Tip::Kind> find_tip(std::string_view word) {
-  for (const Row& row : table)
+  for (const Row& row : tips)
     if (row.word == word) return row.kind;
   return std::nullopt;
 }
 
-std::string law_text(Tip::Kind kind) { return table[as_index(kind)].law; }
+std::string law_text(Tip::Kind kind) { return tips[as_index(kind)].law; }
 
 }  // namespace palpate::fit

@@ -17,7 +17,6 @@ using device::Sample;
 using device::Trip;
 
 constexpr double box = 0.15;          // m, half the edge of the workspace around the first position
-constexpr double stepped_wait = 1.0;  // s of wire time, for a reply in lock-step
 constexpr double longest_fall = 0.3;  // s, to bring the last force down to 0
 constexpr double most_frames_behind = 8.0;
 

@@ -21,7 +21,6 @@ using device::LinkState;
 using device::Sample;
 using device::Trip;
 
-constexpr double stepped_wait = 1.0;  // s of wire time, for a line in lock-step
 constexpr double longest_wait = 0.1;  // s, after which a signal is noticed
 
 class GaugeLoop {

@@ -18,6 +18,8 @@
 
 namespace palpate::live {
 
+constexpr double stepped_wait = 1.0;  // s of wire time, for a reply in lock-step
+
 struct LiveOptions {
   std::string link;
   enum class Act { look, command };

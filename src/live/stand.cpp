@@ -19,10 +19,9 @@ using device::LinkState;
 using device::Motion;
 using device::Sample;
 using device::Trip;
-using Verdict = device::StandSafety::Verdict;
+using SafetyVerdict = device::StandSafety::Verdict;
 
 constexpr double sample_wait = 0.06;   // s of wire time
-constexpr double stepped_wait = 1.0;   // s of wire time, for a reply in lock-step
 constexpr double free_way = 2e-3;      // m above the surface, where motions begin
 constexpr double travel_speed = 5e-3;  // m/s, out of contact
 constexpr double feel_speed = 0.5e-3;  // m/s
@@ -91,7 +90,7 @@ class StandLoop {
     // New rules can only be armed after a reading.
     for (int i = 0; i < 10 && !over_; ++i) {
       const Sample sample = read();
-      if (safety_.step(now(), sample) == Verdict::stop)
+      if (safety_.step(now(), sample) == SafetyVerdict::stop)
         return ends(safety_.tripped(), sample.fault);
       if (sample.arrival == Arrival::fresh && safety_.arm(fault)) {
         note(LinkState::armed, Fault::none);
@@ -158,16 +157,16 @@ class StandLoop {
     const Sample sample = read();
     const double begun = device::wire_time();
     switch (safety_.step(now(), sample)) {
-      case Verdict::stop:
+      case SafetyVerdict::stop:
         note(sample.arrival == Arrival::lost ? LinkState::lost : LinkState::tripped, sample.fault);
         return ends(safety_.tripped(), sample.fault);  // run() stops the stand
-      case Verdict::halt:
+      case SafetyVerdict::halt:
         note(LinkState::stale, sample.fault);
         ++loop_.health.rules.stale;
         if (!halted_) (void)loop_.link.stop();
         halted_ = true;
         break;
-      case Verdict::go_on:
+      case SafetyVerdict::go_on:
         // The guard process may have stopped the stand while this one stood still.
         if ((halted_ || sample.fault == Fault::guarded) && !send(motion_)) return false;
         halted_ = false;

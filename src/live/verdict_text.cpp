@@ -7,25 +7,25 @@
 namespace palpate::live {
 namespace {
 
-std::string newtons(double force) { return rounded_text(force, 3) + " N"; }
+std::string force_text(double force) { return rounded_text(force, 3) + " N"; }
 std::string millinewtons(double force) { return rounded_text(1e3 * force, 2) + " mN"; }
-std::string milli(double length) { return rounded_text(1e3 * length, 2) + " mm"; }
+std::string length_text(double length) { return rounded_text(1e3 * length, 2) + " mm"; }
 std::string percent(double share) { return rounded_text(100.0 * share, 2) + " %"; }
 
 // What is wrong, and what to do about it.
 std::string cause_clause(Cause cause, const Verdict& verdict) {
   switch (cause) {
     case Cause::no_specimen:
-      return "no specimen: nothing is measured where the model has " + newtons(verdict.peak) +
+      return "no specimen: nothing is measured where the model has " + force_text(verdict.peak) +
              "; put it under the finger, or give its height by `--surface`";
     case Cause::wrong_sign:
       return "wrong sign: the gauge shows compression as negative; change its polarity (IPOL), or "
              "the way it is mounted";
     case Cause::wrong_tare:
-      return "wrong tare: the gauge shows " + newtons(verdict.offset) +
+      return "wrong tare: the gauge shows " + force_text(verdict.offset) +
              " out of contact; zero it out of contact";
     case Cause::wrong_surface:
-      return "wrong surface: the specimen begins " + milli(std::abs(verdict.surface)) +
+      return "wrong surface: the specimen begins " + length_text(std::abs(verdict.surface)) +
              (verdict.surface > 0.0 ? " lower" : " higher") +
              " than assumed; give its height by `--surface`, or leave the option out";
     case Cause::wrong_stiffness:
@@ -51,7 +51,7 @@ std::string verdict_sentence(const Verdict& verdict) {
   std::string text = verdict.outcome == Verdict::Outcome::agrees ? "measured and model agree: "
                                                                  : "measured and model differ: ";
   text += millinewtons(verdict.difference) + " rms, " + percent(verdict.difference / verdict.peak) +
-          " of " + newtons(verdict.peak) + " (" + percent(verdict.allowed / verdict.peak) +
+          " of " + force_text(verdict.peak) + " (" + percent(verdict.allowed / verdict.peak) +
           " allowed)";
   if (std::isfinite(verdict.offset))
     text += ", " + millinewtons(verdict.offset) + " before contact";
@@ -59,9 +59,9 @@ std::string verdict_sentence(const Verdict& verdict) {
   if (std::isfinite(verdict.drift)) text += ", drift " + millinewtons(verdict.drift);
   if (std::isfinite(verdict.hysteresis_model))
     text += ", hysteresis " + beside_model(verdict.hysteresis, verdict.hysteresis_model, percent);
-  text += ", contact at " + beside_model(verdict.contact, verdict.contact_model, milli);
+  text += ", contact at " + beside_model(verdict.contact, verdict.contact_model, length_text);
   if (std::isfinite(verdict.release_model))
-    text += ", release at " + beside_model(verdict.release, verdict.release_model, milli);
+    text += ", release at " + beside_model(verdict.release, verdict.release_model, length_text);
   for (const Cause cause : verdict.causes) text += "; " + cause_clause(cause, verdict);
   if (verdict.outcome == Verdict::Outcome::differs && !verdict.explained)
     text += "; neither sign, tare, surface nor stiffness explains it";

@@ -28,7 +28,7 @@ bool says_nothing(const std::string& cell) {
 
 std::optional<double> measured_number(std::string_view given, char decimal) {
   const bool plain = !given.empty() && given.find(',') == std::string_view::npos &&
-                     (given[0] == '-' || given[0] == '.' || (given[0] >= '0' && given[0] <= '9'));
+                     (given[0] == '-' || given[0] == '.' || is_digit(given[0]));
   if (plain)
     if (const auto number = leading_number(given); number && number->rest.empty())
       return number->out_of_range ? std::numeric_limits<double>::infinity() : number->value;

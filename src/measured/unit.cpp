@@ -14,7 +14,7 @@ struct Alias {
 };
 
 constexpr Dimension time{0, 0, 1};
-constexpr Dimension pressure{-1, 1, -2};
+constexpr Dimension stress{-1, 1, -2};
 
 // The pound-force and the kilogram-force are exact by definition (standard gravity 9.80665 m/s^2,
 // the pound 0.45359237 kg); the inch is 25.4 mm. The psi is lbf / in^2; the conventional millimetre
@@ -61,15 +61,15 @@ const std::vector<Alias>& aliases() {
       {"lbs", {"lbf", {4.4482216152605, 1, force}}},
       {"millinewtons", {"mN", {1, 1e3, force}}},
       {"kilonewtons", {"kN", {1e3, 1, force}}},
-      {"pascal", {"Pa", {1, 1, pressure}}},
-      {"pascals", {"Pa", {1, 1, pressure}}},
-      {"kilopascals", {"kPa", {1e3, 1, pressure}}},
-      {"megapascals", {"MPa", {1e6, 1, pressure}}},
-      {"psi", {"psi", {6894.757293168361, 1, pressure}}},
-      {"ksi", {"ksi", {6894757.293168361, 1, pressure}}},
-      {"mmhg", {"mmHg", {133.322387415, 1, pressure}}},
-      {"torr", {"Torr", {101325, 760, pressure}}},
-      {"atm", {"atm", {101325, 1, pressure}}},
+      {"pascal", {"Pa", {1, 1, stress}}},
+      {"pascals", {"Pa", {1, 1, stress}}},
+      {"kilopascals", {"kPa", {1e3, 1, stress}}},
+      {"megapascals", {"MPa", {1e6, 1, stress}}},
+      {"psi", {"psi", {6894.757293168361, 1, stress}}},
+      {"ksi", {"ksi", {6894757.293168361, 1, stress}}},
+      {"mmhg", {"mmHg", {133.322387415, 1, stress}}},
+      {"torr", {"Torr", {101325, 760, stress}}},
+      {"atm", {"atm", {101325, 1, stress}}},
       {"%", {"%", {1, 1e2, {}}}},
   };
   return table;

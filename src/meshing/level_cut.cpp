@@ -18,7 +18,7 @@ namespace {
 // The part of an edge from a node to the plane, up to which the node is moved.
 constexpr double near_part = 0.25;
 constexpr double near_part_on_skin = 0.5;  // needs no new nodes where nodes are free to move
-constexpr double least_volume = 0.2;       // of a tetrahedron, that moving a node leaves
+constexpr double least_volume_left = 0.2;  // of a tetrahedron, that moving a node leaves
 
 // How freely a node may move, and along which edges.
 enum class Freedom { everywhere, skin, crease, fixed };
@@ -97,7 +97,7 @@ void snap(geometry::TetMesh& mesh, double z, bool outer_only,
   for (std::size_t n = 0; n < moves.size(); ++n) {
     if (!moves[n].found) continue;
     std::vector<double> least;
-    for (const int t : at[n]) least.push_back(least_volume * geometry::signed_volume(mesh, t));
+    for (const int t : at[n]) least.push_back(least_volume_left * geometry::signed_volume(mesh, t));
     const Vec3 before = std::exchange(mesh.nodes[n], moves[n].to);
     for (std::size_t i = 0; i < at[n].size(); ++i)
       if (geometry::signed_volume(mesh, at[n][i]) < least[i]) mesh.nodes[n] = before;

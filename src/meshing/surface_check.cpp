@@ -51,9 +51,9 @@ class Groups {
   std::vector<int> parent_;
 };
 
-class Checker {
+class SurfaceChecker {
  public:
-  Checker(const geometry::Surface& surface, const std::string& name)
+  SurfaceChecker(const geometry::Surface& surface, const std::string& name)
       : surface_(surface), name_(name) {}
 
   void indices() const {
@@ -282,8 +282,8 @@ class Checker {
 
 enum class Holes { refused, allowed };
 
-void check(const geometry::Surface& surface, const std::string& name, Holes holes) {
-  Checker checker(surface, name);
+void check_all(const geometry::Surface& surface, const std::string& name, Holes holes) {
+  SurfaceChecker checker(surface, name);
   checker.indices();
   checker.positions();
   checker.shapes();
@@ -298,11 +298,11 @@ void check(const geometry::Surface& surface, const std::string& name, Holes hole
 }  // namespace
 
 void check_closed(const geometry::Surface& surface, const std::string& name) {
-  check(surface, name, Holes::refused);
+  check_all(surface, name, Holes::refused);
 }
 
 void check_open(const geometry::Surface& surface, const std::string& name) {
-  check(surface, name, Holes::allowed);
+  check_all(surface, name, Holes::allowed);
 }
 
 }  // namespace palpate::meshing

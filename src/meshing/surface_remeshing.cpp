@@ -16,11 +16,12 @@ namespace {
 
 using geometry::Surface;
 
-constexpr ChildLimits limits{120.0, 8.0 * 1024 * 1024 * 1024};  // s, bytes: far above any need
-constexpr double crease_degrees = 40.0;                         // as for normals and curvatures
-constexpr double most_volume = 0.005;                           // relative change
-constexpr double needle = 1.0 / 15.0;                           // altitude over longest edge
-constexpr double shorter = 0.75;                                // the next spacing to try
+constexpr ChildLimits remeshing_limits{120.0,
+                                       8.0 * 1024 * 1024 * 1024};  // s, bytes: far above any need
+constexpr double crease_degrees = 40.0;                            // as for normals and curvatures
+constexpr double most_volume = 0.005;                              // relative change
+constexpr double needle_altitude = 1.0 / 15.0;                     // altitude over longest edge
+constexpr double shorter = 0.75;                                   // the next spacing to try
 
 // Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
 // the volume that it would take at the spacing itself.
@@ -37,7 +38,7 @@ std::string packed(const Surface& surface) {
   return bytes;
 }
 
-Surface unpacked(const std::string& bytes) {
+Surface unpacked_surface(const std::string& bytes) {
   ChildBytes from(bytes, "CGAL");
   Surface surface;
   std::size_t count = 0;
@@ -120,10 +121,10 @@ std::optional<Surface> attempt(const Surface& surface, double spacing, bool unev
             uneven ? cgal_library::even(surface, even_part * spacing, crease_degrees) : surface,
             spacing));
       },
-      limits);
+      remeshing_limits);
   const auto* answer = std::get_if<ChildAnswer>(&result);
   if (answer == nullptr) return std::nullopt;
-  return unpacked(answer->bytes);
+  return unpacked_surface(answer->bytes);
 }
 
 bool closed(const Surface& surface) {
@@ -141,7 +142,8 @@ std::size_t count_needles(const Surface& surface) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const double longest = longest_edge(surface, surface.triangles[t]);
-    if (geometry::twice_area(surface, static_cast<int>(t)).norm() < needle * longest * longest)
+    if (geometry::twice_area(surface, static_cast<int>(t)).norm() <
+        needle_altitude * longest * longest)
       ++count;
   }
   return count;

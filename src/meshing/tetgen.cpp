@@ -31,7 +31,7 @@ std::string packed(const geometry::TetMesh& mesh) {
   return bytes;
 }
 
-geometry::TetMesh unpacked(const std::string& bytes) {
+geometry::TetMesh unpacked_mesh(const std::string& bytes) {
   ChildBytes from(bytes, "TetGen");
   Counts counts{};
   from.take(&counts, 1);
@@ -66,7 +66,7 @@ struct Outcome {
   double time_limit;
 
   geometry::TetMesh operator()(const ChildAnswer& answer) const {
-    geometry::TetMesh mesh = unpacked(answer.bytes);
+    geometry::TetMesh mesh = unpacked_mesh(answer.bytes);
     if (mesh.tetrahedra.empty())
       throw MeshError(
           "TetGen found no inside; close the surface, so that every edge has two faces");

@@ -20,13 +20,13 @@ namespace {
 
 using Triple = std::array<int, 3>;
 
-constexpr double good_miss = 0.01;   // stop trying
-constexpr double fair_miss = 0.03;   // keep this grid
-constexpr double worst_miss = 0.25;  // refuse beyond
+constexpr double good_grid_miss = 0.01;   // stop trying
+constexpr double fair_grid_miss = 0.03;   // keep this grid
+constexpr double worst_grid_miss = 0.25;  // refuse beyond
 constexpr int tries_per_grid = 8;
 // A maximum volume of 0.22 h^3 gives edges inside of about the mean of the grid's edges h and
 // sqrt(2) h; the body then has about 1.1 times the nodes of a lattice with cells of side h.
-constexpr double volume_per_cube = 0.22;
+constexpr double grid_volume_per_cube = 0.22;
 constexpr double nodes_per_lattice = 1.1;
 
 // The spacing h (m) for `target` nodes, by bisection: the number of nodes decreases with h.
@@ -50,9 +50,9 @@ Triple cells_for(const Vec3& size, double spacing) {
 }
 
 // Tries meshes and keeps the one with the number of nodes nearest to the target.
-class Search {
+class GridSearch {
  public:
-  Search(const Vec3& size, int target, double time_limit)
+  GridSearch(const Vec3& size, int target, double time_limit)
       : size_(size), target_(target), time_limit_(time_limit), start_(Clock::now()) {}
 
   [[nodiscard]] double miss() const { return miss_; }
@@ -64,10 +64,10 @@ class Search {
     const int on_surface = static_cast<int>(surface.vertices.size());
     const double wanted = std::max(target_ - on_surface, 0);
     const double cube = spacing * spacing * spacing;
-    double volume = volume_per_cube * cube;
+    double volume = grid_volume_per_cube * cube;
     double low = 1e-3 * cube;  // gives too many nodes, or was not tried
     double high = 1e3 * cube;  // gives too few nodes, or was not tried
-    for (int tries = 0; tries < tries_per_grid && miss_ > good_miss; ++tries) {
+    for (int tries = 0; tries < tries_per_grid && miss_ > good_grid_miss; ++tries) {
       const int inside = attempt(surface, volume) - on_surface;
       (inside > wanted ? low : high) = volume;
       // The nodes inside are about proportional to 1 / volume; the bracket limits the estimate.
@@ -111,13 +111,13 @@ geometry::TetMesh tetgen_cuboid(const Vec3& size, int target_nodes, double time_
     throw MeshError("a box cannot be meshed with " + std::to_string(target_nodes) +
                     " nodes, as it has 8 corners; ask for 8 nodes or more");
   const double spacing = spacing_for(size, target_nodes);
-  Search search(size, target_nodes, time_limit);
+  GridSearch search(size, target_nodes, time_limit);
   // With few nodes the grid determines the count; coarser and finer grids may then fit better.
   for (const double factor : {1.0, 1.12, 0.89, 1.25, 0.8}) {
     search.on_grid(factor * spacing);
-    if (search.miss() <= fair_miss) break;
+    if (search.miss() <= fair_grid_miss) break;
   }
-  if (search.miss() > worst_miss)
+  if (search.miss() > worst_grid_miss)
     throw MeshError("no box mesh near " + std::to_string(target_nodes) +
                     " nodes was found, the nearest has " +
                     std::to_string(search.best().nodes.size()) + "; ask for that many or more");

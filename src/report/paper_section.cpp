@@ -23,11 +23,6 @@ struct Rows {
 
 std::string agrees(bool yes) { return yes ? "yes" : "no"; }
 
-const scenario::Case& case_of(const scenario::Family& family, const record::CaseRecord& record) {
-  return *std::find_if(family.cases.begin(), family.cases.end(),
-                       [&](const scenario::Case& one) { return one.name == record.name; });
-}
-
 // Eq. (2) with Table 1, for the row of the largest force: the row's own indentation, and the radius
 // with the curvature of the surface there.
 struct Predicted {
@@ -42,7 +37,8 @@ Predicted predicted(const scenario::Family& family, const record::CaseRecord& re
   if (most == record.contact.end()) return {};
   const double modulus = unit::kPa.to_si(finding_number(record, "effective_modulus_kPa"));
   const double curvature = std::isfinite(most->tissue_radius) ? 1.0 / most->tissue_radius : 0.0;
-  const double radius = 1.0 / (1.0 / case_of(family, record).scenario.finger.radius + curvature);
+  const double radius =
+      1.0 / (1.0 / scenario::case_named(family, record.name).scenario.finger.radius + curvature);
   const double depth = most->indentation;
   // F = 4/3 E* sqrt(R) h^(3/2)                                              Chen 2007 eq. (2)
   return {depth, most->contact_force,
@@ -111,11 +107,13 @@ void add_curvatures(Rows& rows, const scenario::Family& family, const Records& r
     if (finding_number(flat, "local_curvature_per_m") != 0.0) continue;
     for (const record::CaseRecord& bent : records) {
       const double curvature = finding_number(bent, "local_curvature_per_m");
-      const std::string material = case_of(family, flat).scenario.tissue.material;
-      if (case_of(family, bent).scenario.tissue.material != material || curvature == 0.0) continue;
+      const std::string material = scenario::case_named(family, flat.name).scenario.tissue.material;
+      if (scenario::case_named(family, bent.name).scenario.tissue.material != material ||
+          curvature == 0.0)
+        continue;
       const double ratio =
           finding_number(bent, "peak_force_N") / finding_number(flat, "peak_force_N");
-      const double radius = case_of(family, bent).scenario.finger.radius;
+      const double radius = scenario::case_named(family, bent.name).scenario.finger.radius;
       worst = std::max(worst, std::abs(ratio * std::sqrt(1.0 + radius * curvature) - 1.0));
       ++count;
     }
@@ -129,7 +127,7 @@ void add_curvatures(Rows& rows, const scenario::Family& family, const Records& r
 
 void add_strains(Rows& rows, const scenario::Family& family, const Records& records) {
   for (const record::CaseRecord& record : records) {
-    const scenario::Case& one = case_of(family, record);
+    const scenario::Case& one = scenario::case_named(family, record.name);
     const double modulus = one.materials.tissue.young_modulus.value;
     for (const scenario::Step& step : one.scenario.steps) {
       const auto* creep = std::get_if<scenario::Creep>(&step);

@@ -1,7 +1,6 @@
 // Writes the files of a result.
 #include "report/results.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -36,18 +35,13 @@ std::string case_file(const char* stem, std::size_t index, std::size_t cases, co
   return numbered((std::string(stem) + "_case").c_str(), index + 1, ending);
 }
 
-const scenario::Case& case_of(const scenario::Family& family, const record::CaseRecord& record) {
-  return *std::find_if(family.cases.begin(), family.cases.end(),
-                       [&](const auto& other) { return other.name == record.name; });
-}
-
 // The columns of the swept keys, with their units.
 std::vector<record::SweptColumn> swept_columns(const scenario::Family& family,
                                                const std::vector<record::CaseRecord>& records) {
   std::vector<record::SweptColumn> columns;
   for (const std::string& key : family.design.keys()) columns.emplace_back(key);
   for (const record::CaseRecord& record : records) {
-    const scenario::Case& one = case_of(family, record);
+    const scenario::Case& one = scenario::case_named(family, record.name);
     for (std::size_t i = 0; i < columns.size(); ++i)
       columns[i].see(record::swept_cell(one.swept[i].second));
   }
@@ -69,7 +63,7 @@ record::Table findings_table(const scenario::Family& family,
   for (const record::CaseRecord& record : records) {
     std::vector<record::Cell> row(table.columns.size());
     row[0] = record.name;
-    const scenario::Case& one = case_of(family, record);
+    const scenario::Case& one = scenario::case_named(family, record.name);
     for (std::size_t i = 1; i < fixed; ++i)
       row[i] = swept[i - 1].cell(record::swept_cell(one.swept[i - 1].second));
     for (const record::Finding& finding : record.findings)

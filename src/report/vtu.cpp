@@ -132,7 +132,7 @@ std::string cell_data(const VtuFrame& frame) {
 }
 
 // An attribute value in quotes, with XML's special characters escaped.
-std::string quoted(std::string_view text) {
+std::string attribute(std::string_view text) {
   std::string safe = "\"";
   for (const char letter : text) {
     if (letter == '&')
@@ -166,7 +166,7 @@ std::string pvd_bytes(std::span<const TimedFile> files) {
   std::string text = xml_file("Collection");
   for (const TimedFile& entry : files)
     text += "<DataSet timestep=\"" + number_text(entry.time) +
-            "\" part=\"0\" file=" + quoted(entry.file) + "/>\n";
+            "\" part=\"0\" file=" + attribute(entry.file) + "/>\n";
   return text + "</Collection>\n</VTKFile>\n";
 }
 

@@ -11,16 +11,17 @@
 namespace palpate::scenario {
 namespace {
 
-using Kind = Node::Kind;
+using NodeKind = Node::Kind;
 
-bool are(Kind kind, const Node& a, const Node& b) { return a.kind == kind && b.kind == kind; }
+bool are(NodeKind kind, const Node& a, const Node& b) { return a.kind == kind && b.kind == kind; }
 
 bool are_steps(const Node& a, const Node& b) {
   const auto of_tables = [](const Node& list) {
     return std::all_of(list.items.begin(), list.items.end(),
-                       [](const Node& item) { return item.kind == Kind::table; });
+                       [](const Node& item) { return item.kind == NodeKind::table; });
   };
-  return are(Kind::array, a, b) && a.items.size() == b.items.size() && of_tables(a) && of_tables(b);
+  return are(NodeKind::array, a, b) && a.items.size() == b.items.size() && of_tables(a) &&
+         of_tables(b);
 }
 
 // Removes from `table` everything that `other` does not have with the same value.
@@ -30,7 +31,7 @@ void keep_common(Node& table, const Node& other) {
     const Member* same = other.find(member.key);
     if (same == nullptr) continue;
     Node& value = member.value;
-    if (are(Kind::table, value, same->value)) {
+    if (are(NodeKind::table, value, same->value)) {
       keep_common(value, same->value);
       if (value.members.empty()) continue;
     } else if (are_steps(value, same->value)) {
@@ -51,7 +52,7 @@ void add_missing(Node& table, const Node& given) {
                                    [&](const Member& other) { return other.key == member.key; });
     if (here == table.members.end()) {
       table.members.push_back(member);
-    } else if (are(Kind::table, here->value, member.value)) {
+    } else if (are(NodeKind::table, here->value, member.value)) {
       add_missing(here->value, member.value);
     } else if (are_steps(here->value, member.value)) {
       for (std::size_t i = 0; i < member.value.items.size(); ++i)

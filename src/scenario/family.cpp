@@ -1,6 +1,7 @@
 // Makes a family of cases from a TOML text.
 #include "scenario/family.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/files.h"
@@ -94,6 +95,11 @@ Family outline_text(const std::string& text, const std::string& path,
 Family outline(const std::string& path, const std::vector<std::string>& settings) {
   const std::string found = find(path);
   return outline_text(read_text(found), name_of(found), settings);
+}
+
+const Case& case_named(const Family& family, const std::string& name) {
+  return *std::find_if(family.cases.begin(), family.cases.end(),
+                       [&](const Case& one) { return one.name == name; });
 }
 
 Case make_case(const Family& family, std::size_t i) {

@@ -84,6 +84,9 @@ inline constexpr std::size_t most_cases = 1000;  // of a family whose cases are 
 // Throws InputError with all problems of this case.
 [[nodiscard]] Case make_case(const Family& family, std::size_t i);
 
+// The case of that name, which is there.
+[[nodiscard]] const Case& case_named(const Family& family, const std::string& name);
+
 // The swept keys of case i that have no effect if `model = "auto"` has chosen `chosen`.
 [[nodiscard]] std::vector<std::string> unread_keys(const Family& family, std::size_t i,
                                                    Solver::Model chosen);

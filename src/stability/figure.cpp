@@ -17,12 +17,12 @@ struct Curve {
   int marker;
 };
 
-constexpr Curve methods[] = {
+constexpr Curve method_curves[] = {
     {"integrator", "lagged_velocity", "lagged_velocity", "D55E00", 5},
     {"integrator", "semi_implicit_euler", "semi_implicit_euler", "009E73", 9},
     {"integrator", "central_difference", "central_difference", "0072B2", 7}};
-constexpr Curve volumes[] = {{"volume", "tetrahedron", "of every tetrahedron", "D55E00", 5},
-                             {"volume", "nodal", "averaged at nodes", "0072B2", 7}};
+constexpr Curve volume_curves[] = {{"volume", "tetrahedron", "of every tetrahedron", "D55E00", 5},
+                                   {"volume", "nodal", "averaged at nodes", "0072B2", 7}};
 constexpr Curve device[] = {{"integrator", "zero_order_hold", "frame time", "CC79A7", 7}};
 
 // Whether the map has points of the curve on this axis; gnuplot warns of curves without points.
@@ -105,7 +105,7 @@ std::string panel(const stability::StabilityMap& map, const std::string& axis, S
 // Measured over theoretical limits of every model and damping; equal ones lie on the diagonal.
 std::string agreement(const stability::StabilityMap& map) {
   std::vector<std::string> lines{"x with lines linewidth 1.2 linecolor rgb '#909090' notitle"};
-  for (const Curve& curve : methods) {
+  for (const Curve& curve : method_curves) {
     if (!drawn(map, curve, "rung")) continue;
     lines.push_back("'stability.csv' using " + picked(curve, "rung", "theory_us") + ":" +
                     picked(curve, "rung", "limit_us") + " with points pointsize 0.45 pointtype " +
@@ -163,7 +163,7 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
   text += agreement(map);
   const auto of_methods = [&](const char* axis, Scale scale, const char* heading,
                               const char* x_label) {
-    text += panel(map, axis, scale, heading, x_label) + curves(map, methods, axis);
+    text += panel(map, axis, scale, heading, x_label) + curves(map, method_curves, axis);
   };
   of_methods("young_modulus_Pa", Scale::logarithmic, "Young's modulus", "Pa");
   text += panel(map, "poisson_ratio", Scale::linear_x, "Volume term of coupled springs",
@@ -171,7 +171,8 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
           "set key default bottom left Left reverse samplen 1 spacing 1.1 font ',11'\nset xrange "
           "[0:0.52]\n"
           "set xtics 0.1\n" +
-          curves(map, volumes, "poisson_ratio", Legend::own) + "unset key\nset xrange [*:*]\n";
+          curves(map, volume_curves, "poisson_ratio", Legend::own) +
+          "unset key\nset xrange [*:*]\n";
   of_methods("shortest_edge_mm", Scale::logarithmic, "Element size", "shortest edge, mm");
   of_methods("drag_per_s", Scale::logarithmic, "Drag on nodes", "1/s");
   of_methods("retardation_time_s", Scale::logarithmic, "Dashpots along springs",

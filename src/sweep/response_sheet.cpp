@@ -175,7 +175,7 @@ std::string narrow_label(const sweep::FactorChoice& factor) {
   return dot == std::string::npos ? label : label.substr(dot + 1);
 }
 
-std::string curves(const Response& response) {
+std::string curve_plots(const Response& response) {
   const plot::ValueGrid& grid = response.grid;
   const std::size_t width = grid.x.size();
   const std::size_t count = grid.values.size() / width;
@@ -232,7 +232,7 @@ plot::Sheet response_sheet(const Response& response) {
             "set key at screen 0.805, screen 0.455 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
-            curves(response) + "unset multiplot\n";
+            curve_plots(response) + "unset multiplot\n";
   } else {
     const Ends range = ends(response.grid.x);
     text += "set lmargin at screen 0.12\nset rmargin at screen 0.79\nset title " + title + "\n" +
@@ -240,7 +240,7 @@ plot::Sheet response_sheet(const Response& response) {
             "set key at screen 0.805, screen 0.85 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
-            curves(response);
+            curve_plots(response);
   }
   return {response.name, text, {response.name + ".csv"}};
 }

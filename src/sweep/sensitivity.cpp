@@ -101,7 +101,7 @@ void correlations(const SweepColumns& columns, const OutputColumn& output, Sensi
   }
 }
 
-record::Cell number(double value) {
+record::Cell cell_of(double value) {
   if (std::isnan(value)) return {};
   return value;
 }
@@ -153,9 +153,9 @@ record::Table sensitivity_table(const Sensitivity& found) {
   for (const SensitivityRow& row : found.indices) {
     const Share& first = row.indices.first;
     const Share& total = row.indices.total;
-    table.rows.push_back({row.output, row.factor, number(first.value), number(first.low),
-                          number(first.high), number(total.value), number(total.low),
-                          number(total.high), static_cast<double>(row.samples)});
+    table.rows.push_back({row.output, row.factor, cell_of(first.value), cell_of(first.low),
+                          cell_of(first.high), cell_of(total.value), cell_of(total.low),
+                          cell_of(total.high), static_cast<double>(row.samples)});
   }
   return table;
 }

@@ -11,8 +11,8 @@
 namespace palpate::sweep {
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-constexpr Share exactly(double value) { return {value, no_number, no_number}; }
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr Share exactly(double value) { return {value, unknown, unknown}; }
 
 double mean(std::span<const double> values) {
   double sum = 0.0;
@@ -85,8 +85,7 @@ std::vector<Indices> saltelli_indices(std::span<const double> values, std::size_
     for (std::size_t k = 0; k < width; ++k) sum[k] += terms[k];
   };
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  if (*least == *most)
-    return std::vector<Indices>(factors, {exactly(no_number), exactly(no_number)});
+  if (*least == *most) return std::vector<Indices>(factors, {exactly(unknown), exactly(unknown)});
 
   std::vector<double> sum(width, 0.0);
   for (std::size_t j = 0; j < blocks; ++j) add_block(j, sum);

@@ -13,10 +13,10 @@ namespace palpate::tissue {
 
 namespace {
 
-using Springs = std::span<const int>;
+using SpringRange = std::span<const int>;
 
 // The nodes of some springs, each once.
-std::vector<int> nodes_of(const Network& network, Springs springs) {
+std::vector<int> nodes_of(const Network& network, SpringRange springs) {
   std::vector<int> nodes;
   for (const int spring : springs)
     for (const int node : network.ends[as_index(spring)]) nodes.push_back(node);

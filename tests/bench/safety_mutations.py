@@ -4,7 +4,7 @@
     safety_mutations.py BUILD [--only WORD]
 
 BUILD is a configured build folder such as build/dev. Each mutation replaces one line of src/device,
-rebuilds one test program, runs it, and puts the line back. The exit code is 1 if a rule can be
+rebuilds the test program of the room, runs it, and puts the line back. The exit code is 1 if a rule can be
 broken without a failing test.
 """
 import argparse
@@ -13,92 +13,88 @@ import subprocess
 import sys
 
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src", "device")
-RULES, ARM, STAND = "unit_device_safety", "unit_device_arm_safety", "unit_device_safety"
-GUARD, PROCESS = "unit_device_stop_guard", "unit_device_guard_process"
-# File, line, what it becomes, test program.
+PROGRAM = "unit_device"
+# File, line, what it becomes.
 MUTATIONS = [
-    ("safety.cpp", "armed_ = trip_ == Trip::none;", "armed_ = true;", RULES),
-    ("safety.cpp", "  armed_ = false;\n  if (trip_", "  if (trip_", RULES),
-    ("safety.cpp", "if (trip_ == Trip::none) trip_ = why;", "", RULES),
-    ("safety.cpp", "return force.allFinite() ? force : Vec3::Zero();", "return force;", RULES),
-    ("safety.cpp", "if (norm <= most) return force;", "return force;", RULES),
-    ("safety.cpp", "if (!(largest > 0.0)) return Vec3::Zero();", "", RULES),
-    ("safety.cpp", "clamped_norm(wanted - last_, rate * std::max(0.0, dt))", "wanted - last_", RULES),
-    ("safety.cpp", "rate * std::max(0.0, dt)", "rate * dt", RULES),
-    ("safety.cpp", "if (!(depth <= 0.0)) return false;", "", RULES),
-    ("safety.cpp", "if (!(depth <= 0.0)) return false;", "if (depth > 0.0) return false;", RULES),
-    ("safety.cpp", "if (!started_) return 0.0;", "if (!started_) return 1.0;", RULES),
-    ("safety.cpp", "return std::clamp((now - begin_) / time_, 0.0, 1.0);", "return 1.0;", RULES),
-    ("safety.cpp", "age > rule_.lost_after) {", "false) {", RULES),
-    ("safety.cpp", "arrival == Arrival::lost || age", "age", RULES),
-    ("safety.cpp", "arrival != Arrival::fresh && age > rule_.stale_after ?", "false ?", RULES),
-    ("safety.cpp", "gain_ = std::min(1.0, gain_ + dt / rule_.rise);", "gain_ = 1.0;", RULES),
-    ("safety.cpp", "if (!position.allFinite()) return false;", "", RULES),
-    ("safety.cpp", "if (any_ && (position - last_).norm() > reach) return false;", "", RULES),
-    ("stand_safety.cpp", "std::isfinite(sample.force) &&", "", STAND),
-    ("stand_safety.cpp", "if (jumps_ >= 2) arming_.trip(Trip::jump);", "", STAND),
-    ("stand_safety.cpp", "if (std::abs(sample.force) > rules_.force)", "if (sample.force > rules_.force)",
-     STAND),
-    ("stand_safety.cpp", "z < rules_.low - rules_.slack ||", "", STAND),
-    ("stand_safety.cpp", "|| z > rules_.high + rules_.slack", "", STAND),
-    ("stand_safety.cpp", "if (sample.fault == Fault::overload) arming_.trip(Trip::overload);", "", STAND),
+    ("safety.cpp", "armed_ = trip_ == Trip::none;", "armed_ = true;"),
+    ("safety.cpp", "  armed_ = false;\n  if (trip_", "  if (trip_"),
+    ("safety.cpp", "if (trip_ == Trip::none) trip_ = why;", ""),
+    ("safety.cpp", "return force.allFinite() ? force : Vec3::Zero();", "return force;"),
+    ("safety.cpp", "if (norm <= most) return force;", "return force;"),
+    ("safety.cpp", "if (!(largest > 0.0)) return Vec3::Zero();", ""),
+    ("safety.cpp", "clamped_norm(wanted - last_, rate * std::max(0.0, dt))", "wanted - last_"),
+    ("safety.cpp", "rate * std::max(0.0, dt)", "rate * dt"),
+    ("safety.cpp", "if (!(depth <= 0.0)) return false;", ""),
+    ("safety.cpp", "if (!(depth <= 0.0)) return false;", "if (depth > 0.0) return false;"),
+    ("safety.cpp", "if (!started_) return 0.0;", "if (!started_) return 1.0;"),
+    ("safety.cpp", "return std::clamp((now - begin_) / time_, 0.0, 1.0);", "return 1.0;"),
+    ("safety.cpp", "age > rule_.lost_after) {", "false) {"),
+    ("safety.cpp", "arrival == Arrival::lost || age", "age"),
+    ("safety.cpp", "arrival != Arrival::fresh && age > rule_.stale_after ?", "false ?"),
+    ("safety.cpp", "gain_ = std::min(1.0, gain_ + dt / rule_.rise);", "gain_ = 1.0;"),
+    ("safety.cpp", "if (!position.allFinite()) return false;", ""),
+    ("safety.cpp", "if (any_ && (position - last_).norm() > reach) return false;", ""),
+    ("stand_safety.cpp", "std::isfinite(sample.force) &&", ""),
+    ("stand_safety.cpp", "if (jumps_ >= 2) arming_.trip(Trip::jump);", ""),
+    ("stand_safety.cpp", "if (std::abs(sample.force) > rules_.force)", "if (sample.force > rules_.force)"),
+    ("stand_safety.cpp", "z < rules_.low - rules_.slack ||", ""),
+    ("stand_safety.cpp", "|| z > rules_.high + rules_.slack", ""),
+    ("stand_safety.cpp", "if (sample.fault == Fault::overload) arming_.trip(Trip::overload);", ""),
     ("stand_safety.cpp", "== Staleness::State::lost) arming_.trip(Trip::link_lost);",
-     "== Staleness::State::lost) {}", STAND),
-    ("stand_safety.cpp", "if (arming_.tripped() != Trip::none) return Verdict::stop;", "", STAND),
+     "== Staleness::State::lost) {}"),
+    ("stand_safety.cpp", "if (arming_.tripped() != Trip::none) return Verdict::stop;", ""),
     ("stand_safety.cpp", "State::stale ? Verdict::halt : Verdict::go_on", "State::stale ? Verdict::go_on : "
-     "Verdict::go_on", STAND),
-    ("stand_safety.cpp", "if (limits_in_device != Fault::none || !any_) return false;", "", STAND),
-    ("stand_safety.cpp", "if (z < rules_.low || z > rules_.high) return false;", "", STAND),
+     "Verdict::go_on"),
+    ("stand_safety.cpp", "if (limits_in_device != Fault::none || !any_) return false;", ""),
+    ("stand_safety.cpp", "if (z < rules_.low || z > rules_.high) return false;", ""),
     ("stand_safety.cpp", "if (!arming_.armed() || staleness_.state() != Staleness::State::fresh) return none;",
-     "", STAND),
-    ("stand_safety.cpp", "if (wanted.act == Motion::Act::down && z <= rules_.low) return none;", "", STAND),
-    ("stand_safety.cpp", "if (wanted.act == Motion::Act::up && z >= rules_.high) return none;", "", STAND),
-    ("stand_safety.cpp", "std::min(wanted.speed, rules_.fastest)", "wanted.speed", STAND),
-    ("arm_safety.cpp", "good && !jump_.takes(now, sample.position)", "false", ARM),
-    ("arm_safety.cpp", "sample.fault == Fault::brake ||", "", ARM),
-    ("arm_safety.cpp", "sample.fault == Fault::stalled ||", "", ARM),
-    ("arm_safety.cpp", "sample.fault == Fault::unstable)", "false)", ARM),
-    ("arm_safety.cpp", "if (staleness_.state() == Staleness::State::lost) arming_.trip(Trip::link_lost);", "",
-     ARM),
-    ("arm_safety.cpp", "if (!arming_.armed() || !any_) return 0.0;", "", ARM),
-    ("arm_safety.cpp", "start_.gain(now) * staleness_.gain()", "staleness_.gain()", ARM),
-    ("arm_safety.cpp", "start_.gain(now) * staleness_.gain()", "start_.gain(now)", ARM),
-    ("arm_safety.cpp", "++counts_.outside;\n    gain = 0.0;", "++counts_.outside;", ARM),
-    ("arm_safety.cpp", "++counts_.too_fast;\n    gain = 0.0;", "++counts_.too_fast;", ARM),
-    ("arm_safety.cpp", "    slew_.drop();\n", "", ARM),
+     ""),
+    ("stand_safety.cpp", "if (wanted.act == Motion::Act::down && z <= rules_.low) return none;", ""),
+    ("stand_safety.cpp", "if (wanted.act == Motion::Act::up && z >= rules_.high) return none;", ""),
+    ("stand_safety.cpp", "std::min(wanted.speed, rules_.fastest)", "wanted.speed"),
+    ("arm_safety.cpp", "good && !jump_.takes(now, sample.position)", "false"),
+    ("arm_safety.cpp", "sample.fault == Fault::brake ||", ""),
+    ("arm_safety.cpp", "sample.fault == Fault::stalled ||", ""),
+    ("arm_safety.cpp", "sample.fault == Fault::unstable)", "false)"),
+    ("arm_safety.cpp", "if (staleness_.state() == Staleness::State::lost) arming_.trip(Trip::link_lost);", ""),
+    ("arm_safety.cpp", "if (!arming_.armed() || !any_) return 0.0;", ""),
+    ("arm_safety.cpp", "start_.gain(now) * staleness_.gain()", "staleness_.gain()"),
+    ("arm_safety.cpp", "start_.gain(now) * staleness_.gain()", "start_.gain(now)"),
+    ("arm_safety.cpp", "++counts_.outside;\n    gain = 0.0;", "++counts_.outside;"),
+    ("arm_safety.cpp", "++counts_.too_fast;\n    gain = 0.0;", "++counts_.too_fast;"),
+    ("arm_safety.cpp", "    slew_.drop();\n", ""),
     ("arm_safety.cpp", "share * clamped_norm(finite_or_zero(wanted), rules_.force)",
-     "share * finite_or_zero(wanted)", ARM),
-    ("arm_safety.cpp", "force = clamped_norm(finite_or_zero(force), rules_.force);", "", ARM),
-    ("arm_safety.cpp", "slew_.step(force, dt, rate)", "force", ARM),
+     "share * finite_or_zero(wanted)"),
+    ("arm_safety.cpp", "force = clamped_norm(finite_or_zero(force), rules_.force);", ""),
+    ("arm_safety.cpp", "slew_.step(force, dt, rate)", "force"),
     ("arm_safety.cpp", "falls ? std::max(rules_.slew, rules_.force / rules_.stale.fall) : rules_.slew",
-     "rules_.slew", ARM),
-    ("passivity.cpp", "energy_ -= force.dot(position - last_);", "", ARM),
-    ("passivity.cpp", "std::min(most_, -observer.energy() / power)", "-observer.energy() / power", ARM),
-    ("stop_guard.cpp", "  write_packed(file, closing_bytes.load());\n", "", GUARD),
-    ("stop_guard.cpp", "  write_packed(file, stop_bytes.load());\n", "", GUARD),
-    ("stop_guard.cpp", "if (errno == EAGAIN) ::tcflush(file, TCOFLUSH);", "", GUARD),
-    ("stop_guard.cpp", "  static const int registered = std::atexit(send_stop);\n  (void)registered;\n", "",
-     GUARD),
-    ("stop_guard.cpp", "  send_stop();\n  stop_file = watched", "  stop_file = watched", GUARD),
-    ("stop_guard.cpp", "|| info->si_pid == watched_child", "", GUARD),
-    ("stop_guard.cpp", "SA_SIGINFO | SA_RESTART | SA_ONSTACK", "SA_SIGINFO | SA_RESTART", GUARD),
-    ("stop_guard.cpp", "return signal == SIGTSTP ||", "return", GUARD),
-    ("guard_process.cpp", "now - heard > GuardProcess::silence && stops.due(now)", "false", PROCESS),
+     "rules_.slew"),
+    ("passivity.cpp", "energy_ -= force.dot(position - last_);", ""),
+    ("passivity.cpp", "std::min(most_, -observer.energy() / power)", "-observer.energy() / power"),
+    ("stop_guard.cpp", "  write_packed(file, closing_bytes.load());\n", ""),
+    ("stop_guard.cpp", "  write_packed(file, stop_bytes.load());\n", ""),
+    ("stop_guard.cpp", "if (errno == EAGAIN) ::tcflush(file, TCOFLUSH);", ""),
+    ("stop_guard.cpp", "  static const int registered = std::atexit(send_stop);\n  (void)registered;\n", ""),
+    ("stop_guard.cpp", "  send_stop();\n  stop_file = watched", "  stop_file = watched"),
+    ("stop_guard.cpp", "|| info->si_pid == watched_child", ""),
+    ("stop_guard.cpp", "SA_SIGINFO | SA_RESTART | SA_ONSTACK", "SA_SIGINFO | SA_RESTART"),
+    ("stop_guard.cpp", "return signal == SIGTSTP ||", "return"),
+    ("guard_process.cpp", "now - heard > GuardProcess::silence && stops.due(now)", "false"),
     ("guard_process.cpp", "  for (stops = Stops(line); !stops.over(); ::poll(nullptr, 0, look_time))\n"
-     "    if (const double now = wire_time(); stops.due(now)) stops.send(now);\n", "", PROCESS),
-    ("guard_process.cpp", "  ::sigfillset(&all);\n", "  ::sigemptyset(&all);\n", PROCESS),
+     "    if (const double now = wire_time(); stops.due(now)) stops.send(now);\n", ""),
+    ("guard_process.cpp", "  ::sigfillset(&all);\n", "  ::sigemptyset(&all);\n"),
 ]
 
 
-def outcome(build, program):
+def outcome(build):
     """`kept` if the test program fails, `broken` if it passes, `idle` if it cannot be built."""
     # A warning about what a mutation leaves unused is no test of it.
-    made = subprocess.run(["cmake", "--build", build, "--target", program, "--", "--quiet"],
+    made = subprocess.run(["cmake", "--build", build, "--target", PROGRAM, "--", "--quiet"],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if made.returncode != 0:
         return "idle"
     try:
-        ended = subprocess.run([os.path.join(build, program)], stdout=subprocess.DEVNULL,
+        ended = subprocess.run([os.path.join(build, PROGRAM)], stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL, timeout=120)
     except subprocess.TimeoutExpired:
         return "kept"
@@ -111,7 +107,7 @@ def main():
     parser.add_argument("--only", default="")
     options = parser.parse_args()
     counts = {"kept": 0, "broken": 0, "idle": 0}
-    for file, old, new, program in MUTATIONS:
+    for file, old, new in MUTATIONS:
         if options.only not in file:
             continue
         path = os.path.join(SOURCE, file)
@@ -120,7 +116,7 @@ def main():
             sys.exit("%s has no line `%s`; put the mutation right" % (file, old))
         try:
             open(path, "w").write(text.replace(old, new, 1))
-            result = outcome(options.build, program)
+            result = outcome(options.build)
         finally:
             open(path, "w").write(text)
         counts[result] += 1

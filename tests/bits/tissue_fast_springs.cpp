@@ -26,7 +26,7 @@ using tissue::ViscousLaw;
 
 enum class Coupling { none, own_volume, nodal_volume, six, six_and_nodal };
 
-geometry::TetMesh block() { return test::jittered_block({2, 3, 3}); }
+geometry::TetMesh small_block() { return test::jittered_block({2, 3, 3}); }
 
 tissue::Network network_of(const geometry::TetMesh& mesh, Coupling coupling) {
   const std::vector<tissue::Isotropic> tissues{{15e3, 0.45}};
@@ -102,7 +102,7 @@ class FastSpringsAre : public testing::TestWithParam<Choice> {};
 
 TEST_P(FastSpringsAre, the_plain_loops_to_the_bit) {
   const auto& [kinematics, kind, coupling, lanes] = GetParam();
-  const geometry::TetMesh mesh = block();
+  const geometry::TetMesh mesh = small_block();
   const tissue::Network network = network_of(mesh, coupling);
   ASSERT_NE(network.ends.size() % 4, 0U);  // the last group is not full
   const ViscousLaw law = law_of(kind);
@@ -154,7 +154,7 @@ TEST_P(FastSpringsAre, the_plain_loops_to_the_bit) {
 
 // Dashpots by velocities: linear springs along directions that have turned.
 TEST(FastSprings, TurnAsThePlainLoopsDo) {
-  const geometry::TetMesh mesh = block();
+  const geometry::TetMesh mesh = small_block();
   Dice dice(17);
   for (const Kinematics kinematics : {Kinematics::nonlinear, Kinematics::squared})
     for (const Lanes lanes : {Lanes::portable, Lanes::widest}) {

@@ -18,7 +18,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using std::numbers::pi;
 
 constexpr double radius = 0.011;        // m
 constexpr double relaxed = 5e3 / 0.75;  // E_inf / (1 - nu^2), Pa
@@ -57,8 +56,8 @@ const std::vector<Press>& presses() {
        0.5,
        {0.0, 0.5, 1.0}},
       {"half a sine",
-       [](double t) { return deepest * std::sin(pi * t); },
-       [](double t) { return deepest * pi * std::cos(pi * t); },
+       [](double t) { return deepest * std::sin(std::numbers::pi * t); },
+       [](double t) { return deepest * std::numbers::pi * std::cos(std::numbers::pi * t); },
        0.5,
        {0.0, 1.0}}};
   return all;
@@ -222,7 +221,7 @@ Elliptic elliptic(double m) {
     part *= 2.0;
     sum += part * c * c;
   }
-  const double K = 0.5 * pi / a;
+  const double K = 0.5 * std::numbers::pi / a;
   return {.K = K, .E = K * (1.0 - sum)};
 }
 
@@ -230,10 +229,10 @@ Elliptic elliptic(double m) {
 // (Johnson 1985, section 3.4).
 double under_disc(double a, double r) {
   if (a == 0.0) return 0.0;
-  if (r <= a) return 4.0 * a / pi * elliptic(r * r / (a * a)).E;
+  if (r <= a) return 4.0 * a / std::numbers::pi * elliptic(r * r / (a * a)).E;
   const double m = a * a / (r * r);
   const auto [K, E] = elliptic(m);
-  return 4.0 * r / pi * (E - (1.0 - m) * K);
+  return 4.0 * r / std::numbers::pi * (E - (1.0 - m) * K);
 }
 
 // A viscoelastic half-space in annuli of constant pressure, A p = u + tau u' + sum_k U_k: in each
@@ -251,7 +250,7 @@ class HalfSpace {
     const auto edge = [&](int i) { return outer * i / annuli; };
     for (int i = 0; i < annuli; ++i) {
       r_[i] = 0.5 * (edge(i) + edge(i + 1));
-      area_[i] = pi * (edge(i + 1) * edge(i + 1) - edge(i) * edge(i));
+      area_[i] = std::numbers::pi * (edge(i + 1) * edge(i + 1) - edge(i) * edge(i));
       for (int j = 0; j < annuli; ++j)
         A_(i, j) = under_disc(edge(j + 1), r_[i]) - under_disc(edge(j), r_[i]);
     }

@@ -14,14 +14,14 @@ using test::Played;
 using test::ScratchFile;
 using test::Session;
 
-struct Fault {
+struct LateFault {
   const char* name;
   std::string lines;  // of the script, without `at`
   int code;           // of the session
   int without;        // frames without a new sample that the fault causes; -1: until the end
 };
 
-std::string name_of(const testing::TestParamInfo<Fault>& info) { return info.param.name; }
+std::string late_name(const testing::TestParamInfo<LateFault>& info) { return info.param.name; }
 
 // The last state is the end of the session, whatever came before; a good one has no trip.
 void expect_states(const Played& played) {
@@ -43,12 +43,12 @@ int without(const Played& played) {
   return sum;
 }
 
-class LateArm : public testing::TestWithParam<Fault> {};
+class LateArm : public testing::TestWithParam<LateFault> {};
 
 // A message takes 1 ms of both clocks, so that the longest time without a sample is exact: from the
 // last message that was answered well to the next one, or to the end.
 TEST_P(LateArm, IsWhatTheEmulatorDid) {
-  const Fault& fault = GetParam();
+  const LateFault& fault = GetParam();
   const ScratchFile file("[[fault]]\nat = \"0.9 s\"\n" + fault.lines);
   const Played played(
       Session{.link = "inverse3", .scenario = "device_arm", .emulator = {"--fault", file.path()}});
@@ -73,20 +73,20 @@ TEST_P(LateArm, IsWhatTheEmulatorDid) {
 
 INSTANTIATE_TEST_SUITE_P(
     Inverse3, LateArm,
-    testing::Values(Fault{"Invalid", "kind = \"invalid_json\"\nreplies = 2\n", 0, 2},
-                    Fault{"Partial", "kind = \"partial\"\nreplies = 5\n", 0, 5},
-                    Fault{"Missing", "kind = \"missing_field\"\nreplies = 20\n", 0, 20},
-                    Fault{"Binary", "kind = \"binary\"\nreplies = 60\n", 0, 60},
-                    Fault{"Frozen", "kind = \"freeze\"\n", 6, -1},
-                    Fault{"OtherDevice", "kind = \"id_change\"\n", 6, -1}),
-    name_of);
+    testing::Values(LateFault{"Invalid", "kind = \"invalid_json\"\nreplies = 2\n", 0, 2},
+                    LateFault{"Partial", "kind = \"partial\"\nreplies = 5\n", 0, 5},
+                    LateFault{"Missing", "kind = \"missing_field\"\nreplies = 20\n", 0, 20},
+                    LateFault{"Binary", "kind = \"binary\"\nreplies = 60\n", 0, 60},
+                    LateFault{"Frozen", "kind = \"freeze\"\n", 6, -1},
+                    LateFault{"OtherDevice", "kind = \"id_change\"\n", 6, -1}),
+    late_name);
 
-class LateStand : public testing::TestWithParam<Fault> {};
+class LateStand : public testing::TestWithParam<LateFault> {};
 
 // Each request that got no reply cost a reading; a late reply is that of the request before. Of
 // three lost replies one is that to a status.
 TEST_P(LateStand, IsWhatTheEmulatorDid) {
-  const Fault& fault = GetParam();
+  const LateFault& fault = GetParam();
   const ScratchFile file("[[fault]]\nat = \"1.2 s\"\n" + fault.lines);
   const Played played(Session{.emulator = {"--fault", file.path()}});
   ASSERT_EQ(played.ended.code, fault.code) << played.ended.err;
@@ -124,11 +124,11 @@ TEST_P(LateStand, IsWhatTheEmulatorDid) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mark10, LateStand,
-    testing::Values(Fault{"Lost", "kind = \"drop\"\n", 0, 1},
-                    Fault{"LostThrice", "kind = \"drop\"\nreplies = 3\n", 0, 2},
-                    Fault{"Stall", "kind = \"stall\"\nduration = \"70 ms\"\n", 0, -1},
-                    Fault{"Unplugged", "kind = \"unplug\"\n", 6, -1}),
-    name_of);
+    testing::Values(LateFault{"Lost", "kind = \"drop\"\n", 0, 1},
+                    LateFault{"LostThrice", "kind = \"drop\"\nreplies = 3\n", 0, 2},
+                    LateFault{"Stall", "kind = \"stall\"\nduration = \"70 ms\"\n", 0, -1},
+                    LateFault{"Unplugged", "kind = \"unplug\"\n", 6, -1}),
+    late_name);
 
 // Replies that a stall holds back for longer than palpate waits are those of their own requests.
 TEST(LateStand, ChargesLateRepliesToTheirOwnRequests) {

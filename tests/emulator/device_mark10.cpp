@@ -30,7 +30,7 @@ using test::has;
 using test::LiveEmulator;
 using test::ScratchFile;
 
-std::string refusal(const std::string& link) {
+std::string stand_refusal(const std::string& link) {
   Clock clock(Clock::Kind::monotonic);
   return test::refusal<LinkError>([&] { const Link opened(link, Purpose::look, clock); });
 }
@@ -154,12 +154,12 @@ TEST(Mark10Link, IsHeldByOneProgram) {
   const LiveEmulator emulator({"mark10", "--clock", "virtual"});
   Clock clock(Clock::Kind::monotonic);
   const Mark10 first(emulator.port(), Purpose::look, clock);
-  EXPECT_TRUE(has(refusal("mark10:" + emulator.port()), "is held by another palpate"));
+  EXPECT_TRUE(has(stand_refusal("mark10:" + emulator.port()), "is held by another palpate"));
 }
 
 TEST(Mark10Link, TellsWhyItCannotBeOpened) {
-  EXPECT_TRUE(has(refusal("mark10:/dev/no-such-port"), "is not there"));
-  EXPECT_TRUE(has(refusal("mark10:/dev/null"), "is no serial line"));
+  EXPECT_TRUE(has(stand_refusal("mark10:/dev/no-such-port"), "is not there"));
+  EXPECT_TRUE(has(stand_refusal("mark10:/dev/null"), "is no serial line"));
 }
 
 // Something that talks without being asked.
@@ -190,9 +190,11 @@ class Babbler {
 
 TEST(Mark10Link, TellsOtherTalkFromAStands) {
   const Babbler noise("\xf8\x80\x9e\xfe\xe0");
-  EXPECT_TRUE(has(refusal("mark10:" + noise.port()), "garbage answers, as at a wrong baud rate"));
+  EXPECT_TRUE(
+      has(stand_refusal("mark10:" + noise.port()), "garbage answers, as at a wrong baud rate"));
   const Babbler modem("OK, ready\r\n");
-  EXPECT_TRUE(has(refusal("mark10:" + modem.port()), "in words that are no reading (`OK, ready"));
+  EXPECT_TRUE(
+      has(stand_refusal("mark10:" + modem.port()), "in words that are no reading (`OK, ready"));
 }
 
 // At a wrong rate the stand does not understand us, so that it keeps silent.
@@ -201,7 +203,7 @@ TEST(Mark10Link, NamesTheRateWhereNothingAnswers) {
     const ScratchFile script("[[fault]]\nat = \"0 s\"\nkind = \"" + std::string(kind) +
                              "\"\nduration = \"600 s\"\n");
     const LiveEmulator emulator({"mark10", "--clock", "virtual", "--fault", script.path()});
-    return refusal("mark10:" + emulator.port());
+    return stand_refusal("mark10:" + emulator.port());
   };
   for (const char* kind : {"wrong_baud", "deaf"})
     EXPECT_TRUE(has(refused_with(kind), "and the rate to 115200 baud")) << kind;

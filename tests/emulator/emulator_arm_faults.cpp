@@ -12,8 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-Fault fault(const std::string& kind, std::int64_t after, std::optional<Nanoseconds> duration = {},
-            double value = 0.0) {
+Fault arm_fault(const std::string& kind, std::int64_t after,
+                std::optional<Nanoseconds> duration = {}, double value = 0.0) {
   for (const FaultKind& known : arm_faults())
     if (known.name == kind)
       return {.kind = kind,
@@ -28,9 +28,9 @@ Fault fault(const std::string& kind, std::int64_t after, std::optional<Nanosecon
 const std::string push = R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":
     {"vector":{"x":0,"y":0,"z":2.0}}}}]})";
 
-class Client {
+class FaultyArm {
  public:
-  explicit Client(const Fault& fault) : arm(settings(fault), log_) {}
+  explicit FaultyArm(const Fault& fault) : arm(settings(fault), log_) {}
   Answer say() { return arm.answer(push); }
   std::string text() { return one(say()); }
   json device() { return json::parse(text())["inverse3"][0]; }
@@ -52,7 +52,7 @@ class Client {
   Arm arm;
 };
 
-bool sound(const std::string& text) {
+bool is_sound(const std::string& text) {
   const json message = json::parse(text, nullptr, false);
   return message.is_object() && message["inverse3"].size() == 1 &&
          message["inverse3"][0]["device_id"] == "049D" &&
@@ -92,21 +92,21 @@ TEST(EmulatorArmFaults, SpoilOneReply) {
        }},
   };
   for (const auto& [kind, spoilt] : rows) {
-    Client client(fault(kind, 1));
-    EXPECT_TRUE(sound(client.text())) << kind;
+    FaultyArm client(arm_fault(kind, 1));
+    EXPECT_TRUE(is_sound(client.text())) << kind;
     EXPECT_TRUE(spoilt(client.text())) << kind;
     const std::string after = client.text();
-    EXPECT_TRUE(sound(after)) << kind;
+    EXPECT_TRUE(is_sound(after)) << kind;
     EXPECT_FALSE(spoilt(after)) << kind;
   }
 }
 
 TEST(EmulatorArmFaults, OfEventsSayWhatTheirNamesSay) {
   const auto said = [](const char* kind) {
-    Client client(fault(kind, 1, 2'000'000));
-    EXPECT_TRUE(sound(client.text())) << kind;
+    FaultyArm client(arm_fault(kind, 1, 2'000'000));
+    EXPECT_TRUE(is_sound(client.text())) << kind;
     EXPECT_TRUE(client.arm.take_events().empty()) << kind << ": before its time";
-    for (int i = 0; i < 4; ++i) EXPECT_TRUE(sound(client.text())) << kind << ": the arm goes on";
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(is_sound(client.text())) << kind << ": the arm goes on";
     return client.arm.take_events();
   };
   const auto only = [&](const char* kind) {
@@ -134,7 +134,7 @@ TEST(EmulatorArmFaults, OfEventsSayWhatTheirNamesSay) {
   ASSERT_EQ(brake.size(), 2U);
   EXPECT_EQ(json::parse(brake[0])["data"]["safety_type"], "ebrake_triggered");
   EXPECT_EQ(json::parse(brake[1])["data"]["safety_type"], "ebrake_released");
-  Client close(fault("events_close", 0));
+  FaultyArm close(arm_fault("events_close", 0));
   close.say();
   EXPECT_TRUE(close.arm.take_events_end());
   EXPECT_FALSE(close.arm.take_events_end()) << "once";
@@ -144,34 +144,34 @@ TEST(EmulatorArmFaults, MayComeTogether) {
   ArmSettings settings;
   settings.clock = Clock::lockstep;
   for (const FaultKind& kind : arm_faults())
-    if (kind.life == Life::replies) settings.faults.push_back(fault(std::string(kind.name), 0));
+    if (kind.life == Life::replies) settings.faults.push_back(arm_fault(std::string(kind.name), 0));
   Log log("", "");
   Arm arm(settings, log);
   for (int i = 0; i < 10; ++i) EXPECT_LE(arm.answer(push).messages.size(), 3U);
-  EXPECT_TRUE(sound(Client::one(arm.answer(push))));
+  EXPECT_TRUE(is_sound(FaultyArm::one(arm.answer(push))));
 }
 
 TEST(EmulatorArmFaults, BinaryIsTheSameInAnotherKindOfMessage) {
-  Client client(fault("binary", 1));
+  FaultyArm client(arm_fault("binary", 1));
   EXPECT_FALSE(client.say().messages.at(0).binary);
   const Answer odd = client.say();
   EXPECT_TRUE(odd.messages.at(0).binary);
-  EXPECT_TRUE(sound(odd.messages.at(0).text));
+  EXPECT_TRUE(is_sound(odd.messages.at(0).text));
   EXPECT_FALSE(client.say().messages.at(0).binary);
 }
 
 TEST(EmulatorArmFaults, RepliesAreLostDoubledAndReordered) {
-  Client drop(fault("drop", 1));
+  FaultyArm drop(arm_fault("drop", 1));
   EXPECT_EQ(drop.say().messages.size(), 1U);
   EXPECT_EQ(drop.say().messages.size(), 0U);
   EXPECT_EQ(drop.say().messages.size(), 1U);
-  Client duplicate(fault("duplicate", 1));
+  FaultyArm duplicate(arm_fault("duplicate", 1));
   duplicate.say();
   const Answer twice = duplicate.say();
   ASSERT_EQ(twice.messages.size(), 2U);
   EXPECT_EQ(twice.messages[0].text, twice.messages[1].text);
-  Client reorder(fault("reorder", 1));
-  Client plain(fault("reorder", 100));
+  FaultyArm reorder(arm_fault("reorder", 1));
+  FaultyArm plain(arm_fault("reorder", 100));
   reorder.say();
   plain.say();
   const std::string second = plain.text();
@@ -185,7 +185,7 @@ TEST(EmulatorArmFaults, RepliesAreLostDoubledAndReordered) {
 }
 
 TEST(EmulatorArmFaults, LateTakesItsTime) {
-  Client client(fault("late", 1, {}, 0.03));
+  FaultyArm client(arm_fault("late", 1, {}, 0.03));
   client.say();
   const Answer late = client.say();
   EXPECT_EQ(late.messages.at(0).delay, 30'000'000);
@@ -199,21 +199,21 @@ TEST(EmulatorArmFaults, ConnectionsEnd) {
                                               {"close_1011", Act::close_error},
                                               {"reset", Act::restart}};
   for (const auto& [kind, act] : rows) {
-    Client client(fault(kind, 1));
+    FaultyArm client(arm_fault(kind, 1));
     EXPECT_EQ(client.say().act, Act::none) << kind;
     const Answer end = client.say();
     EXPECT_EQ(end.act, act) << kind;
     EXPECT_TRUE(end.messages.empty()) << kind;
     EXPECT_EQ(client.say().act, Act::none) << kind;
   }
-  Client client(fault("reset", 0));
+  FaultyArm client(arm_fault("reset", 0));
   const int before = json::parse(client.arm.greet().text)["session_id"];
   client.say();
   EXPECT_NE(json::parse(client.arm.greet().text)["session_id"], before);
 }
 
 TEST(EmulatorArmFaults, HalfOpenIsSilent) {
-  Client client(fault("half_open", 1));
+  FaultyArm client(arm_fault("half_open", 1));
   client.say();
   EXPECT_FALSE(client.arm.silent());
   EXPECT_TRUE(client.say().messages.empty());
@@ -221,12 +221,12 @@ TEST(EmulatorArmFaults, HalfOpenIsSilent) {
 }
 
 TEST(EmulatorArmFaults, DevicesChange) {
-  Client id(fault("id_change", 1, 2'000'000));
+  FaultyArm id(arm_fault("id_change", 1, 2'000'000));
   EXPECT_EQ(id.device()["device_id"], "049D");
   EXPECT_EQ(id.device()["device_id"], "0BAD");
   id.say();
   EXPECT_EQ(id.device()["device_id"], "049D");
-  Client second(fault("second_device", 1));
+  FaultyArm second(arm_fault("second_device", 1));
   EXPECT_EQ(json::parse(second.text())["inverse3"].size(), 1U);
   const json two = json::parse(second.text())["inverse3"];
   ASSERT_EQ(two.size(), 2U);
@@ -235,12 +235,12 @@ TEST(EmulatorArmFaults, DevicesChange) {
 }
 
 TEST(EmulatorArmFaults, ThePositionLies) {
-  Client jump(fault("jump", 1, {}, 0.05));
+  FaultyArm jump(arm_fault("jump", 1, {}, 0.05));
   const double before = jump.device()["state"]["cursor_position"]["z"];
   const double told = jump.device()["state"]["cursor_position"]["z"];
   EXPECT_NEAR(told - before, 0.05, 1e-4);  // and a millisecond's way
   EXPECT_NEAR(told - 0.05, jump.arm.hand().position[2], 1e-15) << "the hand itself does not jump";
-  Client freeze(fault("freeze", 1, 5'000'000));
+  FaultyArm freeze(arm_fault("freeze", 1, 5'000'000));
   const json first = freeze.device()["state"];
   EXPECT_EQ(freeze.device()["state"], first);
   EXPECT_EQ(freeze.device()["state"], first);
@@ -249,7 +249,7 @@ TEST(EmulatorArmFaults, ThePositionLies) {
 }
 
 TEST(EmulatorArmFaults, TheBrakeHoldsAndIsReported) {
-  Client client(fault("brake", 3, 5'000'000));
+  FaultyArm client(arm_fault("brake", 3, 5'000'000));
   for (int i = 0; i < 3; ++i) client.say();
   EXPECT_TRUE(client.arm.take_events().empty());
   const double z = client.arm.hand().position[2];
@@ -270,7 +270,7 @@ TEST(EmulatorArmFaults, TheBrakeHoldsAndIsReported) {
 }
 
 TEST(EmulatorArmFaults, NotReadyTakesNoForce) {
-  Client client(fault("not_ready", 1, 3'000'000));
+  FaultyArm client(arm_fault("not_ready", 1, 3'000'000));
   EXPECT_EQ(client.device()["status"]["ready"], true);
   const json device = client.device();
   EXPECT_EQ(device["status"]["ready"], false);
@@ -281,13 +281,13 @@ TEST(EmulatorArmFaults, NotReadyTakesNoForce) {
 }
 
 TEST(EmulatorArmFaults, BeginAtTheirTime) {
-  Fault timed = fault("empty", 0);
+  Fault timed = arm_fault("empty", 0);
   timed.after_messages.reset();
   timed.at = 4'500'000;
-  Client client(timed);
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE(sound(client.text()));
+  FaultyArm client(timed);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(is_sound(client.text()));
   EXPECT_EQ(client.text(), "{}");
-  EXPECT_TRUE(sound(client.text()));
+  EXPECT_TRUE(is_sound(client.text()));
 }
 
 }  // namespace

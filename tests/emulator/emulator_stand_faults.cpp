@@ -18,7 +18,8 @@ constexpr Nanoseconds ms = 1'000'000;
 using test::Conversation;
 using test::quiet;
 
-Fault fault(const std::string& kind, std::int64_t after, std::optional<Nanoseconds> duration = {}) {
+Fault stand_fault(const std::string& kind, std::int64_t after,
+                  std::optional<Nanoseconds> duration = {}) {
   for (const FaultKind& known : stand_faults())
     if (known.name == kind)
       return {.kind = kind, .life = known.life, .after_messages = after, .duration = duration};
@@ -43,7 +44,7 @@ TEST(EmulatorStandFaults, SpoilOneReply) {
       {"swap", "0.00 mm\r\n0.000 N\r\n"},
   };
   for (const auto& [kind, reply] : rows) {
-    Conversation stand(quiet({fault(kind, 1)}));
+    Conversation stand(quiet({stand_fault(kind, 1)}));
     EXPECT_EQ(stand.say("n"), sound) << kind;
     EXPECT_EQ(stand.say("n"), reply) << kind;
     EXPECT_EQ(stand.say("n"), sound) << kind;
@@ -51,25 +52,25 @@ TEST(EmulatorStandFaults, SpoilOneReply) {
 }
 
 TEST(EmulatorStandFaults, SpoilAsManyRepliesAsAsked) {
-  Fault drop = fault("drop", 1);
+  Fault drop = stand_fault("drop", 1);
   drop.replies = 3;
   Conversation stand(quiet({drop}));
   EXPECT_EQ(stand.say("nnnnn"), sound + sound);
 }
 
 TEST(EmulatorStandFaults, GarbageAndNulKeepTheLength) {
-  Conversation garbage(quiet({fault("garbage", 0)}));
+  Conversation garbage(quiet({stand_fault("garbage", 0)}));
   const std::string heard = garbage.say("n");
   EXPECT_EQ(heard.size(), sound.size());
   EXPECT_TRUE(std::all_of(heard.begin(), heard.end(), [](char c) { return (c & 0x80) != 0; }));
-  Conversation nul(quiet({fault("nul", 0)}));
+  Conversation nul(quiet({stand_fault("nul", 0)}));
   const std::string wide = nul.say("n");
   EXPECT_EQ(wide.size(), 2 * sound.size());
   EXPECT_EQ(wide[1], '\0');
 }
 
 TEST(EmulatorStandFaults, StallHoldsWhatIsDueAndMovesOn) {
-  Conversation stand(quiet({fault("stall", 1, 90 * ms)}));
+  Conversation stand(quiet({stand_fault("stall", 1, 90 * ms)}));
   stand.say("e0600.0d");
   EXPECT_FALSE(stand.say("n").empty());
   const double before = stand->stand().crosshead.position;
@@ -80,11 +81,11 @@ TEST(EmulatorStandFaults, StallHoldsWhatIsDueAndMovesOn) {
 }
 
 TEST(EmulatorStandFaults, DeafAndRunawayDoNotStop) {
-  Conversation deaf(quiet({fault("deaf", 1, 50 * ms)}));
+  Conversation deaf(quiet({stand_fault("deaf", 1, 50 * ms)}));
   deaf.say("e0600.0dn");
   EXPECT_EQ(deaf.say("sp"), "");
   EXPECT_TRUE(moves(deaf->stand().crosshead));
-  Conversation runaway(quiet({fault("runaway", 1, 200 * ms)}));
+  Conversation runaway(quiet({stand_fault("runaway", 1, 200 * ms)}));
   runaway.say("e0600.0dn");
   runaway.say("snnnnn");  // 100 ms, twice what braking takes
   EXPECT_EQ(runaway.say("p"), "DM\r\n");
@@ -94,13 +95,13 @@ TEST(EmulatorStandFaults, DeafAndRunawayDoNotStop) {
 }
 
 TEST(EmulatorStandFaults, EchoComesFirst) {
-  Conversation stand(quiet({fault("echo", 0, 60 * ms)}));
+  Conversation stand(quiet({stand_fault("echo", 0, 60 * ms)}));
   EXPECT_EQ(stand.say("x"), "x0.00 mm\r\n");
   EXPECT_EQ(stand.say("ix"), "ix0.00 mm\r\n");
 }
 
 TEST(EmulatorStandFaults, WrongBaudIsNoiseBothWays) {
-  Conversation stand(quiet({fault("wrong_baud", 1, 50 * ms)}));
+  Conversation stand(quiet({stand_fault("wrong_baud", 1, 50 * ms)}));
   stand.say("e0600.0dn");
   EXPECT_EQ(stand.say("s"), "");
   EXPECT_TRUE(moves(stand->stand().crosshead)) << "`s` was not understood";
@@ -110,19 +111,19 @@ TEST(EmulatorStandFaults, WrongBaudIsNoiseBothWays) {
 }
 
 TEST(EmulatorStandFaults, UnitsChangeByThemselves) {
-  Conversation force(quiet({fault("unit_change", 1)}));
+  Conversation force(quiet({stand_fault("unit_change", 1)}));
   EXPECT_EQ(force.say("n"), sound);
   EXPECT_EQ(force.say("x").size(), 9U);
   EXPECT_EQ(force.say("n"), "0.0000 lbF\r\n0.00 mm\r\n");
   EXPECT_NE(force.say("/LIST\r").find(";LBF;"), std::string::npos);
-  Conversation travel(quiet({fault("travel_unit_change", 1)}));
+  Conversation travel(quiet({stand_fault("travel_unit_change", 1)}));
   EXPECT_EQ(travel.say("n"), sound);
   travel.say("x");
   EXPECT_EQ(travel.say("n"), "0.000 N\r\n0.000 in\r\n");
 }
 
 TEST(EmulatorStandFaults, TheGaugeLies) {
-  Mark10Settings settings = quiet({fault("sign_flip", 6), fault("spike", 12, 50 * ms)});
+  Mark10Settings settings = quiet({stand_fault("sign_flip", 6), stand_fault("spike", 12, 50 * ms)});
   settings.faults[1].value = 5.0;
   settings.stand.tissue = {.E0 = 40e3, .E_inf = 40e3, .tau = 1.0, .R = 10e-3, .surface = 0.0};
   Conversation stand(settings);
@@ -140,7 +141,7 @@ TEST(EmulatorStandFaults, TheGaugeLies) {
 }
 
 TEST(EmulatorStandFaults, FreezeRepeatsWhatWas) {
-  Conversation stand(quiet({fault("freeze", 1, 100 * ms)}));
+  Conversation stand(quiet({stand_fault("freeze", 1, 100 * ms)}));
   stand.say("e0600.0dn");
   stand.say("n");
   const std::string first = stand.say("n");
@@ -151,7 +152,7 @@ TEST(EmulatorStandFaults, FreezeRepeatsWhatWas) {
 }
 
 TEST(EmulatorStandFaults, OverloadStopsAndSaysSo) {
-  Conversation stand(quiet({fault("overload", 1, 60 * ms)}));
+  Conversation stand(quiet({stand_fault("overload", 1, 60 * ms)}));
   stand.say("e0600.0dn");
   stand.say("x");
   EXPECT_EQ(stand.say("n").substr(0, 10), "OVERLOAD\r\n");
@@ -161,7 +162,7 @@ TEST(EmulatorStandFaults, OverloadStopsAndSaysSo) {
 }
 
 TEST(EmulatorStandFaults, TheSwitchStopsAtOnce) {
-  Conversation stand(quiet({fault("limit_switch", 3)}));
+  Conversation stand(quiet({stand_fault("limit_switch", 3)}));
   EXPECT_EQ(stand.say("e0600.0dp"), "DM\r\n");
   stand.say("xx");
   stand.say("i");
@@ -173,7 +174,7 @@ TEST(EmulatorStandFaults, TheSwitchStopsAtOnce) {
 }
 
 TEST(EmulatorStandFaults, ResetForgetsSettings) {
-  Conversation stand(quiet({fault("reset", 4)}));
+  Conversation stand(quiet({stand_fault("reset", 4)}));
   stand.say("lg-002.00e0600.0d/LB\r\\");
   stand.say("nnn");
   const double where = stand->stand().crosshead.position;
@@ -186,19 +187,19 @@ TEST(EmulatorStandFaults, ResetForgetsSettings) {
 }
 
 TEST(EmulatorStandFaults, SlowTakesTenTimesTheLine) {
-  Conversation stand(quiet({fault("slow", 0, 100 * ms)}));
+  Conversation stand(quiet({stand_fault("slow", 0, 100 * ms)}));
   EXPECT_EQ(stand->byte_time(), 86806);
   stand.say("i");
   EXPECT_EQ(stand->byte_time(), 868060);
 }
 
 TEST(EmulatorStandFaults, UnplugEndsTheLine) {
-  Conversation stand(quiet({fault("unplug", 1)}));
+  Conversation stand(quiet({stand_fault("unplug", 1)}));
   stand.say("n");
   EXPECT_EQ(stand.say("n"), "");
   EXPECT_TRUE(stand->unplugged());
   EXPECT_FALSE(stand->plugged_again_at());
-  Conversation again(quiet({fault("unplug", 1, 500 * ms)}));
+  Conversation again(quiet({stand_fault("unplug", 1, 500 * ms)}));
   again.say("nn");
   EXPECT_TRUE(again->plugged_again_at());
   again->plug_in();
@@ -206,7 +207,7 @@ TEST(EmulatorStandFaults, UnplugEndsTheLine) {
 }
 
 TEST(EmulatorStandFaults, BeginAtTheirTime) {
-  Fault timed = fault("unit_change", 0);
+  Fault timed = stand_fault("unit_change", 0);
   timed.after_messages.reset();
   timed.at = 50 * ms;
   Conversation stand(quiet({timed}));

@@ -8,7 +8,7 @@
 namespace emulator {
 namespace {
 
-constexpr double dt = 1.0 / 7000.0;  // s, the stand's step
+constexpr double stand_step = 1.0 / 7000.0;  // s, the stand's step
 const TissueSettings skin{.E0 = 40e3, .E_inf = 10e3, .tau = 0.3, .nu = 0.45, .R = 6e-3};
 
 // F = C int_0^t E(t - s) 3/2 v^(3/2) s^(1/2) ds by Simpson; s = u^2 takes the root away.
@@ -35,15 +35,15 @@ double stepped_ramp(double speed, double t, double step) {
 }
 
 TEST(EmulatorTissue, HoldsAsItsModulusRelaxes) {
-  Tissue tissue = make_tissue(skin, dt);
+  Tissue tissue = make_tissue(skin, stand_step);
   const double depth = 1.5e-3;
   press(tissue, depth);
   for (int i = 1; i <= 7000; ++i) {
     const double force = press(tissue, depth);
     if (i % 700 != 0) continue;
-    const double exact = relaxation_force(skin, depth, i * dt);
+    const double exact = relaxation_force(skin, depth, i * stand_step);
     // The step took dt where the formula jumps: dt / (2 tau) of the relaxing part.
-    EXPECT_NEAR(force, exact, dt / skin.tau * exact) << i * dt;
+    EXPECT_NEAR(force, exact, stand_step / skin.tau * exact) << i * stand_step;
   }
   const double late = relaxation_force(skin, depth, 100.0);
   const double coefficient = 4.0 / 3.0 * std::sqrt(skin.R) / (1.0 - skin.nu * skin.nu);
@@ -55,7 +55,7 @@ TEST(EmulatorTissue, FollowsTheIntegralOnARamp) {
     for (const double t : {0.05, 0.2, 0.4}) {
       const double exact = ramp_force(speed, t);
       // Linear pieces of h^(3/2) err by (dt/tau)^2 and by dt/t at the root's beginning.
-      EXPECT_NEAR(stepped_ramp(speed, t, dt), exact, 1e-5 * exact)
+      EXPECT_NEAR(stepped_ramp(speed, t, stand_step), exact, 1e-5 * exact)
           << speed << " m/s, " << t << " s";
     }
 }
@@ -68,13 +68,13 @@ TEST(EmulatorTissue, ConvergesWithItsStep) {
 }
 
 TEST(EmulatorTissue, NeverPullsAndForgets) {
-  Tissue tissue = make_tissue(skin, dt);
+  Tissue tissue = make_tissue(skin, stand_step);
   for (int i = 0; i <= 700; ++i) press(tissue, 1e-3);
   for (int i = 700; i >= -700; --i) EXPECT_GE(press(tissue, i * 1e-3 / 700.0), 0.0);
   EXPECT_EQ(force_of(tissue), 0.0);
   EXPECT_LT(tissue.memory, 0.0);  // pressed before, softer for a while
   for (int i = 0; i < 7000 * 12; ++i) press(tissue, -1e-3);
-  Tissue fresh = make_tissue(skin, dt);
+  Tissue fresh = make_tissue(skin, stand_step);
   EXPECT_NEAR(press(tissue, 1e-3), press(fresh, 1e-3), 1e-12);  // exp(-40) is left
 }
 

@@ -16,7 +16,7 @@ void expect_within(double most, const Block& block, const std::vector<std::strin
 }
 
 // Layers want a lattice.
-std::vector<std::string> meshes(const Block& block) {
+std::vector<std::string> meshes_of(const Block& block) {
   std::vector<std::string> all{"{kind=\"mirrored\",cells=[3,4,6]}",
                                "{kind=\"mirrored\",cells=[8,8,4]}"};
   if (block.below.empty())
@@ -43,14 +43,14 @@ double allowed(const Block& block) { return block.height > 5.0 ? 0.05 : 0.06; }
 
 TEST(Blocks, MeshesWithinFivePercentOrSixOnTheThinnest) {
   for (const Block& block : blocks())
-    for (const std::string& mesh : meshes(block))
+    for (const std::string& mesh : meshes_of(block))
       expect_within(allowed(block), block, {"solver.model=coupled_springs", "tissue.mesh=" + mesh});
 }
 
 TEST(Blocks, IndependentSpringsPressLikeCoupledOnes) {
   for (const Block& block : blocks())
     expect_within(allowed(block), block,
-                  {"solver.model=mass_spring", "tissue.mesh=" + meshes(block).front()});
+                  {"solver.model=mass_spring", "tissue.mesh=" + meshes_of(block).front()});
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 using test::Settings;
 
-const std::string press =
+const std::string mesh_press =
     "schema = 1\n[tissue]\nmaterial = \"skin\"\nviscosity = \"none\"\n[solver]\n"
     "model = \"mass_spring\"\nintegrator = \"quasi_static\"\n[output]\ninterval = \"20 ms\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"5 mm/s\"\n";
@@ -43,11 +43,11 @@ std::string tetgen(int nodes) {
 const std::vector<std::string> couplings =
     test::every(scenario::words::couplings, {"series", "resolved"});
 
-scene::Scene build(const Settings& settings, const std::string& text = press) {
+scene::Scene build(const Settings& settings, const std::string& text = mesh_press) {
   return test::scene_of(text, settings);
 }
 
-record::CaseRecord run_press(const Settings& settings, const std::string& text = press) {
+record::CaseRecord run_press(const Settings& settings, const std::string& text = mesh_press) {
   return test::run_text(text, settings);
 }
 
@@ -195,7 +195,7 @@ TEST(Contacts, OneWayOnAMeshApproachesTheClosedForm) {
   }
 }
 
-double normal_force(const Settings& settings, const std::string& text = press) {
+double normal_force(const Settings& settings, const std::string& text = mesh_press) {
   return run_press(settings, text).contact.back().contact_force;
 }
 

@@ -10,9 +10,10 @@
 namespace palpate {
 namespace {
 
+using test::found;
 using test::run_text;
 
-std::string press(const std::string& cells) {
+std::string modal_press(const std::string& cells) {
   return "schema = 1\n[tissue]\nmaterial = \"skin\"\n"
          "shape = { kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", \"30 mm\"] }\n"
          "mesh = { kind = \"kuhn\", cells = " +
@@ -22,12 +23,8 @@ std::string press(const std::string& cells) {
          "[output]\ninterval = \"1 ms\"\npressure_maps = false\n";
 }
 
-double found(const record::CaseRecord& record, const std::string& name) {
-  return std::get<double>(test::finding(record, name));
-}
-
 TEST(LowestModes, miss_no_more_than_the_inertia_that_is_stated_as_dropped) {
-  const std::string block = press("[6, 6, 3]");
+  const std::string block = modal_press("[6, 6, 3]");
   for (const char* viscosity : {"none", "standard_linear_solid"})
     for (const char* rate : {"20 mm/s", "100 mm/s", "1000 mm/s"}) {
       const std::vector<std::string> scene{std::string("tissue.viscosity=") + viscosity,
@@ -55,7 +52,7 @@ TEST(LowestModes, miss_no_more_than_the_inertia_that_is_stated_as_dropped) {
 }
 
 TEST(LowestModes, serve_bodies_of_more_than_a_thousand_nodes) {
-  const std::string block = press("[12, 12, 8]");
+  const std::string block = modal_press("[12, 12, 8]");
   const auto moving = run_text(block, {"solver.modes=16"});
   EXPECT_EQ(found(moving, "nodes"), 1521.0);
   EXPECT_EQ(found(moving, "kept_modes"), 16.0);
@@ -69,7 +66,7 @@ TEST(LowestModes, serve_bodies_of_more_than_a_thousand_nodes) {
 TEST(LowestModes, are_refused_where_the_force_needs_the_whole_motion) {
   const auto refusal = [](const std::string& cells, const std::vector<std::string>& settings) {
     try {
-      (void)run_text(press(cells), settings);
+      (void)run_text(modal_press(cells), settings);
     } catch (const InputError& error) {
       return std::string(error.what());
     }

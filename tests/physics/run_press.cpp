@@ -15,6 +15,7 @@ namespace palpate {
 namespace {
 
 using test::expect_case;
+using test::found;
 using test::run_text;
 
 const std::vector<std::string> integrators = test::every(scenario::words::integrators);
@@ -22,21 +23,18 @@ const std::vector<std::string> integrators = test::every(scenario::words::integr
 const std::vector<std::string> turning_integrators =
     test::every(scenario::words::integrators, {"modal"});
 // `resolved` wants finer meshes: run_resolved.cpp.
-const std::vector<std::string> couplings = test::every(scenario::words::couplings, {"resolved"});
+const std::vector<std::string> press_couplings =
+    test::every(scenario::words::couplings, {"resolved"});
 
 const std::string press =
     "schema = 1\n[tissue]\nmaterial = \"skin\"\n[solver]\nmodel = \"mass_spring\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"5 mm/s\"\n";
 
-double force_at(const record::CaseRecord& record, double travel) {
+double force_at_travel(const record::CaseRecord& record, double travel) {
   for (const auto& row : record.contact)
     if (std::abs(row.travel - travel) < 1e-9) return row.force;
   ADD_FAILURE() << "no row at travel " << travel;
   return 0.0;
-}
-
-double found(const record::CaseRecord& record, const std::string& name) {
-  return std::get<double>(test::finding(record, name));
 }
 
 // The travel at which the force is this, between two rows.
@@ -55,21 +53,21 @@ TEST(Press, FigureSixForcesInEveryIntegrator) {
   for (const std::string& integrator : integrators) {
     const auto skin = run_text(
         press, {"contact.coupling=one_way", "step.1.to=2 mm", "solver.integrator=" + integrator});
-    expect_case("hertz-02", force_at(skin, 0.5e-3));
-    expect_case("hertz-07", force_at(skin, 2e-3));
+    expect_case("hertz-02", force_at_travel(skin, 0.5e-3));
+    expect_case("hertz-07", force_at_travel(skin, 2e-3));
   }
   const auto bone = run_text(press, {"contact.coupling=one_way", "tissue.material=bone",
                                      "solver.integrator=quasi_static"});
-  expect_case("hertz-21", force_at(bone, 1e-3));
+  expect_case("hertz-21", force_at_travel(bone, 1e-3));
 }
 
 TEST(Press, HertzModelNeedsNoMesh) {
   const auto record = run_text(press, {"solver.model=hertz", "tissue.material=ligament"});
-  expect_case("hertz-30", force_at(record, 1e-3));
+  expect_case("hertz-30", force_at_travel(record, 1e-3));
 }
 
 TEST(Press, IntegratorsAgree) {
-  for (const std::string& coupling : couplings) {
+  for (const std::string& coupling : press_couplings) {
     const auto exact = run_text(press, {"contact.coupling=" + coupling, "solver.integrator=modal"});
     for (const std::string& integrator : integrators) {
       const auto record =
@@ -77,7 +75,7 @@ TEST(Press, IntegratorsAgree) {
       for (const double travel : {0.5e-3, 1e-3})
         // Implicit Euler at tau / 50 is the coarsest: its lag moves u by a part in a hundred of
         // what u takes part in h.
-        EXPECT_NEAR(force_at(record, travel) / force_at(exact, travel), 1.0, 1e-3)
+        EXPECT_NEAR(force_at_travel(record, travel) / force_at_travel(exact, travel), 1.0, 1e-3)
             << coupling << " " << integrator;
       // Statics keep no energies where the mesh's motion cannot reach the force.
       if (integrator == "quasi_static" && coupling != "series")
@@ -126,7 +124,7 @@ TEST(Press, SeriesLosesForceAndSaysSo) {
                                        "solver.integrator=quasi_static"});
   const auto one_way = run_text(press, {"contact.coupling=one_way", "tissue.viscosity=none",
                                         "solver.integrator=quasi_static"});
-  EXPECT_LT(force_at(series, 1e-3), 0.9 * force_at(one_way, 1e-3));
+  EXPECT_LT(force_at_travel(series, 1e-3), 0.9 * force_at_travel(one_way, 1e-3));
   bool warned = false;
   for (const auto& remark : series.remarks)
     warned = warned || remark.find("counts the tissue's compliance twice") != std::string::npos;
@@ -138,7 +136,7 @@ TEST(Press, ForceIsMonotoneAndContinuous) {
   for (const char* mesh :
        {"{ kind = \"mirrored\", cells = [3, 4, 6] }",
         "{ kind = \"mirrored\", cells = [12, 12, 6] }", "{ kind = \"tetgen\", nodes = 400 }"}) {
-    for (const std::string& coupling : couplings) {
+    for (const std::string& coupling : press_couplings) {
       const auto record =
           run_text(press + "[[step]]\nkind = \"retract\"\nto = \"-0.2 mm\"\nrate = \"5 mm/s\"\n",
                    {std::string("tissue.mesh=") + mesh, "contact.coupling=" + coupling,
@@ -224,7 +222,7 @@ TEST(Press, RelaxesUnderAHold) {
                                         "contact.coupling=series", "output.interval=2 ms"});
     const auto still = run_text(press, {"tissue.viscosity=none", "contact.coupling=series",
                                         "solver.integrator=quasi_static"});
-    EXPECT_GT(force_at(record, 1e-3), 1.01 * record.contact.back().force) << integrator;
+    EXPECT_GT(force_at_travel(record, 1e-3), 1.01 * record.contact.back().force) << integrator;
     EXPECT_NEAR(record.contact.back().force / still.contact.back().force, 1.0, 1e-3)
         << integrator;  // e^-10 of the lag is left
   }
@@ -264,7 +262,7 @@ TEST(Press, PaperStartIsNearTheConsistentOne) {
   const auto paper = run_text(press, {"solver.start=paper"});
   const auto consistent = run_text(press, {});
   // Contact starts without force, so that the starts differ little here.
-  EXPECT_NEAR(force_at(paper, 1e-3) / force_at(consistent, 1e-3), 1.0, 1e-3);
+  EXPECT_NEAR(force_at_travel(paper, 1e-3) / force_at_travel(consistent, 1e-3), 1.0, 1e-3);
 }
 
 TEST(Press, FrictionCountsTheWeightOnce) {

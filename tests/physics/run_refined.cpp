@@ -11,7 +11,8 @@
 namespace palpate {
 namespace {
 
-std::string press(const std::string& tissue, const std::string& solver = "", double travel = 0.5) {
+std::string refined_press(const std::string& tissue, const std::string& solver = "",
+                          double travel = 0.5) {
   return "[tissue]\n" + tissue +
          "[finger]\nmaterial = \"rigid\"\n[solver]\nmodel = \"coupled_springs\"\nintegrator = "
          "\"quasi_static\"\n" +
@@ -39,27 +40,27 @@ const std::string thin_plate =
 
 // The default cells are 23 mm wide and see nothing of a press 2 mm wide.
 TEST(Refined, AThinPlateIsPressedLikeTheExactLayer) {
-  std::string exact = press(thin_plate);
+  std::string exact = refined_press(thin_plate);
   exact.replace(exact.find("coupled_springs"), 15, "layer");
   exact.erase(exact.find("integrator"), std::string("integrator = \"quasi_static\"\n").size());
   const record::CaseRecord layer = test::run_text(exact);
   const double truth = std::get<double>(test::finding(layer, "peak_force_N"));
   const std::string given =
-      press(thin_plate + "mesh = { kind = \"mirrored\", cells = [3, 4, 6] }\n");
+      refined_press(thin_plate + "mesh = { kind = \"mirrored\", cells = [3, 4, 6] }\n");
   EXPECT_GT(std::abs(answer(given).force / truth - 1.0), 0.05);
-  const Answer found = answer(press(thin_plate));
+  const Answer found = answer(refined_press(thin_plate));
   EXPECT_LT(std::abs(found.force / truth - 1.0), found.error);
   EXPECT_LT(found.error, 0.025);
-  const Answer finer = answer(press(thin_plate, "tolerance = 0.02\n"));
+  const Answer finer = answer(refined_press(thin_plate, "tolerance = 0.02\n"));
   EXPECT_LT(std::abs(finer.force / truth - 1.0), finer.error);
   EXPECT_LT(finer.error, 0.01);
   EXPECT_GT(finer.nodes, found.nodes);
 }
 
 TEST(Refined, StopsAtTheStatedNumberOfNodesAndSaysSo) {
-  const record::CaseRecord record = test::run_text(
-      press(thin_plate + "mesh = { kind = \"mirrored\", refine = true, most_nodes = 250 }\n",
-            "tolerance = 0.001\n"));
+  const record::CaseRecord record = test::run_text(refined_press(
+      thin_plate + "mesh = { kind = \"mirrored\", refine = true, most_nodes = 250 }\n",
+      "tolerance = 0.001\n"));
   EXPECT_LE(std::get<double>(test::finding(record, "nodes")), 250.0);
   EXPECT_EQ(std::get<double>(test::finding(record, "nodes_before_refining")), 140.0);
   EXPECT_TRUE(std::any_of(record.remarks.begin(), record.remarks.end(), [](const auto& remark) {
@@ -77,7 +78,7 @@ TEST(Refined, MeshesDependOnTheRatioOfModuliOnly) {
     std::string text = lump;
     text.replace(text.find('$'), 1, around);
     text.replace(text.find('@'), 1, inside);
-    return answer(press(text));
+    return answer(refined_press(text));
   };
   const Answer soft = with("16", "128");
   const Answer hard = with("64", "512");  // exact multiples in binary
@@ -108,8 +109,8 @@ TEST(Refined, MeshesOfRandomBodiesAgreeWithinWhatTheyState) {
     const auto nodes = [](int count) {
       return "mesh = { kind = \"tetgen\", nodes = " + std::to_string(count) + ", refine = true }\n";
     };
-    const Answer coarse = answer(press(tissue + nodes(200)));
-    const Answer fine = answer(press(tissue + nodes(500)));
+    const Answer coarse = answer(refined_press(tissue + nodes(200)));
+    const Answer fine = answer(refined_press(tissue + nodes(500)));
     EXPECT_LE(std::abs(coarse.force / fine.force - 1.0), coarse.error + fine.error)
         << tissue << coarse.force << " " << fine.force;
   }
@@ -117,7 +118,7 @@ TEST(Refined, MeshesOfRandomBodiesAgreeWithinWhatTheyState) {
 
 // Slabs are cut out of any mesh.
 TEST(Refined, ALumpKeepsItsVolume) {
-  const std::string text = press(
+  const std::string text = refined_press(
       "poisson_ratio = 0.45\nshape = { kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", \"40 "
       "mm\"] }\n[[region]]\nkind = \"sphere\"\ncentre = [\"30 mm\", \"30 mm\", \"30 "
       "mm\"]\nradius = \"5 mm\"\nmaterial = \"skin\"\nyoung_modulus = \"1448 kPa\"\n");
@@ -139,7 +140,7 @@ TEST(Slabs, InMeshesByTetGenAreThoseOfLattices) {
   const auto with = [&](const char* mesh) {
     std::string text = layers;
     text.replace(text.find('$'), 1, mesh);
-    return answer(press(text));
+    return answer(refined_press(text));
   };
   const Answer lattice = with("{ kind = \"mirrored\", cells = [8, 8, 6] }");
   const Answer unstructured = with("{ kind = \"tetgen\", nodes = 700 }");
@@ -149,7 +150,7 @@ TEST(Slabs, InMeshesByTetGenAreThoseOfLattices) {
 // A slab in a round body, where no formula knows the layer: two meshes agree.
 TEST(Slabs, LieInRoundBodies) {
   const auto with = [&](int nodes) {
-    return answer(press(
+    return answer(refined_press(
         "shape = { kind = \"cylinder\", radius = \"25 mm\", length = \"80 mm\" }\nmesh = { kind = "
         "\"tetgen\", refine = true, nodes = " +
         std::to_string(nodes) +

@@ -30,7 +30,7 @@ const std::string block =
     "[[step]]\nkind = \"indent\"\nto = \"1.5 mm\"\nrate = \"1 mm/s\"\n";
 
 // `steps` come after the press.
-scene::Scene build(const std::vector<std::string>& settings, const std::string& steps = "") {
+scene::Scene build_block(const std::vector<std::string>& settings, const std::string& steps = "") {
   return test::scene_of(block + steps, settings);
 }
 
@@ -50,7 +50,7 @@ struct Pressed {
   mechanics::Touch touch;
 
   Pressed(const std::vector<std::string>& settings, double travel)
-      : scene(build(settings)), mesh(scene) {
+      : scene(build_block(settings)), mesh(scene) {
     mechanics::ContactHistory history(scene);
     mesh.set_step(1.0);
     touch.finger = scene::first_touch(scene).finger;
@@ -134,10 +134,10 @@ TEST(Resolved, elastic_contact_forgets_its_way) {
 // Bone under a rubber finger: 99.985 % of the compliance is the finger's, a half-space's here, and
 // the mesh matters only by its nodes. Hertz's own a = 2 mm on cells of half a millimetre.
 TEST(Resolved, a_soft_finger_on_bone_is_hertz) {
-  const auto scene = build({"tissue.material=bone", "finger.material=finger",
-                            "tissue.shape.size=[\"8 mm\",\"8 mm\",\"5 mm\"]",
-                            "tissue.mesh={kind=\"mirrored\",cells=[16,16,2]}", "step.1.to=0.36 mm",
-                            "output.interval=90 ms"});
+  const auto scene = build_block({"tissue.material=bone", "finger.material=finger",
+                                  "tissue.shape.size=[\"8 mm\",\"8 mm\",\"5 mm\"]",
+                                  "tissue.mesh={kind=\"mirrored\",cells=[16,16,2]}",
+                                  "step.1.to=0.36 mm", "output.interval=90 ms"});
   const auto record = test::run_scene(scene);
   const double depth = record.contact.back().travel;
   const double hertz = contact::hertz::force(depth, 0.011, scene.law().modulus);
@@ -287,9 +287,9 @@ TEST(Resolved, its_map_integrates_to_the_force_and_shows_the_gap) {
 
 TEST(Resolved, a_mesh_that_cannot_carry_the_contact_is_refused) {
   // Cells of 1.04 mm under the finger and 1.6 mm at 4.06 mm: by asinh(10 / 3.54) / 6 a cell.
-  EXPECT_NEAR(scene::cells_per_contact_radius(build({})), 3.5, 0.1);
+  EXPECT_NEAR(scene::cells_per_contact_radius(build_block({})), 3.5, 0.1);
   try {
-    (void)build({"tissue.mesh={kind=\"mirrored\",cells=[8,8,4]}"});
+    (void)build_block({"tissue.mesh={kind=\"mirrored\",cells=[8,8,4]}"});
     FAIL() << "no error";
   } catch (const MeshError& error) {
     EXPECT_STREQ(error.what(),
@@ -298,11 +298,12 @@ TEST(Resolved, a_mesh_that_cannot_carry_the_contact_is_refused) {
                  "`contact.coupling = \"consistent\"`");
   }
   // Fine where it begins, coarse where the slide ends.
-  EXPECT_THROW((void)build({}, "[[step]]\nkind = \"slide\"\nby = \"6 mm\"\nrate = \"1 mm/s\"\n"),
-               MeshError);
+  EXPECT_THROW(
+      (void)build_block({}, "[[step]]\nkind = \"slide\"\nby = \"6 mm\"\nrate = \"1 mm/s\"\n"),
+      MeshError);
   for (const char* integrator : {"modal", "central_difference"}) {
     try {
-      (void)build({std::string("solver.integrator=") + integrator});
+      (void)build_block({std::string("solver.integrator=") + integrator});
       FAIL() << integrator;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what())

@@ -129,7 +129,7 @@ TEST(Shear, OfABlockIsThatOfFiniteElements) {
   }
 }
 
-const std::string press =
+const std::string shear_press =
     "[tissue]\nmaterial = \"skin\"\nviscosity = \"none\"\n[contact]\nfriction = "
     "0.3\n[solver]\nmodel = "
     "\"mass_spring\"\nintegrator = \"quasi_static\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
@@ -148,7 +148,8 @@ TEST(Shear, IsNoneWhereItIsNotKnown) {
   for (const char* setting :
        {"tissue.mesh={ kind = \"kuhn\", cells = [4, 4, 4] }", "tissue.base=frictionless",
         "contact.friction=0", "contact.slip=coulomb", "contact.coupling=one_way"}) {
-    const mechanics::Touch touch = touch_of(test::scene_of(press, {setting}), {0.0, 0.0, -1e-3});
+    const mechanics::Touch touch =
+        touch_of(test::scene_of(shear_press, {setting}), {0.0, 0.0, -1e-3});
     const bool known = std::string(setting).find("mesh") != std::string::npos;
     EXPECT_EQ(touch.contacts.front().shear.norm() > 0.0, known) << setting;
   }
@@ -156,8 +157,9 @@ TEST(Shear, IsNoneWhereItIsNotKnown) {
 
 TEST(Shear, IsInTheTangentPlaneOfCurvedSkin) {
   const scene::Scene scene = test::scene_of(
-      press, {"tissue.shape={ kind = \"ellipsoid\", size = [\"60 mm\", \"90 mm\", \"50 mm\"] }",
-              "tissue.mesh={ kind = \"tetgen\", nodes = 400 }"});
+      shear_press,
+      {"tissue.shape={ kind = \"ellipsoid\", size = [\"60 mm\", \"90 mm\", \"50 mm\"] }",
+       "tissue.mesh={ kind = \"tetgen\", nodes = 400 }"});
   for (const Vec3& offset : {Vec3(0.0, 0.0, -1e-3), Vec3(5e-3, -3e-3, -1.5e-3)}) {
     const mechanics::SphereContact contact = touch_of(scene, offset).contacts.front();
     const double size = contact.shear.norm();
@@ -173,8 +175,9 @@ TEST(Shear, OfSpheresThatRepresentOneIsItsOwn) {
   const Vec3 down(0.0, 0.0, -0.5e-3);
   const std::string layer =
       "tissue.shape={ kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", \"8 mm\"] }";
-  const mechanics::Touch one = touch_of(test::scene_of(press, {layer}), down);
-  const mechanics::Touch all = touch_of(test::scene_of(press, {layer, "finger.spheres=8"}), down);
+  const mechanics::Touch one = touch_of(test::scene_of(shear_press, {layer}), down);
+  const mechanics::Touch all =
+      touch_of(test::scene_of(shear_press, {layer, "finger.spheres=8"}), down);
   ASSERT_GT(all.contacts.size(), 1U);
   const double want = one.contacts.front().shear(0, 0);
   for (const mechanics::SphereContact& contact : all.contacts)

@@ -25,11 +25,11 @@ const std::string slide =
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"20 mm/s\"\n"
     "[[step]]\nkind = \"slide\"\nby = \"2 mm\"\nrate = \"5 mm/s\"\n";
 
-const std::string ellipsoid =
+const std::string slid_ellipsoid =
     "tissue.shape={ kind = \"ellipsoid\", size = [\"60 mm\", \"90 mm\", \"50 mm\"] }";
-const std::string cylinder =
+const std::string slid_cylinder =
     "tissue.shape={ kind = \"cylinder\", radius = \"30 mm\", length = \"80 mm\" }";
-const std::string tetgen = "tissue.mesh={ kind = \"tetgen\", nodes = 800 }";
+const std::string tetgen_mesh = "tissue.mesh={ kind = \"tetgen\", nodes = 800 }";
 
 // Without what only a mesh can honour.
 const std::string slide_closed_form =
@@ -39,10 +39,10 @@ const std::string slide_closed_form =
     "[[step]]\nkind = \"slide\"\nby = \"1 mm\"\nrate = \"5 mm/s\"\n";
 
 // Couplings whose forces follow from the finger alone.
-const std::vector<std::string> couplings =
+const std::vector<std::string> slid_couplings =
     test::every(scenario::words::couplings, {"series", "resolved"});
 
-scene::Scene build(const Settings& settings, const std::string& text = slide) {
+scene::Scene build_slide(const Settings& settings, const std::string& text = slide) {
   return test::scene_of(text, settings);
 }
 
@@ -57,26 +57,34 @@ struct Way {
   Vec3 from, to;
 };
 
-const Way ways[] = {
-    {"across an ellipsoid", {ellipsoid, tetgen}, {-0.012, -0.01, -1.5e-3}, {0.012, 0.013, -1.5e-3}},
-    {"across a cylinder", {cylinder, tetgen}, {-0.012, -0.01, -1.5e-3}, {0.012, 0.0, -1.5e-3}},
-    {"along a cylinder and off its end",
-     {cylinder, tetgen},
-     {0.001, 0.02, -1.5e-3},
-     {0.003, 0.05, -1.5e-3}},
-    {"off the rim of a cuboid",
-     {"tissue.mesh={ kind = \"mirrored\", cells = [10, 10, 5] }"},
-     {0.012, 0.0, -1.5e-3},
-     {0.042, 0.004, -1.5e-3}},
-    {"into an ellipsoid", {ellipsoid, tetgen, "finger.x=40 mm"}, {0, 0, 1e-4}, {0, 0, -2.5e-3}}};
+const Way ways[] = {{"across an ellipsoid",
+                     {slid_ellipsoid, tetgen_mesh},
+                     {-0.012, -0.01, -1.5e-3},
+                     {0.012, 0.013, -1.5e-3}},
+                    {"across a cylinder",
+                     {slid_cylinder, tetgen_mesh},
+                     {-0.012, -0.01, -1.5e-3},
+                     {0.012, 0.0, -1.5e-3}},
+                    {"along a cylinder and off its end",
+                     {slid_cylinder, tetgen_mesh},
+                     {0.001, 0.02, -1.5e-3},
+                     {0.003, 0.05, -1.5e-3}},
+                    {"off the rim of a cuboid",
+                     {"tissue.mesh={ kind = \"mirrored\", cells = [10, 10, 5] }"},
+                     {0.012, 0.0, -1.5e-3},
+                     {0.042, 0.004, -1.5e-3}},
+                    {"into an ellipsoid",
+                     {slid_ellipsoid, tetgen_mesh, "finger.x=40 mm"},
+                     {0, 0, 1e-4},
+                     {0, 0, -2.5e-3}}};
 
 // A jump stays as large when the step is cut; what is continuous and has slopes shrinks with it.
 TEST(Slide, ForceHasNoJumps) {
-  for (const std::string& coupling : couplings) {
+  for (const std::string& coupling : slid_couplings) {
     for (const Way& way : ways) {
       Settings settings = way.settings;
       settings.push_back("contact.coupling=" + coupling);
-      const scene::Scene scene = build(settings);
+      const scene::Scene scene = build_slide(settings);
       mechanics::PressedMesh mesh(scene);
       const Vec3 first = scene::first_touch(scene).finger;
       constexpr int steps = 4096;
@@ -120,7 +128,7 @@ TEST(Slide, SticksAsCattaneoAndMindlinSayAndThenSlips) {
        {"solver.model=hertz", "contact.coupling=one_way", "contact.coupling=consistent"}) {
     const Settings settings{"contact.friction=0.5", "step.2.by=1 mm", rung};
     const bool meshed = std::string(rung) != "solver.model=hertz";
-    const scene::Scene scene = build(settings, meshed ? slide : slide_closed_form);
+    const scene::Scene scene = build_slide(settings, meshed ? slide : slide_closed_form);
     const auto record = run_slide(settings, meshed ? slide : slide_closed_form);
     ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
     std::optional<mechanics::PressedMesh> mesh;
@@ -164,7 +172,7 @@ TEST(Slide, SticksAsCattaneoAndMindlinSayAndThenSlips) {
 
 TEST(Slide, StickHasTheIndependentNumbers) {
   // Skin at 1 mm, mu 0.5, Q half of mu F.
-  const scene::Scene scene = build({"contact.friction=0.5"}, slide_closed_form);
+  const scene::Scene scene = build_slide({"contact.friction=0.5"}, slide_closed_form);
   const double force =
       contact::hertz::force(1e-3, scene.finger.sphere_radius, scene.finger.sphere_modulus);
   const double a = contact::hertz::contact_radius(1e-3, scene.finger.sphere_radius);
@@ -177,8 +185,9 @@ TEST(Slide, StickHasTheIndependentNumbers) {
 // On a slope, where the sliding finger also rides up and down: the drag never exceeds mu F, and is
 // mu F of every contact once it slips.
 TEST(Slide, SlipsAtMuTimesTheNormalForceOnACurvedShape) {
-  Settings settings{ellipsoid, tetgen, "contact.friction=0.3", "contact.coupling=one_way"};
-  const scene::Scene scene = build(settings);
+  Settings settings{slid_ellipsoid, tetgen_mesh, "contact.friction=0.3",
+                    "contact.coupling=one_way"};
+  const scene::Scene scene = build_slide(settings);
   mechanics::PressedMesh mesh(scene);
   const Vec3 first = scene::first_touch(scene).finger;
   mechanics::Touch touch;
@@ -199,9 +208,9 @@ TEST(Slide, SlipsAtMuTimesTheNormalForceOnACurvedShape) {
 }
 
 TEST(Slide, KeepsTheForce) {
-  for (const std::string& coupling : couplings) {
+  for (const std::string& coupling : slid_couplings) {
     const auto record =
-        run_slide({ellipsoid, tetgen, "contact.friction=0.2", "step.2.by=6 mm",
+        run_slide({slid_ellipsoid, tetgen_mesh, "contact.friction=0.2", "step.2.by=6 mm",
                    "step.2.direction=30", "step.2.keep=force", "contact.coupling=" + coupling});
     ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
     double kept = 0.0;

@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-std::string block(double poisson_ratio, double depth, const std::string& cells) {
+std::string solid_block(double poisson_ratio, double depth, const std::string& cells) {
   return "schema = 1\n[tissue]\nmaterial = \"skin\"\nyoung_modulus = \"72.4 "
          "kPa\"\npoisson_ratio = " +
          std::to_string(poisson_ratio) +
@@ -32,7 +32,7 @@ TEST(Solid, DeepPressesAreThoseOfTheAxisymmetricProgram) {
   };
   for (const Row& row : {Row{0.45, 11115.1, "cells = [10, 10, 5], grading = 8"},
                          Row{0.49, 11197.3, "cells = [12, 12, 8], grading = 4"}}) {
-    const record::CaseRecord record = test::run_text(block(row.nu, 8.0, row.cells));
+    const record::CaseRecord record = test::run_text(solid_block(row.nu, 8.0, row.cells));
     ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
     EXPECT_NEAR(1e3 * record.contact.back().contact_force, row.force, 0.04 * row.force) << row.nu;
     EXPECT_LE(std::abs(1e3 * record.contact.back().contact_force / row.force - 1.0),
@@ -42,7 +42,7 @@ TEST(Solid, DeepPressesAreThoseOfTheAxisymmetricProgram) {
 
 // The tissue is elastic, and the path to a row is the solver's own.
 TEST(Solid, RowsDoNotDependOnThoseBefore) {
-  const std::string text = block(0.45, 8.0, "cells = [10, 10, 5], grading = 8");
+  const std::string text = solid_block(0.45, 8.0, "cells = [10, 10, 5], grading = 8");
   const record::CaseRecord rows = test::run_text(text, {"output.interval=250 ms"});
   const double whole = test::run_text(text).contact.back().contact_force;
   EXPECT_NEAR(rows.contact.back().contact_force, whole, 1e-5 * whole);

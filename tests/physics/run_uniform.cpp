@@ -15,9 +15,9 @@ namespace {
 
 using test::expect_case;
 
-const std::vector<std::string> integrators = test::every(scenario::words::integrators);
+const std::vector<std::string> specimen_integrators = test::every(scenario::words::integrators);
 // Modes are those of a linear body.
-const std::vector<std::string> turning_integrators =
+const std::vector<std::string> turning_specimen_integrators =
     test::every(scenario::words::integrators, {"modal"});
 const char* const meshes[] = {"{ kind = \"kuhn\", cells = [3, 4, 6] }",
                               "{ kind = \"mirrored\", cells = [2, 2, 4] }",
@@ -28,7 +28,7 @@ struct Result {
   scene::Scene scene;
 };
 
-Result run_text(const std::string& text, const std::vector<std::string>& settings) {
+Result run_specimen(const std::string& text, const std::vector<std::string>& settings) {
   scene::Scene scene = test::scene_of(text, settings);
   return {test::run_scene(scene), std::move(scene)};
 }
@@ -51,11 +51,11 @@ double strain_at(const record::CaseRecord& record, double time) {
 
 TEST(KelvinVoigtSpecimen, CreepsAndRecoversLikeTheClosedForm) {
   const double tau = 0.5;
-  for (const std::string& integrator : integrators) {
+  for (const std::string& integrator : specimen_integrators) {
     for (const char* mesh : meshes) {
-      const auto [record, scene] =
-          run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-                           "solver.integrator=" + integrator, std::string("tissue.mesh=") + mesh});
+      const auto [record, scene] = run_specimen(
+          creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                  "solver.integrator=" + integrator, std::string("tissue.mesh=") + mesh});
       ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator << mesh;
       const double settled = 100.0 / scene.specimen->measured.young_modulus;
       for (const auto& row : record.strain) {
@@ -71,8 +71,8 @@ TEST(KelvinVoigtSpecimen, CreepsAndRecoversLikeTheClosedForm) {
 
 TEST(KelvinVoigtSpecimen, QuasiStaticIsTheClosedForm) {
   const auto [record, scene] =
-      run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-                       "solver.integrator=quasi_static", "output.interval=25 ms"});
+      run_specimen(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                           "solver.integrator=quasi_static", "output.interval=25 ms"});
   const double settled = 100.0 / scene.specimen->measured.young_modulus;
   expect_case("KV-02", strain_at(record, 0.25) / settled);
   expect_case("KV-03", strain_at(record, 0.5) / settled);
@@ -82,8 +82,8 @@ TEST(KelvinVoigtSpecimen, QuasiStaticIsTheClosedForm) {
 
 TEST(KelvinVoigtSpecimen, EarlyAndLate) {
   const auto [record, scene] =
-      run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.2 s",
-                       "solver.integrator=quasi_static", "output.interval=20 ms"});
+      run_specimen(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.2 s",
+                           "solver.integrator=quasi_static", "output.interval=20 ms"});
   const double settled = 100.0 / scene.specimen->measured.young_modulus;
   expect_case("KV-01", strain_at(record, 0.02) / settled);
   expect_case("KV-05", strain_at(record, 1.0) / settled);
@@ -92,12 +92,12 @@ TEST(KelvinVoigtSpecimen, EarlyAndLate) {
 TEST(StandardLinearSolidSpecimen, Relaxes) {
   const double tau = 0.4;
   const double ratio = 2.5;
-  for (const std::string& integrator : integrators) {
+  for (const std::string& integrator : specimen_integrators) {
     for (const char* mesh : meshes) {
-      const auto [record, scene] =
-          run_text(relax, {"tissue.viscosity=standard_linear_solid", "tissue.relaxation_time=0.4 s",
-                           "tissue.instantaneous_ratio=2.5", "solver.integrator=" + integrator,
-                           std::string("tissue.mesh=") + mesh});
+      const auto [record, scene] = run_specimen(
+          relax, {"tissue.viscosity=standard_linear_solid", "tissue.relaxation_time=0.4 s",
+                  "tissue.instantaneous_ratio=2.5", "solver.integrator=" + integrator,
+                  std::string("tissue.mesh=") + mesh});
       ASSERT_EQ(record.outcome, record::Outcome::completed) << integrator << mesh;
       const double modulus = scene.specimen->measured.young_modulus;
       for (const auto& row : record.strain) {
@@ -109,16 +109,16 @@ TEST(StandardLinearSolidSpecimen, Relaxes) {
   }
 }
 
-const std::vector<std::string> solid{"tissue.viscosity=standard_linear_solid",
-                                     "tissue.relaxation_time=0.4 s",
-                                     "tissue.instantaneous_ratio=2.5"};
+const std::vector<std::string> solid_settings{"tissue.viscosity=standard_linear_solid",
+                                              "tissue.relaxation_time=0.4 s",
+                                              "tissue.instantaneous_ratio=2.5"};
 
 TEST(StandardLinearSolidSpecimen, CreepsWithoutInertia) {
   const double ratio = 2.5;
   const double creep_time = 0.4 * ratio;  // tau_c = tau E_0 / E_inf
-  auto settings = solid;
+  auto settings = solid_settings;
   settings.emplace_back("solver.integrator=quasi_static");
-  const auto [record, scene] = run_text(creep, settings);
+  const auto [record, scene] = run_specimen(creep, settings);
   const double settled = 100.0 / scene.specimen->measured.young_modulus;
   const auto course = [&](double t) {
     return settled * (1.0 - (1.0 - 1.0 / ratio) * std::exp(-t / creep_time));
@@ -135,13 +135,13 @@ TEST(StandardLinearSolidSpecimen, CreepsWithoutInertia) {
 // With inertia the solid rings after the jump, for its branch damps little at that frequency: the
 // stepped answer must be the exact one, ringing and all.
 TEST(StandardLinearSolidSpecimen, RingsAlikeInStepsAndInModes) {
-  auto stepped = solid;
+  auto stepped = solid_settings;
   stepped.emplace_back("solver.integrator=central_difference");
   stepped.emplace_back("solver.substeps=400");
-  auto exact = solid;
+  auto exact = solid_settings;
   exact.emplace_back("solver.integrator=modal");
-  const auto a = run_text(creep, stepped);
-  const auto b = run_text(creep, exact);
+  const auto a = run_specimen(creep, stepped);
+  const auto b = run_specimen(creep, exact);
   const double settled = 100.0 / a.scene.specimen->measured.young_modulus;
   ASSERT_EQ(a.record.strain.size(), b.record.strain.size());
   for (std::size_t i = 0; i < a.record.strain.size(); ++i)
@@ -162,7 +162,7 @@ TEST(NodalDragSpecimen, CreepTimeGrowsWithTheLengthSquared) {
   expect_case("drag-01", drag_time(0.030, 1000.0));
   for (const double length : {30.0, 60.0}) {
     const std::string mm = std::to_string(static_cast<int>(length)) + " mm";
-    const auto [record, scene] = run_text(
+    const auto [record, scene] = run_specimen(
         creep, {"tissue.viscosity=nodal_drag", "tissue.drag=1000 1/s",
                 "tissue.shape={ kind = \"cuboid\", size = [\"8 mm\", \"8 mm\", \"" + mm + "\"] }",
                 "tissue.mesh={ kind = \"mirrored\", cells = [2, 2, 10] }", "step.1.load_time=2 s",
@@ -178,8 +178,8 @@ TEST(NodalDragSpecimen, CreepTimeGrowsWithTheLengthSquared) {
 
 TEST(KelvinVoigtSpecimen, DoesNotRelaxAndSaysSo) {
   const auto [record, scene] =
-      run_text(relax, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-                       "solver.integrator=quasi_static"});
+      run_specimen(relax, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                           "solver.integrator=quasi_static"});
   const double want = 0.02 * scene.specimen->measured.young_modulus;
   for (const auto& row : record.strain) EXPECT_NEAR(row.stress, want, 1e-9 * want);  // rounding
   ASSERT_FALSE(record.remarks.empty());
@@ -187,14 +187,14 @@ TEST(KelvinVoigtSpecimen, DoesNotRelaxAndSaysSo) {
 }
 
 TEST(UniformSpecimen, NonlinearAgreesWithLinearForSmallLoads) {
-  for (const std::string& integrator : turning_integrators) {
+  for (const std::string& integrator : turning_specimen_integrators) {
     const std::vector<std::string> common{"tissue.viscosity=kelvin_voigt",
                                           "tissue.retardation_time=0.5 s",
                                           "solver.integrator=" + integrator, "step.1.stress=1 Pa"};
     auto turned = common;
     turned.emplace_back("solver.kinematics=nonlinear");
-    const auto linear = run_text(creep, common);
-    const auto nonlinear = run_text(creep, turned);
+    const auto linear = run_specimen(creep, common);
+    const auto nonlinear = run_specimen(creep, turned);
     ASSERT_EQ(nonlinear.record.outcome, record::Outcome::completed) << integrator;
     ASSERT_EQ(linear.record.strain.size(), nonlinear.record.strain.size());
     for (std::size_t i = 0; i < linear.record.strain.size(); ++i)
@@ -213,8 +213,8 @@ TEST(UniformSpecimen, TurnedDashpotsKeepTheExplicitStepStable) {
         "solver.kinematics=nonlinear",   "tissue.mesh={ kind = \"tetgen\", nodes = 160 }",
         "step.1.stress=500 Pa",          "solver.integrator=" + integrator};
   };
-  const auto explicit_one = run_text(creep, settings("central_difference")).record;
-  const auto implicit_one = run_text(creep, settings("backward_difference")).record;
+  const auto explicit_one = run_specimen(creep, settings("central_difference")).record;
+  const auto implicit_one = run_specimen(creep, settings("backward_difference")).record;
   ASSERT_EQ(explicit_one.outcome, record::Outcome::completed) << explicit_one.reason;
   ASSERT_EQ(explicit_one.strain.size(), implicit_one.strain.size());
   double largest = 0.0;
@@ -227,10 +227,10 @@ TEST(UniformSpecimen, TurnedDashpotsKeepTheExplicitStepStable) {
 }
 
 TEST(UniformSpecimen, EnergyIsAccountedFor) {
-  for (const std::string& integrator : integrators) {
+  for (const std::string& integrator : specimen_integrators) {
     const auto [record, scene] =
-        run_text(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
-                         "solver.integrator=" + integrator, "output.interval=5 ms"});
+        run_specimen(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
+                             "solver.integrator=" + integrator, "output.interval=5 ms"});
     double imbalance = 1.0;
     for (const auto& finding : record.findings)
       if (finding.name == "energy_imbalance") imbalance = std::get<double>(finding.value);

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "base/cholesky.h"
+#include "base/index.h"
 #include "jittered_block.h"
 
 namespace palpate {
@@ -24,8 +25,6 @@ constexpr Kinematics all_kinematics[] = {Kinematics::linear, Kinematics::nonline
 constexpr Volume all_volumes[] = {Volume::none, Volume::tetrahedron, Volume::nodal};
 constexpr double ratios[] = {-0.9, -0.3, 0.0, 0.25, 0.33, 0.45, 0.49, 0.4995};
 constexpr double own_share = 0.05;  // of mu
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // Bulk modulus, Pa: stress over change of volume under even stretching.
 double bulk(const Isotropic& tissue) {
@@ -47,7 +46,7 @@ struct LinearTetrahedron {
     Eigen::Matrix4d corners;
     for (int i = 0; i < 4; ++i)
       corners.row(i) << 1.0,
-          mesh.nodes[index(mesh.tetrahedra[index(tetrahedron)][index(i)])].transpose();
+          mesh.nodes[as_index(mesh.tetrahedra[as_index(tetrahedron)][as_index(i)])].transpose();
     volume = corners.determinant() / 6.0;
     gradients = corners.inverse().bottomRows<3>().transpose();
   }
@@ -89,7 +88,7 @@ Eigen::MatrixXd by_elements(const TetMesh& mesh, const std::vector<Isotropic>& t
       tissues.size(), std::vector<Around>(mesh.nodes.size(), {Row::Zero(size), 0.0}));
   for (int t = 0; t < static_cast<int>(mesh.tetrahedra.size()); ++t) {
     const LinearTetrahedron element(mesh, t);
-    const Isotropic& tissue = tissues[index(mesh.region(t))];
+    const Isotropic& tissue = tissues[as_index(mesh.region(t))];
     const double missing = volume == Volume::none ? bulk(tissue) : averaged(tissue, volume, own);
     const auto b = element.strain();
     const Eigen::Matrix<double, 12, 12> k =
@@ -97,11 +96,11 @@ Eigen::MatrixXd by_elements(const TetMesh& mesh, const std::vector<Isotropic>& t
         (elasticity(tissue) - missing * trace * trace.transpose()) * b;
     const Eigen::Matrix<double, 1, 12> change = element.volume * trace.transpose() * b;
     for (int i = 0; i < 4; ++i) {
-      const int row = mesh.tetrahedra[index(t)][index(i)];
-      Around& here = around[index(mesh.region(t))][index(row)];
+      const int row = mesh.tetrahedra[as_index(t)][as_index(i)];
+      Around& here = around[as_index(mesh.region(t))][as_index(row)];
       here.volume += element.volume;
       for (int j = 0; j < 4; ++j) {
-        const int column = mesh.tetrahedra[index(t)][index(j)];
+        const int column = mesh.tetrahedra[as_index(t)][as_index(j)];
         all.block<3, 3>(3 * row, 3 * column) += k.block<3, 3>(3 * i, 3 * j);
         here.change.segment<3>(3 * column) += change.segment<3>(3 * j);
       }
@@ -169,7 +168,7 @@ TEST(Coupled, PassThePatchTest) {
       std::vector<char> held = test::nothing_held(network);
       for (const auto& face : geometry::boundary_faces(mesh))
         for (const int node : face)
-          for (int axis = 0; axis < 3; ++axis) held[index(3 * node + axis)] = 1;
+          for (int axis = 0; axis < 3; ++axis) held[as_index(3 * node + axis)] = 1;
       ASSERT_EQ(std::count(held.begin(), held.end(), 0), 3 * 8);
       Vector prescribed = wanted;
       for (std::size_t d = 0; d < held.size(); ++d)
@@ -209,11 +208,12 @@ TEST(Coupled, SquaredElongationsAreStVenantAndKirchhoffs) {
     const LinearTetrahedron element(mesh, t);
     Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
     for (int i = 0; i < 4; ++i)
-      f += moved.segment<3>(3 * mesh.tetrahedra[index(t)][index(i)]) * element.gradients.row(i);
+      f += moved.segment<3>(3 * mesh.tetrahedra[as_index(t)][as_index(i)]) *
+           element.gradients.row(i);
     const Eigen::Matrix3d green = 0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity());
     const Eigen::Matrix3d piola = f * test::stress(tissue, green);
     for (int i = 0; i < 4; ++i)
-      want.segment<3>(3 * mesh.tetrahedra[index(t)][index(i)]) +=
+      want.segment<3>(3 * mesh.tetrahedra[as_index(t)][as_index(i)]) +=
           element.volume * piola * element.gradients.row(i).transpose();
   }
   const Vector got = test::elastic_force(network, Kinematics::squared, moved);
@@ -300,7 +300,7 @@ TEST(Coupled, TangentStaysPositiveDefiniteUnderPressure) {
     tissue::tensions(network, elongation, tension);
     std::vector<char> held = test::nothing_held(network);
     for (const int node : geometry::nodes_at_height(mesh, 0.0))
-      for (int axis = 0; axis < 3; ++axis) held[index(3 * node + axis)] = 1;
+      for (int axis = 0; axis < 3; ++axis) held[as_index(3 * node + axis)] = 1;
     Cholesky factors;
     EXPECT_TRUE(factors.factor(
         tissue::tangent(network, Kinematics::squared, squeezed, 1.0, tension).split(held)));

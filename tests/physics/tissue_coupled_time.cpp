@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/cholesky.h"
+#include "base/index.h"
 #include "jittered_block.h"
 #include "tissue/energy.h"
 #include "tissue/stable_step.h"
@@ -26,8 +27,6 @@ using tissue::Volume;
 
 constexpr double tau = 0.4;  // s
 constexpr Isotropic soft{3e4, 0.45};
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // Coupled either way, and independent springs with a volume term around nodes.
 std::vector<Network> networks(const TetMesh& mesh) {
@@ -55,9 +54,9 @@ Vector pull_on_top(const TetMesh& mesh) {
   for (const Vec3& node : mesh.nodes) top = std::max(top, node.z());
   Vector load = Vector::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()));
   for (const auto& [a, b, c] : geometry::boundary_faces(mesh)) {
-    const Vec3& x = mesh.nodes[index(a)];
-    const Vec3 area = 0.5 * (mesh.nodes[index(b)] - x).cross(mesh.nodes[index(c)] - x);
-    if (std::min({x.z(), mesh.nodes[index(b)].z(), mesh.nodes[index(c)].z()}) < top - 1e-9)
+    const Vec3& x = mesh.nodes[as_index(a)];
+    const Vec3 area = 0.5 * (mesh.nodes[as_index(b)] - x).cross(mesh.nodes[as_index(c)] - x);
+    if (std::min({x.z(), mesh.nodes[as_index(b)].z(), mesh.nodes[as_index(c)].z()}) < top - 1e-9)
       continue;
     for (const int node : {a, b, c}) load[3 * node + 2] += area.z() / 3.0;
   }
@@ -302,7 +301,7 @@ TEST(CoupledInTime, StepLimitIsWhereEnergyStartsToGrow) {
 // also not where flat tetrahedra make springs that are far stiffer than their nodes.
 TEST(CoupledInTime, SafeBoundIsAboveTheHighestFrequency) {
   TetMesh flat = test::jittered_block({3, 3, 2});
-  flat.nodes[index(17)] += Vec3(0.002, -0.002, 0.003);
+  flat.nodes[as_index(17)] += Vec3(0.002, -0.002, 0.003);
   for (const TetMesh& mesh : {test::jittered_block({3, 2, 3}), flat})
     for (const double nu : {-0.5, 0.2, 0.45, 0.4995})
       for (const Volume volume : {Volume::none, Volume::tetrahedron, Volume::nodal}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/cholesky.h"
+#include "base/index.h"
 #include "jittered_block.h"
 #include "tissue/stiffness.h"
 
@@ -21,8 +22,6 @@ using tissue::Vector;
 using tissue::Volume;
 
 constexpr Volume both_volumes[] = {Volume::tetrahedron, Volume::nodal};
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 Network hybrid(const TetMesh& mesh, const std::vector<double>& stiffness,
                const std::vector<Isotropic>& tissues, Volume volume) {
@@ -73,12 +72,12 @@ TEST(Volume, ChangesAsTheBodyDoes) {
   for (const Isotropic& tissue : tissues) modulus.push_back(tissue::volume_modulus(tissue));
   double wanted_sum = 0.0;
   for (int t = 0; t < static_cast<int>(mesh.tetrahedra.size()); ++t)
-    wanted_sum += geometry::signed_volume(mesh, t) * modulus[index(mesh.region(t))];
+    wanted_sum += geometry::signed_volume(mesh, t) * modulus[as_index(mesh.region(t))];
   double sum = 0.0;
   for (const auto& volume : network.volumes) {
     double change = 0.0;
     for (std::size_t k = 0; k < volume.springs.size(); ++k)
-      change += volume.dilation[k] * elongation[index(volume.springs[k])];
+      change += volume.dilation[k] * elongation[as_index(volume.springs[k])];
     EXPECT_NEAR(change, gradient.trace(), 1e-13);  // rounding
     sum += volume.stiffness;
   }
@@ -93,8 +92,8 @@ TEST(Volume, AveragesLoseNothing) {
   const Vector moved = test::scattered_displacement(mesh, 1e-3);
   double flux = 0.0;
   for (const auto& [a, b, c] : geometry::boundary_faces(mesh)) {
-    const Vec3 area = 0.5 * (mesh.nodes[index(b)] - mesh.nodes[index(a)])
-                                .cross(mesh.nodes[index(c)] - mesh.nodes[index(a)]);
+    const Vec3 area = 0.5 * (mesh.nodes[as_index(b)] - mesh.nodes[as_index(a)])
+                                .cross(mesh.nodes[as_index(c)] - mesh.nodes[as_index(a)]);
     for (const int node : {a, b, c}) flux += moved.segment<3>(3 * node).dot(area) / 3.0;
   }
   const Network network = hybrid(mesh, none, {tissue}, Volume::nodal);
@@ -104,7 +103,7 @@ TEST(Volume, AveragesLoseNothing) {
   for (const auto& volume : network.volumes)
     for (std::size_t k = 0; k < volume.springs.size(); ++k)
       sum += volume.stiffness / tissue::volume_modulus(tissue) * volume.dilation[k] *
-             elongation[index(volume.springs[k])];
+             elongation[as_index(volume.springs[k])];
   EXPECT_NEAR(sum, flux, 1e-12 * std::abs(flux));  // rounding
 }
 
@@ -139,7 +138,7 @@ TEST(Volume, MakesTheIsotropicLatticeAnyMatter) {
       std::vector<double> stiffness(edges.size());
       for (std::size_t e = 0; e < edges.size(); ++e) {
         const double l2 =
-            (mesh.nodes[index(edges[e][1])] - mesh.nodes[index(edges[e][0])]).squaredNorm();
+            (mesh.nodes[as_index(edges[e][1])] - mesh.nodes[as_index(edges[e][0])]).squaredNorm();
         const double tetrahedra = counted[e] * l2 / (h * h * h / 6.0);
         stiffness[e] = tissue::spring_modulus(tissue) * h * tetrahedra *
                        classes[static_cast<std::size_t>(std::lround(l2 / (h * h)))];
@@ -148,7 +147,7 @@ TEST(Volume, MakesTheIsotropicLatticeAnyMatter) {
       const Vector force = test::elastic_force(network, Kinematics::linear, even);
       Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
       for (int i = 0; i < network.nodes(); ++i)
-        mean += force.segment<3>(3 * i) * mesh.nodes[index(i)].transpose();
+        mean += force.segment<3>(3 * i) * mesh.nodes[as_index(i)].transpose();
       mean /= geometry::volume(mesh);
       const Eigen::Matrix3d want = test::stress(tissue, strain);
       EXPECT_LT((mean - want).norm(), 1e-12 * want.norm()) << nu;  // rounding
@@ -173,7 +172,7 @@ TEST(Volume, LeavesSpringsDefiniteOnlyNearAQuarter) {
   const TetMesh mesh = test::jittered_block({3, 3, 2});
   std::vector<char> held(3 * mesh.nodes.size(), 0);
   for (const int node : geometry::nodes_at_height(mesh, 0.0))
-    for (int axis = 0; axis < 3; ++axis) held[index(3 * node + axis)] = 1;
+    for (int axis = 0; axis < 3; ++axis) held[as_index(3 * node + axis)] = 1;
   for (const double nu : {0.0, 0.2}) {
     const Isotropic tissue{1e4, nu};
     const auto stiffness =

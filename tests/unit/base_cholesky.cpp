@@ -15,7 +15,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-SplitMatrix split(const Matrix& local, const Matrix& shared, const Vector& weights) {
+SplitMatrix split_matrix(const Matrix& local, const Matrix& shared, const Vector& weights) {
   SplitMatrix matrix;
   matrix.local = local.sparseView();
   matrix.shared = shared.sparseView();
@@ -44,7 +44,9 @@ Matrix free_chain(int n) {
   return matrix;
 }
 
-SplitMatrix plain(const Matrix& local) { return split(local, Matrix(0, local.cols()), Vector(0)); }
+SplitMatrix plain(const Matrix& local) {
+  return split_matrix(local, Matrix(0, local.cols()), Vector(0));
+}
 
 // Random numbers that rapidcheck can shrink.
 Matrix some_matrix(int rows, int columns) {
@@ -60,8 +62,8 @@ RC_GTEST_PROP(Cholesky, SolvesAsTheDenseMatrixDoes, ()) {
   const Matrix factor = some_matrix(n, n);
   Vector weights(m);
   for (double& weight : weights) weight = *rc::gen::inRange(1, 2000);
-  const SplitMatrix matrix =
-      split(factor * factor.transpose() + Matrix::Identity(n, n), some_matrix(m, n), weights);
+  const SplitMatrix matrix = split_matrix(factor * factor.transpose() + Matrix::Identity(n, n),
+                                          some_matrix(m, n), weights);
   const Vector b = some_matrix(n, 1);
   Cholesky factors;
   RC_ASSERT(factors.factor(matrix));
@@ -81,7 +83,7 @@ RC_GTEST_PROP(Cholesky, RefusesWhatIsIndefinite, ()) {
   for (double& weight : weights)
     weight = *rc::gen::suchThat(rc::gen::inRange(-40, 41), [](int w) { return w != 0; }) *
              std::numbers::sqrt2 / 10.0;
-  const SplitMatrix matrix = split(chain(n), some_matrix(m, n), weights);
+  const SplitMatrix matrix = split_matrix(chain(n), some_matrix(m, n), weights);
   const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(dense(matrix)).eigenvalues()[0];
   RC_PRE(std::abs(lowest) > 1e-9);  // neither rounding nor the refusal of the nearly singular
   Cholesky factors;
@@ -97,12 +99,12 @@ TEST(Cholesky, RefusesAnIndefiniteMatrix) {
   // A row of weight 2 on the mass in question mends it, one elsewhere does not.
   Matrix row = Matrix::Zero(1, 6);
   row(0, 3) = 1.0;
-  EXPECT_TRUE(factors.factor(split(matrix, row, Vector::Constant(1, 2.0))));
+  EXPECT_TRUE(factors.factor(split_matrix(matrix, row, Vector::Constant(1, 2.0))));
   row.setZero();
   row(0, 0) = 1.0;
-  EXPECT_FALSE(factors.factor(split(matrix, row, Vector::Constant(1, 2.0))));
+  EXPECT_FALSE(factors.factor(split_matrix(matrix, row, Vector::Constant(1, 2.0))));
   // And a negative weight spoils what is good.
-  EXPECT_FALSE(factors.factor(split(chain(6), row, Vector::Constant(1, -3.0))));
+  EXPECT_FALSE(factors.factor(split_matrix(chain(6), row, Vector::Constant(1, -3.0))));
 }
 
 // The local part may be indefinite, if only the whole is not.
@@ -110,12 +112,12 @@ TEST(Cholesky, JudgesTheWholeAndNotItsLocalPart) {
   const int n = 7;
   const Matrix sum = Matrix::Ones(1, n);
   const Matrix lowered = free_chain(n) - 0.05 * Matrix::Identity(n, n);
-  const SplitMatrix held = split(lowered, sum, Vector::Constant(1, 5.0));
+  const SplitMatrix held = split_matrix(lowered, sum, Vector::Constant(1, 5.0));
   Cholesky factors;
   ASSERT_TRUE(factors.factor(held));
   const Vector b = Vector::LinSpaced(n, -1.0, 2.0);
   EXPECT_LT((dense(held) * factors.solve(b) - b).norm(), 1e-12);  // rounding times 7 * 5 / 0.05
-  EXPECT_FALSE(factors.factor(split(lowered, sum, Vector::Constant(1, -5.0))));
+  EXPECT_FALSE(factors.factor(split_matrix(lowered, sum, Vector::Constant(1, -5.0))));
   EXPECT_FALSE(factors.factor(plain(lowered)));
 }
 
@@ -137,11 +139,11 @@ TEST(Cholesky, RefusesSingularMatrices) {
       Matrix row = Matrix::Zero(1, n);
       row(0, 0) = 1.0;
       row(0, n - 1) = -1.0;
-      EXPECT_FALSE(factors.factor(split(matrix, row, Vector::Constant(1, scale)))) << n;
+      EXPECT_FALSE(factors.factor(split_matrix(matrix, row, Vector::Constant(1, scale)))) << n;
       // A wall that is a millionth as stiff does hold them.
       matrix(0, 0) += 1e-6 * scale;
       EXPECT_TRUE(factors.factor(plain(matrix))) << scale << " " << n;
-      EXPECT_TRUE(factors.factor(split(matrix, row, Vector::Constant(1, scale)))) << n;
+      EXPECT_TRUE(factors.factor(split_matrix(matrix, row, Vector::Constant(1, scale)))) << n;
     }
   }
 }
@@ -153,8 +155,8 @@ TEST(Cholesky, RefusesWhatIsNotFinite) {
     matrix(2, 2) = bad;
     Cholesky factors;
     EXPECT_FALSE(factors.factor(plain(matrix)));
-    EXPECT_FALSE(factors.factor(split(matrix, Matrix::Ones(1, 4), Vector::Ones(1))));
-    EXPECT_FALSE(factors.factor(split(chain(4), bad * Matrix::Ones(1, 4), Vector::Ones(1))));
+    EXPECT_FALSE(factors.factor(split_matrix(matrix, Matrix::Ones(1, 4), Vector::Ones(1))));
+    EXPECT_FALSE(factors.factor(split_matrix(chain(4), bad * Matrix::Ones(1, 4), Vector::Ones(1))));
   }
 }
 
@@ -164,8 +166,8 @@ TEST(Cholesky, ForgetsTheMatrixBefore) {
   const Vector b = Vector::Ones(5);
   const std::vector<SplitMatrix> matrices{
       plain(chain(5)),
-      split(chain(5), Matrix::Ones(2, 5) + Matrix::Identity(2, 5), Vector::Ones(2)),
-      plain(3.0 * chain(5)), split(chain(5), Matrix::Ones(1, 5), Vector::Constant(1, 40.0)),
+      split_matrix(chain(5), Matrix::Ones(2, 5) + Matrix::Identity(2, 5), Vector::Ones(2)),
+      plain(3.0 * chain(5)), split_matrix(chain(5), Matrix::Ones(1, 5), Vector::Constant(1, 40.0)),
       plain(Matrix::Identity(5, 5))};
   for (const SplitMatrix& matrix : matrices) {
     ASSERT_TRUE(factors.factor(matrix));
@@ -215,7 +217,8 @@ TEST(Cholesky, GivesTheSameBitsInSeveralThreads) {
 TEST(Cholesky, SolvesInPlace) {
   Matrix rows(2, 4);
   rows << 1, 0, -2, 0.5, 0, 3, 1, 0;
-  for (const SplitMatrix& matrix : {plain(chain(4)), split(chain(4), rows, Vector{{2.0, 0.5}})}) {
+  for (const SplitMatrix& matrix :
+       {plain(chain(4)), split_matrix(chain(4), rows, Vector{{2.0, 0.5}})}) {
     Cholesky factors;
     ASSERT_TRUE(factors.factor(matrix));
     const Vector b{{1.0, -2.0, 0.25, 3.0}};
@@ -232,7 +235,7 @@ TEST(Cholesky, SolvesInPlace) {
 TEST(SplitMatrix, MultipliesAndScalesAsTheDenseMatrix) {
   Matrix rows(2, 4);
   rows << 1, 0, -2, 0.5, 0, 3, 1, 0;
-  SplitMatrix matrix = split(chain(4), rows, Vector{{2.0, -0.5}});
+  SplitMatrix matrix = split_matrix(chain(4), rows, Vector{{2.0, -0.5}});
   const Vector x{{1.0, -2.0, 0.25, 3.0}};
   EXPECT_LT((matrix * x - dense(matrix) * x).norm(), 1e-14);  // rounding
   const Matrix before = dense(matrix);

@@ -67,7 +67,7 @@ std::string room_of(const std::string& path) {
   return slash == std::string::npos ? std::string() : path.substr(0, slash);
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> source_lines(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
@@ -84,7 +84,7 @@ struct Include {
 std::vector<Include> includes_of(const std::string& text) {
   std::vector<Include> includes;
   int number = 0;
-  for (const std::string& line : lines_of(text)) {
+  for (const std::string& line : source_lines(text)) {
     ++number;
     auto at = line.find_first_not_of(" \t");
     if (at == std::string::npos || line[at] != '#') continue;
@@ -199,7 +199,7 @@ std::vector<std::string> include_faults(const std::vector<SourceFile>& files,
 std::vector<std::string> form_faults(const std::vector<SourceFile>& files) {
   std::vector<std::string> faults;
   for (const SourceFile& file : files) {
-    const auto lines = lines_of(file.text);
+    const auto lines = source_lines(file.text);
     if (lines.size() > longest_file)
       faults.push_back(place(file, longest_file + 1) + "is line " +
                        std::to_string(longest_file + 1) + " of " + std::to_string(lines.size()) +
@@ -317,7 +317,7 @@ std::vector<Room> rooms_in(const std::string& cmake) {
   return rooms;
 }
 
-std::string joined(const std::vector<std::string>& faults) {
+std::string fault_lines(const std::vector<std::string>& faults) {
   std::string text;
   for (const std::string& fault : faults) text += fault + "\n";
   return text;
@@ -326,7 +326,7 @@ std::string joined(const std::vector<std::string>& faults) {
 TEST(Rooms, IncludeTheRoomsThatTheyNameAndHeavyLibrariesStayBehindOneFile) {
   const auto rooms = rooms_in(read_text(source_folder / "CMakeLists.txt"));
   ASSERT_GT(rooms.size(), 20U) << "src/CMakeLists.txt no longer lists rooms by palpate_room()";
-  EXPECT_EQ(joined(include_faults(our_files(), rooms)), "");
+  EXPECT_EQ(fault_lines(include_faults(our_files(), rooms)), "");
 }
 
 // The sections of docs/architecture.md are the rooms, in the same order.
@@ -334,24 +334,26 @@ TEST(Rooms, HaveASectionEach) {
   const std::string page =
       read_text(std::filesystem::path(PALPATE_SOURCE_DIR) / "docs/architecture.md");
   std::vector<std::string> sections, rooms;
-  for (const std::string& line : lines_of(page))
+  for (const std::string& line : source_lines(page))
     if (line.starts_with("### ")) sections.push_back(line.substr(4));
   for (const Room& room : rooms_in(read_text(source_folder / "CMakeLists.txt")))
     rooms.push_back(room.name);
   EXPECT_EQ(sections, rooms);
 }
 
-TEST(Rooms, AreSmall) { EXPECT_EQ(joined(size_faults(our_files())), ""); }
+TEST(Rooms, AreSmall) { EXPECT_EQ(fault_lines(size_faults(our_files())), ""); }
 
 TEST(Rooms, ShareNoTypeName) {
   const auto files = our_files();
   std::size_t types = 0;
   for (const SourceFile& file : files) types += types_of(file.text).size();
   EXPECT_GT(types, 500U) << "types are no longer recognised";
-  EXPECT_EQ(joined(definition_faults(files)), "");
+  EXPECT_EQ(fault_lines(definition_faults(files)), "");
 }
 
-TEST(Rooms, FilesAreShortAndSayWhatTheyAreFor) { EXPECT_EQ(joined(form_faults(our_files())), ""); }
+TEST(Rooms, FilesAreShortAndSayWhatTheyAreFor) {
+  EXPECT_EQ(fault_lines(form_faults(our_files())), "");
+}
 
 // The checks themselves, on made-up rooms: each fault is found, and nothing else is.
 const std::vector<Room> made_up_rooms{{"base", {}}, {"contact", {"base"}}, {"cli", {"base"}}};
@@ -361,7 +363,7 @@ const std::vector<SourceFile> made_up_files{{"base/units.h", "// Units.\n"},
 
 std::string faults_of(std::vector<SourceFile> files) {
   files.insert(files.end(), made_up_files.begin(), made_up_files.end());
-  return joined(include_faults(files, made_up_rooms));
+  return fault_lines(include_faults(files, made_up_rooms));
 }
 
 TEST(RoomCheck, ReadsTheListOfRooms) {
@@ -389,9 +391,9 @@ TEST(RoomCheck, CatchesAnIncludeOfARoomThatIsNotNamed) {
 
 TEST(RoomCheck, CatchesAListThatIsNotInOrderOrNotNeeded) {
   const std::vector<Room> circle{{"base", {"cli"}}, {"cli", {"base"}}, {"cli", {}}};
-  EXPECT_EQ(joined(list_faults(circle)),
+  EXPECT_EQ(fault_lines(list_faults(circle)),
             "`base` uses `cli`, which does not stand before it\n`cli` is listed twice\n");
-  EXPECT_EQ(joined(include_faults({}, made_up_rooms)),
+  EXPECT_EQ(fault_lines(include_faults({}, made_up_rooms)),
             "`contact` names `base` and does not include it\n"
             "`cli` names `base` and does not include it\n");
 }
@@ -407,17 +409,18 @@ TEST(RoomCheck, CatchesARoomThatIsFull) {
   std::vector<SourceFile> files;
   for (std::size_t i = 0; i < fullest_room; ++i)
     files.push_back({"base/" + std::to_string(i) + ".h", ""});
-  EXPECT_EQ(joined(size_faults(files)), "");
+  EXPECT_EQ(fault_lines(size_faults(files)), "");
   files.push_back({"base/more.h", ""});
-  EXPECT_EQ(joined(size_faults(files)), "src/base has 56 files, more than 55; split the room\n");
+  EXPECT_EQ(fault_lines(size_faults(files)),
+            "src/base has 56 files, more than 55; split the room\n");
 }
 
 TEST(RoomCheck, CatchesTwoTypesOfOneName) {
   const std::string row = "namespace palpate::a {\nstruct Row { int x; };\n}\n";
-  EXPECT_EQ(joined(definition_faults({{"a/b.h", row}, {"a/c.cpp", row}})),
+  EXPECT_EQ(fault_lines(definition_faults({{"a/b.h", row}, {"a/c.cpp", row}})),
             "`palpate::a::Row` is defined by src/a/b.h and by src/a/c.cpp; rename one\n");
   EXPECT_EQ(
-      joined(definition_faults(
+      fault_lines(definition_faults(
           {{"a/b.h", row},
            {"a/c.cpp", "namespace palpate::b {\nclass Row final : public X {};\n}\n"},
            {"a/d.cpp", "namespace palpate::a {\nnamespace {\nstruct Row {};\n}\n}\n"},
@@ -454,10 +457,10 @@ TEST(RoomCheck, CatchesALibraryInTwoFiles) {
 TEST(RoomCheck, CatchesALongFileAndASilentOne) {
   std::string longest = "// As long as a file may be.\n";
   for (int line = 2; line <= longest_file; ++line) longest += "\n";
-  EXPECT_EQ(joined(form_faults({{"base/long.h", longest}})), "");
-  EXPECT_NE(joined(form_faults({{"base/long.h", longest + "\n"}})), "");
-  EXPECT_NE(joined(form_faults({{"base/silent.h", "#pragma once\n"}})), "");
-  EXPECT_NE(joined(form_faults({{"base/empty.h", ""}})), "");
+  EXPECT_EQ(fault_lines(form_faults({{"base/long.h", longest}})), "");
+  EXPECT_NE(fault_lines(form_faults({{"base/long.h", longest + "\n"}})), "");
+  EXPECT_NE(fault_lines(form_faults({{"base/silent.h", "#pragma once\n"}})), "");
+  EXPECT_NE(fault_lines(form_faults({{"base/empty.h", ""}})), "");
 }
 
 }  // namespace

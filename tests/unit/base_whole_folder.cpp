@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using State = WholeFolder::State;
 using Names = std::set<std::string>;
-using Files = std::vector<std::pair<std::string, std::string>>;
+using Contents = std::vector<std::pair<std::string, std::string>>;
 
 class WholeFolders : public testing::Test {
  protected:
@@ -46,7 +46,7 @@ class WholeFolders : public testing::Test {
   }
 
   // Writes a result and puts it in its place.
-  std::vector<std::string> put(const Files& files, Replace replace = Replace::any,
+  std::vector<std::string> put(const Contents& files, Replace replace = Replace::any,
                                State content = State::complete) const {
     WholeFolder folder(place_, "result", replace);
     folder.open();
@@ -351,8 +351,8 @@ TEST_F(WholeFolders, WhatALivingProcessWritesIsLeftAlone) {
 // Killed before each of its calls in turn, with and without an old result, with and without
 // exchange: what stands at the place is whole, and a later process finds one and leaves nothing.
 TEST_F(WholeFolders, KilledAnywhereItIsTheOldOneOrTheNewOne) {
-  const Files old{{"a.csv", "old"}, {"old.csv", "old"}};
-  const Files fresh{{"a.csv", "new"}, {"new.csv", "new"}};
+  const Contents old{{"a.csv", "old"}, {"old.csv", "old"}};
+  const Contents fresh{{"a.csv", "new"}, {"new.csv", "new"}};
   for (const bool exchange : {true, false})
     for (const bool replaces : {true, false}) {
       int kills = 0;

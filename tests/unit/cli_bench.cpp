@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-std::string press(const std::string& more) {
+std::string bench_press(const std::string& more) {
   return "[solver]\nmodel = \"mass_spring\"\n" + more +
          "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"20 mm/s\"\n";
 }
@@ -40,7 +40,7 @@ class BenchVerb : public testing::Test {
 };
 
 TEST_F(BenchVerb, RowsAreWholeAndOrdered) {
-  const auto row = measured(press(""));
+  const auto row = measured(bench_press(""));
   EXPECT_EQ(row["model"], "press");
   EXPECT_EQ(row["nodes"], 140);
   EXPECT_EQ(row["tetrahedra"], 432);
@@ -60,7 +60,7 @@ TEST_F(BenchVerb, TheForceIsTheRunsForce) {
   for (const std::string more :
        {"", "integrator = \"modal\"\n", "rings = 2\n",
         "integrator = \"quasi_static\"\n[contact]\ncoupling = \"one_way\"\n"}) {
-    const auto row = measured(press(more));
+    const auto row = measured(bench_press(more));
     ASSERT_EQ(palpate(folder_.path(), {"run", "press.toml", "--force", "--quiet"}).code, 0);
     const record::Table table = record::read_csv(folder_ / "out/press/force_indentation.csv");
     const auto column = static_cast<std::size_t>(table.find("force_N"));
@@ -72,7 +72,7 @@ TEST_F(BenchVerb, TheForceIsTheRunsForce) {
 }
 
 TEST_F(BenchVerb, CentralDifferencesAndModesPressAsHard) {
-  write_file(folder_ / "press.toml", press(""));
+  write_file(folder_ / "press.toml", bench_press(""));
   std::vector<double> forces;
   for (const std::string integrator : {"central_difference", "modal"}) {
     const Ended ended = palpate(folder_.path(), {"bench", "press.toml", "--frames", "5", "--json",
@@ -87,8 +87,8 @@ TEST_F(BenchVerb, CentralDifferencesAndModesPressAsHard) {
 
 TEST_F(BenchVerb, SeriesReadsTheMovingMesh) {
   for (const std::string more : {"", "integrator = \"backward_difference\"\n"}) {
-    const auto stiff = measured(press(more));
-    const auto soft = measured(press(more + "[contact]\ncoupling = \"series\"\n"));
+    const auto stiff = measured(bench_press(more));
+    const auto soft = measured(bench_press(more + "[contact]\ncoupling = \"series\"\n"));
     EXPECT_EQ(soft["coupling"], "series");
     EXPECT_LT(soft["force_N"], stiff["force_N"]) << more;
     EXPECT_GT(soft["force_N"], 0.0) << more;
@@ -96,15 +96,16 @@ TEST_F(BenchVerb, SeriesReadsTheMovingMesh) {
 }
 
 TEST_F(BenchVerb, TheWorkIsTheSameTwice) {
-  const auto first = measured(press("rings = 2\n"));
-  const auto second = measured(press("rings = 2\n"));
+  const auto first = measured(bench_press("rings = 2\n"));
+  const auto second = measured(bench_press("rings = 2\n"));
   EXPECT_EQ(first["force_N"], second["force_N"]);
   EXPECT_EQ(first["displacement_mm"], second["displacement_mm"]);
 }
 
 TEST_F(BenchVerb, CasesOfASweepAreRows) {
-  const Ended ended = bench(press("") + "[sweep]\n\"tissue.material\" = [\"skin\", \"muscle\"]\n",
-                            {"--frames", "2"});
+  const Ended ended =
+      bench(bench_press("") + "[sweep]\n\"tissue.material\" = [\"skin\", \"muscle\"]\n",
+            {"--frames", "2"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(ended.err, "") << "the readable table is for terminals";
   const record::Table table = record::parse_csv(ended.out, "stdout");
@@ -117,10 +118,10 @@ TEST_F(BenchVerb, RefusesWhatHasNoFrames) {
   expect_refused("[[step]]\nkind = \"creep\"\n", 2, "has no finger");
   expect_refused("[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = \"indent\"\n", 2,
                  "a `half_space` has no mesh");
-  EXPECT_EQ(bench(press(""), {"--frames", "0"}).code, 2);
+  EXPECT_EQ(bench(bench_press(""), {"--frames", "0"}).code, 2);
   // Above the stability limit in one step, and nothing that damps.
-  expect_refused(press("substeps = 1\nallow_unstable = true\n[tissue]\nviscosity = "
-                       "\"none\"\nyoung_modulus = \"2000 kPa\"\n"),
+  expect_refused(bench_press("substeps = 1\nallow_unstable = true\n[tissue]\nviscosity = "
+                             "\"none\"\nyoung_modulus = \"2000 kPa\"\n"),
                  4, "press, central_difference, rings all, frame ");
 }
 

@@ -10,7 +10,7 @@ namespace palpate::test {
 namespace {
 
 // A press of E = 20 kPa, nu = 0.5, R = 5 mm, contact at 0.3 mm, force offset 0.1 N.
-std::string press(double young) {
+std::string press_curve(double young) {
   std::string text = "depth (mm),load (N)\n";
   for (int i = 0; i <= 60; ++i) {
     const double depth = 0.02 * i;
@@ -28,7 +28,7 @@ class FitMany : public testing::Test {
 
 TEST_F(FitMany, OneRowPerCurveAndThePopulation) {
   for (int i = 0; i < 4; ++i)
-    write_file(folder_ / ("c" + std::to_string(i) + ".csv"), press(20e3 + 2e3 * i));
+    write_file(folder_ / ("c" + std::to_string(i) + ".csv"), press_curve(20e3 + 2e3 * i));
   write_file(folder_ / "bad.csv", "depth (mm),load (N)\n1,2\n2,3\n");
   const Ended ended =
       palpate(folder_.path(), {"fit", "c0.csv", "c1.csv", "bad.csv", "c2.csv", "c3.csv", "--model",
@@ -81,7 +81,7 @@ TEST_F(FitMany, CompressionOfASpecimen) {
 }
 
 TEST_F(FitMany, DataSaysWhatIsUnderstood) {
-  write_file(folder_ / "c.csv", press(20e3));
+  write_file(folder_ / "c.csv", press_curve(20e3));
   const Ended ended = palpate(folder_.path(), {"data", "c.csv"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   for (const char* line :

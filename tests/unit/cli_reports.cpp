@@ -10,20 +10,20 @@
 namespace palpate::test {
 namespace {
 
-const std::string press =
+const std::string titled_press =
     "title = \"A <press> & 'more'\"\n[tissue]\nshape = { kind = \"cuboid\", size = [\"40 mm\", "
     "\"40 "
     "mm\", \"20 mm\"] }\nmesh = { kind = \"kuhn\", cells = [3, 3, 2] }\n[solver]\nmodel = "
     "\"mass_spring\"\nintegrator = \"quasi_static\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n"
     "[[step]]\nkind = \"hold\"\ntime = \"50 ms\"\n[output]\ninterval = \"20 ms\"\n"
     "regression = \"power\"\n";
-const std::string creep =
+const std::string short_creep =
     "[tissue]\nmesh = { kind = \"kuhn\", cells = [2, 2, 2] }\nviscosity = \"kelvin_voigt\"\n"
     "[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = \"creep\"\nload_time = \"0.1 s\"\n"
     "recovery_time = \"0.1 s\"\n[output]\ninterval = \"10 ms\"\n";
 
 // 4/3 E / (1 - nu^2) sqrt(R) h^(3/2) of 60 kPa, 0.45 and 11 mm, in mm and mN, with a ripple.
-std::string measurement() {
+std::string rippled_measurement() {
   std::string text = "Displacement (mm);Load (mN)\n";
   for (int i = 0; i <= 40; ++i) {
     const double h = 0.05e-3 * i;
@@ -35,7 +35,7 @@ std::string measurement() {
   return text;
 }
 
-class Pages : public SweepProgram {
+class ReportPages : public SweepProgram {
  protected:
   void make(const std::vector<std::string>& arguments) const {
     const Ended ended = palpate(folder_.path(), arguments);
@@ -43,13 +43,13 @@ class Pages : public SweepProgram {
   }
 };
 
-TEST_F(Pages, OpenWithoutAFault) {
-  write_file(folder_ / "press.toml", press);
-  write_file(folder_ / "creep.toml", creep);
+TEST_F(ReportPages, OpenWithoutAFault) {
+  write_file(folder_ / "press.toml", titled_press);
+  write_file(folder_ / "creep.toml", short_creep);
   write_file(folder_ / "found.toml",
              "[tissue]\nshape = { kind = \"half_space\" }\n[finger]\nmaterial = \"rigid\"\n"
              "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n[output]\ninterval = \"10 ms\"\n");
-  write_file(folder_ / "measured.csv", measurement());
+  write_file(folder_ / "measured.csv", rippled_measurement());
   make({"run", "press.toml", "creep.toml"});
   make({"identify", "measured.csv", "found.toml", "--unknown", "tissue.young_modulus=1..500 kPa"});
   plan(quick_sweep);
@@ -67,7 +67,7 @@ TEST_F(Pages, OpenWithoutAFault) {
     EXPECT_EQ(faults_of_pages(folder_.path(), pages, scheme), std::vector<std::string>{});
 }
 
-TEST_F(Pages, TheInspectorFindsFaults) {
+TEST_F(ReportPages, TheInspectorFindsFaults) {
   write_file(
       folder_ / "bad.html",
       "<!DOCTYPE html><html lang=en><body><h1 id=a>x</h1><main id=a style=\"color:#aaaaaa;"
@@ -81,8 +81,8 @@ TEST_F(Pages, TheInspectorFindsFaults) {
     })) << fault;
 }
 
-TEST_F(Pages, AreLightOrDarkAsTheReaderLikes) {
-  write_file(folder_ / "press.toml", press);
+TEST_F(ReportPages, AreLightOrDarkAsTheReaderLikes) {
+  write_file(folder_ / "press.toml", titled_press);
   make({"run", "press.toml"});
   const auto mean = [&](Scheme scheme) {
     const std::vector<double> all = lightness(folder_ / "out/press/report.html", scheme);
@@ -95,8 +95,8 @@ TEST_F(Pages, AreLightOrDarkAsTheReaderLikes) {
   EXPECT_LT(mean(Scheme::dark), 60.0);
 }
 
-TEST_F(Pages, TheSameTwice) {
-  write_file(folder_ / "press.toml", press);
+TEST_F(ReportPages, TheSameTwice) {
+  write_file(folder_ / "press.toml", titled_press);
   make({"run", "press.toml"});
   const std::string first = read_file(folder_ / "out/press/report.html");
   make({"run", "press.toml", "--force"});

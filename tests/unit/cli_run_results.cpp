@@ -15,7 +15,7 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-const std::string press_given =
+const std::string press_and_hold =
     "[tissue]\nmesh = { kind = \"mirrored\", cells = [4, 4, 3] }\n"
     "[solver]\nmodel = \"mass_spring\"\nintegrator = \"quasi_static\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\nrate = \"10 mm/s\"\n"
@@ -47,7 +47,7 @@ class OfAPress : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
-    write_file(*folder_ / "press.toml", press_given);
+    write_file(*folder_ / "press.toml", press_and_hold);
     ended_ = palpate(folder_->path(), {"run", "press.toml", "--set", "contact.friction=0.4"});
   }
   static void TearDownTestSuite() { delete folder_; }
@@ -197,7 +197,7 @@ TEST(RunResults, findings_lead_with_the_swept_keys) {
 
 TEST(RunResults, pdf_on_request) {
   const TemporaryFolder folder;
-  write_file(folder / "press.toml", press_given);
+  write_file(folder / "press.toml", press_and_hold);
   const Ended ended = palpate(folder.path(), {"run", "press.toml", "--set", "output.pdf=true"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(read_file(folder / "out/press/figure_force_indentation.pdf").substr(0, 5), "%PDF-");
@@ -206,7 +206,7 @@ TEST(RunResults, pdf_on_request) {
 
 TEST(RunResults, without_gnuplot_the_script_stays) {
   const TemporaryFolder folder;
-  write_file(folder / "press.toml", press_given);
+  write_file(folder / "press.toml", press_and_hold);
   fs::create_directory(folder / "empty");
   const Ended ended = run_program({.arguments = {"run", "press.toml"},
                                    .folder = folder.path(),

@@ -286,14 +286,15 @@ TEST(LayerLaw, KnowsNothingBeyondItsTable) {
   }
 }
 
-constexpr double radius = 0.011, modulus = 78902.5, thickness = 0.01;  // m, Pa, m
+constexpr double radius = 0.011, layer_modulus = 78902.5, thickness = 0.01;  // m, Pa, m
 
 TEST(LayerContact, HasSizes) {
-  const LayerContact contact{radius, modulus, thickness, LayerLaw(bonded(0.33))};
+  const LayerContact contact{radius, layer_modulus, thickness, LayerLaw(bonded(0.33))};
   for (const double depth : {1e-6, 1e-3, 0.01, 0.08}) {
     const double chi = std::sqrt(radius * depth) / thickness;
     const double force = contact.force(depth);
-    EXPECT_DOUBLE_EQ(force, hertz::force(depth, radius, modulus) * contact.law.force_factor(chi));
+    EXPECT_DOUBLE_EQ(force,
+                     hertz::force(depth, radius, layer_modulus) * contact.law.force_factor(chi));
     const double a = contact.contact_radius(depth);
     EXPECT_DOUBLE_EQ(a, std::sqrt(radius * depth) * contact.law.radius_factor(chi));
     EXPECT_NEAR(contact.depth(force).value(), depth, 1e-14 * depth);  // rounding
@@ -302,7 +303,7 @@ TEST(LayerContact, HasSizes) {
     EXPECT_NEAR((contact.force(depth + step) - contact.force(depth - step)) / (2.0 * step),
                 contact.stiffness(depth), 1e-7 * contact.stiffness(depth));
     // dF/dh = 2 E* a kappa; 1e-6 of a table's slope
-    EXPECT_NEAR(2.0 * modulus * a * flat_punch_factor(a / thickness, bonded(0.33)),
+    EXPECT_NEAR(2.0 * layer_modulus * a * flat_punch_factor(a / thickness, bonded(0.33)),
                 contact.stiffness(depth), 1e-6 * contact.stiffness(depth));
     EXPECT_DOUBLE_EQ(contact.pressure(0.3 * a, depth),
                      force / (pi * a * a) * contact.law.pressure(chi).at(0.3));
@@ -311,7 +312,7 @@ TEST(LayerContact, HasSizes) {
 }
 
 TEST(LayerContact, EndsOnBothSides) {
-  const LayerContact contact{radius, modulus, thickness, LayerLaw(bonded(0.5))};
+  const LayerContact contact{radius, layer_modulus, thickness, LayerLaw(bonded(0.5))};
   for (const double none : {0.0, -1e-3}) {
     EXPECT_EQ(contact.force(none), 0.0);
     EXPECT_EQ(contact.stiffness(none), 0.0);

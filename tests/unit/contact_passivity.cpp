@@ -11,7 +11,7 @@
 namespace palpate::contact {
 namespace {
 
-constexpr double radius = 0.011;  // m
+constexpr double tip_radius = 0.011;  // m
 
 struct Row {
   double young_modulus, poisson_ratio;  // Pa, of Table 1
@@ -24,14 +24,15 @@ constexpr Row rows[] = {{72.4e3, 0.33, 0.26169009},
                         {33.1e3, 0.45, 0.13559654},
                         {0.8e3, 0.3, 0.0029147766}};
 
-double modulus(const Row& row) {
+double modulus_of(const Row& row) {
   return hertz::effective_modulus(Elastic{2050e3, 0.5}.compliance(),
                                   Elastic{row.young_modulus, row.poisson_ratio}.compliance());
 }
 
 TEST(Passivity, DampingThatTheTissuesOfThePaperNeed) {
   for (const Row& row : rows)
-    EXPECT_NEAR(needed_damping(hertz::stiffness(1e-3, radius, modulus(row)), {}), row.damping,
+    EXPECT_NEAR(needed_damping(hertz::stiffness(1e-3, tip_radius, modulus_of(row)), {}),
+                row.damping,
                 5e-8 * row.damping);  // half a unit of the eighth digit
 }
 
@@ -44,10 +45,10 @@ TEST(Passivity, DepthIsWhereTheNeededDampingIsTheDevices) {
   const SampledDevice device{.damping = 0.3, .frame = 1e-3, .virtual_damping = 0.1, .delay = 1e-4};
   for (const Row& row : rows) {
     PointLaw law;
-    law.coefficient = hertz::force(1.0, radius, modulus(row));
+    law.coefficient = hertz::force(1.0, tip_radius, modulus_of(row));
     const double depth = passive_depth(law, device);
     // K grows as sqrt(h)
-    const double unit = hertz::stiffness(1.0, radius, modulus(row));
+    const double unit = hertz::stiffness(1.0, tip_radius, modulus_of(row));
     EXPECT_NEAR(depth, std::pow(passive_stiffness(device) / unit, 2), 1e-13 * depth);  // rounding
     EXPECT_NEAR(needed_damping(law.stiffness(depth), device), device.damping, 1e-13);
   }

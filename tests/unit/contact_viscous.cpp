@@ -13,12 +13,12 @@
 namespace palpate::contact {
 namespace {
 
-constexpr double radius = 0.011;        // m
-constexpr double relaxed = 5e3 / 0.75;  // E_inf / (1 - nu^2), Pa: nu = 0.5
+constexpr double viscous_radius = 0.011;  // m
+constexpr double relaxed = 5e3 / 0.75;    // E_inf / (1 - nu^2), Pa: nu = 0.5
 constexpr double mm = 1e-3;
 
-double phi(double depth) { return hertz::force(depth, radius, relaxed); }
-double phi_slope(double depth) { return hertz::stiffness(depth, radius, relaxed); }
+double phi(double depth) { return hertz::force(depth, viscous_radius, relaxed); }
+double phi_slope(double depth) { return hertz::stiffness(depth, viscous_radius, relaxed); }
 
 // The solid of group SLS: E_inf = 5 kPa, E_0 = 10 kPa, tau = 1 s.
 const Relaxation solid{.branches = {{.time = 1.0, .ratio = 1.0}}};

@@ -11,7 +11,7 @@
 namespace palpate::contact {
 namespace {
 
-constexpr double mm = 1e-3;
+constexpr double millimetre = 1e-3;
 
 // What a ring holds when it is let go and when it is met again at once is the same.
 TEST(ViscousRing, FreeAndPressedAreOneState) {
@@ -21,25 +21,25 @@ TEST(ViscousRing, FreeAndPressedAreOneState) {
   ASSERT_EQ(ring.mode_count(), 3u);
   // Pressed down by 1 mm and held for a second: q_k; then back until nothing pushes.
   std::vector<double> branches(3), modes(3), again(3);
-  ring.press(1.0, mm, branches);
-  EXPECT_DOUBLE_EQ(branches[0], 5.0 * mm);
+  ring.press(1.0, millimetre, branches);
+  EXPECT_DOUBLE_EQ(branches[0], 5.0 * millimetre);
   ring.set_time_step(1.0);
   ring.press(1.0, 0.0, branches);
-  EXPECT_DOUBLE_EQ(branches[2], 3.0 * mm * std::exp(-1.0 / 3.0));
+  EXPECT_DOUBLE_EQ(branches[2], 3.0 * millimetre * std::exp(-1.0 / 3.0));
   ring.set_time_step(0.0);
-  const double push = mm + branches[0] + branches[1] + branches[2];
+  const double push = millimetre + branches[0] + branches[1] + branches[2];
   const double rise = push / 10.0;  // E_0 / E_inf
   ring.press(1.0, -rise, branches);
-  ring.let_go(mm - rise, branches, modes);
-  EXPECT_NEAR(modes[0] + modes[1] + modes[2], mm - rise, 1e-15 * mm);  // rounding
+  ring.let_go(millimetre - rise, branches, modes);
+  EXPECT_NEAR(modes[0] + modes[1] + modes[2], millimetre - rise, 1e-15 * millimetre);  // rounding
   ring.meet(modes, again);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(again[k], branches[k], 1e-14 * mm);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(again[k], branches[k], 1e-14 * millimetre);
   // Free, it keeps q = 0 in a step of any length.
   ring.set_time_step(0.1);
   ring.rise(1.0, modes);
   ring.meet(modes, again);
   const double w = modes[0] + modes[1] + modes[2];
-  EXPECT_NEAR(w + again[0] + again[1] + again[2], 0.0, 1e-14 * mm);
+  EXPECT_NEAR(w + again[0] + again[1] + again[2], 0.0, 1e-14 * millimetre);
   // The branches follow  q_k' = b_k w' - q_k / tau_k  of that free rise: in the middle of a step.
   std::vector<double> before = modes, after = modes, q_before(3), q_after(3);
   ring.set_time_step(1e-5);
@@ -50,7 +50,8 @@ TEST(ViscousRing, FreeAndPressedAreOneState) {
   std::vector<double> pressed = q_before;
   ring.press(1.0, sunk, pressed);
   for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_NEAR(pressed[k] - q_before[k], q_after[k] - q_before[k], 1e-9 * mm);  // dt^3 / tau^3
+    EXPECT_NEAR(pressed[k] - q_before[k], q_after[k] - q_before[k],
+                1e-9 * millimetre);  // dt^3 / tau^3
 }
 
 TEST(ViscousRing, PartsOfAStep) {

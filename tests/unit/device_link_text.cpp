@@ -54,7 +54,7 @@ TEST(LinkText, TellsWhatOnlyReads) {
   EXPECT_FALSE(only_reads(parse_link("inverse3:x:1")));
 }
 
-std::string refusal(std::string_view text) {
+std::string link_refusal(std::string_view text) {
   return test::refusal([&] { return parse_link(text); });
 }
 
@@ -90,12 +90,12 @@ TEST(LinkText, RefusesEverythingElseAndShowsTheForms) {
                            "replay:",
                            "mark11:/dev/ttyUSB0",
                            ":"}) {
-    const std::string message = refusal(text);
+    const std::string message = link_refusal(text);
     EXPECT_NE(message.find("`mark10:/dev/ttyUSB0`"), std::string::npos) << text;
     EXPECT_NE(message.find("`" + std::string(text) + "`"), std::string::npos) << text;
   }
-  EXPECT_NE(refusal("inverse3:localhost:1:x").find("or `none`"), std::string::npos);
-  EXPECT_NE(refusal("mark11:x").find("did you mean `mark10:`"), std::string::npos);
+  EXPECT_NE(link_refusal("inverse3:localhost:1:x").find("or `none`"), std::string::npos);
+  EXPECT_NE(link_refusal("mark11:x").find("did you mean `mark10:`"), std::string::npos);
 }
 
 }  // namespace

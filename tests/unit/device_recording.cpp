@@ -28,20 +28,26 @@ TEST(RecordingFile, ReadsATravelOrAPosition) {
   EXPECT_TRUE(std::isnan(moved[0].force));
 }
 
-std::string refusal(const char* text) {
+std::string recording_refusal(const char* text) {
   return test::refusal([&] { return parse_recording(text, "run.csv"); });
 }
 
 TEST(RecordingFile, IsRefusedWithItsLine) {
-  EXPECT_EQ(refusal("travel_mm\n0\n").find("run.csv:1: a recording wants a column `time_s`"), 0u);
-  EXPECT_EQ(refusal("time_s,position_x_m\n0,0\n").find("run.csv:1: a recording wants a position"),
+  EXPECT_EQ(
+      recording_refusal("travel_mm\n0\n").find("run.csv:1: a recording wants a column `time_s`"),
+      0u);
+  EXPECT_EQ(recording_refusal("time_s,position_x_m\n0,0\n")
+                .find("run.csv:1: a recording wants a position"),
             0u);
-  EXPECT_EQ(refusal("time_s,travel_mm\n0,0\n1\n").find("run.csv:3: the row has 1 fields"), 0u);
-  EXPECT_EQ(refusal("time_s,travel_mm\n0,nan\n").find("run.csv:2: `nan` is no finite"), 0u);
-  EXPECT_EQ(refusal("time_s,travel_mm\n0,x\n").find("run.csv:2: `x` is no finite"), 0u);
-  EXPECT_EQ(refusal("time_s,travel_mm\n1,0\n0,0\n").find("run.csv:3: `time_s` goes back"), 0u);
-  EXPECT_EQ(refusal("time_s,travel_mm\n").find("run.csv: the recording has no rows"), 0u);
-  EXPECT_EQ(refusal("").find("run.csv:1:"), 0u);
+  EXPECT_EQ(recording_refusal("time_s,travel_mm\n0,0\n1\n").find("run.csv:3: the row has 1 fields"),
+            0u);
+  EXPECT_EQ(recording_refusal("time_s,travel_mm\n0,nan\n").find("run.csv:2: `nan` is no finite"),
+            0u);
+  EXPECT_EQ(recording_refusal("time_s,travel_mm\n0,x\n").find("run.csv:2: `x` is no finite"), 0u);
+  EXPECT_EQ(recording_refusal("time_s,travel_mm\n1,0\n0,0\n").find("run.csv:3: `time_s` goes back"),
+            0u);
+  EXPECT_EQ(recording_refusal("time_s,travel_mm\n").find("run.csv: the recording has no rows"), 0u);
+  EXPECT_EQ(recording_refusal("").find("run.csv:1:"), 0u);
 }
 
 class RecordingLink : public testing::Test {

@@ -11,7 +11,7 @@
 namespace palpate::device {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 TEST(Arming, IsOnlyExplicitAndNeverComesBack) {
@@ -29,7 +29,7 @@ TEST(Arming, IsOnlyExplicitAndNeverComesBack) {
 
 TEST(Force, IsZeroWhereItIsNoNumber) {
   EXPECT_EQ(finite_or_zero({1.0, 2.0, 3.0}), Vec3(1.0, 2.0, 3.0));
-  EXPECT_EQ(finite_or_zero({1.0, nan, 3.0}), Vec3::Zero());
+  EXPECT_EQ(finite_or_zero({1.0, not_a_number, 3.0}), Vec3::Zero());
   EXPECT_EQ(finite_or_zero({infinite, 0.0, 0.0}), Vec3::Zero());
 }
 
@@ -61,7 +61,7 @@ TEST(Start, RampsFromZeroAndNotInsideTissue) {
   StartRamp ramp(0.5);
   EXPECT_EQ(ramp.gain(100.0), 0.0);
   EXPECT_FALSE(ramp.start(10.0, 1e-6));
-  EXPECT_FALSE(ramp.start(10.0, nan));
+  EXPECT_FALSE(ramp.start(10.0, not_a_number));
   EXPECT_EQ(ramp.gain(11.0), 0.0);
   EXPECT_TRUE(ramp.start(10.0, 0.0));
   EXPECT_EQ(ramp.gain(10.0), 0.0);
@@ -132,7 +132,7 @@ TEST(WorkspaceBox, HoldsWhatIsInside) {
   const Workspace box{{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}};
   EXPECT_TRUE(box.holds({0.0, 1.0, -1.0}));
   EXPECT_FALSE(box.holds({0.0, 0.0, 1.001}));
-  EXPECT_FALSE(box.holds({0.0, nan, 0.0}));
+  EXPECT_FALSE(box.holds({0.0, not_a_number, 0.0}));
   EXPECT_TRUE(Workspace{}.holds({1e6, 0.0, 0.0}));
 }
 
@@ -141,7 +141,7 @@ TEST(Jump, IsDroppedUntilTheDeviceCanHaveGotThere) {
   EXPECT_TRUE(jump.takes(0.0, {5.0, 0.0, 0.0}));  // the first is where it is
   EXPECT_TRUE(jump.takes(1e-3, {5.001, 0.0, 0.0}));
   EXPECT_FALSE(jump.takes(2e-3, {5.05, 0.0, 0.0}));
-  EXPECT_FALSE(jump.takes(3e-3, {nan, 0.0, 0.0}));
+  EXPECT_FALSE(jump.takes(3e-3, {not_a_number, 0.0, 0.0}));
   EXPECT_TRUE(jump.takes(3e-3, {5.002, 0.0, 0.0}));  // back where it was
   EXPECT_TRUE(jump.takes(0.103, {5.1, 0.0, 0.0}));   // 0.1 m in 0.1 s
 }
@@ -226,7 +226,7 @@ TEST(Stand, MovesAwayFromALimitOnly) {
   EXPECT_EQ(stand.allow(down).act, Motion::Act::stop);
   EXPECT_EQ(stand.allow(up).act, Motion::Act::up);
   EXPECT_EQ(stand.allow({Motion::Act::up, 1.0}).speed, stand_rules.fastest);
-  EXPECT_EQ(stand.allow({Motion::Act::up, nan}).act, Motion::Act::stop);
+  EXPECT_EQ(stand.allow({Motion::Act::up, not_a_number}).act, Motion::Act::stop);
   EXPECT_EQ(stand.allow({Motion::Act::up, -1.0}).act, Motion::Act::stop);
 }
 
@@ -250,7 +250,7 @@ TEST(Stand, HaltsWhileSamplesAreMissingAndStopsWhenTheyStayAway) {
 TEST(Stand, TakesAForceThatIsNoNumberForASampleThatIsMissing) {
   StandSafety stand(stand_rules);
   static_cast<void>(stand.step(0.0, at(0.0, 0.0)));
-  EXPECT_EQ(stand.step(0.07, at(0.0, nan)), Verdict::halt);
+  EXPECT_EQ(stand.step(0.07, at(0.0, not_a_number)), Verdict::halt);
 }
 
 }  // namespace

@@ -11,14 +11,14 @@
 namespace palpate::fit {
 namespace {
 
-struct Curve {
+struct RelaxationCurve {
   std::vector<double> x;
   std::vector<double> y;
 };
 
 // y = 3 + 2 e^(-t/0.1) + e^(-t/2), or the creep that climbs by the same terms; 0 to 8 s.
-Curve curve_of(PronySeries::Kind kind, int points = 400) {
-  Curve curve;
+RelaxationCurve curve_of(PronySeries::Kind kind, int points = 400) {
+  RelaxationCurve curve;
   for (int i = 0; i <= points; ++i) {
     const double t = 8.0 * i / points;
     const double fast = std::exp(-t / 0.1);
@@ -32,7 +32,7 @@ Curve curve_of(PronySeries::Kind kind, int points = 400) {
 
 TEST(Prony, TwoTermsExactly) {
   for (const auto kind : {PronySeries::Kind::relaxation, PronySeries::Kind::creep}) {
-    const Curve curve = curve_of(kind);
+    const RelaxationCurve curve = curve_of(kind);
     const Fit fit =
         fit_prony(curve.x, curve.y, {kind, 2}, {.x_unit = "s", .y_unit = "kPa", .x_origin = 0});
     EXPECT_EQ(word(fit.termination), "converged");
@@ -49,7 +49,7 @@ TEST(Prony, TwoTermsExactly) {
 }
 
 TEST(Prony, FromAnOriginAndInOtherUnits) {
-  Curve curve = curve_of(PronySeries::Kind::relaxation);
+  RelaxationCurve curve = curve_of(PronySeries::Kind::relaxation);
   for (double& x : curve.x) x = 1e3 * x + 500;
   for (double& y : curve.y) y *= 1e-6;
   const Fit fit = fit_prony(curve.x, curve.y, {}, {.x_unit = "ms", .x_origin = 500});
@@ -59,10 +59,10 @@ TEST(Prony, FromAnOriginAndInOtherUnits) {
 }
 
 TEST(Prony, MoreTermsThanThereAre) {
-  const Curve curve = curve_of(PronySeries::Kind::relaxation);
+  const RelaxationCurve curve = curve_of(PronySeries::Kind::relaxation);
   const Fit fit = fit_prony(curve.x, curve.y, {PronySeries::Kind::relaxation, 1});
   EXPECT_LT(fit.r2, 0.99);  // one is too few
-  Curve single;
+  RelaxationCurve single;
   for (int i = 0; i <= 100; ++i) {
     single.x.push_back(0.1 * i);
     single.y.push_back(1 + 2 * std::exp(-0.1 * i));
@@ -114,7 +114,7 @@ TEST(Prony, TermsStandByRisingTime) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise(0.0, 0.02);
   for (int repeat = 0; repeat < 40; ++repeat) {
-    Curve curve = curve_of(PronySeries::Kind::creep, 60);
+    RelaxationCurve curve = curve_of(PronySeries::Kind::creep, 60);
     for (double& y : curve.y) y += noise(random);
     const Fit fit = fit_prony(curve.x, curve.y, {PronySeries::Kind::creep, 4});
     for (std::size_t i = 4; i < fit.parameters.size(); i += 2)

@@ -22,12 +22,12 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Skin under the finger at h = 0.1, 0.2 ... 3.0 mm: F = 4/3 E* sqrt(R) h^(3/2) with the E* of case
 // hertz-01 and R = 11 mm; h in mm, F in N.
 constexpr double contact_modulus = 78902.531;  // Pa
-struct Curve {
+struct Samples {
   std::vector<double> x;
   std::vector<double> y;
 };
-Curve skin() {
-  Curve curve;
+Samples skin() {
+  Samples curve;
   for (int i = 1; i <= 30; ++i) {
     const double depth = i * 1e-4;  // m
     curve.x.push_back(i / 10.0);
@@ -36,15 +36,15 @@ Curve skin() {
   return curve;
 }
 
-Curve noisy(Curve curve, double size, unsigned seed) {
+Samples noisy(Samples curve, double size, unsigned seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> noise(0.0, size);
   for (double& y : curve.y) y += noise(generator);
   return curve;
 }
 
-Curve sampled(Model model, const std::vector<double>& parameters, double to) {
-  Curve curve;
+Samples sampled(Model model, const std::vector<double>& parameters, double to) {
+  Samples curve;
   for (int i = 1; i <= 40; ++i) {
     curve.x.push_back(to * i / 40.0);
     curve.y.push_back(value(model, parameters, curve.x.back()));
@@ -73,7 +73,7 @@ Line normal_equations(const std::vector<double>& z, const std::vector<double>& y
 
 // a + b ln x is the one model linear in all its parameters, so that it has a closed form.
 TEST(Regression, LogarithmicIsTheNormalEquations) {
-  const Curve curve = noisy(skin(), 0.02, 5);
+  const Samples curve = noisy(skin(), 0.02, 5);
   std::vector<double> z;
   for (const double x : curve.x) z.push_back(std::log(x));
   const Line line = normal_equations(z, curve.y);
@@ -95,7 +95,7 @@ TEST(Regression, LogarithmicIsTheNormalEquations) {
 // Power's linearisation ln y = ln A + n ln x is linear too, and is what log-05 speaks of: with
 // ln y as the data of the logarithmic model, a is ln A and b is n.
 TEST(Regression, LinearisedPowerIsTheNormalEquations) {
-  const Curve curve = noisy(skin(), 0.001, 6);
+  const Samples curve = noisy(skin(), 0.001, 6);
   std::vector<double> z, log_y;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     z.push_back(std::log(curve.x[i]));
@@ -112,9 +112,10 @@ TEST(Regression, NonLinearFitIsAMinimumWithTheRightCovariance) {
   // At a least-squares fit the residuals stand at right angles on every column of J, and the
   // covariance is (J^T J)^-1 s^2; J here by central differences of the formula.
   for (const ModelInfo& row : models()) {
-    const Curve curve = noisy(row.parameters.size() == 3 ? sampled(row.model, {0.5, 2.0, 0.8}, 3.0)
-                                                         : sampled(row.model, {1.2, 0.7}, 3.0),
-                              0.03, 7);
+    const Samples curve =
+        noisy(row.parameters.size() == 3 ? sampled(row.model, {0.5, 2.0, 0.8}, 3.0)
+                                         : sampled(row.model, {1.2, 0.7}, 3.0),
+              0.03, 7);
     const Fit fit = regress(curve.x, curve.y, row.model);
     ASSERT_EQ(fit.termination, Termination::converged) << row.name;
     const std::size_t count = fit.parameters.size();
@@ -168,7 +169,7 @@ TEST(Regression, ExactDataGiveTheParametersBack) {
       {Model::kelvin_voigt_recovery, {0.14, 3.0}},
       {Model::standard_linear_solid, {2e4, 7e4, 1.4}}};
   for (const auto& [model, parameters] : truths) {
-    const Curve curve = sampled(model, parameters, 3.0);
+    const Samples curve = sampled(model, parameters, 3.0);
     const Fit fit = regress(curve.x, curve.y, model);
     EXPECT_EQ(fit.termination, Termination::converged) << info(model).name;
     EXPECT_NEAR(fit.r2, 1.0, 1e-12) << info(model).name;  // rounding
@@ -182,9 +183,9 @@ TEST(Regression, ExactDataGiveTheParametersBack) {
 }
 
 TEST(Regression, ScaleOfTheDataDoesNotMatter) {
-  const Curve curve = noisy(sampled(Model::kelvin_voigt, {0.14, 0.62}, 3.0), 0.003, 9);
+  const Samples curve = noisy(sampled(Model::kelvin_voigt, {0.14, 0.62}, 3.0), 0.003, 9);
   const Fit fit = regress(curve.x, curve.y, Model::kelvin_voigt);
-  Curve scaled = curve;
+  Samples scaled = curve;
   for (double& x : scaled.x) x *= 1e6;
   for (double& y : scaled.y) y *= 1e-7;
   const Fit other = regress(scaled.x, scaled.y, Model::kelvin_voigt);
@@ -222,7 +223,7 @@ TEST(Regression, IntervalsCoverTheTruth) {
 }
 
 TEST(Regression, PointsThatCannotBeUsedAreCounted) {
-  Curve curve = skin();
+  Samples curve = skin();
   curve.x.insert(curve.x.begin(), {0.0, -0.2, 1.0, nan, 2.0});
   curve.y.insert(curve.y.begin(), {0.0, 0.0, nan, 1.0, std::numeric_limits<double>::infinity()});
   const Fit fit = regress(curve.x, curve.y, Model::logarithmic, {.x_unit = "mm", .y_unit = "N"});
@@ -236,7 +237,7 @@ TEST(Regression, PointsThatCannotBeUsedAreCounted) {
 }
 
 TEST(Regression, TimeCountsFromTheLoad) {
-  Curve curve = sampled(Model::kelvin_voigt, {0.14, 0.62}, 3.0);
+  Samples curve = sampled(Model::kelvin_voigt, {0.14, 0.62}, 3.0);
   for (double& x : curve.x) x += 10.0;
   const Fit fit = regress(curve.x, curve.y, Model::kelvin_voigt, {.x_unit = "s", .x_origin = 10.0});
   EXPECT_NEAR(fit.parameters[1].estimate, 0.62, 1e-9);  // 10 + x is rounded to 1e-15
@@ -269,7 +270,7 @@ TEST(Regression, DataThatDoNotFixAParameterSaySo) {
 }
 
 TEST(Regression, OutOfIterationsIsAResult) {
-  const Curve curve = noisy(sampled(Model::exponential, {0.09, 2.1}, 3.0), 0.5, 3);
+  const Samples curve = noisy(sampled(Model::exponential, {0.09, 2.1}, 3.0), 0.5, 3);
   const Fit fit = regress(curve.x, curve.y, Model::exponential, {.max_iterations = 1});
   EXPECT_EQ(word(fit.termination), "not_converged");
   EXPECT_TRUE(std::isfinite(fit.parameters[0].estimate));
@@ -322,7 +323,7 @@ TEST(Regression, FailingFitIsSilent) {
 }
 
 TEST(Regression, SameTwice) {
-  const Curve curve = noisy(skin(), 0.01, 1);
+  const Samples curve = noisy(skin(), 0.01, 1);
   for (const ModelInfo& row : models()) {
     const Fit one = regress(curve.x, curve.y, row.model);
     const Fit two = regress(curve.x, curve.y, row.model);

@@ -14,13 +14,13 @@ namespace {
 using Loading = UniaxialTest::Loading;
 using Model = UniaxialTest::Model;
 
-constexpr double young = 14.7e3;  // Pa
+constexpr double specimen_young = 14.7e3;  // Pa
 
-struct Curve {
+struct StressCurve {
   std::vector<double> strain, stress;
 };
-Curve curve_of(double sign, double most, const std::function<double(double)>& nominal) {
-  Curve curve;
+StressCurve curve_of(double sign, double most, const std::function<double(double)>& nominal) {
+  StressCurve curve;
   for (int i = 0; i <= 80; ++i) {
     const double strain = most * i / 80.0;
     curve.strain.push_back(strain);
@@ -28,15 +28,15 @@ Curve curve_of(double sign, double most, const std::function<double(double)>& no
   }
   return curve;
 }
-double neo(double stretch) { return young / 3.0 * (stretch - 1.0 / (stretch * stretch)); }
+double neo(double stretch) { return specimen_young / 3.0 * (stretch - 1.0 / (stretch * stretch)); }
 double ogden(double stretch, double alpha) {
-  return 2.0 * young / (3.0 * alpha) *
+  return 2.0 * specimen_young / (3.0 * alpha) *
          (std::pow(stretch, alpha - 1.0) - std::pow(stretch, -0.5 * alpha - 1.0));
 }
-Fit fit_of(const Curve& curve, const UniaxialTest& test) {
+Fit fit_of(const StressCurve& curve, const UniaxialTest& test) {
   return fit_uniaxial(curve.strain, curve.stress, test);
 }
-std::string refusal(const Curve& curve, const UniaxialTest& test) {
+std::string refusal(const StressCurve& curve, const UniaxialTest& test) {
   return test::refusal([&] { return fit_of(curve, test); });
 }
 
@@ -46,7 +46,7 @@ TEST(Uniaxial, NeoHookeanAndOgdenExactly) {
     Fit fit = fit_of(curve_of(sign, 0.5, neo), {.model = Model::neo_hookean, .loading = loading});
     EXPECT_NEAR(fit.parameters[0].estimate, 14.7, 1e-9 * 14.7);  // exact data
     for (const double alpha : {-6.3, 1.5, 2.0, 9.1}) {
-      const Curve curve = curve_of(sign, 0.5, [&](double l) { return ogden(l, alpha); });
+      const StressCurve curve = curve_of(sign, 0.5, [&](double l) { return ogden(l, alpha); });
       fit = fit_of(curve, {.model = Model::ogden, .loading = loading});
       EXPECT_NEAR(fit.parameters[0].estimate, 14.7, 1e-9 * 14.7) << alpha;  // exact data
       EXPECT_NEAR(fit.parameters[1].estimate, alpha, 1e-8) << alpha;        // likewise
@@ -56,7 +56,7 @@ TEST(Uniaxial, NeoHookeanAndOgdenExactly) {
 
 // Ogden's law with alpha = 2 is the neo-Hookean one.
 TEST(Uniaxial, SignsAreTurnedTogether) {
-  Curve curve = curve_of(-1.0, 0.4, neo);
+  StressCurve curve = curve_of(-1.0, 0.4, neo);
   for (double& each : curve.strain) each = -each;
   for (double& each : curve.stress) each = -each;
   const Fit fit = fit_of(curve, {.model = Model::ogden});
@@ -68,7 +68,7 @@ TEST(Uniaxial, SignsAreTurnedTogether) {
 
 TEST(Uniaxial, ModulusOverARange) {
   // sigma = 200 + 1000 e + 5000 e^2 Pa: over 0.1 to 0.3 the line has the slope 1000 + 5000 * 0.4.
-  Curve curve;
+  StressCurve curve;
   for (int i = 0; i <= 100; ++i) {
     const double e = 0.005 * i;
     curve.strain.push_back(e);
@@ -85,10 +85,10 @@ TEST(Uniaxial, ModulusOverARange) {
 // Diameter 20 mm, height 10 mm: S = 1/2 and 1 + 2 S^2 = 1.5.
 TEST(Uniaxial, BondedPlatens) {
   EXPECT_EQ(gent_lindley(0.5), 1.5);
-  Curve curve;
+  StressCurve curve;
   for (int i = 0; i <= 20; ++i) {
     curve.strain.push_back(0.002 * i);
-    curve.stress.push_back(1.5 * young * curve.strain.back());
+    curve.stress.push_back(1.5 * specimen_young * curve.strain.back());
   }
   const Fit fit = fit_of(curve, {.shape_factor = 0.5});
   EXPECT_NEAR(fit.parameters[0].estimate, 14.7, 1e-9 * 14.7);  // exact data
@@ -96,17 +96,17 @@ TEST(Uniaxial, BondedPlatens) {
 }
 
 TEST(Uniaxial, Refusals) {
-  const Curve curve = curve_of(-1.0, 0.4, neo);
+  const StressCurve curve = curve_of(-1.0, 0.4, neo);
   EXPECT_EQ(refusal(curve, {.model = Model::neo_hookean}),
             "the model `neo_hookean` differs between compression and tension, and both columns are "
             "positive; give `--loading compression` or `--loading tension`");
   EXPECT_EQ(refusal(curve, {.from = 0.1, .to = 0.11}),
             "the model `modulus` needs at least 4 points, and 3 are usable; widen `--from` and "
             "`--to`, or record more points");
-  Curve turned = curve;
+  StressCurve turned = curve;
   for (double& each : turned.stress) each = -each;
   EXPECT_TRUE(refusal(turned, {}).starts_with("the stress falls as the strain grows"));
-  Curve percent = curve;
+  StressCurve percent = curve;
   for (double& each : percent.strain) each *= 100.0;
   EXPECT_TRUE(refusal(percent, {.model = Model::neo_hookean, .loading = Loading::compression})
                   .starts_with("a strain of "));

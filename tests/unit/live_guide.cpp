@@ -10,7 +10,7 @@
 namespace palpate::live {
 namespace {
 
-std::vector<scenario::Step> programme() {
+std::vector<scenario::Step> guided_steps() {
   scenario::Indent to_travel;
   to_travel.to = {2e-3, false};
   scenario::Hold hold;
@@ -29,7 +29,7 @@ GuidePlace at(double time, double travel, double force = 0.0, double x = 0.0) {
 }
 
 TEST(Guide, EndsEachStepByWhatWasReached) {
-  const auto steps = programme();
+  const auto steps = guided_steps();
   Guide guide(steps);
   guide.pass(at(0.0, -5e-3));
   guide.pass(at(0.1, 1.999e-3));
@@ -58,7 +58,7 @@ TEST(Guide, EndsEachStepByWhatWasReached) {
 }
 
 TEST(Guide, SaysWhatTheHandIsToDo) {
-  const auto steps = programme();
+  const auto steps = guided_steps();
   EXPECT_EQ(guidance(steps[0]), "press to 2 mm at about 5 mm/s");
   EXPECT_EQ(guidance(steps[1]), "hold still for 0.5 s");
   EXPECT_EQ(guidance(steps[2]), "slide sideways by 3 mm at about 5 mm/s");

@@ -22,23 +22,23 @@ const std::string layer =
 const std::string modal =
     "schema = 1\n[tissue]\nmaterial = \"skin\"\nmesh = { kind = \"kuhn\", cells = [3, 4, 6] }\n"
     "[solver]\nmodel = \"mass_spring\"\nintegrator = \"modal\"\n";
-const std::string programme =
+const std::string press_programme =
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"10 mm/s\"\n"
     "[[step]]\nkind = \"hold\"\ntime = \"0.1 s\"\n"
     "[[step]]\nkind = \"retract\"\nto = \"0 mm\"\nrate = \"10 mm/s\"\n"
     "[output]\ninterval = \"1 ms\"\npressure_maps = false\n";
 
-struct Model {
+struct ModelCase {
   const char* name;
   const std::string* text;
 };
-void PrintTo(const Model& model, std::ostream* out) { *out << model.name; }
+void PrintTo(const ModelCase& model, std::ostream* out) { *out << model.name; }
 
-class LiveModels : public testing::TestWithParam<Model> {};
+class LiveModels : public testing::TestWithParam<ModelCase> {};
 
 // Offline's rows as the way of a device: the same forces again, at every row.
 TEST_P(LiveModels, FollowsOfflinesWayWithOfflinesForces) {
-  const scene::Scene scene = test::scene_of(*GetParam().text + programme);
+  const scene::Scene scene = test::scene_of(*GetParam().text + press_programme);
   const record::CaseRecord offline = test::run_scene(scene);
   ASSERT_EQ(offline.contact.size(), 301U);
   LiveModel model(scene);
@@ -53,13 +53,13 @@ TEST_P(LiveModels, FollowsOfflinesWayWithOfflinesForces) {
   EXPECT_GT(greatest, 0.05);
 }
 INSTANTIATE_TEST_SUITE_P(All, LiveModels,
-                         testing::Values(Model{"hertz", &viscous}, Model{"layer", &layer},
-                                         Model{"modal", &modal}),
+                         testing::Values(ModelCase{"hertz", &viscous}, ModelCase{"layer", &layer},
+                                         ModelCase{"modal", &modal}),
                          [](const auto& one) { return one.param.name; });
 
 // A device reads every 20 ms, a mesh moves every 1 ms on a straight way between the readings.
 TEST(LiveModel, TakesTheStepsOfAMeshBetweenReadings) {
-  const scene::Scene scene = test::scene_of(modal + programme);
+  const scene::Scene scene = test::scene_of(modal + press_programme);
   LiveModel often(scene);
   LiveModel seldom(scene);
   for (int i = 0; i <= 100; ++i) {
@@ -78,7 +78,7 @@ TEST(LiveModel, TakesTheStepsOfAMeshBetweenReadings) {
 
 // A hand that goes sideways on the flat feels the same; above the surface it feels nothing.
 TEST(LiveModel, GoesSidewaysAndAway) {
-  const scene::Scene scene = test::scene_of(viscous + programme);
+  const scene::Scene scene = test::scene_of(viscous + press_programme);
   LiveModel here(scene);
   LiveModel there(scene);
   for (int i = 0; i <= 10; ++i) {
@@ -106,7 +106,7 @@ TEST(LiveModel, StaysWrongWhereItEnds) {
 // Everything is allocated before the loop begins: also for contacts that come and go.
 TEST(LiveModel, ClosedFormsAllocateNothing) {
   for (const std::string* text : {&viscous, &layer}) {
-    const scene::Scene scene = test::scene_of(*text + programme);
+    const scene::Scene scene = test::scene_of(*text + press_programme);
     LiveModel model(scene);
     const std::size_t before = test::blocks_taken;
     double sum = 0.0;
@@ -124,7 +124,7 @@ TEST(LiveModel, ClosedFormsAllocateNothing) {
 }
 
 TEST(LiveModel, PredictsTheForceOfTheDeepestTravel) {
-  const scene::Scene scene = test::scene_of(viscous + programme);
+  const scene::Scene scene = test::scene_of(viscous + press_programme);
   LiveModel pressed(scene);
   const FrameCost cost = predict_cost(scene, pressed, 1e-3, 100);
   EXPECT_FALSE(cost.wrong);
@@ -138,7 +138,7 @@ TEST(LiveModel, PredictsTheForceOfTheDeepestTravel) {
 // After the prediction the model forgets it: its forces are those of a new one, to the bit.
 TEST(LiveModel, StartsAgain) {
   for (const std::string* text : {&viscous, &layer, &modal}) {
-    const scene::Scene scene = test::scene_of(*text + programme);
+    const scene::Scene scene = test::scene_of(*text + press_programme);
     LiveModel again(scene);
     (void)predict_cost(scene, again, 1e-3, 50);
     ASSERT_TRUE(again.start_again());

@@ -10,7 +10,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-std::string refusal(std::string_view text, const DataLayout& layout = {}) {
+std::string format_refusal(std::string_view text, const DataLayout& layout = {}) {
   return test::refusal([&] { return parse_measured(text, "curve", layout); });
 }
 
@@ -36,7 +36,7 @@ TEST(MeasuredFormats, AfmTab) {
   EXPECT_EQ(curve.x_axis.unit, "s");
   EXPECT_EQ(parse_measured(tab, "curve.tab", {.x = "height (measured)"}).x,
             (Numbers{-2e-6, -1e-6, -2e-6}));
-  EXPECT_EQ(refusal(tab, {.segment = "pause"}),
+  EXPECT_EQ(format_refusal(tab, {.segment = "pause"}),
             "curve:10: the column `segment` contains no `pause`; its values are False, True");
 }
 
@@ -127,7 +127,7 @@ TEST(MeasuredFormats, AntonPaar) {
   const MeasuredCurve curve = parse_measured(wide, "c.csv", second);
   EXPECT_EQ(curve.x, (Numbers{3, 4}));
   EXPECT_EQ(curve.y, (Numbers{0.02, 0.02}));
-  EXPECT_EQ(refusal(wide, {.x = "Time", .y = "Shear Stress"}),
+  EXPECT_EQ(format_refusal(wide, {.x = "Time", .y = "Shear Stress"}),
             "curve: contains 2 tables with the same columns; choose one, as `--segment 1`, or take "
             "the rows of all by `--segment all`");
 }
@@ -158,10 +158,10 @@ TEST(MeasuredFormats, FebioLogData) {
   EXPECT_EQ(parse_measured(one, "log.txt", {.x = "time", .y = "Fz"}).x, (Numbers{0, 0.5}));
   const std::string two = "*Step  = 1\n*Time  = 1\n*Data  = z;Fz\n1 7 8\n2 9 10\n";
   EXPECT_EQ(parse_measured(two, "log.txt", {.x = "z", .y = "Fz", .case_name = "2"}).y, Numbers{10});
-  EXPECT_EQ(refusal(two, {.x = "z", .y = "Fz"}),
+  EXPECT_EQ(format_refusal(two, {.x = "z", .y = "Fz"}),
             "curve:3: contains several items per time; choose one by `--case`, as `--case 1`");
   EXPECT_EQ(
-      refusal("*Step  = 1\n*Time  = 1\n*Data  = z;Fz\n1,7\n"),
+      format_refusal("*Step  = 1\n*Time  = 1\n*Data  = z;Fz\n1,7\n"),
       "curve:4: this row has 2 values with its item, `*Data` names 2 and the item; give every "
       "row one value per name");
 }

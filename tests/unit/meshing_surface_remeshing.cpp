@@ -10,13 +10,13 @@
 #include "meshing/surface_check.h"
 #include "meshing/tetgen_file.h"
 #include "test_surfaces.h"
+#include "tetgen_calls.h"
 
 namespace palpate::meshing {
 namespace {
 
 using geometry::Surface;
-
-constexpr double time_given = 60.0;  // s, far above any need
+using test::time_given;
 
 Surface sampled(const geometry::Shape& shape, double spacing) {
   return geometry::sampled(shape, {spacing, spacing}).parts.front().surface;

@@ -9,20 +9,20 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <functional>
 #include <map>
 #include <set>
 #include <thread>
 
-#include "base/error.h"
 #include "geometry/cuboid.h"
 #include "meshing/mesh_check.h"
-#include "refusal.h"
+#include "tetgen_calls.h"
 
 namespace palpate::meshing {
 namespace {
 
-constexpr double time_given = 60.0;  // s: a thousand times what these meshes need
+using test::mesh_complaint;
+using test::time_given;
+
 const Vec3 cube(0.015, 0.020, 0.030);
 
 void expect_same(const geometry::TetMesh& a, const geometry::TetMesh& b) {
@@ -34,8 +34,6 @@ geometry::Surface box(const Vec3& size) {
   const geometry::TetMesh mesh = geometry::cuboid(size, {1, 1, 1}, geometry::CellPattern::kuhn);
   return {mesh.nodes, geometry::boundary_faces(mesh)};
 }
-
-std::string complaint(const std::function<void()>& work) { return test::refusal<MeshError>(work); }
 
 class NearTarget : public testing::TestWithParam<int> {};
 
@@ -138,25 +136,25 @@ double seconds_of_children() {
 
 TEST(TetGen, stops_at_its_time_limit_and_leaves_no_child) {
   const double before = seconds_of_children();
-  const std::string message = complaint([] { (void)tetgen_cuboid(cube, 1000000, 0.05); });
+  const std::string message = mesh_complaint([] { (void)tetgen_cuboid(cube, 1000000, 0.05); });
   EXPECT_TRUE(message.ends_with("ask for fewer nodes or allow more time")) << message;
   // s; this mesh takes about 10 s a try, and a machine that is busy gives a child less, not more.
   EXPECT_LT(seconds_of_children() - before, 5.0);
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
-  EXPECT_EQ(complaint([] { (void)tetgen_surface(box(cube), "p", 0.0); }),
+  EXPECT_EQ(mesh_complaint([] { (void)tetgen_surface(box(cube), "p", 0.0); }),
             "TetGen did not finish within 0 s; ask for fewer nodes or allow more time");
 }
 
 TEST(TetGen, refuses_fewer_nodes_than_a_box_has) {
-  EXPECT_EQ(complaint([] { (void)tetgen_cuboid(cube, 7, time_given); }),
+  EXPECT_EQ(mesh_complaint([] { (void)tetgen_cuboid(cube, 7, time_given); }),
             "a box cannot be meshed with 7 nodes, as it has 8 corners; ask for 8 nodes or more");
   EXPECT_EQ(tetgen_cuboid(cube, 8, time_given).nodes.size(), 8u);
 }
 
 // A rod of 100 x 2 x 1 needs nodes all along to keep its shapes good.
 TEST(TetGen, refuses_a_target_it_cannot_come_near) {
-  const std::string message = complaint([] {
+  const std::string message = mesh_complaint([] {
     (void)tetgen_cuboid({0.1, 0.002, 0.001}, 20, time_given);
   });
   EXPECT_TRUE(message.starts_with("no box mesh near 20 nodes was found, the nearest has "))
@@ -170,21 +168,22 @@ TEST(TetGen, names_a_surface_that_cuts_itself) {
   surface.vertices.insert(surface.vertices.end(),
                           {{0.3, 0.3, -0.5}, {0.7, 0.4, -0.5}, {0.5, 0.5, 0.5}});
   surface.triangles.push_back({first, first + 1, first + 2});
-  EXPECT_EQ(complaint([&] { (void)tetgen_surface(surface, "pq", time_given); }),
+  EXPECT_EQ(mesh_complaint([&] { (void)tetgen_surface(surface, "pq", time_given); }),
             "TetGen found that the surface cuts itself; mend the surface where its facets cross");
 }
 
 TEST(TetGen, names_an_open_surface) {
   geometry::Surface surface = box({1, 1, 1});
   surface.triangles.pop_back();
-  EXPECT_EQ(complaint([&] { (void)tetgen_surface(surface, "pq", time_given); }),
+  EXPECT_EQ(mesh_complaint([&] { (void)tetgen_surface(surface, "pq", time_given); }),
             "TetGen found no inside; close the surface, so that every edge has two faces");
 }
 
 TEST(TetGen, survives_a_crash) {
   geometry::Surface surface = box({1, 1, 1});
   surface.triangles[0][0] = 1 << 28;  // far beyond the vertices
-  const std::string message = complaint([&] { (void)tetgen_surface(surface, "pq", time_given); });
+  const std::string message =
+      mesh_complaint([&] { (void)tetgen_surface(surface, "pq", time_given); });
   EXPECT_TRUE(message.starts_with("TetGen ")) << message;
 }
 

@@ -5,28 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
 
-#include "base/error.h"
 #include "geometry/box_surface.h"
 #include "meshing/mesh_check.h"
 #include "meshing/mesh_quality.h"
-#include "refusal.h"
+#include "tetgen_calls.h"
 
 namespace palpate::meshing {
 namespace {
 
-constexpr double time_given = 60.0;  // s: a hundred times what these meshes need
-constexpr double degree = std::numbers::pi / 180.0;
+using test::mesh_complaint;
+using test::time_given;
+
+constexpr double degrees = std::numbers::pi / 180.0;
 
 const std::vector<geometry::Shape> shapes{geometry::Cuboid{},    geometry::Cylinder{},
                                           geometry::Ellipsoid{}, geometry::Ligament{},
                                           geometry::BoneShaft{}, geometry::LayeredLimb{}};
-
-std::string complaint(const std::function<void()>& work) { return test::refusal<MeshError>(work); }
 
 geometry::TetMesh shape_mesh(const geometry::Shape& shape, const Target& target,
                              const std::vector<geometry::Lump>& lumps = {}) {
@@ -55,8 +53,8 @@ TEST(TetGenBody, comes_within_three_percent_of_most_targets) {
       const geometry::TetMesh mesh = shape_mesh(shape, {.nodes = target});
       EXPECT_NEAR(static_cast<double>(mesh.nodes.size()), target, 0.03 * target) << shape.index();
       const Quality q = quality(mesh);
-      EXPECT_GT(q.smallest_angle, 8.0 * degree) << shape.index();   // measured 9.7 to 23
-      EXPECT_LT(q.largest_angle, 167.0 * degree) << shape.index();  // measured 141 to 161
+      EXPECT_GT(q.smallest_angle, 8.0 * degrees) << shape.index();   // measured 9.7 to 23
+      EXPECT_LT(q.largest_angle, 167.0 * degrees) << shape.index();  // measured 141 to 161
     }
 }
 
@@ -75,7 +73,7 @@ TEST(TetGenBody, meets_the_papers_models) {
     EXPECT_NEAR(static_cast<double>(mesh.nodes.size()), row.nodes, 0.03 * row.nodes);
     EXPECT_NEAR(static_cast<double>(mesh.tetrahedra.size()), row.tetrahedra, 0.03 * row.tetrahedra);
     const Quality q = quality(mesh);
-    EXPECT_GT(q.smallest_angle, 8.0 * degree);              // measured 11, 18 and 15
+    EXPECT_GT(q.smallest_angle, 8.0 * degrees);             // measured 11, 18 and 15
     EXPECT_GT(q.shortest_altitude, 0.2 * q.shortest_edge);  // measured 0.33 and more
     EXPECT_EQ(volumes(mesh).size(), row.nodes == 728 ? 3u : 1u);
   }
@@ -155,7 +153,7 @@ TEST(TetGenBody, lumps_may_lie_in_each_other) {
 
 TEST(TetGenBody, refuses_lumps_that_are_not_wholly_inside) {
   const auto refusal = [](const geometry::Shape& shape, const std::vector<geometry::Lump>& lumps) {
-    return complaint([&] { (void)shape_mesh(shape, {.nodes = 800}, lumps); });
+    return mesh_complaint([&] { (void)shape_mesh(shape, {.nodes = 800}, lumps); });
   };
   EXPECT_EQ(refusal(geometry::Cylinder{}, {{{0.03, 0.04, 0.05}, 0.012, 1}}),
             "the lump of radius 12 mm about (30, 40, 50) mm does not lie wholly inside the body; "
@@ -213,15 +211,15 @@ TEST(TetGenBody, splits_the_triangles_of_a_coarse_surface) {
 
 TEST(TetGenBody, refuses_what_cannot_be_met) {
   const geometry::Body cylinder = geometry::sampled(geometry::Cylinder{}, {0.01, 0.01});
-  EXPECT_EQ(complaint([&] { (void)tetgen_body(cylinder, {.nodes = 100}, time_given); }),
+  EXPECT_EQ(mesh_complaint([&] { (void)tetgen_body(cylinder, {.nodes = 100}, time_given); }),
             "no mesh near 100 nodes was found, as the surfaces alone have " +
                 std::to_string(cylinder.parts.front().surface.vertices.size()) +
                 "; ask for about as many, or change the surface");
-  const std::string message =
-      complaint([] { (void)shape_mesh(geometry::Ellipsoid{}, {.nodes = 500, .tetrahedra = 500}); });
+  const std::string message = mesh_complaint(
+      [] { (void)shape_mesh(geometry::Ellipsoid{}, {.nodes = 500, .tetrahedra = 500}); });
   EXPECT_TRUE(message.starts_with("no mesh near 500 nodes and 500 tetrahedra was found, the "))
       << message;
-  EXPECT_TRUE(complaint([&] {
+  EXPECT_TRUE(mesh_complaint([&] {
                 (void)tetgen_body(cylinder, {.nodes = 5000}, 1e-9);
               }).ends_with("within 1e-09 s; ask for fewer nodes or allow more time"));
 }
@@ -229,12 +227,12 @@ TEST(TetGenBody, refuses_what_cannot_be_met) {
 TEST(TetGenBody, refuses_surfaces_that_are_inside_out_or_outside) {
   geometry::Surface turned = box(0.01, Vec3::Zero(), 2);
   for (auto& triangle : turned.triangles) std::swap(triangle[0], triangle[1]);
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(mesh_complaint([&] {
               (void)tetgen_body({{{turned, 0}}}, {.nodes = 50}, time_given);
             }),
             "a surface of the body is inside out; turn its triangles round");
   const geometry::Body apart{{{box(0.01, Vec3::Zero(), 2), 0}, {box(0.01, {0.02, 0, 0}, 2), 1}}};
-  EXPECT_EQ(complaint([&] { (void)tetgen_body(apart, {.nodes = 80}, time_given); }),
+  EXPECT_EQ(mesh_complaint([&] { (void)tetgen_body(apart, {.nodes = 80}, time_given); }),
             "a part of the body lies outside its outer surface; move it inwards");
 }
 

@@ -27,7 +27,7 @@ ScenePicture flat() {
   return picture;
 }
 
-std::size_t count(const std::string& text, const std::string& piece) {
+std::size_t occurrences(const std::string& text, const std::string& piece) {
   std::size_t number = 0;
   for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1))
     ++number;
@@ -38,10 +38,10 @@ TEST(ScenePicture, shows_finger_travel_and_scale) {
   const std::string svg = scene_svg(flat(), "A press");
   EXPECT_EQ(svg.substr(0, 5), "<svg ");
   EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
-  EXPECT_EQ(count(svg, "A press"), 2U);  // as title and in the picture
-  EXPECT_EQ(count(svg, "<circle"), 1U);
-  EXPECT_EQ(count(svg, ">3 mm<"), 1U);
-  EXPECT_EQ(count(svg, ">5 mm<"), 1U) << "the scale bar";
+  EXPECT_EQ(occurrences(svg, "A press"), 2U);  // as title and in the picture
+  EXPECT_EQ(occurrences(svg, "<circle"), 1U);
+  EXPECT_EQ(occurrences(svg, ">3 mm<"), 1U);
+  EXPECT_EQ(occurrences(svg, ">5 mm<"), 1U) << "the scale bar";
   EXPECT_EQ(svg, scene_svg(flat(), "A press"));
 }
 
@@ -54,10 +54,10 @@ TEST(ScenePicture, scale_bar_and_finger_have_one_scale) {
 
 TEST(ScenePicture, draws_what_looks_up_and_merges_one_colour) {
   ScenePicture picture = flat();
-  const auto paths = [&] { return count(scene_svg(picture, ""), "<path fill=\"#"); };
+  const auto paths = [&] { return occurrences(scene_svg(picture, ""), "<path fill=\"#"); };
   EXPECT_EQ(paths(), 1U);
   std::swap(picture.faces[1].corners[0], picture.faces[1].corners[1]);  // looks down
-  EXPECT_EQ(count(scene_svg(picture, ""), "z\"/>"), 1U);
+  EXPECT_EQ(occurrences(scene_svg(picture, ""), "z\"/>"), 1U);
   picture = flat();
   picture.faces[1].region = 1;
   EXPECT_EQ(paths(), 2U);
@@ -80,29 +80,29 @@ TEST(ScenePicture, paints_the_nearest_last) {
 
 TEST(ScenePicture, shows_a_region_through_the_one_around_it) {
   ScenePicture picture = flat();
-  EXPECT_EQ(count(scene_svg(picture, ""), "opacity=\"0.45\""), 0U);
-  EXPECT_EQ(count(scene_svg(picture, ""), "region 1"), 0U);
+  EXPECT_EQ(occurrences(scene_svg(picture, ""), "opacity=\"0.45\""), 0U);
+  EXPECT_EQ(occurrences(scene_svg(picture, ""), "region 1"), 0U);
   add_flat(picture, -0.005, 1, 0);
   picture.materials = {"skin", "<lump>"};
   const std::string svg = scene_svg(picture, "");
-  EXPECT_EQ(count(svg, "opacity=\"0.45\""), 1U);
-  EXPECT_EQ(count(svg, "&lt;lump&gt; (region 1)"), 1U);
+  EXPECT_EQ(occurrences(svg, "opacity=\"0.45\""), 1U);
+  EXPECT_EQ(occurrences(svg, "&lt;lump&gt; (region 1)"), 1U);
   EXPECT_LT(svg.find("<path fill="), svg.find("opacity=")) << "first the lump, then the glass";
 }
 
 TEST(ScenePicture, follows_slides_one_after_the_other) {
   ScenePicture picture = flat();
-  EXPECT_EQ(count(scene_svg(picture, ""), "stroke-dasharray"), 0U);
+  EXPECT_EQ(occurrences(scene_svg(picture, ""), "stroke-dasharray"), 0U);
   picture.slides = {{0.01, 0.0, 0.0}, {0.0, 0.02, 0.0}};
   const std::string svg = scene_svg(picture, "");
-  EXPECT_EQ(count(svg, "stroke-dasharray"), 2U);
-  EXPECT_EQ(count(svg, ">10 mm<"), 1U);
-  EXPECT_EQ(count(svg, ">20 mm<"), 1U);
+  EXPECT_EQ(occurrences(svg, "stroke-dasharray"), 2U);
+  EXPECT_EQ(occurrences(svg, ">10 mm<"), 1U);
+  EXPECT_EQ(occurrences(svg, ">20 mm<"), 1U);
 }
 
 TEST(ScenePicture, text_is_safe_in_xml) {
   const std::string svg = scene_svg(flat(), "a < b & c\n\x01");
-  EXPECT_EQ(count(svg, "a &lt; b &amp; c  <"), 2U);
+  EXPECT_EQ(occurrences(svg, "a &lt; b &amp; c  <"), 2U);
   EXPECT_EQ(svg.find('\x01'), std::string::npos);
 }
 
@@ -117,7 +117,7 @@ TEST(ScenePicture, of_5000_triangles_stays_below_2_MB) {
       picture.faces.push_back({{height(i, j), height(i + 1, j + 1), height(i, j + 1)}, 0, -1});
     }
   const std::string svg = scene_svg(picture, "bumps");
-  EXPECT_GT(count(svg, "z"), 4000U);
+  EXPECT_GT(occurrences(svg, "z"), 4000U);
   EXPECT_LT(svg.size(), 2'000'000U);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }

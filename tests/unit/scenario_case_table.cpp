@@ -6,13 +6,13 @@
 
 #include "base/files.h"
 #include "scenario/resolved.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string press = "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n";
 const std::string sweep = "[sweep]\ndesign = \"csv\"\nfile = \"cases.csv\"\n";
 const char* const gel =
     "[gel]\ndensity = { value = \"1000 kg/m^3\", source = \"scale\" }\nyoung_modulus = { value = "
@@ -33,7 +33,7 @@ class Tables : public testing::Test {
 
   [[nodiscard]] Family of(const std::string& table) const {
     write("cases.csv", table);
-    return parse(press + sweep, scenario(), {});
+    return parse(small_press + sweep, scenario(), {});
   }
 
   // What is said of this table, without the folder's name.
@@ -154,7 +154,7 @@ TEST_F(Tables, TellTheCellOfAMistake) {
 TEST_F(Tables, AreAskedForAsAFile) {
   const auto refusal = [&](const std::string& text) {
     try {
-      (void)parse(press + text, "press.toml", {});
+      (void)parse(small_press + text, "press.toml", {});
       return std::string("accepted");
     } catch (const InputError& error) {
       return std::string(error.what());
@@ -179,7 +179,7 @@ TEST_F(Tables, MayHaveManyRows) {
   for (int i = 1; i <= 3000; ++i)
     table += std::to_string(i) + (i == 2345 ? ",my.toml#gel" : ",skin") + ",none\n";
   write("cases.csv", table);
-  const Family family = outline_text(press + sweep, scenario(), {});
+  const Family family = outline_text(small_press + sweep, scenario(), {});
   EXPECT_EQ(family.design.count(), 3000U);
   EXPECT_EQ(make_case(family, 2999).scenario.tissue.young_modulus, 3e6);
   // The one row that names a file is found, so that the file is among the inputs.

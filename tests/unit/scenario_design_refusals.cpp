@@ -5,24 +5,21 @@
 #include "base/text.h"
 #include "refusal.h"
 #include "scenario/family.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
 
-const std::string press = "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n";
-
-using test::refusal;
-
 // A whole family and an outline refuse the same.
-std::string said(const std::string& sweep, const std::string& scenario = press) {
+std::string said(const std::string& sweep, const std::string& scenario = small_press) {
   const std::string text = scenario + "[sweep]\n" + sweep;
-  const std::string made = refusal([&] { return parse(text, "press.toml", {}); });
-  const std::string planned = refusal([&] { return outline_text(text, "press.toml", {}); });
+  const std::string made = test::refusal([&] { return parse(text, "press.toml", {}); });
+  const std::string planned = test::refusal([&] { return outline_text(text, "press.toml", {}); });
   EXPECT_EQ(made, planned);
   return made;
 }
 
-struct Refused {
+struct RefusedSweep {
   const char* sweep;
   const char* sentence;
 };
@@ -30,7 +27,7 @@ struct Refused {
 const char* const young = "\"tissue.young_modulus\" = ";
 
 TEST(Refused, Designs) {
-  const Refused cases[] = {
+  const RefusedSweep cases[] = {
       {"design = \"sobel\"\n",
        "press.toml:5:10: `design` does not know `sobel`; did you mean `sobol`? It is one of grid, "
        "lhs, sobol, saltelli, list, csv"},
@@ -75,7 +72,7 @@ TEST(Refused, Designs) {
 }
 
 TEST(Refused, Ranges) {
-  const Refused cases[] = {
+  const RefusedSweep cases[] = {
       {"{ from = \"1 kPa\", to = \"9 kPa\" }",
        "press.toml:5:26: `tissue.young_modulus` lacks `points`, which `design = \"grid\"` needs; "
        "write `points = 20` beside `to`"},
@@ -187,7 +184,7 @@ TEST(Refused, WhatChangesTogetherInDifferentNumbers) {
 }
 
 TEST(Refused, KeysThatChangeNothing) {
-  const std::string hertz = press + "[solver]\nmodel = \"hertz\"\n";
+  const std::string hertz = small_press + "[solver]\nmodel = \"hertz\"\n";
   EXPECT_EQ(said("\"solver.rings\" = [2, 3]\n", hertz),
             "press.toml:7:1: `solver.rings` is swept and changes nothing: it is used only with "
             "`solver.model = \"mass_spring\"` or `\"coupled_springs\"`; take it out of `[sweep]` "
@@ -199,7 +196,7 @@ TEST(Refused, KeysThatChangeNothing) {
             "with `solver.model = \"mass_spring\"` or `\"coupled_springs\"`; take it out of "
             "`[sweep]` or change that");
   EXPECT_TRUE(said("\"solver.start\" = [\"consistent\", \"paper\"]\n",
-                   press + "[solver]\nintegrator = \"quasi_static\"\n")
+                   small_press + "[solver]\nintegrator = \"quasi_static\"\n")
                   .starts_with("press.toml:7:1: `solver.start` is swept and changes nothing"));
   // One case that reads the key is enough, whichever it is.
   EXPECT_EQ(said("\"solver.model\" = [\"hertz\", \"mass_spring\"]\n\"solver.rings\" = [2, 3]\n"),
@@ -228,8 +225,9 @@ TEST(Refused, OnlyWhatMeetsFailsTogether) {
 
 TEST(Refused, SettingsOfSweptKeys) {
   const auto set = [](const std::string& sweep) {
-    return refusal(
-        [&] { return parse(press + "[sweep]\n" + sweep, "press.toml", {"finger.radius=8 mm"}); });
+    return test::refusal([&] {
+      return parse(small_press + "[sweep]\n" + sweep, "press.toml", {"finger.radius=8 mm"});
+    });
   };
   EXPECT_EQ(set("finger.radius = { from = \"8 mm\", to = \"9 mm\", points = 2 }\n"),
             "--set finger.radius=8 mm: `finger.radius` is swept, so that one value has no effect; "
@@ -242,7 +240,7 @@ TEST(Refused, SettingsOfSweptKeys) {
 // Which model `auto` becomes is known once a case is looked at.
 TEST(Refused, KeysThatTheChosenModelHasNoUseFor) {
   const Family family =
-      outline_text(press +
+      outline_text(small_press +
                        "[solver]\nmodel = \"auto\"\n[sweep]\n\"solver.rings\" = [2, 3]\n"
                        "\"tissue.density\" = [\"1000 kg/m^3\"]\n\"contact.friction\" = [0]\n",
                    "press.toml", {});
@@ -285,7 +283,7 @@ RC_GTEST_PROP(Refused, RubbishHasAPlace, ()) {
     text += "{ from = " + some(values) + ", to = " + some(values) + ", " + some(keys) + " = " +
             some(values) + " }\n";
   const std::string answer =
-      refusal([&] { return parse(press + "[sweep]\n" + text, "press.toml", {}); });
+      test::refusal([&] { return parse(small_press + "[sweep]\n" + text, "press.toml", {}); });
   RC_ASSERT(answer == "accepted" || answer.starts_with("press.toml:"));
 }
 

@@ -8,13 +8,14 @@
 #include "base/text.h"
 #include "scenario/family.h"
 #include "scenario/sample_points.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
 
-const std::string press = "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n";
-
-Family of(const std::string& sweep) { return parse(press + "[sweep]\n" + sweep, "press.toml", {}); }
+Family of(const std::string& sweep) {
+  return parse(small_press + "[sweep]\n" + sweep, "press.toml", {});
+}
 
 // The word of a key in every case.
 std::vector<std::string> words(const Family& family, const std::string& key) {
@@ -80,7 +81,7 @@ TEST(Range, MayStandWithoutQuotes) {
 
 TEST(Range, OfTheCommandLineReplacesAList) {
   const Family family =
-      parse(press + "[sweep]\n\"finger.radius\" = [\"8 mm\"]\n", "press.toml",
+      parse(small_press + "[sweep]\n\"finger.radius\" = [\"8 mm\"]\n", "press.toml",
             {"sweep.finger.radius={ from = \"10 mm\", to = \"11 mm\", points = 2 }"});
   EXPECT_EQ(names(family), (Words{"10 mm", "11 mm"}));
 }
@@ -297,7 +298,7 @@ TEST(Saltelli, ExchangesOneColumnAtATime) {
 
 TEST(Outline, ChecksAMillionCasesWithoutMakingThem) {
   const Family family = outline_text(
-      press +
+      small_press +
           "[sweep]\n\"finger.radius\" = { from = \"8 mm\", to = \"11 mm\", points = 1000 }\n"
           "\"tissue.young_modulus\" = { from = \"1 kPa\", to = \"100 kPa\", points = 1000, "
           "scale = \"log\" }\n",
@@ -319,8 +320,8 @@ TEST(Outline, MakesTheCasesThatReadingMakes) {
         "\"mass_spring\"]\n",
         "[sweep]\ndesign = \"saltelli\"\nsamples = 3\n\"finger.radius\" = { from = \"8 mm\", to = "
         "\"9 mm\" }\n\"finger.material\" = [\"finger\", \"rigid\"]\n"}) {
-    const Family made = parse(press + sweep, "press.toml", {});
-    const Family planned = outline_text(press + sweep, "press.toml", {});
+    const Family made = parse(small_press + sweep, "press.toml", {});
+    const Family planned = outline_text(small_press + sweep, "press.toml", {});
     ASSERT_EQ(planned.design.count(), made.cases.size());
     EXPECT_EQ(planned.title, made.title);
     for (std::size_t i = 0; i < made.cases.size(); ++i) {
@@ -334,7 +335,7 @@ TEST(Outline, MakesTheCasesThatReadingMakes) {
 
 TEST(Outline, MakesCasesOnSeveralThreads) {
   const Family family = outline_text(
-      press +
+      small_press +
           "[sweep]\ndesign = \"lhs\"\nsamples = 200\n\"finger.radius\" = { from = \"8 mm\", to "
           "= \"9 mm\" }\n\"tissue.material\" = [\"skin\", \"bone\", \"muscle\"]\n",
       "press.toml", {});
@@ -353,8 +354,8 @@ TEST(Outline, MakesCasesOnSeveralThreads) {
 
 // Values that fail only together come up when their case is made.
 TEST(Outline, LeavesWhatFailsTogetherToTheCase) {
-  Family family =
-      outline_text(press + "[sweep]\n\"finger.radius\" = [\"1 mm\", \"9 mm\"]\n", "press.toml", {});
+  Family family = outline_text(small_press + "[sweep]\n\"finger.radius\" = [\"1 mm\", \"9 mm\"]\n",
+                               "press.toml", {});
   const auto [key, value] = parse_assignment("step.1.to=5 mm");
   set_value(family.document, key, value, value.place);
   EXPECT_EQ(make_case(family, 1).scenario.finger.radius, 0.009);
@@ -366,8 +367,8 @@ TEST(Outline, OfOneCaseIsThatCase) {
       "[sweep]\ndesign = \"lhs\"\nsamples = 4\n\"finger.radius\" = { from = \"8 mm\", to = \"9 "
       "mm\" "
       "}\n";
-  const Family all = parse(press + sweep, "press.toml", {});
-  const Family one = parse_case(press + sweep, "press.toml", {}, 2);
+  const Family all = parse(small_press + sweep, "press.toml", {});
+  const Family one = parse_case(small_press + sweep, "press.toml", {}, 2);
   ASSERT_EQ(one.cases.size(), 1U);
   EXPECT_EQ(spelled_out(one.cases[0]), spelled_out(all.cases[2]));
   EXPECT_EQ(one.cases[0].swept, all.cases[2].swept);

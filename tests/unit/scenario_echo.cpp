@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "scenario/resolved.h"
+#include "scenario_text.h"
 
 namespace palpate::scenario {
 namespace {
@@ -101,8 +102,7 @@ void expect_reads_back(const std::string& text, const std::string& path = "press
 }
 
 const std::string source = PALPATE_SOURCE_DIR;
-const std::string press = "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n";
-const std::string creep = "[[step]]\nkind = \"creep\"\nload_time = \"0.3 s\"\n";
+const std::string short_creep = "[[step]]\nkind = \"creep\"\nload_time = \"0.3 s\"\n";
 
 TEST(Echo, OfEveryScenarioOfOursReadsBack) {
   int found = 0;
@@ -149,7 +149,7 @@ TEST(Echo, OfEveryChoiceReadsBack) {
   int read = 0;
   for (const auto& [key, word] : choices) {
     if (key.starts_with("step.") || word == "file") continue;  // below
-    for (const std::string& steps : {press, creep}) {
+    for (const std::string& steps : {press, short_creep}) {
       const std::string setting = key + "=\"" + word + "\"";
       Family family;
       try {
@@ -172,7 +172,7 @@ TEST(Echo, OfEveryStepReadsBack) {
   expect_reads_back(press +
                     "[[step]]\nkind = \"hold\"\ntime = \"0.1 s\"\n[[step]]\nkind = "
                     "\"retract\"\nto = \"-0.7 mm\"\n[[step]]\nto = \"1.1 N\"\n");
-  expect_reads_back(creep + "[[step]]\nkind = \"relax\"\nstrain = 0.1\n");
+  expect_reads_back(short_creep + "[[step]]\nkind = \"relax\"\nstrain = 0.1\n");
 }
 
 TEST(Echo, OfAListOfDepthsReadsBack) {

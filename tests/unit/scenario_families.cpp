@@ -185,14 +185,14 @@ class Files : public testing::Test {
   fs::path folder_;
 };
 
-const char* const gel =
+const char* const gel_table =
     "[gel]\n"
     "density       = { value = \"1000 kg/m^3\", source = \"scale\" }\n"
     "young_modulus = { value = \"12.3 kPa\", source = \"press\" }\n"
     "poisson_ratio = { value = 0.45, source = \"assumed: gel\" }\n";
 
 TEST_F(Files, TablesOfTheUserWorkWhereOursDo) {
-  write("tables/my.toml", gel);
+  write("tables/my.toml", gel_table);
   const Family family = parse(press +
                                   "[tissue]\nmaterial = \"tables/my.toml#gel\"\nviscosity = "
                                   "\"none\"\n[finger]\nmaterial = \"tables/my.toml#gel\"\n",
@@ -201,11 +201,11 @@ TEST_F(Files, TablesOfTheUserWorkWhereOursDo) {
   EXPECT_EQ(filled(family.cases[0]).finger.poisson_ratio, 0.45);
   ASSERT_EQ(family.inputs.size(), 2U);
   EXPECT_EQ(family.inputs[1].name, "my.toml");
-  EXPECT_EQ(family.inputs[1].content, gel);
+  EXPECT_EQ(family.inputs[1].content, gel_table);
 }
 
 TEST_F(Files, TablesThatCannotBeUsed) {
-  write("my.toml", gel);
+  write("my.toml", gel_table);
   write("bad.toml",
         "[gel]\ndensitty = { value = \"1 kg/m^3\" }\nyoung_modulus = { value = \"0 kPa\" }\n");
   write("empty.toml", "a = 1\n");
@@ -250,9 +250,9 @@ TEST_F(Files, ATableNeedsThreeNumbers) {
 }
 
 TEST_F(Files, CopiesBesideTheEchoMustNotClash) {
-  write("t.toml", gel);
-  write("tables/t.toml", std::string(gel) + "# another\n");
-  write("tables/scenario.toml", gel);
+  write("t.toml", gel_table);
+  write("tables/t.toml", std::string(gel_table) + "# another\n");
+  write("tables/scenario.toml", gel_table);
   EXPECT_EQ(said("[tissue]\nviscosity = \"none\"\nmaterial = \"t.toml#gel\"\n[finger]\nmaterial = "
                  "\"tables/t.toml#gel\"\n"),
             "press.toml:8:12: two different files are called `t.toml`, and a result folder holds a "

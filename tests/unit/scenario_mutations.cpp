@@ -10,7 +10,7 @@
 namespace palpate::scenario {
 namespace {
 
-const std::string source = PALPATE_SOURCE_DIR;
+const std::string source_folder = PALPATE_SOURCE_DIR;
 
 std::string changed_byte(std::string text, std::mt19937& random) {
   const std::size_t at = random() % text.size();
@@ -39,7 +39,7 @@ TEST(Mutations, AreReadOrRefusedWithWords) {
   std::mt19937 random(2007);  // a fixed seed: the same texts everywhere
   int refused = 0;
   for (const char* name : {"quickstart", "figure6_force_indentation", "figure7_skin_ligament"}) {
-    const std::string path = source + "/scenarios/" + name + ".toml";
+    const std::string path = source_folder + "/scenarios/" + name + ".toml";
     const std::string original = read_text(path);
     for (int i = 0; i < 1000; ++i) {
       std::string text = original;
@@ -67,7 +67,7 @@ TEST(Mutations, AreReadOrRefusedWithWords) {
 
 TEST(Mutations, OfSettingsAreReadOrRefusedWithWords) {
   std::mt19937 random(2007);
-  const std::string path = source + "/scenarios/quickstart.toml";
+  const std::string path = source_folder + "/scenarios/quickstart.toml";
   const std::string text = read_text(path);
   for (int i = 0; i < 1000; ++i) {
     const char* const whole[] = {"tissue.young_modulus=60 kPa", "step.1.to=1 mm",

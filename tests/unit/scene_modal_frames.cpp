@@ -14,7 +14,7 @@ namespace {
 using tissue::Vector;
 using tissue::Viscosity;
 
-constexpr double time_step = 1e-3;  // s
+constexpr double frame_time = 1e-3;  // s
 
 class ModalFrames : public testing::TestWithParam<Viscosity> {};
 
@@ -43,12 +43,12 @@ TEST_P(ModalFrames, are_the_steps_and_their_energies) {
     // A few freedoms, held ones among them, up and down again.
     for (const Eigen::Index d : {0, 40, 71, 80})
       load[d] = 1e-3 * static_cast<double>(d % 7) * (step < 20 ? step : 40 - step);
-    shown.begin(state, time_step, integrate::MemoryRule::exact);
+    shown.begin(state, frame_time, integrate::MemoryRule::exact);
     ASSERT_TRUE(shown.linearise(state.displacement, load));
     const Vector end = shown.base();
     shown.finish(state, end, load);
     for (Eigen::Index d = 0; d < load.size(); ++d) alone.press(d, load[d]);
-    alone.pass(rest, time_step);
+    alone.pass(rest, frame_time);
     work += 0.5 * (load_before + load).dot(state.displacement - before.displacement);
     lost += body.dissipated(before, state);
   }
@@ -153,8 +153,8 @@ TEST_F(LowestModes, move_as_they_do_among_all) {
       all.press(d, held_[as_index(d)] != 0 ? 0.0 : image[d]);
       lowest.press(d, held_[as_index(d)] != 0 ? 0.0 : image[d]);
     }
-    all.pass(rest, time_step);
-    lowest.pass(rest, time_step);
+    all.pass(rest, frame_time);
+    lowest.pass(rest, frame_time);
   }
   integrate::State of_all = rest;
   integrate::State of_few = rest;

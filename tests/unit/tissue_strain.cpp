@@ -11,7 +11,7 @@
 namespace palpate::tissue {
 namespace {
 
-geometry::TetMesh block() {
+geometry::TetMesh strained_block() {
   return geometry::cuboid({0.06, 0.05, 0.03}, {2, 3, 2}, geometry::CellPattern::mirrored);
 }
 
@@ -26,7 +26,7 @@ TEST(Strain, of_a_linear_field_is_the_symmetric_part_of_its_gradient) {
   EXPECT_TRUE(rc::check([] {
     Eigen::Matrix3d gradient;
     for (int i = 0; i < 9; ++i) gradient(i / 3, i % 3) = *rc::gen::inRange(-500, 500) * 1e-3;
-    const geometry::TetMesh mesh = block();
+    const geometry::TetMesh mesh = strained_block();
     const std::vector<Strain> strains = small_strain(mesh, field(mesh, gradient));
     RC_ASSERT(strains.size() == mesh.tetrahedra.size());
     const Eigen::Matrix3d want = 0.5 * (gradient + gradient.transpose());
@@ -38,7 +38,7 @@ TEST(Strain, of_a_linear_field_is_the_symmetric_part_of_its_gradient) {
 }
 
 TEST(Strain, of_compression_and_shear_has_its_signs_and_halves) {
-  const geometry::TetMesh mesh = block();
+  const geometry::TetMesh mesh = strained_block();
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
   gradient(2, 2) = -0.1;  // pressed down
   gradient(0, 1) = 0.04;  // u_x grows with y
@@ -48,7 +48,7 @@ TEST(Strain, of_compression_and_shear_has_its_signs_and_halves) {
 }
 
 TEST(Strain, of_a_turn_is_of_second_order) {
-  const geometry::TetMesh mesh = block();
+  const geometry::TetMesh mesh = strained_block();
   const double angle = 0.02;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
   const Strain strain = small_strain(mesh, field(mesh, turn - Eigen::Matrix3d::Identity())).front();
@@ -57,7 +57,7 @@ TEST(Strain, of_a_turn_is_of_second_order) {
 }
 
 TEST(Strain, stays_in_the_tetrahedra_around_the_node_that_moves) {
-  const geometry::TetMesh mesh = block();
+  const geometry::TetMesh mesh = strained_block();
   const int moved = 7;
   std::vector<Vec3> displacement(mesh.nodes.size(), Vec3::Zero());
   displacement[moved] = {0.0, 0.0, -1e-3};
