@@ -41,10 +41,10 @@ std::string quantity(const KeyTree& key) {
   for (const Unit& unit : key.units)
     units += (units.empty() ? "" : "|") + unit_pattern(unit.dimension);
   const std::string sign = key.range.low >= 0.0 ? "\\+?" : "[-+]?";
-  return json_object(
-      {{"type", json_text("string")},
-       {"pattern", json_text("^\\s*" + sign + "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*(" +
-                          units + ")\\s*$")}});
+  return json_object({{"type", json_text("string")},
+                      {"pattern", json_text("^\\s*" + sign +
+                                            "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*(" +
+                                            units + ")\\s*$")}});
 }
 
 std::string one_value(const KeyTree& key, Kind kind) {
@@ -118,7 +118,8 @@ std::string table(const KeyTree& key, JsonMembers members, const JsonMembers& fu
     }
     const std::string is_it = json_object({{"kind", one_word(alternative.word.word)}});
     conditions.push_back(json_object(
-        {{"if", json_object({{"properties", is_it}, {"required", json_array({json_text("kind")})}})},
+        {{"if",
+          json_object({{"properties", is_it}, {"required", json_array({json_text("kind")})}})},
          {"then", json_object({{"propertyNames", json_object({{"enum", json_array(names)}})}})}}));
   }
   JsonMembers properties;

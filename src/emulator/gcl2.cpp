@@ -16,7 +16,8 @@ struct GaugeMode {
   std::string_view word;
   Reading reading;
 };
-constexpr std::array modes{GaugeMode{"CUR", Reading::current}, GaugeMode{"PT", Reading::peak_tension},
+constexpr std::array modes{GaugeMode{"CUR", Reading::current},
+                           GaugeMode{"PT", Reading::peak_tension},
                            GaugeMode{"PC", Reading::peak_compression}};
 
 constexpr std::array output_rates{0, 1, 2, 5, 10, 25, 50, 125, 250};  // per second
