@@ -168,6 +168,12 @@ void write_atomically(const std::string& path, std::string_view content) {
 void make_folders(const std::string& path) {
   std::error_code error;
   if (!path.empty()) std::filesystem::create_directories(path, error);
+  if (error == std::errc::not_a_directory || error == std::errc::file_exists)
+    throw InputError(
+        {path, 0, 0},
+        "cannot be a folder, because a part of this path is a file; give another path");
+  if (error == std::errc::filename_too_long)
+    throw InputError({path, 0, 0}, "is too long for the name of a folder; give a shorter one");
   if (error) throw SystemError(path + " cannot be made: " + error.message());
 }
 

@@ -311,6 +311,8 @@ void WholeFolder::open() {
   const std::string stem = partial_;
   for (int i = 2; !opened_; ++i) {
     const bool made = fs::create_directory(partial_, error);
+    if (error == std::errc::filename_too_long)
+      throw InputError({path_, 0, 0}, "is too long for the name of a folder; give a shorter one");
     if (error) throw SystemError(partial_ + " cannot be made: " + error.message());
     if (made) try {
         list_.write(file(list_name), "");

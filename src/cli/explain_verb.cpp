@@ -74,6 +74,10 @@ std::string meaning(const std::string& asked) {
     known.insert(known.end(), {path, name, table});
     if (key != path && key != name && (key.empty() || key != table)) continue;
     const auto cells = split(line, '|');
+    if (cells.size() < 6) {  // a word with its meaning, such as a design of `[sweep]`
+      found += section + ": `" + name + "`\n  " + trimmed(cells[2]) + "\n";
+      continue;
+    }
     std::string value = trimmed(cells[2]);
     for (std::size_t at = value.find("<br>"); at != std::string::npos; at = value.find("<br>"))
       value.replace(at, 4, "\n           ");

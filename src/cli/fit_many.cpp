@@ -158,8 +158,14 @@ void say_population(const std::vector<Population>& all, const std::vector<Row>& 
   std::map<std::string, int> reasons;
   for (const Row& row : rows)
     if (!row.reason.empty()) ++reasons[row.reason];
-  for (const auto& [reason, count] : reasons)
-    talk.warn(std::to_string(count) + (count == 1 ? " curve fails: " : " curves fail: ") + reason);
+  for (const auto& [reason, count] : reasons) {
+    const std::string text =
+        std::to_string(count) + (count == 1 ? " curve fails: " : " curves fail: ") + reason;
+    if (all.empty())
+      Talk::error("palpate: " + text);
+    else
+      talk.warn(text);
+  }
   if (all.empty()) return;
   const Population& first = all.front();
   talk.say(first.name + ": median " + rounded_text(quantile(first.sorted, 0.5)) + ", quartiles " +

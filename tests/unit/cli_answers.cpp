@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/text.h"
 #include "program.h"
@@ -126,6 +128,25 @@ TEST_P(Answers, start_with_three_plain_sentences) {
 
 INSTANTIATE_TEST_SUITE_P(of, Answers, testing::ValuesIn(scenes()),
                          [](const auto& scene) { return std::string(scene.param.name); });
+
+// Every heading with a table, every key and every word that a table of the manual begins with.
+TEST(Explain, KnowsEveryTableAndKeyOfTheManual) {
+  const TemporaryFolder folder;
+  std::set<std::string> words;
+  for (const std::string& line : split(palpate(folder.path(), {"manual"}).out, '\n'))
+    for (const char* begin : {"## `[[", "## `[", "| `"})
+      if (line.starts_with(begin)) {
+        const std::string word = line.substr(std::strlen(begin));
+        words.insert(word.substr(0, word.find_first_of("`]")));
+        break;
+      }
+  ASSERT_GT(words.size(), 100U);
+  for (const std::string& word : words) {
+    const Ended ended = palpate(folder.path(), {"explain", word});
+    EXPECT_EQ(ended.code, 0) << word << ": " << ended.err;
+    EXPECT_NE(ended.out.find(word), std::string::npos) << ended.out;
+  }
+}
 
 class Quickstart : public testing::Test {
  protected:

@@ -55,6 +55,15 @@ TEST_F(FitMany, OneRowPerCurveAndThePopulation) {
   EXPECT_TRUE(fs::exists(folder_ / "all" / "population.gp"));
 }
 
+TEST_F(FitMany, SaysWhyNoneIsFittedEvenWhereItIsQuiet) {
+  const Ended ended =
+      palpate(folder_.path(), {"fit", "--quiet", "none.csv", "nor_this.csv", "--model", "hertz",
+                               "--radius", "5 mm", "--poisson", "0.5"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err,
+            "palpate: 2 curves fail: cannot be read: No such file or directory; check the path\n");
+}
+
 // Force over length of a specimen of 8 mm height and 10 mm diameter, neo-Hookean with E = 9 kPa.
 TEST_F(FitMany, CompressionOfASpecimen) {
   std::string text = "Compressive extension (mm),Compressive load (N)\n";

@@ -152,8 +152,16 @@ TEST_F(RunRefusals, a_full_disk_keeps_the_old_result) {
 TEST_F(RunRefusals, a_folder_that_cannot_be_made) {
   write_file(folder_ / "a_file", "");
   const Ended ended = palpate(folder_.path(), {"run", "press.toml", "--out", "a_file/out"});
-  EXPECT_EQ(ended.code, 1);
-  EXPECT_TRUE(says(ended, "cannot be made: Not a directory")) << ended.err;
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(says(ended, "cannot be a folder, because a part of this path is a file"))
+      << ended.err;
+}
+
+TEST_F(RunRefusals, a_folder_whose_name_is_too_long) {
+  const Ended ended =
+      palpate(folder_.path(), {"run", "press.toml", "--out", std::string(5000, 'x')});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(says(ended, "is too long for the name of a folder")) << ended.err.substr(5000);
 }
 
 TEST_F(RunRefusals, a_folder_without_permission) {
