@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "base/error.h"
@@ -65,6 +66,12 @@ int program(const std::vector<std::string>& given) {
     Talk::error(
         "palpate: the memory does not suffice; use a coarser mesh, fewer rows or less `--jobs`");
     return exit_internal;
+  } catch (const std::filesystem::filesystem_error& error) {
+    // std::filesystem::exists() throws at names that no file can have.
+    const std::string path = error.path1().string();
+    Talk::error("palpate: `" + path.substr(0, 60) + (path.size() > 60 ? "...`: " : "`: ") +
+                error.code().message() + "; check the path");
+    return error.code() == std::errc::filename_too_long ? exit_input : exit_internal;
   } catch (const std::exception& error) {
     Talk::error(std::string("palpate: ") + error.what());
     return exit_internal;

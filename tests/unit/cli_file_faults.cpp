@@ -38,7 +38,7 @@ class FileFaults : public Hindered {
     return seen;
   }
   void fail_each(int error, const Faults& more = {}) {
-    const int step = every() ? 1 : 7 * GetParam().stride;
+    const int step = every() ? 1 : 10 * GetParam().stride;
     // The first call differs from one error to the next, so that together they meet more calls.
     for (int call = 1 + error % step; call < 2000; call += step) {
       Faults faults = more;

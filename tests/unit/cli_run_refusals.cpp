@@ -157,6 +157,14 @@ TEST_F(RunRefusals, a_folder_that_cannot_be_made) {
       << ended.err;
 }
 
+TEST_F(RunRefusals, a_scenario_whose_name_is_too_long) {
+  for (const char* verb : {"run", "explain"}) {
+    const Ended ended = palpate(folder_.path(), {verb, std::string(5000, 'x')});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_TRUE(says(ended, "File name too long; check the path")) << ended.err.substr(0, 200);
+  }
+}
+
 TEST_F(RunRefusals, a_folder_whose_name_is_too_long) {
   const Ended ended =
       palpate(folder_.path(), {"run", "press.toml", "--out", std::string(5000, 'x')});
