@@ -7,10 +7,14 @@
 namespace palpate::live {
 namespace {
 
-std::string force_text(double force) { return rounded_text(force, 3) + " N"; }
-std::string millinewtons(double force) { return rounded_text(1e3 * force, 2) + " mN"; }
-std::string length_text(double length) { return rounded_text(1e3 * length, 2) + " mm"; }
-std::string percent(double share) { return rounded_text(100.0 * share, 2) + " %"; }
+// A number that is only rounding is 0: no gauge has a nanometre or a nanonewton.
+std::string text_of(double number, int digits = 2) {
+  return rounded_text(std::abs(number) < 1e-6 ? 0.0 : number, digits);
+}
+std::string force_text(double force) { return text_of(force, 3) + " N"; }
+std::string millinewtons(double force) { return text_of(1e3 * force) + " mN"; }
+std::string length_text(double length) { return text_of(1e3 * length) + " mm"; }
+std::string percent(double share) { return text_of(100.0 * share) + " %"; }
 
 // What is wrong, and what to do about it.
 std::string cause_clause(Cause cause, const Verdict& verdict) {

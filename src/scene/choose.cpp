@@ -183,17 +183,17 @@ class Chooser {
     const scenario::Found& found = choice_.found;
     const double still = found.inertia_matters ? e.inertia : 0.0;
     switch (rung.of) {
-      case Model::hertz: return half_space_error(e) + still + depth_error(e);
+      case Model::hertz: return half_space_error(e) + still + depth_error(rung, e);
       case Model::layer:
         return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt_of_narrow * e.sides + still +
-               depth_error(e);
+               depth_error(rung, e);
       case Model::mass_spring:
       case Model::coupled_springs: break;
       case Model::neo_hookean: return error_of_mesh(rung, e) + still;
     }
     const double waves =
         found.inertia_matters ? (moves() ? rung.error.waves : 1.0) * e.inertia : 0.0;
-    return waves + depth_error(e) + error_of_mesh(rung, e);
+    return waves + depth_error(rung, e) + error_of_mesh(rung, e);
   }
 
   // What the mesh of a rung costs; 0 without one.
@@ -223,9 +223,10 @@ class Chooser {
 
   // What the depth leaves open: the error of its factor, or the effect that is left out. At least
   // 0.1 %, for a contact that is never quite as small as a contact law assumes.
-  [[nodiscard]] double depth_error(const Estimates& e) const {
+  [[nodiscard]] double depth_error(const Rung& rung, const Estimates& e) const {
     constexpr double least = 1e-3;
-    const bool found = !choice_.given && choice_.found.depth_matters;
+    const bool named = choice_.given && rung.of == model_;  // it has what the scenario gives it
+    const bool found = !named && choice_.found.depth_matters;
     const auto depth = case_.scenario.contact.depth.value_or(
         found ? scenario::Contact::Depth::neo_hookean : scenario::Contact::Depth::hertz);
     const bool used = depth == scenario::Contact::Depth::neo_hookean && has_depth_ratio();

@@ -128,6 +128,17 @@ TEST(Choose, AGivenModelIsKeptAndStillAsked) {
   EXPECT_EQ(choice.rungs.size(), 4U);
 }
 
+// What stands beside a named model is what would be chosen without it, large strains included.
+TEST(Choose, OthersAreForeseenAsIfNoModelWereNamed) {
+  const Choice open = choose(read(press));
+  ASSERT_EQ(open.chosen.solver.model, Model::layer);
+  ASSERT_EQ(open.chosen.contact.depth, scenario::Contact::Depth::neo_hookean);
+  const Choice named = choose(read(press + "[solver]\nmodel = \"hertz\"\n"));
+  EXPECT_EQ(cheapest(named, false, 0.05)->model, Model::layer);
+  EXPECT_DOUBLE_EQ(named.forecast(Model::layer)->error, open.forecast(Model::layer)->error);
+  EXPECT_GT(named.forecast(Model::hertz)->error, open.forecast(Model::hertz)->error);
+}
+
 TEST(Choose, WithoutInertiaAMeshIsQuasiStatic) {
   const std::string narrow =
       "[tissue]\nviscosity = \"none\"\nshape = { kind = \"cuboid\", size = [\"25 mm\", \"25 mm\", "
