@@ -90,19 +90,25 @@ bool rename_where_free(const fs::path& from, const fs::path& to) {
 }
 
 // Removes from a partial folder everything that its list does not name (kept only for a kill).
-void remove_unlisted(const fs::path& partial, const std::string& list) {
+// Tries twice, because an error of the disk may pass. Returns the names of what is left
+// nevertheless.
+std::vector<std::string> remove_unlisted(const fs::path& partial, const std::string& list) {
+  std::vector<std::string> left;
   for (const fs::path entry : entries_of(partial.string())) {
-    std::error_code ignored;
     const std::string name = "  " + entry.filename().string();
-    if (name.substr(2) != list_name && !has(list, name + "\n") && !has(list, name + "/"))
-      fs::remove_all(entry, ignored);
+    if (name.substr(2) == list_name || has(list, name + "\n") || has(list, name + "/")) continue;
+    std::error_code error;
+    fs::remove_all(entry, error);
+    if (error) fs::remove_all(entry, error);
+    if (error) left.push_back(name.substr(2));
   }
+  return left;
 }
 
 // Deletes the list last, so that another process can continue if this one is killed.
 void remove_partial(const fs::path& partial) {
   std::error_code ignored;
-  remove_unlisted(partial, "");
+  (void)remove_unlisted(partial, "");
   fs::remove_all(partial, ignored);
 }
 
@@ -269,7 +275,7 @@ void WholeFolder::clear_up() const {
     } else if (list.starts_with(first_line(kind_, State::complete)) &&
                (!is_there(path_) || is_replaced_by_it(path_))) {
       try {
-        remove_unlisted(left, list);
+        (void)remove_unlisted(left, list);
         if (const auto old = put_at(left, path_, is_replaced_by_it); old && !old->empty())
           (void)dissolve(*old, path_);
       } catch (const SystemError&) {  // the folder stays where it is
@@ -363,7 +369,8 @@ std::vector<std::string> WholeFolder::put(State content, std::vector<std::string
   for (const HashedFile& one : files_) list += file_line(one);
   list_.write(file(list_name), list);
   listed_ = true;
-  remove_unlisted(partial_, list);
+  for (const std::string& name : remove_unlisted(partial_, list))
+    warnings.push_back(path_ + "/" + name + " cannot be removed and is no part of the result");
   if (const auto old = put_at(partial_, path_, may_replace)) {
     if (!old->empty())
       for (std::string& sentence : dissolve(*old, path_)) warnings.push_back(std::move(sentence));
