@@ -90,7 +90,8 @@ plot::Sheet profile_sheet(const std::string& title, const identify::Identificati
   text += "set datafile missing NaN\nset multiplot layout " + std::to_string(rows) + "," +
           std::to_string(columns) + " title " +
           plot::gnuplot_quoted(title + ": profile likelihood, 95 % below the line") +
-          "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset xtics autofreq rotate by -30\n"
+          "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset xtics autofreq rotate by "
+          "-30\nset rmargin 9\n"
           "set yrange [0:*]\n";
   for (std::size_t i = 0; i < panels; ++i) {
     const identify::Identified& one = found.unknowns[i];
