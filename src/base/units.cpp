@@ -172,6 +172,17 @@ std::string unit_pattern(const Dimension& dimension) {
   return pattern + R"([^\s*/^]*[*/^].*|\S+\s+\S.*)";
 }
 
+std::string pressure_text(double pascal) {
+  double shown = pascal;
+  const char* unit = "Pa";
+  for (const char* larger : {"kPa", "MPa", "GPa"}) {
+    if (std::abs(shown) < 999.95) break;
+    shown /= 1e3;
+    unit = larger;
+  }
+  return rounded_text(shown) + " " + unit;
+}
+
 std::string dimension_name(const Dimension& dimension) {
   for (const Unit* unit : named_units())
     if (unit->dimension == dimension) return article(unit->quantity);

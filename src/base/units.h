@@ -54,6 +54,10 @@ inline constexpr Unit N{"N", "force", 1, 1, {1, 1, -2}};
 // or in the SI unit without prefix if no such digits exist.
 [[nodiscard]] std::string quantity_text(double si, const Unit& shown);
 
+// A pressure of four digits with the prefix that leaves one to three of them before the point:
+// `100 Pa`, `12.5 kPa`, `17 GPa`.
+[[nodiscard]] std::string pressure_text(double pascal);
+
 // The name of the dimension ("a pressure") if it has one, otherwise "a quantity in" its SI unit.
 [[nodiscard]] std::string dimension_name(const Dimension& dimension);
 

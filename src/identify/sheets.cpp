@@ -25,15 +25,21 @@ std::pair<const char*, const char*> axes(identify::CurveKind kind) {
   return {"", ""};
 }
 
-// The power of a thousand in which the largest residual has one to three digits before the point;
-// 1 for those from 0.001 on, and where all of them are zero.
-double residual_scale(const Identification& found) {
+// The power of a thousand in which numbers up to `most` have one to three digits before the point;
+// 1 for those from 0.001 on, and for 0.
+double power_of_thousand(double most) {
+  if (most >= 1e-3 || most == 0.0) return 1.0;
+  return std::pow(10.0, 3.0 * std::floor(std::log10(most) / 3.0));
+}
+
+// `, 10^-12` for numbers that are drawn divided by such a power.
+std::string power_text(double scale) { return scale == 1.0 ? "" : ", " + plot::tick_text(scale); }
+
+double largest_residual(const Identification& found) {
   double most = 0.0;
   for (std::size_t i = 0; i < found.x.size(); ++i)
     most = std::max(most, std::abs(found.measured[i] - found.model[i]));
-  most = words_of(found.kind).y.from_si(most);
-  if (most >= 1e-3 || most == 0.0) return 1.0;
-  return std::pow(10.0, 3.0 * std::floor(std::log10(most) / 3.0));
+  return words_of(found.kind).y.from_si(most);
 }
 
 }  // namespace
@@ -54,13 +60,12 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
           "  " +
           file +
           ":3 smooth unique with lines linewidth 1.6 linecolor rgb '#D55E00' title 'model'\n";
-  const double scale = residual_scale(found);
-  const std::string power = scale == 1.0 ? "" : ", " + plot::tick_text(scale);
+  const double scale = power_of_thousand(largest_residual(found));
   text +=
       "unset title\nunset key\nset tmargin at screen 0.37\nset bmargin at screen 0.125\n"
       "set format x '%.10g'\nset xlabel " +
       plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
-      plot::gnuplot_quoted(label("Measured - model", words.y) + power) +
+      plot::gnuplot_quoted(label("Measured - model", words.y) + power_text(scale)) +
       "\nplot \\\n  0 with lines linewidth 1 linecolor rgb '#909090', \\\n  " + file + ":($4 / " +
       rounded_text(scale, 3) +
       ") with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'\nunset multiplot\n";
@@ -69,15 +74,21 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
 
 namespace {
 
-// What a profile's values are drawn from: the estimate where they differ in the fourth digit or
-// later, which the numbers at the axis would not show; else 0.
-double profile_origin(const Identification& found, std::size_t i) {
+struct ProfileAxis {
+  double origin;  // subtracted from the values
+  double scale;   // divides what is left
+};
+
+// Where the values differ in the fourth digit or later, which the numbers at the axis would not
+// show, the axis is the difference from the estimate.
+ProfileAxis profile_axis(const Identification& found, std::size_t i) {
   const Unknown& unknown = found.unknowns[i].unknown;
   const double estimate = unknown.shown(found.unknowns[i].estimate);
   double far = 0.0;
   for (const ProfilePoint& point : found.profile)
     if (point.unknown == i) far = std::max(far, std::abs(unknown.shown(point.value) - estimate));
-  return far < 1e-3 * std::abs(estimate) ? estimate : 0.0;
+  if (!(far < 1e-3 * std::abs(estimate))) return {0.0, 1.0};
+  return {estimate, power_of_thousand(far)};
 }
 
 }  // namespace
@@ -96,14 +107,14 @@ plot::Sheet profile_sheet(const std::string& title, const identify::Identificati
   for (std::size_t i = 0; i < panels; ++i) {
     const identify::Identified& one = found.unknowns[i];
     const std::string unit = one.unknown.unit_text();
-    const double origin = profile_origin(found, i);
-    const std::string from = origin == 0.0 ? "" : " - " + number_text(origin);
-    const std::string pick =
-        "(strcol('unknown') eq '" + one.unknown.key + "' ? column('value')" + from + " : NaN)";
+    const auto [origin, scale] = profile_axis(found, i);
+    const std::string pick = "(strcol('unknown') eq '" + one.unknown.key +
+                             "' ? (column('value') - " + number_text(origin) + ") / " +
+                             number_text(scale) + " : NaN)";
     text += "set xlabel " +
             plot::gnuplot_quoted(one.unknown.key +
                                  (origin == 0.0 ? "" : " - " + rounded_text(origin, 4)) +
-                                 (unit.empty() ? "" : " (" + unit + ")")) +
+                                 (unit.empty() ? "" : " (" + unit + ")") + power_text(scale)) +
             " noenhanced\nplot \\\n  'profile.csv' using " + pick +
             ":(column('threshold')) with lines linewidth 1 linecolor rgb '#909090', \\\n"
             "  'profile.csv' using " +

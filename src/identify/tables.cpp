@@ -62,8 +62,7 @@ std::string model_sentence(const Identification& found) {
     text += "; large strain changes the force at the deepest by " +
             std::string(*found.deep_effect > 0.0 ? "+" : "-") +
             percent_text(std::abs(*found.deep_effect)) + ", which is taken into account";
-  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text + ".";
+  return capitalized(text) + ".";
 }
 
 }  // namespace

@@ -26,7 +26,10 @@ nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2re
 figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
 figure svg { display: block; width: 100%; min-width: 34rem; max-width: 51rem; height: auto; }
-.sheet { overflow-x: auto; } .white { background: #ffffff; border-radius: .4rem; }
+.sheet { overflow-x: auto; }
+@media screen and (max-width: 37rem) {
+  .sheet::before { content: "Slide the figure sideways to see all of it."; color: var(--soft); font-size: .9rem; } }
+.white { background: #ffffff; border-radius: .4rem; }
 @media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }
 .maps img { width: 100%; display: block; height: auto; image-rendering: pixelated; border: 1px solid var(--line); }

@@ -163,10 +163,9 @@ std::optional<plot::Figure> live_figure(const Records& records) {
       sent = sent || std::isfinite(row.sent[2]);
   }
   if (!measured && !sent) return std::nullopt;
-  std::vector<plot::Series> all;
+  std::vector<plot::Series> all{{.y_column = "force_N", .label = "model"}};
   if (measured) all.push_back({.y_column = "measured_force_N", .label = "measured"});
   if (sent) all.push_back({.y_column = "sent_force_N", .label = "sent to the arm"});
-  all.push_back({.y_column = "force_N", .label = "model"});
   plot::Figure figure = figure_force_time(all);
   figure.name = "figure_live_force";
   return figure;

@@ -1,8 +1,10 @@
 // The findings of a map as sentences: limits, agreement with theory, failures.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "scenario/words.h"
 #include "stability/survey.h"
 
@@ -75,13 +77,14 @@ std::string stiffest_sentence(const Survey& survey) {
     if (row.axis == "young_modulus_Pa" && row.measured) stiffest = &row;
   if (stiffest == nullptr) return {};
   const double steps = std::ceil(1e-3 / (0.9 * *stiffest->measured));
-  return "At " + rounded_text(*stiffest->value) + " Pa an explicit method takes " +
+  return "At " + pressure_text(*stiffest->value) + " an explicit method takes " +
          rounded_text(steps) +
          " steps per millisecond; an implicit one takes as many as its accuracy requires.";
 }
 
 // The change of the limit from the first to the last row of an axis.
-std::string axis_sentence(const Survey& survey, const std::string& axis, const std::string& name) {
+std::string axis_sentence(const Survey& survey, const std::string& axis, const std::string& name,
+                          const std::function<std::string(double)>& text) {
   const LimitRow* low = nullptr;
   const LimitRow* high = nullptr;
   for (const LimitRow& row : survey.map.limits) {
@@ -90,7 +93,7 @@ std::string axis_sentence(const Survey& survey, const std::string& axis, const s
     high = &row;
   }
   if (low == nullptr || high == low) return {};
-  return name + " from " + rounded_text(*low->value) + " to " + rounded_text(*high->value) +
+  return name + " from " + text(*low->value) + " to " + text(*high->value) +
          " changes the limit from " + micro(*low->measured) + " to " + micro(*high->measured) + ".";
 }
 
@@ -126,9 +129,10 @@ std::vector<std::string> map_sentences(const Survey& survey) {
       limits_sentence(survey),
       agreement_sentence(survey),
       first_to_fail(survey),
-      axis_sentence(survey, "young_modulus_Pa", "Young's modulus (Pa)"),
+      axis_sentence(survey, "young_modulus_Pa", "Young's modulus", pressure_text),
       stiffest_sentence(survey),
-      axis_sentence(survey, "contact_stiffness_N_per_m", "An explicit contact's stiffness (N/m)"),
+      axis_sentence(survey, "contact_stiffness_N_per_m", "An explicit contact's stiffness",
+                    [](double value) { return rounded_text(value) + " N/m"; }),
       device_sentence(survey),
       failures_sentence(survey)};
   std::erase_if(all, [](const std::string& text) { return text.empty(); });

@@ -58,8 +58,7 @@ std::string output_label(const std::string& column) {
   const std::string unit = fit::column_unit(column);
   std::string text = column.substr(0, column.size() - (unit.empty() ? 0 : unit.size() + 1));
   std::replace(text.begin(), text.end(), '_', ' ');
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return with_unit(text, unit);
+  return with_unit(capitalized(text), unit);
 }
 
 std::string factor_label(const sweep::FactorChoice& factor) {

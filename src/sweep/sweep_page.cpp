@@ -34,9 +34,7 @@ std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivit
 std::string figure_words(const std::string& name) {
   if (name == "sensitivity")
     return "Share of the variance of each output that follows each swept key.";
-  std::string output = name.substr(name.find('_') + 1);
-  std::replace(output.begin(), output.end(), '_', ' ');
-  return "The output " + output + " over the swept keys.";
+  return output_label(name.substr(name.find('_') + 1)) + " over the swept keys.";
 }
 
 }  // namespace
