@@ -68,6 +68,8 @@ inline std::string column(const std::string& law, const std::string& step) {
 inline const std::string creep =
     "[[step]]\nkind = \"creep\"\nstress = \"100 Pa\"\nload_time = \"1 s\"\nrecovery_time = \"0.6 "
     "s\"\n";
+inline const std::string compress =
+    "[[step]]\nkind = \"compress\"\nstrain = 0.1\nrate = \"0.2 1/s\"\nhold_time = \"1 s\"\n";
 inline const std::string relax = "[[step]]\nkind = \"relax\"\nstrain = 0.02\ntime = \"1.5 s\"\n";
 
 inline const std::vector<IdentifyScene>& identify_scenes() {
@@ -122,6 +124,19 @@ inline const std::vector<IdentifyScene>& identify_scenes() {
        {modulus, "tissue.relaxation_time=0.02..5 s", "tissue.instantaneous_ratio=1.1..6"},
        {8e3, 0.3, 2.0},
        CurveKind::stress_time},
+      {"compression",
+       column("standard_linear_solid", compress),
+       {"tissue.young_modulus=8 kPa", "tissue.relaxation_time=0.3 s",
+        "tissue.instantaneous_ratio=2"},
+       {modulus, "tissue.relaxation_time=0.02..5 s", "tissue.instantaneous_ratio=1.1..6"},
+       {8e3, 0.3, 2.0},
+       CurveKind::stress_time},
+      {"compression over strain",
+       column("standard_linear_solid", compress),
+       {"tissue.young_modulus=8 kPa"},
+       {modulus},
+       {8e3},
+       CurveKind::stress_strain},
       {"mass_spring",
        small_block + "model = \"mass_spring\"\n",
        {"tissue.young_modulus=60 kPa"},
@@ -156,7 +171,8 @@ inline identify::Measurement clean_curve(const IdentifyScene& scene) {
   std::vector<std::string> settings = scene.truth;
   settings.emplace_back("output.pressure_maps=false");
   if (scene.kind == identify::CurveKind::strain_time ||
-      scene.kind == identify::CurveKind::stress_time)
+      scene.kind == identify::CurveKind::stress_time ||
+      scene.kind == identify::CurveKind::stress_strain)
     settings.emplace_back("solver.integrator=quasi_static");
   const record::CaseRecord record = run_text(scene.text, settings);
   identify::Measurement curve;
@@ -179,8 +195,10 @@ inline identify::Measurement clean_curve(const IdentifyScene& scene) {
     else if (row.step == 2)
       add(row.slide - start, row.tangential);
   }
+  const bool over_strain = scene.kind == identify::CurveKind::stress_strain;
   for (const record::StrainRow& row : record.strain)
-    add(row.time, scene.kind == identify::CurveKind::strain_time ? row.strain : row.stress);
+    add(over_strain ? row.strain : row.time,
+        scene.kind == identify::CurveKind::strain_time ? row.strain : row.stress);
   return curve;
 }
 

@@ -68,6 +68,8 @@ std::vector<scenario::Step> first_row(const scene::Scene& scene) {
     hold->time = std::min(hold->time, interval);
   else if (auto* relax = std::get_if<scenario::Relax>(&step))
     relax->time = std::min(relax->time, interval);
+  else if (auto* compress = std::get_if<scenario::Compress>(&step))
+    *compress = {compress->strain_at(interval), compress->rate, 0.0};
   else if (auto* creep = std::get_if<scenario::Creep>(&step))
     *creep = {creep->stress, std::min(creep->load_time, interval), 0.0};
   return {step};

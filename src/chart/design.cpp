@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "run/refined_mesh.h"
 #include "scenario/find.h"
+#include "scenario/programme.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
@@ -139,7 +140,7 @@ class Designer {
         add("rung x mesh", rung.word, {model_setting(rung.of)});
     for (const scenario::Rung& rung : scenario::ladder)
       if (rung.meshed() && !rung.solid && !base_.uniform()) couplings(rung.of);
-    integrators();
+    if (!compresses(base_)) integrators();
     if (!base_.uniform())
       for (const int rings : ring_counts)
         add("rings", word_of(rung_) + ", " + std::to_string(rings) + " rings",
@@ -303,6 +304,7 @@ Integrator base_integrator(const scenario::Case& one) {
   const scenario::Solver& solver = scenario.solver;
   if (solver.integrator) return *solver.integrator;
   const bool drag = scenario.tissue.viscosity == tissue::Viscosity::nodal_drag;
+  if (compresses(scenario)) return Integrator::quasi_static;
   if (scenario.uniform() || drag) return Integrator::central_difference;
   return scene::estimate(scene::choose(one)).inertia < solver.tolerance
              ? Integrator::quasi_static

@@ -96,6 +96,8 @@ double start_of(const Plain& scenario, int step) {
       start += creep->load_time + creep->recovery_time;
     else if (const auto* relax = std::get_if<scenario::Relax>(&one))
       start += relax->time;
+    else if (const auto* compress = std::get_if<scenario::Compress>(&one))
+      start += compress->ramp_time() + compress->hold_time;
   }
   return start;
 }

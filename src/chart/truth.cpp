@@ -205,6 +205,7 @@ class Finder {
     constexpr double few = 60.0;  // nodes; the modes of so small a mesh take no time
     const bool drag = scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag;
     if (drag) return extrapolated("modal", 0.0);
+    if (scenario::compresses(scenario_)) return extrapolated("quasi_static", 0.0);
     told_("effect of inertia");
     const auto of_few = inertia_on(few);
     if (!of_few) return std::nullopt;
@@ -240,12 +241,11 @@ class Finder {
   // strain = s/E (J(t) - J(t - t_1)), J the creep compliance times E; stress = e E(t).
   [[nodiscard]] double of_law(const scenario::Step& step, double t) const {
     const double modulus = scenario_.tissue.young_modulus;
-    contact::Relaxation relaxation;
-    relaxation.retardation_time = scenario_.tissue.law.time;
-    for (const tissue::Branch& branch : scenario_.tissue.law.branches)
-      relaxation.branches.push_back({branch.time, branch.ratio});
+    const contact::Relaxation relaxation = scene::relaxation_of(scenario_.tissue.law);
     if (const auto* relaxes = std::get_if<scenario::Relax>(&step))
       return relaxes->strain * modulus * relaxation.modulus_ratio(t);
+    if (const auto* compress = std::get_if<scenario::Compress>(&step))
+      return modulus * relaxation.ramp_response(compress->rate, compress->ramp_time(), t);
     const auto& creeps = std::get<scenario::Creep>(step);
     const contact::Creep creep = contact::creep(relaxation);
     double value = creep.compliance_ratio(t);

@@ -91,6 +91,16 @@ double Relaxation::modulus_ratio(double time) const {
   return ratio;
 }
 
+double Relaxation::ramp_response(double rate, double ramp_time, double time) const {
+  const double grown = std::min(time, ramp_time);
+  double strain = rate * grown;
+  if (time < ramp_time) strain += rate * retardation_time;
+  for (const Branch& branch : branches)
+    strain += branch.ratio * rate * branch.time * std::exp(-(time - grown) / branch.time) *
+              -std::expm1(-grown / branch.time);
+  return strain;
+}
+
 double Creep::compliance_ratio(double time) const {
   // (1 - sum j) + sum j (1 - exp(-t/T)): the instantaneous and the delayed part
   double at_once = 1.0, later = 0.0;

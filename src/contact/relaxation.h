@@ -22,6 +22,9 @@ struct Relaxation {
   [[nodiscard]] bool elastic() const { return branches.empty() && retardation_time == 0.0; }
   // E(t) / E_inf for t >= 0 (s); 1 for Kelvin-Voigt, without the impulse at t = 0.
   [[nodiscard]] double modulus_ratio(double time) const;
+  // Stress over E_inf at `time` (s) after the start of a strain that grows at `rate` (1/s) for
+  // `ramp_time` (s) and then stays.                                         docs/theory.md (52a)
+  [[nodiscard]] double ramp_response(double rate, double ramp_time, double time) const;
 };
 
 // J(t) E_inf = 1 - sum_m j_m exp(-t / T_m): strain under constant stress over its final value.

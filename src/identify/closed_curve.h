@@ -1,6 +1,7 @@
 // Curves with a closed formula, as templates for numbers and for Ceres's dual numbers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,7 +13,14 @@
 namespace palpate::identify {
 
 struct ClosedCurve {
-  enum class Form { hertz_press, voigt_creep, solid_creep, solid_relaxation };
+  enum class Form {
+    hertz_press,
+    voigt_creep,
+    solid_creep,
+    solid_relaxation,
+    voigt_compression,
+    solid_compression
+  };
   // The parameters of the formulas; each is an unknown or has its value in `known`.
   enum Slot { modulus, poisson, time, ratio, contact_point, force_offset, slots };
 
@@ -23,8 +31,9 @@ struct ClosedCurve {
 
   double radius = 0.0;             // m, of the finger
   double finger_compliance = 0.0;  // 1/Pa, lambda_1
-  double load = 0.0;               // creep: stress, Pa; relaxation: strain
-  double load_time = 0.0;          // s, duration of the stress
+  double load = 0.0;               // creep: stress, Pa; otherwise strain
+  double load_time = 0.0;          // s, duration of the stress, or of the growth of the strain
+  bool over_strain = false;        // compression: `x` is the strain while it grows
   std::vector<double> x;           // m or s, one per measured point
 };
 
@@ -88,6 +97,35 @@ T solid_relaxation(const ClosedCurve& curve, const std::array<T, ClosedCurve::sl
          (1.0 + (p[ClosedCurve::ratio] - 1.0) * exp(-x / p[ClosedCurve::time]));
 }
 
+// The time since a compression began, s.
+inline double compression_time(const ClosedCurve& curve, double x) {
+  return curve.over_strain ? x / curve.load * curve.load_time : x;
+}
+
+// Of a strain that grows for `load_time` and stays: sigma = E (strain + tau strain')
+//                                                                       docs/theory.md (36)
+template <class T>
+T voigt_compression(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p,
+                    double x) {
+  const double t = compression_time(curve, x);
+  const double rate = curve.load / curve.load_time;
+  if (!(t < curve.load_time)) return curve.load * p[ClosedCurve::modulus];
+  return p[ClosedCurve::modulus] * rate * (t + p[ClosedCurve::time]);
+}
+
+// The same by superposition of solid_relaxation(); elastic where r = 1.  docs/theory.md (37), (52)
+template <class T>
+T solid_compression(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p,
+                    double x) {
+  using std::exp;
+  const double t = compression_time(curve, x);
+  const double grown = std::min(t, curve.load_time);
+  const double rate = curve.load / curve.load_time;
+  const T& tau = p[ClosedCurve::time];
+  return p[ClosedCurve::modulus] * rate *
+         (grown + (p[ClosedCurve::ratio] - 1.0) * tau * (exp((grown - t) / tau) - exp(-t / tau)));
+}
+
 // Computes the curve at its points `curve.x` (SI) for the unknowns u in [0, 1].
 template <class T>
 void values(const ClosedCurve& curve, const T* u, T* out) {
@@ -102,6 +140,8 @@ void values(const ClosedCurve& curve, const T* u, T* out) {
       case ClosedCurve::Form::voigt_creep: out[i] = voigt_creep(curve, p, x); break;
       case ClosedCurve::Form::solid_creep: out[i] = solid_creep(curve, p, x); break;
       case ClosedCurve::Form::solid_relaxation: out[i] = solid_relaxation(curve, p, x); break;
+      case ClosedCurve::Form::voigt_compression: out[i] = voigt_compression(curve, p, x); break;
+      case ClosedCurve::Form::solid_compression: out[i] = solid_compression(curve, p, x); break;
     }
   }
 }

@@ -24,6 +24,8 @@ std::optional<double> duration(const scenario::Scenario& scenario) {
       time += creep->load_time + creep->recovery_time;
     } else if (const auto* relax = std::get_if<scenario::Relax>(&step)) {
       time += relax->time;
+    } else if (const auto* compress = std::get_if<scenario::Compress>(&step)) {
+      time += compress->ramp_time() + compress->hold_time;
     }
   }
   return time;
@@ -44,6 +46,8 @@ bool lengthen_time(scenario::Scenario& scenario, double end) {
     relax->time += more;
   else if (auto* creep = std::get_if<scenario::Creep>(&last))
     creep->recovery_time += more;
+  else if (auto* compress = std::get_if<scenario::Compress>(&last))
+    compress->hold_time += more;
   else if (auto* indent = std::get_if<scenario::Indent>(&last))
     indent->to.value += more * indent->rate;
   else
@@ -72,6 +76,12 @@ bool lengthen(CurveKind kind, scenario::Scenario& scenario, double farthest) {
         return true;
       }
     return false;
+  }
+  if (kind == CurveKind::stress_strain) {
+    auto* compress = std::get_if<scenario::Compress>(&scenario.steps.front());
+    if (compress == nullptr || compress->strain >= farthest) return false;
+    compress->strain = end;
+    return true;
   }
   return lengthen_time(scenario, end);
 }

@@ -41,7 +41,8 @@ class Preparation {
       refuse("`--unknown contact_point` shifts a travel, and this curve is " +
              std::string(words_of(kind_).sentence) + "; give force over travel, or leave it out");
     if (unknown_of(Unknown::What::force_offset) != nullptr &&
-        (kind_ == CurveKind::strain_time || kind_ == CurveKind::stress_time))
+        (kind_ == CurveKind::strain_time || kind_ == CurveKind::stress_time ||
+         kind_ == CurveKind::stress_strain))
       refuse("`--unknown force_offset` is added to a force, and this curve is " +
              std::string(words_of(kind_).sentence) + "; leave it out");
   }
@@ -132,6 +133,14 @@ class Preparation {
         count = as_index(most - measured_.x.begin()) + 1;
       note_left_out(static_cast<int>(measured_.x.size() - count),
                     "the way back from the deepest travel");
+    }
+    if (kind_ == CurveKind::stress_strain) {
+      // A hold, whose strain is noisy, begins within a thousandth of the largest strain.
+      const double most = *std::max_element(measured_.x.begin(), measured_.x.end());
+      const auto held = std::find_if(measured_.x.begin(), measured_.x.end(),
+                                     [&](double x) { return x >= 0.999 * most; });
+      count = as_index(held - measured_.x.begin()) + 1;
+      note_left_out(static_cast<int>(measured_.x.size() - count), "after the largest strain");
     }
     int beyond = 0;
     int before = 0;

@@ -39,13 +39,14 @@ double uneven(double root) { return std::copysign(std::sqrt(std::abs(root * root
 }  // namespace
 
 const CurveWords& words_of(CurveKind kind) {
-  static constexpr std::array<CurveWords, 5> words{{
+  static constexpr std::array<CurveWords, 6> words{{
       {"normal force over travel, of the first `indent`", unit::mm, unit::N, "travel_mm",
        "force_N"},
       {"normal force over time", unit::s, unit::N, "time_s", "force_N"},
       {"tangential force over the first `slide`", unit::mm, unit::N, "slide_mm", "tangential_N"},
       {"strain over time", unit::s, strain, "time_s", "strain"},
       {"stress over time", unit::s, unit::kPa, "time_s", "stress_kPa"},
+      {"stress over strain of the compression", strain, unit::kPa, "strain", "stress_kPa"},
   }};
   return words[as_index(kind)];
 }
@@ -60,6 +61,9 @@ CurveKind curve_of(const Measurement& measured, const scenario::Scenario& scenar
   if (scenario.uniform()) {
     if (over_time && bare) return CurveKind::strain_time;
     if (over_time && pressure) return CurveKind::stress_time;
+    const bool over_strain = measured.x_dimension == Dimension{};
+    if (over_strain && pressure && first<scenario::Compress>(scenario) == 1)
+      return CurveKind::stress_strain;
   } else {
     if (over_time && force) return CurveKind::force_time;
     if (over_length && force) {
@@ -76,7 +80,9 @@ CurveKind curve_of(const Measurement& measured, const scenario::Scenario& scenar
   refuse(dimension_name(measured.y_dimension) + " (`" + measured.y_name + "`) over " +
          dimension_name(measured.x_dimension) + " (`" + measured.x_name +
          "`) is no curve of this scenario, which has " +
-         (scenario.uniform() ? "strain over time (`creep`) and stress over time (`relax`)"
+         (scenario.uniform() ? "strain over time (`creep`), stress over time (`relax`, `compress`) "
+                               "and stress over strain "
+                               "(`compress`)"
                              : "force over a length (`indent`, `slide`) and force over time") +
          "; name other columns with `--x` and `--y`, or give another scenario");
 }
@@ -166,11 +172,16 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
         break;
       case CurveKind::force_time: add(row.time, row.force); break;
       case CurveKind::strain_time:
-      case CurveKind::stress_time: break;  // below
+      case CurveKind::stress_time:
+      case CurveKind::stress_strain: break;  // below
     }
   }
-  for (const record::StrainRow& row : record.strain)
-    add(row.time, kind_ == CurveKind::strain_time ? row.strain : row.stress);
+  for (const record::StrainRow& row : record.strain) {
+    if (kind_ != CurveKind::stress_strain)
+      add(row.time, kind_ == CurveKind::strain_time ? row.strain : row.stress);
+    else if (row.step == 1 && (rows.x.empty() || row.strain > rows.x.back()))
+      add(row.strain, row.stress);
+  }
   if (rows.x.size() < 2) {
     failure_ = "the programme gives fewer than two rows of this curve";
     return std::nullopt;
@@ -248,22 +259,37 @@ std::optional<ClosedCurve> ScenarioCurve::closed() const {
     const bool voigt = tissue.viscosity == tissue::Viscosity::kelvin_voigt;
     const bool solid = tissue.viscosity == tissue::Viscosity::standard_linear_solid;
     if (!fixed_.uniform() || !one_tissue || !sliding || fixed_.steps.size() != 1 ||
-        !std::holds_alternative<scenario::Cuboid>(tissue.shape) || (!voigt && !solid) ||
+        !std::holds_alternative<scenario::Cuboid>(tissue.shape) ||
         about(fixed_.solver.integrator).inertia)
       return std::nullopt;
+    const auto* compress = std::get_if<scenario::Compress>(&fixed_.steps.front());
+    const bool elastic = tissue.viscosity == tissue::Viscosity::none && compress != nullptr;
+    if (!voigt && !solid && !elastic) return std::nullopt;
     if (const auto* creep = std::get_if<scenario::Creep>(&fixed_.steps.front())) {
       curve.form = voigt ? ClosedCurve::Form::voigt_creep : ClosedCurve::Form::solid_creep;
       curve.load = creep->stress;
       curve.load_time = creep->load_time;
       if (kind_ != CurveKind::strain_time) return std::nullopt;
+    } else if (compress != nullptr) {
+      if (kind_ == CurveKind::strain_time || compress->platen == tissue::Base::bonded)
+        return std::nullopt;
+      curve.form =
+          voigt ? ClosedCurve::Form::voigt_compression : ClosedCurve::Form::solid_compression;
+      curve.over_strain = kind_ == CurveKind::stress_strain;
+      curve.load = compress->strain;
+      curve.load_time = compress->ramp_time();
+      curve.known[ClosedCurve::ratio] = 1.0;
     } else {
       if (!solid || kind_ != CurveKind::stress_time) return std::nullopt;
       curve.form = ClosedCurve::Form::solid_relaxation;
       curve.load = std::get<scenario::Relax>(fixed_.steps.front()).strain;
     }
-    curve.known[ClosedCurve::time] = voigt ? tissue.law.time : tissue.law.longest_time();
-    slots.emplace_back(voigt ? "tissue.retardation_time" : "tissue.relaxation_time",
-                       ClosedCurve::time);
+    curve.known[ClosedCurve::time] = voigt   ? tissue.law.time
+                                     : solid ? tissue.law.longest_time()
+                                             : 1.0;
+    if (!elastic)
+      slots.emplace_back(voigt ? "tissue.retardation_time" : "tissue.relaxation_time",
+                         ClosedCurve::time);
     if (solid) {
       curve.known[ClosedCurve::ratio] = tissue.law.instantaneous_ratio();
       slots.emplace_back("tissue.instantaneous_ratio", ClosedCurve::ratio);

@@ -21,7 +21,14 @@ struct Measurement {
 };
 
 // The curve of a scenario that was measured.
-enum class CurveKind { force_travel, force_time, tangential_slide, strain_time, stress_time };
+enum class CurveKind {
+  force_travel,
+  force_time,
+  tangential_slide,
+  strain_time,
+  stress_time,
+  stress_strain
+};
 
 struct CurveWords {
   const char* sentence;  // such as "normal force over time"

@@ -21,6 +21,7 @@ std::pair<const char*, const char*> axes(identify::CurveKind kind) {
     case identify::CurveKind::tangential_slide: return {"Slide", "Tangential force"};
     case identify::CurveKind::strain_time: return {"Time", "Strain"};
     case identify::CurveKind::stress_time: return {"Time", "Stress"};
+    case identify::CurveKind::stress_strain: return {"Strain", "Stress"};
   }
   return {"", ""};
 }

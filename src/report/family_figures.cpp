@@ -209,6 +209,13 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
   return figures;
 }
 
+bool holds_a_compression(const scenario::Scenario& scenario) {
+  return std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const auto& step) {
+    const auto* compress = std::get_if<scenario::Compress>(&step);
+    return compress != nullptr && compress->hold_time > 0.0;
+  });
+}
+
 std::vector<plot::Figure> uniform_figures(const scenario::Family& family, const Records& records,
                                           const std::vector<fit::NamedFit>& fits) {
   std::vector<plot::Figure> figures;
@@ -223,14 +230,19 @@ std::vector<plot::Figure> uniform_figures(const scenario::Family& family, const 
                 two_decades);
     figures.push_back(figure);
   }
-  if (has_step<scenario::Relax>(family.base)) {
-    plot::Figure figure = with_cases(figure_stress_time, family, records);
-    add_fits(figure, fits, "relaxation");
+  const auto of_stress = [&](plot::Figure figure) {
     std::vector<double> stresses =
         peaks(family, records, &record::CaseRecord::strain, &record::StrainRow::stress);
     for (double& stress : stresses) stress = unit::kPa.from_si(stress);
     choose_axis(figure, stresses, two_decades);
     figures.push_back(figure);
+  };
+  if (has_step<scenario::Compress>(family.base))
+    of_stress(with_cases(figure_stress_strain, family, records));
+  if (has_step<scenario::Relax>(family.base) || holds_a_compression(family.base)) {
+    plot::Figure figure = with_cases(figure_stress_time, family, records);
+    add_fits(figure, fits, "relaxation");
+    of_stress(figure);
   }
   return figures;
 }

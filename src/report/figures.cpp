@@ -97,6 +97,14 @@ plot::Figure figure_stress_time(std::vector<plot::Series> series) {
           .series = completed(std::move(series), {"strain_time.csv", "time_s", "stress_kPa"})};
 }
 
+plot::Figure figure_stress_strain(std::vector<plot::Series> series) {
+  return {.name = "figure_stress_strain",
+          .title = "Stress against strain",
+          .x_label = "Strain",
+          .y_label = "Stress (kPa)",
+          .series = completed(std::move(series), {"strain_time.csv", "strain", "stress_kPa"})};
+}
+
 plot::Figure figure_force_time(std::vector<plot::Series> series) {
   return {.name = "figure_force_time",
           .title = "Force against time",

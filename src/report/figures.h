@@ -30,6 +30,9 @@ namespace palpate::report {
 // Stress against time in relaxation: strain_time.csv, time_s, stress_kPa.
 [[nodiscard]] plot::Figure figure_stress_time(std::vector<plot::Series> series);
 
+// Stress against strain in compression: strain_time.csv, strain, stress_kPa.
+[[nodiscard]] plot::Figure figure_stress_strain(std::vector<plot::Series> series);
+
 // Force over time, for holds and live runs: force_indentation.csv, time_s, force_N.
 [[nodiscard]] plot::Figure figure_force_time(std::vector<plot::Series> series);
 

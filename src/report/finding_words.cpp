@@ -70,6 +70,8 @@ constexpr std::array rows{
     Row{"inertia_effect", validity, "%", "change by radiated waves"},
     Row{"finger_compliance_share", validity, "%", "the finger's part of the compliance"},
     Row{"effective_modulus_kPa", validity, "kPa", "effective modulus E* of finger and tissue"},
+    Row{"peak_stress_kPa", peak, "kPa", "largest stress"},
+    Row{"secant_modulus_kPa", peak, "kPa", "largest stress over the final strain"},
     Row{"young_modulus_kPa", validity, "kPa", "Young's modulus of the tissue"},
     Row{"needed_device_damping_N_s_per_m", validity, "N s/m", "damping that the device needs"},
     Row{"passive_depth_mm", validity, "mm", "depth above which the device damps too little"},

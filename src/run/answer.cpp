@@ -166,11 +166,18 @@ std::optional<double> number(const record::CaseRecord& record, const std::string
   return std::nullopt;
 }
 
+// What the error of a case is of, as the start of a sentence.
+std::string quantity(const scenario::Resolved& scenario) {
+  if (!scenario.uniform()) return "The force";
+  const bool creeps = std::holds_alternative<scenario::Creep>(scenario.steps.front());
+  return creeps ? "The strain" : "The stress";
+}
+
 // The largest force, strain or stress of a case, as the start of a sentence.
 std::string peak(const scene::Scene& scene, const record::CaseRecord& record) {
   if (const auto force = number(record, "peak_force_N"))
     return "Peak force: " + rounded_text(*force, 3) + " N";
-  if (!std::holds_alternative<scenario::Relax>(scene.scenario.steps.front()))
+  if (quantity(scene.scenario) == "The strain")
     if (const auto strain = number(record, "peak_strain"))
       return "Peak strain: " + rounded_text(*strain, 3);
   if (record.strain.empty()) return "Peak force: none";
@@ -204,8 +211,7 @@ Expected expect(const scene::Scene& scene) {
   const Words words(scene, estimates);
   expected.answer = {
       .model = words.model(),
-      .error = std::string(uniform ? "The strain" : "The force") + " has " +
-               words.error(error, expected.left_out) + ".",
+      .error = quantity(scene.scenario) + " has " + words.error(error, expected.left_out) + ".",
       .left_out = Words::left_out(expected.left_out, scene.scenario.solver.tolerance),
       .verdict = {},
       .complete = expected.left_out.empty(),

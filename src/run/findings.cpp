@@ -238,6 +238,14 @@ class Findings {
         add("creep_half_time_s", half ? record::Cell(*half) : record::Cell());
         break;
       }
+    for (const scenario::Step& step : scene_.scenario.steps)
+      if (const auto* compress = std::get_if<scenario::Compress>(&step)) {
+        double stress = 0.0;
+        for (const record::StrainRow& row : record_.strain) stress = std::max(stress, row.stress);
+        add("peak_stress_kPa", unit::kPa.from_si(stress));
+        add("secant_modulus_kPa", unit::kPa.from_si(stress / compress->strain));
+        break;
+      }
     if (scene_.specimen->law.kind == tissue::Viscosity::kelvin_voigt)
       for (const scenario::Step& step : scene_.scenario.steps)
         if (std::holds_alternative<scenario::Relax>(step)) {

@@ -15,6 +15,7 @@ namespace {
 using integrate::MemoryRule;
 using integrate::State;
 using integrate::Vector;
+using scenario::Compress;
 using scenario::Creep;
 using scenario::Relax;
 
@@ -27,6 +28,10 @@ class UniformTest {
     for (std::size_t i = 0; i < scene_.scenario.steps.size(); ++i) {
       step_ = static_cast<int>(i) + 1;
       const scenario::Step& step = scene_.scenario.steps[i];
+      if (const auto* compressed = std::get_if<Compress>(&step)) {
+        if (!compress(*compressed)) co_return;
+        continue;
+      }
       const bool going = std::holds_alternative<Creep>(step) ? creep(std::get<Creep>(step))
                                                              : relax(std::get<Relax>(step));
       if (!going) co_return;
@@ -70,7 +75,7 @@ class UniformTest {
       }
       imbalance_ = std::max(imbalance_, monitor_->imbalance());
     }
-    record_.findings.push_back({"energy_imbalance", imbalance_});
+    if (monitor_) record_.findings.push_back({"energy_imbalance", imbalance_});
   }
 
  private:
@@ -141,6 +146,33 @@ class UniformTest {
     const Vector none = Vector::Zero(load.size());
     stages_.push_back({none, load, creep.load_time, creep.stress, true});
     if (creep.recovery_time > 0.0) stages_.push_back({load, none, creep.recovery_time, 0.0, true});
+    return true;
+  }
+
+  // Without inertia all forces of the specimen follow one law of time: its shape is that of
+  // statics, and its stress the relaxed modulus times the law's response to the strain.
+  //                                                                      docs/theory.md (52a)
+  bool compress(const Compress& compress) {
+    const tissue::Uniaxial& pressed = specimen_.pressed;
+    if (tissue::inverted(specimen_.mesh, compress.strain * pressed.displacement))
+      return diverged("a tetrahedron would turn inside out; give a smaller strain");
+    const contact::Relaxation law = scene::relaxation_of(specimen_.law);
+    const double start = time_;
+    const auto row = [&](double after) {
+      time_ = start + after;
+      const double response = law.ramp_response(compress.rate, compress.ramp_time(), after);
+      record_.strain.push_back(
+          {step_, time_, pressed.young_modulus * response, compress.strain_at(after)});
+      record_.last_stable_time = time_;
+    };
+    row(0.0);
+    double begun = 0.0;
+    for (const double duration : {compress.ramp_time(), compress.hold_time}) {
+      if (duration == 0.0) continue;
+      const Pace pace = make_pace(scene_, duration);
+      for (int k = 1; k <= pace.rows; ++k) row(begun + pace.time(k, 0));
+      begun += duration;
+    }
     return true;
   }
 

@@ -43,14 +43,11 @@ class Checker {
       return problem("step",
                      "a scenario needs something to do; add a `[[step]]`, as "
                      "`kind = \"indent\"`");
-    const auto loads_end_faces = [](const Step& step) {
-      return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
-    };
     const bool uniform = loads_end_faces(scenario_.steps.front());
     const bool ellipsoid = std::holds_alternative<Ellipsoid>(scenario_.tissue.shape);
     if (uniform && (ellipsoid || std::holds_alternative<HalfSpace>(scenario_.tissue.shape)))
       problem("tissue.shape",
-              std::string("`creep` and `relax` need flat end faces, which ") +
+              std::string("`creep`, `relax` and `compress` need flat end faces, which ") +
                   (ellipsoid ? "an `ellipsoid`" : "a `half_space`") +
                   " does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
                   "`layered_limb`");
@@ -60,8 +57,11 @@ class Checker {
       const Step& step = scenario_.steps[i];
       if (loads_end_faces(step) != uniform)
         return problem(path,
-                       "`creep` and `relax` load the end faces without a finger, the other "
-                       "kinds of `step` have one; put them into two scenarios");
+                       "`creep`, `relax` and `compress` load the end faces without a finger, the "
+                       "other kinds of `step` have one; put them into two scenarios");
+      if (const auto* compress = std::get_if<Compress>(&step))
+        if (const auto wrong = compression_problem(scenario_, *compress))
+          problem(path + ".kind", *wrong);
       if (const auto* indent = std::get_if<Indent>(&step))
         reached = indented(path + ".to", *indent, reached);
       if (const auto* retract = std::get_if<Retract>(&step))

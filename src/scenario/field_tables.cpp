@@ -23,9 +23,7 @@ Conditions::Conditions(const Scenario& scenario) {
                 : mesh;
   based = model && rung(*model).thickness ? Use{} : mesh;
   // If steps of both kinds are mixed, the mixture is reported instead of the keys of the finger.
-  const bool presses = std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& s) {
-    return !std::holds_alternative<Creep>(s) && !std::holds_alternative<Relax>(s);
-  });
+  const bool presses = !std::all_of(scenario.steps.begin(), scenario.steps.end(), loads_end_faces);
   finger = {presses || scenario.steps.empty(),
             "by steps with a finger (indent, hold, retract, slide)"};
   pressed_mesh = meshed ? Use{finger.used, finger.when, Use::Otherwise::note} : mesh;

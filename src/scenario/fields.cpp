@@ -129,6 +129,17 @@ static void fields(FieldVisitor& visitor, Relax& step) {
   visitor.quantity({"time", "How long it is held."}, step.time, unit::s, above(0));
 }
 
+static void fields(FieldVisitor& visitor, Compress& step) {
+  visitor.number({"strain", "Shortening over height at the end."}, step.strain,
+                 {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false});
+  visitor.quantity({"rate", "How fast the strain grows: the platen's speed over the height."},
+                   step.rate, unit::per_second, above(0));
+  visitor.quantity({"hold_time", "How long the strain stays afterwards."}, step.hold_time, unit::s,
+                   at_least(0));
+  visitor.choice({"platen", "How the upper platen holds the specimen; `tissue.base` is the lower."},
+                 step.platen, bases);
+}
+
 static void fields(FieldVisitor& visitor, TaggedRegion& region) {
   visitor.count({"tag", "The number of the region in the shape or in the mesh file."}, region.tag,
                 between(0, 1e9));
@@ -228,9 +239,7 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
 }  // namespace
 
 bool PlainScenario::uniform() const {
-  for (const Step& step : steps)
-    if (std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step)) return true;
-  return false;
+  return std::any_of(steps.begin(), steps.end(), loads_end_faces);
 }
 
 bool Scenario::meshed() const {

@@ -1,6 +1,7 @@
 // Durations of steps from travels and rates, and positions of the finger after slides.
 #include "scenario/programme.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -20,7 +21,9 @@ double duration(const Step& step, double& travel) {
   if (const auto* hold = std::get_if<Hold>(&step)) return hold->time;
   if (const auto* slide = std::get_if<Slide>(&step)) return slide->by / slide->rate;
   if (const auto* creep = std::get_if<Creep>(&step)) return creep->load_time + creep->recovery_time;
-  return std::get<Relax>(step).time;
+  if (const auto* relax = std::get_if<Relax>(&step)) return relax->time;
+  const auto& compress = std::get<Compress>(step);
+  return compress.ramp_time() + compress.hold_time;
 }
 
 }  // namespace
@@ -45,6 +48,32 @@ std::vector<std::array<double, 2>> finger_places(const Resolved& scenario, const
     places.push_back({x, y});
   }
   return places;
+}
+
+bool compresses(const PlainScenario& scenario) {
+  return !scenario.steps.empty() && std::holds_alternative<Compress>(scenario.steps.front());
+}
+
+tissue::Base upper_platen(const PlainScenario& scenario) {
+  return compresses(scenario) ? std::get<Compress>(scenario.steps.front()).platen
+                              : tissue::Base::frictionless;
+}
+
+std::optional<std::string> compression_problem(const Scenario& scenario, const Compress& compress) {
+  const std::string is = "`compress` is computed ";
+  if (scenario.solver.integrator && *scenario.solver.integrator != Solver::Integrator::quasi_static)
+    return is + "without inertia; leave `solver.integrator` out";
+  if (scenario.solver.kinematics == Solver::Kinematics::nonlinear)
+    return is + "for small strain; leave `solver.kinematics` out";
+  if (scenario.tissue.viscosity == tissue::Viscosity::nodal_drag)
+    return is + "without drag against the ground; write another `tissue.viscosity`";
+  if (compress.platen != upper_platen(scenario) ||
+      (compress.platen == tissue::Base::bonded &&
+       !std::all_of(scenario.steps.begin(), scenario.steps.end(),
+                    [](const Step& step) { return std::holds_alternative<Compress>(step); })))
+    return "all steps of a scenario have one upper platen; put steps with another `platen` into "
+           "another scenario";
+  return std::nullopt;
 }
 
 }  // namespace palpate::scenario

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "scenario/resolved.h"
@@ -15,5 +17,16 @@ namespace palpate::scenario {
 // the cuboid's corner.
 [[nodiscard]] std::vector<std::array<double, 2>> finger_places(const Resolved& scenario,
                                                                const Cuboid& box);
+
+// Why the formula of a compression, which is that of a body whose forces all follow one law of
+// time, does not apply in this scenario.
+[[nodiscard]] std::optional<std::string> compression_problem(const Scenario& scenario,
+                                                             const Compress& compress);
+
+// Whether the programme begins with a `compress`, which has no inertia.
+[[nodiscard]] bool compresses(const PlainScenario& scenario);
+
+// How the upper platen of a uniform test holds the specimen.
+[[nodiscard]] tissue::Base upper_platen(const PlainScenario& scenario);
 
 }  // namespace palpate::scenario

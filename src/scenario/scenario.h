@@ -1,6 +1,7 @@
 // The scenario as the user wrote it: SI units, defaults, and empty values for keys left open.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -266,7 +267,26 @@ struct Relax {
   double strain = 0.05;  // shortening over height
   double time = 1.0;     // s
 };
-using Step = std::variant<Indent, Hold, Retract, Slide, Creep, Relax>;
+struct Compress {
+  static constexpr Word word{
+      "compress",
+      "A strain of the whole specimen that grows at a constant rate and then "
+      "stays: stress over strain."};
+  double strain = 0.1;                               // shortening over height, at the end
+  double rate = 0.01;                                // 1/s
+  double hold_time = 0.0;                            // s
+  tissue::Base platen = tissue::Base::frictionless;  // the upper one
+
+  [[nodiscard]] double ramp_time() const { return strain / rate; }
+  [[nodiscard]] double strain_at(double time) const { return std::min(strain, rate * time); }
+};
+using Step = std::variant<Indent, Hold, Retract, Slide, Creep, Relax, Compress>;
+
+// Whether the step loads the end faces of the specimen, without a finger.
+[[nodiscard]] inline bool loads_end_faces(const Step& step) {
+  return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step) ||
+         std::holds_alternative<Compress>(step);
+}
 
 struct Output {
   enum class Regression { none, logarithmic, power, exponential };

@@ -63,6 +63,30 @@ recovery_time = "3 s"
 interval = "50 ms"
 )";
 
+constexpr std::string_view compress = R"(#:schema ./palpate.schema.json
+# A block between slippery platens is shortened at a constant rate, then held: stress over strain.
+schema = 1
+title  = "Compression of a phantom"
+
+[tissue]
+young_modulus      = "15 kPa"
+poisson_ratio      = 0.45
+shape              = { kind = "cuboid", size = ["20 mm", "20 mm", "10 mm"] }
+base               = "frictionless"    # `bonded`: the lower platen holds the block
+viscosity          = "standard_linear_solid"
+relaxation_time    = "2 s"
+instantaneous_ratio = 1.4
+
+[[step]]
+kind      = "compress"
+strain    = 0.1
+rate      = "0.05 1/s"         # the platen's speed over the height
+hold_time = "5 s"
+
+[output]
+interval = "20 ms"
+)";
+
 constexpr std::string_view relax = R"(#:schema ./palpate.schema.json
 # A constant strain of a block: stress over time, with a Prony series.
 schema = 1
@@ -196,6 +220,7 @@ constexpr std::array all{
     Starter{{"press", "a finger presses, waits and withdraws"}, press},
     Starter{{"creep", "a constant stress: strain over time"}, creep},
     Starter{{"relax", "a constant strain: stress over time"}, relax},
+    Starter{{"compress", "a strain that grows: stress over strain"}, compress},
     Starter{{"organ", "a body of its own shape, with a stiff lump"}, organ},
     Starter{{"sweep", "a family of cases"}, sweep},
     Starter{{"live", "a press by a test stand"}, live},

@@ -9,6 +9,7 @@
 #include "contact/skin_spacing.h"
 #include "contact/wide_patch.h"
 #include "scenario/integrators.h"
+#include "scenario/programme.h"
 #include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
 #include "scene/scene.h"
@@ -240,7 +241,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   specimen->base_height = shape.base_level - specimen->low.z();
   if (scenario.uniform() && top_area <= 0.0)
     throw MeshError(
-        "the specimen has no flat upper end for a platen; `creep` and `relax` need a shape with "
+        "the specimen has no flat upper end for a platen; `creep`, `relax` and `compress` need a "
+        "shape with "
         "flat ends, such as `cuboid` or `ligament`");
   const bool platens =
       scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
@@ -257,10 +259,10 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
       },
       *specimen);
   if (scenario.uniform()) {
-    specimen->pressed =
-        tissue::uniaxial_test(specimen->network, specimen->mesh, specimen->base, top, top_area);
-    specimen->held_between_platens =
-        tissue::held_between_platens(specimen->mesh, specimen->base, top);
+    specimen->pressed = tissue::uniaxial_test(specimen->network, specimen->mesh, specimen->base,
+                                              top, top_area, scenario::upper_platen(scenario));
+    specimen->held_between_platens = tissue::held_between_platens(
+        specimen->mesh, specimen->base, top, scenario::upper_platen(scenario));
   }
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height);
   specimen->skin = shape.skin;

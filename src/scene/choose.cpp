@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "scenario/integrators.h"
+#include "scenario/programme.h"
 #include "scene/estimates.h"
 #include "scene/refining_press.h"
 #include "scene/scene.h"
@@ -109,7 +110,8 @@ class Chooser {
   // Questions for a test of a specimen between platens.
   void uniform() {
     const double nu = asked_.tissue.poisson_ratio;
-    const bool bonded = asked_.tissue.base == tissue::Base::bonded;
+    const bool bonded = asked_.tissue.base == tissue::Base::bonded ||
+                        scenario::upper_platen(asked_) == tissue::Base::bonded;
     const auto& shape = asked_.tissue.shape;
     const bool prism = std::holds_alternative<scenario::Cuboid>(shape) ||
                        std::holds_alternative<scenario::Cylinder>(shape);
@@ -119,13 +121,16 @@ class Chooser {
     const bool uneven = bonded || !asked_.regions.empty() || !prism;
     constexpr double even_error = 0.001;
     constexpr double shape_error = 0.4;
-    const double ratio_error = !prism   ? shape_error
-                               : uneven ? 0.5 * std::abs(nu - 0.25)
-                                        : even_error;
+    const double meshed = bonded_mesh_error(asked_);
+    const double stiffening = bonded_stiffening(asked_, nu) / bonded_stiffening(asked_, 0.25);
+    const double ratio_error =
+        !prism   ? shape_error
+        : uneven ? std::max(0.5 * std::abs(nu - 0.25), std::abs(1.0 - 1.0 / stiffening)) + meshed
+                 : even_error;
     ask(Asked::uniform, 1.0, 0.5);
     ask(Asked::ratio_matters, ratio_error, tolerance(), "",
         !prism   ? "error of independent springs on a shape that is no prism"
-        : uneven ? "error of independent springs with fixed ends or several tissues, |nu - 1/4| / 2"
+        : uneven ? "error of independent springs with fixed ends or several tissues"
                  : "");
     const double inertia = uniform_inertia(asked_);
     ask(Asked::inertia, inertia, tolerance(), "the body rings", "change of the strain by waves");
@@ -134,8 +139,9 @@ class Chooser {
     const double left_out = integrator && !about(*integrator).inertia ? inertia : 0.0;
     for (const Rung& rung : scenario::ladder)
       if (rung.uniform)
-        add(rung, left_out + (rung.own_ratio ? even_error + (uneven ? rung.error.uneven : 0.0)
-                                             : ratio_error));
+        add(rung, left_out + (rung.own_ratio
+                                  ? even_error + std::max(uneven ? rung.error.uneven : 0.0, meshed)
+                                  : ratio_error));
     take_cheapest();
   }
 

@@ -8,13 +8,17 @@
 
 namespace palpate::scene {
 
+contact::Relaxation relaxation_of(const tissue::ViscousLaw& law) {
+  contact::Relaxation relaxation;
+  relaxation.retardation_time = law.time;
+  for (const tissue::Branch& branch : law.branches)
+    relaxation.branches.push_back({branch.time, branch.ratio});
+  return relaxation;
+}
+
 contact::Relaxation contact_relaxation(const scenario::Resolved& scenario, const Finger& finger) {
   if (!scenario::viscous_contact(scenario) || scenario.uniform()) return {};
-  contact::Relaxation relaxation;
-  relaxation.retardation_time = scenario.tissue.law.time;
-  for (const tissue::Branch& branch : scenario.tissue.law.branches)
-    relaxation.branches.push_back({branch.time, branch.ratio});
-  return contact::behind_finger(relaxation, finger.compliance_share);
+  return contact::behind_finger(relaxation_of(scenario.tissue.law), finger.compliance_share);
 }
 
 contact::Layer layers_of(const scenario::Resolved& scenario, double share) {

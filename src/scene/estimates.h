@@ -55,6 +55,15 @@ inline constexpr double refined_share = 0.5;
 
 // The number of nodes that the mesh will have, before it is refined; 1000 for a ready mesh, which
 // is not read here.
+// How much stiffer bonded ends make a prism between platens, for a Poisson's ratio below 1/2: 1 + 2
+// S^2 of an incompressible one (Gent and Lindley 1959), S its loaded over its free surface, in
+// series with the modulus of uniaxial strain. One bonded end is the middle of a body of twice the
+// height. Within 12 % of solutions by refined meshes.                              docs/accuracy.md
+[[nodiscard]] double bonded_stiffening(const scenario::Resolved& scenario, double poisson_ratio);
+
+// The error of its modulus by a mesh with the tissue's elasticity, relative.
+[[nodiscard]] double bonded_mesh_error(const scenario::Resolved& scenario);
+
 [[nodiscard]] double expected_nodes(const scenario::Mesh& mesh);
 
 }  // namespace palpate::scene

@@ -170,6 +170,8 @@ struct Scene {
 
 // The relaxation of the contact's modulus: the tissue's branches behind an elastic finger (63);
 // empty (elastic) if the contact does not include viscosity.
+// A tissue's law as that of its modulus.
+[[nodiscard]] contact::Relaxation relaxation_of(const tissue::ViscousLaw& law);
 [[nodiscard]] contact::Relaxation contact_relaxation(const scenario::Resolved& scenario,
                                                      const Finger& finger);
 

@@ -43,9 +43,12 @@ std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double 
   return held;
 }
 
-std::vector<char> held_between_platens(const geometry::TetMesh& mesh, Base base, double top) {
+std::vector<char> held_between_platens(const geometry::TetMesh& mesh, Base base, double top,
+                                       Base platen) {
   std::vector<char> held = held_by_base(mesh, base);
-  for (const int node : geometry::nodes_at_height(mesh, top)) held[as_index(3 * node + 2)] = 1;
+  for (const int node : geometry::nodes_at_height(mesh, top))
+    for (int axis = platen == Base::bonded ? 0 : 2; axis < 3; ++axis)
+      held[as_index(3 * node + axis)] = 1;
   return held;
 }
 

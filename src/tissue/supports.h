@@ -22,8 +22,9 @@ inline constexpr const char* not_held =
 [[nodiscard]] std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base,
                                              double base_height = 0.0);
 
-// The same, and the height of the nodes at `top` (m) is prescribed: they move only sideways.
+// The same, and the height of the nodes at `top` (m) is prescribed; where `platen` is bonded they
+// do not move sideways either.
 [[nodiscard]] std::vector<char> held_between_platens(const geometry::TetMesh& mesh, Base base,
-                                                     double top);
+                                                     double top, Base platen);
 
 }  // namespace palpate::tissue

@@ -100,7 +100,7 @@ Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh) {
 }
 
 Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Base base, double top,
-                       double area) {
+                       double area, Base platen) {
   double low = top;
   for (const Vec3& node : mesh.nodes) low = std::min(low, node.z());
   Uniaxial result;
@@ -108,7 +108,7 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
   result.area = area;
   result.top = geometry::nodes_at_height(mesh, top);
 
-  const std::vector<char> held = held_between_platens(mesh, base, top);
+  const std::vector<char> held = held_between_platens(mesh, base, top, platen);
   Vector prescribed = Vector::Zero(3 * network.nodes());
   for (const int node : result.top) prescribed[3 * node + 2] = -result.height;
 

@@ -18,10 +18,12 @@ struct Uniaxial {
   std::vector<double> shares;  // of the platen's force, one per node of `top`; sum 1
 };
 
-// `area` (m^2) is that of the flat top at height `top` (m). The upper platen is frictionless, the
-// lower one as `base` says. Throws MeshError if the network is not rigid.   docs/theory.md (45)
+// `area` (m^2) is that of the flat top at height `top` (m). The upper platen holds the body as
+// `platen` says, the lower one as `base` does. Throws MeshError if the network is not rigid.
+// docs/theory.md (45)
 [[nodiscard]] Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh,
-                                     Base base, double top, double area);
+                                     Base base, double top, double area,
+                                     Base platen = Base::frictionless);
 
 // The same for a body of any shape, under tractions on its whole skin that stretch it uniformly
 // along z. Modulus and ratio follow from the mean strain; the other members are left empty. Throws

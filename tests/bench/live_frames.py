@@ -98,9 +98,11 @@ def live(programs, folder, name, sets, seconds):
     finally:
         arm.send_signal(signal.SIGTERM)
         summary = json.loads(arm.communicate()[0].splitlines()[-1])["summary"]
-    if ended.returncode not in (0, 6):  # 6: the link was lost, the rows till then are there
+    health_file = os.path.join(folder, "out", name, "device_health.json")
+    # 6: the link was lost, the rows till then are there.
+    if ended.returncode not in (0, 6) or not os.path.exists(health_file):
         sys.exit(ended.stderr)
-    with open(os.path.join(folder, "out", name, "device_health.json")) as file:
+    with open(health_file) as file:
         health = json.load(file)
     with open(os.path.join(folder, "out", name, "force_indentation.csv")) as file:
         rows = list(csv.DictReader(file))
@@ -115,26 +117,28 @@ def main():
           "| longest gap, ms | given to the hand, uJ | bound, uJ |")
     print("|---|---|---|---|---|---|---|---|")
     awake = stay_awake()
-    for label, name, sets in RUNS:
-        if label not in wanted:
-            continue
-        with tempfile.TemporaryDirectory() as folder:
-            health, rows, summary = live(programs, folder, name, sets, seconds)
-        if float(rows[-1]["time_s"]) < seconds - 1:
-            label += f" (link lost after {float(rows[-1]['time_s']):.0f} s)"
-        compute = health["compute"]
-        bound = energy_bound(rows, health["longest_gap_s"])
-        print(
-            f"| {label} | {health['frames']} | {health['deadline_misses']} "
-            f"| {1e6 * compute['p50_below_s']:.0f}, {1e6 * compute['p99_below_s']:.0f}, "
-            f"{1e6 * compute['p999_below_s']:.0f} "
-            f"| {1e6 * health['lateness']['p99_below_s']:.0f} "
-            f"| {1e3 * health['longest_gap_s']:.1f} "
-            f"| {1e6 * summary['most_work_by_device_J']:.1f} | {1e6 * bound:.1f} |",
-            flush=True,
-        )
-    for spinner in awake:
-        spinner.kill()
+    try:
+        for label, name, sets in RUNS:
+            if label not in wanted:
+                continue
+            with tempfile.TemporaryDirectory() as folder:
+                health, rows, summary = live(programs, folder, name, sets, seconds)
+            if float(rows[-1]["time_s"]) < seconds - 1:
+                label += f" (link lost after {float(rows[-1]['time_s']):.0f} s)"
+            compute = health["compute"]
+            bound = energy_bound(rows, health["longest_gap_s"])
+            print(
+                f"| {label} | {health['frames']} | {health['deadline_misses']} "
+                f"| {1e6 * compute['p50_below_s']:.0f}, {1e6 * compute['p99_below_s']:.0f}, "
+                f"{1e6 * compute['p999_below_s']:.0f} "
+                f"| {1e6 * health['lateness']['p99_below_s']:.0f} "
+                f"| {1e3 * health['longest_gap_s']:.1f} "
+                f"| {1e6 * summary['most_work_by_device_J']:.1f} | {1e6 * bound:.1f} |",
+                flush=True,
+            )
+    finally:
+        for spinner in awake:
+            spinner.kill()
 
 
 if __name__ == "__main__":

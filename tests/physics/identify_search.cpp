@@ -91,7 +91,8 @@ TEST(Identify, ModulusAndStressOfACreepAreTiedAsARatio) {
 // All three kinds of slopes, at a place that is no minimum. Central differences of a step d in u
 // err by d^2 / 6 of the third derivative, of a range of e^6 some 1e-6; Ridders's by far less.
 TEST(Identify, SlopesAgree) {
-  for (const char* name : {"hertz", "creep", "relaxation"}) {
+  for (const char* name :
+       {"hertz", "creep", "relaxation", "compression", "compression over strain"}) {
     const IdentifyScene& scene = test::identify_scene(name);
     const auto curve = test::clean_curve(scene);
     const auto family = scenario::parse(scene.text, "test.toml", {});

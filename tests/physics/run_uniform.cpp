@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "cases.h"
@@ -156,6 +157,94 @@ double drag_time(double length, double drag) {
   const double c = std::sqrt(6000.0 / 1041.0);
   const double omega = std::numbers::pi * c / (2.0 * length);
   return 2.0 / (drag - std::sqrt(drag * drag - 4.0 * omega * omega));
+}
+
+// sigma(t) = int E(t - s) strain'(s) ds by the trapezoidal rule, apart from the program's formula.
+double hereditary(double modulus, const std::function<double(double)>& ratio, double rate,
+                  double ramp, double time) {
+  const double end = std::min(time, ramp);
+  constexpr int parts = 20000;
+  double sum = 0.0;
+  for (int k = 0; k < parts; ++k) {
+    const double from = end * k / parts;
+    const double to = end * (k + 1) / parts;
+    sum += 0.5 * (ratio(time - from) + ratio(time - to)) * (to - from);
+  }
+  return modulus * rate * sum;
+}
+
+const std::string compress =
+    specimen +
+    "[[step]]\nkind = \"compress\"\nstrain = 0.1\nrate = \"0.2 1/s\"\nhold_time = \"1 s\"\n";
+
+TEST(CompressedSpecimen, FollowsItsLoadingHistory) {
+  for (const char* mesh : meshes) {
+    std::vector<std::string> settings = solid_settings;
+    settings.push_back(std::string("tissue.mesh=") + mesh);
+    const auto [record, scene] = run_specimen(compress, settings);
+    ASSERT_EQ(record.outcome, record::Outcome::completed);
+    const double modulus = scene.specimen->measured.young_modulus;
+    const auto ratio = [](double t) { return 1.0 + 1.5 * std::exp(-t / 0.4); };
+    ASSERT_EQ(record.strain.size(), 31U);  // 0.5 s and 1 s in rows of 50 ms
+    for (const auto& row : record.strain) {
+      EXPECT_DOUBLE_EQ(row.strain, std::min(0.1, 0.2 * row.time));
+      EXPECT_NEAR(row.stress, hereditary(modulus, ratio, 0.2, 0.5, row.time), 1e-7 * modulus)
+          << row.time;
+    }
+  }
+}
+
+TEST(CompressedSpecimen, IsElasticOrAVoigtBody) {
+  const auto [elastic, scene] = run_specimen(compress, {"tissue.viscosity=none"});
+  const double modulus = scene.specimen->measured.young_modulus;
+  for (const auto& row : elastic.strain)
+    EXPECT_NEAR(row.stress, modulus * row.strain, 1e-9 * modulus);
+  const record::CaseRecord voigt =
+      run_specimen(compress, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.3 s"})
+          .record;
+  for (const auto& row : voigt.strain) {
+    const double rate = row.time < 0.5 - 1e-9 ? 0.2 : 0.0;
+    EXPECT_NEAR(row.stress, modulus * (row.strain + 0.3 * rate), 1e-9 * modulus) << row.time;
+  }
+}
+
+// Gent and Lindley 1959 for an incompressible cylinder between bonded platens: E (1 + 2 S^2) with
+// S = radius / (2 height). Their solution is an approximation, and this body has a ratio of 0.49.
+TEST(CompressedSpecimen, BondedPlatensStiffenIt) {
+  const auto secant = [&](const char* base, const char* platen) {
+    const record::CaseRecord record =
+        run_specimen(compress,
+                     {"tissue.shape={kind=\"cylinder\",radius=\"10 mm\",length=\"10 mm\"}",
+                      "tissue.poisson_ratio=0.49", "tissue.viscosity=none",
+                      "tissue.mesh={kind=\"tetgen\",nodes=3000}", "solver.model=coupled_springs",
+                      std::string("tissue.base=") + base, std::string("step.1.platen=") + platen})
+            .record;
+    return record.strain.back().stress / record.strain.back().strain;
+  };
+  const double modulus = secant("frictionless", "frictionless");
+  EXPECT_NEAR(secant("bonded", "bonded") / modulus, 1.5, 0.1);
+  // The middle of a specimen between two bonded platens is a slippery platen of half of it: S / 2.
+  EXPECT_NEAR(secant("bonded", "frictionless") / modulus, 1.125, 0.1);
+}
+
+// The stated error against the same body by twenty times as many nodes.
+TEST(CompressedSpecimen, BondedPlatensCostWhatIsStated) {
+  for (const char* ratio : {"0.3", "0.45", "0.49"})
+    for (const char* height : {"10 mm", "30 mm"}) {
+      const auto run = [&](const std::string& mesh) {
+        return run_specimen(
+            compress, {std::string("tissue.poisson_ratio=") + ratio, "tissue.viscosity=none",
+                       "tissue.base=bonded", "step.1.platen=bonded", "tissue.mesh=" + mesh,
+                       std::string("tissue.shape.size=[\"30 mm\", \"30 mm\", \"") + height + "\"]",
+                       "solver.model=coupled_springs"});
+      };
+      const auto [coarse, scene] = run(meshes[0]);
+      const auto [fine, other] = run("{ kind = \"mirrored\", cells = [14, 14, 14] }");
+      const double off = coarse.strain.back().stress / fine.strain.back().stress - 1.0;
+      const double stated = scene.choice.taken()->error;
+      EXPECT_LT(off, stated) << ratio << " " << height;
+      EXPECT_LT(stated, 4.0 * off + 0.02) << ratio << " " << height;
+    }
 }
 
 TEST(NodalDragSpecimen, CreepTimeGrowsWithTheLengthSquared) {

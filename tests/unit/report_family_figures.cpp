@@ -73,8 +73,8 @@ TEST(FamilyFigures, TheDeviceIsDrawnBesideTheModel) {
   const auto figures = report::family_figures(family, {record}, {});
   ASSERT_EQ(figures.size(), 2U);
   EXPECT_EQ(figures[1].name, "figure_live_force");
-  EXPECT_EQ(figures[1].series.at(0).y_column, "measured_force_N");
-  EXPECT_EQ(figures[1].series.at(1).y_column, "force_N");
+  EXPECT_EQ(figures[1].series.at(0).y_column, "force_N");
+  EXPECT_EQ(figures[1].series.at(1).y_column, "measured_force_N");
 }
 
 TEST(FamilyFigures, RegressionsAreDrawnWhereTheyAreAskedFor) {

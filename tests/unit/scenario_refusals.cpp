@@ -49,7 +49,7 @@ TEST(Refusals, UnknownWords) {
        "mirrored, tetgen, file"},
       {"[[step]]\nkind = \"intend\"\nto = 5\n",
        "press.toml:5:8: `kind` does not know `intend`; did you mean `indent`? It is one of indent, "
-       "hold, retract, slide, creep, relax"},
+       "hold, retract, slide, creep, relax, compress"},
       {"[solver]\ntime_step = \"autp\"\n",
        "press.toml:5:13: `time_step` wants `auto` or a time, got `autp`; write `auto`"},
       {"[solver]\nsubsteps = \"many\"\n",

@@ -125,11 +125,12 @@ TEST(Shapes, HalfSpaceHasNoMesh) {
       {half + "density = \"1000 kg/m^3\"\n",
        "press.toml:6:1: `density` has no effect here: " + elsewhere},
   });
-  expect_refused({{half,
-                   "press.toml:5:9: `creep` and `relax` need flat end faces, which a `half_space` "
-                   "does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
-                   "`layered_limb`"}},
-                 creep);
+  expect_refused(
+      {{half,
+        "press.toml:5:9: `creep`, `relax` and `compress` need flat end faces, which a `half_space` "
+        "does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
+        "`layered_limb`"}},
+      creep);
   EXPECT_EQ(notes(press + half + tetgen + "[solver]\nrings = 3\n"),
             "press.toml:6:1: `mesh` is left unread: it is used only on another `tissue.shape` than "
             "`half_space`\n"
@@ -160,11 +161,12 @@ TEST(Shapes, HalfSpaceHasNoMesh) {
 }
 
 TEST(Shapes, WithoutFlatEndsDoNotCreep) {
-  expect_refused({{shape("kind = \"ellipsoid\""),
-                   "press.toml:5:9: `creep` and `relax` need flat end faces, which an `ellipsoid` "
-                   "does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
-                   "`layered_limb`"}},
-                 creep);
+  expect_refused(
+      {{shape("kind = \"ellipsoid\""),
+        "press.toml:5:9: `creep`, `relax` and `compress` need flat end faces, which an `ellipsoid` "
+        "does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
+        "`layered_limb`"}},
+      creep);
   EXPECT_EQ(refusal(creep + shape("kind = \"bone_shaft\"")), "accepted");
 }
 

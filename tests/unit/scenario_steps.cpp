@@ -53,9 +53,8 @@ TEST(Steps, StayInsideTheSpecimen) {
 
 TEST(Steps, OfBothKindsAreTwoScenarios) {
   const std::string sentence =
-      "`creep` and `relax` load the end faces without a finger, the other kinds of `step` have "
-      "one; "
-      "put them into two scenarios";
+      "`creep`, `relax` and `compress` load the end faces without a finger, the other kinds of "
+      "`step` have one; put them into two scenarios";
   EXPECT_EQ(refusal(step("indent", "2 mm") + "[[step]]\nkind = \"creep\"\n[finger]\nradius = \"9 "
                                              "mm\"\n"),
             "press.toml:4:1: " + sentence);
