@@ -35,10 +35,10 @@ namespace {
 
 constexpr double margin = 1e-6;  // relative; the last row lies beyond the last point
 
-bool lengthen_time(scenario::Scenario& scenario, double end) {
+bool lengthen_time(scenario::Scenario& scenario, double farthest) {
   const auto lasts = duration(scenario);
-  if (!lasts || end <= *lasts) return false;
-  const double more = end - *lasts;
+  if (!lasts || farthest <= *lasts * (1.0 + 1e-9)) return false;
+  const double more = farthest * (1.0 + margin) - *lasts;
   scenario::Step& last = scenario.steps.back();
   if (auto* hold = std::get_if<scenario::Hold>(&last))
     hold->time += more;
@@ -83,7 +83,7 @@ bool lengthen(CurveKind kind, scenario::Scenario& scenario, double farthest) {
     compress->strain = end;
     return true;
   }
-  return lengthen_time(scenario, end);
+  return lengthen_time(scenario, farthest);
 }
 
 }  // namespace palpate::identify

@@ -49,8 +49,9 @@ class Setup {
 
 constexpr std::size_t most_output = std::size_t{1} << 20;
 
-// Reads until the other end is closed. Returns false if `end` comes first.
-bool drain(int pipe, Clock::time_point end, std::string& output) {
+// Reads until the other end is closed. Returns false if `end` comes first, or where nothing more
+// can be read: `error` is then the number of the error.
+bool drain(int pipe, Clock::time_point end, std::string& output, int& error) {
   std::array<char, 4096> buffer;
   while (true) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -59,7 +60,11 @@ bool drain(int pipe, Clock::time_point end, std::string& output) {
     if (::poll(&waiting, 1, static_cast<int>(left)) <= 0) continue;
     const ssize_t got = ::read(pipe, buffer.data(), buffer.size());
     if (got > 0) output.append(buffer.data(), std::min(as_index(got), most_output - output.size()));
-    if (got == 0 || (got < 0 && errno != EINTR)) return true;
+    if (got == 0) return true;
+    if (got < 0 && errno != EINTR) {
+      error = errno;
+      return false;
+    }
   }
 }
 
@@ -107,9 +112,12 @@ ProcessResult run_process(const Command& command) {
     result.end = ProcessResult::End::not_found;
     return result;
   }
-  bool in_time = drain(pipe[0], end, result.output);
+  bool in_time = drain(pipe[0], end, result.output, error);
   ::close(pipe[0]);
   const int status = wait_for(child, end, in_time);
+  if (error != 0)
+    throw SystemError("the output of `" + command.argv[0] +
+                      "` cannot be read: " + std::strerror(error));
   if (!in_time) {
     result.end = ProcessResult::End::timed_out;
   } else if (WIFSIGNALED(status)) {

@@ -221,6 +221,26 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
   EXPECT_EQ(found.x.size(), points + 1);  // up to 2.2 mm, where the deepest stands twice
 }
 
+// Of a compression and its hold, over time all points are taken and the programme is long enough;
+// over strain the hold is left out.
+TEST(Identify, TakesACompressionOverTimeOrStrain) {
+  const IdentifyScene& over_time = test::identify_scene("compression");
+  const auto whole = test::identified(over_time, test::clean_curve(over_time), {.profiles = false});
+  EXPECT_TRUE(whole.notes.empty()) << whole.notes.front();
+  for (std::size_t i = 0; i < over_time.true_values.size(); ++i)
+    EXPECT_NEAR(whole.unknowns[i].estimate, over_time.true_values[i],
+                1e-6 * over_time.true_values[i]);
+
+  const IdentifyScene& over_strain = test::identify_scene("compression over strain");
+  const identify::Measurement curve = test::clean_curve(over_strain);
+  const auto loading = test::identified(over_strain, curve, {.profiles = false});
+  EXPECT_EQ(loading.left_out + static_cast<int>(loading.x.size()),
+            static_cast<int>(curve.x.size()));
+  EXPECT_GT(loading.left_out, static_cast<int>(loading.x.size()));
+  EXPECT_NEAR(loading.unknowns[0].estimate, over_strain.true_values[0],
+              1e-6 * over_strain.true_values[0]);
+}
+
 // The programme of the scenario ends at a quarter of the measured travel, and the range of contact
 // points begins 3 mm before it.
 TEST(Identify, AShortProgrammeIsLengthened) {
