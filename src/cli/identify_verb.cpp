@@ -86,8 +86,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   } else {
     for (const std::string& line : identify::identified_sentences(found)) print(line + "\n");
   }
-  talk.say(folder.path() +
-           ": identified.csv, residuals.csv, profile.csv, curve.svg, scenario.toml");
+  talk.say(folder.path() + ": identified.csv, residuals.csv, profile.csv, scenario.toml");
   return exit_good;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "plot/process.h"
@@ -65,10 +66,10 @@ Picture draw_picture(const Sheet& sheet, const std::string& format, const std::s
                    .folder = folder,
                    .limit = options.limit});
   const fs::path from = fs::path(folder) / beside;
-  std::string why = failure(result, options);
+  const std::string why = failure(result, options);
   std::error_code error;
   if (why.empty()) fs::rename(from, fs::path(folder) / picture, error);
-  if (error) why = "it cannot be renamed (" + error.message() + ")";
+  if (error) throw SystemError(not_drawn + "it cannot be renamed (" + error.message() + ")");
   if (!why.empty()) {
     fs::remove(from, error);
     return {false, not_drawn + why + remedy(result, script)};

@@ -253,7 +253,7 @@ double bonded_mesh_error(const scenario::Resolved& scenario) {
   // of 3.
   const bool lattice = std::holds_alternative<scenario::Kuhn>(scenario.tissue.mesh) ||
                        std::holds_alternative<scenario::Mirrored>(scenario.tissue.mesh);
-  const double as_dense = lattice ? 140.0 : 700.0;
+  const double as_dense = lattice ? 170.0 : 700.0;
   return 0.017 * stiffening / std::sqrt(1.0 - 2.0 * nu) *
          std::pow(as_dense / expected_nodes(scenario.tissue.mesh), 2.0 / 3.0);
 }

@@ -19,7 +19,7 @@ TEST(Html, NothingGetsInUnescaped) {
   EXPECT_EQ(element("p", evil, {{"title", evil}}).html(),
             "<p title=\"" + safe + "\">" + safe + "</p>");
   EXPECT_EQ(link(evil, "x").html(), "<a href=\"" + safe + "\">x</a>");
-  EXPECT_EQ(paragraphs({"set `a<b` now"}).html(), "<p>set <code>a&lt;b</code> now</p>");
+  EXPECT_EQ(paragraphs({"set `a<b` now"}).html(), "<p>Set <code>a&lt;b</code> now.</p>");
   Page page(evil, "run");
   page.answer({evil});
   page.section("One", table(evil, {{evil}, {{record::Cell(evil)}}}));

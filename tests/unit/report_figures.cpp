@@ -201,6 +201,11 @@ TEST_F(Gnuplot, FailureIsAWarningAndKeepsTheOldPicture) {
   EXPECT_TRUE(read("figure_force_indentation.svg") == before);
 }
 
+TEST_F(Gnuplot, APictureThatCannotTakeItsPlaceIsAnError) {
+  fs::create_directories(folder_ + "/figure_force_indentation.svg/in_the_way");
+  EXPECT_THROW(plot::draw(plot::sheet_of(force_figure(folder_)), folder_), SystemError);
+}
+
 TEST_F(Gnuplot, WhatGnuplotSaysIsPassedOn) {
   plot::Figure figure = force_figure(folder_);
   figure.series[1].y_column = "no_such_column";
