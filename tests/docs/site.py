@@ -88,11 +88,15 @@ def browser_faults(site):
     threading.Thread(target=server.serve_forever, daemon=True).start()
     for wanted, shown in (("saltelli", "theory.html#sensitivity-of-a-sweep"), ("nonsenseword", "No results found</p>")):
         address = f"http://127.0.0.1:{server.server_port}/searched.html?q={wanted}"
-        page = subprocess.run(
-            ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", address],
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=120, check=True,
-        ).stdout
-        if shown not in page.partition('id="mkdocs-search-results"')[2].partition("modal-footer")[0]:
+        # The search runs beside the page, which may be printed before it is done.
+        for _ in range(5):
+            page = subprocess.run(
+                ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", address],
+                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=120, check=True,
+            ).stdout
+            if shown in page.partition('id="mkdocs-search-results"')[2].partition("modal-footer")[0]:
+                break
+        else:
             yield f"in Chromium the search for `{wanted}` does not show `{shown}`"
     server.shutdown()
 

@@ -62,6 +62,28 @@ TEST(Steps, OfBothKindsAreTwoScenarios) {
             "press.toml:3:1: " + sentence);
 }
 
+TEST(Steps, OfACompressionHaveOneLawOfTimeAndOnePlaten) {
+  const std::string compress = "[[step]]\nkind = \"compress\"\n";
+  const std::string more = "[tissue]\nviscosity = \"";
+  EXPECT_EQ(refusal(compress + "[solver]\nintegrator = \"quasi_static\"\n"), "accepted");
+  EXPECT_EQ(refusal(compress + compress), "accepted");
+  expect_refused(
+      {{"[solver]\nintegrator = \"modal\"\n",
+        "press.toml:2:8: `compress` is computed without inertia; leave `solver.integrator` out"},
+       {"[solver]\nkinematics = \"nonlinear\"\n",
+        "press.toml:2:8: `compress` is computed for small strain; leave `solver.kinematics` out"},
+       {more + "nodal_drag\"\n",
+        "press.toml:2:8: `compress` is computed without drag against the ground; write another "
+        "`tissue.viscosity`"},
+       {compress + "platen = \"bonded\"\n",
+        "press.toml:4:8: all steps of a scenario have one upper platen; put steps with another "
+        "`platen` into another scenario"}},
+      compress);
+  EXPECT_EQ(refusal(compress + "platen = \"bonded\"\n[[step]]\nkind = \"relax\"\n"),
+            "press.toml:2:8: all steps of a scenario have one upper platen; put steps with another "
+            "`platen` into another scenario");
+}
+
 TEST(Steps, TimesFitEachOther) {
   const auto times = [](const std::string& time_step) {
     return refusal(step("indent", "2 mm") +
