@@ -318,15 +318,17 @@ std::optional<std::string> http_get(const Host& host, int port, const std::strin
   request.set(http::field::host, place(host, port));
   request.keep_alive(false);
   beast::flat_static_buffer<16384> buffer;
-  http::response<http::string_body> response;
+  // A body of its own size: that of a string takes the memory that an answer announces.
+  http::response_parser<http::basic_dynamic_body<beast::flat_static_buffer<65536>>> answer;
   std::optional<std::string> body;
   const Endpoints all = endpoints(host, port);
   net::async_connect(socket, all, [&](Error refused, const net::ip::tcp::endpoint&) {
     if (refused) return;
     http::async_write(socket, request, [&](Error broken, std::size_t) {
       if (broken) return;
-      http::async_read(socket, buffer, response, [&](Error unread, std::size_t) {
-        if (!unread && response.result() == http::status::ok) body = response.body();
+      http::async_read(socket, buffer, answer, [&](Error unread, std::size_t) {
+        if (!unread && answer.get().result() == http::status::ok)
+          body = beast::buffers_to_string(answer.get().body().data());
       });
     });
   });
