@@ -58,7 +58,7 @@ inline constexpr double refined_share = 0.5;
 // How much stiffer bonded ends make a prism between platens, for a Poisson's ratio below 1/2: 1 + 2
 // S^2 of an incompressible one (Gent and Lindley 1959), S its loaded over its free surface, in
 // series with the modulus of uniaxial strain. One bonded end is the middle of a body of twice the
-// height. Within 12 % of solutions by refined meshes.                              docs/accuracy.md
+// height. Within 15 % of solutions by refined meshes.                 docs/theory.md, below (52a)
 [[nodiscard]] double bonded_stiffening(const scenario::Resolved& scenario, double poisson_ratio);
 
 // The error of its modulus by a mesh with the tissue's elasticity, relative.
