@@ -63,7 +63,7 @@ PALPATE_ALWAYS void multiply(const BlockMatrix& matrix, const Get& get, const Pu
     }
     if (!pressures.empty())
       for (int k = matrix.around.start[n]; k < matrix.around.start[n + 1]; ++k) {
-        const Vec3& change = matrix.changes[as_index(matrix.entries[as_index(k)])];
+        const Vec3& change = matrix.changes_around[as_index(k)];
         Value pressure;
         __builtin_memcpy(&pressure, &pressures[width * as_index(matrix.around.column[as_index(k)])],
                          sizeof pressure);
@@ -139,12 +139,12 @@ void BlockMatrix::end_volumes() {
   for (std::size_t n = 1; n < around.start.size(); ++n) around.start[n] += around.start[n - 1];
   std::vector<int> next(around.start.begin(), around.start.end() - 1);
   around.column.resize(volumes.column.size());
-  entries.resize(volumes.column.size());
+  changes_around.resize(volumes.column.size());
   for (int v = 0; v < static_cast<int>(weights.size()); ++v)
     for (int k = volumes.start[as_index(v)]; k < volumes.start[as_index(v) + 1]; ++k) {
       const int place = next[as_index(volumes.column[as_index(k)])]++;
       around.column[as_index(place)] = v;
-      entries[as_index(place)] = k;
+      changes_around[as_index(place)] = changes[as_index(k)];
     }
 }
 

@@ -27,7 +27,7 @@ struct BlockMatrix {
   std::vector<double> weights;
   // The transpose of `volumes`, filled by end_volumes(): rows are nodes, columns volumes.
   BlockRows around;
-  std::vector<int> entries;  // of `around`: places in `changes`
+  std::vector<Vec3> changes_around;  // of `around`: the same `changes` in its order
 
   // Sets `rows` with the diagonal and the blocks of these pairs of nodes, each named once with the
   // lower number first, and zero blocks.

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "base/index.h"
+#include "base/stop_scope.h"
 
 namespace palpate {
 namespace {
@@ -55,7 +56,8 @@ bool SymmetricSolver::prepare(BlockMatrix matrix, std::vector<char> held) {
     if (!(own > 0.0) || !std::isfinite(own)) return false;
     inverse_diagonal_[d] = 1.0 / own;
   }
-  return true;
+  coarse_.emplace();
+  return coarse_->prepare(matrix_, held_);
 }
 
 bool SymmetricSolver::solve(std::span<const Vector> b, std::span<Vector> x) {
@@ -91,12 +93,13 @@ bool SymmetricSolver::iterate(std::span<const Vector> b, std::span<Vector> x) {
   multiply_lanes(matrix_, x_, image_);
   r_.resize(right_.size());
   p_.resize(right_.size());
-  Lanes rest{};  // r . D^-1 r
-  for_each(size, [&](std::size_t d, std::size_t l, std::size_t i) {
+  for_each(size, [&](std::size_t d, std::size_t, std::size_t i) {
     r_[i] = right_[i] - image_[i];
     p_[i] = inverse_diagonal_[d] * r_[i];
-    rest[l] += r_[i] * p_[i];
   });
+  coarse_->add(r_, b.size(), p_);
+  Lanes rest{};  // r . z, where z is the preconditioned r
+  for_each(size, [&](std::size_t, std::size_t l, std::size_t i) { rest[l] += r_[i] * p_[i]; });
   std::array<Decrease, block_lanes> decreases;
   std::array<bool, block_lanes> done{};
   for (std::size_t l = 0; l < block_lanes; ++l) done[l] = rest[l] == 0.0;
@@ -104,6 +107,7 @@ bool SymmetricSolver::iterate(std::span<const Vector> b, std::span<Vector> x) {
   const std::size_t most = 10 * size;
   for (std::size_t i = 0; !std::all_of(done.begin(), done.end(), std::identity{}); ++i) {
     if (i == most) return false;
+    StopScope::end_if_stopped();
     multiply_lanes(matrix_, p_, image_);
     Lanes work{};
     for_each(size,
@@ -120,9 +124,11 @@ bool SymmetricSolver::iterate(std::span<const Vector> b, std::span<Vector> x) {
     for_each(size, [&](std::size_t d, std::size_t l, std::size_t k) {
       x_[k] += length[l] * p_[k];
       r_[k] -= length[l] * image_[k];
-      next[l] += r_[k] * inverse_diagonal_[d] * r_[k];
+      image_[k] = inverse_diagonal_[d] * r_[k];
       energy[l] += right_[k] * x_[k];
     });
+    coarse_->add(r_, b.size(), image_);
+    for_each(size, [&](std::size_t, std::size_t l, std::size_t k) { next[l] += r_[k] * image_[k]; });
     Lanes turn{};
     for (std::size_t l = 0; l < block_lanes; ++l) {
       if (done[l]) continue;
@@ -132,8 +138,8 @@ bool SymmetricSolver::iterate(std::span<const Vector> b, std::span<Vector> x) {
       if (done[l] && squared > 0.0) error_ = std::max(error_, std::sqrt(squared / energy[l]));
       turn[l] = next[l] / rest[l];
     }
-    for_each(size, [&](std::size_t d, std::size_t l, std::size_t k) {
-      p_[k] = inverse_diagonal_[d] * r_[k] + turn[l] * p_[k];
+    for_each(size, [&](std::size_t, std::size_t l, std::size_t k) {
+      p_[k] = image_[k] + turn[l] * p_[k];
     });
     rest = next;
   }

@@ -7,6 +7,7 @@
 
 #include "base/block_matrix.h"
 #include "base/cholesky.h"
+#include "base/coarse_correction.h"
 
 namespace palpate {
 
@@ -56,6 +57,7 @@ class SymmetricSolver {
   std::vector<char> held_;
   std::optional<Cholesky> factors_;
   std::vector<double> inverse_diagonal_;  // 0 where held
+  std::optional<CoarseCorrection> coarse_;
   double error_ = 0.0;
   std::vector<double> right_, x_, r_, p_, image_;  // block_lanes numbers per degree of freedom
   Vector unheld_;

@@ -1,8 +1,10 @@
 // `palpate run --device`: runs one case with a live device or a recording.
 #include <csignal>
+#include <memory>
 #include <utility>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/interrupt.h"
@@ -96,11 +98,16 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   // that goes away, and a closed terminal, must not end the run where it is.
   std::signal(SIGPIPE, SIG_IGN);
   const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted, {SIGHUP});
-  live::Live live(scene, options);
-  if (command.device.expect && !live.measures_force())
-    throw InputError({"--expect", 0, 0}, "wants a device that measures force, and `" +
-                                             options.link + "` does not; leave the option out");
-  for (const std::string& sentence : live.plan(file)) talk.say(sentence);
+  const std::unique_ptr<live::Live> set_up = [&] {
+    const StopScope scope(stop_requested);
+    auto made = std::make_unique<live::Live>(scene, options);
+    if (command.device.expect && !made->measures_force())
+      throw InputError({"--expect", 0, 0}, "wants a device that measures force, and `" +
+                                               options.link + "` does not; leave the option out");
+    for (const std::string& sentence : made->plan(file)) talk.say(sentence);
+    return made;
+  }();
+  live::Live& live = *set_up;
   if (!command.device.arm && !device::only_reads(device::parse_link(options.link))) {
     talk.say("nothing was moved and no force was sent; give `--arm` to run this");
     return exit_good;

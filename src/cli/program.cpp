@@ -10,6 +10,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "cli/interrupt.h"
 #include "cli/talk.h"
 #include "cli/verbs.h"
@@ -62,6 +63,9 @@ int program(const std::vector<std::string>& given) {
   } catch (const LinkError& error) {
     Talk::error(error.what());
     return exit_device;
+  } catch (const Stopped& stopped) {
+    Talk::error(std::string("palpate: ") + stopped.what());
+    return exit_interrupted;
   } catch (const std::bad_alloc&) {
     Talk::error(
         "palpate: the memory does not suffice; use a coarser mesh, fewer rows or less `--jobs`");

@@ -1,10 +1,11 @@
 // Computes the eigenmodes once; a step then multiplies every mode by its exact propagator.
 #include "integrate/modal.h"
 
-#include <Spectra/SymEigsSolver.h>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/error.h"
@@ -16,37 +17,60 @@ namespace palpate::integrate {
 
 namespace {
 
-// M^1/2 K^-1 M^1/2 over the free degrees of freedom, as Spectra's Lanczos method asks for it: its
-// largest eigenvalues are 1 / omega^2 of the lowest modes.
+using Columns = Eigen::MatrixXd;
+constexpr Eigen::Index width = block_lanes;  // columns of a block, which are solved for together
+
+// M^1/2 K^-1 M^1/2 over the free degrees of freedom, whose largest eigenvalues are 1 / omega^2 of
+// the lowest modes.
 class Softness {
  public:
-  using Scalar = double;
-
   Softness(const Vector& mass, const std::vector<Eigen::Index>& free, SymmetricSolver& statics)
-      : free_(&free), statics_(&statics), load_(Vector::Zero(mass.size())) {
+      : free_(&free), statics_(&statics) {
+    loads_.fill(Vector::Zero(mass.size()));
     root_mass_.resize(static_cast<Eigen::Index>(free.size()));
     for (Eigen::Index i = 0; i < root_mass_.size(); ++i)
       root_mass_[i] = std::sqrt(mass[free[as_index(i)]]);
   }
-  [[nodiscard]] Eigen::Index rows() const { return root_mass_.size(); }
-  [[nodiscard]] Eigen::Index cols() const { return root_mass_.size(); }
   [[nodiscard]] const Vector& root_mass() const { return root_mass_; }
 
-  void perform_op(const double* from, double* to) const {
-    for (Eigen::Index i = 0; i < rows(); ++i) load_[free()[as_index(i)]] = root_mass_[i] * from[i];
-    moved_.resize(0);  // the result must not depend on the vectors before
-    if (!statics_->solve(load_, moved_)) throw MeshError(tissue::not_held);
-    for (Eigen::Index i = 0; i < rows(); ++i) to[i] = root_mass_[i] * moved_[free()[as_index(i)]];
+  [[nodiscard]] Columns operator*(const Eigen::Ref<const Columns>& block) {
+    for (Eigen::Index c = 0; c < width; ++c) {
+      const auto lane = as_index(c);
+      for (Eigen::Index i = 0; i < root_mass_.size(); ++i)
+        loads_[lane][(*free_)[as_index(i)]] = root_mass_[i] * block(i, c);
+      moved_[lane].resize(0);  // the result must not depend on the vectors before
+    }
+    if (!statics_->solve(loads_, moved_)) throw MeshError(tissue::not_held);
+    Columns image(block.rows(), width);
+    for (Eigen::Index c = 0; c < width; ++c)
+      for (Eigen::Index i = 0; i < root_mass_.size(); ++i)
+        image(i, c) = root_mass_[i] * moved_[as_index(c)][(*free_)[as_index(i)]];
+    return image;
   }
 
  private:
-  [[nodiscard]] const std::vector<Eigen::Index>& free() const { return *free_; }
-
   const std::vector<Eigen::Index>* free_;
   SymmetricSolver* statics_;
   Vector root_mass_;  // kg^1/2
-  mutable Vector load_, moved_;
+  std::array<Vector, block_lanes> loads_, moved_;
 };
+
+// Makes the columns of `block` orthonormal, and orthogonal to those of `basis`. Returns its
+// coordinates before: first those in the basis, then those in the block as it is now.
+Columns orthonormalise(const Eigen::Ref<const Columns>& basis, Columns& block) {
+  Columns coordinates = Columns::Zero(basis.cols() + width, width);
+  Columns left = Columns::Identity(width, width);
+  for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
+    const Columns along = basis.transpose() * block;
+    block.noalias() -= basis * along;
+    const Eigen::HouseholderQR<Columns> factors(block);
+    coordinates.topRows(basis.cols()) += along * left;
+    left = factors.matrixQR().topRows(width).triangularView<Eigen::Upper>() * left;
+    block = factors.householderQ() * Columns::Identity(block.rows(), width);
+  }
+  coordinates.bottomRows(width) = left;
+  return coordinates;
+}
 
 }  // namespace
 
@@ -64,7 +88,7 @@ Modal::Modal(const Body& body) : Modal(body, nullptr) { find_all(); }
 
 Modal::Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics)
     : Modal(body, &statics) {
-  // Lanczos iterations need a basis of at least twice as many vectors as there are modes.
+  // Lanczos iterations need a basis of some twice as many vectors as there are modes.
   if (const auto size = static_cast<Eigen::Index>(free_.size()); 3 * most > size) {
     find_all();
     if (most < size) {
@@ -99,20 +123,45 @@ void Modal::find_all() {
   shapes_ = scale.asDiagonal() * decomposition.eigenvectors();
 }
 
+// Block Lanczos iterations with full orthogonalisation: the basis grows by a block until the modes
+// that are asked for have converged.                                      docs/theory.md (108)
 void Modal::find_lowest(Eigen::Index count) {
-  constexpr double residual = 1e-7;  // of an eigenvector, as a fraction of its eigenvalue
-  constexpr int restarts = 100;      // fewer than ten were ever needed
+  constexpr double residual = 1e-5;  // of an eigenvector, as a fraction of its eigenvalue
   Softness softness(body_->mass(), free_, *statics_);
   const double usual = statics_->tolerance();
   statics_->set_tolerance(0.1 * residual);
-  Spectra::SymEigsSolver<Softness> lanczos(softness, count, 2 * count + count / 2);
-  lanczos.init();
-  (void)lanczos.compute(Spectra::SortRule::LargestAlge, restarts, residual);
+  const auto size = static_cast<Eigen::Index>(free_.size());
+  std::minstd_rand scatter;  // the same numbers on every machine
+  Columns block(size, width);
+  for (double& entry : block.reshaped())
+    entry = static_cast<double>(scatter()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
+  Columns basis(size, 0);
+  (void)orthonormalise(basis, block);
+  Columns image;  // of the basis in the basis
+  Eigen::Index next_look = count;
+  for (Eigen::Index known = 0; omega_.size() == 0; known += width) {
+    const Eigen::Index more = known + width;
+    if (more + width > size)
+      throw MeshError("the lowest modes of the mesh were not found; set `solver.modes` lower");
+    if (basis.cols() < more) basis.conservativeResize(Eigen::NoChange, std::max(more, 2 * known));
+    basis.middleCols(known, width) = block;
+    block = softness * block;
+    const Columns coordinates = orthonormalise(basis.leftCols(more), block);
+    image.conservativeResize(more, more);
+    image.rightCols(width) = coordinates.topRows(more);
+    image.bottomLeftCorner(width, known) = coordinates.topRows(known).transpose();
+    if (more < next_look) continue;
+    next_look = more + more / 8;
+    const Eigen::SelfAdjointEigenSolver<Columns> ritz(image);
+    const Columns vectors = ritz.eigenvectors().rightCols(count).rowwise().reverse();
+    const Vector values = ritz.eigenvalues().tail(count).reverse();
+    const Vector rest =
+        (coordinates.bottomRows(width) * vectors.bottomRows(width)).colwise().norm();
+    if ((rest.array() > residual * values.array()).any()) continue;
+    omega_ = values.cwiseInverse().cwiseSqrt();
+    shapes_ = softness.root_mass().cwiseInverse().asDiagonal() * (basis.leftCols(more) * vectors);
+  }
   statics_->set_tolerance(usual);
-  if (lanczos.info() != Spectra::CompInfo::Successful)
-    throw MeshError("the lowest modes of the mesh were not found; set `solver.modes` lower");
-  omega_ = lanczos.eigenvalues().cwiseInverse().cwiseSqrt();
-  shapes_ = softness.root_mass().cwiseInverse().asDiagonal() * lanczos.eigenvectors();
 }
 
 void Modal::kept(const Vector& load, Vector& moved) const {

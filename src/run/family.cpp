@@ -5,8 +5,10 @@
 #include <mutex>
 #include <optional>
 
+#include "base/stop_scope.h"
 #include "run/findings.h"
 #include "run/lanes.h"
+#include "run/pace.h"
 #include "run/press.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
@@ -92,8 +94,13 @@ void run_programme(const scene::Scene& scene, const std::atomic<bool>& stop,
 record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop) {
   const auto start = std::chrono::steady_clock::now();
   record::CaseRecord record = begin_case(scene);
-  run_programme(scene, stop, record);
-  add_findings(scene, record);
+  const StopScope scope(stop);
+  try {
+    run_programme(scene, stop, record);
+    add_findings(scene, record);
+  } catch (const Stopped& stopped) {
+    (void)end_early(record, record::Outcome::interrupted, stopped.what());
+  }
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
+#include "base/stop_scope.h"
 #include "jittered_block.h"
 #include "tissue/supports.h"
 
@@ -106,6 +109,56 @@ TEST(SymmetricSolver, IteratesToTheFactorsSolutionWithinItsStatedError) {
   }
 }
 
+// C^-1 P^T K takes P y to y: what the correction gives for the load of its own displacement is that
+// displacement again, held where the body is held, and the same for each vector of four.
+TEST(CoarseCorrection, KeepsItsOwnDisplacements) {
+  for (const auto& [nu, volume] :
+       {std::pair(0.3, tissue::Volume::tetrahedron), std::pair(0.45, tissue::Volume::nodal)}) {
+    const Body block = body({9, 8, 7}, nu, volume);
+    CoarseCorrection coarse;
+    ASSERT_TRUE(coarse.prepare(block.matrix, block.held));
+    const std::size_t size = block.held.size();
+    std::vector<double> loads(block_lanes * size);
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      loads[i] = static_cast<double>((1103 * i + 4099 * i * i) % 997) / 997.0 - 0.5;
+    std::vector<double> moved(loads.size(), 0.0);
+    coarse.add(loads, block_lanes, moved);
+    multiply_lanes(block.matrix, moved, loads);
+    std::vector<double> again(loads.size(), 0.0);
+    coarse.add(loads, block_lanes, again);
+    double largest = 0.0;
+    for (const double x : moved) largest = std::max(largest, std::abs(x));
+    ASSERT_GT(largest, 0.0);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      EXPECT_NEAR(again[i], moved[i], 1e-11 * largest);
+      if (block.held[i / block_lanes] != 0) {
+        EXPECT_EQ(moved[i], 0.0);
+      }
+    }
+  }
+}
+
+TEST(SymmetricSolver, EndsWhereItsScopeIsStopped) {
+  const Body block = body({12, 12, 13}, 0.3, tissue::Volume::tetrahedron);
+  SymmetricSolver solver;
+  ASSERT_TRUE(solver.prepare(block.matrix, block.held));
+  const Vector load = some_vector(static_cast<Eigen::Index>(block.held.size()), 1);
+  Vector moved;
+  std::atomic<bool> stop = false;
+  {
+    const StopScope scope(stop);
+    EXPECT_TRUE(solver.solve(load, moved));
+    stop = true;
+    {
+      const std::atomic<bool> other = false;
+      const StopScope inner(other);
+      EXPECT_TRUE(solver.solve(load, moved)) << "only the innermost scope counts";
+    }
+    EXPECT_THROW((void)solver.solve(load, moved), Stopped);
+  }
+  EXPECT_TRUE(solver.solve(load, moved)) << "without a scope it goes on";
+}
+
 TEST(SymmetricSolver, RefusesWhatIsNotPositive) {
   Body block = body({12, 12, 13}, 0.3, tissue::Volume::tetrahedron);
   const auto size = static_cast<Eigen::Index>(block.held.size());
@@ -114,13 +167,18 @@ TEST(SymmetricSolver, RefusesWhatIsNotPositive) {
   for (auto& one : block.matrix.blocks) one = -one;
   SymmetricSolver solver;
   EXPECT_FALSE(solver.prepare(block.matrix, block.held));
-  // A positive diagonal, and a negative direction.
+  // A positive diagonal, and a negative direction: two nodes that move apart. In their group they move
+  // together.
   for (auto& one : block.matrix.blocks) one = -one;
   const int last = block.matrix.nodes() - 1;  // at the top
-  block.matrix.at(last - 1, last) *= 1e3;
-  block.matrix.at(last, last - 1) *= 1e3;
+  const BlockMatrix::Block strong =
+      10.0 * block.matrix.at(last, last).trace() * BlockMatrix::Block::Identity();
+  block.matrix.at(last - 1, last) = block.matrix.at(last, last - 1) = strong;
   ASSERT_TRUE(solver.prepare(block.matrix, block.held));
   EXPECT_FALSE(solver.solve(load, moved));
+  // Two nodes that move together.
+  block.matrix.at(last - 1, last) = block.matrix.at(last, last - 1) = -strong;
+  EXPECT_FALSE(solver.prepare(block.matrix, block.held));
 }
 
 TEST(SymmetricSolver, FactorsSmallMatricesAndStatesNoError) {
