@@ -128,7 +128,8 @@ bool SymmetricSolver::iterate(std::span<const Vector> b, std::span<Vector> x) {
       energy[l] += right_[k] * x_[k];
     });
     coarse_->add(r_, b.size(), image_);
-    for_each(size, [&](std::size_t, std::size_t l, std::size_t k) { next[l] += r_[k] * image_[k]; });
+    for_each(size,
+             [&](std::size_t, std::size_t l, std::size_t k) { next[l] += r_[k] * image_[k]; });
     Lanes turn{};
     for (std::size_t l = 0; l < block_lanes; ++l) {
       if (done[l]) continue;

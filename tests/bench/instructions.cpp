@@ -1,5 +1,8 @@
-// One kernel, so many times: what valgrind counts the instructions of. `palpate-instructions` alone
-// lists the kernels; `palpate-instructions KERNEL TIMES` runs one.
+// One kernel, so many times: what valgrind counts the instructions of, set-up and the first twenty
+// calls left out. `palpate-instructions` alone lists the kernels; `palpate-instructions KERNEL
+// TIMES` runs one, under `valgrind --tool=callgrind --instr-atstart=no`.
+#include <valgrind/callgrind.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -19,6 +22,16 @@ namespace {
 
 using Kernel = std::function<void(int)>;
 
+// Calls `once` with 0, 1, ... and counts the last `times` calls.
+template <class Once>
+void count(int times, const Once& once) {
+  constexpr int warming = 20;
+  for (int i = 0; i < warming; ++i) once(i);
+  CALLGRIND_START_INSTRUMENTATION;
+  for (int i = warming; i < warming + times; ++i) once(i);
+  CALLGRIND_STOP_INSTRUMENTATION;
+}
+
 constexpr double time_step = 1e-4;  // s: stable on the cube in every form
 
 // A step of the paper's cube: `plain` as the formulas are written, or the program's own.
@@ -34,12 +47,12 @@ Kernel step(Kinematics kinematics, bool coupled, bool plain) {
     integrate::State state = at_rest(network, none);
     if (plain) {
       PlainStep steps({"", &network, kinematics, none}, held, time_step);
-      for (int i = 0; i < times; ++i) steps.step(state, load);
+      count(times, [&](int) { steps.step(state, load); });
       return;
     }
     const scene::SpringBody body(network, kinematics, none, held);
     integrate::CentralDifference steps(body, time_step, integrate::Start::consistent);
-    for (int i = 0; i < times; ++i) steps.step(state, load);
+    count(times, [&](int) { steps.step(state, load); });
   };
 }
 
@@ -60,20 +73,22 @@ Kernel frame(const char* coupling, const char* integrator, const char* viscosity
     mesh.set_step(plan.substep);
     touch.finger = first;
     double time = 0.0;
-    for (int i = 1; i <= times; ++i)
+    count(times, [&](int i) {
       for (int k = 1; k <= plan.substeps; ++k) {
         time += plan.substep;
-        const double travel = 1e-3 * (i - 1 + static_cast<double>(k) / plan.substeps) / 1000.0;
+        const double travel = 1e-3 * (i + static_cast<double>(k) / plan.substeps) / 1000.0;
         if (mesh.step(first - travel * Vec3::UnitZ(), time, history, touch)) std::abort();
       }
+    });
   };
 }
 
 // Of the closed form, a thousand calls a time.
 void hertz_law(int times) {
   volatile double sum = 0.0;
-  for (int i = 0; i < 1000 * times; ++i)
-    sum = sum + contact::hertz::force(1e-6 * (i % 1000), 0.011, 80e3);
+  count(times, [&](int) {
+    for (int k = 0; k < 1000; ++k) sum = sum + contact::hertz::force(1e-6 * k, 0.011, 80e3);
+  });
 }
 
 const std::map<std::string, Kernel>& kernels() {

@@ -23,23 +23,17 @@ std::string printed(const std::string& command) {
   return text;
 }
 
-// Of the whole program with so many calls of a kernel.
-double instructions(const std::string& kernel, int times) {
+// Of one call; set-up and warming are not counted.
+double per_call(const std::string& kernel) {
+  constexpr int times = 20;
   const std::string text = printed(
-      "valgrind --tool=none --version > /dev/null && valgrind --tool=callgrind "
+      "valgrind --tool=callgrind --instr-atstart=no "
       "--callgrind-out-file=/dev/null " PALPATE_INSTRUCTIONS " " +
       kernel + " " + std::to_string(times));
   const std::string key = "Collected : ";
   const auto at = text.find(key);
   EXPECT_NE(at, std::string::npos) << text;
-  return at == std::string::npos ? 0.0 : std::stod(text.substr(at + key.size()));
-}
-
-// Of one call, set-up and warming left out.
-double per_call(const std::string& kernel) {
-  constexpr int few = 20;
-  constexpr int many = 40;
-  return (instructions(kernel, many) - instructions(kernel, few)) / (many - few);
+  return at == std::string::npos ? 0.0 : std::stod(text.substr(at + key.size())) / times;
 }
 
 std::map<std::string, double> kept() {

@@ -167,8 +167,8 @@ TEST(SymmetricSolver, RefusesWhatIsNotPositive) {
   for (auto& one : block.matrix.blocks) one = -one;
   SymmetricSolver solver;
   EXPECT_FALSE(solver.prepare(block.matrix, block.held));
-  // A positive diagonal, and a negative direction: two nodes that move apart. In their group they move
-  // together.
+  // A positive diagonal, and a negative direction: two nodes that move apart. In their group they
+  // move together.
   for (auto& one : block.matrix.blocks) one = -one;
   const int last = block.matrix.nodes() - 1;  // at the top
   const BlockMatrix::Block strong =
