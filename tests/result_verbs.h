@@ -100,8 +100,12 @@ class Hindered : public testing::TestWithParam<ResultVerb> {
     faults.emplace_back("ASAN_OPTIONS", "verify_asan_link_order=0");
     return run(GetParam().new_one, faults);
   }
-  // Puts the old result in place, whatever stands there.
+  // Puts the old result in place, whatever stands there or was left beside it.
   void restore() {
+    for (const std::string& name : names_in(place().parent_path()))
+      if (name.starts_with(place().filename().string() + "."))
+        fs::remove_all(place().parent_path() / name);
+    fs::remove_all(place());
     fs::create_directories(place());
     const Ended ended = run(GetParam().old_one);
     ASSERT_EQ(ended.code, 0) << ended.err;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/text.h"
 #include "chart/pareto.h"
@@ -244,22 +245,30 @@ class Speaker {
     return text;
   }
 
+  // Variants without a result, those with the same reason together; chart.csv has a row for each.
   [[nodiscard]] std::string rest() const {
     std::string text;
     for (const Status status : {Status::diverged, Status::not_run, Status::cannot}) {
-      std::string list;
-      int number = 0;
+      std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+      std::size_t number = 0;
       for (const Measurement& one : chart_.rows) {
         if (one.status != status) continue;
         ++number;
-        list += "- `" + one.variant.name + "`: " + one.note + "\n";
+        auto at = std::ranges::find(reasons, one.note, &decltype(reasons)::value_type::first);
+        if (at == reasons.end()) at = reasons.insert(at, {one.note, {}});
+        at->second.push_back("`" + one.variant.name + "`");
       }
-      if (number > 0)
-        text += std::to_string(number) +
-                (status == Status::diverged  ? " diverged:\n\n"
-                 : status == Status::not_run ? " would take too long:\n\n"
-                                             : " cannot be computed:\n\n") +
-                list + "\n";
+      if (number == 0) continue;
+      text += std::to_string(number) + (status == Status::diverged  ? " diverged:\n\n"
+                                        : status == Status::not_run ? " would take too long:\n\n"
+                                                                    : " cannot be computed:\n\n");
+      for (const auto& [reason, names] : reasons)
+        text += "- " +
+                (names.size() <= 3 ? joined(names, ", ")
+                                   : names[0] + " and " + std::to_string(names.size() - 1) +
+                                         " more variants (chart.csv)") +
+                ": " + reason + "\n";
+      text += "\n";
     }
     return text;
   }

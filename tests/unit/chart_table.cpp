@@ -103,6 +103,24 @@ TEST(ChartTable, MediansAndSpreads) {
   EXPECT_EQ(number("within_tolerance"), 0.0);
 }
 
+TEST(ChartTable, AReasonIsSaidOnce) {
+  CaseChart chart = ladder();
+  for (int i = 0; i < 5; ++i) {
+    Measurement one;
+    one.variant.name = "mesh " + std::to_string(i);
+    one.status = Status::cannot;
+    one.note = "no mesh";
+    chart.rows.push_back(one);
+  }
+  chart.rows[0].status = Status::cannot;
+  chart.rows[0].note = "no layer";
+  const std::string text = chart_text({chart});
+  EXPECT_NE(text.find("6 cannot be computed:\n\n- `cheap`: no layer\n"
+                      "- `mesh 0` and 4 more variants (chart.csv): no mesh\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(ChartTable, EveryRowHasEveryColumn) {
   CaseChart chart = ladder();
   chart.rows[0].status = Status::cannot;
