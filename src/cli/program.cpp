@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/stop_scope.h"
@@ -33,12 +35,26 @@ void occupy_standard_streams() {
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDONLY);
 }
 
+// Where an allocation fails in a destructor or while a matrix is resized, libraries (nlohmann's
+// JSON, Ceres, Eigen) end the program: a sentence and a documented exit code then, too.
+void say_why_at_abort() {
+  std::set_terminate(std::abort);  // without a text of its own
+  std::signal(SIGABRT, [](int) {
+    constexpr std::string_view text =
+        "palpate: a library ended the program, as they do where the memory does not suffice; use a "
+        "coarser mesh, fewer rows or less `--jobs`, and report it if there was memory left\n";
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+    ::_exit(exit_internal);
+  });
+}
+
 }  // namespace
 
 int program(const std::vector<std::string>& given) {
   occupy_standard_streams();
   // A limit of file size must give an error message, like a full disk, and not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  say_why_at_abort();
   end_at_interrupts(exit_interrupted);  // until a verb that has something to keep listens to them
   try {
     const auto parsed = parse(given);

@@ -97,6 +97,16 @@ TEST_F(RunStops, an_incomplete_result_is_run_again_without_force) {
   EXPECT_NE(read_file(folder_ / "out/slow/run.json").find("\"complete\": true"), std::string::npos);
 }
 
+// Libraries do so where the memory does not suffice.
+TEST_F(RunStops, an_abort_has_a_sentence_and_a_code) {
+  Running running(call({}));
+  wait_for_first_case(running);
+  running.send(SIGABRT);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_TRUE(says(ended, "palpate: a library ended the program")) << ended.err;
+}
+
 // In the first seconds, too: here while it waits for its scenario.
 TEST_F(RunStops, a_signal_before_anything_is_built_has_the_same_code) {
   const std::string pipe = (folder_ / "pipe.toml").string();
