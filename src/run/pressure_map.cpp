@@ -60,12 +60,11 @@ struct View {
         least = std::min(least, corner);
         most = std::max(most, corner);
       }
-    // A bound of how much higher it is within the square than at the highest corner.
-    const double side =
-        pitch / contact->patch.normal.z() / std::min(contact->patch.a, contact->patch.b);
-    const double higher = 0.5 * side * side;
-    if (most + higher < 0.0) return 0.0;
-    const bool smooth = least > 0.2;
+    const contact::Patch& patch = contact->patch;
+    const double side = pitch / patch.normal.z() / std::min(patch.a, patch.b);
+    // In the square it is higher than at its corners by at most this.
+    if (most + 0.5 * side * side < 0.0) return 0.0;
+    const bool smooth = least > 10.0 * side;
     const int count = smooth ? 2 : samples;
     const double reach = smooth ? std::sqrt(1.0 / 3.0) : 1.0 - 1.0 / samples;  // of half a pixel
     double sum = 0.0;
