@@ -189,7 +189,7 @@ class Designer {
       add("rung x coupling", word_of(model) + ", " + coupling,
           joined_to(rung(model), {"contact.coupling=" + coupling}));
     }
-    const std::string mesh = graded(base_, scene::estimate(scene::choose(one_)));
+    const std::string mesh = graded(base_, scene::choose(one_).expected);
     if (!mesh.empty())
       add("rung x coupling", word_of(model) + ", resolved on graded cells",
           joined_to(rung(model), {"contact.coupling=resolved", mesh}));
@@ -306,9 +306,8 @@ Integrator base_integrator(const scenario::Case& one) {
   const bool drag = scenario.tissue.viscosity == tissue::Viscosity::nodal_drag;
   if (compresses(scenario)) return Integrator::quasi_static;
   if (scenario.uniform() || drag) return Integrator::central_difference;
-  return scene::estimate(scene::choose(one)).inertia < solver.tolerance
-             ? Integrator::quasi_static
-             : Integrator::central_difference;
+  return scene::choose(one).expected.inertia < solver.tolerance ? Integrator::quasi_static
+                                                                : Integrator::central_difference;
 }
 
 Asked read_for_chart(const std::string& path, const Settings& settings) {

@@ -61,7 +61,7 @@ class Refinement {
         case_(one),
         choice_(scene::choose(one)),
         given_(choice_.chosen),
-        found_(scene::estimate(choice_)) {
+        found_(choice_.expected) {
     dynamic_ = moves();
     refuse();
     const auto* box = std::get_if<scenario::Cuboid>(&case_.scenario.tissue.shape);

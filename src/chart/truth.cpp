@@ -40,7 +40,7 @@ class Finder {
 
   std::optional<Truth> find() {
     if (scenario_.uniform()) return uniform();
-    const scene::Estimates found = scene::estimate(choice_);
+    const scene::Estimates& found = choice_.expected;
     if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
       return half_space(found);
     const double left_out = found.sides + found.inertia;

@@ -61,14 +61,15 @@ LayerLaw::LayerLaw(const LayerTable& table, double share) : scale_{table.top_, t
     for (std::size_t k = 0; k < profile; ++k)
       pressure[k][i] = (solution.pressure.coefficients[k] - (k == 0 ? 1.5 : 0.0)) / solution.ratio;
   }
-  const auto fitted = [](const Series& values) {
+  const auto fitted = [](const ChebyshevFit& fit, const Series& values) {
     Series series(values.size());
-    chebyshev_fit(values, series);
+    fit(values, series);
     return series;
   };
-  depth = fitted(depth);
-  force = fitted(force);
-  for (Series& one : pressure) one = fitted(one);
+  const ChebyshevFit over_ratio(nodes), over_chi(table.terms_);
+  depth = fitted(over_ratio, depth);
+  force = fitted(over_ratio, force);
+  for (Series& one : pressure) one = fitted(over_ratio, one);
 
   const Scale of_ratio{scale_.top, 2.0 * scale_.last};
   Series force_factor(table.terms_), radius_factor(table.terms_);
@@ -96,9 +97,9 @@ LayerLaw::LayerLaw(const LayerTable& table, double share) : scale_{table.top_, t
     for (std::size_t k = 0; k < profile; ++k)
       pressures[k][i] = ratio / chi * chebyshev_value(pressure[k], at);
   }
-  force_ = fitted(force_factor);
-  radius_ = fitted(radius_factor);
-  for (std::size_t k = 0; k < profile; ++k) pressure_[k] = fitted(pressures[k]);
+  force_ = fitted(over_chi, force_factor);
+  radius_ = fitted(over_chi, radius_factor);
+  for (std::size_t k = 0; k < profile; ++k) pressure_[k] = fitted(over_chi, pressures[k]);
 }
 
 LayerLaw::Factor LayerLaw::factor(double chi) const {

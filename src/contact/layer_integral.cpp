@@ -1,8 +1,8 @@
 // Solves the integral equation of a layer by Nystrom's method.
 #include "contact/layer_integral.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -90,15 +90,16 @@ ProfileMap mean_along_chord() {
   ProfileMap map{};
   std::array<double, terms> tau{}, weights{};
   gauss_legendre(tau, weights, 1.0);  // exact, because the degree in tau is 2 terms - 2
+  const ChebyshevFit fit(terms);
   for (std::size_t of = 0; of < terms; ++of) {
     std::array<double, terms> unit{}, series{}, means{}, coefficients{};
     unit[of] = 1.0;
-    chebyshev_fit(unit, series);
+    fit(unit, series);
     for (std::size_t i = 0; i < terms; ++i)
       for (std::size_t j = 0; j < terms; ++j)
         means[i] += weights[j] *
                     chebyshev_value(series, chebyshev_node(i, terms) * (1.0 - tau[j] * tau[j]));
-    chebyshev_fit(means, coefficients);
+    fit(means, coefficients);
     for (std::size_t k = 0; k < terms; ++k) map[k][of] = coefficients[k];
   }
   return map;
@@ -156,14 +157,8 @@ LayerSystem LayerEquation::system(double ratio, Wanted wanted) const {
   const MatrixXd cosines = (x * s.transpose()).array().cos();
   LayerSystem system;
   system.ratio_ = ratio;
-  system.roots_.assign(root.begin(), root.end());
-  system.squares_.resize(as_index(n));
-  VectorXd::Map(system.squares_.data(), n) = s.cwiseAbs2();
-
   // With sqrt(w) g as the unknown the matrix is symmetric.
-  system.matrix_.resize(as_index(n * n));
-  auto matrix = MatrixXd::Map(system.matrix_.data(), n, n);
-  matrix.setZero();
+  MatrixXd matrix = MatrixXd::Zero(n, n);  // its lower triangle
   const auto add_waves = [&](const VectorXd& amounts, double sign) {
     const MatrixXd waved = amounts.cwiseSqrt().asDiagonal() * cosines * root.asDiagonal();
     matrix.selfadjointView<Eigen::Lower>().rankUpdate(waved.transpose(), sign);
@@ -185,34 +180,51 @@ LayerSystem LayerEquation::system(double ratio, Wanted wanted) const {
   sums.row(1) = slope(1.0);
   for (std::size_t i = 0; i < places; ++i)
     sums.row(static_cast<Eigen::Index>(2 + i)) = slope(std::sqrt(1.0 - chebyshev_node(i, places)));
+  const Eigen::Tridiagonalization<MatrixXd> tridiagonal(matrix);
+  const MatrixXd turned = root.asDiagonal() * MatrixXd(tridiagonal.matrixQ());  // sqrt(w) U
+  system.diagonal_.resize(as_index(n));
+  system.beside_.resize(as_index(n - 1));
+  system.right_.resize(as_index(2 * n));
   system.sums_.resize(as_index(sums.rows() * n));
-  MatrixXd::Map(system.sums_.data(), sums.rows(), n) = sums * cosines;
+  VectorXd::Map(system.diagonal_.data(), n) = tridiagonal.diagonal();
+  VectorXd::Map(system.beside_.data(), n - 1) = tridiagonal.subDiagonal();
+  MatrixXd ones_and_squares(n, 2);
+  ones_and_squares << VectorXd::Ones(n), s.cwiseAbs2();
+  MatrixXd::Map(system.right_.data(), n, 2) = turned.transpose() * ones_and_squares;
+  MatrixXd::Map(system.sums_.data(), sums.rows(), n) = sums * cosines * turned;
   return system;
 }
 
 LayerSolution LayerSystem::solve(double share) const {
-  const auto n = static_cast<Eigen::Index>(roots_.size());
+  const auto n = static_cast<Eigen::Index>(diagonal_.size());
   const auto rows = static_cast<Eigen::Index>(sums_.size()) / n;
-  const auto root = VectorXd::Map(roots_.data(), n);
   // Positive definite because 1 - share M > 0. The solutions g_1 and g_2 for the right-hand sides 1
-  // and s^2 give g = D g_1 - g_2.
-  MatrixXd matrix = -share * MatrixXd::Map(matrix_.data(), n, n);
-  matrix.diagonal().array() += 1.0;
-  MatrixXd g(n, 2);
-  g.col(0) = root;
-  g.col(1) = root.cwiseProduct(VectorXd::Map(squares_.data(), n));
-  matrix.selfadjointView<Eigen::Lower>().llt().solveInPlace(g);
-  g = root.asDiagonal() * g;  // w g from here on
-  const MatrixXd sums = share * (MatrixXd::Map(sums_.data(), rows, n) * g);
+  // and s^2 give g = D g_1 - g_2; columns of U^T g / sqrt(w) by elimination.
+  const auto right = MatrixXd::Map(right_.data(), n, 2);
+  MatrixXd g = right;
+  VectorXd pivots(n);
+  pivots(0) = 1.0 - share * diagonal_[0];
+  for (Eigen::Index i = 1; i < n; ++i) {
+    const double beside = -share * beside_[as_index(i - 1)];
+    const double factor = beside / pivots(i - 1);
+    pivots(i) = 1.0 - share * diagonal_[as_index(i)] - factor * beside;
+    g.row(i) -= factor * g.row(i - 1);
+  }
+  g.row(n - 1) /= pivots(n - 1);
+  for (Eigen::Index i = n - 2; i >= 0; --i)
+    g.row(i) = (g.row(i) + share * beside_[as_index(i)] * g.row(i + 1)) / pivots(i);
+  const Eigen::MatrixX2d sums = share * (MatrixXd::Map(sums_.data(), rows, n) * g);
+  const double integral_1 = right.col(0).dot(g.col(0));  // int_0^1 g_1 ds
+  const double integral_2 = right.col(0).dot(g.col(1));
 
   // g(1) = D g_1(1) - g_2(1) = 0 determines D.
   const double punch_edge = 1.0 + sums(0, 0);
   LayerSolution solution;
   solution.ratio = ratio_;
   solution.depth = (1.0 + sums(0, 1)) / punch_edge;
-  solution.punch = g.col(0).sum();
+  solution.punch = integral_1;
   // F = 2 E* a^3/R int_0^1 g ds
-  const double mean = solution.depth * g.col(0).sum() - g.col(1).sum();
+  const double mean = solution.depth * integral_1 - integral_2;
   solution.force = 1.5 * mean;
   solution.chi = ratio_ * std::sqrt(solution.depth);
 
@@ -250,7 +262,7 @@ LayerSolution LayerEquation::solve_chi(double chi, Wanted wanted) const {
     if (std::abs(change) <= 1e-14 * chi) break;
     solution = solve(solution.ratio + change, wanted);
     // The next error is about change^2.
-    if (std::abs(change) < 1e-8 * chi) break;
+    if (std::abs(change) < 1e-5 * chi) break;
   }
   return solution;
 }
@@ -310,25 +322,24 @@ double chebyshev_node(std::size_t i, std::size_t n) {
   return 0.5 + 0.5 * std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
 }
 
-void chebyshev_fit(std::span<const double> values, std::span<double> coefficients) {
-  assert(values.size() == coefficients.size());
-  const auto n = static_cast<double>(values.size());
-  const auto cosine = [](std::size_t k, std::size_t i, double of) {
-    return std::cos(pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / of);
-  };
-  // The cosines of a pressure profile, which every solution fits twice.
-  constexpr std::size_t usual = PressureProfile::terms;
-  static const auto usual_cosines = [&] {
-    std::array<std::array<double, usual>, usual> cosines{};
-    for (std::size_t k = 0; k < usual; ++k)
-      for (std::size_t i = 0; i < usual; ++i) cosines[k][i] = cosine(k, i, usual);
-    return cosines;
-  }();
-  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+ChebyshevFit::ChebyshevFit(std::size_t n) : cosines_(4 * n) {
+  for (std::size_t m = 0; m < cosines_.size(); ++m)
+    cosines_[m] = std::cos(pi * static_cast<double>(m) / static_cast<double>(2 * n));
+}
+
+void ChebyshevFit::operator()(std::span<const double> values,
+                              std::span<double> coefficients) const {
+  const std::size_t n = cosines_.size() / 4;
+  assert(values.size() == n && coefficients.size() == n);
+  for (std::size_t k = 0; k < n; ++k) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      sum += values[i] * (values.size() == usual ? usual_cosines[k][i] : cosine(k, i, n));
-    coefficients[k] = (k == 0 ? 1.0 : 2.0) / n * sum;
+    std::size_t m = k;  // cos(pi k (i + 1/2) / n) is the one at k (2i + 1), from turn to turn
+    for (std::size_t i = 0; i < n; ++i) {
+      sum += values[i] * cosines_[m];
+      m += 2 * k;
+      if (m >= 4 * n) m -= 4 * n;
+    }
+    coefficients[k] = (k == 0 ? 1.0 : 2.0) / static_cast<double>(n) * sum;
   }
 }
 

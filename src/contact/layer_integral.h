@@ -64,7 +64,8 @@ struct LayerSolution {
   [[nodiscard]] double radius_factor() const;  // a / sqrt(R h)
 };
 
-// The equation below for one ratio a/H, without the layer's `share`.
+// The equation below for one ratio a/H, without the layer's `share`, in coordinates in which its
+// matrix is tridiagonal, so that a share takes but a few operations per point.
 class LayerSystem {
  public:
   // The solution for this `share`, 0 to 1; its pressure is Hertz's unless that was wanted.
@@ -73,9 +74,9 @@ class LayerSystem {
  private:
   friend class LayerEquation;
   double ratio_ = 0.0;
-  std::vector<double> roots_, squares_;  // sqrt(w) and s^2 at the quadrature points
-  std::vector<double> matrix_;           // sqrt(w) Q sqrt(w), its lower triangle, by columns
-  std::vector<double> sums_;             // rows that a solution is multiplied with, by columns
+  std::vector<double> diagonal_, beside_;  // of U^T sqrt(w) Q sqrt(w) U
+  std::vector<double> right_;              // U^T sqrt(w) and U^T sqrt(w) s^2, by columns
+  std::vector<double> sums_;               // rows that a solution is multiplied with, by columns
 };
 
 // The integral equation of one layer, prepared for any ratio a/H:
@@ -129,7 +130,14 @@ struct ChebyshevSum {
 
 // Chebyshev node i of n, of the first kind: z in (0, 1), in descending order.
 [[nodiscard]] double chebyshev_node(std::size_t i, std::size_t n);
-// The coefficients of the polynomial with these values at the nodes; as many as there are values.
-void chebyshev_fit(std::span<const double> values, std::span<double> coefficients);
+// The coefficients of the polynomial with these values at n nodes.
+class ChebyshevFit {
+ public:
+  explicit ChebyshevFit(std::size_t n);
+  void operator()(std::span<const double> values, std::span<double> coefficients) const;
+
+ private:
+  std::vector<double> cosines_;  // of a whole circle in 4n steps
+};
 
 }  // namespace palpate::contact

@@ -52,7 +52,11 @@ std::optional<std::vector<double>> initial_guess(std::span<const double> x,
       for (int k = 0; k < count; ++k) matrix(i, k) = at.phi[as_index(k)];
     }
     if (!matrix.allFinite()) continue;
-    const Eigen::VectorXd linear = matrix.colPivHouseholderQr().solve(target);
+    Eigen::VectorXd linear(count);
+    if (count == 1)
+      linear[0] = matrix.col(0).dot(target) / matrix.col(0).squaredNorm();
+    else
+      linear = matrix.colPivHouseholderQr().solve(target);
     const double sum = (matrix * linear - target).squaredNorm();
     if (!(sum < least) || !linear.allFinite()) continue;
     least = sum;

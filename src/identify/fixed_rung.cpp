@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "scene/estimates.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
 
@@ -68,7 +67,7 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
     scenario::check(at, document, problems);
     if (problems.empty()) {
       choices.push_back(scene::choose(at, shapes));
-      deep_known = deep_known && choices.back().depth_ratio.has_value();
+      deep_known = deep_known && choices.back().expected.depth_ratio.has_value();
     } else if (wrong.empty()) {
       wrong = problems;
     }
@@ -123,7 +122,7 @@ std::optional<double> predicted_error(const scenario::Case& fixed) {
 std::optional<double> deep_effect(const scenario::Case& fixed) {
   const scene::Choice choice = scene::choose(fixed);
   if (choice.chosen.contact.depth != scenario::Contact::Depth::neo_hookean) return std::nullopt;
-  return scene::estimate(choice.chosen, choice.touch).deep;
+  return choice.expected.deep;
 }
 
 }  // namespace palpate::identify

@@ -29,8 +29,10 @@ const char* plain_word(Model model) {
 
 class Words {
  public:
-  Words(const scene::Scene& scene, const scene::Estimates& estimates)
-      : scene_(scene), rung_(scenario::rung(scene.scenario.solver.model)), e_(estimates) {}
+  explicit Words(const scene::Scene& scene)
+      : scene_(scene),
+        rung_(scenario::rung(scene.scenario.solver.model)),
+        e_(scene.choice.expected) {}
 
   [[nodiscard]] std::string model() const {
     std::string text = (scene_.choice.given ? "Prescribed by the scenario: " : "Chosen: ") +
@@ -189,26 +191,23 @@ std::string peak(const scene::Scene& scene, const record::CaseRecord& record) {
 
 }  // namespace
 
-std::optional<double> stated_error(const scene::Scene& scene, const scene::Estimates& estimates,
-                                   std::optional<double> mesh_error) {
+std::optional<double> stated_error(const scene::Scene& scene, std::optional<double> mesh_error) {
   if (const scene::Forecast* forecast = scene.choice.taken())
     return mesh_error ? forecast->error - forecast->of_mesh + *mesh_error : forecast->error;
   // Without forecasts the force is that of a half-space, because of `one_way`, or unjudged.
   if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::one_way)
     return std::nullopt;
-  return scene::half_space_error(estimates) + estimates.inertia + estimates.deep_error +
-         (scene.depth_ratio ? 0.0 : std::abs(estimates.deep));
+  const scene::Estimates& e = scene.choice.expected;
+  return scene::half_space_error(e) + e.inertia + e.deep_error +
+         (scene.depth_ratio ? 0.0 : std::abs(e.deep));
 }
 
 Expected expect(const scene::Scene& scene) {
-  const bool uniform = scene.scenario.uniform();
-  const scene::Estimates estimates =
-      uniform ? scene::Estimates{} : scene::estimate(scene.scenario, scene.choice.touch);
   Expected expected;
   expected.mesh_error = mesh_error(scene);
-  const std::optional<double> error = stated_error(scene, estimates, expected.mesh_error);
-  expected.left_out = left_out(scene, estimates);
-  const Words words(scene, estimates);
+  const std::optional<double> error = stated_error(scene, expected.mesh_error);
+  expected.left_out = left_out(scene);
+  const Words words(scene);
   expected.answer = {
       .model = words.model(),
       .error = quantity(scene.scenario) + " has " + words.error(error, expected.left_out) + ".",
@@ -219,14 +218,13 @@ Expected expect(const scene::Scene& scene) {
   return expected;
 }
 
-record::Answer answer(const scene::Scene& scene, const scene::Estimates& estimates,
-                      const record::CaseRecord& record) {
-  const Words words(scene, estimates);
+record::Answer answer(const scene::Scene& scene, const record::CaseRecord& record) {
+  const Words words(scene);
   std::string result = peak(scene, record);
   std::optional<double> error;
   if (record.outcome == record::Outcome::completed)
-    error = stated_error(scene, estimates, number(record, "mesh_error"));
-  const std::vector<LeftOut> effects = left_out(scene, estimates);
+    error = stated_error(scene, number(record, "mesh_error"));
+  const std::vector<LeftOut> effects = left_out(scene);
   if (record.outcome == record::Outcome::completed)
     result += ", with " + words.error(error, effects) + ".";
   else

@@ -20,12 +20,9 @@ struct Expected {
 // The error of the model, relative, of the force (in a uniform test of the strain), with
 // `mesh_error` in place of the forecast for the mesh. Empty if nothing estimates it.
 [[nodiscard]] std::optional<double> stated_error(const scene::Scene& scene,
-                                                 const scene::Estimates& estimates,
                                                  std::optional<double> mesh_error);
 
-// The answer of a case that has ended. `estimates` are those of the scene; a uniform test does not
-// use them.
-[[nodiscard]] record::Answer answer(const scene::Scene& scene, const scene::Estimates& estimates,
-                                    const record::CaseRecord& record);
+// The answer of a case that has ended.
+[[nodiscard]] record::Answer answer(const scene::Scene& scene, const record::CaseRecord& record);
 
 }  // namespace palpate::run

@@ -48,7 +48,7 @@ class Findings {
                "for what happens in them; set a shorter `output.interval` or more "
                "`solver.substeps`");
     }
-    record_.answer = answer(scene_, expected_, record_);
+    record_.answer = answer(scene_, record_);
   }
 
  private:
@@ -168,7 +168,6 @@ class Findings {
 
   // The estimates on which the choice of the model was based, and the force to compare them with.
   void predictions(const record::ContactRow& peak) {
-    expected_ = scene::estimate(scene_.scenario, scene_.choice.touch);
     add("thickness_effect", expected_.thickness);
     add("side_effect", expected_.sides);
     add("body_effect", expected_.curved_body);
@@ -180,7 +179,7 @@ class Findings {
     const bool states =
         scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent;
     if (const auto stated =
-            stated_error(scene_, expected_, states ? std::optional(peak.mesh_error) : std::nullopt))
+            stated_error(scene_, states ? std::optional(peak.mesh_error) : std::nullopt))
       add("stated_error", *stated);
     if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
     const scene::SurfaceTouch& touch = scene_.choice.touch;
@@ -200,7 +199,7 @@ class Findings {
     const scene::Estimates& e = expected_;
     const bool mesh = rung_.meshed();
     const double depth = peak.indentation / scene_.law().radius;
-    const auto& ratio = scene_.choice.depth_ratio;
+    const auto& ratio = expected_.depth_ratio;
     if (!contact::mesh_is_tissue(coupling) && ratio && peak.travel > ratio->last_depth() &&
         depth > 0.1)
       remark("the travel reached " + quantity_text(peak.travel, unit::mm) +
@@ -260,7 +259,7 @@ class Findings {
   const scenario::Rung& rung_;
   record::CaseRecord& record_;
   std::vector<Finding> before_;
-  scene::Estimates expected_;
+  const scene::Estimates& expected_ = scene_.choice.expected;
 };
 
 }  // namespace

@@ -17,8 +17,10 @@ std::string would(double change) {
 
 class LeftOuts {
  public:
-  LeftOuts(const scene::Scene& scene, const scene::Estimates& estimates)
-      : scene_(scene), rung_(scenario::rung(scene.scenario.solver.model)), e_(estimates) {}
+  explicit LeftOuts(const scene::Scene& scene)
+      : scene_(scene),
+        rung_(scenario::rung(scene.scenario.solver.model)),
+        e_(scene.choice.expected) {}
 
   std::vector<LeftOut> all() {
     if (scene_.scenario.uniform()) {
@@ -76,7 +78,7 @@ class LeftOuts {
     std::string remedy;
     if (mesh_is_tissue())
       remedy = "set `solver.model = \"neo_hookean\"`";
-    else if (scene_.choice.depth_ratio)
+    else if (e_.depth_ratio)
       remedy = "add `contact.depth = \"neo_hookean\"`";
     omit("large strains", e_.deep, would(e_.deep) + " where it is deepest", remedy);
   }
@@ -126,8 +128,6 @@ class LeftOuts {
 
 }  // namespace
 
-std::vector<LeftOut> left_out(const scene::Scene& scene, const scene::Estimates& estimates) {
-  return LeftOuts(scene, estimates).all();
-}
+std::vector<LeftOut> left_out(const scene::Scene& scene) { return LeftOuts(scene).all(); }
 
 }  // namespace palpate::run

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/estimates.h"
+#include "scene/scene.h"
 
 namespace palpate::run {
 
@@ -18,9 +18,7 @@ struct LeftOut {
 };
 
 // Viscosity and large strains count from a fifth of `solver.tolerance` on, the others from the
-// tolerance on. The largest is the first. `estimates` are those of the scene; a
-// uniform test does not use them.
-[[nodiscard]] std::vector<LeftOut> left_out(const scene::Scene& scene,
-                                            const scene::Estimates& estimates);
+// tolerance on. The largest is the first.
+[[nodiscard]] std::vector<LeftOut> left_out(const scene::Scene& scene);
 
 }  // namespace palpate::run

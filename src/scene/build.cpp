@@ -287,7 +287,7 @@ void set_layer(Scene& scene, SpecimenShapes& shapes) {
 void set_depth_ratio(Scene& scene, const scenario::Family& family) {
   using contact::DepthRatio;
   if (scene.scenario.contact.depth != scenario::Contact::Depth::neo_hookean) return;
-  scene.depth_ratio = scene.choice.depth_ratio;
+  scene.depth_ratio = scene.choice.expected.depth_ratio;
   if (!scene.depth_ratio)
     throw InputError(
         place_of(family.document, "contact.depth"),

@@ -146,8 +146,8 @@ class Chooser {
   }
 
   void pressed() {
-    const Estimates e = estimate(asked_, choice_.touch);
-    choice_.depth_ratio = e.depth_ratio;
+    choice_.expected = estimate(asked_, choice_.touch);
+    const Estimates& e = choice_.expected;
     const double limit = tolerance();
     // The reason why no formula is applicable, if none is.
     std::optional<std::string> reason = beyond(Model::hertz, asked_, choice_.touch);
@@ -224,7 +224,7 @@ class Chooser {
 
   // Whether the rungs of this scenario can use the factor of a deep press.
   [[nodiscard]] bool has_depth_ratio() const {
-    return choice_.depth_ratio && !contact::mesh_is_tissue(asked_.contact.coupling);
+    return choice_.expected.depth_ratio && !contact::mesh_is_tissue(asked_.contact.coupling);
   }
 
   // What the depth leaves open: the error of its factor, or the effect that is left out. At least
@@ -242,7 +242,7 @@ class Chooser {
   [[nodiscard]] std::string deep_answer(const Estimates& e) const {
     const std::string change = std::string(e.deep < 0.0 ? "lower" : "raise") + " the force by " +
                                percent_text(std::abs(e.deep));
-    if (!choice_.depth_ratio)
+    if (!choice_.expected.depth_ratio)
       return "large strains " + change + " near this place, but the factor is not known here";
     return "large strains " + change + ", and a factor takes this into account";
   }
@@ -339,8 +339,7 @@ Choice given_choice(const scenario::Case& one, Model model, SpecimenShapes& shap
   choice.chosen = scenario::resolve(one, model);
   if (choice.chosen.uniform()) return choice;
   choice.touch = surface_touch(choice.chosen, one.folder, shapes);
-  if (choice.chosen.contact.depth == scenario::Contact::Depth::neo_hookean)
-    choice.depth_ratio = estimate(choice.chosen, choice.touch).depth_ratio;
+  choice.expected = estimate(choice.chosen, choice.touch);
   return choice;
 }
 

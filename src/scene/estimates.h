@@ -1,7 +1,11 @@
 // Fast estimates of the change of a press's force by each simplification of the model.
 #pragma once
 
-#include "scene/scene.h"
+#include <optional>
+
+#include "contact/depth_ratio.h"
+#include "scenario/resolved.h"
+#include "scene/surface_touch.h"
 
 namespace palpate::scene {
 
@@ -31,19 +35,11 @@ struct Estimates {
 // width of a body from a file are those of its bounding box.
 [[nodiscard]] Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch);
 
-[[nodiscard]] inline Estimates estimate(const Choice& choice) {
-  return estimate(choice.chosen, choice.touch);
-}
-
 inline constexpr double doubt_of_narrow = 0.4;  // relative, of `narrow`, which is a fit
 
 // The error of a half-space's force by the body's size, as a fraction of the body's force. Effects
 // that cancel in `by_size` are still uncertain.
 [[nodiscard]] double half_space_error(const Estimates& estimates);
-
-// The cheapest applicable model within the tolerance, or else the one with the least error, as
-// `auto` takes it; null without forecasts.
-[[nodiscard]] const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance);
 
 // The change of the strain in a creep test by the tissue's inertia, relative to the final strain;
 // 1 for tissue that rings, for relaxation tests and for shapes from files.

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "contact/depth_ratio.h"
 #include "contact/law.h"
 #include "contact/layer.h"
 #include "contact/relaxation.h"
 #include "geometry/smooth_surface.h"
 #include "scenario/resolved.h"
+#include "scene/estimates.h"
 #include "scene/refining_press.h"
 #include "scene/spring_body.h"
 #include "scene/surface_touch.h"
@@ -62,8 +62,7 @@ struct Choice {
   std::vector<Forecast> rungs;  // cheapest first; empty if `one_way` alone decides the model
   scenario::Found found;
   SurfaceTouch touch;  // what closed forms know of the surface; not in a uniform test
-  // Of the place and the finger, whether it is used or not; empty where it is not known.
-  std::optional<contact::DepthRatio> depth_ratio;
+  Estimates expected;  // not in a uniform test; its `depth_ratio` may not be used
 
   // The forecast for a model; null if there is none, or the model is not applicable.
   [[nodiscard]] const Forecast* forecast(scenario::Model model) const;
@@ -73,6 +72,10 @@ struct Choice {
   [[nodiscard]] std::string shortfall() const;
 };
 [[nodiscard]] Choice choose(const scenario::Case& one);
+
+// The cheapest applicable model within the tolerance, or else the one with the least error, as
+// `auto` takes it; null without forecasts.
+[[nodiscard]] const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance);
 
 // The same; reuses the surface files that `shapes` contains, and adds those that it reads.
 class SpecimenShapes;

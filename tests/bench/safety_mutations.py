@@ -3,9 +3,9 @@
 
     safety_mutations.py BUILD [--only WORD]
 
-BUILD is a configured build folder such as build/dev. Each mutation replaces one line of src/device,
-rebuilds the test program of the room, runs it, and puts the line back. The exit code is 1 if a rule can be
-broken without a failing test.
+BUILD is a build folder of its own, such as build/mutations, in which warnings are no errors. Each mutation
+replaces one line of src/device, rebuilds the test program of the room, runs it, and puts the line back. The
+exit code is 1 if a rule can be broken without a failing test, or a mutation does not compile.
 """
 import argparse
 import os
@@ -88,7 +88,6 @@ MUTATIONS = [
 
 def outcome(build):
     """`kept` if the test program fails, `broken` if it passes, `idle` if it cannot be built."""
-    # A warning about what a mutation leaves unused is no test of it.
     made = subprocess.run(["cmake", "--build", build, "--target", PROGRAM, "--", "--quiet"],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if made.returncode != 0:
@@ -106,6 +105,13 @@ def main():
     parser.add_argument("build")
     parser.add_argument("--only", default="")
     options = parser.parse_args()
+    options.build = os.path.abspath(options.build)
+    # A warning about what a mutation leaves unused is no test of it.
+    subprocess.run(["cmake", "--preset", "dev", "-B", options.build, "-D", "CMAKE_UNITY_BUILD=OFF",
+                    "-D", "CMAKE_COMPILE_WARNING_AS_ERROR=OFF"], check=True, stdout=subprocess.DEVNULL,
+                   cwd=os.path.join(SOURCE, "..", ".."))
+    if outcome(options.build) != "broken":
+        sys.exit("the tests of the room fail before any rule is broken")
     counts = {"kept": 0, "broken": 0, "idle": 0}
     for file, old, new in MUTATIONS:
         if options.only not in file:
@@ -123,7 +129,7 @@ def main():
         if result != "kept":
             print("%s: %s: `%s` -> `%s`" % (result, file, old, new), flush=True)
     print("%(kept)d rules broken and seen by a test, %(broken)d not seen, %(idle)d not built" % counts)
-    return 1 if counts["broken"] else 0
+    return 1 if counts["broken"] or counts["idle"] else 0
 
 
 if __name__ == "__main__":

@@ -64,6 +64,20 @@ TEST(Arm, RampsUpOverHalfASecond) {
   EXPECT_NEAR(force, 0.5, 1e-12);
 }
 
+// A share of what is allowed, and not of what is asked for.
+TEST(Arm, RampsUpFromBelowItsForceWhateverIsAskedFor) {
+  ArmRules rules;
+  rules.slew = 1e6;
+  ArmSafety safety{rules};
+  safety.take(0.0, at(Vec3::Zero()));
+  ASSERT_TRUE(safety.arm(0.0, 0.0));
+  for (int i = 0; i <= 250; ++i) {
+    safety.take(i * frame, at(Vec3::Zero()));
+    const double force = safety.allow(i * frame, {0.0, 0.0, 1e3 * rules.force}).z();
+    EXPECT_LE(force, i * frame / 0.5 * rules.force + 1e-12);  // rounding
+  }
+}
+
 TEST(Arm, ClampsTheNormAndTheChange) {
   Ready ready{ArmRules{}};
   Vec3 before = Vec3::Zero();
@@ -135,13 +149,15 @@ TEST(Arm, IsSilentAtOnceWhenTheLinkIsLost) {
 }
 
 TEST(Arm, ObeysTheDevicesOwnBrake) {
-  Ready ready{ArmRules{}};
-  for (int i = 0; i < 100; ++i) ready.step(at(Vec3::Zero()), {0.0, 0.0, 2.0});
-  Sample braked = at(Vec3::Zero());
-  braked.fault = Fault::brake;
-  for (int i = 0; i < 50; ++i) ready.step(braked, {0.0, 0.0, 2.0});
-  EXPECT_EQ(ready.safety.tripped(), Trip::brake);
-  EXPECT_EQ(ready.safety.sent(), Vec3::Zero());
+  for (const Fault fault : {Fault::brake, Fault::stalled, Fault::unstable}) {
+    Ready ready{ArmRules{}};
+    for (int i = 0; i < 100; ++i) ready.step(at(Vec3::Zero()), {0.0, 0.0, 2.0});
+    Sample braked = at(Vec3::Zero());
+    braked.fault = fault;
+    for (int i = 0; i < 50; ++i) ready.step(braked, {0.0, 0.0, 2.0});
+    EXPECT_EQ(ready.safety.tripped(), Trip::brake);
+    EXPECT_EQ(ready.safety.sent(), Vec3::Zero());
+  }
 }
 
 TEST(Arm, RendersNothingOutsideItsWorkspaceOrForAFastHand) {

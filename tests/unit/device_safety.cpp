@@ -192,10 +192,12 @@ TEST(Stand, StopsForGoodAtItsForceCeilingWhateverTheSign) {
 }
 
 TEST(Stand, StopsBeyondItsTravelAndAtAnOverload) {
-  StandSafety beyond(stand_rules);
-  EXPECT_EQ(beyond.step(0.0, at(-10.05e-3, 0.0)), Verdict::go_on);  // its way to a stand-still
-  EXPECT_EQ(beyond.step(0.02, at(-10.2e-3, 0.0)), Verdict::stop);
-  EXPECT_EQ(beyond.tripped(), Trip::travel);
+  for (const double end : {-1.0, 1.0}) {
+    StandSafety beyond(stand_rules);
+    EXPECT_EQ(beyond.step(0.0, at(10.05e-3 * end, 0.0)), Verdict::go_on);  // until it stands still
+    EXPECT_EQ(beyond.step(0.02, at(10.2e-3 * end, 0.0)), Verdict::stop);
+    EXPECT_EQ(beyond.tripped(), Trip::travel);
+  }
   StandSafety overloaded(stand_rules);
   Sample sample;
   sample.arrival = Arrival::dropped;
@@ -228,6 +230,11 @@ TEST(Stand, MovesAwayFromALimitOnly) {
   EXPECT_EQ(stand.allow({Motion::Act::up, 1.0}).speed, stand_rules.fastest);
   EXPECT_EQ(stand.allow({Motion::Act::up, not_a_number}).act, Motion::Act::stop);
   EXPECT_EQ(stand.allow({Motion::Act::up, -1.0}).act, Motion::Act::stop);
+  StandSafety above(stand_rules);
+  static_cast<void>(above.step(0.0, at(10e-3, 0.0)));
+  ASSERT_TRUE(above.arm(Fault::none));
+  EXPECT_EQ(above.allow(up).act, Motion::Act::stop);
+  EXPECT_EQ(above.allow(down).act, Motion::Act::down);
 }
 
 TEST(Stand, HaltsWhileSamplesAreMissingAndStopsWhenTheyStayAway) {

@@ -243,6 +243,23 @@ TEST(Stop, LeavesTheHandlersStackAsItWas) {
   ::sigaltstack(&before, nullptr);
 }
 
+// A device that takes nothing leaves the line full: what waits there gives way to the stop.
+TEST(Stop, IsSentThroughAFullLine) {
+  const auto [far, near] = raw_line();
+  ::fcntl(near, F_SETFL, O_NONBLOCK);
+  ::fcntl(far, F_SETFL, O_NONBLOCK);
+  while (::write(near, "xxxxxxxx", 8) > 0 || ::write(near, "x", 1) > 0) {
+  }
+  { const StopGuard guard(near, "s"); }
+  std::string all;
+  char bytes[4096];
+  for (ssize_t size = 0; (size = ::read(far, bytes, sizeof bytes)) > 0;)
+    all.append(bytes, static_cast<std::size_t>(size));
+  EXPECT_EQ(all.back(), 's') << all.size();
+  ::close(near);
+  ::close(far);
+}
+
 TEST(Stop, ClosesAnotherDevicesChannelFirst) {
   const Way way = left_by([](int wire) {
     const StopGuard guard(wire, "s");

@@ -96,7 +96,7 @@ TEST_F(SurfaceFiles, TellAutoTheirThicknessAndWidth) {
   const Choice choice = choose(scenario::read_case(text("")));
   EXPECT_NEAR(choice.touch.size.x(), 0.08, 1e-4);
   EXPECT_NEAR(choice.touch.thickness, 0.02, 1e-4);
-  const Estimates found = estimate(choice);
+  const Estimates found = choice.expected;
   EXPECT_GT(found.thickness, 0.1);
   EXPECT_NEAR(found.curved_body, found.tissue_share * found.contact_radius / 0.01,
               0.01 * found.curved_body);  // the box is that of the triangles
