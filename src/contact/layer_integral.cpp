@@ -262,7 +262,7 @@ LayerSolution LayerEquation::solve_chi(double chi, Wanted wanted) const {
     if (std::abs(change) <= 1e-14 * chi) break;
     solution = solve(solution.ratio + change, wanted);
     // The next error is about change^2.
-    if (std::abs(change) < 1e-5 * chi) break;
+    if (std::abs(change) < 1e-8 * chi) break;
   }
   return solution;
 }

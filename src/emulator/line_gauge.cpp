@@ -200,12 +200,12 @@ void LineGauge::send(const std::string& bytes) {
 
 std::string LineGauge::obey_line(const std::string& command) {
   if (settings_.style == LineStyle::mark10) return obey(language_, gauge_, command);
-  if (command == "Q") return line();
-  if (command == "Z") {
-    set_zero(gauge_);
-    return "Z\r\n";
-  }
-  return "EC,E01\r\n";
+  if (command == "Q" || command == "SI") return line();
+  if (command == "?TN") return "TN,  FX-1200i\r\n";
+  if (command == "?SN") return "SN,  12345678\r\n";
+  if (command == "?ID") return "ID,  LAB-0123\r\n";
+  if (command == "Z" || command == "R") set_zero(gauge_);
+  return {};  // as with `ErCd 0`, the balance's own setting
 }
 
 void LineGauge::take(char byte, Rate rate_of_other_side) {
@@ -234,7 +234,7 @@ void LineGauge::take(char byte, Rate rate_of_other_side) {
   if (unplugged_) return;
   const std::string reply = obey_line(command);
   if (reply.empty()) return;
-  if (command.starts_with('?') || command == "Q")
+  if (command.starts_with('?') || command == "Q" || command == "SI")
     send_line(reply);
   else
     send(reply);
