@@ -61,7 +61,7 @@ class DepthRatio {
   // no part in choosing its constants it covers 90 % (hollow) to 100 % (flat, convex) of the
   // errors.
   //   e = 0.004 + 0.15 (a/W)^2 + 0.056 |K| + 0.36 y (layers) + 0.073 x (inclusion)
-  //       + 5 |K| y^(3/2) (hollow) + that of the stretch of a stiff skin
+  //       + 2.5 |K| y^(3/2) (hollow) + that of the stretch of a stiff skin
   // with 0.25 (a/W)^2 where a side is nearer than the 1.8 R that were computed.
   // The term of hollow bodies is what the linear force of a mesh adds where the sphere conforms.
   // Beyond last_depth() the factor's distance from 1 is added as often as it fits into the excess.

@@ -2,147 +2,16 @@
 #include "mechanics/energy_coupling.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "base/error.h"
+#include "mechanics/energy_loads.h"
 #include "scenario/rungs.h"
 #include "tissue/coupled.h"
 
 namespace palpate::mechanics {
-namespace {
 
 using integrate::Vector;
-
-// Under the patch itself nothing is left over, because the finger's pressure acts there.
-constexpr double under_finger = 1.05;
-
-}  // namespace
-
-// Quadrature of the half-space's tractions over the faces, for one patch.
-class EnergyCoupling::Loads {
- public:
-  Loads(const geometry::TetMesh& mesh, const geometry::SmoothSurface& skin,
-        const contact::Patch& patch, const Tissue& tissue, int finer, const Vec3& along)
-      : mesh_(&mesh),
-        skin_(&skin),
-        patch_(&patch),
-        axes_(axes_of(patch)),
-        field_(patch.a, patch.b, {tissue.shear_modulus, tissue.elastic.poisson_ratio}, finer,
-               axes_.transpose() * along),
-        finer_(finer) {
-    nodal = Vector::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()));
-  }
-
-  [[nodiscard]] Vec3 displacement(int node) const {
-    return axes_ * field_.displacement(local(mesh_->nodes[as_index(node)]));
-  }
-
-  void add(const Face& face, const Vector& interpolated) {
-    std::array<Vec3, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = local(mesh_->nodes[as_index(face.nodes[k])]);
-    normal_ = axes_.transpose() * face.normal;
-    // The plane of the contact is free of stress outside the patch.
-    const double flat = 1e-9 * (corners[1] - corners[0]).norm();
-    if (!face.interface && std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
-          return std::abs(corner.z()) <= flat;
-        }))
-      return;
-    divide(face, corners, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, 0, interpolated);
-  }
-
-  Vector nodal;        // N/N, g
-  double known = 0.0;  // m/N, c
-
- private:
-  [[nodiscard]] static Eigen::Matrix3d axes_of(const contact::Patch& patch) {
-    Eigen::Matrix3d axes;
-    axes << patch.axis, patch.normal.cross(patch.axis), patch.normal;
-    return axes;
-  }
-  [[nodiscard]] Vec3 local(const Vec3& point) const {
-    return axes_.transpose() * (point - patch_->position);
-  }
-
-  // Divides a triangle until it is small against its distance from the patch.
-  void divide(const Face& face, const std::array<Vec3, 3>& corners,
-              const std::array<Vec3, 3>& weights, int depth, const Vector& interpolated) {
-    constexpr int deepest = 8;
-    constexpr double nearest = 0.25;  // of the patch's radius
-    double edge = 0.0;
-    for (std::size_t k = 0; k < 3; ++k)
-      edge = std::max(edge, (corners[(k + 1) % 3] - corners[k]).norm());
-    const double distance = ((corners[0] + corners[1] + corners[2]) / 3.0).norm();
-    const double size = std::max(0.6 * distance, nearest * patch_->radius());
-    if (finer_ * edge <= size || depth == deepest)
-      return integrate(face, corners, weights, interpolated);
-    const std::array<Vec3, 3> middle{0.5 * (corners[1] + corners[2]),
-                                     0.5 * (corners[2] + corners[0]),
-                                     0.5 * (corners[0] + corners[1])};
-    const std::array<Vec3, 3> share{0.5 * (weights[1] + weights[2]),
-                                    0.5 * (weights[2] + weights[0]),
-                                    0.5 * (weights[0] + weights[1])};
-    for (std::size_t k = 0; k < 3; ++k)
-      divide(face, {corners[k], middle[(k + 2) % 3], middle[(k + 1) % 3]},
-             {weights[k], share[(k + 2) % 3], share[(k + 1) % 3]}, depth + 1, interpolated);
-    divide(face, middle, share, depth + 1, interpolated);
-  }
-
-  void integrate(const Face& face, const std::array<Vec3, 3>& corners,
-                 const std::array<Vec3, 3>& weights, const Vector& interpolated) {
-    const double area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-    for (std::size_t q = 0; q < 3; ++q) {  // degree 2
-      Vec3 point = Vec3::Zero();
-      Vec3 shares = Vec3::Zero();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double weight = k == q ? 2.0 / 3.0 : 1.0 / 6.0;
-        point += weight * corners[k];
-        shares += weight * weights[k];
-      }
-      Vec3 normal = normal_;
-      if (face.triangle >= 0) {
-        // The contact lies on the smooth surface, from which a coarse facet is far away.
-        geometry::SurfacePoint at{.triangle = face.triangle, .weights = Vec3::Zero()};
-        for (std::size_t k = 0; k < 3; ++k)
-          at.weights[face.corners[k]] = shares[static_cast<Eigen::Index>(k)];
-        point = local(skin_->position(at));
-        normal = axes_.transpose() * skin_->normal(at);
-      }
-      if (!face.interface && normal.z() > 0.0 && std::abs(point.z()) < patch_->a) {
-        const double x = point.x() / patch_->a;
-        const double y = point.y() / patch_->b;
-        if (x * x + y * y < under_finger * under_finger) continue;
-      }
-      const contact::FieldValue value = field_.at(point);
-      const Vec3 traction = area / 3.0 * (axes_ * (value.stress * normal));
-      Vec3 moved = axes_ * value.displacement;
-      if (face.interface) {
-        moved.setZero();
-        for (std::size_t k = 0; k < 3; ++k)
-          moved +=
-              shares[static_cast<Eigen::Index>(k)] * interpolated.segment<3>(3 * face.nodes[k]);
-      }
-      for (int axis = 0; axis < 3; ++axis) {
-        const double work = traction[axis] * moved[axis];
-        if (face.held[as_index(axis)] && !face.interface) {
-          known += work;
-          continue;
-        }
-        known -= work;
-        for (std::size_t k = 0; k < 3; ++k)
-          nodal[3 * face.nodes[k] + axis] -= shares[static_cast<Eigen::Index>(k)] * traction[axis];
-      }
-    }
-  }
-
-  const geometry::TetMesh* mesh_;
-  const geometry::SmoothSurface* skin_;
-  const contact::Patch* patch_;
-  Eigen::Matrix3d axes_;  // columns: the patch's axes
-  contact::PatchField field_;
-  int finer_;
-  Vec3 normal_ = Vec3::Zero();
-};
 
 EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& part,
                                std::span<const char> held, double unit)
@@ -336,6 +205,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
   struct Case {
     int region;
     Vector loads;         // N/N, g
+    Vector curved;        // N/N, of a curved skin under the patch
     double known;         // m/N, c
     Vector interpolated;  // m/N, of the half-space in other tissues
     Vector held_by;       // m/N, w on supports: minus the half-space's
@@ -347,8 +217,8 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
     const int region = region_under(patch.at.triangle);
     const Home& here = home(region);
     Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer, along);
-    Case& one =
-        cases.emplace_back(Case{region, {}, 0.0, Vector::Zero(freedoms), Vector::Zero(freedoms)});
+    Case& one = cases.emplace_back(
+        Case{region, {}, {}, 0.0, Vector::Zero(freedoms), Vector::Zero(freedoms)});
     for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
       const bool supported = held_[3 * n] != 0 || held_[3 * n + 1] != 0 || held_[3 * n + 2] != 0;
       if (!supported && here.other[n] == 0) continue;
@@ -365,6 +235,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
       loads.known -= one.interpolated.dot(pull);
     }
     one.loads = std::move(loads.nodal);
+    one.curved = std::move(loads.curved);
     one.known = loads.known;
     right.push_back(one.loads - solver_.matrix() * one.held_by);
   }
@@ -378,7 +249,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
     result.rest = std::move(rest[i]);
     result.rest += one.held_by;
     const Vector reaction = solver_.matrix() * result.rest - one.loads;
-    result.sinking = one.known + one.loads.dot(result.rest);
+    result.sinking = one.known + one.loads.dot(result.rest) + 2.0 * one.curved.dot(result.rest);
     for (Eigen::Index d = 0; d < freedoms; ++d)
       if (held_[as_index(d)] != 0) result.sinking -= reaction[d] * one.held_by[d];
     find_errors(one.interpolated, one.region, home(one.region), result);
