@@ -48,7 +48,7 @@ class DepthRatio {
  public:
   static constexpr double deepest_x = 0.8, deepest_y = 0.5;
   static constexpr double thinnest = 0.3;  // t / R of the thinnest layer that was computed
-  static constexpr double least_curved = -0.49, most_curved = 0.61;  // K
+  static constexpr double least_curved = -0.5, most_curved = 0.61;  // K; fitted from -0.49 on
 
   // Where the formula ends, m: at `deepest_x` or `deepest_y`, whichever comes first. Beyond the
   // latter, bonded layers with nu from 0.45 on fold.
@@ -78,7 +78,7 @@ class DepthRatio {
 };
 
 // For one place and sphere. Empty where nothing was computed: nu outside [0, 1/2], tissue thinner
-// than 0.3 R, a body whose curvature is outside [-0.49, 0.61] / R, or no width.
+// than 0.3 R, a body whose curvature is outside [-0.5, 0.61] / R, or no width.
 [[nodiscard]] std::optional<DepthRatio> depth_ratio(const DeepPress& press);
 
 // One of the bonded tissues under the contact, from the top.

@@ -78,36 +78,58 @@ TEST(ByDefault, BodiesOnTheirWholeUndersideAreNoHalfSpaces) {
   }
 }
 
-// Body 204 of tests/elasticity/random_bodies.csv: a disc whose top is a hollow of radius 21.009 mm.
-// Its fine surface is coarsened for the mesh. The force is the one for a paraboloid, the curvature
-// is the file's, and the rim is not taken for the inside of the body.
-TEST(Dish, IsPressedInItsHollow) {
-  constexpr double width = 16.807, thickness = 7.386, hollow = 21.009, spacing = 1.2;  // mm
+// A disc whose top is a hollow sphere, pressed in its middle; lengths in mm, the modulus in kPa.
+struct HollowPress {
+  double width, thickness, hollow, spacing, young_modulus, poisson_ratio, radius, depth;
+};
+
+record::CaseRecord run_hollow(const HollowPress& press) {
   test::Profile profile;
-  const double rim = std::asin(width / hollow);
-  const int parts = static_cast<int>(std::ceil(rim * hollow / spacing));
+  const double rim = std::asin(press.width / press.hollow);
+  const int parts = static_cast<int>(std::ceil(rim * press.hollow / press.spacing));
+  const auto height = [&](double angle) {
+    return press.thickness + press.hollow * (1.0 - std::cos(angle));
+  };
   for (int i = 0; i < parts; ++i) {
     const double angle = rim * i / parts;
-    profile.push_back({hollow * std::sin(angle), thickness + hollow * (1.0 - std::cos(angle))});
+    profile.push_back({press.hollow * std::sin(angle), height(angle)});
   }
-  test::add_line(profile, {width, thickness + hollow * (1.0 - std::cos(rim))}, {width, 0.0},
-                 spacing);
-  test::add_base(profile, width, spacing);
+  test::add_line(profile, {press.width, height(rim)}, {press.width, 0.0}, press.spacing);
+  test::add_base(profile, press.width, press.spacing);
   const test::TemporaryFolder folder;
   const test::fs::path file = folder.path() / "body.off";
-  (void)test::write_surface(profile, spacing, file);
-  const record::CaseRecord record = test::run_text(
-      "[tissue]\nyoung_modulus = \"65.898 kPa\"\npoisson_ratio = 0.4202\nbase = \"bonded\"\n"
-      "shape = { file = \"" +
-      file.string() +
-      "\", unit = \"mm\" }\n[finger]\nmaterial = \"rigid\"\nradius = \"10.291 mm\"\n"
-      "x = \"0 mm\"\ny = \"0 mm\"\n[contact]\nviscosity = \"none\"\ndepth = \"hertz\"\n"
-      "[output]\ninterval = \"100 ms\"\npressure_maps = false\n"
-      "[[step]]\nkind = \"indent\"\nto = \"0.4985 mm\"\nrate = \"0.4985 mm/s\"\n");
+  (void)test::write_surface(profile, press.spacing, file);
+  const auto text = [](double value) { return std::to_string(value); };
+  return test::run_text("[tissue]\nyoung_modulus = \"" + text(press.young_modulus) +
+                        " kPa\"\npoisson_ratio = " + text(press.poisson_ratio) +
+                        "\nbase = \"bonded\"\nshape = { file = \"" + file.string() +
+                        "\", unit = \"mm\" }\n[finger]\nmaterial = \"rigid\"\nradius = \"" +
+                        text(press.radius) +
+                        " mm\"\nx = \"0 mm\"\ny = \"0 mm\"\n[contact]\nviscosity = \"none\"\n"
+                        "depth = \"hertz\"\n[output]\ninterval = \"100 ms\"\n"
+                        "pressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"" +
+                        text(press.depth) + " mm\"\nrate = \"" + text(press.depth) + " mm/s\"\n");
+}
+
+// Body 204 of tests/elasticity/random_bodies.csv. Its fine surface is coarsened for the mesh. The
+// force is the one for a paraboloid, the curvature is the file's, and the rim is not taken for the
+// inside of the body.
+TEST(Dish, IsPressedInItsHollow) {
+  const record::CaseRecord record =
+      run_hollow({16.807, 7.386, 21.009, 1.2, 65.898, 0.4202, 10.291, 0.4985});
   ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
   EXPECT_NEAR(std::get<double>(test::finding(record, "peak_force_N")), 0.287761, 0.035 * 0.287761);
-  EXPECT_NEAR(std::get<double>(test::finding(record, "local_curvature_per_m")), -1e3 / hollow,
-              0.01 * 1e3 / hollow);
+  EXPECT_NEAR(std::get<double>(test::finding(record, "local_curvature_per_m")), -1e3 / 21.009,
+              0.01 * 1e3 / 21.009);
+}
+
+// Body 712 of tests/elasticity/unseen_bodies.csv, its deepest paraboloid. With the pressure on the
+// tangent plane, below the skin, it was 10.5 % stiff.
+TEST(Dish, WithAThinFloorIsPressedWhereItsSkinIs) {
+  const record::CaseRecord record =
+      run_hollow({32.275, 6.327, 40.343, 2.0, 14.941, 0.325, 8.97, 2.8473});
+  ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+  EXPECT_NEAR(std::get<double>(test::finding(record, "peak_force_N")) / 0.969253, 1.0, 0.04);
 }
 
 // Body 54 of tests/elasticity/random_bodies.csv (its column `paraboloid`): the contact becomes
