@@ -13,6 +13,8 @@ namespace palpate::mechanics {
 
 // Under the patch itself nothing is left over, because the finger's pressure acts there.
 inline constexpr double under_finger = 1.05;
+// Cosine between a facet and the plane of the contact: the curvature is followed on flatter ones.
+inline constexpr double steepest = 0.3;
 
 // Quadrature of the half-space's tractions over the faces, for one patch.
 class EnergyCoupling::Loads {
@@ -112,7 +114,7 @@ class EnergyCoupling::Loads {
         const double x = point.x() / patch_->a;
         const double y = point.y() / patch_->b;
         const double from_centre = std::hypot(x, y);
-        if (from_centre < 1.0 && presses_)
+        if (from_centre < 1.0 && presses_ && std::min(normal.z(), normal_.z()) > steepest)
           press_curved(face, corners, weights, shares, point, normal, from_centre, area / 3.0);
         if (from_centre < under_finger) continue;
       }
@@ -139,9 +141,9 @@ class EnergyCoupling::Loads {
   }
 
   // What a skin that is curved under the patch changes to the first order in its height z above the
-  // plane: beyond the half-space's stress it carries (p + stress) grad z - z grad p in the plane.
-  // The work of the second term on a shape function N is p (z grad N + N grad z), integrated by
-  // parts. `r` is the distance from the centre, 0 to 1; an ellipse counts as a circle of its area.
+  // plane: beyond the half-space's stress it carries stress grad z - z grad p in the plane. The
+  // work of the second term on a shape function N is p (z grad N + N grad z), integrated by parts.
+  // `r` is the distance from the centre, 0 to 1; an ellipse counts as a circle of its area.
   //                                 docs/theory.md (12a); K. L. Johnson 1985, eq. (3.41)-(3.43)
   void press_curved(const Face& face, const std::array<Vec3, 3>& corners,
                     const std::array<Vec3, 3>& weights, const Vec3& shares, const Vec3& point,

@@ -105,7 +105,7 @@ TEST(DepthRatio, IsEmptyWhereNothingWasComputed) {
     EXPECT_FALSE(exists(nu, half_space, radius)) << nu;
   for (const double thickness : {0.29 * radius, 0.0, -1.0, std::nan("")})
     EXPECT_FALSE(exists(0.3, thickness, radius)) << thickness;
-  for (const double effective_radius : {2.0 * radius, 0.62 * radius, std::nan("")})
+  for (const double effective_radius : {2.01 * radius, 0.62 * radius, std::nan("")})
     EXPECT_FALSE(exists(0.3, half_space, effective_radius)) << effective_radius;
 
   const DepthRatio thick = ratio_of(0.3, half_space);
