@@ -8,6 +8,7 @@
 
 #include "contact/hertz.h"
 #include "scenario/programme.h"
+#include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 
 namespace palpate::scene {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 
+#include "base/text.h"
 #include "fit/model.h"
 #include "record/swept_column.h"
 
