@@ -86,6 +86,9 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
   // Among equally near candidates one that differs only in capitals comes first: `KPA`, `kPa`.
   std::pair best_distance(1 + std::max<std::size_t>(2, word.size() / 2), std::size_t{0});
   for (const std::string& candidate : known) {
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    const std::size_t shorter = std::min(word.size(), candidate.size());
+    if (longer - shorter > best_distance.first) continue;  // it takes at least as many edits
     const bool same_letters = lower_case(word) == lower_case(candidate);
     const std::size_t distance = same_letters ? 0 : edit_distance(word, candidate);
     const std::pair ranked(distance, edit_distance(lower_case(word), lower_case(candidate)));

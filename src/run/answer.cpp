@@ -125,7 +125,7 @@ class Words {
     const bool thickness = model == Model::layer;  // is represented
     const double size =
         thickness ? 1.0 / (1.0 - std::min(e_.sides, 0.99)) - 1.0 : 1.0 / (1.0 + e_.by_size) - 1.0;
-    const double uncertain = thickness ? e_.sides : e_.narrow;
+    const double uncertain = thickness ? scene::doubt_of_sides * e_.sides : e_.by_size_error;
     const double waves = scene_.choice.found.inertia_matters ? e_.inertia : 0.0;
     const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep);
     const std::string would = word(model) + verb;
@@ -139,7 +139,7 @@ class Words {
     const std::string by = effects(thickness);
     if (by.empty()) return off + ".";
     // Effects that cancel in the estimate leave an error without a sign.
-    if (std::abs(size) < scene::doubt_of_narrow * uncertain) return off + ": " + by + ".";
+    if (std::abs(size) < uncertain) return off + ": " + by + ".";
     return would + percent_text(std::abs(size)) + (size < 0.0 ? " low: " : " high: ") + by + ".";
   }
 

@@ -313,6 +313,22 @@ void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& 
   refuse_unresolved(scene);
 }
 
+// Refuses a press that would push its specimen aside: it has no equilibrium.
+void refuse_sliding(const Scene& scene, const scenario::Family& family) {
+  constexpr double steepest = 3.0;  // degrees; less is the uncertainty of a triangulated surface
+  const SurfaceTouch& touch = scene.choice.touch;
+  if (scene.scenario.uniform() || scene.scenario.tissue.base != tissue::Base::frictionless ||
+      !scenario::rung(scene.scenario.solver.model).meshed() || !touch.known() ||
+      touch.inclination() <= steepest)
+    return;
+  throw InputError(place_of(family.document, "tissue.base"),
+                   "the finger presses on skin that is inclined by " +
+                       rounded_text(touch.inclination(), 2) +
+                       " degrees, and on a frictionless base nothing keeps the specimen from "
+                       "sliding away; set `tissue.base = \"bonded\"`, or press where the skin is "
+                       "level");
+}
+
 // Refuses a model that cannot compute the scene, and names the most complete model that can.
 void refuse_beyond(const Scene& scene, const scenario::Family& family) {
   const scenario::Resolved& scenario = scene.scenario;
@@ -352,6 +368,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   if (!scenario.uniform()) scene.finger = make_finger(scenario);
   scene.relaxation = contact_relaxation(scenario, scene.finger);
   refuse_beyond(scene, family);
+  refuse_sliding(scene, family);
   if (!scenario.uniform()) set_depth_ratio(scene, family);
   switch (scenario.solver.model) {
     case Model::hertz: break;

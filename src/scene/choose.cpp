@@ -191,7 +191,7 @@ class Chooser {
     switch (rung.of) {
       case Model::hertz: return half_space_error(e) + still + depth_error(rung, e);
       case Model::layer:
-        return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt_of_narrow * e.sides + still +
+        return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt_of_sides * e.sides + still +
                depth_error(rung, e);
       case Model::mass_spring:
       case Model::coupled_springs: break;

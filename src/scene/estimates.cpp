@@ -64,6 +64,29 @@ double change_by_size(const scenario::Shape& shape, const Estimates& e) {
   return wide_base && e.thickness > std::abs(both) ? e.thickness : both;
 }
 
+// The change of the half-space's force on the top of an ellipsoid or of a lying cylinder, which
+// stands on its lowest tenth. Fitted to coupled springs on random bodies.   docs/theory.md (68)
+//                                                         tests/accuracy/curved_bodies.py
+void fit_size(const scenario::Resolved& scenario, const SurfaceTouch& touch, Estimates& found) {
+  constexpr double level = 3.0;  // degrees
+  const bool ellipsoid = std::holds_alternative<scenario::Ellipsoid>(scenario.tissue.shape);
+  if ((!ellipsoid && !std::holds_alternative<scenario::Cylinder>(scenario.tissue.shape)) ||
+      scenario.tissue.base == tissue::Base::frictionless || !scenario.regions.empty() ||
+      !touch.known() || touch.inclination() > level)
+    return;
+  const double nu = scenario.tissue.poisson_ratio;
+  const double q = (1.0 - 2.0 * nu) / (1.0 - nu);
+  const Vec3& size = touch.size;
+  const double along_x = size.z() / size.x(), along_y = size.z() / size.y();
+  const double share = found.tissue_share * found.contact_radius / size.z();
+  const double change = ellipsoid ? 2.09 - 0.17 * q - 1.40 * (along_x + along_y)
+                                  : 0.39 - 0.05 * q - 0.48 * along_y * along_y;
+  found.by_size = std::max(-0.99, share * change);
+  const double open = ellipsoid ? 0.15 * (along_x + along_y) : 0.1 * (1.0 + along_y * along_y);
+  found.by_size_error = 0.004 + share * open;
+  found.narrow = std::max(0.0, 1.0 - (1.0 + found.by_size) / (1.0 + found.thickness));
+}
+
 // In a ramp of duration T, Kelvin-Voigt increases the force by tau F'/F = 3/2 tau/T, and a branch
 // of ratio b by about b x (1 - exp(-1/x)), x = tau/T.
 double viscous_effect(const scenario::Resolved::Tissue& tissue, double duration) {
@@ -199,6 +222,8 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
   }
   found.narrow = narrowness(found);
   found.by_size = change_by_size(tissue.shape, found);
+  found.by_size_error = doubt_of_sides * found.narrow;
+  fit_size(scenario, touch, found);
   press_deep(scenario, touch, law, found);
   found.viscous = found.tissue_share *
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
@@ -207,7 +232,7 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
 }
 
 double half_space_error(const Estimates& estimates) {
-  return std::abs(1.0 / (1.0 + estimates.by_size) - 1.0) + doubt_of_narrow * estimates.narrow;
+  return std::abs(1.0 / (1.0 + estimates.by_size) - 1.0) + estimates.by_size_error;
 }
 
 double uniform_inertia(const scenario::Resolved& scenario) {

@@ -22,6 +22,7 @@ struct Estimates {
   double curved_body = 0.0;      // bound for the effect of the finite size of a curved body
   double narrow = 0.0;           // decrease by the sides, or by the width of a curved body
   double by_size = 0.0;          // change by thickness, sides and width together, of either sign
+  double by_size_error = 0.0;    // of 1 + `by_size`, relative
   double deep = 0.0;             // change in neo-Hookean tissue, of either sign; (62)
   double deep_error = 0.0;       // of 1 + `deep`, relative
   double viscous = 0.0;          // increase by the tissue's viscosity
@@ -35,7 +36,7 @@ struct Estimates {
 // width of a body from a file are those of its bounding box.
 [[nodiscard]] Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch);
 
-inline constexpr double doubt_of_narrow = 0.4;  // relative, of `narrow`, which is a fit
+inline constexpr double doubt_of_sides = 0.4;  // relative, of `sides`, which is a fit
 
 // The error of a half-space's force by the body's size, as a fraction of the body's force. Effects
 // that cancel in `by_size` are still uncertain.

@@ -1,7 +1,5 @@
 // The shapes and programmes to which closed forms apply.
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "base/text.h"
 #include "contact/hertz.h"
@@ -21,7 +19,7 @@ bool leaves(const scenario::Resolved& scenario, const scenario::Cuboid& box) {
 std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario,
                                              const SurfaceTouch& touch) {
   // Steeper, the second order of SurfaceTouch::pressed() is not enough.
-  constexpr double least_cosine = 0.5;
+  constexpr double steepest = 60.0;  // degrees
   if (!touch.known()) return touch.cannot;
   const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
   if (box != nullptr && leaves(scenario, *box)) return "the finger leaves the top of the body";
@@ -30,10 +28,8 @@ std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario,
   for (const scenario::Step& step : scenario.steps)
     if (std::holds_alternative<scenario::Slide>(step))
       return "the finger slides over a curved surface";
-  const double cosine = touch.curvature.normal.z();
-  if (cosine < least_cosine)
-    return "the surface is inclined by " +
-           rounded_text(std::acos(cosine) * 180.0 / std::numbers::pi, 2) +
+  if (touch.inclination() > steepest)
+    return "the surface is inclined by " + rounded_text(touch.inclination(), 2) +
            " degrees where the finger touches it, and the formula holds up to 60";
   return std::nullopt;
 }

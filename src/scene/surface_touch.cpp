@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/error.h"
@@ -192,6 +193,10 @@ geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& sur
     if (!(inverse + kappa_2 > 0.0)) return estimate;
     law.radius = contact::geometric_radius(scenario.finger.radius, kappa_1, kappa_2);
   }
+}
+
+double SurfaceTouch::inclination() const {
+  return std::acos(std::min(1.0, curvature.normal.z())) * 180.0 / std::numbers::pi;
 }
 
 SurfaceTouch::Pressed SurfaceTouch::pressed(double radius, double travel) const {

@@ -27,6 +27,8 @@ struct SurfaceTouch {
   [[nodiscard]] bool known() const { return cannot.empty(); }
   [[nodiscard]] bool curved() const { return curvature.kappa_1 != 0.0 || curvature.kappa_2 != 0.0; }
   [[nodiscard]] bool tilted() const { return curvature.normal.z() < 1.0; }
+  // Between the surface and the horizontal, degrees.
+  [[nodiscard]] double inclination() const;
 
   // The indentation (m) and the normal after the finger has gone down vertically by `travel` (m),
   // on the quadric with these curvatures: exact on a flat, else to second order in the travel.

@@ -55,6 +55,26 @@ TEST_F(RunSurfaces, are_refused_with_the_reason_and_a_remedy) {
           "`finger.y` to a place above it");
 }
 
+TEST_F(RunSurfaces, slide_from_under_an_inclined_press_where_the_base_has_no_friction) {
+  const std::string cylinder = "base = \"frictionless\"\nshape = { kind = \"cylinder\" }\n";
+  const auto run = [&](const std::string& x) {
+    write_file(folder_ / "press.toml",
+               "[[step]]\nkind = \"indent\"\n[output]\nfigures = false\npressure_maps = false\n"
+               "[solver]\nmodel = \"coupled_springs\"\n[tissue]\n" +
+                   cylinder + "[finger]\nx = \"" + x + " mm\"\n");
+    return palpate(folder_.path(), {"run", "press.toml"}, {"--force"});
+  };
+  const Ended ended = run("33");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(
+      says(ended,
+           "press.toml:9:8: the finger presses on skin that is inclined by 4.2 degrees, and "
+           "on a frictionless base nothing keeps the specimen from sliding away; set "
+           "`tissue.base = \"bonded\"`, or press where the skin is level"))
+      << ended.err;
+  EXPECT_EQ(run("31").code, 0);
+}
+
 TEST_F(RunSurfaces, are_explained) {
   const geometry::Surface ball =
       geometry::sampled(geometry::Ellipsoid{{0.1, 0.1, 0.1}}, {4e-3, 4e-3}).parts.front().surface;
