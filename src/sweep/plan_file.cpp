@@ -34,7 +34,9 @@ PlanFile read_plan_file(const std::string& text, const std::string& path) {
     file.name = json.at("scenario");
     file.settings = json.at("settings").get<std::vector<std::string>>();
     file.curves = json.at("curves");
-    file.cases = json.at("cases");
+    const Json& cases = json.at("cases");
+    if (!cases.is_number_unsigned()) throw std::runtime_error("no number of cases");
+    file.cases = cases;
     file.csv_hash = json.at("plan_csv_sha256");
     for (const Json& input : json.at("inputs"))
       file.inputs.emplace_back(input.at("name"), input.at("sha256"));

@@ -230,10 +230,18 @@ TEST_F(Plans, what_has_changed_is_refused) {
     write(folder / name, before);
     EXPECT_EQ(reading(), "accepted");
   }
-  write(folder / "plan.json", read(folder / "plan.json").substr(5));
-  EXPECT_EQ(reading(),
-            "out/s_sweep/plan.json: is damaged, or made by another version; put it back, or plan "
-            "anew");
+  const std::string plan = read(folder / "plan.json");
+  const std::string damaged =
+      "out/s_sweep/plan.json: is damaged, or made by another version; put it back, or plan anew";
+  write(folder / "plan.json", plan.substr(5));
+  EXPECT_EQ(reading(), damaged);
+  const std::string cases = "\"cases\": 6";
+  for (const char* number : {"1e52", "-1", "6.5", "\"6\"", "true"}) {
+    std::string other = plan;
+    write(folder / "plan.json",
+          other.replace(plan.find(cases), cases.size(), std::string("\"cases\": ") + number));
+    EXPECT_EQ(reading(), damaged) << number;
+  }
 }
 
 TEST_F(Plans, another_version_is_refused) {
