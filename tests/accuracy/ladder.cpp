@@ -201,8 +201,7 @@ Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
   if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
     return {measure(test::run_scene(chosen)), 0.0, "closed form"};
   if (!scenario.uniform() && !scene::beyond(Model::layer, scenario, chosen.choice.touch) &&
-      chosen.choice.expected.sides < 0.002 &&
-      chosen.choice.expected.inertia < 0.002)
+      chosen.choice.expected.sides < 0.002 && chosen.choice.expected.inertia < 0.002)
     return {measure(run_text(scene.text, {"solver.model=layer"})), 0.0, "exact layer"};
   std::vector<double> values;
   const bool fast = scenario.solver.integrator == scenario::Solver::Integrator::central_difference;
