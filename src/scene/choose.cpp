@@ -37,7 +37,7 @@ constexpr auto question_table = std::to_array<QuestionRow>({
     {"rigid_tissue", "stiffness", "the tissue's share of the deformation",
      "only the finger deforms", "the tissue deforms"},
     {"half_space", "size", "error of a force that ignores the body's size",
-     "the body's size does not matter", ""},
+     "what its size changes in all is within the limit", ""},
     {"layer", "sides", "decrease of the force by the sides", "the sides do not matter",
      "the sides matter"},
     {"deep", "depth", "change of the force by large strains", "small strains are enough", ""},
