@@ -60,9 +60,8 @@ class LeftOuts {
       omit("the thickness of the tissue", e_.thickness, would(e_.thickness), free);
     if ((none || !rung_.sides) && e_.sides > tolerance())
       omit("the sides of the body", -e_.sides, would(-e_.sides), free);
-    if (none && e_.curved_body > tolerance())
-      omit("the width of the body", e_.curved_body,
-           "which would change the force by up to " + percent_text(e_.curved_body), free);
+    if (none && e_.curved_body > 0.0 && e_.narrow > tolerance())
+      omit("the width of the body", -e_.narrow, would(-e_.narrow), free);
   }
 
   // By how much a half-space under `series` is too soft.                    docs/theory.md (10)
