@@ -62,10 +62,13 @@ constexpr double near_side_error = 0.25;  // for what is nearer
 // The stated error, chosen on one half of those bodies; the least is that of the terms above and of
 // the finite elements, 0.2 % each.
 constexpr double least_error = 0.004, side_error = 0.15, curved_error = 0.056;
-constexpr double layers_error = 0.36, inclusion_error = 0.073, hollow_error = 2.5;
+constexpr double layers_error = 0.21, inclusion_error = 0.073, hollow_error = 2.5;
 
-// d_5 S of a stiff skin, fitted to one half of the stacks of layers, and the error for each S.
-constexpr double skin_stretched = 0.457, skin_error = 0.22;
+// g (d_5 y + d_8 q sqrt(x) + d_9 ((h / (h + t_1))^2 - (h / (h + L))^2)) of a stiff skin, which is
+// stretched and bent as the press grows deep. Fitted to every second stack of layers, and the error
+// for g sqrt(x).
+constexpr double skin_share = 0.494, skin_ratio = -0.491, skin_stretched = 0.553,
+                 skin_error = 0.056;
 
 }  // namespace
 
@@ -79,6 +82,7 @@ std::optional<DepthRatio> depth_ratio(const DeepPress& press) {
       !(press.half_width > 0.0))
     return std::nullopt;
   const double q = (1.0 - 2.0 * nu) / (1.0 - nu);
+  const double soft = std::max(0.0, 1.0 - press.force_over_hertz);  // g
 
   // With s = sqrt(h/R): sqrt(x) = sqrt(R_e/R) s and y = (R/t) s^2.
   DepthRatio ratio;
@@ -104,11 +108,14 @@ std::optional<DepthRatio> depth_ratio(const DeepPress& press) {
     const double near = std::min(press.radius / press.side_distance, 1.0 / nearest_side);
     add(4, round * near * near * near * (sides_plain + sides_ratio * q));
   }
+  add(1, soft * skin_ratio * q * std::sqrt(round));
+  add(2, soft * skin_share * thin);
 
   ratio.radius_ = press.radius;
   ratio.tissue_share_ = press.tissue_share;
+  ratio.soft_ = soft;
   ratio.skin_ = press.skin;
-  ratio.force_over_hertz_ = press.force_over_hertz;
+  ratio.bending_length_ = press.bending_length;
   ratio.last_depth_ = std::min(DepthRatio::deepest_x * press.radius / round,
                                DepthRatio::deepest_y * press.thickness) /
                       press.tissue_share;
@@ -117,18 +124,13 @@ std::optional<DepthRatio> depth_ratio(const DeepPress& press) {
   ratio.error_by_depth_ =
       (press.half_width < nearest_side * press.radius ? near_side_error : side_error) *
       press.effective_radius / (press.half_width * press.half_width);
-  if (press.tissues == Tissues::layers) ratio.error_by_depth_ += layers_error * by_y;
+  if (press.tissues == Tissues::layers) {
+    ratio.error_by_depth_ += layers_error * by_y;
+    ratio.error_of_skin_ = skin_error * soft * std::sqrt(by_x);
+  }
   if (press.tissues == Tissues::inclusion) ratio.error_by_depth_ += inclusion_error * by_x;
   if (curved < 0.0) ratio.error_of_hollow_ = hollow_error * -curved * by_y * std::sqrt(by_y);
   return ratio;
-}
-
-SkinStretch skin_stretch(double force_over_hertz, double depth_over_skin) {
-  // S = (1 - f)^3 (z / (1 + z))^2
-  const double soft = std::max(0.0, 1.0 - force_over_hertz);
-  const double z = std::max(0.0, depth_over_skin);
-  const double share = soft * soft * soft * (z / (1.0 + z)) * (z / (1.0 + z));
-  return {.value = skin_stretched * share, .error = skin_error * share};
 }
 
 double DepthRatio::value(double depth) const {
@@ -137,15 +139,18 @@ double DepthRatio::value(double depth) const {
   const double s = std::sqrt(yielded / radius_);
   double sum = 0.0;
   for (std::size_t n = highest; n > 0; --n) sum = (sum + coefficients_[n - 1]) * s;
-  return 1.0 + sum + skin_stretch(force_over_hertz_, yielded / skin_).value;
+  const double stretched = yielded / (yielded + skin_);
+  const double bent = yielded / (yielded + bending_length_);
+  return 1.0 + sum + skin_stretched * soft_ * (stretched * stretched - bent * bent);
 }
 
 double DepthRatio::error(double depth) const {
   if (!(depth > 0.0)) return 0.0;
   const double known = std::min(depth, last_depth_);
   const double yielded = tissue_share_ * known;
-  return least_error_ + (error_by_depth_ + error_of_hollow_ * std::sqrt(yielded)) * yielded +
-         skin_stretch(force_over_hertz_, yielded / skin_).error +
+  const double root = std::sqrt(yielded);
+  return least_error_ +
+         (error_of_skin_ + (error_by_depth_ + error_of_hollow_ * root) * root) * root +
          std::abs(value(known) - 1.0) * (depth - known) / known;
 }
 
@@ -163,6 +168,13 @@ double effective_thickness(std::span<const Stratum> strata) {
     inverse += share * share / one.thickness;
   }
   return 1.0 / inverse;
+}
+
+double bending_length(std::span<const Stratum> strata) {
+  const auto modulus = [](const Stratum& one) {
+    return one.young_modulus / (1.0 - one.poisson_ratio * one.poisson_ratio);
+  };
+  return strata[0].thickness * std::cbrt(modulus(strata[0]) / modulus(strata[1]));
 }
 
 }  // namespace palpate::contact

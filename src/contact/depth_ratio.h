@@ -23,9 +23,10 @@ struct DeepPress {
   LayerBase base = LayerBase::bonded;
   // The share of the depth by which the tissue yields; the rest is that of an elastic finger.
   double tissue_share = 1.0;
-  // Of the top layer of a stack: its thickness, and the linear force divided by Hertz's force on
-  // its tissue alone.
+  // Of a stack of layers: the thickness t_1 of the top one, the length L over which it bends on the
+  // second one, and the linear force divided by Hertz's force on the tissue of the top layer alone.
   double skin = std::numeric_limits<double>::infinity();
+  double bending_length = std::numeric_limits<double>::infinity();
   double force_over_hertz = 1.0;
   // W to the sides: the mean of 1/W^3 over all directions is that of this distance.
   double side_distance = std::numeric_limits<double>::infinity();
@@ -41,8 +42,9 @@ struct DeepPress {
 //   1 + sum c_ijm x^(i/2) y^j q^m + (a/W)^2 h/W (d_6 + d_7 q)   on flat bodies
 //                                 + K y (d_1 y + d_2 q)     where K >= 0
 //                                 + K y^2 (d_3 + d_4 y)     where K < 0
-//                                 + the stretch of a stiff skin
-//   x = R_e h / R^2,  a^2 = R_e h,  y = h / t,  q = (1 - 2 nu) / (1 - nu),  K = R / R_e - 1
+//     + g (d_5 y + d_8 q sqrt(x) + d_9 ((h / (h + t_1))^2 - (h / (h + L))^2))  of a stiff skin
+//   x = R_e h / R^2,  a^2 = R_e h,  y = h / t,  q = (1 - 2 nu) / (1 - nu),  K = R / R_e - 1,
+//   g = 1 - force_over_hertz, 0 where that is negative
 // On wide layers this is the finite elements to 0.2 %.            tests/elasticity/deep_ratio.py
 class DepthRatio {
  public:
@@ -60,8 +62,8 @@ class DepthRatio {
   // The relative error of the factor, without that of the linear force. On random bodies that had
   // no part in choosing its constants it covers all errors of flat and convex ones; on hollow ones
   // both together cover 98 % of 200 presses.
-  //   e = 0.004 + 0.15 (a/W)^2 + 0.056 |K| + 0.36 y (layers) + 0.073 x (inclusion)
-  //       + 2.5 |K| y^(3/2) (hollow) + that of the stretch of a stiff skin
+  //   e = 0.004 + 0.15 (a/W)^2 + 0.056 |K| + 0.21 y + 0.056 g sqrt(x) (layers)
+  //       + 0.073 x (inclusion) + 2.5 |K| y^(3/2) (hollow)
   // with 0.25 (a/W)^2 where a side is nearer than the 1.8 R that were computed.
   // The term of hollow bodies is what the linear force of a mesh adds where the sphere conforms.
   // Beyond last_depth() the factor's distance from 1 is added as often as it fits into the excess.
@@ -72,9 +74,9 @@ class DepthRatio {
   static constexpr std::size_t highest = 9;     // power of sqrt(h)
   std::array<double, highest> coefficients_{};  // of s, s^2 ...; s = sqrt(h/R)
   double radius_ = 1.0, last_depth_ = 0.0, tissue_share_ = 1.0;
-  double skin_ = std::numeric_limits<double>::infinity(), force_over_hertz_ = 1.0;
-  // 1, 1/m and 1/m^(3/2)
-  double least_error_ = 0.0, error_by_depth_ = 0.0, error_of_hollow_ = 0.0;
+  double soft_ = 0.0, skin_ = 1.0, bending_length_ = 1.0;  // g, t_1 and L
+  // 1, 1/m^(1/2), 1/m and 1/m^(3/2)
+  double least_error_ = 0.0, error_of_skin_ = 0.0, error_by_depth_ = 0.0, error_of_hollow_ = 0.0;
 };
 
 // For one place and sphere. Empty where nothing was computed: nu outside [0, 1/2], tissue thinner
@@ -95,14 +97,8 @@ struct Stratum {
 //   M = E (1 - nu) / ((1 + nu) (1 - 2 nu))
 [[nodiscard]] double effective_thickness(std::span<const Stratum> strata);
 
-// What is added to the factor, and to its relative error, where the top layer is stiff: as the
-// press grows deep the skin is stretched, which linear elasticity does not know.
-//   d_5 (1 - f)^3 (z / (1 + z))^2, 0 where f >= 1       tests/elasticity/deep_ratio.py
-// f is the linear force divided by Hertz's force on the tissue of the top layer alone, and z the
-// depth divided by the thickness of that layer.
-struct SkinStretch {
-  double value = 0.0, error = 0.0;
-};
-[[nodiscard]] SkinStretch skin_stretch(double force_over_hertz, double depth_over_skin);
+// The length L (m) over which the first of at least two strata bends on the second, with the plane
+// moduli E* = E / (1 - nu^2):  L = t_1 (E*_1/E*_2)^(1/3)
+[[nodiscard]] double bending_length(std::span<const Stratum> strata);
 
 }  // namespace palpate::contact

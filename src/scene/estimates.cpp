@@ -149,8 +149,10 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   }
   if (!layer.below.empty()) {
     press.tissues = contact::Tissues::layers;
-    press.thickness = contact::effective_thickness(strata(tissue, layer, touch.thickness));
-    press.skin = layer.top() * touch.thickness;
+    const std::vector<contact::Stratum> all = strata(tissue, layer, touch.thickness);
+    press.thickness = contact::effective_thickness(all);
+    press.skin = all.front().thickness;
+    press.bending_length = contact::bending_length(all);
     press.force_over_hertz = 1.0 + found.thickness;
   } else if (!scenario.regions.empty()) {
     press.tissues = contact::Tissues::inclusion;
