@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "chart/journal.h"
+#include "integrate/modal.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 
@@ -277,7 +278,7 @@ class Measurer {
     } else {
       Variant rung = one.variant;
       rung.settings = {"solver.model=" + one.model};
-      if (const auto exact = exact_in_time(asked_, rung, stop_))
+      if (const auto exact = exact_in_time(asked_, rung, known_modes_, stop_))
         found = {"modal", "exact in time", *exact};
       if (!stop_.load()) journal_.add_reference(name, history_table(found));
     }
@@ -291,6 +292,7 @@ class Measurer {
   const std::function<void(const ChartProgress&)>& told_;
   std::vector<CaseChart> charts_;
   std::map<std::string, History> in_time_;
+  integrate::KnownModes known_modes_;  // of the last body
   Clock::time_point start_;
   int done_ = 0, all_ = 0, made_ = 0;
 };

@@ -331,7 +331,7 @@ std::optional<Truth> find_truth(const Asked& asked, std::size_t of_case,
 }
 
 std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
-                                     const std::atomic<bool>& stop) {
+                                     integrate::KnownModes& known, const std::atomic<bool>& stop) {
   const double interval = coarsest_interval(asked.family.cases[variant.of_case].scenario);
   std::vector<History> finer;
   try {
@@ -346,6 +346,7 @@ std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
       if (!scene.specimen || scene.specimen->network.nodes() > most_modal_nodes)
         return std::nullopt;
       scene.scenario.solver.modes = 3 * scene.specimen->network.nodes();  // all
+      scene.known_modes = &known;
       scene.scenario.output.keep_rows_only();
       const record::CaseRecord record = run::run_case(scene, stop);
       if (record.outcome != record::Outcome::completed) return std::nullopt;

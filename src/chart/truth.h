@@ -9,6 +9,10 @@
 #include "chart/design.h"
 #include "chart/history.h"
 
+namespace palpate::integrate {
+struct KnownModes;
+}
+
 namespace palpate::chart {
 
 struct Truth {
@@ -36,8 +40,9 @@ struct Truth {
 
 // The reference for errors of time integration: the variant's scenario by `modal` with substeps of
 // 1/4 ms, at the rows of coarsest_interval(); its error is the difference from substeps of 1/2 ms.
-// Nothing if `modal` cannot compute the scenario or `stop` was set.
+// Nothing if `modal` cannot compute the scenario or `stop` was set. `known` keeps the modes.
 [[nodiscard]] std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
+                                                   integrate::KnownModes& known,
                                                    const std::atomic<bool>& stop);
 
 }  // namespace palpate::chart

@@ -74,8 +74,8 @@ Columns orthonormalise(const Eigen::Ref<const Columns>& basis, Columns& block) {
 
 }  // namespace
 
-Modal::Modal(const Body& body, SymmetricSolver* statics) : body_(&body), statics_(statics) {
-  const auto held = body.held();
+void Modal::find_free() {
+  const auto held = body_->held();
   row_.assign(held.size(), -1);
   for (std::size_t d = 0; d < held.size(); ++d) {
     if (held[d] != 0) continue;
@@ -84,13 +84,17 @@ Modal::Modal(const Body& body, SymmetricSolver* statics) : body_(&body), statics
   }
 }
 
-Modal::Modal(const Body& body) : Modal(body, nullptr) { find_all(); }
+Modal::Modal(const Body& body, KnownModes* known) : body_(&body), statics_(nullptr) {
+  find_free();
+  find_all(known);
+}
 
-Modal::Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics)
-    : Modal(body, &statics) {
+Modal::Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics, KnownModes* known)
+    : body_(&body), statics_(&statics) {
+  find_free();
   // Lanczos iterations need a basis of some twice as many vectors as there are modes.
   if (const auto size = static_cast<Eigen::Index>(free_.size()); 3 * most > size) {
-    find_all();
+    find_all(known);
     if (most < size) {
       omega_ = Vector(omega_.head(most));
       shapes_ = Shapes(shapes_.leftCols(most));
@@ -100,7 +104,7 @@ Modal::Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics)
   }
 }
 
-void Modal::find_all() {
+void Modal::find_all(KnownModes* known) {
   const SplitMatrix stiffness = body_->stiffness();
   const auto size = static_cast<Eigen::Index>(free_.size());
   Vector scale(size);
@@ -118,9 +122,14 @@ void Modal::find_all() {
   add(stiffness.local);
   if (stiffness.weights.size() > 0)
     add(stiffness.shared.transpose() * stiffness.weights.asDiagonal() * stiffness.shared);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposition(scaled);
-  omega_ = decomposition.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  shapes_ = scale.asDiagonal() * decomposition.eigenvectors();
+  KnownModes own;
+  KnownModes& all = known != nullptr ? *known : own;
+  if (all.matrix.rows() != size || all.matrix != scaled) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposition(scaled);
+    all = {std::move(scaled), decomposition.eigenvalues(), decomposition.eigenvectors()};
+  }
+  omega_ = all.squares.cwiseMax(0.0).cwiseSqrt();
+  shapes_ = scale.asDiagonal() * all.vectors;
 }
 
 // Block Lanczos iterations with full orthogonalisation: the basis grows by a block until the modes

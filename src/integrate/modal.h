@@ -10,6 +10,14 @@
 
 namespace palpate::integrate {
 
+// All modes of the body for which they were found last, so that a body that is run again, as for a
+// chart's reference, is not solved again. Not thread-safe.
+struct KnownModes {
+  Eigen::MatrixXd matrix;   // 1/s^2, M^(-1/2) K M^(-1/2) of the free degrees of freedom
+  Vector squares;           // 1/s^2, its eigenvalues
+  Eigen::MatrixXd vectors;  // its eigenvectors, in columns
+};
+
 // Has the same interface as Implicit: the displacement at the end of a step is base +
 // response(load). If the load is known in advance, press() and pass() advance the modes alone, and
 // show() computes the displacement when it is needed.                   docs/theory.md (41)
@@ -19,13 +27,13 @@ namespace palpate::integrate {
 class Modal {
  public:
   // Solves K phi = omega^2 M phi for all modes of the body at rest by a dense solver, whose time
-  // grows with the cube of the degrees of freedom. The body must be linear and its damping
-  // proportional.
-  explicit Modal(const Body& body);
+  // grows with the cube of the degrees of freedom, unless `known` has them. The body must be linear
+  // and its damping proportional.
+  explicit Modal(const Body& body, KnownModes* known = nullptr);
   // Keeps the `most` lowest modes (1 or more), found by Lanczos iterations on the inverse of K.
   // `statics` must be prepared for K and the body's held degrees of freedom, and outlive this.
   // Throws MeshError if K is not positive definite.
-  Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics);
+  Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics, KnownModes* known = nullptr);
 
   [[nodiscard]] bool keeps_all() const {
     return omega_.size() == static_cast<Eigen::Index>(free_.size());
@@ -72,8 +80,8 @@ class Modal {
   };
   using Shapes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  explicit Modal(const Body& body, SymmetricSolver* statics);
-  void find_all();
+  void find_free();
+  void find_all(KnownModes* known);
   void find_lowest(Eigen::Index count);
   void start(const State& state);
   void prepare(double time_step);

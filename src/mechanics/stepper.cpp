@@ -31,11 +31,12 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
     case Integrator::modal: break;
   }
   if (statics == nullptr || !scenario::lowest_modes_serve(scene.scenario))
-    return integrate::Modal(body);
+    return integrate::Modal(body, scene.known_modes);
   prepare(*statics, body);
   const bool large = static_cast<Eigen::Index>(body.held().size()) >= SymmetricSolver::large;
-  return integrate::Modal(
-      body, solver.modes.value_or(large ? modes_of_large : scenario::default_modes), *statics);
+  return integrate::Modal(body,
+                          solver.modes.value_or(large ? modes_of_large : scenario::default_modes),
+                          *statics, scene.known_modes);
 }
 
 }  // namespace

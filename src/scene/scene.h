@@ -19,6 +19,10 @@
 #include "tissue/uniaxial.h"
 #include "tissue/viscous.h"
 
+namespace palpate::integrate {
+struct KnownModes;
+}
+
 namespace palpate::scene {
 
 // The questions (criteria) of the choice of a model.
@@ -144,9 +148,10 @@ struct Scene {
   Finger finger;
   contact::Relaxation relaxation;                  // of the contact's modulus; empty if elastic
   std::optional<contact::DepthRatio> depth_ratio;  // with `contact.depth = "neo_hookean"`
-  std::optional<contact::LayerContact> layer;  // for `layer`, and for `consistent` on flat layers
-  std::unique_ptr<Specimen> specimen;          // null for `hertz` and `layer`
-  SinkingStore* sinkings = nullptr;            // of cases that share bodies; outlives the scene
+  std::optional<contact::LayerContact> layer;    // for `layer`, and for `consistent` on flat layers
+  std::unique_ptr<Specimen> specimen;            // null for `hertz` and `layer`
+  SinkingStore* sinkings = nullptr;              // of cases that share bodies; outlives the scene
+  integrate::KnownModes* known_modes = nullptr;  // of a body that is run again; outlives the scene
 
   // From the top (without a mesh: the touch) to the base, m; infinite for shapes without size.
   [[nodiscard]] double thickness() const;

@@ -138,6 +138,25 @@ TEST_F(LowestModes, and_the_others_have_exact_statics_together) {
   }
 }
 
+// What is known is taken for the same body only.
+TEST_F(LowestModes, are_known_when_a_body_is_run_again) {
+  const integrate::Modal all(*body_);
+  integrate::KnownModes known;
+  Vector whole, again;
+  all.kept(load_, whole);
+  for (int run = 0; run < 2; ++run) {
+    integrate::Modal(*body_, &known).kept(load_, again);
+    EXPECT_EQ(again, whole);
+  }
+  known.squares *= 4.0;
+  EXPECT_DOUBLE_EQ(integrate::Modal(*body_, &known).highest(), 2.0 * all.highest());
+  held_[3 * mesh_.nodes.size() - 1] = 1;
+  const scene::SpringBody other(network_, tissue::Kinematics::linear,
+                                tissue::ViscousLaw{.kind = Viscosity::kelvin_voigt, .time = 0.01},
+                                held_);
+  EXPECT_EQ(integrate::Modal(other, &known).highest(), integrate::Modal(other).highest());
+}
+
 TEST_F(LowestModes, move_as_they_do_among_all) {
   integrate::State rest;
   rest.displacement = rest.velocity = Vector::Zero(load_.size());
