@@ -120,10 +120,14 @@ class Measurer {
     for (std::size_t i = 0; i < asked_.family.cases.size(); ++i)
       if (!begin(i)) return std::nullopt;
     start_ = Clock::now();
-    for (int round = 0; round < options_.repeats; ++round)
+    for (int round = 0; round < options_.repeats; ++round) {
+      if (round == 1) first_end_ = Clock::now();
       for (CaseChart& chart : charts_)
-        for (Measurement& one : chart.rows)
+        for (Measurement& one : chart.rows) {
+          if (round > 0 && since(first_end_) > options_.again) return charts_;
           if (!visit(chart, one, round)) return std::nullopt;
+        }
+    }
     return charts_;
   }
 
@@ -161,7 +165,7 @@ class Measurer {
     if (stop_.load()) return false;
     ChartProgress progress{(charts_.size() > 1 ? chart.name + ": " : "") + one.variant.name, done_,
                            all_};
-    if (made_ > 0 && since(start_) > 1.0) progress.left = since(start_) / made_ * (all_ - done_);
+    if (made_ > 0 && since(start_) > 1.0) progress.left = left(round);
     ++done_;
     if (!wanted(one, round)) return true;
     told_(progress);
@@ -170,6 +174,14 @@ class Measurer {
     ++made_;
     if (timings == 0 || one.timings.size() > timings) journal_.add(one);
     return true;
+  }
+
+  // s, estimated from the timings made; the rounds after the first take up to `again`.
+  [[nodiscard]] double left(int round) const {
+    const double each = since(start_) / made_;
+    if (round > 0) return std::min(each * (all_ - done_), options_.again - since(first_end_));
+    const int first = all_ / options_.repeats;
+    return each * (first - done_) + std::min(each * (all_ - first), options_.again);
   }
 
   [[nodiscard]] bool wanted(const Measurement& one, int round) const {
@@ -293,7 +305,7 @@ class Measurer {
   std::vector<CaseChart> charts_;
   std::map<std::string, History> in_time_;
   integrate::KnownModes known_modes_;  // of the last body
-  Clock::time_point start_;
+  Clock::time_point start_, first_end_;  // of all rounds; of the first one
   int done_ = 0, all_ = 0, made_ = 0;
 };
 

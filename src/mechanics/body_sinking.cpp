@@ -83,15 +83,21 @@ void BodySinking::make_couplings() {
   sliding_.emplace(*scene_, *part_, slides, modulus_);
 }
 
-// From loads along two axes and between them. The half-space's own is 3 q / (20 a), q = (2 - nu)/G.
-Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch) {
+// The presses of find_shear().
+std::array<EnergyCoupling::Press, 3> BodySinking::shear_presses(const contact::Patch& patch) {
   const Vec3 x = patch.axis;
   const Vec3 y = patch.normal.cross(x);
-  const auto beyond = coupling_->beyond(std::array<EnergyCoupling::Press, 3>{
-      {{patch, x}, {patch, y}, {patch, (x + y).normalized()}}});
+  return {{{patch, x}, {patch, y}, {patch, (x + y).normalized()}}};
+}
+
+// From loads along two axes and between them. The half-space's own is 3 q / (20 a), q = (2 - nu)/G.
+Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch,
+                                        std::span<const BeyondHalfSpace, 3> beyond) const {
   const auto along = [&](std::size_t load) {
     return corrected(beyond[load], least_corrected * 0.15 * shear_compliance_ / patch.a);
   };
+  const Vec3 x = patch.axis;
+  const Vec3 y = patch.normal.cross(x);
   const double of_x = along(0);
   const double of_y = along(1);
   const double of_both = along(2) - 0.5 * (of_x + of_y);
@@ -108,9 +114,12 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
     presses[k].patch.axis = like.normal.unitOrthogonal();
     presses[k].patch.a = presses[k].patch.b = steps[k] * largest_;
   }
-  std::vector<BeyondHalfSpace> all = coupling_->beyond(presses);
   std::vector<BeyondHalfSpace> sliding;
   if (sliding_) sliding = sliding_->beyond(presses);
+  for (std::size_t k = 0; rubs_ && k < radii; ++k)
+    for (const EnergyCoupling::Press& press : shear_presses(presses[k].patch))
+      presses.push_back(press);
+  std::vector<BeyondHalfSpace> all = coupling_->beyond(presses);
   for (std::size_t k = 0; k < radii; ++k) {
     const contact::Patch& patch = presses[k].patch;
     BeyondHalfSpace& beyond = all[k];
@@ -124,7 +133,9 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
       // 3/(5 E' a) is the half-space's own sinking, docs/theory.md (13).
       place.sinking[k] = corrected(beyond, least_corrected * 0.6 / (plane_modulus_ * patch.a));
     }
-    if (rubs_) place.shear[k] = find_shear(patch);
+    if (rubs_)
+      place.shear[k] =
+          find_shear(patch, std::span<const BeyondHalfSpace, 3>(&all[radii + 3 * k], 3));
     place.error[k] = beyond.error;
     place.boundary[k] = beyond.boundary;
     if (k == 2) place.rest = std::move(beyond.rest);

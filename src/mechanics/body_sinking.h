@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mechanics/energy_coupling.h"
@@ -65,7 +66,10 @@ class BodySinking {
   void at_radius(const contact::Patch& patch, const Add& add);
   [[nodiscard]] std::string key() const;
   void make_couplings();
-  [[nodiscard]] Eigen::Matrix3d find_shear(const contact::Patch& patch);
+  [[nodiscard]] static std::array<EnergyCoupling::Press, 3> shear_presses(
+      const contact::Patch& patch);
+  [[nodiscard]] Eigen::Matrix3d find_shear(const contact::Patch& patch,
+                                           std::span<const BeyondHalfSpace, 3> beyond) const;
   void spread(const contact::Patch& patch);
   [[nodiscard]] Place evaluate(const contact::Patch& like);
   [[nodiscard]] Place place_at(const contact::Patch& like, int vertex);

@@ -13,11 +13,19 @@ namespace palpate::mechanics {
 
 using integrate::Vector;
 
+namespace {
+
+// Of solutions, in the energy norm. The sinking is an energy: its error is the square.
+constexpr double tolerance = 3e-4;
+
+}  // namespace
+
 EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& part,
                                std::span<const char> held, double unit)
     : skin_(&*scene.specimen->surface),
       held_(held.begin(), held.end()),
       pairs_(part.network.ends),
+      solver_(tolerance),
       volume_(scenario::rung(scene.scenario.solver.model).coupled() ? scene.scenario.solver.volume
                                                                     : tissue::Volume::nodal) {
   const scene::Specimen& specimen = *scene.specimen;
