@@ -15,6 +15,7 @@
 #include "integrate/modal.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
+#include "scene/specimen_shape.h"
 
 namespace palpate::chart {
 namespace {
@@ -81,13 +82,15 @@ double end_time(const record::CaseRecord& record) {
   return record.strain.empty() ? 0.0 : record.strain.back().time;
 }
 
-// Runs the programme without its findings; returns the run time, s.
+// Runs the programme without its findings; returns the run time, s. It includes the time for modes
+// that are known already.
 double run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
                 record::CaseRecord& record) {
   record = {};
+  const double saved = scene.known_modes->saved;
   const Clock::time_point start = Clock::now();
   run::run_programme(scene, stop, record);
-  return since(start);
+  return since(start) + scene.known_modes->saved - saved;
 }
 
 // The least time of several runs, s, because disturbances only slow a run down; once if it is long.
@@ -149,7 +152,7 @@ class Measurer {
       journal_.add_reference(name, history_table(chart.truth));
     }
     chart.reference_error = own_error(one.scenario, chart.truth.moments).greatest;
-    for (const Variant& variant : design(asked_, i)) {
+    for (const Variant& variant : design(asked_, i, shapes_)) {
       if (stop_.load()) return false;
       Measurement fresh;
       fresh.variant = variant;
@@ -199,12 +202,12 @@ class Measurer {
     const bool first = one.timings.empty();
     try {
       const auto family = with_settings(asked_, one.variant.of_case, one.variant.settings);
-      const double setup = predicted_setup(family.cases.front());
-      if (setup > options_.longest) return not_run(one, setup);
-      const Clock::time_point start = Clock::now();
-      scene::Scene scene = run::build_scene(family.cases.front(), family);
-      Timing timing{.build = since(start)};
+      Timing timing;
+      auto built = build(family, timing, one);
+      if (!built) return true;
+      scene::Scene& scene = *built;
       scene.scenario.output.keep_rows_only();
+      scene.known_modes = &known_modes_;
       settle(scene, one);
       const Watch watch(stop_, options_.longest);
       record::CaseRecord record;
@@ -213,7 +216,17 @@ class Measurer {
       timing.first_row = timed(scene, watch.flag(), record);
       one.first_simulated = end_time(record);
       scene.scenario.steps = steps;
+      // Variants that differ in the time step alone tell what a step takes.
+      double& a_step = seconds_a_step_[joined(
+          std::vector<std::string>{std::to_string(one.variant.of_case), one.model, one.coupling,
+                                   one.integrator, one.rings, std::to_string(one.nodes)},
+          " ")];
+      const double steps_in_all = one.substep > 0.0 ? scene_time(chart) / one.substep : 0.0;
+      if (first && a_step * steps_in_all > 1.5 * options_.longest)
+        return not_run(one, timing.first_row + a_step * steps_in_all);
       timing.whole = timed(scene, watch.flag(), record);
+      if (const double longer = end_time(record) - one.first_simulated; longer > 0.0)
+        a_step = (timing.whole - timing.first_row) * one.substep / longer;
       if (stop_.load()) return false;
       if (record.outcome == record::Outcome::interrupted && first)
         return not_run(one, timing.whole * scene_time(chart) /
@@ -229,10 +242,28 @@ class Measurer {
     return true;
   }
 
-  // s; the estimate made when the model is chosen.
-  static double predicted_setup(const scenario::Case& one) {
-    const scene::Choice choice = scene::choose(one);
-    return choice.taken() != nullptr ? choice.taken()->seconds : 0.0;
+  // Nothing if the set-up is predicted to take too long. Variants on one mesh share it, and the
+  // time it took counts for each of them.
+  std::optional<scene::Scene> build(const scenario::Family& family, Timing& timing,
+                                    Measurement& one) {
+    const scenario::Case& asked = family.cases.front();
+    const Clock::time_point start = Clock::now();
+    scene::Choice choice = scene::choose(asked);
+    const double setup = choice.taken() != nullptr ? choice.taken()->seconds : 0.0;
+    if (setup > options_.longest) {
+      not_run(one, setup);
+      return std::nullopt;
+    }
+    if (!choice.chosen.meshed()) {
+      scene::SpecimenShapes none;
+      scene::Scene scene = run::build_scene(asked, family, none, std::move(choice));
+      timing.build = since(start);
+      return scene;
+    }
+    const double made = shapes_.seconds();
+    scene::Scene scene = run::build_scene(asked, family, shapes_, std::move(choice));
+    timing.build = since(start) - (shapes_.seconds() - made) + shapes_.seconds(scene.scenario);
+    return scene;
   }
 
   static double scene_time(const CaseChart& chart) {
@@ -304,8 +335,10 @@ class Measurer {
   const std::function<void(const ChartProgress&)>& told_;
   std::vector<CaseChart> charts_;
   std::map<std::string, History> in_time_;
-  integrate::KnownModes known_modes_;  // of the last body
-  Clock::time_point start_, first_end_;  // of all rounds; of the first one
+  scene::SpecimenShapes shapes_;                  // meshes of all variants
+  integrate::KnownModes known_modes_;             // of the last body
+  std::map<std::string, double> seconds_a_step_;  // by all choices but the time step
+  Clock::time_point start_, first_end_;           // of all rounds; of the first one
   int done_ = 0, all_ = 0, made_ = 0;
 };
 

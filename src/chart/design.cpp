@@ -116,8 +116,12 @@ Settings one_step(double step_ms, double interval) {
 
 class Designer {
  public:
-  Designer(const Asked& asked, std::size_t of_case)
-      : asked_(asked), case_(of_case), one_(asked.family.cases[of_case]), base_(one_.scenario) {
+  Designer(const Asked& asked, std::size_t of_case, scene::SpecimenShapes& shapes)
+      : asked_(asked),
+        case_(of_case),
+        one_(asked.family.cases[of_case]),
+        base_(one_.scenario),
+        shapes_(shapes) {
     scenario::Case open = one_;
     open.scenario.solver.model.reset();
     open.scenario.solver.integrator.reset();
@@ -234,7 +238,7 @@ class Designer {
   [[nodiscard]] std::optional<scene::TimePlan> plan_of(const Settings& settings) const {
     try {
       const auto family = with_settings(asked_, case_, settings);
-      const scene::Scene scene = run::build_scene(family.cases.front(), family);
+      const scene::Scene scene = run::build_scene(family.cases.front(), family, shapes_);
       if (scene.specimen) return scene.specimen->plan;
     } catch (const InputError&) {
     } catch (const MeshError&) {
@@ -255,12 +259,12 @@ class Designer {
   const Asked& asked_;
   std::size_t case_;
   const scenario::Case& one_;
-  const Scenario& base_;                 // of one_
+  const Scenario& base_;  // of one_
+  scene::SpecimenShapes& shapes_;
   Model rung_ = scenario::strongest.of;  // the model of the groups integrator x time step and rings
   std::string integrator_;
   std::vector<Variant> variants_;
   std::set<std::string> seen_;
-  mutable scene::SpecimenShapes shapes_;  // surface files, read once
 };
 
 void refuse_own_keys(const scenario::Family& family) {
@@ -288,8 +292,9 @@ std::string word_of(Model model) { return scenario::rung(model).word; }
 std::string word_of(Integrator integrator) { return words::word(words::integrators, integrator); }
 std::string word_of(contact::Coupling coupling) { return words::word(words::couplings, coupling); }
 
-std::vector<Variant> design(const Asked& asked, std::size_t of_case) {
-  return Designer(asked, of_case).all();
+std::vector<Variant> design(const Asked& asked, std::size_t of_case,
+                            scene::SpecimenShapes& shapes) {
+  return Designer(asked, of_case, shapes).all();
 }
 
 double coarsest_interval(const scenario::PlainScenario& scenario) {

@@ -20,6 +20,10 @@
 
 #include "scenario/family.h"
 
+namespace palpate::scene {
+class SpecimenShapes;
+}
+
 namespace palpate::chart {
 
 // A scenario file with the settings of the command line.
@@ -53,8 +57,9 @@ struct Variant {
 };
 
 // The variants of a case, in the order of the table, without those that result in the same resolved
-// scenario as an earlier one. Throws like scene::choose().
-[[nodiscard]] std::vector<Variant> design(const Asked& asked, std::size_t of_case);
+// scenario as an earlier one. `shapes` keeps the meshes made for it. Throws like scene::choose().
+[[nodiscard]] std::vector<Variant> design(const Asked& asked, std::size_t of_case,
+                                          scene::SpecimenShapes& shapes);
 
 // Case `of_case` with further settings, as a family of one case. Throws InputError if invalid.
 [[nodiscard]] scenario::Family with_settings(const Asked& asked, std::size_t of_case,

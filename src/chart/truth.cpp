@@ -278,7 +278,7 @@ class Finder {
     if (ready) return vouched_uniform(integrator, more);
     std::vector<History> levels;
     std::vector<double> spacings;
-    double coarsest = integrator == std::string("modal") ? 40.0 : 150.0;
+    double coarsest = integrator == std::string("modal") ? 40.0 : 600.0;
     for (const double times : {1.0, 2.0, 4.0}) {
       // Where the shape needs so many nodes that `modal` does not take the finest level.
       if (4.0 * coarsest > most_modal_nodes && integrator == std::string("modal"))
@@ -335,7 +335,9 @@ std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
   const double interval = coarsest_interval(asked.family.cases[variant.of_case].scenario);
   std::vector<History> finer;
   try {
-    for (const double step : {0.5e-3, 0.25e-3}) {
+    // Modes follow the constant loads of a uniform test exactly.
+    const double longest = asked.family.cases[variant.of_case].scenario.uniform() ? interval : 5e-4;
+    for (const double step : {longest, 0.5 * longest}) {
       Settings settings = variant.settings;
       settings.emplace_back("solver.integrator=modal");
       settings.push_back("output.interval=" + number_text(1e3 * interval) + " ms");

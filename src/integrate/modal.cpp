@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -125,8 +126,14 @@ void Modal::find_all(KnownModes* known) {
   KnownModes own;
   KnownModes& all = known != nullptr ? *known : own;
   if (all.matrix.rows() != size || all.matrix != scaled) {
+    const auto start = std::chrono::steady_clock::now();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposition(scaled);
-    all = {std::move(scaled), decomposition.eigenvalues(), decomposition.eigenvectors()};
+    all.matrix = std::move(scaled);
+    all.squares = decomposition.eigenvalues();
+    all.vectors = decomposition.eigenvectors();
+    all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  } else {
+    all.saved += all.seconds;
   }
   omega_ = all.squares.cwiseMax(0.0).cwiseSqrt();
   shapes_ = scale.asDiagonal() * all.vectors;

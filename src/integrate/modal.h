@@ -16,6 +16,8 @@ struct KnownModes {
   Eigen::MatrixXd matrix;   // 1/s^2, M^(-1/2) K M^(-1/2) of the free degrees of freedom
   Vector squares;           // 1/s^2, its eigenvalues
   Eigen::MatrixXd vectors;  // its eigenvectors, in columns
+  double seconds = 0.0;     // that finding these took
+  double saved = 0.0;       // s, in all, by not finding them again
 };
 
 // Has the same interface as Implicit: the displacement at the end of a step is base +

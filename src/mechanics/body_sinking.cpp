@@ -116,9 +116,13 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
   }
   std::vector<BeyondHalfSpace> sliding;
   if (sliding_) sliding = sliding_->beyond(presses);
-  for (std::size_t k = 0; rubs_ && k < radii; ++k)
-    for (const EnergyCoupling::Press& press : shear_presses(presses[k].patch))
-      presses.push_back(press);
+  // A straight line over the radius serves for what the body adds to shear.
+  constexpr std::size_t narrow = 1;
+  constexpr std::size_t wide = 3;
+  if (rubs_)
+    for (const std::size_t k : {narrow, wide})
+      for (const EnergyCoupling::Press& press : shear_presses(presses[k].patch))
+        presses.push_back(press);
   std::vector<BeyondHalfSpace> all = coupling_->beyond(presses);
   for (std::size_t k = 0; k < radii; ++k) {
     const contact::Patch& patch = presses[k].patch;
@@ -133,12 +137,17 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
       // 3/(5 E' a) is the half-space's own sinking, docs/theory.md (13).
       place.sinking[k] = corrected(beyond, least_corrected * 0.6 / (plane_modulus_ * patch.a));
     }
-    if (rubs_)
-      place.shear[k] =
-          find_shear(patch, std::span<const BeyondHalfSpace, 3>(&all[radii + 3 * k], 3));
     place.error[k] = beyond.error;
     place.boundary[k] = beyond.boundary;
     if (k == 2) place.rest = std::move(beyond.rest);
+  }
+  if (rubs_) {
+    const std::span shears(all.begin() + radii, all.end());
+    const Eigen::Matrix3d low = find_shear(presses[narrow].patch, shears.first<3>());
+    const Eigen::Matrix3d high = find_shear(presses[wide].patch, shears.last<3>());
+    for (std::size_t k = 0; k < radii; ++k)
+      place.shear[k] =
+          low + (steps[k] - steps[narrow]) / (steps[wide] - steps[narrow]) * (high - low);
   }
   place.solution_error = coupling_->take_solution_error();
   if (sliding_)

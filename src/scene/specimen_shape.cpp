@@ -2,6 +2,7 @@
 #include "scene/specimen_shape.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -108,6 +109,16 @@ SpecimenShapes::Entry& SpecimenShapes::entry(const Scenario& scenario) {
   return entries_[key];
 }
 
+template <class Part, class Made>
+void SpecimenShapes::fill(Entry& entry, std::unique_ptr<Part>& part, const Made& made) {
+  const auto start = std::chrono::steady_clock::now();
+  part = std::make_unique<Part>(made());
+  const double spent =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  entry.seconds += spent;
+  seconds_ += spent;
+}
+
 std::size_t SpecimenShapes::size() {
   const std::lock_guard lock(looking_up_);
   return entries_.size();
@@ -120,7 +131,7 @@ const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const std::
 const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const Make& make) {
   Entry& known = entry(scenario);
   const std::lock_guard lock(known.building);
-  if (!known.shape) known.shape = std::make_unique<SpecimenShape>(make());
+  if (!known.shape) fill(known, known.shape, make);
   return *known.shape;
 }
 
@@ -128,8 +139,14 @@ const tissue::SpringFit& SpecimenShapes::fit(const Scenario& scenario, const std
   const geometry::TetMesh& mesh = shape(scenario, folder).mesh;
   Entry& known = entry(scenario);
   const std::lock_guard lock(known.building);
-  if (!known.fit) known.fit = std::make_unique<tissue::SpringFit>(tissue::fit_springs(mesh));
+  if (!known.fit) fill(known, known.fit, [&] { return tissue::fit_springs(mesh); });
   return *known.fit;
+}
+
+double SpecimenShapes::seconds(const Scenario& scenario) {
+  Entry& known = entry(scenario);
+  const std::lock_guard lock(known.building);
+  return known.seconds;
 }
 
 const SpecimenShapes::FileSurface& SpecimenShapes::surface(const scenario::SurfaceFile& file,

@@ -1,6 +1,7 @@
 // The part of a specimen that does not depend on its materials, built once for all its cases.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -66,6 +67,10 @@ class SpecimenShapes {
   [[nodiscard]] const FileSurface& surface(const scenario::SurfaceFile& file,
                                            const std::string& folder);
 
+  // How long the shape of this scenario with its fit took to make, and all shapes so far, s.
+  [[nodiscard]] double seconds(const scenario::Resolved& scenario);
+  [[nodiscard]] double seconds() const { return seconds_; }
+
   // The number of shapes.
   [[nodiscard]] std::size_t size();
 
@@ -77,11 +82,15 @@ class SpecimenShapes {
     std::mutex building;
     std::unique_ptr<SpecimenShape> shape;
     std::unique_ptr<tissue::SpringFit> fit;
+    double seconds = 0.0;
   };
+  template <class Part, class Made>
+  void fill(Entry& entry, std::unique_ptr<Part>& part, const Made& made);
   [[nodiscard]] Entry& entry(const scenario::Resolved& scenario);
 
   std::mutex looking_up_;
   std::map<std::string, Entry> entries_;
+  std::atomic<double> seconds_ = 0.0;
   std::map<std::string, FileSurface> surfaces_;  // by path and unit
 
   std::mutex looking_up_layer_;

@@ -54,7 +54,8 @@ using Settings = std::vector<std::string>;
 const std::string quick = scenario::press + "[contact]\ncoupling = \"one_way\"\n";
 
 TEST_F(Design, APressHasEveryGroup) {
-  const auto variants = design(asked(quick), 0);
+  scene::SpecimenShapes shapes;
+  const auto variants = design(asked(quick), 0, shapes);
   ASSERT_FALSE(variants.empty());
   EXPECT_EQ(variants.front().name, "auto");
   EXPECT_EQ(variants.front().settings, Settings{});

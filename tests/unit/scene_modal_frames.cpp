@@ -148,6 +148,8 @@ TEST_F(LowestModes, are_known_when_a_body_is_run_again) {
     integrate::Modal(*body_, &known).kept(load_, again);
     EXPECT_EQ(again, whole);
   }
+  EXPECT_GT(known.seconds, 0.0);
+  EXPECT_EQ(known.saved, known.seconds);
   known.squares *= 4.0;
   EXPECT_DOUBLE_EQ(integrate::Modal(*body_, &known).highest(), 2.0 * all.highest());
   const tissue::Network stiffer = tissue::make_network(

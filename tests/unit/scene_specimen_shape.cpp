@@ -74,6 +74,26 @@ TEST(SpecimenShapes, are_built_once_for_all_that_differ_in_substance) {
   }
 }
 
+// Those that find a mesh made know what it took.
+TEST(SpecimenShapes, tell_how_long_they_took) {
+  const auto family = family_of("\"tissue.mesh.cells\" = [[2, 3, 2], [3, 2, 2]]\n");
+  const scenario::Resolved one = resolved(family.cases[0]);
+  scene::SpecimenShapes shapes;
+  EXPECT_EQ(shapes.seconds(), 0.0);
+  (void)shapes.shape(one, "");
+  const double alone = shapes.seconds(one);
+  EXPECT_GT(alone, 0.0);
+  EXPECT_EQ(shapes.seconds(), alone);
+  (void)shapes.shape(one, "");
+  EXPECT_EQ(shapes.seconds(one), alone);
+  (void)shapes.fit(one, "");
+  const double fitted = shapes.seconds(one);
+  EXPECT_GT(fitted, alone);
+  (void)shapes.shape(resolved(family.cases[1]), "");
+  EXPECT_EQ(shapes.seconds(one), fitted);
+  EXPECT_GT(shapes.seconds(), fitted);
+}
+
 // Whatever moves a node or changes what a tetrahedron is made of.
 TEST(SpecimenShapes, are_apart_where_the_mesh_differs) {
   const auto key = [](const std::vector<std::string>& settings, const std::string& more = "") {
