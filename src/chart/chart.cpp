@@ -209,11 +209,14 @@ class Measurer {
       scene.scenario.output.keep_rows_only();
       scene.known_modes = &known_modes_;
       settle(scene, one);
-      const Watch watch(stop_, options_.longest);
       record::CaseRecord record;
+      const auto timed_within = [&](double limit) {
+        const Watch watch(stop_, limit);
+        return timed(scene, watch.flag(), record);
+      };
       const std::vector<scenario::Step> steps = scene.scenario.steps;
       scene.scenario.steps = first_row(scene);
-      timing.first_row = timed(scene, watch.flag(), record);
+      timing.first_row = timed_within(options_.longest);
       one.first_simulated = end_time(record);
       scene.scenario.steps = steps;
       // Variants that differ in the time step alone tell what a step takes.
@@ -224,14 +227,20 @@ class Measurer {
       const double steps_in_all = one.substep > 0.0 ? scene_time(chart) / one.substep : 0.0;
       if (first && a_step * steps_in_all > 1.5 * options_.longest)
         return not_run(one, timing.first_row + a_step * steps_in_all);
-      timing.whole = timed(scene, watch.flag(), record);
+      // A quarter of the time shows which variants take far too long.
+      const auto predicted = [&] {
+        return timing.whole * scene_time(chart) /
+               std::max(end_time(record), scene.scenario.output.interval);
+      };
+      const auto interrupted = [&] { return record.outcome == record::Outcome::interrupted; };
+      timing.whole = timed_within((first ? 0.25 : 1.0) * options_.longest);
+      if (first && interrupted() && !stop_.load() && predicted() < 2.0 * options_.longest)
+        timing.whole = timed_within(options_.longest);
       if (const double longer = end_time(record) - one.first_simulated; longer > 0.0)
         a_step = (timing.whole - timing.first_row) * one.substep / longer;
       if (stop_.load()) return false;
-      if (record.outcome == record::Outcome::interrupted && first)
-        return not_run(one, timing.whole * scene_time(chart) /
-                                std::max(end_time(record), scene.scenario.output.interval));
-      if (record.outcome == record::Outcome::interrupted) return true;  // the machine was slow
+      if (interrupted() && first) return not_run(one, predicted());
+      if (interrupted()) return true;  // the machine was slow
       one.timings.push_back(timing);
       if (first) compare(chart, scene, record, one);
     } catch (const InputError& error) {

@@ -54,22 +54,6 @@ std::array<int, 3> scaled(std::array<int, 3> cells, double factor) {
   return cells;
 }
 
-// The setting for a mesh with about `factor` times as many nodes; empty for a ready mesh.
-std::string finer(const Scenario& scenario, double factor) {
-  const scenario::Mesh& mesh = scenario.tissue.mesh;
-  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&mesh))
-    return text_of_cells("kuhn", scaled(kuhn->cells, factor), kuhn->grading);
-  if (const auto* mirrored = std::get_if<scenario::Mirrored>(&mesh))
-    return text_of_cells("mirrored", scaled(mirrored->cells, factor), mirrored->grading);
-  const auto* tetgen = std::get_if<scenario::Tetgen>(&mesh);
-  if (tetgen == nullptr) return "";
-  if (tetgen->edge)
-    return "tissue.mesh={kind='tetgen',edge='" +
-           number_text(1e3 * *tetgen->edge / std::cbrt(factor)) + " mm'}";
-  return "tissue.mesh={kind='tetgen',nodes=" +
-         std::to_string(std::max(8L, std::lround(factor * tetgen->nodes))) + "}";
-}
-
 // The setting for cells that are small enough for `resolved` under the finger and grow with the
 // distance from it; empty unless one sphere presses a cuboid of one tissue without a ready mesh.
 std::string graded(const Scenario& scenario, const scene::Estimates& found) {
@@ -181,7 +165,7 @@ class Designer {
   void meshes(Model model) {
     add("rung x mesh", word_of(model), rung(model));
     for (const double factor : mesh_factors)
-      if (const std::string mesh = finer(base_, factor); !mesh.empty())
+      if (const std::string mesh = mesh_setting(base_, factor); !mesh.empty())
         add("rung x mesh", word_of(model) + ", nodes x " + number_text(factor),
             joined_to(rung(model), {mesh}));
   }
@@ -291,6 +275,21 @@ std::string model_setting(Model model) { return "solver.model=" + word_of(model)
 std::string word_of(Model model) { return scenario::rung(model).word; }
 std::string word_of(Integrator integrator) { return words::word(words::integrators, integrator); }
 std::string word_of(contact::Coupling coupling) { return words::word(words::couplings, coupling); }
+
+std::string mesh_setting(const Scenario& scenario, double factor) {
+  const scenario::Mesh& mesh = scenario.tissue.mesh;
+  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&mesh))
+    return text_of_cells("kuhn", scaled(kuhn->cells, factor), kuhn->grading);
+  if (const auto* mirrored = std::get_if<scenario::Mirrored>(&mesh))
+    return text_of_cells("mirrored", scaled(mirrored->cells, factor), mirrored->grading);
+  const auto* tetgen = std::get_if<scenario::Tetgen>(&mesh);
+  if (tetgen == nullptr) return "";
+  if (tetgen->edge)
+    return "tissue.mesh={kind='tetgen',edge='" +
+           number_text(1e3 * *tetgen->edge / std::cbrt(factor)) + " mm'}";
+  return "tissue.mesh={kind='tetgen',nodes=" +
+         std::to_string(std::max(8L, std::lround(factor * tetgen->nodes))) + "}";
+}
 
 std::vector<Variant> design(const Asked& asked, std::size_t of_case,
                             scene::SpecimenShapes& shapes) {

@@ -73,6 +73,9 @@ struct Variant {
 // in which inertia does not matter, without nodal drag, else `central_difference`.
 [[nodiscard]] scenario::Solver::Integrator base_integrator(const scenario::Case& one);
 
+// The setting for a mesh with about `factor` times as many nodes; empty for a ready mesh.
+[[nodiscard]] std::string mesh_setting(const scenario::Scenario& scenario, double factor);
+
 // `solver.model=WORD`.
 [[nodiscard]] std::string model_setting(scenario::Model model);
 

@@ -51,7 +51,6 @@ class Finder {
   }
 
  private:
-  // Runs the case with further settings; nothing if it was interrupted.
   [[nodiscard]] std::optional<History> run(const Settings& settings) const {
     const auto family = with_settings(asked_, case_, settings);
     scene::Scene scene = run::build_scene(family.cases.front(), family);
@@ -60,8 +59,7 @@ class Finder {
     const record::CaseRecord record = run::run_case(scene, stop_);
     if (record.outcome == record::Outcome::interrupted) return std::nullopt;
     if (record.outcome == record::Outcome::diverged)
-      throw MeshError("the reference of case " + asked_.family.cases[case_].name +
-                      " diverged: " + record.reason);
+      throw MeshError("the reference of case " + one_.name + " diverged: " + record.reason);
     return history(scenario_, record);
   }
 
@@ -129,21 +127,28 @@ class Finder {
     Truth truth{"refined", "", {}};
     double turned = 0.0;
     double peak = 0.0;
-    // The reference of a still press leaves inertia out, as most variants do; where this is more
-    // than a little, it counts as an error.
+    // The reference of a still press leaves inertia out. Where this is more than a little, coupled
+    // springs say what it adds; where they do not, the estimate counts as an error.
     const double waves =
         reference.moves || found.inertia <= 0.1 * scenario_.solver.tolerance ? 0.0 : found.inertia;
-    for (const chart::ReferenceRow& row : reference.rows) {
-      truth.moments.push_back(
-          {row.step, row.time, row.force, row.error + waves * std::abs(row.force)});
+    std::optional<Inertia> added;
+    if (waves > 0.0 && !flows) added = inertia_of_press(interval, reference.rows);
+    if (stop_.load()) return std::nullopt;
+    for (std::size_t i = 0; i < reference.rows.size(); ++i) {
+      const chart::ReferenceRow& row = reference.rows[i];
+      const Moment more = added ? added->added[i] : Moment{.error = waves * std::abs(row.force)};
+      truth.moments.push_back({row.step, row.time, row.force + more.value, row.error + more.error});
       peak = std::max(peak, row.force);
       turned = std::max(turned, std::abs(row.by_sphere - 1.0) * row.force);
     }
+    const std::string inertia =
+        added ? "and what inertia adds to coupled springs, " + percent_text(added->greatest)
+              : "without inertia, whose estimated effect is " + percent_text(found.inertia);
     truth.sentence = reference.moves
                          ? "coupled springs on three meshes, extrapolated (`palpate reference`)"
                          : "coupled springs on meshes that follow their error (`palpate "
-                           "reference`), without inertia, whose estimated effect is " +
-                               percent_text(found.inertia);
+                           "reference`), " +
+                               inertia;
     truth.sentence += "; forces" + depth_text(found);
     const double own = own_error(scenario_, truth.moments).greatest;
     truth.sentence += "; its own error is about " + percent_text(own);
@@ -227,14 +232,43 @@ class Finder {
     double spacing = 0.0;  // of the nodes, relative to the specimen
   };
   [[nodiscard]] std::optional<Inertia> inertia_on(double nodes) const {
-    const auto moving = run_coupled(nodes, "modal");
-    const auto quiet = moving ? run_coupled(nodes, "quasi_static") : std::nullopt;
+    return inertia_of([&](const char* integrator) { return run_coupled(nodes, integrator); });
+  }
+  template <class Run>
+  [[nodiscard]] std::optional<Inertia> inertia_of(const Run& run_with) const {
+    const auto moving = run_with("modal");
+    const auto quiet = moving ? run_with("quasi_static") : std::nullopt;
     if (!quiet) return std::nullopt;
     const History still = without_starts(scenario_, *quiet);
     Inertia inertia{.added = without_starts(scenario_, *moving), .spacing = spacing()};
     if (const auto off = deviation(scenario_, *moving, still)) inertia.greatest = off->greatest;
     for (std::size_t i = 0; i < still.size(); ++i) inertia.added[i].value -= still[i].value;
     return inertia;
+  }
+
+  // On four times the scenario's nodes; its error is the difference to the scenario's own mesh.
+  [[nodiscard]] std::optional<Inertia> inertia_of_press(
+      double interval, const std::vector<ReferenceRow>& rows) const {
+    if (rows.empty() || rows.back().slide != 0.0) return std::nullopt;
+    told_("effect of inertia");
+    const auto on = [&](double factor) {
+      return inertia_of([&](const char* integrator) {
+        return run({model_setting(scenario::strongest.of), "contact.coupling=consistent",
+                    "tissue.viscosity=none", std::string("solver.integrator=") + integrator,
+                    "output.interval=" + number_text(1e3 * interval) + " ms",
+                    mesh_setting(one_.scenario, factor)});
+      });
+    };
+    try {
+      const auto own = on(1.0);
+      auto finer = own ? on(4.0) : std::nullopt;
+      if (!finer || own->added.size() != rows.size()) return std::nullopt;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        finer->added[i].error = std::abs(finer->added[i].value - own->added[i].value);
+      return finer;
+    } catch (const std::runtime_error&) {  // a setting or a mesh that cannot be
+      return std::nullopt;
+    }
   }
 
   // The value of the material's law at the time `t` (s) after the beginning of a step:
