@@ -82,8 +82,7 @@ double end_time(const record::CaseRecord& record) {
   return record.strain.empty() ? 0.0 : record.strain.back().time;
 }
 
-// Runs the programme without its findings; returns the run time, s. It includes the time for modes
-// that are known already.
+// Without findings. Returns the run time, s, with that of modes that are known already.
 double run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
                 record::CaseRecord& record) {
   record = {};
@@ -117,7 +116,12 @@ class Measurer {
  public:
   Measurer(const Asked& asked, const ChartOptions& options, Journal& journal,
            const std::atomic<bool>& stop, const std::function<void(const ChartProgress&)>& told)
-      : asked_(asked), options_(options), journal_(journal), stop_(stop), told_(told) {}
+      : asked_(asked),
+        options_(options),
+        longest_(options.longest * (asked.family.cases.size() > 1 ? 0.5 : 1.0)),
+        journal_(journal),
+        stop_(stop),
+        told_(told) {}
 
   std::optional<std::vector<CaseChart>> all() {
     for (std::size_t i = 0; i < asked_.family.cases.size(); ++i)
@@ -163,7 +167,7 @@ class Measurer {
     return true;
   }
 
-  // Measures one timing if it is wanted; false if `stop` was set.
+  // False if `stop` was set.
   bool visit(const CaseChart& chart, Measurement& one, int round) {
     if (stop_.load()) return false;
     ChartProgress progress{(charts_.size() > 1 ? chart.name + ": " : "") + one.variant.name, done_,
@@ -216,31 +220,29 @@ class Measurer {
       };
       const std::vector<scenario::Step> steps = scene.scenario.steps;
       scene.scenario.steps = first_row(scene);
-      timing.first_row = timed_within(options_.longest);
+      timing.first_row = timed_within(longest_);
       one.first_simulated = end_time(record);
       scene.scenario.steps = steps;
       // Variants that differ in the time step alone tell what a step takes.
-      double& a_step = seconds_a_step_[joined(
-          std::vector<std::string>{std::to_string(one.variant.of_case), one.model, one.coupling,
-                                   one.integrator, one.rings, std::to_string(one.nodes)},
-          " ")];
+      double& a_step =
+          seconds_a_step_[std::to_string(one.variant.of_case) + one.model + one.coupling +
+                          one.integrator + one.rings + " " + std::to_string(one.nodes)];
       const double steps_in_all = one.substep > 0.0 ? scene_time(chart) / one.substep : 0.0;
-      if (first && a_step * steps_in_all > 1.5 * options_.longest)
+      if (first && a_step * steps_in_all > 1.5 * longest_)
         return not_run(one, timing.first_row + a_step * steps_in_all);
-      // A quarter of the time shows which variants take far too long.
       const auto predicted = [&] {
         return timing.whole * scene_time(chart) /
                std::max(end_time(record), scene.scenario.output.interval);
       };
-      const auto interrupted = [&] { return record.outcome == record::Outcome::interrupted; };
-      timing.whole = timed_within((first ? 0.25 : 1.0) * options_.longest);
-      if (first && interrupted() && !stop_.load() && predicted() < 2.0 * options_.longest)
-        timing.whole = timed_within(options_.longest);
+      const auto cut = [&] { return record.outcome == record::Outcome::interrupted; };
+      timing.whole = timed_within((first ? 0.25 : 1.0) * longest_);  // shows what is far too long
+      if (first && cut() && !stop_.load() && predicted() < 2.0 * longest_)
+        timing.whole = timed_within(longest_);
       if (const double longer = end_time(record) - one.first_simulated; longer > 0.0)
         a_step = (timing.whole - timing.first_row) * one.substep / longer;
       if (stop_.load()) return false;
-      if (interrupted() && first) return not_run(one, predicted());
-      if (interrupted()) return true;  // the machine was slow
+      if (cut() && first) return not_run(one, predicted());
+      if (cut()) return true;  // the machine was slow
       one.timings.push_back(timing);
       if (first) compare(chart, scene, record, one);
     } catch (const InputError& error) {
@@ -259,7 +261,7 @@ class Measurer {
     const Clock::time_point start = Clock::now();
     scene::Choice choice = scene::choose(asked);
     const double setup = choice.taken() != nullptr ? choice.taken()->seconds : 0.0;
-    if (setup > options_.longest) {
+    if (setup > longest_) {
       not_run(one, setup);
       return std::nullopt;
     }
@@ -339,6 +341,7 @@ class Measurer {
 
   const Asked& asked_;
   const ChartOptions& options_;
+  double longest_;  // s
   Journal& journal_;
   const std::atomic<bool>& stop_;
   const std::function<void(const ChartProgress&)>& told_;

@@ -14,10 +14,12 @@
 namespace palpate::chart {
 
 struct ChartOptions {
-  int repeats = 5;       // largest number of timings of a variant
-  double budget = 2.0;   // s, for all timings of a variant; the first is made in any case
-  double again = 15.0;   // s, for all timings of the chart but the first ones
-  double longest = 6.0;  // s, for one run or one set-up; longer ones are not run
+  int repeats = 5;      // largest number of timings of a variant
+  double budget = 2.0;  // s, for all timings of a variant; the first is made in any case
+  double again = 15.0;  // s, for all timings of the chart but the first ones
+  // s, for one run or one set-up; longer ones are not run. Half of it where there are several
+  // cases.
+  double longest = 6.0;
 };
 
 // One timing, s, by the steady clock; not reproducible.
