@@ -12,10 +12,16 @@
 #include "scenario/words.h"
 #include "scenario_text.h"
 #include "scene/scene.h"
+#include "scene/specimen_shape.h"
 #include "scene_text.h"
 
 namespace palpate::chart {
 namespace {
+
+std::vector<Variant> design(const Asked& asked, std::size_t of_case) {
+  scene::SpecimenShapes shapes;
+  return design(asked, of_case, shapes);
+}
 
 struct ScratchFolder {
   std::filesystem::path path =
@@ -54,8 +60,7 @@ using Settings = std::vector<std::string>;
 const std::string quick = scenario::press + "[contact]\ncoupling = \"one_way\"\n";
 
 TEST_F(Design, APressHasEveryGroup) {
-  scene::SpecimenShapes shapes;
-  const auto variants = design(asked(quick), 0, shapes);
+  const auto variants = design(asked(quick), 0);
   ASSERT_FALSE(variants.empty());
   EXPECT_EQ(variants.front().name, "auto");
   EXPECT_EQ(variants.front().settings, Settings{});
