@@ -89,6 +89,7 @@ TEST(SpecimenShapes, tell_how_long_they_took) {
   (void)shapes.fit(one, "");
   const double fitted = shapes.seconds(one);
   EXPECT_GT(fitted, alone);
+  EXPECT_EQ(shapes.seconds(), fitted);
   (void)shapes.shape(resolved(family.cases[1]), "");
   EXPECT_EQ(shapes.seconds(one), fitted);
   EXPECT_GT(shapes.seconds(), fitted);
