@@ -167,7 +167,7 @@ class Measurer {
     return true;
   }
 
-  // False if `stop` was set.
+  // Measures one timing if it is wanted; false if `stop` was set.
   bool visit(const CaseChart& chart, Measurement& one, int round) {
     if (stop_.load()) return false;
     ChartProgress progress{(charts_.size() > 1 ? chart.name + ": " : "") + one.variant.name, done_,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "chart/extrapolation.h"
 #include "chart/reference.h"
@@ -22,7 +23,6 @@ using scenario::Model;
 
 // Meshes that follow their error state about this.
 constexpr double refined_error = 0.004;
-constexpr double most_modal_nodes = 1000.0;    // of `modal` with all modes
 constexpr double most_moments = 20.0;          // of a press without memory
 constexpr double most_moments_in_time = 50.0;  // of a press with viscosity or inertia
 
@@ -51,6 +51,7 @@ class Finder {
   }
 
  private:
+  // Runs the case with further settings; nothing if it was interrupted.
   [[nodiscard]] std::optional<History> run(const Settings& settings) const {
     const auto family = with_settings(asked_, case_, settings);
     scene::Scene scene = run::build_scene(family.cases.front(), family);
@@ -246,7 +247,8 @@ class Finder {
     return inertia;
   }
 
-  // On four times the scenario's nodes; its error is the difference to the scenario's own mesh.
+  // What inertia adds to an elastic press on a mesh with four times the scenario's nodes; its error
+  // is the difference to the scenario's own mesh. Nothing without such meshes, and for slides.
   [[nodiscard]] std::optional<Inertia> inertia_of_press(
       double interval, const std::vector<ReferenceRow>& rows) const {
     if (rows.empty() || rows.back().slide != 0.0) return std::nullopt;
@@ -266,9 +268,10 @@ class Finder {
       for (std::size_t i = 0; i < rows.size(); ++i)
         finer->added[i].error = std::abs(finer->added[i].value - own->added[i].value);
       return finer;
-    } catch (const std::runtime_error&) {  // a setting or a mesh that cannot be
-      return std::nullopt;
+    } catch (const InputError&) {
+    } catch (const MeshError&) {
     }
+    return std::nullopt;
   }
 
   // The value of the material's law at the time `t` (s) after the beginning of a step:
@@ -362,39 +365,6 @@ std::optional<Truth> find_truth(const Asked& asked, std::size_t of_case,
                                 const std::atomic<bool>& stop,
                                 const std::function<void(const std::string&)>& told) {
   return Finder(asked, of_case, stop, told).find();
-}
-
-std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
-                                     integrate::KnownModes& known, const std::atomic<bool>& stop) {
-  const double interval = coarsest_interval(asked.family.cases[variant.of_case].scenario);
-  std::vector<History> finer;
-  try {
-    // Modes follow the constant loads of a uniform test exactly.
-    const double longest = asked.family.cases[variant.of_case].scenario.uniform() ? interval : 5e-4;
-    for (const double step : {longest, 0.5 * longest}) {
-      Settings settings = variant.settings;
-      settings.emplace_back("solver.integrator=modal");
-      settings.push_back("output.interval=" + number_text(1e3 * interval) + " ms");
-      settings.push_back("solver.substeps=" +
-                         number_text(std::max(1.0, std::round(interval / step))));
-      const auto family = with_settings(asked, variant.of_case, settings);
-      scene::Scene scene = run::build_scene(family.cases.front(), family);
-      if (!scene.specimen || scene.specimen->network.nodes() > most_modal_nodes)
-        return std::nullopt;
-      scene.scenario.solver.modes = 3 * scene.specimen->network.nodes();  // all
-      scene.known_modes = &known;
-      scene.scenario.output.keep_rows_only();
-      const record::CaseRecord record = run::run_case(scene, stop);
-      if (record.outcome != record::Outcome::completed) return std::nullopt;
-      finer.push_back(without_starts(scene.scenario, history(scene.scenario, record)));
-    }
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  History best = finer.back();
-  for (std::size_t i = 0; i < best.size(); ++i)
-    best[i].error = std::abs(best[i].value - finer.front()[i].value);
-  return best;
 }
 
 }  // namespace palpate::chart

@@ -15,6 +15,8 @@ struct KnownModes;
 
 namespace palpate::chart {
 
+inline constexpr double most_modal_nodes = 1000.0;  // of `modal` with all modes
+
 struct Truth {
   std::string kind;      // "closed form", "refined", "own mesh" or "modal", for the table
   std::string sentence;  // description
@@ -25,11 +27,12 @@ struct Truth {
 //   a half-space            `hertz`, with the factor of deep presses if that matters
 //   a flat whose sides and  `layer`; its error is the estimated effect of sides and inertia
 //   inertia change less     (refined meshes are not more accurate)
-//   than 3 % of the force
+//   than 0.4 % of the force
 //   a uniform test between  the material's creep or relaxation; its error is the effect of inertia,
 //   slippery platens        computed by `modal` on a mesh of about 60 nodes
 //   any other press         chart::refer() with at most 20 moments (50 if viscosity or inertia
-//                           matters), on elastic tissue if the scenario's contact is elastic
+//                           matters), on elastic tissue if the scenario's contact is elastic, and
+//                           what inertia adds to coupled springs if that is not little
 //   any other uniform test  coupled springs on three meshes, extrapolated, with inertia if needed
 //   a ready mesh            coupled springs on it; its error is the estimated error of the model
 // `told` is called with the stage. Nothing if `stop` was set before the end. Throws like
@@ -39,7 +42,8 @@ struct Truth {
                                               const std::function<void(const std::string&)>& told);
 
 // The reference for errors of time integration: the variant's scenario by `modal` with substeps of
-// 1/4 ms, at the rows of coarsest_interval(); its error is the difference from substeps of 1/2 ms.
+// 1/4 ms, in uniform tests of half a row, at the rows of coarsest_interval(); its error is the
+// difference from substeps of twice that length.
 // Nothing if `modal` cannot compute the scenario or `stop` was set. `known` keeps the modes.
 [[nodiscard]] std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
                                                    integrate::KnownModes& known,
