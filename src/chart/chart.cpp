@@ -2,16 +2,13 @@
 #include "chart/chart.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <map>
-#include <mutex>
-#include <thread>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "chart/journal.h"
+#include "chart/watch.h"
 #include "integrate/modal.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
@@ -20,43 +17,11 @@
 namespace palpate::chart {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = Watch::Clock;
 
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-// A flag that a second thread sets when `outer` is set or after `limit` seconds.
-class Watch {
- public:
-  Watch(const std::atomic<bool>& outer, double limit)
-      : thread_([this, &outer, limit] {
-          const auto end = Clock::now() + std::chrono::duration<double>(limit);
-          std::unique_lock lock(mutex_);
-          while (!over_ && !flag_) {
-            wake_.wait_for(lock, std::chrono::milliseconds(20));
-            if (outer.load() || Clock::now() >= end) flag_ = true;
-          }
-        }) {}
-  ~Watch() {
-    {
-      const std::lock_guard lock(mutex_);
-      over_ = true;
-    }
-    wake_.notify_all();
-  }
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
-
-  [[nodiscard]] const std::atomic<bool>& flag() const { return flag_; }
-
- private:
-  std::atomic<bool> flag_ = false;
-  bool over_ = false;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::jthread thread_;
-};
 
 // A programme that ends after the first row.
 std::vector<scenario::Step> first_row(const scene::Scene& scene) {
@@ -220,7 +185,22 @@ class Measurer {
       };
       const std::vector<scenario::Step> steps = scene.scenario.steps;
       scene.scenario.steps = first_row(scene);
-      timing.first_row = timed_within(longest_);
+      const auto cut = [&] { return record.outcome == record::Outcome::interrupted; };
+      const auto predicted = [&](double time) {
+        const double row = scene.scenario.output.interval;
+        return time * scene_time(chart) / std::max(end_time(record), row);
+      };
+      // A quarter of the time shows what is far too long.
+      const auto tried = [&](double& time) {
+        time = timed_within((first ? 0.25 : 1.0) * longest_);
+        if (first && cut() && !stop_.load() && predicted(time) < 2.0 * longest_)
+          time = timed_within(longest_);
+        return !first || !cut();
+      };
+      const bool begun = tried(timing.first_row);
+      if (stop_.load()) return false;
+      if (!begun && timing.first_row < longest_)  // a step that lasts longer has found its modes
+        return not_run(one, predicted(timing.first_row));
       one.first_simulated = end_time(record);
       scene.scenario.steps = steps;
       // Variants that differ in the time step alone tell what a step takes.
@@ -230,18 +210,11 @@ class Measurer {
       const double steps_in_all = one.substep > 0.0 ? scene_time(chart) / one.substep : 0.0;
       if (first && a_step * steps_in_all > 1.5 * longest_)
         return not_run(one, timing.first_row + a_step * steps_in_all);
-      const auto predicted = [&] {
-        return timing.whole * scene_time(chart) /
-               std::max(end_time(record), scene.scenario.output.interval);
-      };
-      const auto cut = [&] { return record.outcome == record::Outcome::interrupted; };
-      timing.whole = timed_within((first ? 0.25 : 1.0) * longest_);  // shows what is far too long
-      if (first && cut() && !stop_.load() && predicted() < 2.0 * longest_)
-        timing.whole = timed_within(longest_);
+      const bool whole = tried(timing.whole);
       if (const double longer = end_time(record) - one.first_simulated; longer > 0.0)
         a_step = (timing.whole - timing.first_row) * one.substep / longer;
       if (stop_.load()) return false;
-      if (cut() && first) return not_run(one, predicted());
+      if (!whole) return not_run(one, predicted(timing.whole));
       if (cut()) return true;  // the machine was slow
       one.timings.push_back(timing);
       if (first) compare(chart, scene, record, one);

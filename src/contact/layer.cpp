@@ -37,11 +37,18 @@ LayerTable::LayerTable(const Layer& layer)
       last_chi_(std::min(3.0, 12.0 * top_)),
       terms_(layer.below.empty() ? 24 : 40) {
   const LayerLaw::Scale scale{top_, 2.0 * last_chi_};
-  const LayerEquation equation(layer, layer_resolution(scale.last / top_));
   const std::size_t nodes = terms_ + 4;  // the interval is longer
+  // The ratios decrease; after every halving a coarser resolution is sufficient.
+  std::optional<LayerEquation> equation;
+  double greatest = 0.0;
   for (std::size_t i = 0; i < nodes; ++i) {
-    ratios_.push_back(scale.value(chebyshev_node(i, nodes)));
-    systems_.push_back(equation.system(ratios_.back(), LayerEquation::Wanted::pressure));
+    const double ratio = scale.value(chebyshev_node(i, nodes));
+    if (!equation || ratio < 0.5 * greatest) {
+      greatest = ratio;
+      equation.emplace(layer, layer_resolution(greatest / top_));
+    }
+    ratios_.push_back(ratio);
+    systems_.push_back(equation->system(ratio, LayerEquation::Wanted::pressure));
   }
 }
 

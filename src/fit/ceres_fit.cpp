@@ -65,25 +65,22 @@ class CurveCost final : public ceres::CostFunction {
 };
 
 // CurveAt for a model over x.
-bool model_curve(std::span<const double> x, Model model, std::span<const double> parameters,
-                 std::span<double> values, std::span<double> slopes) {
+void model_curve(std::span<const double> x, Model model, std::span<const double> parameters,
+                 std::span<double> values, std::span<double> by_parameter) {
   const std::size_t count = parameters.size();
   const auto linear = as_index(term_count(model));
-  bool finite = true;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const Terms at = terms(model, x[i], parameters[count - 1]);
-    double sum = 0.0;
+    const auto phi = terms(model, x[i], parameters[count - 1]);
+    values[i] = 0.0;
+    for (std::size_t k = 0; k < linear; ++k) values[i] += parameters[k] * phi[k];
+    if (by_parameter.empty()) continue;
+    for (std::size_t k = 0; k < linear; ++k) by_parameter[i * count + k] = phi[k];
+    if (linear == count) continue;
+    const auto by_shape = slopes(model, x[i], parameters[count - 1]);
     double slope = 0.0;
-    for (std::size_t k = 0; k < linear; ++k) {
-      sum += parameters[k] * at.phi[k];
-      slope += parameters[k] * at.slope[k];
-      if (!slopes.empty()) slopes[i * count + k] = at.phi[k];
-    }
-    if (!slopes.empty() && linear < count) slopes[i * count + linear] = slope;
-    values[i] = sum;
-    finite = finite && std::isfinite(slope);
+    for (std::size_t k = 0; k < linear; ++k) slope += parameters[k] * by_shape[k];
+    by_parameter[i * count + linear] = slope;
   }
-  return finite;
 }
 
 std::vector<double> inverse_normal(ceres::Problem& problem, const double* unknowns,
@@ -155,7 +152,8 @@ Minimum minimise(std::span<const double> x, std::span<const double> y, Model mod
                  std::span<const double> start, int max_iterations) {
   const CurveAt curve = [&](std::span<const double> parameters, std::span<double> values,
                             std::span<double> slopes) {
-    return model_curve(x, model, parameters, values, slopes);
+    model_curve(x, model, parameters, values, slopes);
+    return true;
   };
   return minimise(y, curve, start, max_iterations);
 }

@@ -37,7 +37,7 @@ using CurveAt = std::function<bool(std::span<const double> parameters, std::span
 [[nodiscard]] Minimum minimise(std::span<const double> y, const CurveAt& curve,
                                std::span<const double> start, int max_iterations);
 
-// The same for the curve of `model` over x, with the derivatives of terms().
+// The same for the curve of `model` over x, with the derivatives of slopes().
 [[nodiscard]] Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,
                                std::span<const double> start, int max_iterations);
 

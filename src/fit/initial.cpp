@@ -46,18 +46,18 @@ std::optional<std::vector<double>> initial_guess(std::span<const double> x,
   std::optional<std::vector<double>> best;
   double least = std::numeric_limits<double>::infinity();
   Eigen::MatrixXd matrix(n, count);
+  Eigen::VectorXd linear(count);
   for (const double shape : shapes(model, scale)) {
     for (Eigen::Index i = 0; i < n; ++i) {
-      const Terms at = terms(model, x[as_index(i)], shape);
-      for (int k = 0; k < count; ++k) matrix(i, k) = at.phi[as_index(k)];
+      const auto phi = terms(model, x[as_index(i)], shape);
+      for (int k = 0; k < count; ++k) matrix(i, k) = phi[as_index(k)];
     }
     if (!matrix.allFinite()) continue;
-    Eigen::VectorXd linear(count);
     if (count == 1)
       linear[0] = matrix.col(0).dot(target) / matrix.col(0).squaredNorm();
     else
       linear = matrix.colPivHouseholderQr().solve(target);
-    const double sum = (matrix * linear - target).squaredNorm();
+    const double sum = (matrix.lazyProduct(linear) - target).squaredNorm();
     if (!(sum < least) || !linear.allFinite()) continue;
     least = sum;
     best.emplace(linear.data(), linear.data() + count);

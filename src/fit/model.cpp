@@ -52,40 +52,38 @@ int term_count(Model model) {
   return static_cast<int>(info(model).parameters.size()) - (has_shape(model) ? 1 : 0);
 }
 
-Terms terms(Model model, double x, double shape) {
+std::array<double, 2> terms(Model model, double x, double shape) {
   switch (model) {
-    case Model::logarithmic: return {{1.0, std::log(x)}, {}};
-    case Model::power: {
-      const double raised = std::pow(x, shape);
-      return {{raised}, {raised * std::log(x)}};
-    }
-    case Model::exponential:  // expm1 is accurate for small m x
-      return {{std::expm1(shape * x)}, {x * std::exp(shape * x)}};
-    case Model::kelvin_voigt: {
-      // d/dtau (1 - e^(-x/tau)) = -(x/tau^2) e^(-x/tau)
-      const double left = std::exp(-x / shape);
-      return {{-std::expm1(-x / shape)}, {-x / (shape * shape) * left}};
-    }
-    case Model::kelvin_voigt_recovery: {
-      const double left = std::exp(-x / shape);
-      return {{left}, {x / (shape * shape) * left}};
-    }
-    case Model::standard_linear_solid: {
-      const double left = std::exp(-x / shape);
-      const double slope = x / (shape * shape) * left;
-      return {{-std::expm1(-x / shape), left}, {-slope, slope}};
-    }
+    case Model::logarithmic: return {1.0, std::log(x)};
+    case Model::power: return {std::pow(x, shape)};
+    case Model::exponential: return {std::expm1(shape * x)};  // accurate for small m x
+    case Model::kelvin_voigt: return {-std::expm1(-x / shape)};
+    case Model::kelvin_voigt_recovery: return {std::exp(-x / shape)};
+    case Model::standard_linear_solid: return {-std::expm1(-x / shape), std::exp(-x / shape)};
+  }
+  return {};
+}
+
+std::array<double, 2> slopes(Model model, double x, double shape) {
+  const auto left = [&] { return x / (shape * shape) * std::exp(-x / shape); };
+  switch (model) {
+    case Model::logarithmic: return {};
+    case Model::power: return {std::pow(x, shape) * std::log(x)};
+    case Model::exponential: return {x * std::exp(shape * x)};
+    case Model::kelvin_voigt: return {-left()};  // d/dtau (1 - e^(-x/tau)) = -(x/tau^2) e^(-x/tau)
+    case Model::kelvin_voigt_recovery: return {left()};
+    case Model::standard_linear_solid: return {-left(), left()};
   }
   return {};
 }
 
 double value(Model model, std::span<const double> parameters, double x) {
   assert(parameters.size() == info(model).parameters.size());
-  const Terms at = terms(model, x, parameters.back());
+  const auto phi = terms(model, x, parameters.back());
   double sum = 0.0;
   for (int i = 0; i < term_count(model); ++i) {
     const auto k = as_index(i);
-    sum += parameters[k] * at.phi[k];
+    sum += parameters[k] * phi[k];
   }
   return sum;
 }

@@ -48,11 +48,8 @@ struct ModelInfo {
 
 // A curve is a sum of at most two terms c_i phi_i(x, q). It is linear in c_i and non-linear in the
 // shape parameter q (n, m or tau). The logarithmic model has the terms 1 and ln x, and no q.
-struct Terms {
-  std::array<double, 2> phi{};    // the terms at x
-  std::array<double, 2> slope{};  // d phi / d q
-};
-[[nodiscard]] Terms terms(Model model, double x, double shape);
+[[nodiscard]] std::array<double, 2> terms(Model model, double x, double shape);   // phi_i at x
+[[nodiscard]] std::array<double, 2> slopes(Model model, double x, double shape);  // d phi_i / dq
 
 [[nodiscard]] int term_count(Model model);
 [[nodiscard]] bool has_shape(Model model);  // whether there is a shape parameter, the last one

@@ -87,7 +87,7 @@ void BodySinking::make_couplings() {
 std::array<EnergyCoupling::Press, 3> BodySinking::shear_presses(const contact::Patch& patch) {
   const Vec3 x = patch.axis;
   const Vec3 y = patch.normal.cross(x);
-  return {{{patch, x}, {patch, y}, {patch, (x + y).normalized()}}};
+  return {{{patch, x}, {patch, y}, {patch, (x + y).normalized(), true}}};
 }
 
 // From loads along two axes and between them. The half-space's own is 3 q / (20 a), q = (2 - nu)/G.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 #include "base/error.h"
 #include "mechanics/energy_loads.h"
@@ -221,7 +222,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
   const Eigen::Index freedoms = static_cast<Eigen::Index>(held_.size());
   std::vector<Case> cases;
   std::vector<Vector> right;
-  for (const auto& [patch, along] : presses) {
+  for (const auto& [patch, along, sum_of_two] : presses) {
     const int region = region_under(patch.at.triangle);
     const Home& here = home(region);
     Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer, along);
@@ -245,11 +246,15 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
     one.loads = std::move(loads.nodal);
     one.curved = std::move(loads.curved);
     one.known = loads.known;
-    right.push_back(one.loads - solver_.matrix() * one.held_by);
+    if (!sum_of_two) right.push_back(one.loads - solver_.matrix() * one.held_by);
   }
 
-  std::vector<Vector> rest(presses.size());
+  std::vector<Vector> rest(right.size());
   if (!solver_.solve(right, rest)) throw MeshError(tissue::not_held);
+  for (std::size_t i = 0; i < presses.size(); ++i)
+    if (presses[i].sum_of_two)
+      rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(i),
+                  (rest[i - 2] + rest[i - 1]) / std::numbers::sqrt2);
   std::vector<BeyondHalfSpace> results(presses.size());
   for (std::size_t i = 0; i < presses.size(); ++i) {
     const Case& one = cases[i];

@@ -44,6 +44,9 @@ class EnergyCoupling {
   struct Press {
     contact::Patch patch;
     Vec3 along;
+    // Whether the load is that of the two before it, added and divided by sqrt(2); so is what is
+    // solved for.
+    bool sum_of_two = false;
   };
   // One result per load; their equations are solved together. `finer` refines the quadrature of the
   // loads.

@@ -86,10 +86,20 @@ Family outline_text(const std::string& text, const std::string& path,
   Family& family = opened.family;
   Trial trial(family);
   trial.remember(opened.read);
-  trial.try_cases();
+  constexpr std::size_t of_many = 256;
+  trial.try_cases(family.design.count() <= most_cases ? most_cases : of_many);
   trial.check_factors();
   trial.finish();
   return std::move(family);
+}
+
+Family outline_planned(const std::string& path) {
+  Opened opened = open(read_text(path), path, {});
+  Trial trial(opened.family);
+  trial.remember(opened.read);
+  trial.try_cases(1);
+  trial.finish();
+  return std::move(opened.family);
 }
 
 Family outline(const std::string& path, const std::vector<std::string>& settings) {

@@ -80,6 +80,9 @@ inline constexpr std::size_t most_cases = 1000;  // of a family whose cases are 
 [[nodiscard]] Family outline_text(const std::string& text, const std::string& path,
                                   const std::vector<std::string>& settings);
 
+// The same with checks of the first case only: of a plan, which was checked when it was made.
+[[nodiscard]] Family outline_planned(const std::string& path);
+
 // Makes case i < design.count(). Reads no file that the family has read already. Thread-safe.
 // Throws InputError with all problems of this case.
 [[nodiscard]] Case make_case(const Family& family, std::size_t i);

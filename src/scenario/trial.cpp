@@ -10,8 +10,6 @@
 namespace palpate::scenario {
 namespace {
 
-constexpr std::size_t tried_cases = 256;
-
 // Adds the problems that are new, because every case may repeat the same ones.
 void add_new(std::vector<Problem>& all, const std::vector<Problem>& more) {
   for (const Problem& problem : more) {
@@ -172,13 +170,13 @@ Case Trial::make(std::size_t i) {
   return made.one;
 }
 
-void Trial::try_cases() {
+void Trial::try_cases(std::size_t most) {
   const Design& design = family_.design;
   const std::size_t count = design.count();
-  const std::size_t tried = count <= most_cases ? count : tried_cases;
+  const std::size_t tried = std::min(count, most);
   std::set<std::string> seen;
   for (std::size_t k = 0; k < tried; ++k) {
-    const std::size_t i = tried == count ? k : k * (count - 1) / (tried - 1);
+    const std::size_t i = tried == count || k == 0 ? k : k * (count - 1) / (tried - 1);
     (void)make(i);
     seen.insert(files_of(design.settings(i)));
   }

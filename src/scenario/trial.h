@@ -40,9 +40,9 @@ class Trial {
   // Makes case i; the first case made becomes the family's base.
   Case make(std::size_t i);
 
-  // Makes all cases of a small family; of a large one 256 from the first to the last, and each row
-  // of a table that names other files.
-  void try_cases();
+  // Makes all cases of a family of at most `most`; of a larger one that many from the first to the
+  // last, and each row of a table that names other files.
+  void try_cases(std::size_t most);
 
   // Checks that case names are different, and that `display_scale` uses existing names.
   void check_names(const Place& sweep);

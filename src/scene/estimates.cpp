@@ -204,8 +204,7 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
     found.thickness = found.chi < last_chi
                           ? contact::LayerEquation(
                                 layer, contact::layer_resolution(2.0 * found.chi / layer.top()))
-                                    .solve_chi(found.chi, contact::LayerEquation::Wanted::force)
-                                    .force_factor() -
+                                    .force_factor(found.chi) -
                                 1.0
                           : infinite;
   }

@@ -268,7 +268,7 @@ SweepPlan read_plan(const std::string& folder, const std::string& program) {
     header = false;
   });
   if (hash.digits() != file.csv_hash || plan.ids.size() != file.cases) throw changed("plan.csv");
-  plan.family = scenario::outline((fs::path(folder) / "inputs/scenario.toml").string(), {});
+  plan.family = scenario::outline_planned((fs::path(folder) / "inputs/scenario.toml").string());
   plan.family.name = file.name;
   if (plan.family.base.title.empty()) plan.family.title = file.name;
   return plan;
