@@ -119,8 +119,11 @@ class Search {
     }
     nearest = {};
     const double wanted = std::max(target_.nodes - fixed, 0);
-    double low = 1e-3 * largest;  // gives too many nodes, or was not tried
-    double high = 1e4 * largest;  // gives too few nodes, or was not tried
+    std::pair<std::size_t, std::size_t> before{};  // nodes and tetrahedra of the last try
+    bool above = false;                            // some volume gave too many nodes
+    bool below = false;                            // or too few
+    double low = 1e-3 * largest;                   // gives too many nodes, or was not tried
+    double high = 1e4 * largest;                   // gives too few nodes, or was not tried
     for (int tries = 0; tries < tries_per_body && high > 1.02 * low; ++tries) {
       geometry::TetMesh found = mesh(body, largest, triangles);
       const int count = static_cast<int>(found.nodes.size());
@@ -128,6 +131,7 @@ class Search {
                       target_.tetrahedra == 0
                           ? 0.0
                           : over(static_cast<int>(found.tetrahedra.size()), target_.tetrahedra)};
+      const std::pair counts{found.nodes.size(), found.tetrahedra.size()};
       if (std::abs(miss.nodes) < std::abs(nearest.nodes)) nearest = miss;
       if (miss.worst() < miss_) {
         miss_ = miss.worst();
@@ -136,6 +140,10 @@ class Search {
       if (std::abs(miss.nodes) <= good_miss) break;
       const double inside = count - fixed;
       (inside > wanted ? low : high) = largest;
+      (inside > wanted ? above : below) = true;
+      // A volume that limits no tetrahedron changes nothing, nor does a smaller one than the
+      // surface's triangles allow.
+      if (counts == std::exchange(before, counts) && !(above && below)) break;
       // The nodes inside are about proportional to 1 / volume; the bracket limits the estimate.
       const double guess = largest * (inside + 0.5) / (wanted + 0.5);
       largest = guess > low && guess < high ? guess : std::sqrt(low * high);
