@@ -190,16 +190,9 @@ class Measurer {
         const double row = scene.scenario.output.interval;
         return time * scene_time(chart) / std::max(end_time(record), row);
       };
-      // A quarter of the time shows what is far too long.
-      const auto tried = [&](double& time) {
-        time = timed_within((first ? 0.25 : 1.0) * longest_);
-        if (first && cut() && !stop_.load() && predicted(time) < 2.0 * longest_)
-          time = timed_within(longest_);
-        return !first || !cut();
-      };
-      const bool begun = tried(timing.first_row);
+      timing.first_row = timed_within((first ? 0.5 : 1.0) * longest_);
       if (stop_.load()) return false;
-      if (!begun && timing.first_row < longest_)  // a step that lasts longer has found its modes
+      if (first && cut() && timing.first_row < longest_)  // a longer step has found its modes
         return not_run(one, predicted(timing.first_row));
       one.first_simulated = end_time(record);
       scene.scenario.steps = steps;
@@ -210,11 +203,13 @@ class Measurer {
       const double steps_in_all = one.substep > 0.0 ? scene_time(chart) / one.substep : 0.0;
       if (first && a_step * steps_in_all > 1.5 * longest_)
         return not_run(one, timing.first_row + a_step * steps_in_all);
-      const bool whole = tried(timing.whole);
+      timing.whole = timed_within((first ? 0.25 : 1.0) * longest_);  // shows what is far too long
+      if (first && cut() && !stop_.load() && predicted(timing.whole) < 2.0 * longest_)
+        timing.whole = timed_within(longest_);
       if (const double longer = end_time(record) - one.first_simulated; longer > 0.0)
         a_step = (timing.whole - timing.first_row) * one.substep / longer;
       if (stop_.load()) return false;
-      if (!whole) return not_run(one, predicted(timing.whole));
+      if (cut() && first) return not_run(one, predicted(timing.whole));
       if (cut()) return true;  // the machine was slow
       one.timings.push_back(timing);
       if (first) compare(chart, scene, record, one);

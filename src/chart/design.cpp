@@ -125,7 +125,7 @@ class Designer {
       if (rung.meshed() && !rung.solid)
         meshes(rung.of);
       else if (!rung.solid)
-        add("rung x mesh", rung.word, {model_setting(rung.of)});
+        add("rung x mesh", rung.word, given(rung.of));
     for (const scenario::Rung& rung : scenario::ladder)
       if (rung.meshed() && !rung.solid && !base_.uniform()) couplings(rung.of);
     if (!compresses(base_)) integrators();
@@ -142,8 +142,18 @@ class Designer {
     return settings;
   }
 
+  // `auto` finds out that a press is deep; a model that is given has to be told.
+  [[nodiscard]] Settings given(Model model, contact::Coupling coupling) const {
+    Settings settings{model_setting(model)};
+    if (asked_.depths[case_] == scenario::Contact::Depth::neo_hookean && !base_.contact.depth &&
+        !contact::mesh_is_tissue(coupling))
+      settings.emplace_back("contact.depth=neo_hookean");
+    return settings;
+  }
+  [[nodiscard]] Settings given(Model model) const { return given(model, base_.contact.coupling); }
+
   [[nodiscard]] Settings rung(Model model) const {
-    return {model_setting(model), "solver.integrator=" + integrator_};
+    return joined_to(given(model), {"solver.integrator=" + integrator_});
   }
 
   // The resolved scenario of a variant as text; the settings themselves if they are invalid.
@@ -171,16 +181,18 @@ class Designer {
   }
 
   void couplings(Model model) {
+    const auto coupled = [&](contact::Coupling coupling) {
+      return joined_to(given(model, coupling), {"solver.integrator=" + integrator_,
+                                                "contact.coupling=" + word_of(coupling)});
+    };
     using contact::Coupling;
-    for (const Word& word : words::couplings) {
-      const std::string coupling = word.word;
-      add("rung x coupling", word_of(model) + ", " + coupling,
-          joined_to(rung(model), {"contact.coupling=" + coupling}));
-    }
+    for (const Coupling coupling :
+         {Coupling::one_way, Coupling::series, Coupling::consistent, Coupling::resolved})
+      add("rung x coupling", word_of(model) + ", " + word_of(coupling), coupled(coupling));
     const std::string mesh = graded(base_, scene::choose(one_).expected);
     if (!mesh.empty())
       add("rung x coupling", word_of(model) + ", resolved on graded cells",
-          joined_to(rung(model), {"contact.coupling=resolved", mesh}));
+          joined_to(coupled(Coupling::resolved), {mesh}));
   }
 
   // Whether the force depends on the motion of the mesh, so that steps change it.
@@ -196,14 +208,13 @@ class Designer {
   }
 
   void integrators() {
+    if (!steps_matter()) return;
     const std::string model = word_of(rung_);
-    const bool steps = steps_matter();
     for (const Word& word : words::integrators) {
       const std::string method = word.word;
       const std::string name = model + ", " + method;
-      const Settings settings{model_setting(rung_), "solver.integrator=" + method};
+      const Settings settings = joined_to(given(rung_), {"solver.integrator=" + method});
       add("integrator x time step", name, settings);
-      if (!steps) continue;
       const std::optional<scene::TimePlan> plan = plan_of(settings);
       if (plan && cut_by_limit(settings, *plan))
         add("integrator x time step", name + ", half the limit",
@@ -336,7 +347,10 @@ Asked read_for_chart(const std::string& path, const std::string& text, const Set
     const scene::Choice choice = scene::choose(one);
     // The reference of a press with inertia is linear elasticity on a mesh.
     const bool still = !choice.chosen.meshed() || !about(choice.chosen.solver.integrator).inertia;
-    asked.depths.push_back(still ? choice.chosen.contact.depth : scenario::Contact::Depth::hertz);
+    scenario::Case open = one;
+    open.scenario.solver.model.reset();
+    asked.depths.push_back(still ? scene::choose(open).chosen.contact.depth
+                                 : scenario::Contact::Depth::hertz);
   }
   return asked;
 }
@@ -346,8 +360,10 @@ scenario::Family with_settings(const Asked& asked, std::size_t of_case, const Se
   all.insert(all.end(), settings.begin(), settings.end());
   scenario::Family family = scenario::parse_case(asked.text, asked.path, all, of_case);
   family.cases.front().name = asked.family.cases[of_case].name;
-  scenario::Contact& contact = family.cases.front().scenario.contact;
-  if (!contact.depth && !contact::mesh_is_tissue(contact.coupling))
+  scenario::Scenario& scenario = family.cases.front().scenario;
+  scenario::Contact& contact = scenario.contact;
+  const bool as_it_stands = settings.empty() && scenario.solver.model;
+  if (!as_it_stands && !contact.depth && !contact::mesh_is_tissue(contact.coupling))
     contact.depth = asked.depths[of_case];
   return family;
 }

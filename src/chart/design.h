@@ -32,7 +32,8 @@ struct Asked {
   std::string text;
   std::vector<std::string> settings;
   scenario::Family family;
-  // What `contact.depth = "auto"` becomes in the cases, for every variant and the reference alike.
+  // What `contact.depth = "auto"` becomes in the cases, as `model = "auto"` has it: for the
+  // reference and every variant but the scenario as it stands.
   std::vector<scenario::Contact::Depth> depths = {};
 };
 

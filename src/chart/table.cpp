@@ -222,11 +222,18 @@ class Speaker {
       if (const auto& off = chart_.rows[i].time_error; off && verdict_.cost[i] > 0.0)
         tradeoffs[i] = {verdict_.cost[i], std::max(off->greatest, floor)};
     const std::vector<std::size_t> best = pareto_front(tradeoffs);
+    const auto in_group = [](const Measurement& one) {
+      return one.variant.group == "integrator x time step";
+    };
+    const bool press = std::any_of(chart_.rows.begin(), chart_.rows.end(),
+                                   [](const Measurement& one) { return !one.coupling.empty(); });
+    if (press && std::none_of(chart_.rows.begin(), chart_.rows.end(), in_group))
+      return "All integrators and steps give the same force, which does not depend on the motion "
+             "of the mesh.\n\n";
     if (best.empty()) return "";
     if (most <= floor)
       return "Time integration alone (compared with `modal`, " + percent(floor) +
-             "): all integrators and steps give the same, because the force does not depend on the "
-             "motion of the mesh.\n\n";
+             "): all integrators and steps give the same.\n\n";
     std::string text = "Time integration alone, compared with `modal` (" + percent(floor) + "):";
     for (const std::size_t i : best)
       text += "\n- `" + chart_.rows[i].variant.name + "`, " + percent(tradeoffs[i].error) + ", " +

@@ -74,8 +74,9 @@ class Finder {
 
   // What all variants have in common, so that no difference shows it.
   [[nodiscard]] std::string depth_text(const scene::Estimates& found) const {
-    if (scenario_.contact.depth == scenario::Contact::Depth::neo_hookean)
-      return " times the factor of a deep press, which all variants share; its error of " +
+    if (one_.scenario.contact.depth.value_or(asked_.depths[case_]) ==
+        scenario::Contact::Depth::neo_hookean)
+      return " times the factor of a deep press, which `auto` applies here; its error of " +
              percent_text(found.deep_error) + " is not included";
     return " in linear elasticity, like all variants; finite strain, which would change it by " +
            percent_text(std::abs(found.deep)) + ", is not included";
