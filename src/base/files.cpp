@@ -26,6 +26,7 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{2} << 30;           // of a file in memory
 constexpr std::size_t most_stream_bytes = std::size_t{256} << 20;  // of a pipe, a device or a line
+constexpr std::size_t part_bytes = std::size_t{1} << 16;           // that are read at a time
 constexpr int patience = 10'000;  // ms, for a pipe to which nobody writes
 
 // A file that is read from its start: every read tells an error from the end.
@@ -58,6 +59,7 @@ class Source {
   }
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool regular() const { return regular_; }
 
   // Refuses a file (or a line of it, the `what`) that is too large for the memory.
   void check_size(std::size_t size, const char* what = "") {
@@ -95,14 +97,13 @@ class Source {
 }  // namespace
 
 std::string read_text(const std::string& path) {
-  constexpr std::size_t part = 1 << 18;  // bytes
   Source source(path);
   source.check_size(source.size());
   std::string content;
-  content.reserve(source.size() + part);
+  content.reserve(source.size() + part_bytes);
   while (true) {
     const std::size_t before = content.size();
-    content.resize(before + part);
+    content.resize(before + part_bytes);
     const std::size_t got = source.read(std::span(content).subspan(before));
     content.resize(before + got);
     source.check_size(content.size());
@@ -218,23 +219,26 @@ std::string sha256(std::string_view content) {
 }
 
 std::string file_sha256(const std::string& path) {
-  Sha256 hash;  // read line by line: a recording of an hour at 1 kHz has a gigabyte
-  for_each_line(path, [&](const FileLine& line) {
-    hash.add(line.text);
-    if (line.whole) hash.add("\n");
-  });
+  Source source(path);
+  Sha256 hash;
+  std::string part(part_bytes, '\0');  // a recording of an hour at 1 kHz has a gigabyte
+  std::size_t size = 0;
+  while (const std::size_t got = source.read(part)) {
+    hash.add(std::string_view(part).substr(0, got));
+    size += got;
+    if (!source.regular()) source.check_size(size);  // a device may never end
+  }
   return hash.digits();
 }
 
 void for_each_line(const std::string& path, const std::function<void(const FileLine&)>& see) {
-  constexpr std::size_t part = 1 << 20;  // bytes
   Source source(path);
   std::string held;
   std::size_t begin = 0;   // offset of `held` in the file
   std::size_t looked = 0;  // length of the part of `held` that has no line feed
   while (true) {
     const std::size_t before = held.size();
-    held.resize(before + part);
+    held.resize(before + part_bytes);
     const std::size_t got = source.read(std::span(held).subspan(before));
     held.resize(before + got);
     std::size_t at = 0;

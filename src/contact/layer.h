@@ -29,7 +29,7 @@ class LayerTable {
 // The table of F / F_Hertz and related factors over chi in [0, last_chi()]. The factors are exactly
 // 1 at chi = 0; values deviate by less than 1e-7 from the integral equation (several layers: 1e-5),
 // slopes and pressures by less than 1e-6. Outside [0, last_chi()] every result is NaN; the caller
-// has to refuse such a deep press into a thin layer. Construction takes about 10 ms, from a table
+// has to refuse such a deep press into a thin layer. Construction takes about 5 ms, from a table
 // half a millisecond, for several layers up to 0.5 s; the functions allocate nothing and use + - *
 // / and sqrt only.
 //                                                                         docs/theory.md (57)-(59)

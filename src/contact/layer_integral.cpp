@@ -270,12 +270,12 @@ LayerSolution LayerEquation::solve_chi(double chi, Wanted wanted) const {
 double LayerEquation::force_factor(double chi) const {
   // The force grows with the depth as that of a flat punch of the contact's size: in units of
   // 4/3 E* H^3/R, L = chi^3 F/F_Hertz has dL = 3/2 (a/H) kappa d(chi^2). The error of this straight
-  // line is about 3/2 (change / chi)^2.
+  // line is about 3/2 (change / chi)^2, while chi and a/H differ by the effect of the thickness.
   if (chi == 0.0) return 1.0;
   LayerSolution near = solve(chi, Wanted::force);
   for (int pass = 0; pass < 20; ++pass) {
     const double change = (chi - near.chi) / near.chi_slope;
-    if (std::abs(change) <= 2e-3 * chi) break;
+    if (std::abs(change) <= 1e-5 * std::abs(chi - near.ratio)) break;
     near = solve(near.ratio + change, Wanted::force);
   }
   const double load = near.chi * near.chi * near.chi * near.force_factor();

@@ -93,7 +93,7 @@ class LayerEquation {
   [[nodiscard]] LayerSolution solve(double ratio, Wanted wanted = Wanted::pressure) const;
   // chi >= 0; takes several solutions.
   [[nodiscard]] LayerSolution solve_chi(double chi, Wanted wanted = Wanted::pressure) const;
-  // F / F_Hertz at chi >= 0 to 1e-5; takes two or three solutions.
+  // F / F_Hertz at chi >= 0, less 1 to 1e-9 of itself; takes about three solutions.
   [[nodiscard]] double force_factor(double chi) const;
 
  private:

@@ -71,9 +71,9 @@ void CentralDifference::solve_dashpots(const State& state, double lag) {
 }
 
 // For dashpots that have rotated since they were factored: conjugate gradients, preconditioned by
-// the old factors and started from the previous step. They stop at an error in the energy norm of
-// |w - w_exact|_A <= 1e-10 |w|_A. Large bodies have no factors, but the diagonal, and a tolerance
-// that is still far below the step's own error.
+// the old factors and started from a straight line through the previous steps. They stop at an
+// error in the energy norm of |w - w_exact|_A <= 1e-10 |w|_A. Large bodies have no factors, but the
+// diagonal, and a tolerance that is still far below the step's own error.
 void CentralDifference::solve_turned(const Vector& displacement, bool large) {
   const double tolerance = large ? 1e-6 : 1e-10;
   constexpr int worth_factoring = 12;
@@ -94,6 +94,9 @@ void CentralDifference::solve_turned(const Vector& displacement, bool large) {
     clear_held(body_->held(), image_);
   };
   clear_held(body_->held(), before_);
+  image_ = before_;
+  if (earlier_.size() > 0) before_ = 2.0 * before_ - earlier_;
+  earlier_.swap(image_);
   multiply(before_);
   residual_ = right_ - image_;
   precondition();

@@ -59,6 +59,7 @@ class CentralDifference {
   bool first_ = true;
   bool has_factors_ = false;
   Vector before_;         // u(t) - u(t - dt)
+  Vector earlier_;        // the same one step before, if the dashpots' equations are iterated
   Vector diagonal_;       // 2 M + left_rate_ D, with D the drag alone
   Vector inverse_;        // of the diagonal; 0 where held
   Vector keep_;           // 2 M - right_rate_ D, with D the drag alone

@@ -37,8 +37,7 @@ TEST(Model, SlopesAreTheDerivatives) {
         const auto up = terms(row.model, x, shape + step);
         const auto down = terms(row.model, x, shape - step);
         for (std::size_t k = 0; k < 2; ++k)  // step^2 f'''/6, f''' up to 1e3
-          EXPECT_NEAR(slopes(row.model, x, shape)[k], (up[k] - down[k]) / (2 * step),
-                      2e-7)
+          EXPECT_NEAR(slopes(row.model, x, shape)[k], (up[k] - down[k]) / (2 * step), 2e-7)
               << row.name;
       }
   }
