@@ -161,6 +161,7 @@ TEST_F(Design, VariantsOfADeepPressSayThatItIs) {
   EXPECT_EQ(find(variants, "hertz")->settings,
             (Settings{"solver.model=hertz", "contact.depth=neo_hookean"}));
   EXPECT_EQ(find(variants, "auto")->settings, Settings{"solver.model=auto"});
+  ASSERT_NE(find(variants, "as it stands"), nullptr);
   const auto depth_of = [&](const char* name) {
     const auto family = with_settings(press, 0, find(variants, name)->settings);
     return scene::choose(family.cases.front()).chosen.contact.depth;
