@@ -84,7 +84,7 @@ LayerLaw::LayerLaw(const LayerTable& table, double share) : scale_{table.top_, t
   pressures.fill(Series(table.terms_));
   for (std::size_t i = 0; i < table.terms_; ++i) {
     const double chi = scale_.value(chebyshev_node(i, table.terms_));
-    // chi = a/H sqrt(D) by Newton's method, as LayerEquation::solve_chi() has it.
+    // chi = a/H sqrt(D) by Newton's method, as in LayerEquation::force_factor().
     double ratio = chi;
     double deep = 1.0;  // D
     for (int pass = 0; pass < 50; ++pass) {

@@ -253,25 +253,13 @@ LayerSolution LayerEquation::solve(double ratio, Wanted wanted) const {
   return system(ratio, wanted).solve(share_);
 }
 
-LayerSolution LayerEquation::solve_chi(double chi, Wanted wanted) const {
-  // chi grows almost linearly with the ratio (slope 1 on thick layers, 1/2 on thin ones), so that
-  // Newton's method needs two to four steps.
-  LayerSolution solution = solve(chi, wanted);
-  for (int pass = 0; pass < 20; ++pass) {
-    const double change = (chi - solution.chi) / solution.chi_slope;
-    if (std::abs(change) <= 1e-14 * chi) break;
-    solution = solve(solution.ratio + change, wanted);
-    // The next error is about change^2.
-    if (std::abs(change) < 1e-8 * chi) break;
-  }
-  return solution;
-}
-
 double LayerEquation::force_factor(double chi) const {
   // The force grows with the depth as that of a flat punch of the contact's size: in units of
   // 4/3 E* H^3/R, L = chi^3 F/F_Hertz has dL = 3/2 (a/H) kappa d(chi^2). The error of this straight
   // line is about 3/2 (change / chi)^2, while chi and a/H differ by the effect of the thickness.
   if (chi == 0.0) return 1.0;
+  // chi grows almost linearly with the ratio (slope 1 on thick layers, 1/2 on thin ones), so that
+  // Newton's method needs one to three steps.
   LayerSolution near = solve(chi, Wanted::force);
   for (int pass = 0; pass < 20; ++pass) {
     const double change = (chi - near.chi) / near.chi_slope;

@@ -91,8 +91,6 @@ class LayerEquation {
 
   [[nodiscard]] LayerSystem system(double ratio, Wanted wanted) const;  // ratio = a / H >= 0
   [[nodiscard]] LayerSolution solve(double ratio, Wanted wanted = Wanted::pressure) const;
-  // chi >= 0; takes several solutions.
-  [[nodiscard]] LayerSolution solve_chi(double chi, Wanted wanted = Wanted::pressure) const;
   // F / F_Hertz at chi >= 0, less 1 to 1e-9 of itself; takes about three solutions.
   [[nodiscard]] double force_factor(double chi) const;
 

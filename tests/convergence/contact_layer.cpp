@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "contact/layer_integral.h"
+#include "layer_at_chi.h"
 
 namespace palpate::contact {
 namespace {
@@ -72,7 +73,7 @@ TEST(LayerEquation, SeriesIsOfThirdOrder) {
     const double c1 = layer_first_coefficient(layer);
     const LayerEquation equation(layer, layer_resolution(0.1));
     const auto rest = [&](double chi) {
-      return equation.solve_chi(chi).force_factor() - 1.0 - c1 * chi -
+      return test::layer_at_chi(equation, chi).force_factor() - 1.0 - c1 * chi -
              7.0 / 6.0 * c1 * c1 * chi * chi;
     };
     // The next term changes the ratio 8 by some chi.
