@@ -46,6 +46,11 @@ struct OneMass final : integrate::Body {
   [[nodiscard]] SplitMatrix stiffness() const override { return diagonal(k); }
   [[nodiscard]] bool has_dashpots() const override { return tau > 0.0; }
   [[nodiscard]] SplitMatrix dashpots(const Vector&) const override { return diagonal(tau * k); }
+  [[nodiscard]] BlockMatrix dashpot_blocks(const Vector&) const override {
+    BlockMatrix matrix(1, {});
+    matrix.at(0, 0)(0, 0) = tau * k;
+    return matrix;
+  }
   void dashpot_force(const Vector&, const Vector& v, Vector& f) const override { f = tau * k * v; }
   using Body::memory_at;
   void memory_at(const Vector& u, std::vector<double>& memory) const override {

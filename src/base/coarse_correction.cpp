@@ -61,21 +61,26 @@ std::vector<int> groups(const BlockRows& rows, int& count) {
 
 bool CoarseCorrection::prepare(const BlockMatrix& matrix, std::span<const char> held) {
   int count = 0;
-  group_ = groups(matrix.rows, count);
-  held_.assign(held.begin(), held.end());
-  const auto group = [&](int node) { return group_[as_index(node)]; };
+  const std::vector<int> group_of = groups(matrix.rows, count);
+  const auto group = [&](int node) { return group_of[as_index(node)]; };
   // A group whose nodes are all held in one direction is held in it.
   std::vector<char> groups_held(3 * as_index(count), 1);
-  for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] == 0) groups_held[3 * as_index(group_[d / 3]) + d % 3] = 0;
+  free_.clear();
+  unknown_.clear();
+  for (std::size_t d = 0; d < held.size(); ++d) {
+    if (held[d] != 0) continue;
+    free_.push_back(static_cast<int>(d));
+    unknown_.push_back(3 * group_of[d / 3] + static_cast<int>(d % 3));
+    groups_held[as_index(unknown_.back())] = 0;
+  }
 
   std::vector<std::array<int, 2>> pairs;
   const auto all_pairs = [&](const BlockRows& rows, std::size_t row, const auto& with) {
     for (int k = rows.start[row]; k < rows.start[row + 1]; ++k) with(rows.column[as_index(k)], k);
   };
-  for (std::size_t n = 0; n < group_.size(); ++n)
+  for (std::size_t n = 0; n < group_of.size(); ++n)
     all_pairs(matrix.rows, n, [&](int other, int) {
-      if (group(other) > group_[n]) pairs.push_back({group_[n], group(other)});
+      if (group(other) > group_of[n]) pairs.push_back({group_of[n], group(other)});
     });
   std::vector<std::vector<std::pair<int, Vec3>>> changes(matrix.weights.size());  // by groups
   for (std::size_t v = 0; v < changes.size(); ++v) {
@@ -99,9 +104,9 @@ bool CoarseCorrection::prepare(const BlockMatrix& matrix, std::span<const char> 
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 
   BlockMatrix coarse(count, pairs);
-  for (std::size_t n = 0; n < group_.size(); ++n)
+  for (std::size_t n = 0; n < group_of.size(); ++n)
     all_pairs(matrix.rows, n, [&](int other, int k) {
-      BlockMatrix::Block& sum = coarse.at(group_[n], group(other));
+      BlockMatrix::Block& sum = coarse.at(group_of[n], group(other));
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           if (held[3 * n + as_index(i)] == 0 && held[as_index(3 * other + j)] == 0)
@@ -115,24 +120,19 @@ bool CoarseCorrection::prepare(const BlockMatrix& matrix, std::span<const char> 
   return factors_.factor(coarse.split(groups_held));
 }
 
-void CoarseCorrection::add(const std::vector<double>& r, std::size_t lanes,
-                           std::vector<double>& z) {
-  gathered_.assign(block_lanes * as_index(load_.size()), 0.0);
+void CoarseCorrection::add(std::span<const double> r, std::size_t lanes, std::size_t stride,
+                           std::span<double> z) {
   const auto for_free = [&](const auto& with) {
-    for (std::size_t d = 0; d < held_.size(); ++d)
-      if (held_[d] == 0) {
-        const std::size_t coarse = 3 * as_index(group_[d / 3]) + d % 3;
-        for (std::size_t l = 0; l < block_lanes; ++l)
-          with(block_lanes * d + l, gathered_[block_lanes * coarse + l]);
-      }
+    for (std::size_t f = 0; f < free_.size(); ++f)
+      for (std::size_t l = 0; l < stride; ++l)
+        with(stride * as_index(free_[f]) + l, gathered_[stride * as_index(unknown_[f]) + l]);
   };
+  gathered_.assign(stride * as_index(load_.size()), 0.0);
   for_free([&](std::size_t i, double& sum) { sum += r[i]; });
   for (std::size_t l = 0; l < lanes; ++l) {
-    for (Eigen::Index u = 0; u < load_.size(); ++u)
-      load_[u] = gathered_[block_lanes * as_index(u) + l];
+    for (Eigen::Index u = 0; u < load_.size(); ++u) load_[u] = gathered_[stride * as_index(u) + l];
     factors_.solve(load_, moved_);
-    for (Eigen::Index u = 0; u < load_.size(); ++u)
-      gathered_[block_lanes * as_index(u) + l] = moved_[u];
+    for (Eigen::Index u = 0; u < load_.size(); ++u) gathered_[stride * as_index(u) + l] = moved_[u];
   }
   for_free([&](std::size_t i, double moved) { z[i] += moved; });
 }

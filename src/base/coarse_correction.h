@@ -19,14 +19,14 @@ class CoarseCorrection {
   // Returns false if C is not positive definite; then A is not either.
   [[nodiscard]] bool prepare(const BlockMatrix& matrix, std::span<const char> held);
 
-  // z += P C^-1 P^T r for the first `lanes` of block_lanes vectors.
-  void add(const std::vector<double>& r, std::size_t lanes, std::vector<double>& z);
+  // z += P C^-1 P^T r for `lanes` vectors: entry l of degree of freedom d is r[stride d + l].
+  void add(std::span<const double> r, std::size_t lanes, std::size_t stride, std::span<double> z);
 
  private:
-  std::vector<int> group_;  // per node
-  std::vector<char> held_;
+  std::vector<int> free_;     // the degrees of freedom that are not held
+  std::vector<int> unknown_;  // of C, for each of these
   Cholesky factors_;
-  std::vector<double> gathered_;  // block_lanes numbers per unknown of C
+  std::vector<double> gathered_;  // `stride` numbers per unknown of C
   Eigen::VectorXd load_, moved_;
 };
 

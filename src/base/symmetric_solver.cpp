@@ -97,7 +97,7 @@ bool SymmetricSolver::iterate(std::span<const Vector> b, std::span<Vector> x) {
     r_[i] = right_[i] - image_[i];
     p_[i] = inverse_diagonal_[d] * r_[i];
   });
-  coarse_->add(r_, b.size(), p_);
+  coarse_->add(r_, b.size(), block_lanes, p_);
   Lanes rest{};  // r . z, where z is the preconditioned r
   for_each(size, [&](std::size_t, std::size_t l, std::size_t i) { rest[l] += r_[i] * p_[i]; });
   std::array<Decrease, block_lanes> decreases;
@@ -127,7 +127,7 @@ bool SymmetricSolver::iterate(std::span<const Vector> b, std::span<Vector> x) {
       image_[k] = inverse_diagonal_[d] * r_[k];
       energy[l] += right_[k] * x_[k];
     });
-    coarse_->add(r_, b.size(), image_);
+    coarse_->add(r_, b.size(), block_lanes, image_);
     for_each(size,
              [&](std::size_t, std::size_t l, std::size_t k) { next[l] += r_[k] * image_[k]; });
     Lanes turn{};

@@ -26,8 +26,10 @@ using scenario::Scenario;
 
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
 constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
-// Without inertia the meshes follow the error, which each level states three times smaller.
-constexpr double last_error = 0.003;
+// Without inertia the meshes follow the error, which each level states three times smaller. Several
+// contacts and slides need many more solutions per mesh, and end at a larger error.
+constexpr double error_of_one_place = 0.001;
+constexpr double error_of_many_places = 0.003;
 constexpr double finer_error = 3.0;
 constexpr int most_nodes = 12000;
 constexpr double most_rows = 40.0;  // of a programme without memory
@@ -51,6 +53,13 @@ Part part_of(const Scenario& scenario, const scenario::Cuboid& box) {
     }
   if (!in_the_middle(scenario.finger.y, box.size[1])) return Part::whole;
   return slides || !in_the_middle(scenario.finger.x, box.size[0]) ? Part::half : Part::quarter;
+}
+
+bool in_one_place(const Scenario& scenario) {
+  return scenario.finger.spheres == 1 &&
+         std::none_of(scenario.steps.begin(), scenario.steps.end(), [](const scenario::Step& step) {
+           return std::holds_alternative<scenario::Slide>(step);
+         });
 }
 
 class Refinement {
@@ -179,7 +188,8 @@ class Refinement {
       scenario::Refinement& refinement = scenario::refinement(scenario.tissue.mesh);
       refinement = {.refine = true, .most_nodes = most_nodes};
       // A mesh is refined until its error is below half of the tolerance.
-      scenario.solver.tolerance = 2.0 * last_error * std::pow(finer_error, levels_ - 1 - level);
+      const double last = in_one_place(scenario) ? error_of_one_place : error_of_many_places;
+      scenario.solver.tolerance = 2.0 * last * std::pow(finer_error, levels_ - 1 - level);
     } else if (box != nullptr && scenario.regions.empty()) {
       const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / first_nodes);
       scenario::Mirrored cells;

@@ -33,7 +33,7 @@ struct Truth {
 //   any other press         chart::refer() with at most 20 moments (50 if viscosity or inertia
 //                           matters), on elastic tissue if the scenario's contact is elastic, and
 //                           what inertia adds to coupled springs if that is not little
-//   any other uniform test  coupled springs on three meshes, extrapolated, with inertia if needed
+//   any other uniform test  coupled springs on three meshes, extrapolated, and what inertia adds
 //   a ready mesh            coupled springs on it; its error is the estimated error of the model
 // `told` is called with the stage. Nothing if `stop` was set before the end. Throws like
 // with_settings(), scene::build() and chart::refer(), and MeshError if a run diverges.

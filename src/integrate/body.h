@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "base/split_matrix.h"
+#include "base/block_matrix.h"
 
 namespace palpate::integrate {
 
@@ -53,10 +53,8 @@ class Body {
   // Dashpots between nodes: their matrix (N s/m; held rows as above) and their force (N).
   [[nodiscard]] virtual bool has_dashpots() const = 0;
   [[nodiscard]] virtual SplitMatrix dashpots(const Vector& displacement) const = 0;
-  // The diagonal of this matrix; only asked of large bodies.
-  [[nodiscard]] virtual Vector dashpot_diagonal(const Vector& displacement) const {
-    return dashpots(displacement).local.diagonal();
-  }
+  // The same matrix by blocks of nodes, without supports; only asked of large bodies.
+  [[nodiscard]] virtual BlockMatrix dashpot_blocks(const Vector& displacement) const = 0;
   virtual void dashpot_force(const Vector& displacement, const Vector& velocity,
                              Vector& force) const = 0;
 

@@ -1,6 +1,7 @@
 // Central differences: eq. (12) of Chen 2007.
 #pragma once
 
+#include "base/coarse_correction.h"
 #include "integrate/body.h"
 #include "integrate/panel_factors.h"
 
@@ -48,7 +49,7 @@ class CentralDifference {
   void factor(const Vector& displacement);
   void solve_dashpots(const State& state, double lag);
   void solve_turned(const Vector& displacement, bool large);
-  [[nodiscard]] const Vector& dashpot_diagonal(const Vector& displacement);
+  void precondition_large(const Vector& displacement);
 
   const Body* body_;
   double time_step_;
@@ -65,7 +66,10 @@ class CentralDifference {
   Vector keep_;           // 2 M - right_rate_ D, with D the drag alone
   Vector keep_first_;     // the same for a consistent first step
   PanelFactors factors_;  // of the matrix on the left, if dashpots join nodes
-  Vector large_inverse_;  // dashpot_diagonal(), when first needed
+  // For large bodies, of the dashpots as they first were: the inverse of the diagonal of the matrix
+  // on the left, 0 where held, and the smooth part of a solution.
+  Vector large_inverse_;
+  CoarseCorrection smooth_;
   Vector force_;
   Vector right_;
   Vector image_;     // product of a vector with D or with the matrix on the left

@@ -76,14 +76,13 @@ SplitMatrix SpringBody::stiffness() const {
 bool SpringBody::has_dashpots() const { return law_.kind == Viscosity::kelvin_voigt; }
 
 SplitMatrix SpringBody::dashpots(const Vector& displacement) const {
-  // tau times the stiffness in the present directions; at rest D = tau K.
-  std::fill(tension_.begin(), tension_.end(), 0.0);
-  return tissue::tangent(*network_, kinematics_, displacement, law_.time, tension_).split(held_);
+  return dashpot_blocks(displacement).split(held_);
 }
 
-integrate::Vector SpringBody::dashpot_diagonal(const Vector& displacement) const {
+BlockMatrix SpringBody::dashpot_blocks(const Vector& displacement) const {
+  // tau times the stiffness in the present directions; at rest D = tau K.
   std::fill(tension_.begin(), tension_.end(), 0.0);
-  return tissue::tangent(*network_, kinematics_, displacement, law_.time, tension_).diagonal();
+  return tissue::tangent(*network_, kinematics_, displacement, law_.time, tension_);
 }
 
 void SpringBody::dashpot_force(const Vector& displacement, const Vector& velocity,

@@ -37,7 +37,7 @@ class SpringBody final : public integrate::Body {
   [[nodiscard]] SplitMatrix stiffness() const override;
   [[nodiscard]] bool has_dashpots() const override;
   [[nodiscard]] SplitMatrix dashpots(const Vector& displacement) const override;
-  [[nodiscard]] Vector dashpot_diagonal(const Vector& displacement) const override;
+  [[nodiscard]] BlockMatrix dashpot_blocks(const Vector& displacement) const override;
   void dashpot_force(const Vector& displacement, const Vector& velocity,
                      Vector& force) const override;
   using Body::memory_at;

@@ -122,10 +122,10 @@ TEST(CoarseCorrection, KeepsItsOwnDisplacements) {
     for (std::size_t i = 0; i < loads.size(); ++i)
       loads[i] = static_cast<double>((1103 * i + 4099 * i * i) % 997) / 997.0 - 0.5;
     std::vector<double> moved(loads.size(), 0.0);
-    coarse.add(loads, block_lanes, moved);
+    coarse.add(loads, block_lanes, block_lanes, moved);
     multiply_lanes(block.matrix, moved, loads);
     std::vector<double> again(loads.size(), 0.0);
-    coarse.add(loads, block_lanes, again);
+    coarse.add(loads, block_lanes, block_lanes, again);
     double largest = 0.0;
     for (const double x : moved) largest = std::max(largest, std::abs(x));
     ASSERT_GT(largest, 0.0);
