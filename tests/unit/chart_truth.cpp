@@ -73,9 +73,9 @@ struct Creeping {
 // A heavy block moves so much that `quasi_static` would be wrong. On a bonded base the reference
 // knows no law, and finds the same on meshes.
 TEST(ChartReference, CreepIsTheMaterialsWithItsInertia) {
-  for (const Creeping& block :
-       {Creeping{1e3, "frictionless", "closed form"},
-        Creeping{2e4, "frictionless", "closed form", 2e-6}, Creeping{2e4, "bonded", "refined"}}) {
+  for (const Creeping& block : {Creeping{1e3, "frictionless", "closed form", 2e-6},
+                                Creeping{2e4, "frictionless", "closed form", 6e-6},
+                                Creeping{2e4, "bonded", "refined", 3e-5}}) {
     const Truth found = truth(
         "[tissue]\nviscosity = \"kelvin_voigt\"\nretardation_time = \"0.1 s\"\nyoung_modulus = "
         "\"10 kPa\"\npoisson_ratio = 0\ndensity = \"" +
@@ -94,8 +94,8 @@ TEST(ChartReference, CreepIsTheMaterialsWithItsInertia) {
       const double law = 0.01 * (-std::expm1(-moment.time / 0.1) +
                                  (before > 0.0 ? std::expm1(-before / 0.1) : 0.0));
       inertia = std::max(inertia, std::abs(added));
-      EXPECT_NEAR(moment.value, law + added, moment.error + 1e-9) << moment.time;
-      EXPECT_LT(moment.error, 2e-3 * inertia + 2e-6);
+      EXPECT_NEAR(moment.value, law + added, moment.error) << moment.time;
+      EXPECT_LT(moment.error, block.error);
     }
     EXPECT_GT(inertia, 1e-8 * block.density) << "the reference sees waves that the law does not";
   }
