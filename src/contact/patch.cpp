@@ -1,46 +1,53 @@
-// Distributes Hertz's pressure: a quadrature in polar coordinates and a walk over the triangles.
+// Distributes Hertz's pressure: a quadrature in polar coordinates and walks over the triangles.
 #include "contact/patch.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace palpate::contact {
 namespace {
 
-constexpr int rings = 6;
-constexpr int half_spokes = 8;
+constexpr std::size_t ring_count = 6;
+constexpr std::size_t spoke_count = 8;  // each with two sides
 
-// A quadrature point, in units of the semi-axes; the opposite point has the same weight.
-struct Pair {
-  double x, y;
-  double weight;  // of each of the two; the sum over all points is 1
+// Quadrature points on ellipses about the centre, in units of the semi-axes: one at every radius
+// and spoke, and one opposite of it.
+struct Quadrature {
+  struct Ring {
+    double radius;
+    double weight;  // of each of its points; the sum over all points is 1
+  };
+  std::array<Ring, ring_count> rings;                     // by growing radii
+  std::array<std::array<double, 2>, spoke_count> spokes;  // to the points farthest out
 };
-using Pairs = std::array<Pair, as_index(rings* half_spokes)>;
 
 // With s = sqrt(1 - r^2/a^2) the force p r dr becomes s^2 ds on [0, 1]: Gauss-Legendre points in s
 // and equal angles. 6-point abscissae: Abramowitz & Stegun 1964, table 25.4. docs/theory.md (9)
-Pairs make_pairs() {
-  constexpr std::array abscissae{0.238619186083196909, 0.661209386466264514, 0.932469514203152028};
-  constexpr std::array weights{0.467913934572691047, 0.360761573048138608, 0.171324492379170345};
-  Pairs pairs{};
-  std::size_t next = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t i = as_index(ring) / 2;
-    const double s = 0.5 + (ring % 2 == 0 ? -0.5 : 0.5) * abscissae[i];
-    const double r = std::sqrt(1.0 - s * s);
-    for (int spoke = 0; spoke < half_spokes; ++spoke) {
-      const double angle = std::numbers::pi * (spoke + 0.5) / half_spokes;
-      pairs[next++] = {r * std::cos(angle), r * std::sin(angle),
-                       3.0 * s * s * 0.5 * weights[i] / (2 * half_spokes)};
-    }
+Quadrature make_quadrature() {
+  constexpr std::array abscissae{0.932469514203152028, 0.661209386466264514, 0.238619186083196909};
+  constexpr std::array weights{0.171324492379170345, 0.360761573048138608, 0.467913934572691047};
+  Quadrature found{};
+  for (std::size_t ring = 0; ring < found.rings.size(); ++ring) {
+    const bool inner = ring < abscissae.size();
+    const std::size_t i = inner ? ring : found.rings.size() - 1 - ring;
+    const double s = 0.5 + (inner ? 0.5 : -0.5) * abscissae[i];
+    found.rings[ring] = {std::sqrt(1.0 - s * s),
+                         3.0 * s * s * 0.5 * weights[i] / (2 * spoke_count)};
   }
-  return pairs;
+  for (std::size_t spoke = 0; spoke < found.spokes.size(); ++spoke) {
+    const double angle = std::numbers::pi * (static_cast<double>(spoke) + 0.5) / spoke_count;
+    const double farthest = found.rings.back().radius;
+    found.spokes[spoke] = {farthest * std::cos(angle), farthest * std::sin(angle)};
+  }
+  return found;
 }
 
-static_assert(most_shares == 3 * 2 * as_index(rings * half_spokes));
+static_assert(most_shares == 3 * 2 * ring_count * spoke_count);
 
+constexpr std::size_t most_stretches = 1000;
 constexpr double least_facing = 0.2;  // cosine; below it a triangle counts as turned away
 
 }  // namespace
@@ -55,6 +62,8 @@ Spreader::Spreader(const geometry::SmoothSurface& surface)
 void Spreader::make_room() {
   touched_.reserve(most_shares);
   met_.reserve(most_shares / 3);
+  ahead_.reserve(most_stretches);
+  back_.reserve(most_stretches);
 }
 
 // Views depend on position and directions, not on the size of the patch.
@@ -89,35 +98,35 @@ void Spreader::look_at(int triangle, View& view) const {
   view.third_y = third.dot(across);
 }
 
-// Walks from the patch's triangle to the one that contains the point, seen along the normal, or -1.
-int Spreader::triangle_at(double x, double y) {
-  constexpr int most_steps = 1000;
-  int triangle = from_.at.triangle;
-  for (int step = 0; step < most_steps; ++step) {
-    const View& seen = view(triangle);
-    if (!seen.faces) return -1;
-    const double second = seen.second + x * seen.second_x + y * seen.second_y;
-    const double third = seen.third + x * seen.third_x + y * seen.third_y;
-    // The edge opposite to the corner with the lowest weight starts at the next corner.
-    double lowest = 1.0 - second - third;
-    std::size_t edge = 1;
-    if (second < lowest) {
-      edge = 2;
-      lowest = second;
+void Spreader::follow(double x, double y, std::vector<Stretch>& way) {
+  way.clear();
+  Stretch stretch{.triangle = from_.at.triangle};
+  int before = -1;
+  while (view(stretch.triangle).faces && way.size() < most_stretches) {
+    const View& seen = view(stretch.triangle);
+    const double second = x * seen.second_x + y * seen.second_y;
+    const double third = x * seen.third_x + y * seen.third_y;
+    const std::array weights{1.0 - seen.second - seen.third, seen.second, seen.third};
+    const std::array changes{-second - third, second, third};
+    // The way leaves the triangle where the first weight falls to 0, but not back where it came.
+    double end = 1.0;
+    int next = -1;
+    std::size_t edge = 0;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (!(changes[corner] < 0.0 && weights[corner] < -end * changes[corner])) continue;
+      const std::size_t opposite = (corner + 1) % 3;  // it starts at the next corner
+      const int beyond = surface_->neighbours().across(stretch.triangle)[opposite];
+      if (beyond >= 0 && beyond == before) continue;
+      end = -weights[corner] / changes[corner];
+      next = beyond;
+      edge = opposite;
     }
-    if (third < lowest) {
-      edge = 0;
-      lowest = third;
-    }
-    constexpr double rounding = 1e-12;
-    if (lowest >= -rounding) return triangle;
-    const int next = surface_->neighbours().across(triangle)[edge];
-    if (next < 0 && lowest >= -1e-9) return triangle;
+    stretch.end = std::clamp(end, stretch.end, 1.0);
+    way.push_back(stretch);
     // Not across a crease: the other side would be loaded suddenly, as soon as it faces the patch.
-    if (surface_->crease(triangle, edge)) return -1;
-    triangle = next;
+    if (next < 0 || surface_->crease(stretch.triangle, edge)) break;
+    before = std::exchange(stretch.triangle, next);
   }
-  return -1;
 }
 
 void Spreader::share(const geometry::SurfacePoint& point, double weight) {
@@ -130,7 +139,7 @@ void Spreader::share(const geometry::SurfacePoint& point, double weight) {
 }
 
 void Spreader::spread(const Patch& patch, Spread& spread) {
-  static const Pairs pairs = make_pairs();
+  static const Quadrature quadrature = make_quadrature();
   look_from(patch);
   touched_.clear();
   met_.clear();
@@ -142,30 +151,25 @@ void Spreader::spread(const Patch& patch, Spread& spread) {
     seen.weight_x += weight * x;
     seen.weight_y += weight * y;
   };
-  for (const Pair& pair : pairs) {
-    const double x = patch.a * pair.x;
-    const double y = patch.b * pair.y;
-    int one = triangle_at(x, y);
-    int other = one < 0 ? -1 : triangle_at(-x, -y);
-    double part = 1.0;
-    if (other < 0) {
-      part = 0.0;
-      double off = 1.0;
-      for (int halving = 0; halving < 24; ++halving) {
-        const double middle = 0.5 * (part + off);
-        const bool on =
-            triangle_at(middle * x, middle * y) >= 0 && triangle_at(-middle * x, -middle * y) >= 0;
-        (on ? part : off) = middle;
+  for (const auto& spoke : quadrature.spokes) {
+    const double x = patch.a * spoke[0];
+    const double y = patch.b * spoke[1];
+    follow(x, y, ahead_);
+    follow(-x, -y, back_);
+    auto one = ahead_.begin();
+    auto other = back_.begin();
+    for (const Quadrature::Ring& ring : quadrature.rings) {
+      if (ahead_.empty()) {
+        share(patch.at, 2.0 * ring.weight);
+        continue;
       }
-      one = triangle_at(part * x, part * y);
-      other = one < 0 ? -1 : triangle_at(-part * x, -part * y);
+      const double part = std::min(
+          {ring.radius / quadrature.rings.back().radius, ahead_.back().end, back_.back().end});
+      while (one->end < part) ++one;
+      while (other->end < part) ++other;
+      add(one->triangle, part * x, part * y, ring.weight);
+      add(other->triangle, -part * x, -part * y, ring.weight);
     }
-    if (other < 0) {
-      share(patch.at, 2.0 * pair.weight);
-      continue;
-    }
-    add(one, part * x, part * y, pair.weight);
-    add(other, -part * x, -part * y, pair.weight);
   }
   for (const int triangle : met_) {
     View& seen = view(triangle);

@@ -42,9 +42,9 @@ class Spreader {
   void make_room();
 
   // The weight of every quadrature point is distributed by the linear shape functions of the
-  // triangle that it meets along the normal. If one of two opposite points misses the surface, or
-  // meets a triangle beyond a crease or turned away, both are moved towards the centre until they
-  // meet it. For a = b = 0 the triangle under the centre gets everything. docs/theory.md (9)
+  // triangle that it meets along the normal. If the straight way from the centre to one of two
+  // opposite points leaves the surface, or comes to a crease or to a triangle turned away, both are
+  // moved back to that place. For a = b = 0 the triangle under the centre gets everything. docs/theory.md (9)
   void spread(const Patch& patch, Spread& spread);
 
  private:
@@ -66,15 +66,24 @@ class Spreader {
     return seen;
   }
   void look_at(int triangle, View& view) const;
-  [[nodiscard]] int triangle_at(double x, double y);
+  // A triangle on a straight way from the patch's position, seen along the normal, and the part of
+  // the way at which it ends.
+  struct Stretch {
+    double end = 0.0;
+    int triangle = -1;
+  };
+  // The way to the point (x, y), m, as far as it lies on the surface and crosses no crease: nothing
+  // if the patch's own triangle is turned away.
+  void follow(double x, double y, std::vector<Stretch>& way);
   void share(const geometry::SurfacePoint& point, double weight);
 
   const geometry::SmoothSurface* surface_;
   std::vector<double> share_;  // one per vertex
   std::vector<int> touched_;   // vertices
   std::vector<int> met_;       // triangles
-  Patch from_;                 // the patch for which views_ are valid
-  std::vector<View> views_;    // one per triangle
+  std::vector<Stretch> ahead_, back_;
+  Patch from_;               // the patch for which views_ are valid
+  std::vector<View> views_;  // one per triangle
   unsigned turn_ = 0;
 };
 
