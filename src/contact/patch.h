@@ -44,7 +44,8 @@ class Spreader {
   // The weight of every quadrature point is distributed by the linear shape functions of the
   // triangle that it meets along the normal. If the straight way from the centre to one of two
   // opposite points leaves the surface, or comes to a crease or to a triangle turned away, both are
-  // moved back to that place. For a = b = 0 the triangle under the centre gets everything. docs/theory.md (9)
+  // moved back to that place. For a = b = 0 the triangle under the centre gets everything.
+  // docs/theory.md (9)
   void spread(const Patch& patch, Spread& spread);
 
  private:
