@@ -52,9 +52,11 @@ class Words {
       if (!one.beside.empty()) uncounted += (uncounted.empty() ? "" : " and ") + one.beside;
     std::string text = "an error of about " + percent_text(*error) + " (asked " +
                        percent_text(scene_.scenario.solver.tolerance);
-    text += scene_.choice.given || *error <= scene_.scenario.solver.tolerance
-                ? ")"
-                : ", and no model comes nearer)";
+    if (scene_.choice.given || *error <= scene_.scenario.solver.tolerance)
+      text += ")";
+    else
+      text += follows_hertz() ? ", and with `contact.coupling = \"one_way\"` no model comes nearer)"
+                              : ", and no model comes nearer)";
     return text + (uncounted.empty() ? "" : ", not counting " + uncounted);
   }
 
@@ -70,11 +72,16 @@ class Words {
   }
 
  private:
+  [[nodiscard]] bool follows_hertz() const {
+    return !scene_.scenario.uniform() &&
+           scene_.scenario.contact.coupling == contact::Coupling::one_way;
+  }
+
   // Why this model, or what another would do.
   [[nodiscard]] std::string why() const {
     const scene::Choice& choice = scene_.choice;
     const bool uniform = scene_.scenario.uniform();
-    if (!uniform && scene_.scenario.contact.coupling == contact::Coupling::one_way)
+    if (follows_hertz())
       return "With `contact.coupling = \"one_way\"` the mesh gives the shape; the force is that of "
              "hertz, whatever the size of the body.";
     if (choice.given) {

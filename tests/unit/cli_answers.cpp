@@ -130,6 +130,21 @@ INSTANTIATE_TEST_SUITE_P(of, Answers, testing::ValuesIn(scenes()),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
 // Every heading with a table, every key and every word that a table of the manual begins with.
+// With `one_way` every model has the force of a half-space, however thin the tissue.
+TEST(Explain, SaysThatTheCouplingKeepsModelsAway) {
+  const TemporaryFolder folder;
+  write_file(folder / "thin.toml",
+             "schema = 1\ntitle = \"thin\"\n[tissue]\nshape = { size = [\"60 mm\", \"60 mm\", \"10 "
+             "mm\"] }\n[contact]\ncoupling = \"one_way\"\n" +
+                 press);
+  const Ended ended = palpate(folder.path(), {"explain", "thin.toml"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("(asked 5 %, and with `contact.coupling = \"one_way\"` no model comes "
+                           "nearer)"),
+            std::string::npos)
+      << ended.out;
+}
+
 TEST(Explain, KnowsEveryTableAndKeyOfTheManual) {
   const TemporaryFolder folder;
   std::set<std::string> words;
