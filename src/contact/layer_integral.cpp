@@ -275,10 +275,6 @@ LayerSolution solve_layer(double ratio, const Layer& layer) {
   return LayerEquation(layer, layer_resolution(ratio / layer.top())).solve(ratio);
 }
 
-double flat_punch_factor(double ratio, const Layer& layer) {
-  return solve_layer(ratio, layer).punch;
-}
-
 std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
   std::vector<double> numbers(as_index(count));
   std::vector<double> weights(numbers.size());
@@ -287,13 +283,6 @@ std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
   for (std::size_t k = 0; k < numbers.size(); ++k)
     waves.push_back({numbers[k], layer.share * weights[k] * missing_sinking(numbers[k], layer)});
   return waves;
-}
-
-double layer_first_coefficient(const Layer& layer) {
-  double sum = 0.0;
-  const int count = layer.below.empty() ? 64 : 256;
-  for (const LayerWave& wave : layer_waves(layer, count)) sum += wave.missing;
-  return 2.0 / pi * sum;
 }
 
 ChebyshevSum chebyshev_sum(std::span<const double> coefficients, double z) {

@@ -106,13 +106,6 @@ class LayerEquation {
 // One solution with the resolution that the ratio a/H needs.
 [[nodiscard]] LayerSolution solve_layer(double ratio, const Layer& layer);
 
-// kappa of a rigid flat punch of radius a = ratio H: F = 2 a E* h kappa. At least 1 on one layer.
-[[nodiscard]] double flat_punch_factor(double ratio, const Layer& layer);
-
-// c_1 of F / F_Hertz = 1 + c_1 chi + 7/6 c_1^2 chi^2 + ..., the thickness to first order:
-//   c_1 = 2/pi share int_0^inf M(u) du                                     docs/theory.md (58)
-[[nodiscard]] double layer_first_coefficient(const Layer& layer);
-
 // Points u_k of a quadrature int_0^inf share M(u) f(u) du = sum_k missing_k f(u_k).
 struct LayerWave {
   double number = 0.0;   // u = xi H

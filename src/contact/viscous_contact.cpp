@@ -232,9 +232,4 @@ double ViscousContact::surface_depth() const {
   return pressed_.empty() ? place_of_free() : depth_;
 }
 
-double depth_under_constant_force(const Creep& creep, double relaxed_depth, double time) {
-  const double root = std::cbrt(creep.compliance_ratio(time));
-  return relaxed_depth * root * root;
-}
-
 }  // namespace palpate::contact

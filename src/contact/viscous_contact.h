@@ -86,10 +86,4 @@ class ViscousContact {
   double force_ = 0.0;
 };
 
-// The depth of a Hertz contact under a constant force, applied at once, after the time t (s); the
-// force presses an elastic tissue to `relaxed_depth` (m) in the end:
-//   h^(3/2) = h_inf^(3/2) J(t) E_inf                         Lee and Radok 1960
-[[nodiscard]] double depth_under_constant_force(const Creep& creep, double relaxed_depth,
-                                                double time);
-
 }  // namespace palpate::contact

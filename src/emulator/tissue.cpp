@@ -55,9 +55,4 @@ double force_of(const Tissue& tissue) {
   return force > 0.0 ? force : 0.0;
 }
 
-double relaxation_force(const TissueSettings& s, double depth, double t) {
-  const double modulus = s.E_inf + (s.E0 - s.E_inf) * std::exp(-t / s.tau);
-  return 4.0 / 3.0 * std::sqrt(s.R) / (1.0 - s.nu * s.nu) * modulus * depth * std::sqrt(depth);
-}
-
 }  // namespace emulator

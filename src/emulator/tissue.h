@@ -40,7 +40,4 @@ double press(Tissue& tissue, double depth);
 // N, the present force on the indenter; never negative.
 [[nodiscard]] double force_of(const Tissue& tissue);
 
-// N, at the time t after a jump to `depth` (m): F(t) = 4/3 sqrt(R)/(1 - nu^2) E(t) depth^(3/2).
-[[nodiscard]] double relaxation_force(const TissueSettings& settings, double depth, double t);
-
 }  // namespace emulator

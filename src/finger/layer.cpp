@@ -224,12 +224,6 @@ Layer pack(const geometry::Surface& fingertip, double density, int count) {
   return layer;
 }
 
-double smallest_spacing(const Layer& layer) {
-  std::vector<Point> points;
-  for (const Vec3& centre : layer.centres) points.push_back({centre.x(), centre.y()});
-  return smallest_distance(points);
-}
-
 double modulus_factor(Calibration calibration, int count) {
   // n (r/n^(1/3))^(1/2) = n^(5/6) r^(1/2)                        docs/theory.md (29)
   return calibration == Calibration::force ? std::pow(count, -5.0 / 6.0) : 1.0;

@@ -28,9 +28,6 @@ inline constexpr int most_spheres = 64;
 //                                                         Chen 2007 eq. (5); docs/theory.md (28)
 [[nodiscard]] Layer pack(const geometry::Surface& fingertip, double density, int count);
 
-// The smallest distance between two centres, m; infinite for one sphere.
-[[nodiscard]] double smallest_spacing(const Layer& layer);
-
 // Which property several spheres share with the single sphere that they replace.
 enum class Calibration {
   mass,   // Chen 2007: the total force on a flat is n^(5/6) times as large

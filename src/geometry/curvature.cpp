@@ -5,11 +5,6 @@
 
 namespace palpate::geometry {
 
-Eigen::Matrix3d shape_tensor(const Curvature& curvature) {
-  const auto& [kappa_1, kappa_2, t_1, t_2, normal] = curvature;
-  return kappa_1 * t_1 * t_1.transpose() + kappa_2 * t_2 * t_2.transpose();
-}
-
 std::string_view explanation(StarStatus status) {
   switch (status) {
     case StarStatus::full: return "neighbours all around";

@@ -21,9 +21,6 @@ struct Curvature {
   Vec3 normal = Vec3::UnitZ();  // unit, outward
 };
 
-// kappa_1 t_1 t_1^T + kappa_2 t_2 t_2^T, 1/m.                                docs/theory.md (19)
-[[nodiscard]] Eigen::Matrix3d shape_tensor(const Curvature& curvature);
-
 // How well a vertex's neighbours determine its curvature.
 enum class StarStatus {
   full,        // neighbours all around

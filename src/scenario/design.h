@@ -84,8 +84,7 @@ class Design {
   // range, and none for a CSV file, in which the values of a row belong together.
   [[nodiscard]] std::vector<std::vector<Setting>> extremes(std::size_t factor) const;
 
-  // Whether cases are named by their words; otherwise by their number, `0001`.
-  [[nodiscard]] bool named_by_words() const { return named_by_words_; }
+  // By the words of its values, or by its number, `0001`.
   [[nodiscard]] std::string case_name(
       std::size_t i, const std::vector<std::pair<std::string, std::string>>& swept) const;
 

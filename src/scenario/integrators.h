@@ -74,16 +74,4 @@ inline constexpr int default_modes = 128;
                                                    : integrate::DampingVelocity::centred;
 }
 
-// The order of convergence of the displacement in the time step, for loads that are constant or
-// smooth in time; nothing for methods that are exact for loads linear in time.
-[[nodiscard]] inline std::optional<int> order_in_time(const Resolved::Solver& solver,
-                                                      tissue::Viscosity viscosity) {
-  const bool damped =
-      viscosity == tissue::Viscosity::nodal_drag || viscosity == tissue::Viscosity::kelvin_voigt;
-  const bool late = (damped && solver.damping == Solver::Damping::lagged) ||
-                    solver.start == integrate::Start::paper;
-  if (solver.integrator == Solver::Integrator::central_difference && late) return 1;
-  return about(solver.integrator).order;
-}
-
 }  // namespace palpate::scenario

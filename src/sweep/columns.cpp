@@ -150,10 +150,4 @@ SweepColumns ColumnReader::finish() {
   return done;
 }
 
-SweepColumns sweep_columns(const ColumnChoice& choice, const record::Table& table) {
-  ColumnReader reader(choice, table.columns);
-  for (const auto& row : table.rows) reader.add(row);
-  return reader.finish();
-}
-
 }  // namespace palpate::sweep

@@ -81,9 +81,6 @@ class ColumnReader {
   SweepColumns columns_;
 };
 
-// The same for a whole table.
-[[nodiscard]] SweepColumns sweep_columns(const ColumnChoice& choice, const record::Table& table);
-
 // Reads PLAN/merged/results.csv (number, id, one column per key, results), a part of the file at a
 // time. A factor of several linked keys has the column of the first. Numbers from lists and CSV
 // files get a logarithmic scale if they spread by more than a factor of 30; ranges have the scale

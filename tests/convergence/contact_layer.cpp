@@ -70,7 +70,7 @@ TEST(LayerEquation, PressureSeriesEnds) {
 // f - 1 - c1 chi - 7/6 c1^2 chi^2 is of third order.
 TEST(LayerEquation, SeriesIsOfThirdOrder) {
   for (const Layer& layer : {fixed, fixed_soft, sliding}) {
-    const double c1 = layer_first_coefficient(layer);
+    const double c1 = test::layer_first_coefficient(layer);
     const LayerEquation equation(layer, layer_resolution(0.1));
     const auto rest = [&](double chi) {
       return test::layer_at_chi(equation, chi).force_factor() - 1.0 - c1 * chi -
@@ -87,7 +87,8 @@ TEST(LayerEquation, SeriesIsOfThirdOrder) {
 // holds, and 1 where both faces slide.
 TEST(ThinLayer, BecomesABedOfSprings) {
   const auto slope = [](const Layer& layer, double ratio) {
-    return (flat_punch_factor(2.0 * ratio, layer) - flat_punch_factor(ratio, layer)) / ratio;
+    return (test::flat_punch_factor(2.0 * ratio, layer) - test::flat_punch_factor(ratio, layer)) /
+           ratio;
   };
   const double springs = pi / 2.0 * 0.7 * 0.7 / 0.4;
   const double coarse = slope(fixed_soft, 5.0) - springs, fine = slope(fixed_soft, 20.0) - springs;
@@ -105,7 +106,7 @@ TEST(ThinLayer, BecomesABedOfSprings) {
 // One that keeps its volume must flow outwards between base and punch. By lubrication theory, with
 // the pressure 3 G h (a^2 - r^2) / (4 H^3) where the punch slides, kappa is 3 pi / 64 (a/H)^3.
 TEST(ThinLayer, OfConstantVolumeResistsWithTheThirdPower) {
-  const auto kappa = [](double ratio) { return flat_punch_factor(ratio, fixed); };
+  const auto kappa = [](double ratio) { return test::flat_punch_factor(ratio, fixed); };
   const auto third_power = [&](double step) {  // from the third difference: an edge adds a square
     return (kappa(4.0 * step) - 3.0 * kappa(3.0 * step) + 3.0 * kappa(2.0 * step) - kappa(step)) /
            (6.0 * step * step * step);

@@ -11,6 +11,12 @@ namespace {
 constexpr double stand_step = 1.0 / 7000.0;  // s, the stand's step
 const TissueSettings skin{.E0 = 40e3, .E_inf = 10e3, .tau = 0.3, .nu = 0.45, .R = 6e-3};
 
+// N, at the time t after a jump to `depth` (m): F(t) = 4/3 sqrt(R)/(1 - nu^2) E(t) depth^(3/2).
+double relaxation_force(const TissueSettings& s, double depth, double t) {
+  const double modulus = s.E_inf + (s.E0 - s.E_inf) * std::exp(-t / s.tau);
+  return 4.0 / 3.0 * std::sqrt(s.R) / (1.0 - s.nu * s.nu) * modulus * depth * std::sqrt(depth);
+}
+
 // F = C int_0^t E(t - s) 3/2 v^(3/2) s^(1/2) ds by Simpson; s = u^2 takes the root away.
 double ramp_force(double speed, double t) {
   const int intervals = 2000;

@@ -54,7 +54,9 @@ void expect_factor(const std::string& id, const Layer& layer, double chi, double
 const double thin_chi = layer_chi(1e-3, 0.011, 0.01);
 
 TEST(LayerCases, FlatPunchOnABondedLayer) {
-  const auto kappa = [](double ratio, double nu) { return flat_punch_factor(ratio, bonded(nu)); };
+  const auto kappa = [](double ratio, double nu) {
+    return test::flat_punch_factor(ratio, bonded(nu));
+  };
   expect_case("hayes-01", kappa(0.2, 0.3), 1.2065582, 1e-5);
   expect_case("hayes-03", kappa(0.6, 0.3), 1.7847538, 1e-5);
   expect_case("hayes-05", kappa(2.0, 0.3), 4.3532443, 1e-5);
@@ -83,12 +85,12 @@ TEST(LayerCases, Sphere) {
 }
 
 TEST(LayerCases, FirstCoefficient) {
-  expect_case("layer-29", layer_first_coefficient(bonded(0.27)), 0.85749745, 1e-6);
-  expect_case("layer-30", layer_first_coefficient(bonded(0.30)), 0.87653259, 1e-6);
-  expect_case("layer-31", layer_first_coefficient(bonded(0.33)), 0.89876047, 1e-6);
-  expect_case("layer-34", layer_first_coefficient(bonded(0.5)), 1.126955, 1e-6);
+  expect_case("layer-29", test::layer_first_coefficient(bonded(0.27)), 0.85749745, 1e-6);
+  expect_case("layer-30", test::layer_first_coefficient(bonded(0.30)), 0.87653259, 1e-6);
+  expect_case("layer-31", test::layer_first_coefficient(bonded(0.33)), 0.89876047, 1e-6);
+  expect_case("layer-34", test::layer_first_coefficient(bonded(0.5)), 1.126955, 1e-6);
   // Five printed digits.
-  EXPECT_NEAR(layer_first_coefficient(frictionless()), 0.74330, 5e-6);
+  EXPECT_NEAR(test::layer_first_coefficient(frictionless()), 0.74330, 5e-6);
 }
 
 // An axisymmetric finite-element program at a/H = 1/2: 1.591, 1.857 (at nu = 0.4999, as near as it
@@ -193,7 +195,7 @@ TEST(LayerLaw, IsHertzOnAHalfSpace) {
 // f = 1 + c1 chi + 7/6 c1^2 chi^2 + ...
 TEST(LayerLaw, StartsWithItsSeries) {
   for (const Layer& layer : layers()) {
-    const double c1 = layer_first_coefficient(layer);
+    const double c1 = test::layer_first_coefficient(layer);
     EXPECT_NEAR(LayerLaw(layer).force_slope(0.0), c1, 1e-6 * c1) << name(layer);  // 1e-7 measured
     // c2 + c3 chi + c4 chi^2 through three points, at chi = 0. What is left is c5 times the
     // product of the three, 8e-6, and c5 is less than c1.
@@ -306,7 +308,7 @@ TEST(LayerContact, HasSizes) {
     EXPECT_NEAR((contact.force(depth + step) - contact.force(depth - step)) / (2.0 * step),
                 contact.stiffness(depth), 1e-7 * contact.stiffness(depth));
     // dF/dh = 2 E* a kappa; 1e-6 of a table's slope
-    EXPECT_NEAR(2.0 * layer_modulus * a * flat_punch_factor(a / thickness, bonded(0.33)),
+    EXPECT_NEAR(2.0 * layer_modulus * a * test::flat_punch_factor(a / thickness, bonded(0.33)),
                 contact.stiffness(depth), 1e-6 * contact.stiffness(depth));
     EXPECT_DOUBLE_EQ(contact.pressure(0.3 * a, depth),
                      force / (pi * a * a) * contact.law.pressure(chi).at(0.3));

@@ -64,7 +64,7 @@ TEST(LayerStack, SofterBelowIsSofter) {
     EXPECT_NEAR(LayerLaw(skin_on(stiffness)).force_factor(1e-6), 1.0, 1e-4) << stiffness;
   }
   EXPECT_LT(LayerLaw(skin_on(0.1)).force_factor(0.16), 0.7);
-  EXPECT_LT(layer_first_coefficient(skin_on(0.1)), 0.0);
+  EXPECT_LT(test::layer_first_coefficient(skin_on(0.1)), 0.0);
 }
 
 // 1e-5, as the header says.

@@ -25,6 +25,14 @@ const Relaxation solid{.branches = {{.time = 1.0, .ratio = 1.0}}};
 const Relaxation two{.branches = {{.time = 0.05, .ratio = 2.0}, {.time = 1.0, .ratio = 0.7}}};
 const Relaxation voigt{.branches = {}, .retardation_time = 0.2};
 
+// The depth of a Hertz contact under a constant force, applied at once, after the time t (s); the
+// force presses an elastic tissue to `relaxed_depth` (m) in the end:
+//   h^(3/2) = h_inf^(3/2) J(t) E_inf                         Lee and Radok 1960
+double depth_under_constant_force(const Creep& creep, double relaxed_depth, double time) {
+  const double root = std::cbrt(creep.compliance_ratio(time));
+  return relaxed_depth * root * root;
+}
+
 double step(ViscousContact& contact, double time_step, double depth) {
   return contact.step(time_step, depth, phi(depth));
 }

@@ -53,6 +53,12 @@ ColumnChoice choice(std::vector<std::string> show = {}) {
           std::move(show)};
 }
 
+SweepColumns sweep_columns(const ColumnChoice& choice, const record::Table& table) {
+  ColumnReader reader(choice, table.columns);
+  for (const auto& row : table.rows) reader.add(row);
+  return reader.finish();
+}
+
 Names names(const SweepColumns& columns) {
   Names all;
   for (const OutputColumn& output : columns.outputs) all.push_back(output.name);
