@@ -214,16 +214,22 @@ TEST(Spread, ChangesContinuouslyAsItMoves) {
   }
 }
 
+// A side that falls steeply is turned away from the patch; one that falls at 60 degrees faces it,
+// but lies beyond a crease.
 TEST(Spread, DoesNotReachAroundTheRim) {
-  const SmoothSurface smooth(block());
-  const BoxTree tree(smooth.surface());
-  Spreader spreader(smooth);
-  Patch patch = patch_below(smooth, tree, {0.0595, 0.03, 0.04}, 0.0);
-  patch.a = patch.b = 0.005;
-  Spread spread;
-  spreader.spread(patch, spread);
-  for (const int vertex : spread.vertices)
-    EXPECT_EQ(smooth.surface().vertices[static_cast<std::size_t>(vertex)].z(), block_size.z());
+  for (const double shear : {0.0, 1.0 / std::sqrt(3.0)}) {
+    geometry::Surface body = block();
+    for (Vec3& vertex : body.vertices) vertex.x() += shear * (block_size.z() - vertex.z());
+    const SmoothSurface smooth(body);
+    const BoxTree tree(smooth.surface());
+    Spreader spreader(smooth);
+    Patch patch = patch_below(smooth, tree, {0.0595, 0.03, 0.04}, 0.0);
+    patch.a = patch.b = 0.005;
+    Spread spread;
+    spreader.spread(patch, spread);
+    for (const int vertex : spread.vertices)
+      EXPECT_EQ(smooth.surface().vertices[static_cast<std::size_t>(vertex)].z(), block_size.z());
+  }
 }
 
 }  // namespace
