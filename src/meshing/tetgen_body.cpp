@@ -76,6 +76,14 @@ geometry::TetMesh checked(const geometry::Body& body, geometry::TetMesh mesh) {
   return mesh;
 }
 
+// How many nodes TetGen may add before the surface counts as unfit: 20 times those of an even mesh.
+std::size_t most_nodes(const geometry::Body& body, const geometry::Surface& facets,
+                       double largest) {
+  const double volume = geometry::enclosed(body.parts.front().surface).volume;
+  const double even = static_cast<double>(facets.vertices.size()) + 0.4 * volume / largest;
+  return static_cast<std::size_t>(1e4 + 20.0 * even);
+}
+
 enum class Triangles { kept, split };  // split by TetGen, which adds nodes on the surfaces
 
 // Relative differences of the counts from the requested ones.
@@ -101,10 +109,17 @@ class Search {
     if (spent >= time_limit_)
       throw MeshError("no mesh as fine as asked for was found within " + rounded_text(time_limit_) +
                       " s; ask for fewer nodes or allow more time");
-    geometry::TetMesh mesh = tetgen_surface(geometry::facets(body),
-                                            switches + std::string("a") + number_text(largest) +
-                                                (triangles == Triangles::kept ? "Y" : ""),
-                                            time_limit_ - spent);
+    const geometry::Surface facets = geometry::facets(body);
+    const std::size_t most = most_nodes(body, facets, largest);
+    geometry::TetMesh mesh =
+        tetgen_surface(facets,
+                       switches + std::string("a") + number_text(largest) + "S" +
+                           std::to_string(most) + (triangles == Triangles::kept ? "Y" : ""),
+                       time_limit_ - spent);
+    if (mesh.nodes.size() >= facets.vertices.size() + most)
+      throw MeshError("TetGen added " + std::to_string(most) +
+                      " nodes without an end, as it does where facets meet at sharp angles; smooth "
+                      "the surface there");
     name_regions(body, mesh);
     return mesh;
   }
@@ -159,11 +174,14 @@ class Search {
     std::string text = "no mesh near " + std::to_string(target_.nodes) + " nodes";
     if (target_.tetrahedra > 0)
       text += " and " + std::to_string(target_.tetrahedra) + " tetrahedra";
-    text += miss_ < HUGE_VAL
-                ? " was found, the nearest has " + std::to_string(best_.mesh.nodes.size()) +
-                      " and " + std::to_string(best_.mesh.tetrahedra.size())
-                : " was found, as the surfaces alone have " + std::to_string(fewest_);
-    throw MeshError(text + "; ask for about as many, or change the surface");
+    const std::string remedy = "; ask for about as many, or change the surface";
+    if (miss_ == HUGE_VAL)
+      throw TooFewNodes(
+          text + " was found, as the surfaces alone have " + std::to_string(fewest_) + remedy,
+          fewest_);
+    throw MeshError(text + " was found, the nearest has " +
+                    std::to_string(best_.mesh.nodes.size()) + " and " +
+                    std::to_string(best_.mesh.tetrahedra.size()) + remedy);
   }
 
  private:

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <span>
+#include <string>
 
+#include "base/error.h"
 #include "geometry/shapes.h"
 
 namespace palpate::meshing {
@@ -14,12 +16,19 @@ struct Target {
   double edge_length = 0.0;  // m, used if `nodes` is 0
 };
 
+// The surfaces have more nodes than the mesh may have.
+struct TooFewNodes : MeshError {
+  TooFewNodes(const std::string& text, int on_surfaces) : MeshError(text), least(on_surfaces) {}
+  int least;
+};
+
 // The mesh of a body. TetGen keeps every triangle of the surfaces and adds nodes inside only, so
 // the surfaces determine the smallest number of nodes; if that leaves too few nodes or triangles
 // that are too coarse, TetGen may split triangles. TetMesh::regions are the parts' `region`, or
 // empty if all are 0. `time_limit` in s, for all attempts together. The same arguments give the
 // same mesh. check() has accepted it. Throws MeshError as tetgen_surface() does, if a surface is
-// not closed or inside out, and if no mesh within 25 % of the target is found.
+// not closed or inside out, and if no mesh within 25 % of the target is found, as TooFewNodes where
+// that is why.
 [[nodiscard]] geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target,
                                             double time_limit);
 

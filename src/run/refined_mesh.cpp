@@ -146,7 +146,6 @@ class Refining {
       : one_(one), family_(family), mesh_(&scenario.tissue.mesh) {
     trial_.given = true;
     trial_.chosen = scene::refining_press(scenario);
-    scenario::refinement(trial_.chosen.tissue.mesh).refine = false;
     most_nodes_ = scenario::refinement(*mesh_).most_nodes;
     if (scenario.solver.integrator == scenario::Solver::Integrator::modal &&
         !scenario::lowest_modes_serve(scenario))
@@ -156,6 +155,8 @@ class Refining {
   [[nodiscard]] scene::SpecimenShape refined() {
     const scenario::Resolved& press = trial_.chosen;
     scene::SpecimenShape shape = scene::make_shape(press, family_.folder);
+    scenario::refinement(trial_.chosen.tissue.mesh).refine =
+        false;  // scene_with() takes it as it is
     std::vector<double> levels = scene::slab_levels(press);
     levels.push_back(shape.base_level);
     meshing::TrueBoundary boundary(shape.mesh, scene::parametric(press.tissue.shape),

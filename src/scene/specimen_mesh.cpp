@@ -72,7 +72,14 @@ geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& 
   const auto* box = std::get_if<geometry::Cuboid>(&shape);
   if (box != nullptr && inside.empty() && !mesh.edge)
     return meshing::tetgen_cuboid(box->size, mesh.nodes, meshing_time);
-  return meshing::tetgen_shape(shape, inside, target(mesh), meshing_time);
+  meshing::Target wanted = target(mesh);
+  while (true) try {
+      return meshing::tetgen_shape(shape, inside, wanted, meshing_time);
+    } catch (const meshing::TooFewNodes& error) {
+      // Only of a mesh to be refined; a finer one has more of its nodes inside.
+      if (!mesh.refine || error.least > mesh.most_nodes) throw;
+      wanted = {.nodes = std::max(error.least, 2 * wanted.nodes)};
+    }
 }
 
 // Cells are small where the finger presses.
