@@ -23,51 +23,42 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// A programme that ends after the first row.
-std::vector<scenario::Step> first_row(const scene::Scene& scene) {
-  const double interval = scene.scenario.output.interval;
-  scenario::Step step = scene.scenario.steps.front();
-  if (auto* indent = std::get_if<scenario::Indent>(&step))
-    indent->to = {std::min(indent->to.value, indent->rate * interval), false};
-  else if (auto* slide = std::get_if<scenario::Slide>(&step))
-    slide->by = std::min(slide->by, slide->rate * interval);
-  else if (auto* hold = std::get_if<scenario::Hold>(&step))
-    hold->time = std::min(hold->time, interval);
-  else if (auto* relax = std::get_if<scenario::Relax>(&step))
-    relax->time = std::min(relax->time, interval);
-  else if (auto* compress = std::get_if<scenario::Compress>(&step))
-    *compress = {compress->strain_at(interval), compress->rate, 0.0};
-  else if (auto* creep = std::get_if<scenario::Creep>(&step))
-    *creep = {creep->stress, std::min(creep->load_time, interval), 0.0};
-  return {step};
-}
-
 double end_time(const record::CaseRecord& record) {
   if (!record.contact.empty()) return record.contact.back().time;
   return record.strain.empty() ? 0.0 : record.strain.back().time;
 }
 
-// Without findings. Returns the run time, s, with that of modes that are known already.
-double run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
+// The time of the first row after the start, s; that of the last one if there is no such row.
+double first_time(const record::CaseRecord& record) {
+  if (record.contact.size() > 1) return record.contact[1].time;
+  return record.strain.size() > 1 ? record.strain[1].time : end_time(record);
+}
+
+// Without findings; the times count the time of modes that are known already.
+Timing run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
                 record::CaseRecord& record) {
   record = {};
   const double saved = scene.known_modes->saved;
   const Clock::time_point start = Clock::now();
   run::run_programme(scene, stop, record);
-  return since(start) + scene.known_modes->saved - saved;
+  const Clock::time_point end = Clock::now();
+  const auto until = [&](Clock::time_point moment) {
+    return std::chrono::duration<double>(moment - start).count() + scene.known_modes->saved - saved;
+  };
+  return {.first_row = until(record.first_row.value_or(end)), .whole = until(end)};
 }
 
-// The least time of several runs, s, because disturbances only slow a run down; once if it is long.
-double timed(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
+// The fastest of several runs, because disturbances only slow a run down; one if it is long.
+Timing timed(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
   constexpr double enough = 5e-3;  // s, of all runs together
   constexpr int most = 1000;
-  double least = run_once(scene, stop, record);
-  double all = least;
+  Timing least = run_once(scene, stop, record);
+  double all = least.whole;
   for (int i = 1; i < most && all < enough; ++i) {
     if (record.outcome != record::Outcome::completed) break;
-    const double time = run_once(scene, stop, record);
-    least = std::min(least, time);
-    all += time;
+    const Timing again = run_once(scene, stop, record);
+    if (again.whole < least.whole) least = again;
+    all += again.whole;
   }
   return least;
 }
@@ -162,8 +153,7 @@ class Measurer {
     if (one.status != Status::measured) return false;
     if (static_cast<int>(one.timings.size()) > round) return false;
     double spent = 0.0;
-    for (const Timing& timing : one.timings)
-      spent += timing.build + timing.first_row + timing.whole;
+    for (const Timing& timing : one.timings) spent += timing.build + timing.whole;
     return spent + spent / static_cast<double>(one.timings.size()) <= options_.budget;
   }
 
@@ -179,37 +169,31 @@ class Measurer {
       scene.known_modes = &known_modes_;
       settle(scene, one);
       record::CaseRecord record;
-      const auto timed_within = [&](double limit) {
-        const Watch watch(stop_, limit);
-        return timed(scene, watch.flag(), record);
-      };
-      const std::vector<scenario::Step> steps = scene.scenario.steps;
-      scene.scenario.steps = first_row(scene);
       const auto cut = [&] { return record.outcome == record::Outcome::interrupted; };
-      const auto predicted = [&](double time) {
-        const double row = scene.scenario.output.interval;
-        return time * scene_time(chart) / std::max(end_time(record), row);
+      const auto time_within = [&](double limit) {
+        const Watch watch(stop_, limit);
+        const Timing run = timed(scene, watch.flag(), record);
+        timing.first_row = run.first_row;
+        timing.whole = run.whole;
       };
-      timing.first_row = timed_within((first ? 0.5 : 1.0) * longest_);
-      if (stop_.load()) return false;
-      if (first && cut() && timing.first_row < longest_)  // a longer step has found its modes
-        return not_run(one, predicted(timing.first_row));
-      one.first_simulated = end_time(record);
-      scene.scenario.steps = steps;
+      const auto predicted = [&] {
+        const double row = scene.scenario.output.interval;
+        return timing.whole * scene_time(chart) / std::max(end_time(record), row);
+      };
       // Variants that differ in the time step alone tell what a step takes.
       double& a_step =
           seconds_a_step_[std::to_string(one.variant.of_case) + one.model + one.coupling +
                           one.integrator + one.rings + " " + std::to_string(one.nodes)];
       const double steps_in_all = one.substep > 0.0 ? scene_time(chart) / one.substep : 0.0;
       if (first && a_step * steps_in_all > 1.5 * longest_)
-        return not_run(one, timing.first_row + a_step * steps_in_all);
-      timing.whole = timed_within((first ? 0.25 : 1.0) * longest_);  // shows what is far too long
-      if (first && cut() && !stop_.load() && predicted(timing.whole) < 2.0 * longest_)
-        timing.whole = timed_within(longest_);
+        return not_run(one, a_step * steps_in_all);
+      time_within((first ? 0.25 : 1.0) * longest_);  // shows what is far too long
+      if (first && cut() && !stop_.load() && predicted() < 2.0 * longest_) time_within(longest_);
+      one.first_simulated = first_time(record);
       if (const double longer = end_time(record) - one.first_simulated; longer > 0.0)
         a_step = (timing.whole - timing.first_row) * one.substep / longer;
       if (stop_.load()) return false;
-      if (cut() && first) return not_run(one, predicted(timing.whole));
+      if (cut() && first) return not_run(one, predicted());
       if (cut()) return true;  // the machine was slow
       one.timings.push_back(timing);
       if (first) compare(chart, scene, record, one);
@@ -322,12 +306,11 @@ class Measurer {
   int done_ = 0, all_ = 0, made_ = 0;
 };
 
-// Cost from the difference of two programmes, us per ms; at least 1 % of the whole run, the
-// accuracy of the clock.
+// What follows the first row, us per ms.
 double cost_of(const Measurement& one, const Timing& timing) {
   const double longer = one.simulated - one.first_simulated;
   if (longer <= 0.0) return 1e3 * timing.whole / std::max(one.simulated, 1e-12);
-  return 1e3 * std::max(timing.whole - timing.first_row, 0.01 * timing.whole) / longer;
+  return 1e3 * (timing.whole - timing.first_row) / longer;
 }
 
 template <class Of>

@@ -25,8 +25,8 @@ struct ChartOptions {
 // One timing, s, by the steady clock; not reproducible.
 struct Timing {
   double build = 0.0;      // building the scene
-  double first_row = 0.0;  // a programme of one row: factorisations, modes, tables
-  double whole = 0.0;      // the whole programme, including the first row
+  double first_row = 0.0;  // until the first row after the start: factorisations, modes, tables
+  double whole = 0.0;      // the whole programme
 };
 
 enum class Status { measured, diverged, cannot, not_run };
@@ -42,7 +42,7 @@ struct Measurement {
   int substeps = 0;      // per time step
   int nodes = 0, tetrahedra = 0;
   double simulated = 0.0;               // s, duration of the programme
-  double first_simulated = 0.0;         // s, duration of the programme of one row
+  double first_simulated = 0.0;         // s, until its first row
   std::optional<Deviation> error;       // from the reference
   std::optional<Deviation> time_error;  // from exact_in_time(), on the same mesh
   double time_floor = 0.0;              // error of exact_in_time(), relative

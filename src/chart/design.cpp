@@ -78,6 +78,32 @@ std::string graded(const Scenario& scenario, const scene::Estimates& found) {
   return text_of_cells("mirrored", cells, std::round(10.0 * grading) / 10.0);
 }
 
+// The settings that leave to palpate what it chooses by itself: model, coupling, mesh and steps.
+Settings left_open(const Scenario& scenario) {
+  const scenario::Solver& solver = scenario.solver;
+  Settings open;
+  if (solver.model) open.emplace_back("solver.model=auto");
+  if (solver.integrator) open.emplace_back("solver.integrator=auto");
+  if (solver.time_step) open.emplace_back("solver.time_step=auto");
+  if (solver.substeps) open.emplace_back("solver.substeps=auto");
+  if (solver.rings) open.emplace_back("solver.rings=all");
+  const scenario::Mesh& mesh = scenario.tissue.mesh;
+  if (!std::holds_alternative<scenario::MeshFile>(mesh) &&
+      !std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape) &&
+      !refinement(mesh).refine)
+    open.push_back(std::string("tissue.mesh={kind='") +
+                   std::visit([](const auto& kind) { return kind.word.word; },
+                              scenario::mesh_left_open(scenario)) +
+                   "',refine=true}");
+  if (!scenario.uniform() && scenario.contact.coupling != contact::Coupling::consistent) {
+    open.emplace_back("contact.coupling=consistent");
+    // Only `consistent` takes the viscosity of the tissue into the contact by default.
+    if (scenario.contact.viscosity == scenario::Contact::Viscosity::none)
+      open.emplace_back("contact.viscosity=none");
+  }
+  return open;
+}
+
 // The smallest common multiple of output interval and step, both in ms, below ten intervals; if
 // there is none, the multiple of the step that is nearest to the interval.
 double rows_of(double step_ms, double interval_ms) {
@@ -98,6 +124,13 @@ Settings one_step(double step_ms, double interval) {
   return settings;
 }
 
+// The case with what palpate chooses left open.
+scenario::Case opened(const Asked& asked, std::size_t of_case) {
+  Settings all = asked.settings;
+  for (const std::string& one : left_open(asked.family.cases[of_case].scenario)) all.push_back(one);
+  return scenario::parse_case(asked.text, asked.path, all, of_case).cases.front();
+}
+
 class Designer {
  public:
   Designer(const Asked& asked, std::size_t of_case, scene::SpecimenShapes& shapes)
@@ -106,10 +139,7 @@ class Designer {
         one_(asked.family.cases[of_case]),
         base_(one_.scenario),
         shapes_(shapes) {
-    scenario::Case open = one_;
-    open.scenario.solver.model.reset();
-    open.scenario.solver.integrator.reset();
-    rung_ = scene::choose(open).chosen.solver.model;
+    rung_ = scene::choose(opened(asked, of_case)).chosen.solver.model;
     if (!scenario::rung(rung_).meshed())
       rung_ = std::find_if(scenario::ladder.begin(), scenario::ladder.end(),
                            std::mem_fn(&scenario::Rung::meshed))
@@ -118,7 +148,7 @@ class Designer {
   }
 
   std::vector<Variant> all() {
-    const Settings open = base_.solver.model ? Settings{"solver.model=auto"} : Settings{};
+    const Settings open = left_open(base_);
     add("base", "auto", open);
     if (!open.empty()) add("base", "as it stands", {});
     for (const scenario::Rung& rung : scenario::ladder)
@@ -343,13 +373,11 @@ Asked read_for_chart(const std::string& path, const std::string& text, const Set
       family, family.base.steps,
       "a step to a force ends elsewhere in every variant, and `palpate chart` compares forces at "
       "equal travels; give a travel");
-  for (const scenario::Case& one : family.cases) {
-    const scene::Choice choice = scene::choose(one);
+  for (std::size_t i = 0; i < family.cases.size(); ++i) {
+    const scene::Choice choice = scene::choose(family.cases[i]);
     // The reference of a press with inertia is linear elasticity on a mesh.
     const bool still = !choice.chosen.meshed() || !about(choice.chosen.solver.integrator).inertia;
-    scenario::Case open = one;
-    open.scenario.solver.model.reset();
-    asked.depths.push_back(still ? scene::choose(open).chosen.contact.depth
+    asked.depths.push_back(still ? scene::choose(opened(asked, i)).chosen.contact.depth
                                  : scenario::Contact::Depth::hertz);
   }
   return asked;

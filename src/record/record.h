@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <limits>
 #include <string>
 #include <utility>
@@ -86,6 +87,17 @@ struct CaseRecord {
   std::string chosen;                // values chosen for `auto`: `key = word`, comma-separated
   double seconds = 0.0;              // run time, for run.json only
   std::vector<std::pair<std::string, std::string>> attached;  // files of a live run: name, content
+  // When the first row after the start had been computed; nothing before.
+  std::optional<std::chrono::steady_clock::time_point> first_row;
+
+  // Adds a row, and notes that moment. The other rows are those of the same programme.
+  void add(const ContactRow& row) { note(contact.size()), contact.push_back(row); }
+  void add(const StrainRow& row) { note(strain.size()), strain.push_back(row); }
+
+ private:
+  void note(std::size_t rows) {
+    if (rows == 1) first_row = std::chrono::steady_clock::now();
+  }
 };
 
 // The tables of the CSV files, with the columns and units of docs/results.md.

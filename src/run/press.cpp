@@ -253,7 +253,7 @@ class Press {
     record::ContactRow row = contact_row(scene_, touch_);
     row.step = step_;
     row.time = time_;
-    record_.contact.push_back(row);
+    record_.add(row);
     for (const mechanics::SphereContact& one : touch_.contacts) {
       on_crease_ = on_crease_ || one.on_crease;
       nearly_conforming_ = nearly_conforming_ || one.law.nearly_conforming;

@@ -104,7 +104,7 @@ void require_tissue(const Scenario& scenario, const material::Tissue& material,
 }
 
 // Sets muscle and bone of a limb unless the scenario has regions, and the mesh unless the
-// scenario has one: by TetGen for shapes other than cuboids and with lumps, refined where needed.
+// scenario has one.
 void complete_shape(Scenario& scenario, const Node& document) {
   const Member* tissue = document.find("tissue");
   const auto given = [&](const char* key) {
@@ -112,14 +112,7 @@ void complete_shape(Scenario& scenario, const Node& document) {
   };
   if (std::holds_alternative<MeshFile>(scenario.tissue.mesh) && !given("shape"))
     scenario.tissue.shape = AsMeshed{};
-  if (!given("mesh")) {
-    const bool lumps =
-        std::any_of(scenario.regions.begin(), scenario.regions.end(),
-                    [](const Region& region) { return std::holds_alternative<Lump>(region.part); });
-    if (lumps || !std::holds_alternative<Cuboid>(scenario.tissue.shape))
-      scenario.tissue.mesh = Tetgen{};
-    refinement(scenario.tissue.mesh).refine = true;
-  }
+  if (!given("mesh")) scenario.tissue.mesh = mesh_left_open(scenario);
   const auto* limb = std::get_if<LayeredLimb>(&scenario.tissue.shape);
   if (limb == nullptr || document.find("region") != nullptr) return;
   scenario.regions.clear();
@@ -141,6 +134,16 @@ void complete_contact(Scenario& scenario, const Node& document) {
 }
 
 }  // namespace
+
+Mesh mesh_left_open(const Scenario& scenario) {
+  const bool lumps =
+      std::any_of(scenario.regions.begin(), scenario.regions.end(),
+                  [](const Region& region) { return std::holds_alternative<Lump>(region.part); });
+  Mesh mesh;
+  if (lumps || !std::holds_alternative<Cuboid>(scenario.tissue.shape)) mesh = Tetgen{};
+  refinement(mesh).refine = true;
+  return mesh;
+}
 
 void complete(Scenario& scenario, const Node& document) {
   complete_contact(scenario, document);

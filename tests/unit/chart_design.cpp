@@ -56,14 +56,16 @@ const Variant* find(const std::vector<Variant>& variants, const std::string& nam
 
 using Settings = std::vector<std::string>;
 
-// Without the tables of a layer, which take a third of a second a scene; `auto` takes `hertz`.
 const std::string quick = scenario::press + "[contact]\ncoupling = \"one_way\"\n";
 
 TEST_F(Design, APressHasEveryGroup) {
   const auto variants = design(asked(quick), 0);
   ASSERT_FALSE(variants.empty());
   EXPECT_EQ(variants.front().name, "auto");
-  EXPECT_EQ(variants.front().settings, Settings{});
+  EXPECT_EQ(variants.front().settings,
+            (Settings{"contact.coupling=consistent", "contact.viscosity=none"}))
+      << "`one_way` keeps nearer models away";
+  EXPECT_EQ(variants[1].name, "as it stands");
   std::set<std::string> names, groups;
   for (const Variant& one : variants) {
     EXPECT_TRUE(names.insert(one.name).second) << one.name;
@@ -71,8 +73,8 @@ TEST_F(Design, APressHasEveryGroup) {
   }
   EXPECT_EQ(groups, (std::set<std::string>{"base", "rung x mesh", "rung x coupling", "rings"}))
       << "integrators do not change this force";
-  EXPECT_EQ(find(variants, "hertz"), nullptr) << "`auto` takes it: not twice";
-  EXPECT_EQ(find(variants, "layer")->settings, Settings{"solver.model=layer"});
+  EXPECT_EQ(find(variants, "hertz"), nullptr) << "as it stands: not twice";
+  EXPECT_EQ(find(variants, "layer"), nullptr) << "`auto` takes it: not twice";
   EXPECT_EQ(find(variants, "coupled_springs, nodes x 4")->settings,
             (Settings{"solver.model=coupled_springs", "solver.integrator=quasi_static",
                       "tissue.mesh={kind='mirrored',cells=[5,6,10]}"}));  // 3 4 6 by 4^(1/3)
@@ -145,9 +147,27 @@ TEST_F(Design, AUniformTestHasNoContact) {
 
 TEST_F(Design, AGivenModelIsAVariantBesideAuto) {
   const auto variants = design(asked(quick + "[solver]\nmodel = \"layer\"\n"), 0);
-  EXPECT_EQ(variants[0].settings, Settings{"solver.model=auto"});
+  EXPECT_EQ(variants[0].settings.front(), "solver.model=auto");
+  EXPECT_EQ(find(variants, "layer"), nullptr) << "`auto` takes it, and so does the scenario";
+}
+
+TEST_F(Design, AutoIsFreeInWhatTheScenarioNames) {
+  const Asked scene = asked(
+      "[tissue]\nshape = { kind = \"ellipsoid\" }\nmesh = { kind = \"tetgen\", nodes = 200 }\n"
+      "[contact]\ncoupling = \"series\"\n[solver]\nmodel = \"mass_spring\"\nintegrator = "
+      "\"modal\"\ntime_step = \"1 ms\"\nrings = 3\n" +
+      scenario::press);
+  const auto variants = design(scene, 0);
+  EXPECT_EQ(variants[0].settings,
+            (Settings{"solver.model=auto", "solver.integrator=auto", "solver.time_step=auto",
+                      "solver.rings=all", "tissue.mesh={kind='tetgen',refine=true}",
+                      "contact.coupling=consistent", "contact.viscosity=none"}));
   EXPECT_EQ(variants[1].name, "as it stands");
-  EXPECT_EQ(find(variants, "layer"), nullptr) << "as it stands";
+  const auto family = with_settings(scene, 0, variants[0].settings);
+  scenario::Scenario left_out = family.cases.front().scenario;
+  EXPECT_TRUE(scenario::refinement(left_out.tissue.mesh).refine);
+  EXPECT_FALSE(left_out.solver.model || left_out.solver.integrator || left_out.solver.time_step ||
+               left_out.solver.rings);
 }
 
 // Large strains raise the force by 2 %: `auto` includes them, a given model has to be told to.
