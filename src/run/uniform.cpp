@@ -32,6 +32,10 @@ class UniformTest {
         if (!compress(*compressed)) co_return;
         continue;
       }
+      if (const auto* loaded = std::get_if<Creep>(&step); loaded != nullptr && keeps_shape()) {
+        if (!creep_in_shape(*loaded)) co_return;
+        continue;
+      }
       const bool going = std::holds_alternative<Creep>(step) ? creep(std::get<Creep>(step))
                                                              : relax(std::get<Relax>(step));
       if (!going) co_return;
@@ -149,6 +153,53 @@ class UniformTest {
     return true;
   }
 
+  // Whether a creep moves the specimen in the shape of statics, by the creep of Kelvin-Voigt
+  // tissue.
+  [[nodiscard]] bool keeps_shape() const {
+    return !about(scene_.scenario.solver.integrator).inertia &&
+           specimen_.kinematics == tissue::Kinematics::linear &&
+           specimen_.law.kind == tissue::Viscosity::kelvin_voigt;
+  }
+
+  // tau J' + J = 1 under the load and 0 after it.                         docs/theory.md (35)
+  bool creep_in_shape(const Creep& creep) {
+    const scene::SpringBody elastic(specimen_.network, specimen_.kinematics, {}, specimen_.held);
+    state_ = {};
+    state_.displacement = state_.velocity = Vector::Zero(elastic.mass().size());
+    state_.memory = elastic.memory_at(state_.displacement);
+    integrate::Implicit statics(elastic, integrate::Implicit::Inertia::none);
+    if (const auto wrong = mechanics::solve_step(statics, elastic, state_, 0.0, MemoryRule::at_once,
+                                                 platen_load(creep.stress)))
+      return diverged(*wrong);
+    const Vector shape = state_.displacement;
+    const bool folds = tissue::inverted(specimen_.mesh, shape);
+    const double start = time_;
+    const auto row = [&](double after, double stress, double crept) {
+      if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
+      time_ = start + after;
+      state_.displacement = crept * shape;
+      write_row(stress);
+      record_.last_stable_time = time_;
+      return !folds || !tissue::inverted(specimen_.mesh, state_.displacement) ||
+             diverged(
+                 "a tetrahedron has turned inside out; give a smaller load, or set "
+                 "`solver.kinematics = \"nonlinear\"`");
+    };
+    const auto passed = [&](double duration) { return std::exp(-duration / specimen_.law.time); };
+    if (!row(0.0, creep.stress, 0.0)) return false;
+    const Pace loading = make_pace(scene_, creep.load_time);
+    for (int k = 1; k <= loading.rows; ++k)
+      if (!row(loading.time(k, 0), creep.stress, 1.0 - passed(loading.time(k, 0)))) return false;
+    if (creep.recovery_time <= 0.0) return true;
+    const Pace recovering = make_pace(scene_, creep.recovery_time);
+    for (int k = 1; k <= recovering.rows; ++k) {
+      const double after = recovering.time(k, 0);
+      if (!row(creep.load_time + after, 0.0, (1.0 - passed(creep.load_time)) * passed(after)))
+        return false;
+    }
+    return true;
+  }
+
   // Without inertia all forces of the specimen follow one law of time: its shape is that of
   // statics, and its stress the relaxed modulus times the law's response to the strain.
   //                                                                      docs/theory.md (52a)
@@ -161,8 +212,8 @@ class UniformTest {
     const auto row = [&](double after) {
       time_ = start + after;
       const double response = law.ramp_response(compress.rate, compress.ramp_time(), after);
-      record_.strain.push_back(
-          {step_, time_, pressed.young_modulus * response, compress.strain_at(after)});
+      record_.add(record::StrainRow{step_, time_, pressed.young_modulus * response,
+                                    compress.strain_at(after)});
       record_.last_stable_time = time_;
     };
     row(0.0);
@@ -217,7 +268,7 @@ class UniformTest {
     return end_early(record_, record::Outcome::diverged, reason);
   }
 
-  void write_row(double stress) { record_.strain.push_back({step_, time_, stress, strain()}); }
+  void write_row(double stress) { record_.add(record::StrainRow{step_, time_, stress, strain()}); }
 
   const scene::Scene& scene_;
   const scene::Specimen& specimen_;
