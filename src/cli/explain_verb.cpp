@@ -156,7 +156,8 @@ class Explanation {
         text += "; " + region_size(scene_.specimen->mesh, static_cast<int>(i) + 1);
       line(text);
     }
-    if (!scene::all_slabs(scene_.scenario) && !scene_.scenario.uniform())
+    if (!scene::all_slabs(scene_.scenario) && scene::several_tissues(scene_.scenario) &&
+        !scene_.scenario.uniform())
       line("  note         the contact law uses E and nu of `tissue.material` in every region");
   }
 
@@ -259,15 +260,18 @@ class Explanation {
                 percent_text(question.threshold) + ": ";
       line(text + question.answer);
     }
+    const std::optional<double> mesh_error = expected_.mesh_error;
     for (const scene::Forecast& rung : scene_.choice.rungs) {
+      const bool on_mesh = mesh_error && scenario::rung(rung.model).meshed();
       std::string text =
           std::string("  ") + (rung.model == model ? "> " : "  ") + scenario::rung(rung.model).word;
       text.resize(22, ' ');
-      line(text + (rung.cannot.empty() ? "error about " + percent_text(rung.error) + ", about " +
+      line(text + (rung.cannot.empty() ? "error about " + percent_text(rung.known(mesh_error)) +
+                                             (on_mesh ? " on this mesh, about " : ", about ") +
                                              rounded_text(rung.seconds, 1) + " s to set up"
                                        : "cannot: " + rung.cannot));
     }
-    if (const std::string text = scene_.choice.shortfall(); !text.empty())
+    if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty())
       line("  note         " + text);
   }
 
@@ -289,7 +293,7 @@ class Explanation {
       line("  network      coupled in every tetrahedron: it has E and nu of the tissue");
       return;
     }
-    const bool several = !scene_.scenario.regions.empty();
+    const bool several = scene::several_tissues(scene_.scenario);
     line(std::string("  network      measured on the specimen") +
          (several ? " with `tissue.material` in all regions" : "") + ": E " +
          rounded_text(unit::kPa.from_si(specimen.measured.young_modulus)) + " kPa (" +

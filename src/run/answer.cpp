@@ -29,8 +29,9 @@ const char* plain_word(Model model) {
 
 class Words {
  public:
-  explicit Words(const scene::Scene& scene)
+  Words(const scene::Scene& scene, std::optional<double> mesh_error)
       : scene_(scene),
+        mesh_error_(mesh_error),
         rung_(scenario::rung(scene.scenario.solver.model)),
         e_(scene.choice.expected) {}
 
@@ -90,7 +91,7 @@ class Words {
       if (other->model == rung_.of) return "It would be chosen anyway.";
       const std::string reason = rung_.meshed() ? "" : " " + against(rung_.of, " is ");
       return "Without `solver.model` it would be " + word(other->model) + ", about " +
-             percent_text(other->error) + " from the true force." + reason;
+             percent_text(other->known(mesh_error_)) + " from the true force." + reason;
     }
     if (uniform) {
       const auto* springs = choice.forecast(Model::mass_spring);
@@ -117,7 +118,7 @@ class Words {
     if (!scene_.choice.touch.size.allFinite())
       return "The tissue has neither an underside nor sides.";
     const bool box = std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape);
-    return std::string("Thickness and ") + (box ? "sides" : "width") +
+    return std::string("Thickness") + (box ? " and sides" : ", width and base") +
            " of the body change the force by about " + percent_text(std::abs(e_.by_size)) +
            " only.";
   }
@@ -158,11 +159,12 @@ class Words {
              " mm of tissue on a hard support add " + percent_text(e_.thickness) + " of force";
     if (e_.narrow <= 0.005 || (!text.empty() && e_.narrow < 0.2 * e_.thickness)) return text;
     return text + (text.empty() ? "" : ", ") +
-           (box ? "the sides take " : "the small width of the body takes about ") +
+           (box ? "the sides take " : "the width of the body and of its base takes about ") +
            percent_text(e_.narrow) + (text.empty() ? " of force" : " away");
   }
 
   const scene::Scene& scene_;
+  std::optional<double> mesh_error_;
   const scenario::Rung& rung_;
   const scene::Estimates& e_;
 };
@@ -199,8 +201,7 @@ std::string peak(const scene::Scene& scene, const record::CaseRecord& record) {
 }  // namespace
 
 std::optional<double> stated_error(const scene::Scene& scene, std::optional<double> mesh_error) {
-  if (const scene::Forecast* forecast = scene.choice.taken())
-    return mesh_error ? forecast->error - forecast->of_mesh + *mesh_error : forecast->error;
+  if (const scene::Forecast* forecast = scene.choice.taken()) return forecast->known(mesh_error);
   // Without forecasts the force is that of a half-space, because of `one_way`, or unjudged.
   if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::one_way)
     return std::nullopt;
@@ -214,7 +215,7 @@ Expected expect(const scene::Scene& scene) {
   expected.mesh_error = mesh_error(scene);
   const std::optional<double> error = stated_error(scene, expected.mesh_error);
   expected.left_out = left_out(scene);
-  const Words words(scene);
+  const Words words(scene, expected.mesh_error);
   expected.answer = {
       .model = words.model(),
       .error = quantity(scene.scenario) + " has " + words.error(error, expected.left_out) + ".",
@@ -226,11 +227,11 @@ Expected expect(const scene::Scene& scene) {
 }
 
 record::Answer answer(const scene::Scene& scene, const record::CaseRecord& record) {
-  const Words words(scene);
+  const std::optional<double> mesh_error = number(record, "mesh_error");
+  const Words words(scene, mesh_error);
   std::string result = peak(scene, record);
   std::optional<double> error;
-  if (record.outcome == record::Outcome::completed)
-    error = stated_error(scene, number(record, "mesh_error"));
+  if (record.outcome == record::Outcome::completed) error = stated_error(scene, mesh_error);
   const std::vector<LeftOut> effects = left_out(scene);
   if (record.outcome == record::Outcome::completed)
     result += ", with " + words.error(error, effects) + ".";

@@ -178,10 +178,9 @@ class Findings {
     if (const auto* forecast = scene_.choice.taken()) add("predicted_error", forecast->error);
     const bool states =
         scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent;
-    if (const auto stated =
-            stated_error(scene_, states ? std::optional(peak.mesh_error) : std::nullopt))
-      add("stated_error", *stated);
-    if (const std::string text = scene_.choice.shortfall(); !text.empty()) remark(text);
+    const auto mesh_error = states ? std::optional(peak.mesh_error) : std::nullopt;
+    if (const auto stated = stated_error(scene_, mesh_error)) add("stated_error", *stated);
+    if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty()) remark(text);
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     if (!touch.known() || peak.travel <= 0.0) return;
     const auto law = contact::contact_law(scene_.scenario.contact.law,

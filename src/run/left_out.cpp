@@ -61,7 +61,7 @@ class LeftOuts {
     if ((none || !rung_.sides) && e_.sides > tolerance())
       omit("the sides of the body", -e_.sides, would(-e_.sides), free);
     if (none && e_.curved_body > 0.0 && e_.narrow > tolerance())
-      omit("the width of the body", -e_.narrow, would(-e_.narrow), free);
+      omit("the width of the body and of its base", -e_.narrow, would(-e_.narrow), free);
   }
 
   // By how much a half-space under `series` is too soft.                    docs/theory.md (10)

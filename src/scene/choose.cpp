@@ -118,7 +118,7 @@ class Chooser {
     // With a bonded end or several tissues the strain is uneven and nu matters; springs have 1/4.
     // Independent springs get the stiffness of a prism whatever the shape: measured on the
     // ligament (22 %) and the leg (40 %).
-    const bool uneven = bonded || !asked_.regions.empty() || !prism;
+    const bool uneven = bonded || several_tissues(asked_) || !prism;
     constexpr double even_error = 0.001;
     constexpr double shape_error = 0.4;
     const double meshed = bonded_mesh_error(asked_);
@@ -166,10 +166,13 @@ class Chooser {
         (e.thickness < 0.0 ? "the layers below take " : "the thickness adds ") +
             percent_text(std::abs(e.thickness)) +
             (box ? ", the sides take " + percent_text(e.sides)
-                 : ", the body's width changes up to " + percent_text(e.curved_body)));
+                 : ", the width of the body and of its base takes " + percent_text(e.narrow)));
     if (box) ask(Asked::layer, e.sides, limit);
-    // A fifth of the tolerance, because depth that is left out adds to the model's error.
-    ask(Asked::deep, std::abs(e.deep), 0.2 * limit, deep_answer(e));
+    decide(e);
+    ask(Asked::deep, std::abs(e.deep), deep_limit(), deep_answer(e));
+    if (choice_.found.depth_matters && std::abs(e.deep) < deep_limit())
+      choice_.questions.back().answer =
+          "small, but with the factor for it a cheaper model is enough";
     ask(Asked::curved, e.curvature_ratio - 1.0, 0.1);
     // A fifth of the tolerance, because viscosity that is left out adds to the model's error.
     ask(Asked::time_dependent, e.viscous, 0.2 * limit, viscous_answer());
@@ -177,11 +180,34 @@ class Chooser {
     ask(Asked::shape_or_inclusion, 1.0, 0.0,
         formulas.empty() ? "none, because " + reason.value_or("") : formulas);
 
-    choice_.found = {.viscosity_matters = e.viscous >= 0.2 * limit,
-                     .inertia_matters = e.inertia >= limit,
-                     .depth_matters = std::abs(e.deep) >= 0.2 * limit && has_depth_ratio()};
-    for (const Rung& rung : scenario::ladder) add(rung, error_of(rung, e), error_of_mesh(rung, e));
     take_cheapest();
+  }
+
+  // A fifth of the tolerance, because depth that is left out adds to the model's error.
+  [[nodiscard]] double deep_limit() const { return 0.2 * tolerance(); }
+
+  // What matters, and the error of every rung. The factor of a deep press is taken as well where a
+  // cheaper model is enough with it.
+  void decide(const Estimates& e) {
+    const double limit = tolerance();
+    scenario::Found& found = choice_.found;
+    found = {.viscosity_matters = e.viscous >= 0.2 * limit,
+             .inertia_matters = e.inertia >= limit,
+             .depth_matters = std::abs(e.deep) >= deep_limit() && has_depth_ratio()};
+    evaluate();
+    if (found.depth_matters || !has_depth_ratio()) return;
+    const Model without = cheapest(choice_, false, limit)->model;
+    found.depth_matters = true;
+    evaluate();
+    if (cheapest(choice_, false, limit)->model < without) return;
+    found.depth_matters = false;
+    evaluate();
+  }
+
+  void evaluate() {
+    choice_.rungs.clear();
+    for (const Rung& rung : scenario::ladder)
+      add(rung, error_of(rung, choice_.expected), error_of_mesh(rung, choice_.expected));
   }
 
   // The error of a model in a press, as a fraction of the force.                docs/theory.md (69)
@@ -210,7 +236,7 @@ class Chooser {
       return rung.error.flat + coarseness_of_solid() + (box ? 0.0 : rung.error.curved);
     return coarseness(asked_, choice_.touch) + rung.error.flat + rung.error.sides * e.sides +
            (box ? 0.0 : rung.error.curved + rung.error.size * e.curved_body) +
-           (all_slabs(asked_) ? 0.0 : rung.error.mixed);
+           (all_slabs(asked_) || !several_tissues(asked_) ? 0.0 : rung.error.mixed);
   }
 
   // What cells cost nearly incompressible tetrahedra: measured on a block of 60 x 60 x 30 mm,
@@ -315,12 +341,13 @@ const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance) {
   return best;
 }
 
-std::string Choice::shortfall() const {
+std::string Choice::shortfall(std::optional<double> mesh_error) const {
   const Forecast* rung = taken();
-  if (given || rung == nullptr || !(rung->error > chosen.solver.tolerance)) return "";
+  const double error = rung != nullptr ? rung->known(mesh_error) : 0.0;
+  if (given || !(error > chosen.solver.tolerance)) return "";
   return "no model is expected to be within the tolerance of " +
          percent_text(chosen.solver.tolerance) + ": `" + scenario::rung(rung->model).word +
-         "` comes nearest with about " + percent_text(rung->error) +
+         "` comes nearest with about " + percent_text(error) +
          (coarse_mesh(*this) ? "; a finer `tissue.mesh` may help" : "");
 }
 

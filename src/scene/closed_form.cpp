@@ -60,6 +60,13 @@ bool all_slabs(const scenario::Resolved& scenario) {
   });
 }
 
+bool several_tissues(const scenario::Resolved& scenario) {
+  return std::any_of(scenario.regions.begin(), scenario.regions.end(), [&](const auto& region) {
+    return region.young_modulus != scenario.tissue.young_modulus ||
+           region.poisson_ratio != scenario.tissue.poisson_ratio;
+  });
+}
+
 contact::LayerContact make_layer(const scenario::Resolved& scenario, const Finger& finger,
                                  contact::LayerLaw law) {
   // With calibration "force" the spheres share the layer law of the single sphere they replace.

@@ -50,8 +50,6 @@ inline constexpr double doubt_of_sides = 0.4;  // relative, of `sides`, which is
 // Meshes that follow their error are refined until this share of `solver.tolerance` is stated.
 inline constexpr double refined_share = 0.5;
 
-// The number of nodes that the mesh will have, before it is refined; 1000 for a ready mesh, which
-// is not read here.
 // How much stiffer bonded ends make a prism between platens, for a Poisson's ratio below 1/2: 1 + 2
 // S^2 of an incompressible one (Gent and Lindley 1959), S its loaded over its free surface, in
 // series with the modulus of uniaxial strain. One bonded end is the middle of a body of twice the
@@ -61,6 +59,8 @@ inline constexpr double refined_share = 0.5;
 // The error of its modulus by a mesh with the tissue's elasticity, relative.
 [[nodiscard]] double bonded_mesh_error(const scenario::Resolved& scenario);
 
+// The number of nodes that the mesh will have, before it is refined; 1000 for a ready mesh, which
+// is not read here.
 [[nodiscard]] double expected_nodes(const scenario::Mesh& mesh);
 
 }  // namespace palpate::scene

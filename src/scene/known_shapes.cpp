@@ -42,13 +42,13 @@ std::optional<std::string> beyond(scenario::Model model, const scenario::Resolve
                                   const SurfaceTouch& touch) {
   switch (model) {
     case scenario::Model::hertz:
-      if (!scenario.regions.empty()) return has_regions;
+      if (several_tissues(scenario)) return has_regions;
       return beyond_half_space(scenario, touch);
     case scenario::Model::layer:
       if (!std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape))
         return "a layer is a `cuboid` pressed on its flat top";
       if (scenario.finger.spheres > 1) return "several spheres share one layer";
-      if (!all_slabs(scenario)) return has_regions;
+      if (!all_slabs(scenario) && several_tissues(scenario)) return has_regions;
       return beyond_half_space(scenario, touch);
     case scenario::Model::mass_spring:
     case scenario::Model::coupled_springs:

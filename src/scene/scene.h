@@ -56,6 +56,11 @@ struct Forecast {
   double of_mesh = 0.0;     // the part of it that a mesh knows better once it is made
   double seconds = 0.0;     // rough time to set up and run on one core
   std::string cannot = {};  // the reason why the model is not applicable; empty if it is
+
+  // The error with what the mesh at hand costs, if that is known.
+  [[nodiscard]] double known(std::optional<double> mesh_error) const {
+    return mesh_error && scenario::rung(model).meshed() ? error - of_mesh + *mesh_error : error;
+  }
 };
 
 // The model for the case, and the reasons for it. Values that the scenario gives are kept.
@@ -72,8 +77,9 @@ struct Choice {
   [[nodiscard]] const Forecast* forecast(scenario::Model model) const;
   // The forecast for the chosen model.
   [[nodiscard]] const Forecast* taken() const { return forecast(chosen.solver.model); }
-  // A sentence if `auto` found no model within the tolerance; otherwise empty.
-  [[nodiscard]] std::string shortfall() const;
+  // A sentence if `auto` found no model within the tolerance, also with what the mesh at hand
+  // costs; otherwise empty.
+  [[nodiscard]] std::string shortfall(std::optional<double> mesh_error = {}) const;
 };
 [[nodiscard]] Choice choose(const scenario::Case& one);
 
@@ -185,6 +191,9 @@ struct Scene {
 
 // Whether all regions are slabs; true without regions.
 [[nodiscard]] bool all_slabs(const scenario::Resolved& scenario);
+
+// Whether a region has another Young's modulus or Poisson's ratio than the tissue.
+[[nodiscard]] bool several_tissues(const scenario::Resolved& scenario);
 
 // The flat layers of a cuboid, with the tissue on top. `share` as in contact::Layer.
 //                                                                        docs/theory.md (79)

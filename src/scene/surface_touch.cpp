@@ -48,6 +48,11 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
   const double y = scenario.finger.y.value_or(0.5 * touch.size.y());
   touch.lowest = {x, y, touch.size.z()};
   touch.thickness = touch.size.z();
+  if (!std::holds_alternative<geometry::Cuboid>(shape)) {
+    const double spacing = 0.05 * touch.size.minCoeff();
+    touch.footing = footing(geometry::sampled(shape, {spacing, spacing}).parts.front().surface,
+                            scenario.tissue.base_height);
+  }
   const double radius = scenario.finger.radius;
   const auto found = geometry::touch_from_above(shape, x, y, radius);
   if (!found) {
@@ -132,6 +137,7 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   }
   touch.size = high - low;
   touch.thickness = touch.size.z();
+  touch.footing = footing(surface.surface(), scenario.tissue.base_height);
   const Vec3 middle = 0.5 * (low + high);
   touch.lowest = {scenario.finger.x.value_or(middle.x()), scenario.finger.y.value_or(middle.y()),
                   high.z()};

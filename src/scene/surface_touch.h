@@ -7,6 +7,7 @@
 #include "geometry/curvature.h"
 #include "geometry/smooth_surface.h"
 #include "scenario/resolved.h"
+#include "scene/footing.h"
 
 namespace palpate::scene {
 
@@ -17,12 +18,13 @@ class SpecimenShapes;
 struct SurfaceTouch {
   Vec3 size = Vec3::Constant(std::numeric_limits<double>::infinity());  // m, of the bounding box
   double thickness = std::numeric_limits<double>::infinity();  // m, from the touch to the underside
-  Vec3 lowest = Vec3::Zero();     // m, the lowest point of one sphere at first touch
-  Vec3 position = Vec3::Zero();   // m, of the surface
-  geometry::Curvature curvature;  // there, with the normal
-  bool one_sided = false;         // the curvature has StarStatus::one_sided
-  std::string cannot = {};        // why there is no curvature; empty if there is one
-  bool nowhere = false;           // no model can press here: beside the body, or it is not sound
+  Vec3 lowest = Vec3::Zero();           // m, the lowest point of one sphere at first touch
+  Vec3 position = Vec3::Zero();         // m, of the surface
+  geometry::Curvature curvature;        // there, with the normal
+  std::optional<Footing> footing = {};  // of bodies that are no cuboids
+  bool one_sided = false;               // the curvature has StarStatus::one_sided
+  std::string cannot = {};              // why there is no curvature; empty if there is one
+  bool nowhere = false;  // no model can press here: beside the body, or it is not sound
 
   [[nodiscard]] bool known() const { return cannot.empty(); }
   [[nodiscard]] bool curved() const { return curvature.kappa_1 != 0.0 || curvature.kappa_2 != 0.0; }

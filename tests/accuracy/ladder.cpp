@@ -1,6 +1,7 @@
 // Writes docs/accuracy.md to stdout: every rung's error on blocks, in uniform tests and on the
 // scenes of `auto`. No test: it takes minutes. `./dev accuracy` runs it.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -12,10 +13,10 @@
 #include "auto_scenes.h"
 #include "base/text.h"
 #include "blocks.h"
+#include "chart/truth.h"
 #include "run/family.h"
 #include "run_text.h"
 #include "scenario/words.h"
-#include "scene/estimates.h"
 
 namespace palpate {
 namespace {
@@ -190,30 +191,17 @@ double measure(const record::CaseRecord& record) {
 struct Reference {
   double value = 0.0;
   double error = 0.0;  // relative
-  const char* kind = "";
+  std::string kind;
 };
 
-// On a half-space the closed form itself; on flat layers whose sides do not matter the exact layer,
-// which the blocks above hold against another program; else coupled springs at 300, 600 and 1200
-// nodes: the last of them, with the spread of the three as its error.
+// The reference of `palpate chart`.
 Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
-  const auto& scenario = chosen.scenario;
-  if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
-    return {measure(test::run_scene(chosen)), 0.0, "closed form"};
-  if (!scenario.uniform() && !scene::beyond(Model::layer, scenario, chosen.choice.touch) &&
-      chosen.choice.expected.sides < 0.002 && chosen.choice.expected.inertia < 0.002)
-    return {measure(run_text(scene.text, {"solver.model=layer"})), 0.0, "exact layer"};
-  std::vector<double> values;
-  const bool fast = scenario.solver.integrator == scenario::Solver::Integrator::central_difference;
-  for (const int nodes : {300, 600, 1200}) {
-    values.push_back(measure(run_text(
-        scene.text,
-        {"solver.model=coupled_springs",
-         "tissue.mesh={kind=\"tetgen\",nodes=" + std::to_string(nodes) + "}",
-         std::string("solver.integrator=") + (fast ? "central_difference" : "quasi_static")})));
-  }
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {values.back(), (*high - *low) / values.back(), "coupled springs, refined"};
+  const chart::Asked asked = chart::read_for_chart("scene.toml", scene.text, {});
+  const std::atomic<bool> stop = false;
+  const chart::Truth truth = chart::find_truth(asked, 0, stop, [](const std::string&) {}).value();
+  double most = 0.0;
+  for (const chart::Moment& moment : truth.moments) most = std::max(most, moment.value);
+  return {most, chart::own_error(chosen.scenario, truth.moments).greatest, truth.kind};
 }
 
 void auto_table() {
@@ -221,7 +209,7 @@ void auto_table() {
       "\n## Models that `auto` picks\n\nTwenty-one scenes "
       "([tests/auto_scenes.h](../tests/auto_scenes.h)) with a tolerance of 5 %%. Errors against "
       "the reference are\nin percent of the largest force, or of the largest strain of a uniform "
-      "test. Predicted errors are in brackets.\n\n"
+      "test. Predicted errors are in brackets. The reference is that of `palpate chart`.\n\n"
       "| scene | reference | its error |");
   std::vector<scenario::Rung> rungs;
   std::copy_if(scenario::ladder.begin(), scenario::ladder.end(), std::back_inserter(rungs),
@@ -234,7 +222,7 @@ void auto_table() {
     const auto family = scenario::parse(one.text, "scene.toml", {});
     const auto chosen = run::build_scene(family.cases.front(), family);
     const Reference truth = reference(one, chosen);
-    std::printf("| %s | %s | %s |", one.name, truth.kind, percent(truth.error).c_str());
+    std::printf("| %s | %s | %s |", one.name, truth.kind.c_str(), percent(truth.error).c_str());
     for (const scenario::Rung& each : rungs) {
       const scene::Forecast* rung = chosen.choice.forecast(each.of);
       std::optional<double> error;
