@@ -139,7 +139,7 @@ Mesh mesh_left_open(const Scenario& scenario) {
   const bool lumps =
       std::any_of(scenario.regions.begin(), scenario.regions.end(),
                   [](const Region& region) { return std::holds_alternative<Lump>(region.part); });
-  Mesh mesh;
+  Mesh mesh = Tissue{}.mesh;
   if (lumps || !std::holds_alternative<Cuboid>(scenario.tissue.shape)) mesh = Tetgen{};
   refinement(mesh).refine = true;
   return mesh;

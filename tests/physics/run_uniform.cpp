@@ -70,6 +70,26 @@ TEST(KelvinVoigtSpecimen, CreepsAndRecoversLikeTheClosedForm) {
   }
 }
 
+// Springs that turn are stepped; under a small load they are the same body.
+TEST(KelvinVoigtSpecimen, KeepsTheShapeOfStaticsWhereItStrainsUnevenly) {
+  std::vector<std::string> settings{"tissue.viscosity=kelvin_voigt",
+                                    "tissue.retardation_time=0.5 s",
+                                    "solver.integrator=quasi_static",
+                                    "solver.model=mass_spring",
+                                    "tissue.base=bonded",
+                                    "step.1.stress=0.1 Pa"};
+  const auto [one, scene] = run_specimen(creep, settings);
+  settings.emplace_back("solver.kinematics=nonlinear");
+  const auto [stepped, other] = run_specimen(creep, settings);
+  ASSERT_EQ(one.strain.size(), stepped.strain.size());
+  ASSERT_GT(one.strain.size(), 40U);
+  for (std::size_t i = 0; i < one.strain.size(); ++i) {
+    EXPECT_DOUBLE_EQ(one.strain[i].time, stepped.strain[i].time);
+    EXPECT_EQ(one.strain[i].stress, stepped.strain[i].stress);
+    EXPECT_NEAR(one.strain[i].strain, stepped.strain[i].strain, 1e-4 * one.strain[30].strain) << i;
+  }
+}
+
 TEST(KelvinVoigtSpecimen, QuasiStaticIsTheClosedForm) {
   const auto [record, scene] =
       run_specimen(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
@@ -320,6 +340,10 @@ TEST(UniformSpecimen, EnergyIsAccountedFor) {
     const auto [record, scene] =
         run_specimen(creep, {"tissue.viscosity=kelvin_voigt", "tissue.retardation_time=0.5 s",
                              "solver.integrator=" + integrator, "output.interval=5 ms"});
+    if (integrator == "quasi_static") {
+      EXPECT_FALSE(test::has_finding(record, "energy_imbalance")) << "it takes no steps";
+      continue;
+    }
     double imbalance = 1.0;
     for (const auto& finding : record.findings)
       if (finding.name == "energy_imbalance") imbalance = std::get<double>(finding.value);

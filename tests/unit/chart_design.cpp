@@ -76,7 +76,8 @@ TEST_F(Design, APressHasEveryGroup) {
   EXPECT_EQ(find(variants, "hertz"), nullptr) << "as it stands: not twice";
   EXPECT_EQ(find(variants, "layer"), nullptr) << "`auto` takes it: not twice";
   EXPECT_EQ(find(variants, "coupled_springs, nodes x 4")->settings,
-            (Settings{"solver.model=coupled_springs", "solver.integrator=quasi_static",
+            (Settings{"solver.model=coupled_springs", "contact.depth=neo_hookean",
+                      "solver.integrator=quasi_static",
                       "tissue.mesh={kind='mirrored',cells=[5,6,10]}"}));  // 3 4 6 by 4^(1/3)
   EXPECT_EQ(find(variants, "mass_spring, 2 rings")->settings.back(), "solver.rings=2");
   EXPECT_NE(find(variants, "coupled_springs, resolved on graded cells"), nullptr);
