@@ -155,8 +155,8 @@ class Refining {
   [[nodiscard]] scene::SpecimenShape refined() {
     const scenario::Resolved& press = trial_.chosen;
     scene::SpecimenShape shape = scene::make_shape(press, family_.folder);
-    scenario::refinement(trial_.chosen.tissue.mesh).refine =
-        false;  // scene_with() takes it as it is
+    // scene_with() takes this mesh as it is.
+    scenario::refinement(trial_.chosen.tissue.mesh).refine = false;
     std::vector<double> levels = scene::slab_levels(press);
     levels.push_back(shape.base_level);
     meshing::TrueBoundary boundary(shape.mesh, scene::parametric(press.tissue.shape),

@@ -51,7 +51,7 @@ double fastest_rate(const scenario::Resolved& scenario) {
 // which yields like a spring behind Hertz's contact: F / F_Hertz = rho with
 // rho^(2/3) + 2/3 x rho = 1, x the base's tangent compliance over Hertz's. docs/theory.md (68)
 void change_by_size(const SurfaceTouch& touch, Estimates& found) {
-  found.narrow = found.sides;
+  found.narrow = std::min(0.99, found.sides);
   found.by_size_error = doubt_of_sides * found.sides;
   if (touch.footing && touch.known()) {
     const Footing::Compliance base = touch.footing->under(touch.position, touch.curvature.normal);
@@ -70,16 +70,12 @@ void change_by_size(const SurfaceTouch& touch, Estimates& found) {
   found.by_size = (1.0 + found.thickness) * (1.0 - found.narrow) - 1.0;
 }
 
-// The change of the half-space's force on the top of an ellipsoid or of a lying cylinder, which
-// stands on its lowest tenth. Fitted to coupled springs on random bodies.   docs/theory.md (68)
+// The change of the half-space's force where size_is_fitted(). Fitted to coupled springs on random
+// bodies.   docs/theory.md (68)
 //                                                         tests/accuracy/curved_bodies.py
 void fit_size(const scenario::Resolved& scenario, const SurfaceTouch& touch, Estimates& found) {
-  constexpr double level = 3.0;  // degrees
+  if (!size_is_fitted(scenario, touch)) return;
   const bool ellipsoid = std::holds_alternative<scenario::Ellipsoid>(scenario.tissue.shape);
-  if ((!ellipsoid && !std::holds_alternative<scenario::Cylinder>(scenario.tissue.shape)) ||
-      scenario.tissue.base == tissue::Base::frictionless || several_tissues(scenario) ||
-      scenario.tissue.base_height || !touch.known() || touch.inclination() > level)
-    return;
   const double nu = scenario.tissue.poisson_ratio;
   const double q = (1.0 - 2.0 * nu) / (1.0 - nu);
   const Vec3& size = touch.size;
@@ -179,6 +175,14 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
 }
 
 }  // namespace
+
+bool size_is_fitted(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+  constexpr double level = 3.0;  // degrees
+  return (std::holds_alternative<scenario::Ellipsoid>(scenario.tissue.shape) ||
+          std::holds_alternative<scenario::Cylinder>(scenario.tissue.shape)) &&
+         scenario.tissue.base == tissue::Base::bonded && !scenario.tissue.base_height &&
+         !several_tissues(scenario) && touch.known() && touch.inclination() <= level;
+}
 
 Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
   Estimates found;

@@ -36,6 +36,10 @@ struct Estimates {
 // width of a body from a file are those of its bounding box.
 [[nodiscard]] Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch);
 
+// Whether the change by the size of the body is that of a fit, (68): on the top of ellipsoids and
+// of lying cylinders of one tissue that are held by their lowest tenth.
+[[nodiscard]] bool size_is_fitted(const scenario::Resolved& scenario, const SurfaceTouch& touch);
+
 inline constexpr double doubt_of_sides = 0.4;  // relative, of `sides`, which is a fit
 
 // The error of a half-space's force by the body's size, as a fraction of the body's force. Effects

@@ -12,6 +12,7 @@
 #include "contact/elliptic.h"
 #include "contact/hertz.h"
 #include "geometry/shape_touch.h"
+#include "scene/estimates.h"
 #include "scene/first_touch.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
@@ -48,11 +49,6 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
   const double y = scenario.finger.y.value_or(0.5 * touch.size.y());
   touch.lowest = {x, y, touch.size.z()};
   touch.thickness = touch.size.z();
-  if (!std::holds_alternative<geometry::Cuboid>(shape)) {
-    const double spacing = 0.05 * touch.size.minCoeff();
-    touch.footing = footing(geometry::sampled(shape, {spacing, spacing}).parts.front().surface,
-                            scenario.tissue.base_height);
-  }
   const double radius = scenario.finger.radius;
   const auto found = geometry::touch_from_above(shape, x, y, radius);
   if (!found) {
@@ -66,6 +62,11 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
     touch.curvature = found->curvature;
     touch.thickness = found->position.z();
     put(touch, found->position, radius);
+    if (!std::holds_alternative<geometry::Cuboid>(shape) && !size_is_fitted(scenario, touch)) {
+      const double spacing = 0.05 * touch.size.minCoeff();
+      touch.footing = footing(geometry::sampled(shape, {spacing, spacing}).parts.front().surface,
+                              scenario.tissue.base_height);
+    }
   }
   return touch;
 }

@@ -21,7 +21,7 @@ struct SurfaceTouch {
   Vec3 lowest = Vec3::Zero();           // m, the lowest point of one sphere at first touch
   Vec3 position = Vec3::Zero();         // m, of the surface
   geometry::Curvature curvature;        // there, with the normal
-  std::optional<Footing> footing = {};  // of bodies that are no cuboids
+  std::optional<Footing> footing = {};  // of curved bodies, unless size_is_fitted()
   bool one_sided = false;               // the curvature has StarStatus::one_sided
   std::string cannot = {};              // why there is no curvature; empty if there is one
   bool nowhere = false;  // no model can press here: beside the body, or it is not sound
