@@ -209,7 +209,7 @@ void auto_table() {
       "\n## Models that `auto` picks\n\nTwenty-one scenes "
       "([tests/auto_scenes.h](../tests/auto_scenes.h)) with a tolerance of 5 %%. Errors against "
       "the reference are\nin percent of the largest force, or of the largest strain of a uniform "
-      "test. Predicted errors are in brackets. The reference is that of `palpate chart`.\n\n"
+      "test. Predicted errors are in brackets.\nThe reference is that of `palpate chart`.\n\n"
       "| scene | reference | its error |");
   std::vector<scenario::Rung> rungs;
   std::copy_if(scenario::ladder.begin(), scenario::ladder.end(), std::back_inserter(rungs),
