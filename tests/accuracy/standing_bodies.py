@@ -1,9 +1,9 @@
 """Counts how often `hertz` states at least its true error on bodies that stand on part of themselves.
 
 Draws COUNT bodies with a rigid finger of radius R, pressed near their top: lumpy ellipsoids from a
-file, turned at random, of which every second one is cut off flat below, and layered limbs of one
-tissue. They are held by their flat underside or by their lowest tenth. Their truth is coupled
-springs, refined by their own error to 1 %.
+file, turned at random, of which half are cut off flat below, and layered limbs of one tissue. They
+are held by their flat underside or by their lowest tenth. Their truth is coupled springs, refined
+by their own error to 1 %.
 
     standing_bodies.py PALPATE COUNT [FIRST]      prints a table; three seconds a body
 """
@@ -15,6 +15,7 @@ import tempfile
 
 import numpy as np
 
+sys.dont_write_bytecode = True
 from curved_bodies import SCENARIO, findings
 
 TAGGED = """[[region]]
