@@ -70,9 +70,8 @@ void change_by_size(const SurfaceTouch& touch, Estimates& found) {
   found.by_size = (1.0 + found.thickness) * (1.0 - found.narrow) - 1.0;
 }
 
-// The change of the half-space's force where size_is_fitted(). Fitted to coupled springs on random
-// bodies.   docs/theory.md (68)
-//                                                         tests/accuracy/curved_bodies.py
+// The change of the half-space's force where size_is_fitted(), docs/theory.md (68). Fitted to
+// coupled springs on random bodies.                      tests/accuracy/curved_bodies.py
 void fit_size(const scenario::Resolved& scenario, const SurfaceTouch& touch, Estimates& found) {
   if (!size_is_fitted(scenario, touch)) return;
   const bool ellipsoid = std::holds_alternative<scenario::Ellipsoid>(scenario.tissue.shape);
