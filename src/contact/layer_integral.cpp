@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -258,12 +259,19 @@ double LayerEquation::force_factor(double chi) const {
   // 4/3 E* H^3/R, L = chi^3 F/F_Hertz has dL = 3/2 (a/H) kappa d(chi^2). The error of this straight
   // line is about 3/2 (change / chi)^2, while chi and a/H differ by the effect of the thickness.
   if (chi == 0.0) return 1.0;
-  // chi grows almost linearly with the ratio (slope 1 on thick layers, 1/2 on thin ones), so that
-  // Newton's method needs one to three steps.
-  LayerSolution near = solve(chi, Wanted::force);
+  // With the kernel's value at the centre everywhere, D = 1 - 2/3 Q(0,0), which is right to the
+  // second order of a/H. chi grows almost linearly with the ratio (slope 1 on thick layers, 1/2 on
+  // thin ones), so that Newton's method needs one or two more solutions.
+  double centre = 0.0;  // Q(0,0) H/a
+  for (const double weight : waves_.weights) centre += share_ * weight;
+  double start = chi;
+  for (int pass = 0; pass < 3; ++pass)
+    start = chi / std::sqrt(1.0 - 2.0 / 3.0 * std::clamp(centre * start, 0.0, 0.9));
+  LayerSolution near = solve(start, Wanted::force);
   for (int pass = 0; pass < 20; ++pass) {
     const double change = (chi - near.chi) / near.chi_slope;
-    if (std::abs(change) <= 1e-5 * std::abs(chi - near.ratio)) break;
+    const double effect = std::abs(near.force_factor() - 1.0);
+    if (1.5 * change * change <= 1e-10 * effect * chi * chi) break;
     near = solve(near.ratio + change, Wanted::force);
   }
   const double load = near.chi * near.chi * near.chi * near.force_factor();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "base/index.h"
 
@@ -32,35 +33,55 @@ std::vector<double> shapes(Model model, double scale) {
   return grid;
 }
 
+// The terms of a model at all points for one value of its shape parameter.
+struct Trial {
+  double shape;
+  Eigen::MatrixXd terms;
+};
+
+// Those of the last points on this thread: the cases of a sweep have the same ones.
+const std::vector<Trial>& trials(std::span<const double> x, Model model) {
+  struct Known {
+    std::vector<double> x;
+    std::vector<Trial> trials;
+  };
+  thread_local std::map<Model, Known> all;
+  Known& known = all[model];
+  if (!known.trials.empty() && std::equal(x.begin(), x.end(), known.x.begin(), known.x.end()))
+    return known.trials;
+  known = {{x.begin(), x.end()}, {}};
+  double scale = 0.0;
+  for (const double each : x) scale = std::max(scale, std::abs(each));
+  const auto n = static_cast<Eigen::Index>(x.size());
+  const int count = term_count(model);
+  for (const double shape : shapes(model, scale == 0.0 ? 1.0 : scale)) {
+    Trial trial{shape, Eigen::MatrixXd(n, count)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto phi = terms(model, x[as_index(i)], shape);
+      for (int k = 0; k < count; ++k) trial.terms(i, k) = phi[as_index(k)];
+    }
+    if (trial.terms.allFinite()) known.trials.push_back(std::move(trial));
+  }
+  return known.trials;
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> initial_guess(std::span<const double> x,
                                                  std::span<const double> y, Model model) {
-  const auto n = static_cast<Eigen::Index>(x.size());
-  const int count = term_count(model);
-  const Eigen::Map<const Eigen::VectorXd> target(y.data(), n);
-  double scale = 0.0;
-  for (const double each : x) scale = std::max(scale, std::abs(each));
-  if (scale == 0.0) scale = 1.0;
-
+  const Eigen::Map<const Eigen::VectorXd> target(y.data(), static_cast<Eigen::Index>(x.size()));
   std::optional<std::vector<double>> best;
   double least = std::numeric_limits<double>::infinity();
-  Eigen::MatrixXd matrix(n, count);
-  Eigen::VectorXd linear(count);
-  for (const double shape : shapes(model, scale)) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto phi = terms(model, x[as_index(i)], shape);
-      for (int k = 0; k < count; ++k) matrix(i, k) = phi[as_index(k)];
-    }
-    if (!matrix.allFinite()) continue;
-    if (count == 1)
+  Eigen::VectorXd linear(term_count(model));
+  for (const auto& [shape, matrix] : trials(x, model)) {
+    if (linear.size() == 1)
       linear[0] = matrix.col(0).dot(target) / matrix.col(0).squaredNorm();
     else
       linear = matrix.colPivHouseholderQr().solve(target);
     const double sum = (matrix.lazyProduct(linear) - target).squaredNorm();
     if (!(sum < least) || !linear.allFinite()) continue;
     least = sum;
-    best.emplace(linear.data(), linear.data() + count);
+    best.emplace(linear.begin(), linear.end());
     if (has_shape(model)) best->push_back(shape);
   }
   return best;

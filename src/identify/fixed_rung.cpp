@@ -74,6 +74,16 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
   }
   if (choices.empty()) throw InputError(wrong);
 
+  // The factor of the body's size is for all values or for none.
+  const auto with_factor = [](const scene::Choice& choice) { return choice.found.size_matters; };
+  scenario::Found found{.viscosity_matters = false, .inertia_matters = false};
+  found.size_matters = std::all_of(choices.begin(), choices.end(), with_factor);
+  if (!found.size_matters && std::any_of(choices.begin(), choices.end(), with_factor)) {
+    scenario::Case without = one;
+    without.scenario.contact.size = scenario::Contact::Size::half_space;
+    return fix_rung(without, document, unknowns);
+  }
+
   fixed.given = choices.front().given;
   fixed.model = choices.front().chosen.solver.model;
   double best = std::numeric_limits<double>::infinity();
@@ -81,12 +91,11 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
     if (fixed.given || best <= scenario.solver.tolerance) break;
     double worst = 0.0;
     for (const scene::Choice& choice : choices)
-      worst = std::max(worst, error_of(choice, rung.model));
+      worst = std::max(worst, error_of(choice, rung.model) - choice.waves);
     if (worst >= best) continue;
     best = worst;
     fixed.model = rung.model;
   }
-  scenario::Found found{.viscosity_matters = false, .inertia_matters = false};
   for (const scene::Choice& choice : choices) {
     if (!choice.rungs.empty())
       fixed.worst_error = std::max(fixed.worst_error, error_of(choice, fixed.model));

@@ -38,9 +38,11 @@ class Words {
   [[nodiscard]] std::string model() const {
     std::string text = (scene_.choice.given ? "Prescribed by the scenario: " : "Chosen: ") +
                        std::string(rung_.word) + ", " + plain_word(rung_.of);
-    const bool viscous = !scene_.scenario.uniform() && !scene_.relaxation.elastic();
-    if (viscous) text += ", with viscosity";
-    if (scene_.depth_ratio) text += std::string(viscous ? " and" : ", with") + " large strains";
+    std::vector<std::string> with;
+    if (!scene_.scenario.uniform() && !scene_.relaxation.elastic()) with.emplace_back("viscosity");
+    if (scene_.depth_ratio) with.emplace_back("large strains");
+    if (scene_.size_ratio) with.emplace_back("the body's size");
+    if (!with.empty()) text += ", with " + joined(with, " and ");
     return text + ". " + why();
   }
 
@@ -86,12 +88,15 @@ class Words {
       return "With `contact.coupling = \"one_way\"` the mesh gives the shape; the force is that of "
              "hertz, whatever the size of the body.";
     if (choice.given) {
-      const auto* other = scene::cheapest(choice, uniform, scene_.scenario.solver.tolerance);
-      if (other == nullptr) return "No other was considered.";
-      if (other->model == rung_.of) return "It would be chosen anyway.";
-      const std::string reason = rung_.meshed() ? "" : " " + against(rung_.of, " is ");
-      return "Without `solver.model` it would be " + word(other->model) + ", about " +
-             percent_text(other->known(mesh_error_)) + " from the true force." + reason;
+      if (choice.rungs.empty()) return "No other was considered.";
+      const scene::Forecast& other = choice.otherwise;
+      if (other.model == rung_.of && factors(choice.otherwise_found) == factors())
+        return "It would be chosen anyway.";
+      const bool corrected = rung_.meshed() || scene_.size_ratio;
+      const std::string reason = corrected ? "" : " " + against(rung_.of, " is ");
+      return "Without `solver.model` it would be " + word(other.model) +
+             (other.model == rung_.of ? factors(choice.otherwise_found) : "") + ", about " +
+             percent_text(other.known(mesh_error_)) + " from the true force." + reason;
     }
     if (uniform) {
       const auto* springs = choice.forecast(Model::mass_spring);
@@ -100,6 +105,9 @@ class Words {
       return "mass_spring would be about " + percent_text(springs->error) +
              " off, because its springs do not have the tissue's Poisson's ratio.";
     }
+    if (scene_.size_ratio)
+      return "A factor for the " + size_words() + ", which change the force by about " +
+             percent_text(std::abs(scene_.size_ratio->change)) + ", makes a mesh unnecessary.";
     if (rung_.of == Model::hertz) return enough();
     std::string text = against(Model::hertz);
     if (rung_.meshed() && std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape))
@@ -111,6 +119,24 @@ class Words {
   // The reason after the model's name, which two models may share.
   [[nodiscard]] static std::string tail(const std::string& sentence) {
     return sentence.substr(std::min(sentence.size(), sentence.find(' ')));
+  }
+
+  // The factors on the force: of this scene, or what was found for another model.
+  [[nodiscard]] static std::string factors(bool deep, bool size) {
+    return std::string(deep ? " with large strains" : "") + (!size  ? ""
+                                                             : deep ? " and the body's size"
+                                                                    : " with the body's size");
+  }
+  [[nodiscard]] std::string factors() const {
+    return factors(scene_.depth_ratio.has_value(), scene_.size_ratio.has_value());
+  }
+  [[nodiscard]] static std::string factors(const scenario::Found& found) {
+    return factors(found.depth_matters, found.size_matters);
+  }
+
+  // What the factor of `contact.size` stands for.
+  [[nodiscard]] std::string size_words() const {
+    return rung_.thickness ? "sides" : "thickness, width and base";
   }
 
   // Why hertz is enough.

@@ -52,6 +52,7 @@ class LeftOuts {
   }
 
   void size() {
+    if (scene_.size_ratio) return;
     const std::string free = one_way()             ? "leave out `contact.coupling`"
                              : scene_.choice.given ? "leave out `solver.model`"
                                                    : "";

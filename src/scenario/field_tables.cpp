@@ -22,6 +22,9 @@ Conditions::Conditions(const Scenario& scenario) {
                       "with " + models_that(std::mem_fn(&Rung::independent)), Use::Otherwise::note}
                 : mesh;
   based = model && rung(*model).thickness ? Use{} : mesh;
+  formula = {!model || !rung(*model).meshed(),
+             "with " + models_that([](const Rung& one) { return !one.meshed(); }),
+             Use::Otherwise::note};
   // If steps of both kinds are mixed, the mixture is reported instead of the keys of the finger.
   const bool presses = !std::all_of(scenario.steps.begin(), scenario.steps.end(), loads_end_faces);
   finger = {presses || scenario.steps.empty(),
@@ -71,6 +74,9 @@ void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& u
                     contact.viscosity, contact_viscosities);
   visitor.choice_or(auto_depths, {"depth", "How the force grows in a deep press."}, contact.depth,
                     depths);
+  visitor.choice_or(auto_sizes,
+                    {"size", "How much of the body the force of a formula knows.", use.formula},
+                    contact.size, sizes);
   visitor.choice_or(auto_directions,
                     {"direction",
                      "The direction in which `resolved` measures gaps and applies forces.",

@@ -12,6 +12,7 @@ struct Conditions {
   Use pressed_mesh;  // keys of a mesh under a finger, ignored without one
   Use springs;       // of independent springs
   Use based;         // of specimens with a base: a mesh or a layer
+  Use formula;       // keys of models without a mesh, which are ignored with one
 
   explicit Conditions(const Scenario& scenario);
 };

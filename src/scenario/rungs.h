@@ -76,7 +76,7 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .springs = Rung::Springs::none,
      .thickness = true,
      .own_ratio = true,
-     .cost = {.once = 0.01, .layered = 0.48}},
+     .cost = {.once = 0.01, .layered = 0.05}},
     {.of = Model::mass_spring,
      .word = "mass_spring",
      .meaning = "the paper's springs along tetrahedron edges",

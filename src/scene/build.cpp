@@ -297,6 +297,22 @@ void set_depth_ratio(Scene& scene, const scenario::Family& family) {
             " over the finger's radius, beside no edge; write `depth = \"hertz\"`");
 }
 
+void set_size_ratio(Scene& scene, const scenario::Family& family) {
+  const scenario::Resolved& scenario = scene.scenario;
+  const bool formula = !scenario.meshed() && !scenario.uniform();
+  if (!formula || scenario.contact.size != scenario::Contact::Size::body) return;
+  const Choice& choice = scene.choice;
+  scene.size_ratio = size_ratio(scenario.solver.model, scenario, choice.touch, choice.expected);
+  if (!scene.size_ratio)
+    throw InputError(place_of(family.document, "contact.size"),
+                     "`body` is known for `hertz` on a curved body and for `layer` on a cuboid, "
+                     "under a finger that does not move sideways, where it changes the force by "
+                     "at most " +
+                         percent_text(SizeRatio::most) +
+                         "; write `size = \"half_space\"`, or set `solver.model = \"" +
+                         scenario::strongest.word + "\"`");
+}
+
 void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
   const scenario::Resolved& scenario = scene.scenario;
   scene.specimen = make_specimen(scenario, family.folder, shapes);
@@ -370,6 +386,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   refuse_beyond(scene, family);
   refuse_sliding(scene, family);
   if (!scenario.uniform()) set_depth_ratio(scene, family);
+  set_size_ratio(scene, family);
   switch (scenario.solver.model) {
     case Model::hertz: break;
     case Model::layer: set_layer(scene, shapes); break;

@@ -6,7 +6,7 @@
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
 #include "scene/estimates.h"
-#include "scene/refining_press.h"
+#include "scene/model_errors.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
 #include "scene/time_plan.h"
@@ -50,28 +50,6 @@ constexpr auto question_table = std::to_array<QuestionRow>({
     {"shape_or_inclusion", "formula", "", "", ""},
 });
 static_assert(is_complete<Asked>(question_table), "every question has its text");
-
-// The error of cells that are coarse compared with the thickness, 0.15 (cell / thickness)^2:
-// measured on discs of 5 and 10 mm and on thin blocks. Flat layers have an exact law. Where the
-// mesh is refined, at most what refining leaves.
-//                                                                        docs/theory.md (69)
-double coarseness(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
-  const bool box = std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
-  const Vec3& size = touch.size;
-  if (!size.allFinite() || (box && !scenario.regions.empty() && all_slabs(scenario))) return 0.0;
-  const double cell = std::cbrt(size.prod() / expected_nodes(scenario.tissue.mesh));
-  double thickness = size.z();
-  if (const auto* limb = std::get_if<scenario::LayeredLimb>(&scenario.tissue.shape))
-    thickness = limb->skin_thickness;
-  const double ratio = std::min(1.0, cell / thickness);
-  const double error = 0.15 * ratio * ratio;
-  return refines(scenario) ? std::min(error, refined_share * scenario.solver.tolerance) : error;
-}
-
-bool coarse_mesh(const Choice& choice) {
-  return choice.chosen.meshed() && !refines(choice.chosen) &&
-         coarseness(choice.chosen, choice.touch) > 0.0;
-}
 
 class Chooser {
  public:
@@ -134,14 +112,17 @@ class Chooser {
                  : "");
     const double inertia = uniform_inertia(asked_);
     ask(Asked::inertia, inertia, tolerance(), "the body rings", "change of the strain by waves");
-    choice_.found.inertia_matters = inertia >= tolerance();
+    const auto error_of_still = [&](const Rung& rung) {
+      return rung.own_ratio ? even_error + std::max(uneven ? rung.error.uneven : 0.0, meshed)
+                            : ratio_error;
+    };
+    choice_.found.inertia_matters =
+        inertia >= tolerance() ||
+        error_of_still(scenario::strongest) + errors_.counted(inertia) > tolerance();
     const auto& integrator = case_.scenario.solver.integrator;
-    const double left_out = integrator && !about(*integrator).inertia ? inertia : 0.0;
+    const bool moving = integrator ? about(*integrator).inertia : choice_.found.inertia_matters;
     for (const Rung& rung : scenario::ladder)
-      if (rung.uniform)
-        add(rung, left_out + (rung.own_ratio
-                                  ? even_error + std::max(uneven ? rung.error.uneven : 0.0, meshed)
-                                  : ratio_error));
+      if (rung.uniform) add(rung, (moving ? 0.0 : errors_.counted(inertia)) + error_of_still(rung));
     take_cheapest();
   }
 
@@ -169,6 +150,8 @@ class Chooser {
                  : ", the width of the body and of its base takes " + percent_text(e.narrow)));
     if (box) ask(Asked::layer, e.sides, limit);
     decide(e);
+    if (choice_.found.size_matters)
+      choice_.questions.back().answer = "with the factor for it no mesh is needed";
     ask(Asked::deep, std::abs(e.deep), deep_limit(), deep_answer(e));
     if (choice_.found.depth_matters && std::abs(e.deep) < deep_limit())
       choice_.questions.back().answer =
@@ -177,6 +160,8 @@ class Chooser {
     // A fifth of the tolerance, because viscosity that is left out adds to the model's error.
     ask(Asked::time_dependent, e.viscous, 0.2 * limit, viscous_answer());
     ask(Asked::inertia, e.inertia, limit, inertia_answer());
+    if (choice_.found.inertia_matters && e.inertia < limit)
+      choice_.questions.back().answer = "small, but nothing is within the limit without it";
     ask(Asked::shape_or_inclusion, 1.0, 0.0,
         formulas.empty() ? "none, because " + reason.value_or("") : formulas);
 
@@ -186,83 +171,54 @@ class Chooser {
   // A fifth of the tolerance, because depth that is left out adds to the model's error.
   [[nodiscard]] double deep_limit() const { return 0.2 * tolerance(); }
 
-  // What matters, and the error of every rung. The factor of a deep press is taken as well where a
-  // cheaper model is enough with it.
+  // What matters, and the error of every rung. The factors of a deep press and of the body's size
+  // are taken as well where a cheaper model is enough with them, and motion where nothing else is.
   void decide(const Estimates& e) {
-    const double limit = tolerance();
-    scenario::Found& found = choice_.found;
-    found = {.viscosity_matters = e.viscous >= 0.2 * limit,
-             .inertia_matters = e.inertia >= limit,
-             .depth_matters = std::abs(e.deep) >= deep_limit() && has_depth_ratio()};
-    evaluate();
-    if (found.depth_matters || !has_depth_ratio()) return;
-    const Model without = cheapest(choice_, false, limit)->model;
-    found.depth_matters = true;
-    evaluate();
-    if (cheapest(choice_, false, limit)->model < without) return;
-    found.depth_matters = false;
-    evaluate();
+    const scenario::Found needed{
+        .viscosity_matters = e.viscous >= 0.2 * tolerance(),
+        .inertia_matters = e.inertia >= tolerance(),
+        .depth_matters = std::abs(e.deep) >= deep_limit() && errors_.has_depth_ratio()};
+    scenario::Found best;
+    std::optional<Forecast> least;
+    const auto serves = [&](const Forecast& one) { return one.error <= tolerance(); };
+    for (const bool motion : {false, true})
+      for (const bool size : {false, true})
+        for (const bool depth : {false, true}) {
+          if (motion && (needed.inertia_matters || !errors_.moves())) continue;
+          if (depth && (needed.depth_matters || !errors_.has_depth_ratio())) continue;
+          if (least && serves(*least) &&
+              (motion || least->model == scenario::ladder.front().of ||
+               (size && !scenario::rung(least->model).meshed())))
+            continue;
+          choice_.found = needed;
+          choice_.found.inertia_matters |= motion;
+          choice_.found.size_matters = size;
+          choice_.found.depth_matters |= depth;
+          evaluate();
+          const Forecast one = *cheapest(choice_, false, tolerance());
+          if (least && (serves(one) != serves(*least) ? serves(*least)
+                        : serves(one)                 ? one.model >= least->model
+                                                      : one.error >= least->error))
+            continue;
+          least = one;
+          best = choice_.found;
+        }
+    choice_.waves = best.inertia_matters ? 0.0 : errors_.counted(e.inertia);
+    choice_.otherwise = *least;
+    choice_.otherwise_found = best;
+    if (choice_.found == best && !choice_.given) return;
+    choice_.found = best;
+    evaluate(choice_.given ? std::optional(model_) : std::nullopt);
   }
 
-  void evaluate() {
+  // A model that is named has no more than the scenario gives it.
+  void evaluate(std::optional<Model> named = {}) {
     choice_.rungs.clear();
-    for (const Rung& rung : scenario::ladder)
-      add(rung, error_of(rung, choice_.expected), error_of_mesh(rung, choice_.expected));
-  }
-
-  // The error of a model in a press, as a fraction of the force.                docs/theory.md (69)
-  [[nodiscard]] double error_of(const Rung& rung, const Estimates& e) const {
-    const scenario::Found& found = choice_.found;
-    const double still = found.inertia_matters ? e.inertia : 0.0;
-    switch (rung.of) {
-      case Model::hertz: return half_space_error(e) + still + depth_error(rung, e);
-      case Model::layer:
-        return 1.0 / (1.0 - std::min(e.sides, 0.99)) - 1.0 + doubt_of_sides * e.sides + still +
-               depth_error(rung, e);
-      case Model::mass_spring:
-      case Model::coupled_springs: break;
-      case Model::neo_hookean: return error_of_mesh(rung, e) + still;
+    for (const Rung& rung : scenario::ladder) {
+      scenario::Found found = choice_.found;
+      if (named == rung.of) found.depth_matters = found.size_matters = false;
+      add(rung, errors_.of(rung, found), errors_.of_mesh(rung));
     }
-    const double waves =
-        found.inertia_matters ? (moves() ? rung.error.waves : 1.0) * e.inertia : 0.0;
-    return waves + depth_error(rung, e) + error_of_mesh(rung, e);
-  }
-
-  // What the mesh of a rung costs; 0 without one.
-  [[nodiscard]] double error_of_mesh(const Rung& rung, const Estimates& e) const {
-    if (!rung.meshed()) return 0.0;
-    const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
-    if (rung.solid)
-      return rung.error.flat + coarseness_of_solid() + (box ? 0.0 : rung.error.curved);
-    return coarseness(asked_, choice_.touch) + rung.error.flat + rung.error.sides * e.sides +
-           (box ? 0.0 : rung.error.curved + rung.error.size * e.curved_body) +
-           (all_slabs(asked_) || !several_tissues(asked_) ? 0.0 : rung.error.mixed);
-  }
-
-  // What cells cost nearly incompressible tetrahedra: measured on a block of 60 x 60 x 30 mm,
-  // pressed by 8 mm, on 726 to 3179 nodes, with nu from 0.33 to 0.49.
-  [[nodiscard]] double coarseness_of_solid() const {
-    const Vec3& size = choice_.touch.size;
-    const double cell = std::cbrt(size.prod() / expected_nodes(asked_.tissue.mesh));
-    const double ratio = std::min(1.0, cell / size.z());
-    return 30.0 * ratio * ratio * std::max(0.0, asked_.tissue.poisson_ratio - 0.4);
-  }
-
-  // Whether the rungs of this scenario can use the factor of a deep press.
-  [[nodiscard]] bool has_depth_ratio() const {
-    return choice_.expected.depth_ratio && !contact::mesh_is_tissue(asked_.contact.coupling);
-  }
-
-  // What the depth leaves open: the error of its factor, or the effect that is left out. At least
-  // 0.1 %, for a contact that is never quite as small as a contact law assumes.
-  [[nodiscard]] double depth_error(const Rung& rung, const Estimates& e) const {
-    constexpr double least = 1e-3;
-    const bool named = choice_.given && rung.of == model_;  // it has what the scenario gives it
-    const bool found = !named && choice_.found.depth_matters;
-    const auto depth = case_.scenario.contact.depth.value_or(
-        found ? scenario::Contact::Depth::neo_hookean : scenario::Contact::Depth::hertz);
-    const bool used = depth == scenario::Contact::Depth::neo_hookean && has_depth_ratio();
-    return std::max(least, used ? e.deep_error : std::abs(e.deep) + e.deep_error);
   }
 
   [[nodiscard]] std::string deep_answer(const Estimates& e) const {
@@ -273,9 +229,6 @@ class Chooser {
     return "large strains " + change + ", and a factor takes this into account";
   }
 
-  // Whether the tissue's inertia affects the force on a mesh.
-  [[nodiscard]] bool moves() const { return inertia_reaches_force(asked_); }
-
   [[nodiscard]] std::string viscous_answer() const {
     if (asked_.contact.viscosity == scenario::Contact::Viscosity::tissue)
       return "Lee and Radok's force while the contact grows, Ting's while it shrinks";
@@ -284,7 +237,7 @@ class Chooser {
   }
 
   [[nodiscard]] std::string inertia_answer() const {
-    if (moves()) return "a mesh includes it, a formula does not";
+    if (errors_.moves()) return "a mesh includes it, a formula does not";
     return "left out of the force of this scenario: `consistent` includes it with "
            "`viscosity` none, nodal_drag, or a solid that relaxes in the contact too; else use "
            "`resolved`";
@@ -310,13 +263,15 @@ class Chooser {
   }
 
   void take_cheapest() {
-    if (!choice_.given) model_ = cheapest(choice_, asked_.uniform(), tolerance())->model;
+    if (asked_.uniform()) choice_.otherwise = *cheapest(choice_, true, tolerance());
+    if (!choice_.given) model_ = choice_.otherwise.model;
   }
 
   const scenario::Case& case_;
   scenario::Resolved asked_;  // resolved with the most complete model, whatever the scenario names
   Model model_;               // the choice
   Choice choice_;
+  const ModelErrors errors_{case_.scenario, asked_, choice_.touch, choice_.expected};
 };
 
 }  // namespace
@@ -348,7 +303,7 @@ std::string Choice::shortfall(std::optional<double> mesh_error) const {
   return "no model is expected to be within the tolerance of " +
          percent_text(chosen.solver.tolerance) + ": `" + scenario::rung(rung->model).word +
          "` comes nearest with about " + percent_text(error) +
-         (coarse_mesh(*this) ? "; a finer `tissue.mesh` may help" : "");
+         (coarse_mesh(chosen, touch) ? "; a finer `tissue.mesh` may help" : "");
 }
 
 Choice choose(const scenario::Case& one) {

@@ -14,6 +14,8 @@
 namespace palpate::scene {
 namespace {
 
+using scenario::Model;
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // The smallest distances of the finger from the four sides of a cuboid on its path, m.
@@ -113,6 +115,14 @@ double inertia_effect(const scenario::Resolved::Tissue& tissue, const contact::S
   return std::numbers::pi * law.radius * travel * tissue.density * speed * rate / force;
 }
 
+// Of one layer for 3e-7 of the effect of its thickness, in a fifth of the operations that a law
+// needs.
+contact::LayerResolution resolution(const contact::Layer& layer, double greatest_ratio) {
+  if (!layer.below.empty()) return contact::layer_resolution(greatest_ratio);
+  return {.points = 6 + static_cast<int>(std::ceil(4.0 * greatest_ratio)),
+          .waves = 24 + static_cast<int>(std::ceil(10.0 * greatest_ratio))};
+}
+
 // The layers under the finger, from the top.
 std::vector<contact::Stratum> strata(const scenario::Resolved::Tissue& tissue,
                                      const contact::Layer& layer, double thickness) {
@@ -210,12 +220,13 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
     const contact::Layer layer = layers_of(scenario, found.tissue_share);
     constexpr double last_chi = 3.0;
     found.chi = found.contact_radius / touch.thickness;
-    found.thickness = found.chi < last_chi
-                          ? contact::LayerEquation(
-                                layer, contact::layer_resolution(2.0 * found.chi / layer.top()))
-                                    .force_factor(found.chi) -
-                                1.0
-                          : infinite;
+    if (found.chi < last_chi)
+      found.thickness =
+          contact::LayerEquation(layer, resolution(layer, 2.0 * found.chi / layer.top()))
+              .force_factor(found.chi) -
+          1.0;
+    else
+      found.thickness = infinite;
   }
   if (box != nullptr) {
     // The effect of the sides comes from the depth, that is from the softest layer.
@@ -237,6 +248,26 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
   found.inertia = found.tissue_share * inertia_effect(tissue, law, found.travel, found.rate);
   return found;
+}
+
+double SizeRatio::value(double depth) const {
+  return 1.0 + change * std::sqrt(std::clamp(depth / deepest, 0.0, 1.0));
+}
+
+std::optional<SizeRatio> size_ratio(scenario::Model model, const scenario::Resolved& scenario,
+                                    const SurfaceTouch& touch, const Estimates& estimates) {
+  const bool box = std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
+  const bool slides = std::any_of(
+      scenario.steps.begin(), scenario.steps.end(),
+      [](const scenario::Step& step) { return std::holds_alternative<scenario::Slide>(step); });
+  const bool applies = box ? model == Model::layer : model == Model::hertz;
+  if (!applies || slides || !touch.size.allFinite() || !(estimates.travel > 0.0)) return {};
+  const double change = box ? -estimates.sides : estimates.by_size;
+  if (!(std::abs(change) <= SizeRatio::most)) return {};
+  // Chosen so that it covers.                                 tests/accuracy/size_ratio.py
+  const double error =
+      box ? doubt_of_sides * estimates.sides : estimates.by_size_error + 0.1 * std::abs(change);
+  return SizeRatio{change, touch.pressed(scenario.finger.radius, estimates.travel).depth, error};
 }
 
 double half_space_error(const Estimates& estimates) {

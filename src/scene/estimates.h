@@ -40,6 +40,26 @@ struct Estimates {
 // of lying cylinders of one tissue that are held by their lowest tenth.
 [[nodiscard]] bool size_is_fitted(const scenario::Resolved& scenario, const SurfaceTouch& touch);
 
+// The factor of a formula's force with `contact.size = "body"`, and its error.  docs/theory.md (68)
+//   1 + change sqrt(h / deepest), because the effects of size grow with the radius of the contact
+struct SizeRatio {
+  static constexpr double most = 0.5;  // of |change|
+  double change = 0.0;                 // of the force at the deepest indentation, relative
+  double deepest = 0.0;                // m
+  double error = 0.0;                  // of the factor, relative
+
+  // At the indentation h (m); beyond `deepest` that of `deepest`.
+  [[nodiscard]] double value(double depth) const;
+};
+
+// What the width and the base of a curved body change of the force of `hertz`, or the sides of a
+// cuboid of that of `layer`. Empty for other models, where the finger moves sideways, without an
+// estimate, and beyond `most`.
+[[nodiscard]] std::optional<SizeRatio> size_ratio(scenario::Model model,
+                                                  const scenario::Resolved& scenario,
+                                                  const SurfaceTouch& touch,
+                                                  const Estimates& estimates);
+
 inline constexpr double doubt_of_sides = 0.4;  // relative, of `sides`, which is a fit
 
 // The error of a half-space's force by the body's size, as a fraction of the body's force. Effects

@@ -70,6 +70,10 @@ struct Choice {
   std::vector<Question> questions;
   std::vector<Forecast> rungs;  // cheapest first; empty if `one_way` alone decides the model
   scenario::Found found;
+  double waves = 0.0;  // what every model leaves out of the force because nothing moves, relative
+  // What would be taken if the scenario named no model, and what it would have.
+  Forecast otherwise;
+  scenario::Found otherwise_found;
   SurfaceTouch touch;  // what closed forms know of the surface; not in a uniform test
   Estimates expected;  // not in a uniform test; its `depth_ratio` may not be used
 
@@ -154,6 +158,7 @@ struct Scene {
   Finger finger;
   contact::Relaxation relaxation;                  // of the contact's modulus; empty if elastic
   std::optional<contact::DepthRatio> depth_ratio;  // with `contact.depth = "neo_hookean"`
+  std::optional<SizeRatio> size_ratio;             // with `contact.size = "body"`
   std::optional<contact::LayerContact> layer;    // for `layer`, and for `consistent` on flat layers
   std::unique_ptr<Specimen> specimen;            // null for `hertz` and `layer`
   SinkingStore* sinkings = nullptr;              // of cases that share bodies; outlives the scene

@@ -16,6 +16,7 @@
 #include "run/share_out.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
+#include "sweep/forecast.h"
 #include "sweep/plan_file.h"
 #include "sweep/row.h"
 
@@ -139,27 +140,6 @@ void refuse_many(const scenario::Family& family, const std::string& forecast) {
                        "; give `--yes` to plan more than " + std::to_string(sweep_ceiling));
 }
 
-// Estimates the time from the models' estimates for the first, the middle and the last case.
-std::string forecast(const scenario::Family& family, SweepOrder::Curves curves) {
-  constexpr double bytes = 2400.0;        // per row, about; docs/sweeps.md
-  constexpr double seconds_a_row = 6e-4;  // to read, check, report and keep a case
-  const std::size_t count = family.design.count();
-  double seconds = 0.0;
-  scene::SpecimenShapes shapes;
-  try {
-    for (const std::size_t i : {std::size_t{0}, count / 2, count - 1}) {
-      const scene::Choice choice = scene::choose(scenario::make_case(family, i), shapes);
-      if (choice.taken() == nullptr) return {};
-      seconds += (seconds_a_row + choice.taken()->seconds) * static_cast<double>(count) / 3.0;
-    }
-  } catch (const InputError&) {  // write_cases() reports invalid cases
-    return {};
-  }
-  return "about " + rounded_text(seconds, 2) + " s on one worker and " +
-         rounded_text(bytes * static_cast<double>(count) / 1e6, 2) + " MB" +
-         (curves == SweepOrder::Curves::kept ? " besides the curves" : "");
-}
-
 // Refuses a swept key that none of the models which `auto` chooses reads.
 void refuse_unread(const scenario::Family& family) {
   constexpr std::size_t most = 64;  // cases tried, evenly chosen
@@ -196,7 +176,7 @@ Planned plan_sweep(const SweepOrder& order) {
   Planned planned{.folder = (fs::path(order.out) / (original.name + "_sweep")).string(),
                   .cases = original.design.count(),
                   .notes = original.notes,
-                  .forecast = forecast(original, order.curves)};
+                  .forecast = forecast(original, order.curves == SweepOrder::Curves::kept)};
   if (planned.cases > sweep_ceiling && order.ceiling == SweepOrder::Ceiling::holds)
     refuse_many(original, planned.forecast);
   refuse_unread(original);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <memory>
@@ -13,13 +12,12 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "fit/case_fits.h"
-#include "record/swept_column.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
 #include "scene/estimates.h"
 #include "scene/sinking_store.h"
 #include "scene/specimen_shape.h"
+#include "sweep/case_row.h"
 #include "sweep/journal.h"
 
 namespace palpate::sweep {
@@ -33,41 +31,6 @@ constexpr std::size_t most_shapes = 32;  // kept meshes; if there are more, all 
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-record::Cell known(double value) {
-  if (std::isnan(value)) return std::monostate{};
-  return value;
-}
-
-// Replaces the spaces in a curve's name, as in `force_indentation x 0.1`.
-std::string column_word(std::string text) {
-  std::replace(text.begin(), text.end(), ' ', '_');
-  return text;
-}
-
-void add_fits(const std::vector<fit::NamedFit>& fits, SweepRow& row) {
-  for (const fit::NamedFit& named : fits) {
-    const std::string curve =
-        column_word(named.curve) + "_" + std::string(fit::info(named.fit.model).name);
-    for (const fit::Estimate& parameter : named.fit.parameters) {
-      const std::string unit =
-          parameter.unit.empty() ? "" : "_" + record::unit_word(parameter.unit);
-      const std::string name = curve + "_" + parameter.name;
-      row.values.push_back({name + unit, known(parameter.estimate)});
-      row.values.push_back({name + "_std_error" + unit, known(parameter.std_error)});
-    }
-    row.values.push_back({curve + "_r2", known(named.fit.r2)});
-  }
-}
-
-// The curve without the column `case`, because the row contains the name.
-record::Table curve_of(const record::CaseRecord& record) {
-  record::Table table =
-      record.strain.empty() ? record::contact_table({record}) : record::strain_table({record});
-  table.columns.erase(table.columns.begin());
-  for (auto& row : table.rows) row.erase(row.begin());
-  return table;
 }
 
 class Runner {
@@ -231,7 +194,7 @@ class Runner {
     std::vector<char> ended(scenes.size(), 0);
     const auto keep_record = [&](std::size_t i, const record::CaseRecord& record) {
       if (record.outcome == record::Outcome::interrupted) return;
-      SweepRow row = row_of(scenes[i], record);
+      SweepRow row = row_of(scenes[i], record, plan_.curves);
       keep(of_scene[i]->number, std::move(row));
       ended[i] = 1;
     };
@@ -245,17 +208,6 @@ class Runner {
         attempt(*of_scene[i], [&] { keep_record(i, run::run_case(scenes[i], stop_.end_now)); });
     for (Made* made : part)
       if (made->tried) made->one.reset();
-  }
-
-  [[nodiscard]] SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record) const {
-    SweepRow row{.reason = record.reason, .name = record.name, .remarks = record.remarks};
-    if (!record.answer.complete) row.remarks.push_back(record.answer.left_out);
-    if (record.outcome == record::Outcome::diverged) row.outcome = SweepOutcome::diverged;
-    for (const record::Finding& finding : record.findings)
-      if (finding.name != "outcome") row.values.push_back(finding);
-    if (scene.scenario.output.fits) add_fits(fit::case_fits(scene.scenario, record), row);
-    if (plan_.curves) row.curve = curve_of(record);
-    return row;
   }
 
   const SweepPlan& plan_;

@@ -64,7 +64,7 @@ const std::vector<Scene>& scenes() {
        "[tissue]\nshape = { kind = \"ellipsoid\", size = [\"80 mm\", \"80 mm\", \"40 mm\"] }\nmesh "
        "= { kind = \"tetgen\", nodes = 400 }\n" +
            press,
-       "coupled_springs", "viscosity, which would add "},
+       "hertz", "viscosity, which would add "},
       {"skin_over_muscle", "", "layer", ""},
       {"lump",
        "[tissue]\nmesh = { kind = \"tetgen\", nodes = 400 }\n[[region]]\nkind = "

@@ -38,5 +38,17 @@ TEST(Initial, NothingWhereNothingCanBeEvaluated) {
   EXPECT_FALSE(initial_guess(x, y, Model::logarithmic).has_value());  // ln of a negative number
 }
 
+TEST(Initial, DoesNotDependOnThePointsBefore) {
+  const std::vector<double> some{0.1, 0.2, 0.4, 0.9}, others{1.0, 2.0, 3.0, 4.0}, fewer{0.1, 0.2};
+  const std::vector<double> y{1.0, 1.9, 4.2, 8.7};
+  for (const ModelInfo& row : models()) {
+    const auto first = initial_guess(some, y, row.model);
+    (void)initial_guess(others, y, row.model);
+    EXPECT_EQ(initial_guess(some, y, row.model), first) << row.name;
+    (void)initial_guess(fewer, std::span(y).first(2), row.model);
+    EXPECT_EQ(initial_guess(some, y, row.model), first) << row.name;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::fit

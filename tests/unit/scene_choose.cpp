@@ -31,7 +31,7 @@ TEST(Choose, TwentySceneEachItsRung) {
       {"ligament that slides on its base", Model::layer},
       {"a narrow block", Model::coupled_springs},
       {"beside a side", Model::coupled_springs},
-      {"a thin cylinder", Model::coupled_springs},
+      {"a thin cylinder", Model::hertz},
       {"an ellipsoid", Model::hertz},
       {"a curved ligament", Model::coupled_springs},
       {"a lump under the skin", Model::coupled_springs},
@@ -134,7 +134,8 @@ TEST(Choose, OthersAreForeseenAsIfNoModelWereNamed) {
   ASSERT_EQ(open.chosen.solver.model, Model::layer);
   ASSERT_EQ(open.chosen.contact.depth, scenario::Contact::Depth::neo_hookean);
   const Choice named = choose(read(press + "[solver]\nmodel = \"hertz\"\n"));
-  EXPECT_EQ(cheapest(named, false, 0.05)->model, Model::layer);
+  EXPECT_EQ(named.otherwise.model, Model::layer);
+  EXPECT_TRUE(named.otherwise_found.depth_matters);
   EXPECT_DOUBLE_EQ(named.forecast(Model::layer)->error, open.forecast(Model::layer)->error);
   EXPECT_GT(named.forecast(Model::hertz)->error, open.forecast(Model::hertz)->error);
 }
@@ -146,6 +147,37 @@ TEST(Choose, WithoutInertiaAMeshIsQuasiStatic) {
   EXPECT_EQ(choose(read(press + narrow)).chosen.solver.integrator, Integrator::quasi_static);
   EXPECT_EQ(choose(read(press + "rate = \"300 mm/s\"\n" + narrow)).chosen.solver.integrator,
             Integrator::central_difference);
+}
+
+// Waves count from a fifth of the tolerance on: as an error of what does not move, or by motion
+// where nothing is within the tolerance without.
+TEST(Choose, InertiaBelowTheToleranceIsStatedOrComputed) {
+  constexpr double limit = 0.06;
+  const std::string narrow =
+      "[contact]\nsize = \"half_space\"\n[tissue]\nviscosity = \"none\"\nmesh = { kind = "
+      "\"kuhn\", cells = [6, 6, 6] }\nshape = { kind = \"cuboid\", size = [\"30 mm\", \"30 mm\", "
+      "\"30 mm\"] }\n";
+  const auto at = [&](double rate, const std::string& more = "") {
+    return choose(read(press + "rate = \"" + std::to_string(rate) + " mm/s\"\n" + narrow +
+                       "[solver]\ntolerance = 0.06\n" + more));
+  };
+  const Choice slow = at(1.0);
+  ASSERT_LT(slow.expected.inertia, 0.2 * limit);
+  const double still = slow.taken()->error;
+  ASSERT_LT(still, 0.6 * limit);
+  const Choice quick = at(0.5 * (limit - still) / slow.expected.inertia);  // mm/s; linear in it
+  EXPECT_EQ(quick.chosen.solver.integrator, Integrator::quasi_static);
+  EXPECT_DOUBLE_EQ(quick.taken()->error, still + quick.expected.inertia);
+  EXPECT_DOUBLE_EQ(quick.waves, quick.expected.inertia);
+  // Both add up to more than the tolerance here, although either is less.
+  const double quicker = (limit - 0.5 * still) / slow.expected.inertia;
+  const Choice moving = at(quicker);
+  ASSERT_LT(moving.expected.inertia, limit);
+  EXPECT_EQ(moving.chosen.solver.integrator, Integrator::central_difference);
+  EXPECT_DOUBLE_EQ(moving.taken()->error, still + 0.06 * moving.expected.inertia);
+  EXPECT_EQ(moving.waves, 0.0);
+  const Choice held = at(quicker, "integrator = \"quasi_static\"\n");
+  EXPECT_DOUBLE_EQ(held.taken()->error, still + held.expected.inertia);
 }
 
 // A slow press leaves viscosity out, a quick one keeps it.

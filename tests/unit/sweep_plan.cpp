@@ -148,6 +148,16 @@ TEST_F(Plans, many_cases_are_asked_for_twice) {
   EXPECT_FALSE(fs::exists(root_ / "out"));
 }
 
+// Which no model's forecast covers: cases are run for it.
+TEST_F(Plans, the_time_of_a_mesh_that_does_not_change_the_force_is_estimated) {
+  const std::string text =
+      "[contact]\ncoupling = \"one_way\"\n[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = "
+      "\"indent\"\nto = \"0.1 mm\"\n[sweep]\n\"tissue.young_modulus\" = [\"10 kPa\", \"20 kPa\"]\n";
+  const std::string said = plan_sweep(order(text)).forecast;
+  EXPECT_TRUE(said.starts_with("about ")) << said;
+  EXPECT_TRUE(said.ends_with(" s on one worker and 0.0048 MB")) << said;
+}
+
 TEST_F(Plans, a_scenario_without_a_sweep_is_refused) {
   EXPECT_EQ(planning(press), "s.toml: has no `sweep`; give it one, or run it by `palpate run`");
 }

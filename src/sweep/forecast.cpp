@@ -1,0 +1,171 @@
+// Times cases as a sweep runs them, and counts how often what they share has to be made.
+#include "sweep/forecast.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "run/family.h"
+#include "run/refined_mesh.h"
+#include "scenario/programme.h"
+#include "scene/estimates.h"
+#include "scene/sinking_store.h"
+#include "scene/specimen_shape.h"
+#include "sweep/case_row.h"
+#include "sweep/plan.h"
+
+namespace palpate::sweep {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Becomes true after a time.
+class Deadline {
+ public:
+  explicit Deadline(double seconds)
+      : waiting_([this, seconds](const std::stop_token& end) {
+          std::unique_lock lock(mutex_);
+          woken_.wait_for(lock, end, std::chrono::duration<double>(seconds), [] { return false; });
+          over_ = true;
+        }) {}
+
+  [[nodiscard]] const std::atomic<bool>& over() const { return over_; }
+
+ private:
+  std::atomic<bool> over_ = false;
+  std::mutex mutex_;
+  std::condition_variable_any woken_;
+  std::jthread waiting_;
+};
+
+// Cases that differ only in what a set-up does not depend on have equal texts.
+std::string set_up_key(const scenario::Family& family, std::size_t i, bool meshed) {
+  const bool one_tissue = family.base.regions.empty();
+  std::string text;
+  for (const scenario::Setting& setting : family.design.settings(i)) {
+    const std::string& key = setting.key;
+    const bool scales = one_tissue && key == "tissue.young_modulus";
+    const bool after = !meshed && !key.starts_with("tissue.") && !key.starts_with("region");
+    if (!scales && !after) text += setting.word + "\n";
+  }
+  return text;
+}
+
+// The number of different set-ups, from evenly chosen cases.
+double set_ups(const scenario::Family& family, bool meshed) {
+  constexpr std::size_t most = 2048;
+  const std::size_t count = family.design.count();
+  const std::size_t tries = std::min(count, most);
+  std::set<std::string> found;
+  for (std::size_t t = 0; t < tries; ++t)
+    found.insert(set_up_key(family, t * count / tries, meshed));
+  const auto different = static_cast<double>(found.size());
+  const auto tried = static_cast<double>(tries);
+  return different < 0.5 * tried ? different : different / tried * static_cast<double>(count);
+}
+
+class Trial {
+ public:
+  Trial(const scenario::Family& family, bool keeps_curves)
+      : family_(family), keeps_curves_(keeps_curves), files_(hashed_inputs(family)) {}
+
+  // Of all cases, s; nothing if a case does not end as it should.
+  std::optional<double> seconds() {
+    constexpr double most = 8.0;           // cases
+    constexpr double most_nodes = 2000.0;  // of all cases, because a set-up cannot be interrupted
+    const std::size_t count = family_.design.count();
+    const scenario::Case middle = scenario::make_case(family_, count / 2);
+    const bool meshed = middle.scenario.meshed();
+    const double nodes = meshed ? scene::expected_nodes(middle.scenario.tissue.mesh) : 1.0;
+    const std::size_t tried =
+        std::min(count, static_cast<std::size_t>(std::clamp(most_nodes / nodes, 1.0, most)));
+    const std::size_t first = std::min(count / 2, count - tried);
+    std::set<std::string> keys;
+    for (std::size_t i = first; i < first + tried; ++i) keys.insert(set_up_key(family_, i, meshed));
+
+    const std::optional<double> apart = run(first, tried);
+    if (!apart) return alone(middle);
+    if (tried == count) return apart;
+    const std::optional<double> shared = run(first, tried);
+    if (!shared) return std::nullopt;
+    const double set_up = std::max(0.0, *apart - *shared) / static_cast<double>(keys.size());
+    return set_up * set_ups(family_, meshed) +
+           *shared / static_cast<double>(tried) * static_cast<double>(count);
+  }
+
+ private:
+  static constexpr double longest = 1.0;  // s
+
+  // How long cases take, with what earlier calls have left; nothing after `longest`.
+  std::optional<double> run(std::size_t first, std::size_t count) {
+    const Deadline deadline(longest);
+    const Clock::time_point start = Clock::now();
+    std::vector<scene::Scene> scenes;
+    for (std::size_t i = first; i < first + count && !deadline.over(); ++i) {
+      const scenario::Case one = scenario::make_case(family_, i);
+      (void)case_id(one, files_);
+      scenes.push_back(run::build_scene(one, family_, shapes_));
+      scenes.back().sinkings = &sinkings_;
+    }
+    std::size_t ended = 0;
+    run::run_each(scenes, 1, {deadline.over(), deadline.over()},
+                  [&](std::size_t i, const record::CaseRecord& record) {
+                    if (record.outcome == record::Outcome::interrupted) return;
+                    (void)row_of(scenes[i], record, keeps_curves_);
+                    ++ended;
+                  });
+    return ended == count ? std::optional(seconds_since(start)) : std::nullopt;
+  }
+
+  // From one case, which may end early.
+  std::optional<double> alone(const scenario::Case& one) {
+    const Clock::time_point start = Clock::now();
+    scene::Scene scene = run::build_scene(one, family_, shapes_);
+    const double set_up = std::max(seconds_since(start), shapes_.seconds(scene.scenario));
+    const Deadline deadline(longest);
+    const Clock::time_point begun = Clock::now();
+    const record::CaseRecord record = run::run_case(scene, deadline.over());
+    const double done = record.strain.empty()
+                            ? record.contact.empty() ? 0.0 : record.contact.back().time
+                            : record.strain.back().time;
+    const double whole = scenario::programme_time(scene.scenario);
+    if (!(done > 0.0) || !(whole > 0.0)) return std::nullopt;
+    const double running = seconds_since(begun) * std::max(1.0, whole / done);
+    return set_up * set_ups(family_, true) + running * static_cast<double>(family_.design.count());
+  }
+
+  const scenario::Family& family_;
+  bool keeps_curves_;
+  HashedNames files_;
+  scene::SpecimenShapes shapes_;
+  scene::SinkingStore sinkings_;
+};
+
+}  // namespace
+
+std::string forecast(const scenario::Family& family, bool keeps_curves) {
+  constexpr double bytes = 2400.0;  // per row, about; docs/sweeps.md
+  std::optional<double> seconds;
+  try {
+    seconds = Trial(family, keeps_curves).seconds();
+  } catch (const InputError&) {  // planning reports invalid cases
+  } catch (const MeshError&) {
+  }
+  if (!seconds) return {};
+  return "about " + rounded_text(*seconds, 2) + " s on one worker and " +
+         rounded_text(bytes * static_cast<double>(family.design.count()) / 1e6, 2) + " MB" +
+         (keeps_curves ? " besides the curves" : "");
+}
+
+}  // namespace palpate::sweep
