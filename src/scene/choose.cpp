@@ -151,7 +151,9 @@ class Chooser {
     if (box) ask(Asked::layer, e.sides, limit);
     decide(e);
     if (choice_.found.size_matters)
-      choice_.questions.back().answer = "with the factor for it no mesh is needed";
+      choice_.questions.back().answer =
+          std::string(choice_.questions.back().number < limit ? "small, but " : "") +
+          "with the factor for it no mesh is needed";
     ask(Asked::deep, std::abs(e.deep), deep_limit(), deep_answer(e));
     if (choice_.found.depth_matters && std::abs(e.deep) < deep_limit())
       choice_.questions.back().answer =

@@ -193,7 +193,7 @@ TEST(ContactBesideAnEdge, HasOneForceOnTwoMeshes) {
   const ShapePress press{R"(kind = "cylinder", radius = "24.03 mm", length = "21.88 mm")", 0.2903,
                          5.587, "x = \"32.21 mm\"\ny = \"5.379 mm\"\n", 2.357111};
   const record::CaseRecord coarse = run_shape(press, "coupled_springs", 0.1);
-  const record::CaseRecord fine = run_shape(press, "coupled_springs", 0.01);
+  const record::CaseRecord fine = run_shape(press, "coupled_springs", 0.02);
   EXPECT_LE(std::abs(test::found(coarse, "peak_force_N") / test::found(fine, "peak_force_N") - 1.0),
             test::found(coarse, "stated_error") + test::found(fine, "stated_error"));
 }
