@@ -20,15 +20,10 @@
 #include "scene/specimen_shape.h"
 #include "sweep/case_row.h"
 #include "sweep/plan.h"
+#include "sweep/stopwatch.h"
 
 namespace palpate::sweep {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Becomes true after a time.
 class Deadline {

@@ -19,19 +19,14 @@
 #include "scene/specimen_shape.h"
 #include "sweep/case_row.h"
 #include "sweep/journal.h"
+#include "sweep/stopwatch.h"
 
 namespace palpate::sweep {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t block_cases = 512;
 constexpr double block_nodes = 50000.0;  // about the most in memory, of all scenes together
 constexpr std::size_t most_shapes = 32;  // kept meshes; if there are more, all are discarded
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class Runner {
  public:
