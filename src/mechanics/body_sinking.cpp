@@ -131,14 +131,14 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
       const BeyondHalfSpace& slides = sliding[k];
       beyond.sinking = 0.5 * (beyond.sinking - slides.sinking);
       beyond.error = 0.5 * std::abs(beyond.error - slides.error);
-      beyond.boundary = 0.0;  // a block is flat
+      beyond.doubt = 0.5 * std::abs(beyond.doubt - slides.doubt);
       place.sinking[k] = beyond.sinking;
     } else {
       // 3/(5 E' a) is the half-space's own sinking, docs/theory.md (13).
       place.sinking[k] = corrected(beyond, least_corrected * 0.6 / (plane_modulus_ * patch.a));
     }
     place.error[k] = beyond.error;
-    place.boundary[k] = beyond.boundary;
+    place.doubt[k] = beyond.doubt;
     if (k == 2) place.rest = std::move(beyond.rest);
   }
   if (rubs_) {
@@ -252,7 +252,7 @@ BodySinking::Value BodySinking::at(const contact::Patch& patch) {
     value.sinking += weight * (product + slope * (1.0 - fading)) * sinking;
     value.slope += weight * slope * fading / largest_ * sinking;
     value.error += weight * product * place.error[k] / modulus_;
-    value.boundary += weight * product * place.boundary[k] / modulus_;
+    value.doubt += weight * product * place.doubt[k] / modulus_;
   });
   return value;
 }

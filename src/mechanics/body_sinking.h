@@ -24,10 +24,10 @@ class BodySinking {
               double deepest);
 
   struct Value {
-    double sinking = 0.0;   // m/N, s + e
-    double slope = 0.0;     // 1/N, of that with respect to the radius
-    double error = 0.0;     // m/N, e
-    double boundary = 0.0;  // m/N, BeyondHalfSpace::boundary
+    double sinking = 0.0;  // m/N, s + e
+    double slope = 0.0;    // 1/N, of that with respect to the radius
+    double error = 0.0;    // m/N, e
+    double doubt = 0.0;    // m/N, BeyondHalfSpace::doubt
   };
   // Of the patch; of an ellipse as of a circle of the same area.
   [[nodiscard]] Value at(const contact::Patch& patch);

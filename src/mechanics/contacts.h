@@ -36,7 +36,7 @@ struct SphereContact {
   double deep = 1.0;            // the factor (62) of a deep press, in the law's `part` too
   double compliance = 0.0;      // m/N, C_ii of docs/theory.md (15)
   double sinking_error = 0.0;   // m/N, e of docs/theory.md (12)
-  double sinking_doubt = 0.0;   // m/N, of the boundary's flat faces
+  double sinking_doubt = 0.0;   // m/N, BeyondHalfSpace::doubt
   double stiffness = 0.0;       // N/m, derivative of `force` with respect to `depth`; where inertia
                                 // reaches the force, to the finger's position, within a step
   Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue

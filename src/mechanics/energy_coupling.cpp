@@ -265,7 +265,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
     result.sinking = one.known + one.loads.dot(result.rest) + 2.0 * one.curved.dot(result.rest);
     for (Eigen::Index d = 0; d < freedoms; ++d)
       if (held_[as_index(d)] != 0) result.sinking -= reaction[d] * one.held_by[d];
-    find_errors(one.interpolated, one.region, home(one.region), result);
+    find_errors(presses[i].patch, one.interpolated, one.region, home(one.region), result);
   }
   return results;
 }

@@ -21,7 +21,8 @@ namespace palpate::mechanics {
 struct BeyondHalfSpace {
   double sinking = 0.0;        // m/N: s of docs/theory.md (12), along the load, averaged with it
   double error = 0.0;          // m/N: e of (12); s + e is the better value
-  double boundary = 0.0;       // m/N: what the flat faces of a round boundary may cost in s
+  double doubt = 0.0;          // m/N: what the flat faces of a round boundary may cost in s, and
+                               // what wide tetrahedra may cost that e does not see
   std::vector<double> errors;  // m/N, both per tetrahedron of the part
   // m/N: w, the body's displacement minus the half-space's, three entries per node of the part;
   // in other tissues minus the half-space's displacement interpolated between the nodes.
@@ -98,9 +99,9 @@ class EnergyCoupling {
   [[nodiscard]] int region_under(int triangle) const;
   [[nodiscard]] const Home& home(int region);
   [[nodiscard]] double cut_off(const Face& face) const;
-  // Fills error, boundary and errors of a solution.
-  void find_errors(const integrate::Vector& interpolated, int region, const Home& home,
-                   BeyondHalfSpace& result) const;
+  // Fills error, doubt and errors of a solution.
+  void find_errors(const contact::Patch& patch, const integrate::Vector& interpolated, int region,
+                   const Home& home, BeyondHalfSpace& result) const;
 
   geometry::TetMesh mesh_;  // of the part
   std::vector<geometry::FaceUse> uses_;

@@ -1,6 +1,8 @@
 // The mesh's own error in what a body sinks beyond a half-space: docs/theory.md (12).
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanics/energy_coupling.h"
 
@@ -8,10 +10,18 @@ namespace palpate::mechanics {
 
 using integrate::Vector;
 
+namespace {
+
+// The longest edge over the distance on which the rest varies, up to which the estimate sees what a
+// tetrahedron misses.
+constexpr double seen_width = 0.45;
+
+}  // namespace
+
 // Zienkiewicz and Zhu 1992: the stress is recovered at the nodes by a linear fit over the
 // tetrahedra around them, of one tissue at a time; the error is the energy of the difference.
-void EnergyCoupling::find_errors(const Vector& interpolated, int region, const Home& home,
-                                 BeyondHalfSpace& result) const {
+void EnergyCoupling::find_errors(const contact::Patch& patch, const Vector& interpolated,
+                                 int region, const Home& home, BeyondHalfSpace& result) const {
   const Vector& rest = result.rest;
   using Stress = Eigen::Matrix<double, 6, 1>;  // xx yy zz xy xz yz
   const std::size_t count = elements_.size();
@@ -94,11 +104,31 @@ void EnergyCoupling::find_errors(const Vector& interpolated, int region, const H
     }
     result.error += result.errors[t];
   }
+  // The rest of the displacement varies over the distance from the contact and, at the contact,
+  // over that to the next boundary. Of what wider tetrahedra miss, the estimate sees a part only.
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < mesh_.nodes.size(); ++n)
+    if (held_[3 * n + 2] != 0 || home.other[n] != 0)
+      nearest = std::min(nearest, (mesh_.nodes[n] - patch.position).norm());
+  nearest = std::max(nearest, 0.5 * patch.radius());
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto node = [&](std::size_t k) -> const Vec3& {
+      return mesh_.nodes[as_index(mesh_.tetrahedra[t][k])];
+    };
+    double longest = 0.0;
+    for (const auto& [a, b] : geometry::corner_edges)
+      longest = std::max(longest, (node(as_index(a)) - node(as_index(b))).norm());
+    const Vec3 centre = 0.25 * (node(0) + node(1) + node(2) + node(3));
+    const double ratio = longest / (seen_width * ((centre - patch.position).norm() + nearest));
+    const double unseen = std::max(0.0, ratio * ratio - 1.0) * result.errors[t];
+    result.doubt += unseen;
+    result.errors[t] += unseen;
+  }
   // A boundary moved outwards by d lowers the compliance by d times the density of energy there.
   for (const Face& face : home.faces) {
     const std::size_t t = as_index(face.tetrahedron);
     const double change = std::abs(face.cut_off) * density(t, stresses[t]);
-    result.boundary += change;
+    result.doubt += change;
     result.errors[t] += change;
   }
 }

@@ -105,7 +105,7 @@ BodySinking::Value Consistent::joint_sinking(const KeptList<SphereContact>& cont
     sum.sinking += weight * own.sinking;
     sum.slope += weight * own.slope;
     sum.error += weight * own.error;
-    sum.boundary += weight * own.boundary;
+    sum.doubt += weight * own.doubt;
   }
   return sum;
 }
@@ -135,7 +135,7 @@ void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd
         std::min(most_stiffening, 5.0 / 3.0 * modulus * radius * radius * value.slope);
     // The mesh is linear: it sinks by the force without the factor of a deep press.
     own.sinking_error = value.error / own.deep;
-    own.sinking_doubt = value.boundary / own.deep;
+    own.sinking_doubt = value.doubt / own.deep;
     double sinking = value.sinking / own.deep;
     if (own.law.point.layer == nullptr) {
       own.law.point.part /= 1.0 - stiffening;

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
-#include "contact/hertz.h"
 #include "mechanics/pressed_mesh.h"
 #include "meshing/mesh_check.h"
 #include "meshing/true_boundary.h"
@@ -85,60 +83,6 @@ std::vector<char> marked(const std::vector<double>& errors, double share, std::s
   return marks;
 }
 
-// The rest of the displacement varies over the distance from the contact and, at the contact, over
-// that to the next boundary. On tetrahedra that are wider the error cannot be seen.
-class Surroundings {
- public:
-  explicit Surroundings(const scene::Scene& scene) {
-    const scene::Specimen& specimen = *scene.specimen;
-    const scene::FirstTouch touch = scene::first_touch(scene);
-    const Vec3 first = specimen.surface->position(touch.at);
-    for (const Vec3& place : places(scene.scenario)) {
-      pressed_.push_back(first + place);
-      nearest_.push_back(std::numeric_limits<double>::infinity());
-    }
-    const auto& mesh = specimen.mesh;
-    std::vector<int> region(mesh.nodes.size(), -1);
-    std::vector<char> border(mesh.nodes.size(), 0);
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) border[n] = specimen.held[3 * n + 2];
-    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-      for (const int node : mesh.tetrahedra[t]) {
-        int& known = region[as_index(node)];
-        const int own = mesh.region(static_cast<int>(t));
-        if (known >= 0 && known != own) border[as_index(node)] = 1;
-        known = own;
-      }
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-      for (std::size_t i = 0; border[n] != 0 && i < pressed_.size(); ++i)
-        nearest_[i] = std::min(nearest_[i], (mesh.nodes[n] - pressed_[i]).norm());
-    const double radius = contact::hertz::contact_radius(
-        scene::deepest_travel(scene.scenario, scene.law()), scene.law().radius);
-    for (double& distance : nearest_) distance = std::max(distance, 0.5 * radius);
-  }
-
-  // Marks with 1.
-  [[nodiscard]] std::vector<char> too_wide(const geometry::TetMesh& mesh) const {
-    constexpr double widest = 0.9;  // longest edge over the distance
-    std::vector<char> marks(mesh.tetrahedra.size(), 0);
-    for (std::size_t t = 0; t < marks.size(); ++t) {
-      const auto node = [&](int k) -> const Vec3& {
-        return mesh.nodes[as_index(mesh.tetrahedra[t][as_index(k)])];
-      };
-      double longest = 0.0;
-      for (const auto& [a, b] : geometry::corner_edges)
-        longest = std::max(longest, (node(a) - node(b)).norm());
-      const Vec3 centre = 0.25 * (node(0) + node(1) + node(2) + node(3));
-      for (std::size_t i = 0; i < pressed_.size(); ++i)
-        if (longest > widest * ((centre - pressed_[i]).norm() + nearest_[i])) marks[t] = 1;
-    }
-    return marks;
-  }
-
- private:
-  std::vector<Vec3> pressed_;    // m
-  std::vector<double> nearest_;  // m, from there to the base or to another tissue
-};
-
 class Refining {
  public:
   Refining(const scenario::Case& one, const scenario::Family& family,
@@ -169,13 +113,6 @@ class Refining {
       shape = scene::shape_of(std::move(mesh), base_level);
       shape.remark = std::move(remark);
     };
-    const Surroundings around(scene_with(shape));
-    for (std::vector<char> wide = around.too_wide(shape.mesh);
-         std::count(wide.begin(), wide.end(), 1) > 0; wide = around.too_wide(shape.mesh)) {
-      auto finer = halved(shape.mesh, wide, boundary);
-      if (!finer) break;
-      take(std::move(*finer));
-    }
     for (int round = 0;; ++round) {
       const Estimate found = estimate(scene_with(shape));
       told.rounds = round;

@@ -20,7 +20,7 @@ struct SunkPlace {
   static constexpr std::size_t radii = 4;
   std::array<double, radii> sinking{};         // 1/m, s + e
   std::array<double, radii> error{};           // 1/m, e
-  std::array<double, radii> boundary{};        // 1/m
+  std::array<double, radii> doubt{};           // 1/m
   std::array<Eigen::Matrix3d, radii> shear{};  // 1/m, under tangential loads
   Vec3 normal = Vec3::Zero();                  // of the patch
   Eigen::VectorXd rest;                        // 1/m, w for the third radius
