@@ -18,6 +18,22 @@ using scenario::Model;
 using scenario::Rung;
 using Integrator = scenario::Solver::Integrator;
 
+// The cheapest applicable model within the tolerance, or else the one with the least error; null
+// without forecasts.
+const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance) {
+  const Forecast* best = nullptr;
+  for (const Forecast& rung : choice.rungs) {
+    if (!rung.cannot.empty()) continue;
+    // The force of a press is that of finite elements on either kind of springs, but motion and
+    // pictures of independent springs do not have the tissue's Poisson's ratio.
+    if (!uniform && scenario::rung(rung.model).independent()) continue;
+    if (best == nullptr || rung.error < best->error) best = &rung;
+    if (rung.error > tolerance) continue;
+    return &rung;
+  }
+  return best;
+}
+
 // The texts of a question, with its answers below and above the threshold; answers that contain
 // numbers are made where the question is evaluated.
 struct QuestionRow {
@@ -282,20 +298,6 @@ const Forecast* Choice::forecast(Model model) const {
   for (const Forecast& rung : rungs)
     if (rung.model == model && rung.cannot.empty()) return &rung;
   return nullptr;
-}
-
-const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance) {
-  const Forecast* best = nullptr;
-  for (const Forecast& rung : choice.rungs) {
-    if (!rung.cannot.empty()) continue;
-    // The force of a press is that of finite elements on either kind of springs, but motion and
-    // pictures of independent springs do not have the tissue's Poisson's ratio.
-    if (!uniform && scenario::rung(rung.model).independent()) continue;
-    if (best == nullptr || rung.error < best->error) best = &rung;
-    if (rung.error > tolerance) continue;
-    return &rung;
-  }
-  return best;
 }
 
 std::string Choice::shortfall(std::optional<double> mesh_error) const {

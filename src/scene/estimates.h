@@ -40,7 +40,7 @@ struct Estimates {
 // of lying cylinders of one tissue that are held by their lowest tenth.
 [[nodiscard]] bool size_is_fitted(const scenario::Resolved& scenario, const SurfaceTouch& touch);
 
-// The factor of a formula's force with `contact.size = "body"`, and its error.  docs/theory.md (68)
+// The factor of a formula's force with `contact.size = "body"`, and its error. docs/theory.md (68a)
 //   1 + change sqrt(h / deepest), because the effects of size grow with the radius of the contact
 struct SizeRatio {
   static constexpr double most = 0.5;  // of |change|

@@ -87,10 +87,6 @@ struct Choice {
 };
 [[nodiscard]] Choice choose(const scenario::Case& one);
 
-// The cheapest applicable model within the tolerance, or else the one with the least error, as
-// `auto` takes it; null without forecasts.
-[[nodiscard]] const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance);
-
 // The same; reuses the surface files that `shapes` contains, and adds those that it reads.
 class SpecimenShapes;
 [[nodiscard]] Choice choose(const scenario::Case& one, SpecimenShapes& shapes);
