@@ -59,8 +59,8 @@ TEST(Refined, AThinPlateIsPressedLikeTheExactLayer) {
   EXPECT_GT(finer.nodes, found.nodes);
 }
 
-// On 140 nodes of blocks 0.6 to 2 times as thick as the finger's radius the estimate alone sees a
-// fifth to two thirds of the error.
+// On 140 nodes of blocks 0.6 to 1.5 times as thick as the finger's radius, the estimate alone sees
+// a fifth to a half of the error.
 TEST(Refined, MeshesThatAreTooWideForTheirEstimateStateMore) {
   struct Block {
     double side, thickness, ratio;  // mm, mm
