@@ -54,19 +54,13 @@ class Reader final : public FieldVisitor {
               const Range& range) override {
     const Node* node = find(key);
     if (node == nullptr) return;
-    if (node->kind == Node::Kind::text) {
-      try {
-        const double value = parse_quantity(node->text, second);
-        if (within(key, *node, value, range, &second)) target = {value, true};
-        return;
-      } catch (const std::invalid_argument&) {  // then it must be of the first dimension
-      }
-    }
-    double value = 0.0;
+    const bool of_second =
+        node->kind == Node::Kind::text && is_quantity(node->text, second.dimension);
     const std::string both = std::string(first.quantity) + " or a " + second.quantity;
-    Unit wanted = first;
-    wanted.quantity = both.c_str();
-    if (read_quantity(key, *node, value, wanted, range)) target = {value, false};
+    Unit wanted = of_second ? second : first;
+    if (!of_second) wanted.quantity = both.c_str();
+    double value = 0.0;
+    if (read_quantity(key, *node, value, wanted, range)) target = {value, of_second};
   }
   void text(const Key& key, std::string& value) override {
     const Node* node = find(key);

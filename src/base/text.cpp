@@ -129,6 +129,10 @@ std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"
 
 std::string percent_text(double part) { return rounded_text(100.0 * part, 2) + " %"; }
 
+std::string error_text(double error) {
+  return error > 1.0 ? "more than 100 %" : "about " + percent_text(error);
+}
+
 std::string lower_case(std::string_view text) {
   std::string result(text);
   for (char& c : result)

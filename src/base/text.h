@@ -45,6 +45,9 @@ struct LeadingNumber {
 // A part of 1 with two significant digits, such as "1.5 %".
 [[nodiscard]] std::string percent_text(double part);
 
+// An estimated relative error: "about 1.5 %", or "more than 100 %", where its size tells nothing.
+[[nodiscard]] std::string error_text(double error);
+
 // With the letters A to Z in lower case.
 [[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }  // ASCII
 [[nodiscard]] std::string lower_case(std::string_view text);

@@ -155,6 +155,10 @@ std::string si_symbol(const Dimension& dimension) {
   return text;
 }
 
+[[noreturn]] void refuse(const Unit& wanted, const std::string& what) {
+  throw std::invalid_argument("wants " + article(wanted.quantity) + what);
+}
+
 }  // namespace
 
 std::optional<UnitFactor> unit_factor(std::string_view text) { return parse_unit(text); }
@@ -189,41 +193,36 @@ std::string dimension_name(const Dimension& dimension) {
   return dimension == Dimension{} ? "a pure number" : "a quantity in " + si_symbol(dimension);
 }
 
+bool is_quantity(std::string_view text, const Dimension& dimension) {
+  const auto number = leading_number(trimmed(text));
+  const auto unit = number ? parse_unit(trimmed(number->rest)) : std::nullopt;
+  return unit && unit->dimension == dimension;
+}
+
 double parse_quantity(std::string_view given, const Unit& wanted) {
   const std::string text = trimmed(given);
-  const std::string wants = "wants " + article(wanted.quantity);
-  const std::string quoted = "`" + text + "`";
   const auto number = leading_number(text);
-  if (!number)
-    throw std::invalid_argument(wants + ", got " + quoted + "; write it as `1 " + wanted.symbol +
-                                "`");
+  const auto got = [&] { return ", got `" + text + "`"; };
+  if (!number) refuse(wanted, got() + "; write it as `1 " + wanted.symbol + "`");
   if (number->out_of_range)
-    throw std::invalid_argument(wants + ", got " + quoted +
-                                ", which no double can hold; write a number between 1e-300 and "
-                                "1e300 in size");
+    refuse(wanted,
+           got() + ", which no double can hold; write a number between 1e-300 and 1e300 in size");
   if (!std::isfinite(number->value))
-    throw std::invalid_argument(wants + ", got " + quoted + "; write a finite number, as `1 " +
-                                wanted.symbol + "`");
-  const std::string digits = text.substr(0, text.size() - number->rest.size());
-  const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
+    refuse(wanted, got() + "; write a finite number, as `1 " + wanted.symbol + "`");
   const std::string unit_text = trimmed(number->rest);
-  if (unit_text.empty())
-    throw std::invalid_argument(wants + " with its unit, got " + quoted + remedy);
   const auto parsed = parse_unit(unit_text);
-  if (!parsed) {
+  if (!parsed || !(parsed->dimension == wanted.dimension)) {
+    const std::string digits = text.substr(0, text.size() - number->rest.size());
+    const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
+    if (unit_text.empty()) refuse(wanted, " with its unit" + got() + remedy);
+    if (parsed) refuse(wanted, got() + ", " + dimension_name(parsed->dimension) + remedy);
     const auto near = nearest_unit(unit_text, wanted.dimension);
-    throw std::invalid_argument(wants + ", got " + quoted + " with the unknown unit `" + unit_text +
-                                "`" +
-                                (near ? "; did you mean `" + digits + " " + *near + "`?" : remedy));
+    refuse(wanted, got() + " with the unknown unit `" + unit_text + "`" +
+                       (near ? "; did you mean `" + digits + " " + *near + "`?" : remedy));
   }
-  const Scale& scale = *parsed;
-  if (!(scale.dimension == wanted.dimension))
-    throw std::invalid_argument(wants + ", got " + quoted + ", " + dimension_name(scale.dimension) +
-                                remedy);
-  const double si = number->value / scale.per * scale.times;
+  const double si = number->value / parsed->per * parsed->times;
   if (!std::isfinite(si))
-    throw std::invalid_argument(wants + ", got " + quoted +
-                                ", which no double can hold in SI units; write a smaller number");
+    refuse(wanted, got() + ", which no double can hold in SI units; write a smaller number");
   return si;
 }
 

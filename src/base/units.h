@@ -50,6 +50,9 @@ inline constexpr Unit N{"N", "force", 1, 1, {1, 1, -2}};
 // another dimension.
 [[nodiscard]] double parse_quantity(std::string_view text, const Unit& wanted);
 
+// Whether a text is a number with a unit of this dimension.
+[[nodiscard]] bool is_quantity(std::string_view text, const Dimension& dimension);
+
 // The value in the unit `shown`, with digits that parse_quantity() reads back to the same double,
 // or in the SI unit without prefix if no such digits exist.
 [[nodiscard]] std::string quantity_text(double si, const Unit& shown);

@@ -266,7 +266,7 @@ class Explanation {
       std::string text =
           std::string("  ") + (rung.model == model ? "> " : "  ") + scenario::rung(rung.model).word;
       text.resize(22, ' ');
-      line(text + (rung.cannot.empty() ? "error about " + percent_text(rung.known(mesh_error)) +
+      line(text + (rung.cannot.empty() ? "error " + error_text(rung.known(mesh_error)) +
                                              (on_mesh ? " on this mesh, about " : ", about ") +
                                              rounded_text(rung.seconds, 1) + " s to set up"
                                        : "cannot: " + rung.cannot));
@@ -287,7 +287,7 @@ class Explanation {
            (refined->error <= refined->wanted ? "until it is below " + percent_text(refined->wanted)
                                               : "as far as `tissue.mesh.most_nodes` allows"));
     if (const auto& error = expected_.mesh_error)
-      line("  mesh error   about " + percent_text(*error) +
+      line("  mesh error   " + error_text(*error) +
            " of the force at the deepest travel, estimated on this mesh");
     if (scenario::rung(scene_.scenario.solver.model).coupled()) {
       line("  network      coupled in every tetrahedron: it has E and nu of the tissue");

@@ -123,7 +123,7 @@ void say_plan(const Prepared& prepared, const Talk& talk) {
     const std::string model = scenario::rung(scene.scenario.solver.model).word;
     const scene::Forecast* forecast = scene.choice.taken();
     text += "  " + scene.name + ": " + model;
-    if (forecast != nullptr) text += ", error about " + percent_text(forecast->error);
+    if (forecast != nullptr) text += ", error " + error_text(forecast->error);
     if (scene.specimen) text += ", " + std::to_string(scene.specimen->network.nodes()) + " nodes";
     text += "\n";
     talk.event("planned", {{"scenario", prepared.family->name},

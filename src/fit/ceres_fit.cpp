@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <utility>
 
@@ -83,20 +84,24 @@ void model_curve(std::span<const double> x, Model model, std::span<const double>
   }
 }
 
-std::vector<double> inverse_normal(ceres::Problem& problem, const double* unknowns,
+// (J^T J)^-1 by the singular values of J; empty if it lacks full rank.
+std::vector<double> inverse_normal(std::span<const double> jacobian,
                                    std::span<const double> scale) {
-  ceres::Covariance::Options options;
-  options.algorithm_type = ceres::DENSE_SVD;  // which fails if J lacks full rank
-  options.num_threads = 1;
-  ceres::Covariance covariance(options);
-  const std::vector<const double*> blocks{unknowns};
-  if (!covariance.Compute(blocks, &problem)) return {};
-  std::vector<double> matrix(scale.size() * scale.size());
-  if (!covariance.GetCovarianceBlock(unknowns, unknowns, matrix.data())) return {};
-  for (std::size_t i = 0; i < scale.size(); ++i)
-    for (std::size_t j = 0; j < scale.size(); ++j)
-      matrix[i * scale.size() + j] *= scale[i] * scale[j];
-  return matrix;
+  constexpr double least = 1e-7;  // of the largest singular value
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto count = static_cast<Eigen::Index>(scale.size());
+  const Eigen::Map<const Eigen::RowVectorXd> unit(scale.data(), count);
+  const Eigen::Map<const Rows> slopes(jacobian.data(),
+                                      static_cast<Eigen::Index>(jacobian.size()) / count, count);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> split(slopes * unit.asDiagonal());
+  const Eigen::MatrixXd upper = split.matrixQR().topRows(count).triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(upper, Eigen::ComputeFullV);
+  const Eigen::VectorXd& values = parts.singularValues();
+  if (!(values[count - 1] >= least * values[0])) return {};
+  const Eigen::MatrixXd root =
+      unit.asDiagonal() * parts.matrixV() * values.cwiseInverse().asDiagonal();
+  const Rows inverse = root * root.transpose();
+  return {inverse.data(), inverse.data() + inverse.size()};
 }
 
 ceres::Solver::Options solver_options(std::size_t points, int max_iterations) {
@@ -144,7 +149,7 @@ Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<cons
   (void)curve(minimum.parameters, minimum.residuals, minimum.jacobian);
   for (std::size_t i = 0; i < y.size(); ++i) minimum.residuals[i] -= y[i];
   if (minimum.status == Minimum::Status::found)
-    minimum.inverse_normal = inverse_normal(problem, unknowns.data(), scale);
+    minimum.inverse_normal = inverse_normal(minimum.jacobian, scale);
   return minimum;
 }
 

@@ -74,11 +74,15 @@ std::optional<std::vector<double>> initial_guess(std::span<const double> x,
   double least = std::numeric_limits<double>::infinity();
   Eigen::VectorXd linear(term_count(model));
   for (const auto& [shape, matrix] : trials(x, model)) {
-    if (linear.size() == 1)
-      linear[0] = matrix.col(0).dot(target) / matrix.col(0).squaredNorm();
-    else
+    double sum = 0.0;
+    if (linear.size() == 1) {
+      const double along = matrix.col(0).dot(target);
+      linear[0] = along / matrix.col(0).squaredNorm();
+      sum = target.squaredNorm() - along * linear[0];
+    } else {
       linear = matrix.colPivHouseholderQr().solve(target);
-    const double sum = (matrix.lazyProduct(linear) - target).squaredNorm();
+      sum = (matrix.lazyProduct(linear) - target).squaredNorm();
+    }
     if (!(sum < least) || !linear.allFinite()) continue;
     least = sum;
     best.emplace(linear.begin(), linear.end());

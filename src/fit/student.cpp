@@ -4,7 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace palpate::fit {
 namespace {
@@ -63,6 +65,11 @@ double student_t_cdf(double t, double degrees) {
 double student_t_quantile(double probability, double degrees) {
   assert(probability > 0.0 && probability < 1.0 && degrees >= 1.0);
   if (probability < 0.5) return -student_t_quantile(1.0 - probability, degrees);
+  // The last ones of this thread: the fits of a sweep's cases have the same degrees of freedom.
+  thread_local std::map<std::pair<double, double>, double> known;
+  const auto found = known.find({probability, degrees});
+  if (found != known.end()) return found->second;
+  if (known.size() >= 16) known.clear();
   const double tail = 1.0 - probability;
   // The tail decreases and is convex for t >= 0, so that Newton's steps from 0 never pass the root.
   double t = 0.0;
@@ -71,6 +78,7 @@ double student_t_quantile(double probability, double degrees) {
     t += step;
     if (step <= 1e-8 * t) break;  // what is left is its square; smaller steps are rounding
   }
+  known.emplace(std::pair(probability, degrees), t);
   return t;
 }
 

@@ -280,29 +280,19 @@ class SurfaceChecker {
   std::vector<Side> sides_;  // sorted by edge and then by face
 };
 
-enum class Holes { refused, allowed };
+}  // namespace
 
-void check_all(const geometry::Surface& surface, const std::string& name, Holes holes) {
+void check_closed(const geometry::Surface& surface, const std::string& name) {
   SurfaceChecker checker(surface, name);
   checker.indices();
   checker.positions();
   checker.shapes();
   checker.edges();
-  if (holes == Holes::refused) checker.holes();
+  checker.holes();
   checker.parts();
   checker.fans();
-  if (holes == Holes::refused) checker.right_side_out();
+  checker.right_side_out();
   checker.crossings();
-}
-
-}  // namespace
-
-void check_closed(const geometry::Surface& surface, const std::string& name) {
-  check_all(surface, name, Holes::refused);
-}
-
-void check_open(const geometry::Surface& surface, const std::string& name) {
-  check_all(surface, name, Holes::allowed);
 }
 
 }  // namespace palpate::meshing

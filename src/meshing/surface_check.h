@@ -7,9 +7,9 @@
 
 namespace palpate::meshing {
 
-// Both functions throw MeshError if the surface is not sound, with a sentence that names the first
-// face, edge or vertex at fault (counting from 0), its position and a remedy. `name` is the name of
-// the surface in messages.
+// Throws MeshError if the surface is not sound, with a sentence that names the first face, edge or
+// vertex at fault (counting from 0), its position and a remedy. `name` is the name of the surface
+// in messages.
 //
 // Refused, in this order: no faces; an index out of range; a coordinate that is not finite; a size
 // (longest side of the bounding box) below 1e-6 m or above 10 m, probably a wrong unit; a face with
@@ -19,9 +19,5 @@ namespace palpate::meshing {
 // parts of the surface touch only in a point; an inside-out surface; two faces that cut, touch or
 // overlap each other. About 1 s for 1e5 faces.
 void check_closed(const geometry::Surface& surface, const std::string& name);
-
-// The same for a surface that may have holes, such as a fingertip that is open at its base. Holes
-// and orientation as a whole are not checked.
-void check_open(const geometry::Surface& surface, const std::string& name);
 
 }  // namespace palpate::meshing

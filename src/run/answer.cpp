@@ -53,7 +53,7 @@ class Words {
     std::string uncounted;
     for (const LeftOut& one : left_out)
       if (!one.beside.empty()) uncounted += (uncounted.empty() ? "" : " and ") + one.beside;
-    std::string text = "an error of about " + percent_text(*error) + " (asked " +
+    std::string text = "an error of " + error_text(*error) + " (asked " +
                        percent_text(scene_.scenario.solver.tolerance);
     if (scene_.choice.given || *error <= scene_.scenario.solver.tolerance)
       text += ")";
@@ -95,14 +95,14 @@ class Words {
       const bool corrected = rung_.meshed() || scene_.size_ratio;
       const std::string reason = corrected ? "" : " " + against(rung_.of, " is ");
       return "Without `solver.model` it would be " + word(other.model) +
-             (other.model == rung_.of ? factors(choice.otherwise_found) : "") + ", about " +
-             percent_text(other.known(mesh_error_)) + " from the true force." + reason;
+             (other.model == rung_.of ? factors(choice.otherwise_found) : "") + ", " +
+             error_text(other.known(mesh_error_)) + " from the true force." + reason;
     }
     if (uniform) {
       const auto* springs = choice.forecast(Model::mass_spring);
       if (rung_.of == Model::mass_spring || springs == nullptr)
         return "Only a mesh can be loaded between plates.";
-      return "mass_spring would be about " + percent_text(springs->error) +
+      return "mass_spring would be " + error_text(springs->error) +
              " off, because its springs do not have the tissue's Poisson's ratio.";
     }
     if (scene_.size_ratio)
@@ -163,7 +163,7 @@ class Words {
     const double waves = scene_.choice.found.inertia_matters ? e_.inertia : 0.0;
     const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep);
     const std::string would = word(model) + verb;
-    const std::string off = would + "about " + percent_text(found->error) + " off";
+    const std::string off = would + error_text(found->error) + " off";
     if (waves > std::max({std::abs(size), uncertain, deep}))
       return off + ": waves in the tissue add " + percent_text(waves) + " of force at this speed.";
     if (deep > std::max(std::abs(size), uncertain))

@@ -117,7 +117,7 @@ class Findings {
     if (scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent) {
       add("mesh_error", peak.mesh_error);
       if (peak.mesh_error > scene_.scenario.solver.tolerance)
-        remark("the mesh's own error in the force is about " + percent_text(peak.mesh_error) +
+        remark("the mesh's own error in the force is " + error_text(peak.mesh_error) +
                ", above the tolerance of " + percent_text(scene_.scenario.solver.tolerance) +
                (scene_.specimen->refined
                     ? ": refining stopped at " + std::to_string(scene_.specimen->network.nodes()) +

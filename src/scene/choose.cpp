@@ -306,7 +306,7 @@ std::string Choice::shortfall(std::optional<double> mesh_error) const {
   if (given || !(error > chosen.solver.tolerance)) return "";
   return "no model is expected to be within the tolerance of " +
          percent_text(chosen.solver.tolerance) + ": `" + scenario::rung(rung->model).word +
-         "` comes nearest with about " + percent_text(error) +
+         "` comes nearest with " + error_text(error) +
          (coarse_mesh(chosen, touch) ? "; a finer `tissue.mesh` may help" : "");
 }
 

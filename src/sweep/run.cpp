@@ -24,7 +24,7 @@
 namespace palpate::sweep {
 namespace {
 
-constexpr std::size_t block_cases = 512;
+constexpr std::size_t block_cases = 16;  // of a worker; larger blocks spend time on new memory
 constexpr double block_nodes = 50000.0;  // about the most in memory, of all scenes together
 constexpr std::size_t most_shapes = 32;  // kept meshes; if there are more, all are discarded
 
@@ -44,8 +44,9 @@ class Runner {
         task_.which == SweepTask::Which::failed ? "retry" : task_.shard.text(), plan_.hash);
     {
       const std::jthread ticking([&](const std::stop_token& end) { beat(end, tick); });
-      for (std::size_t at = 0; at < numbers.size() && !stop_.no_more(); at += block_cases)
-        run_block(std::span(numbers).subspan(at, std::min(block_cases, numbers.size() - at)));
+      const std::size_t block = block_cases * as_index(task_.workers);
+      for (std::size_t at = 0; at < numbers.size() && !stop_.no_more(); at += block)
+        run_block(std::span(numbers).subspan(at, std::min(block, numbers.size() - at)));
     }
     if (failure_) std::rethrow_exception(failure_);
     journal_->sync();
@@ -59,9 +60,8 @@ class Runner {
   struct Made {
     std::uint32_t number = 0;
     std::optional<scenario::Case> one;
-    scene::Scene scene;
+    std::optional<scene::Scene> scene;
     bool tried = false;
-    bool built = false;
   };
 
   [[nodiscard]] SweepProgress progress() const {
@@ -175,15 +175,18 @@ class Runner {
       const bool late = i >= as_index(task_.workers) && seconds_since(start) > longest;
       if (late || stop_.no_more()) return;
       made.tried = true;
-      made.built =
-          attempt(made, [&] { made.scene = run::build_scene(*made.one, plan_.family, *shapes_); });
-      made.scene.sinkings = &sinkings_;
+      attempt(made, [&] {
+        made.scene = run::build_scene(*made.one, plan_.family, *shapes_);
+        made.scene->sinkings = &sinkings_;
+      });
     });
     std::vector<scene::Scene> scenes;
     std::vector<const Made*> of_scene;
+    scenes.reserve(part.size());
     for (Made* made : part) {
-      if (!made->built) continue;
-      scenes.push_back(std::move(made->scene));
+      if (!made->scene) continue;
+      scenes.push_back(std::move(*made->scene));
+      made->scene.reset();
       of_scene.push_back(made);
     }
     std::vector<char> ended(scenes.size(), 0);

@@ -93,17 +93,6 @@ double effective_slope(const ViscousLaw& law, std::span<const MemoryStep> steps)
   return slope;
 }
 
-void elastic_elongations(const ViscousLaw& law, std::span<const double> memory,
-                         std::span<const double> elongation, std::span<double> effective) {
-  const std::size_t size = memory_size(law);
-  for (std::size_t s = 0; s < elongation.size(); ++s) {
-    double sum = elongation[s];
-    for (std::size_t i = 0; i < law.branches.size(); ++i)
-      sum += law.branches[i].ratio * (elongation[s] - memory[size * s + 1 + i]);
-    effective[s] = sum;
-  }
-}
-
 void remember(const ViscousLaw& law, std::span<const MemoryStep> steps,
               std::span<const double> elongation, std::span<double> memory) {
   const std::size_t size = memory_size(law);

@@ -60,10 +60,6 @@ void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> st
 // The derivative d(effective) / d(elongation) of effective_elongations().
 [[nodiscard]] double effective_slope(const ViscousLaw& law, std::span<const MemoryStep> steps);
 
-// The effective elongations at this moment without dashpots: e + sum of ratio (e - q).
-void elastic_elongations(const ViscousLaw& law, std::span<const double> memory,
-                         std::span<const double> elongation, std::span<double> effective);
-
 // Advances the memory by a step to `elongation`.
 void remember(const ViscousLaw& law, std::span<const MemoryStep> steps,
               std::span<const double> elongation, std::span<double> memory);

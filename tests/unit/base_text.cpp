@@ -37,6 +37,12 @@ TEST(Text, NumbersAreShort) {
   EXPECT_EQ(rounded_text(std::nan("")), "nan");
 }
 
+TEST(Text, AnErrorAboveTheWholeHasNoDigits) {
+  EXPECT_EQ(error_text(0.0152), "about 1.5 %");
+  EXPECT_EQ(error_text(1.0), "about 100 %");
+  EXPECT_EQ(error_text(6.34), "more than 100 %");
+}
+
 TEST(Text, ALeadingNumberEndsWhereItEnds) {
   EXPECT_EQ(leading_number("11 mm")->value, 11.0);
   EXPECT_EQ(leading_number("11 mm")->rest, " mm");

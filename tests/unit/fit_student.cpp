@@ -48,6 +48,14 @@ TEST(Student, QuantileUndoesTheDistribution) {
                   1e-11);  // lgamma's rounding grows with the degrees
 }
 
+TEST(Student, QuantileDoesNotDependOnEarlierOnes) {
+  const double first = student_t_quantile(0.975, 7.0);
+  for (int degrees = 1; degrees < 50; ++degrees) {
+    EXPECT_LT(student_t_quantile(0.9, degrees), student_t_quantile(0.975, degrees));
+    EXPECT_EQ(student_t_quantile(0.975, 7.0), first);
+  }
+}
+
 TEST(Student, IsSymmetric) {
   EXPECT_EQ(student_t_quantile(0.5, 6), 0.0);
   EXPECT_EQ(student_t_quantile(0.025, 6), -student_t_quantile(0.975, 6));
