@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "elastic_elongations.h"
 #include "geometry/cuboid.h"
 #include "integrate/body.h"
 #include "meshing/tetgen.h"
@@ -46,7 +47,7 @@ class PlainStep {
   void step(integrate::State& state, const Vector& load) {
     const tissue::Network& network = *form_.network;
     tissue::elongations(network, form_.kinematics, state.displacement, elongation_);
-    tissue::elastic_elongations(form_.law, state.memory, elongation_, effective_);
+    test::elastic_elongations(form_.law, state.memory, elongation_, effective_);
     tissue::tensions(network, effective_, tension_);
     tissue::gather_forces(network, form_.kinematics, state.displacement, tension_, force_);
     Vector right = 2.0 * dt_ * dt_ * (load - force_);

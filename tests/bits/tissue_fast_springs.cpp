@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "elastic_elongations.h"
 #include "jittered_block.h"
 #include "tissue/energy.h"
 #include "tissue/stiffness.h"
@@ -74,12 +75,7 @@ struct Plain {
   }
   Vector force(const Vector& u, std::span<const double> memory) {
     tissue::elongations(network, kinematics, u, elongation);
-    const std::size_t size = tissue::memory_size(law);
-    for (std::size_t s = 0; s < elongation.size(); ++s) {  // e + sum of ratio (e - q)
-      effective[s] = elongation[s];
-      for (std::size_t i = 0; i < law.branches.size(); ++i)
-        effective[s] += law.branches[i].ratio * (elongation[s] - memory[size * s + 1 + i]);
-    }
+    test::elastic_elongations(law, memory, elongation, effective);
     tissue::tensions(network, effective, tension);
     Vector force;
     tissue::gather_forces(network, kinematics, u, tension, force);
