@@ -7,10 +7,8 @@
 #include <set>
 
 #include "base/field_writer.h"
-#include "base/files.h"
 #include "base/text.h"
 #include "run/refined_mesh.h"
-#include "scenario/find.h"
 #include "scenario/programme.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
@@ -27,17 +25,11 @@ using Settings = std::vector<std::string>;
 using scenario::Scenario;
 namespace words = scenario::words;
 
-constexpr std::size_t most_cases = 8;
 constexpr double mesh_factors[] = {0.25, 4.0};        // times the scenario's number of nodes
 constexpr double time_steps_ms[] = {0.25, 1.0, 4.0};  // a haptic frame is 1 ms
 constexpr int ring_counts[] = {2, 3, 5};
 constexpr Integrator moving = Integrator::central_difference;
 constexpr double cells_a_contact_radius = 3.5;  // `resolved` requires 3
-
-// The keys that a chart varies.
-constexpr const char* own_keys[] = {"solver.model",    "solver.integrator", "solver.time_step",
-                                    "solver.substeps", "solver.rings",      "contact.coupling",
-                                    "tissue.mesh",     "output.interval"};
 
 std::string text_of_cells(const char* kind, const std::array<int, 3>& cells, double grading) {
   std::string text = std::string("tissue.mesh={kind='") + kind + "',cells=[";
@@ -78,32 +70,6 @@ std::string graded(const Scenario& scenario, const scene::Estimates& found) {
   return text_of_cells("mirrored", cells, std::round(10.0 * grading) / 10.0);
 }
 
-// The settings that leave to palpate what it chooses by itself: model, coupling, mesh and steps.
-Settings left_open(const Scenario& scenario) {
-  const scenario::Solver& solver = scenario.solver;
-  Settings open;
-  if (solver.model) open.emplace_back("solver.model=auto");
-  if (solver.integrator) open.emplace_back("solver.integrator=auto");
-  if (solver.time_step) open.emplace_back("solver.time_step=auto");
-  if (solver.substeps) open.emplace_back("solver.substeps=auto");
-  if (solver.rings) open.emplace_back("solver.rings=all");
-  const scenario::Mesh& mesh = scenario.tissue.mesh;
-  if (!std::holds_alternative<scenario::MeshFile>(mesh) &&
-      !std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape) &&
-      !refinement(mesh).refine)
-    open.push_back(std::string("tissue.mesh={kind='") +
-                   std::visit([](const auto& kind) { return kind.word.word; },
-                              scenario::mesh_left_open(scenario)) +
-                   "',refine=true}");
-  if (!scenario.uniform() && scenario.contact.coupling != contact::Coupling::consistent) {
-    open.emplace_back("contact.coupling=consistent");
-    // Only `consistent` takes the viscosity of the tissue into the contact by default.
-    if (scenario.contact.viscosity == scenario::Contact::Viscosity::none)
-      open.emplace_back("contact.viscosity=none");
-  }
-  return open;
-}
-
 // The smallest common multiple of output interval and step, both in ms, below ten intervals; if
 // there is none, the multiple of the step that is nearest to the interval.
 double rows_of(double step_ms, double interval_ms) {
@@ -122,13 +88,6 @@ Settings one_step(double step_ms, double interval) {
   if (std::abs(rows_ms - 1e3 * interval) > 1e-9 * rows_ms)
     settings.push_back("output.interval=" + rounded_text(rows_ms, 12) + " ms");
   return settings;
-}
-
-// The case with what palpate chooses left open.
-scenario::Case opened(const Asked& asked, std::size_t of_case) {
-  Settings all = asked.settings;
-  for (const std::string& one : left_open(asked.family.cases[of_case].scenario)) all.push_back(one);
-  return scenario::parse_case(asked.text, asked.path, all, of_case).cases.front();
 }
 
 class Designer {
@@ -155,7 +114,7 @@ class Designer {
       if (rung.meshed() && !rung.solid)
         meshes(rung.of);
       else if (!rung.solid)
-        add("rung x mesh", rung.word, given(rung.of));
+        formulas(rung.of);
     for (const scenario::Rung& rung : scenario::ladder)
       if (rung.meshed() && !rung.solid && !base_.uniform()) couplings(rung.of);
     if (!compresses(base_)) integrators();
@@ -200,6 +159,15 @@ class Designer {
 
   void add(const std::string& group, const std::string& name, const Settings& settings) {
     if (seen_.insert(settled(settings)).second) variants_.push_back({case_, group, name, settings});
+  }
+
+  void formulas(Model model) {
+    add("rung x mesh", word_of(model), given(model));
+    if (base_.uniform() || base_.contact.size) return;
+    const scene::Choice choice = scene::choose(one_, shapes_);
+    if (scene::size_ratio(model, choice.chosen, choice.touch, choice.expected))
+      add("rung x mesh", word_of(model) + ", the body's size",
+          joined_to(given(model), {"contact.size=body"}));
   }
 
   void meshes(Model model) {
@@ -292,25 +260,7 @@ class Designer {
   std::set<std::string> seen_;
 };
 
-void refuse_own_keys(const scenario::Family& family) {
-  for (const scenario::Setting& swept : family.design.settings(0))
-    for (const char* own : own_keys)
-      if (swept.key == own || swept.key.starts_with(std::string(own) + "."))
-        throw InputError(swept.value.place,
-                         "`" + swept.key + "` is swept, and `palpate chart` varies `" + own +
-                             "` itself; set it to one value, with `[sweep]` without it");
-}
-
 }  // namespace
-
-void refuse_forces(const scenario::Family& family, std::span<const scenario::Step> steps,
-                   const std::string& sentence) {
-  for (std::size_t i = 0; i < steps.size(); ++i)
-    if (const auto* indent = std::get_if<scenario::Indent>(&steps[i]);
-        indent != nullptr && indent->to.second)
-      throw InputError(place_of(family.document, "step." + std::to_string(i + 1) + ".to"),
-                       sentence);
-}
 
 std::string model_setting(Model model) { return "solver.model=" + word_of(model); }
 std::string word_of(Model model) { return scenario::rung(model).word; }
@@ -353,47 +303,6 @@ Integrator base_integrator(const scenario::Case& one) {
   if (scenario.uniform() || drag) return Integrator::central_difference;
   return scene::choose(one).expected.inertia < solver.tolerance ? Integrator::quasi_static
                                                                 : Integrator::central_difference;
-}
-
-Asked read_for_chart(const std::string& path, const Settings& settings) {
-  const std::string found = scenario::find(path);
-  return read_for_chart(found, read_text(found), settings);
-}
-
-Asked read_for_chart(const std::string& path, const std::string& text, const Settings& settings) {
-  Asked asked{path, text, settings, scenario::parse(text, path, settings)};
-  const scenario::Family& family = asked.family;
-  if (family.cases.size() > most_cases)
-    throw InputError(place_of(family.document, "sweep"),
-                     "`palpate chart` measures up to " + std::to_string(most_cases) +
-                         " cases, and `sweep` makes " + std::to_string(family.cases.size()) +
-                         "; give shorter lists");
-  refuse_own_keys(family);
-  refuse_forces(
-      family, family.base.steps,
-      "a step to a force ends elsewhere in every variant, and `palpate chart` compares forces at "
-      "equal travels; give a travel");
-  for (std::size_t i = 0; i < family.cases.size(); ++i) {
-    const scene::Choice choice = scene::choose(family.cases[i]);
-    // The reference of a press with inertia is linear elasticity on a mesh.
-    const bool still = !choice.chosen.meshed() || !about(choice.chosen.solver.integrator).inertia;
-    asked.depths.push_back(still ? scene::choose(opened(asked, i)).chosen.contact.depth
-                                 : scenario::Contact::Depth::hertz);
-  }
-  return asked;
-}
-
-scenario::Family with_settings(const Asked& asked, std::size_t of_case, const Settings& settings) {
-  Settings all = asked.settings;
-  all.insert(all.end(), settings.begin(), settings.end());
-  scenario::Family family = scenario::parse_case(asked.text, asked.path, all, of_case);
-  family.cases.front().name = asked.family.cases[of_case].name;
-  scenario::Scenario& scenario = family.cases.front().scenario;
-  scenario::Contact& contact = scenario.contact;
-  const bool as_it_stands = settings.empty() && scenario.solver.model;
-  if (!as_it_stands && !contact.depth && !contact::mesh_is_tissue(contact.coupling))
-    contact.depth = asked.depths[of_case];
-  return family;
 }
 
 }  // namespace palpate::chart

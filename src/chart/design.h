@@ -3,8 +3,10 @@
 // Groups of variants (not every combination):
 //   base                    what palpate chooses where model, mesh, coupling, integrator, steps and
 //                           rings are left open, and the scenario unchanged if that differs
-//   rung x mesh             every model; those with a mesh on the scenario's mesh and on meshes
-//                           with a quarter and four times its nodes (a ready mesh is not changed)
+//   rung x mesh             every model, formulas also with `contact.size = "body"`; those with a
+//   mesh
+//                           on the scenario's mesh and on meshes with a quarter and four times its
+//                           nodes (a ready mesh is not changed)
 //   rung x coupling         models with a mesh, with every coupling, on the scenario's mesh; one
 //                           sphere on a cuboid of one tissue also `resolved` on graded cells
 //   integrator x time step  every integrator with its default step and with 1/4, 1 and 4 ms in one
@@ -14,41 +16,16 @@
 // with a mesh. Groups 2, 3 and 5 use base_integrator(). A uniform test lacks groups 3 and 5.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
-#include "scenario/family.h"
+#include "chart/asked.h"
 
 namespace palpate::scene {
 class SpecimenShapes;
 }
 
 namespace palpate::chart {
-
-// A scenario file with the settings of the command line.
-struct Asked {
-  std::string path;
-  std::string text;
-  std::vector<std::string> settings;
-  scenario::Family family;
-  // What `contact.depth = "auto"` becomes in the cases, as `model = "auto"` has it: for the
-  // reference and every variant but the scenario as it stands.
-  std::vector<scenario::Contact::Depth> depths = {};
-};
-
-// Reads a scenario for a chart. Throws InputError if it is invalid, has more than 8 cases, sweeps a
-// key that the chart varies, or presses to a force (every variant would end at another travel).
-[[nodiscard]] Asked read_for_chart(const std::string& path,
-                                   const std::vector<std::string>& settings);
-// The same, of a text that was read from `path`.
-[[nodiscard]] Asked read_for_chart(const std::string& path, const std::string& text,
-                                   const std::vector<std::string>& settings);
-
-// Throws InputError with `sentence` at the first step to a force, which would end at another travel
-// in every variant and on every mesh.
-void refuse_forces(const scenario::Family& family, std::span<const scenario::Step> steps,
-                   const std::string& sentence);
 
 struct Variant {
   std::size_t of_case = 0;
@@ -61,10 +38,6 @@ struct Variant {
 // scenario as an earlier one. `shapes` keeps the meshes made for it. Throws like scene::choose().
 [[nodiscard]] std::vector<Variant> design(const Asked& asked, std::size_t of_case,
                                           scene::SpecimenShapes& shapes);
-
-// Case `of_case` with further settings, as a family of one case. Throws InputError if invalid.
-[[nodiscard]] scenario::Family with_settings(const Asked& asked, std::size_t of_case,
-                                             const std::vector<std::string>& settings);
 
 // The longest output interval of all variants, s. At these times all variants have rows if the
 // steps of the programme are multiples of it.

@@ -368,9 +368,8 @@ record::Table reference_table(const std::vector<std::pair<std::string, Reference
            {static_cast<double>(row.step), row.time, unit::mm.from_si(row.travel),
             unit::mm.from_si(row.slide), row.force, row.error, row.order, row.by_sphere})
         cells.emplace_back(number);
-      for (std::size_t i = 0; i < levels; ++i)
-        cells.push_back(i < row.forces.size() ? record::Cell(row.forces[i])
-                                              : record::Cell(std::monostate{}));
+      cells.insert(cells.end(), row.forces.begin(), row.forces.end());
+      cells.resize(table.columns.size());
       table.rows.push_back(std::move(cells));
     }
   return table;

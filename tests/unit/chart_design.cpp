@@ -83,6 +83,17 @@ TEST_F(Design, APressHasEveryGroup) {
   EXPECT_NE(find(variants, "coupled_springs, resolved on graded cells"), nullptr);
 }
 
+TEST_F(Design, FormulasAreTriedWithTheSizeOfABodyWhereItIsKnown) {
+  const auto on = [&](const char* shape) {
+    return design(asked(scenario::press + "[tissue]\nshape = " + shape + "\n"), 0);
+  };
+  const auto ball = on("{ kind = \"ellipsoid\", size = [\"60 mm\", \"60 mm\", \"60 mm\"] }");
+  ASSERT_NE(find(ball, "hertz, the body's size"), nullptr);
+  EXPECT_EQ(find(ball, "hertz, the body's size")->settings.back(), "contact.size=body");
+  EXPECT_EQ(find(ball, "layer, the body's size"), nullptr) << "not a layer";
+  EXPECT_EQ(find(on("{ kind = \"half_space\" }"), "hertz, the body's size"), nullptr);
+}
+
 // With a mesh whose inertia reaches the force.
 const std::string moving = scenario::press + "[tissue]\nviscosity = \"none\"\n";
 
