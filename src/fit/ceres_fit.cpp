@@ -90,9 +90,10 @@ std::vector<double> inverse_normal(std::span<const double> jacobian,
   constexpr double least = 1e-7;  // of the largest singular value
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto count = static_cast<Eigen::Index>(scale.size());
+  const Eigen::Index points = static_cast<Eigen::Index>(jacobian.size()) / count;
+  if (points < count) return {};
   const Eigen::Map<const Eigen::RowVectorXd> unit(scale.data(), count);
-  const Eigen::Map<const Rows> slopes(jacobian.data(),
-                                      static_cast<Eigen::Index>(jacobian.size()) / count, count);
+  const Eigen::Map<const Rows> slopes(jacobian.data(), points, count);
   const Eigen::HouseholderQR<Eigen::MatrixXd> split(slopes * unit.asDiagonal());
   const Eigen::MatrixXd upper = split.matrixQR().topRows(count).triangularView<Eigen::Upper>();
   const Eigen::JacobiSVD<Eigen::MatrixXd> parts(upper, Eigen::ComputeFullV);
