@@ -22,8 +22,9 @@ struct Remeshed {
 // A surface with edges of about `spacing` (m) for the same body. It has passed check_closed(), has
 // the same volume within 0.5 %, keeps creases and has no needles, and its largest distance from
 // `surface` is at most remeshing_limit(); where details do not allow that, its edges are shorter.
-// Empty if no such surface with fewer triangles, or without needles, is found. `surface` has passed
-// check_closed(). The same arguments give the same bits.
+// Empty if no such surface with fewer triangles, or without needles, is found, and where an edge of
+// the body is sharper than five degrees. `surface` has passed check_closed(). The same arguments
+// give the same bits.
 [[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing);
 
 // An eighth of the spacing, but at most 0.5 % of the diagonal of the bounding box, m. A chord of

@@ -71,16 +71,23 @@ void name_regions(const geometry::Body& body, geometry::TetMesh& mesh) {
     mesh.regions.clear();
 }
 
+double volume_of(const geometry::Body& body) {
+  return geometry::enclosed(body.parts.front().surface).volume;
+}
+
 geometry::TetMesh checked(const geometry::Body& body, geometry::TetMesh mesh) {
-  check(mesh, "body by TetGen", geometry::enclosed(body.parts.front().surface).volume);
+  check(mesh, "body by TetGen", volume_of(body));
   return mesh;
 }
+
+// Nodes inside an even mesh, times the largest volume of its tetrahedra, over the volume.
+constexpr double nodes_by_volume = 0.4;
 
 // How many nodes TetGen may add before the surface counts as unfit: 20 times those of an even mesh.
 std::size_t most_nodes(const geometry::Body& body, const geometry::Surface& facets,
                        double largest) {
-  const double volume = geometry::enclosed(body.parts.front().surface).volume;
-  const double even = static_cast<double>(facets.vertices.size()) + 0.4 * volume / largest;
+  const double even =
+      static_cast<double>(facets.vertices.size()) + nodes_by_volume * volume_of(body) / largest;
   return static_cast<std::size_t>(1e4 + 20.0 * even);
 }
 
@@ -137,8 +144,9 @@ class Search {
     std::pair<std::size_t, std::size_t> before{};  // nodes and tetrahedra of the last try
     bool above = false;                            // some volume gave too many nodes
     bool below = false;                            // or too few
-    double low = 1e-3 * largest;                   // gives too many nodes, or was not tried
-    double high = 1e4 * largest;                   // gives too few nodes, or was not tried
+    double low =
+        std::min(1e-3 * largest, 0.05 * even_volume(body));  // too many nodes, or not tried
+    double high = 1e4 * largest;                             // too few nodes, or not tried
     for (int tries = 0; tries < tries_per_body && high > 1.02 * low; ++tries) {
       geometry::TetMesh found = mesh(body, largest, triangles);
       const int count = static_cast<int>(found.nodes.size());
@@ -164,6 +172,11 @@ class Search {
       largest = guess > low && guess < high ? guess : std::sqrt(low * high);
     }
     return nearest;
+  }
+
+  // The largest volume, m^3, of tetrahedra of an even mesh with the requested nodes.
+  [[nodiscard]] double even_volume(const geometry::Body& body) const {
+    return nodes_by_volume * volume_of(body) / target_.nodes;
   }
 
   [[nodiscard]] double miss() const { return miss_; }
@@ -255,7 +268,9 @@ geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target, 
     return checked(body, search.mesh(body, volume_at(target.edge_length), triangles));
   }
   const Miss miss = search.tune(body, volume_at(edge));
-  if (miss.nodes < -fair_miss) search.tune(body, volume_at(edge), Triangles::split);
+  // Where triangles are split, the size of the surface's triangles does not count.
+  if (miss.nodes < -fair_miss)
+    search.tune(body, std::min(volume_at(edge), search.even_volume(body)), Triangles::split);
   return search.taken();
 }
 

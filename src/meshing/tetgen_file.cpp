@@ -2,6 +2,7 @@
 #include "meshing/tetgen_file.h"
 
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "base/error.h"
@@ -59,6 +60,7 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
   const auto meshed = [&](const Target& wanted) {
     return tetgen_body(body_of(surface, lumps), wanted, time_limit);
   };
+  std::exception_ptr failure;
   const auto attempt = [&] {
     // The mesh keeps the surface's vertices, so that it cannot have fewer nodes.
     if (target.nodes > 0 && too_fine(surface, target)) return false;
@@ -66,6 +68,7 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
       made.mesh = meshed(target);
     } catch (const MeshError&) {
       if (target.nodes == 0) throw;
+      failure = std::current_exception();
       return false;
     }
     return true;
@@ -73,6 +76,8 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
   const bool changed = (too_fine(surface, target) || needles > 0) && remesh();
   if (attempt() || (!changed && remesh() && attempt())) return made;
   made.mesh = meshed({.edge_length = spacing_of(surface)});
+  if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
+    std::rethrow_exception(failure);
   made.remark += (made.remark.empty() ? "" : "; ") + std::string("the mesh has ") +
                  std::to_string(made.mesh.nodes.size()) + " nodes instead of " +
                  std::to_string(target.nodes) + ", because it keeps the surface's vertices";

@@ -2,7 +2,9 @@
 #include "meshing/surface_remeshing.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "geometry/body.h"
@@ -50,6 +52,20 @@ Surface strips(int count, double radius, double length) {
     surface.triangles.push_back({i + count, j + count, 2 * count + 1});
   }
   return surface;
+}
+
+// 40 mm long and 30 mm wide, with an edge of this angle.
+Surface wedge(double degrees) {
+  const double top = 0.04 * std::tan(degrees * std::numbers::pi / 180.0);
+  return {
+      {{0, 0, 0}, {0, 0.03, 0}, {0.04, 0, 0}, {0.04, 0.03, 0}, {0.04, 0, top}, {0.04, 0.03, top}},
+      {{0, 1, 3}, {0, 3, 2}, {0, 4, 5}, {0, 5, 1}, {2, 3, 5}, {2, 5, 4}, {0, 2, 4}, {1, 5, 3}}};
+}
+
+long pages_of_children() {
+  rusage used{};
+  getrusage(RUSAGE_CHILDREN, &used);
+  return used.ru_minflt;
 }
 
 // A base is known by being flat.
@@ -164,6 +180,23 @@ TEST(Needles, AreRemeshedAndTheRimStays) {
     if (std::abs(twice.z()) > 0.9 * twice.norm()) ends += 0.5 * twice.norm();
   }
   EXPECT_NEAR(ends / (2.0 * std::numbers::pi * 9e-4), 1.0, 0.03);  // chords of 8 mm take 1.2 %
+}
+
+// With CGAL eight tries took minutes, and none had a result.
+TEST(Needles, OfAWedgeAreKeptWithoutATry) {
+  ASSERT_GT(count_needles(wedge(3.0)), 0U);
+  const long before = pages_of_children();
+  EXPECT_FALSE(remeshed(wedge(3.0), 1e-3).has_value());
+  EXPECT_EQ(pages_of_children(), before) << "a child process was started";
+}
+
+// Eight triangles: the search ended with the six nodes of the surface, and said that it keeps them.
+TEST(FileMesh, OfAFewTrianglesHasTheNodesAskedFor) {
+  for (const double degrees : {3.0, 10.0, 30.0}) {
+    const FileMesh made = tetgen_file(wedge(degrees), {}, {.nodes = 3000}, time_given);
+    EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / 3000.0, 1.0, 0.03) << degrees;
+    EXPECT_EQ(made.remark, "") << degrees;
+  }
 }
 
 TEST(Cells, GiveAboutAsManyNodesAsAskedFor) {
