@@ -27,6 +27,7 @@ class LeftOuts {
       ringing();
     } else {
       size();
+      overhang();
       double_counting();
       large_strains();
       viscosity();
@@ -63,6 +64,14 @@ class LeftOuts {
       omit("the sides of the body", -e_.sides, would(-e_.sides), free);
     if (none && e_.curved_body > 0.0 && e_.narrow > tolerance())
       omit("the width of the body and of its base", -e_.narrow, would(-e_.narrow), free);
+  }
+
+  void overhang() {
+    const double most = e_.overhang * (2.0 - e_.overhang);  // as ModelErrors counts it
+    if (!mesh_is_tissue() && most > 0.2 * tolerance())
+      omit("that the contact reaches beyond an edge of the body", -most,
+           "which may take up to " + percent_text(most) + " off the force",
+           "press farther from the edge");
   }
 
   // By how much a half-space under `series` is too soft.                    docs/theory.md (10)

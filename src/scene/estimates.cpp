@@ -241,6 +241,10 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
     found.curved_body =
         found.tissue_share * found.contact_radius / (0.5 * touch.size.minCoeff() * cosine * cosine);
   }
+  if (const double x = touch.to_edge / found.contact_radius; x == 0.0)
+    found.overhang = 0.75;  // as at a corner; which of them is touched is not known
+  else if (x < 1.0)
+    found.overhang = 0.25 * (1.0 - x) * (1.0 - x) * (2.0 + x);
   change_by_size(touch, found);
   fit_size(scenario, touch, found);
   press_deep(scenario, touch, law, found);

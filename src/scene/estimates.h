@@ -21,6 +21,7 @@ struct Estimates {
   double sides = 0.0;            // decrease by free sides near the contact
   double curved_body = 0.0;      // bound for the effect of the finite size of a curved body
   double narrow = 0.0;           // decrease by the sides, or by the width of a curved body
+  double overhang = 0.0;         // share of Hertz's pressure beyond an edge of a curved body
   double by_size = 0.0;          // change by thickness, sides and width together, of either sign
   double by_size_error = 0.0;    // of 1 + `by_size`, relative
   double deep = 0.0;             // change in neo-Hookean tissue, of either sign; (62)

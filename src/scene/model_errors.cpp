@@ -30,11 +30,18 @@ double coarseness(const scenario::Resolved& scenario, const SurfaceTouch& touch)
   return 0.15 * ratio * ratio;
 }
 
+// What an edge at the distance d costs a formula, beyond what bodies as wide as 6 a have: its force
+// was 23, 14 and 5 % high at d / a = 1.3, 1.7 and 2.6 on a block from a file.
+double beside_edge(const SurfaceTouch& touch, const Estimates& estimates) {
+  const double near = std::min(1.0, estimates.contact_radius / touch.to_edge);
+  return 0.3 * std::max(0.0, near - 1.0 / 3.0);
+}
+
 }  // namespace
 
 double ModelErrors::of(const Rung& rung, const Found& found) const {
-  return (rung.meshed() ? of_mesh(rung) : of_size(rung, found)) + of_waves(rung, found) +
-         (rung.solid ? 0.0 : of_depth(found));
+  return (rung.meshed() ? of_mesh(rung) : of_size(rung, found) + beside_edge(touch_, e_)) +
+         of_waves(rung, found) + of_overhang() + (rung.solid ? 0.0 : of_depth(found));
 }
 
 double ModelErrors::of_mesh(const Rung& rung) const {
@@ -76,6 +83,14 @@ double ModelErrors::of_depth(const Found& found) const {
       given_.contact.depth.value_or(found.depth_matters ? Depth::neo_hookean : Depth::hertz);
   const bool used = depth == Depth::neo_hookean && has_depth_ratio();
   return std::max(least, used ? e_.deep_error : std::abs(e_.deep) + e_.deep_error);
+}
+
+// Hertz's law has skin all round. On a block with d the distance of its edge over the contact
+// radius, the force was 3, 33 and 54 % above that of resolved contact at d = 1, 0.5 and 0.26.
+double ModelErrors::of_overhang() const {
+  if (contact::mesh_is_tissue(asked_.contact.coupling)) return 0.0;
+  const double left = 1.0 - e_.overhang;
+  return 1.0 / (left * left) - 1.0;
 }
 
 // All of the effect where the model does not move.

@@ -34,6 +34,7 @@ class ModelErrors {
  private:
   [[nodiscard]] double of_size(const scenario::Rung& rung, const scenario::Found& found) const;
   [[nodiscard]] double of_depth(const scenario::Found& found) const;
+  [[nodiscard]] double of_overhang() const;
   [[nodiscard]] double of_waves(const scenario::Rung& rung, const scenario::Found& found) const;
   [[nodiscard]] double coarseness_of_solid() const;
 

@@ -62,6 +62,9 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
     touch.curvature = found->curvature;
     touch.thickness = found->position.z();
     put(touch, found->position, radius);
+    if (std::holds_alternative<geometry::Cylinder>(shape) ||
+        std::holds_alternative<geometry::LayeredLimb>(shape))
+      touch.to_edge = std::min(touch.position.y(), touch.size.y() - touch.position.y());
     if (!std::holds_alternative<geometry::Cuboid>(shape) && !size_is_fitted(scenario, touch)) {
       const double spacing = 0.05 * touch.size.minCoeff();
       touch.footing = footing(geometry::sampled(shape, {spacing, spacing}).parts.front().surface,
@@ -127,6 +130,28 @@ geometry::CurvatureEstimate curvature_over(const geometry::SmoothSurface& whole,
                            {at.weights[0], at.weights[1], at.weights[2]});
 }
 
+// The distance (m) of a point from the convex creases of the surface that faces along `normal`.
+double to_creases(const geometry::SmoothSurface& surface, const Vec3& point, const Vec3& normal) {
+  constexpr double facing = 0.3;  // cosine
+  const auto& [vertices, triangles] = surface.surface();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
+    const Vec3 own = geometry::twice_area(surface.surface(), t).normalized();
+    if (own.dot(normal) < facing) continue;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      const int other = surface.neighbours().across(t)[edge];
+      if (!surface.crease(t, edge) || other < 0) continue;
+      const Vec3& begin = vertices[as_index(triangles[as_index(t)][edge])];
+      const Vec3 along = vertices[as_index(triangles[as_index(t)][(edge + 1) % 3])] - begin;
+      const Vec3 into = own.cross(along);  // the triangle lies on this side of its edge
+      if (geometry::twice_area(surface.surface(), other).dot(into) > 0.0) continue;  // a groove
+      const double at = std::clamp((point - begin).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (point - begin - at * along).norm());
+    }
+  }
+  return nearest;
+}
+
 SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
   SurfaceTouch touch;
   const auto& vertices = surface.surface().vertices;
@@ -153,9 +178,11 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
     return touch;
   }
   if (first.on_crease) {
+    touch.to_edge = 0.0;
     touch.cannot = on_an_edge;
     return touch;
   }
+  touch.to_edge = to_creases(surface, surface.position(first.at), surface.normal(first.at));
   const geometry::CurvatureEstimate found = curvature_of_file(surface, first.at, scenario);
   if (!found.known()) {
     touch.cannot = "the surface's curvature at the contact cannot be estimated: " +

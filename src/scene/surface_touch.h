@@ -22,9 +22,12 @@ struct SurfaceTouch {
   Vec3 position = Vec3::Zero();         // m, of the surface
   geometry::Curvature curvature;        // there, with the normal
   std::optional<Footing> footing = {};  // of curved bodies, unless size_is_fitted()
-  bool one_sided = false;               // the curvature has StarStatus::one_sided
-  std::string cannot = {};              // why there is no curvature; empty if there is one
-  bool nowhere = false;  // no model can press here: beside the body, or it is not sound
+  // m, from the touch to the nearest edge (convex crease) of a file's surface, 0 on one, or to the
+  // end of a lying cylinder or limb; the sides of cuboids have estimates of their own.
+  double to_edge = std::numeric_limits<double>::infinity();
+  bool one_sided = false;   // the curvature has StarStatus::one_sided
+  std::string cannot = {};  // why there is no curvature; empty if there is one
+  bool nowhere = false;     // no model can press here: beside the body, or it is not sound
 
   [[nodiscard]] bool known() const { return cannot.empty(); }
   [[nodiscard]] bool curved() const { return curvature.kappa_1 != 0.0 || curvature.kappa_2 != 0.0; }

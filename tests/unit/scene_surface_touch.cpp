@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -14,21 +13,12 @@
 #include "scene/estimates.h"
 #include "scene/specimen_shape.h"
 #include "scene_text.h"
+#include "surface_file.h"
 #include "temporary_folder.h"
 #include "test_surfaces.h"
 
 namespace palpate::scene {
 namespace {
-
-void write_off(const test::fs::path& path, const geometry::Surface& surface) {
-  std::ostringstream text;
-  text << "OFF\n" << surface.vertices.size() << " " << surface.triangles.size() << " 0\n";
-  for (const Vec3& v : surface.vertices)
-    text << number_text(1e3 * v.x()) << " " << number_text(1e3 * v.y()) << " "
-         << number_text(1e3 * v.z()) << "\n";
-  for (const auto& [a, b, c] : surface.triangles) text << "3 " << a << " " << b << " " << c << "\n";
-  test::write_file(path, text.str());
-}
 
 geometry::Surface sampled(const geometry::Shape& shape, double spacing) {
   return geometry::sampled(shape, {spacing, spacing}).parts.front().surface;
@@ -36,7 +26,9 @@ geometry::Surface sampled(const geometry::Shape& shape, double spacing) {
 
 class SurfaceFiles : public testing::Test {
  protected:
-  void write(const geometry::Surface& surface) { write_off(folder_.path() / "body.off", surface); }
+  void write(const geometry::Surface& surface) {
+    test::write_off(folder_.path() / "body.off", surface);
+  }
 
   [[nodiscard]] std::string text(const std::string& finger, const std::string& more = "") const {
     return "[tissue]\nmaterial = \"skin\"\nshape = { file = \"" +
@@ -117,6 +109,21 @@ TEST_F(SurfaceFiles, TellAutoTheirThicknessAndWidth) {
   write(sampled(geometry::Ellipsoid{{0.4, 0.4, 0.4}}, 10e-3));
   EXPECT_EQ(choose(scenario::read_case(text("x = \"240 mm\"\n"))).chosen.solver.model,
             scenario::Model::hertz);
+}
+
+TEST_F(SurfaceFiles, KnowTheirNearestEdge) {
+  write(sampled(geometry::Cuboid{{0.024, 0.024, 0.012}}, 2e-3));
+  EXPECT_NEAR(touch("x = \"5 mm\"\ny = \"12 mm\"\n").to_edge, 0.005, 1e-9);
+  EXPECT_NEAR(touch("x = \"5 mm\"\ny = \"21 mm\"\n").to_edge, 0.003, 1e-9);
+  write(sampled(geometry::Ellipsoid{}, 5e-3));
+  EXPECT_FALSE(std::isfinite(touch("").to_edge));
+  write({{{0.03, 0, 0}, {-0.03, 0, 0}, {0, 0.03, 0}, {0, -0.03, 0}, {0, 0, 0.02}, {0, 0, -0.02}},
+         {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}});
+  EXPECT_EQ(touch("").to_edge, 0.0) << "a tip";
+  const std::string bar =
+      "[tissue]\nmaterial = \"skin\"\nshape = { kind = \"cylinder\" }\n"
+      "[finger]\ny = \"3 mm\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+  EXPECT_NEAR(choose(scenario::read_case(bar)).touch.to_edge, 0.003, 1e-9);
 }
 
 TEST_F(SurfaceFiles, MayHaveSlabs) {
