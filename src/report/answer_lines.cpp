@@ -87,8 +87,8 @@ std::string peaks(const std::vector<record::CaseRecord>& records) {
                      : strain ? range_text("Peak strain", *strain, "")
                               : "Nothing was reached";
   if (const auto error = range_of(records, [](const auto& one) { return one.answer.stated_error; }))
-    text +=
-        ", with errors of about " + percent_text(error->low) + " to " + percent_text(error->high);
+    text += ", with errors of " + error_text(error->low) + " to " +
+            (error->high > 1.0 ? error_text(error->high) : percent_text(error->high));
   return text + ".";
 }
 

@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
-#include "base/text.h"
 #include "geometry/shapes.h"
 #include "run_text.h"
-#include "temporary_folder.h"
+#include "surface_file.h"
 
 namespace palpate::run {
 namespace {
@@ -16,14 +14,7 @@ namespace {
 const geometry::Ellipsoid body{{0.8, 0.6, 0.72}};
 
 void write_body(const test::fs::path& path) {
-  const geometry::Surface surface = geometry::sampled(body, {15e-3, 15e-3}).parts.front().surface;
-  std::ostringstream text;
-  text << "OFF\n" << surface.vertices.size() << " " << surface.triangles.size() << " 0\n";
-  for (const Vec3& v : surface.vertices)
-    text << number_text(1e3 * v.x()) << " " << number_text(1e3 * v.y()) << " "
-         << number_text(1e3 * v.z()) << "\n";
-  for (const auto& [a, b, c] : surface.triangles) text << "3 " << a << " " << b << " " << c << "\n";
-  test::write_file(path, text.str());
+  test::write_off(path, geometry::sampled(body, {15e-3, 15e-3}).parts.front().surface);
 }
 
 record::CaseRecord pressed(const std::string& shape, const std::string& x,
