@@ -10,7 +10,7 @@ root=${2:-$(mktemp -d)/debian}
 step() { printf '%4d s  %s\n' "$SECONDS" "$*"; }
 die() { echo "walk.sh: $*" >&2; exit 1; }
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
-files() { find "$root" -xdev -not -path "$root/proc/*" -not -path "$root/var/*" -not -path "$root/tmp/*" -printf '%P\n' | sort; }
+files() { find "$root" -xdev -not -path "$root/proc/*" -not -path "$root/var/*" -not -path "$root/srv/*" -printf '%P\n' | sort; }
 
 trap 'umount "$root/proc" 2>/dev/null || true' EXIT
 if [[ ! -d $root/usr ]]; then
@@ -29,20 +29,20 @@ step "apt-get install man-db bash-completion"
 inside apt-get -q update >/dev/null
 inside apt-get -q -y install --no-install-recommends man-db bash-completion >/dev/null 2>&1
 before=$(files)
-inside dpkg --get-selections | sort >"$root/tmp/packages"
+inside dpkg --get-selections | sort >"$root/srv/packages"
 
 step "apt-get install ./$(basename "$deb")"
-cp "$deb" "$root/tmp/"
-inside apt-get -q -y install --no-install-recommends "/tmp/$(basename "$deb")" >"$root/tmp/install.log" 2>&1 ||
-  { cat "$root/tmp/install.log"; die "it cannot be installed"; }
+cp "$deb" "$root/srv/"
+inside apt-get -q -y install --no-install-recommends "/srv/$(basename "$deb")" >"$root/srv/install.log" 2>&1 ||
+  { cat "$root/srv/install.log"; die "it cannot be installed"; }
 
 step "README.md's quick start"
-mkdir -p "$root/tmp/home/scenarios"
-cp "$top"/scenarios/quickstart.toml "$root/tmp/home/scenarios/"
+mkdir -p "$root/srv/home/scenarios"
+cp "$top"/scenarios/quickstart.toml "$root/srv/home/scenarios/"
 commands=$(sed -n '/^## Quick start/,/^The complete scenario/p' "$top/README.md" | grep '^palpate ')
-inside bash -ec "cd /tmp/home; $commands" >/dev/null
-[[ -s $root/tmp/home/out/quickstart/force_indentation.csv ]] || die "the quickstart wrote no curve"
-inside bash -ec 'cd /tmp/home; palpate run quickstart --out by_name --quiet
+inside bash -ec "cd /srv/home; $commands" >/dev/null
+[[ -s $root/srv/home/out/quickstart/force_indentation.csv ]] || die "the quickstart wrote no curve"
+inside bash -ec 'cd /srv/home; palpate run quickstart --out by_name --quiet
   cmp by_name/quickstart/force_indentation.csv out/quickstart/force_indentation.csv
   palpate new press; palpate run press.toml --quiet; palpate --version; palpate -V; palpate help run | grep -q dry-run'
 
@@ -59,5 +59,5 @@ inside apt-get -q -y purge palpate >/dev/null 2>&1
 inside apt-get -q -y autoremove --purge >/dev/null 2>&1
 left=$(comm -13 <(printf '%s\n' "$before") <(files) | grep -v -e '^etc/ld.so.cache' -e __pycache__ || true)
 [[ -z $left ]] || die "it leaves behind: $left"
-inside dpkg --get-selections | sort | diff "$root/tmp/packages" - || die "it leaves packages behind"
+inside dpkg --get-selections | sort | diff "$root/srv/packages" - || die "it leaves packages behind"
 step "nothing is left"
