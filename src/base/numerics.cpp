@@ -51,8 +51,12 @@ double root(double start, Interval within, Function<Tangent> of) {
 Interval change(Interval within, double width, Function<bool> of) {
   const auto close = [&](double low, double high) { return high - low <= width * std::abs(high); };
   std::uintmax_t steps = 10 * most_steps;
-  const auto [low, high] = tools::bisect([&](double x) { return of(x) ? 1.0 : -1.0; }, within.low,
-                                         within.high, close, steps);
+  const auto [low, high] = tools::bisect(
+      [&](double x) {
+        const bool yes = x == within.low || (x != within.high && of(x));
+        return yes ? 1.0 : -1.0;
+      },
+      within.low, within.high, close, steps);
   return {low, high};
 }
 
@@ -60,8 +64,12 @@ double minimum(Interval within, Function<double> of) {
   const double length = within.high - within.low;
   const auto place = [&](double part) { return within.low + part * length; };
   std::uintmax_t steps = most_steps;
-  return place(tools::brent_find_minima([&](double part) { return of(place(part)); }, 0.0, 1.0,
-                                        all_digits / 2, steps)
+  return place(tools::brent_find_minima(
+                   [&](double part) {
+                     const double value = of(place(part));
+                     return std::isfinite(value) ? value : 1e100;
+                   },
+                   0.0, 1.0, all_digits / 2, steps)
                    .first);
 }
 

@@ -45,10 +45,12 @@ struct Tangent {
 [[nodiscard]] double root(double start, Interval within, Function<Tangent> of);
 
 // The part of `within`, of at most `width` of its upper end, in which the answer changes; 0 for
-// neighbouring numbers. The answers at the ends differ.
+// neighbouring numbers. The function is true at the lower end and false at the upper one, and is
+// not asked there.
 [[nodiscard]] Interval change(Interval within, double width, Function<bool> of);
 
-// The place of the smallest value, to 1e-8 of the interval (Brent 1973).
+// The place of the smallest value, to 1e-8 of the interval (Brent 1973). Where the function has no
+// finite value, it counts as 1e100.
 [[nodiscard]] double minimum(Interval within, Function<double> of);
 
 // Gauss and Legendre's rule on [-1, 1], in ascending order; computed once for every number of
