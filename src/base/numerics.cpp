@@ -49,6 +49,7 @@ double root(double start, Interval within, Function<Tangent> of) {
 }
 
 Interval change(Interval within, double width, Function<bool> of) {
+  if (!(within.low < within.high)) return within;
   const auto close = [&](double low, double high) { return high - low <= width * std::abs(high); };
   std::uintmax_t steps = 10 * most_steps;
   const auto [low, high] = tools::bisect(
