@@ -1,10 +1,12 @@
-// The observed order by bisection, then the extrapolation (docs/theory.md (78)).
+// The observed order, then the extrapolation (docs/theory.md (78)).
 #include "chart/extrapolation.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "base/numerics.h"
 
 namespace palpate::chart {
 namespace {
@@ -17,15 +19,11 @@ double ratio_of_changes(std::span<const double> h, double p) {
   return (std::pow(h[0] / h[1], p) - 1.0) / (1.0 - std::pow(h[2] / h[1], p));
 }
 
-// The p with this ratio of changes, not below `least_order`, by bisection.
+// The p with this ratio of changes, not below `least_order`.
 double observed_order(std::span<const double> h, double ratio) {
-  double low = least_order;
-  double high = most_order;
-  for (int i = 0; i < 60; ++i) {
-    const double p = 0.5 * (low + high);
-    (ratio_of_changes(h, p) < ratio ? low : high) = p;
-  }
-  return 0.5 * (low + high);
+  return numerics::root({least_order, most_order},
+                        [&](double p) { return ratio_of_changes(h, p) - ratio; })
+      .middle();
 }
 
 }  // namespace

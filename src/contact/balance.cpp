@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numerics.h"
+
 namespace palpate::contact {
 
 double PointLaw::force(double depth) const {
@@ -47,23 +49,12 @@ std::optional<double> softened(const PointLaw& law, double approach, double comp
 std::optional<double> penetration(const PointLaw& law, double approach, double compliance) {
   if (approach <= 0.0) return 0.0;
   if (compliance < 0.0) return softened(law, approach, compliance);
-  const auto excess = [&](double h) { return h + compliance * law.force(h) - approach; };
-  double low = 0.0;
-  double high = std::min(approach, law.last_depth());
-  if (excess(high) < 0.0) return std::nullopt;
-  // Newton's method within a bracket; the function increases monotonically.
-  double h = std::min(approach, high);
-  for (int i = 0; i < 100; ++i) {
-    const double value = excess(h);
-    if (value == 0.0) return h;
-    (value > 0.0 ? high : low) = h;
-    const double slope = 1.0 + compliance * law.stiffness(h);
-    double next = h - value / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - h) <= 1e-15 * h) return next;
-    h = next;
-  }
-  return h;
+  const double most = std::min(approach, law.last_depth());
+  if (most + compliance * law.force(most) < approach) return std::nullopt;
+  return numerics::root(most, {0.0, most}, [&](double h) {
+    return numerics::Tangent{h + compliance * law.force(h) - approach,
+                             1.0 + compliance * law.stiffness(h)};
+  });
 }
 
 bool balance(std::span<const PointLaw> laws, std::span<const double> approaches,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/numerics.h"
 #include "contact/hertz.h"
 
 namespace palpate::contact {
@@ -46,23 +47,16 @@ Integrals integrals(double q) {
 //   q^2 r (1/2 + t) = 1/2 - t                                            docs/theory.md (23)
 double axis_ratio(double r) {
   // d(ln r)/d(ln q) goes from -3/2 at the circle to -2, so q is between r^(-2/3) and r^(-1/2), and
-  // a fortiori above 1/r. Newton's method from above, with bisection if it leaves the bracket.
-  double high = 1.0 / std::sqrt(r);
-  double low = high * high;
-  double q = high;
-  for (int i = 0; i < 60; ++i) {
+  // a fortiori above 1/(2 r).
+  const double most = 1.0 / std::sqrt(r);
+  return numerics::root(most, {0.5 * most * most, most}, [&](double q) {
     const auto [mean, t, slope] = integrals(q);
     const double u = 0.5 - t;
-    const double excess = q * q * r * (1.0 - u) - u;
-    (excess > 0.0 ? high : low) = q;
     // q du/dq = u^2 - 2 q^2 t / m
     const double du = u * u - 2.0 * q * q * slope;
-    const double change = q * excess / (2.0 * q * q * r * (1.0 - u) - q * q * r * du - du);
-    const double next = q - change;
-    if (std::abs(change) <= 4e-16 * q) break;
-    q = next > low && next < high ? next : 0.5 * (low + high);
-  }
-  return q;
+    return numerics::Tangent{q * q * r * (1.0 - u) - u,
+                             (2.0 * q * q * r * (1.0 - u) - q * q * r * du - du) / q};
+  });
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numerics.h"
+
 namespace palpate::contact::friction {
 namespace {
 
@@ -16,16 +18,6 @@ Eigen::Matrix3d bounded(const Eigen::Matrix3d& beyond, double least) {
   const double mean = 0.5 * beyond.trace();
   const double smaller = mean - std::sqrt(std::max(0.0, 0.5 * beyond.squaredNorm() - mean * mean));
   return smaller < least ? Eigen::Matrix3d(least / smaller * beyond) : beyond;
-}
-
-// The root of a function that falls from `low` to `high`, by bisection.
-template <class Function>
-double root(double low, double high, const Function& function) {
-  for (int i = 0; i < 54; ++i) {  // the bits of a double
-    const double middle = 0.5 * (low + high);
-    (function(middle) > 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
 }
 
 }  // namespace
@@ -64,16 +56,18 @@ Vec3 drag(Vec3& stretch, double limit, double contact_radius, double shear_compl
     };
     const auto sticking = [&](double k) { return most / limit * (1.0 + k) / (1.0 + k + k * k); };
     if (force(sticking(0.0)).norm() < limit) {
-      const double core = root(0.0, 1.0, [&](double k) {
+      const auto excess = [&](double k) {
         return limit * (1.0 - k * k * k) - force(sticking(k)).norm();
-      });
+      };
+      const double core = numerics::root({0.0, 1.0}, excess).middle();
       return force(sticking(core));
     }
+    const auto excess = [&](double of_half_space) { return force(of_half_space).norm() - limit; };
+    const double least = sticking(0.0);
     const double slipping =
-        root(sticking(0.0), sticking(0.0) + length / limit + body.norm(),
-             [&](double of_half_space) { return force(of_half_space).norm() - limit; });
+        numerics::root({least, least + length / limit + body.norm()}, excess).middle();
     Vec3 slip = limit * force(slipping).normalized();
-    stretch -= (slipping - sticking(0.0)) * slip;
+    stretch -= (slipping - least) * slip;
     return slip;
   }
   const Vec3 direction = stretch / length;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/numerics.h"
 #include "contact/hertz.h"
 
 namespace palpate::contact {
@@ -84,20 +85,16 @@ LayerLaw::LayerLaw(const LayerTable& table, double share) : scale_{table.top_, t
   pressures.fill(Series(table.terms_));
   for (std::size_t i = 0; i < table.terms_; ++i) {
     const double chi = scale_.value(chebyshev_node(i, table.terms_));
-    // chi = a/H sqrt(D) by Newton's method, as in LayerEquation::force_factor().
-    double ratio = chi;
-    double deep = 1.0;  // D
-    for (int pass = 0; pass < 50; ++pass) {
-      const ChebyshevSum sum = chebyshev_sum(depth, of_ratio.place(ratio));
-      deep = 1.0 + ratio * sum.value;
-      const double root = std::sqrt(deep);
-      const double slope =
-          root + 0.5 * ratio / root * (sum.value + ratio * sum.slope * of_ratio.slope(ratio));
-      const double change = (chi - ratio * root) / slope;
-      if (std::abs(change) <= 1e-14 * chi) break;
-      ratio = std::clamp(ratio + change, 0.0, of_ratio.last);
-    }
+    // chi = a/H sqrt(D), as in LayerEquation::force_factor().
+    const double ratio = numerics::root(chi, {0.0, of_ratio.last}, [&](double trial) {
+      const ChebyshevSum sum = chebyshev_sum(depth, of_ratio.place(trial));
+      const double root = std::sqrt(1.0 + trial * sum.value);
+      return numerics::Tangent{
+          trial * root - chi,
+          root + 0.5 * trial / root * (sum.value + trial * sum.slope * of_ratio.slope(trial))};
+    });
     const double at = of_ratio.place(ratio);
+    const double deep = 1.0 + ratio * chebyshev_value(depth, at);  // D
     const double load = 1.0 + ratio * chebyshev_value(force, at);
     force_factor[i] = (load / (deep * std::sqrt(deep)) - 1.0) / chi;
     radius_factor[i] = (1.0 / std::sqrt(deep) - 1.0) / chi;
@@ -147,22 +144,14 @@ std::optional<double> LayerLaw::chi(double load) const {
     return std::nullopt;
   // If f >= 1, chi is at most load^(1/3), hence below the larger of load^(1/4) and load^(1/2), and
   // Newton's method converges from above on the convex chi^3 f(chi) - load. Over softer layers chi
-  // may be larger and the function not convex; then bisection replaces steps out of the bracket.
+  // may be larger and the function not convex.
   const double root = std::sqrt(load);
   const double above = std::max(root, std::sqrt(root));
-  double low = 0.0;
-  double high = last_chi();
-  double chi = std::min(last_chi(), above);
-  for (int pass = 0; pass < 60; ++pass) {
+  return numerics::root(std::min(last_chi(), above), {0.0, last_chi()}, [&](double chi) {
     const Factor f = factor(chi);
-    const double excess = chi * chi * chi * f.value - load;
-    (excess < 0.0 ? low : high) = chi;
-    const double change = excess / (chi * chi * (3.0 * f.value + chi * f.slope));
-    chi -= change;
-    if (std::abs(change) <= 1e-15 * chi) break;
-    if (!(chi > low && chi < high)) chi = 0.5 * (low + high);
-  }
-  return chi;
+    return numerics::Tangent{chi * chi * chi * f.value - load,
+                             chi * chi * (3.0 * f.value + chi * f.slope)};
+  });
 }
 
 double LayerContact::last_depth() const {

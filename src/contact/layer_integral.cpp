@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "base/index.h"
+#include "base/numerics.h"
 #include "contact/layer_stack.h"
 
 namespace palpate::contact {
@@ -40,46 +41,12 @@ double missing_sinking(double u, const Layer& layer) {
   return q * (2.0 * k * q + c + 4.0 * u) / (k * (1.0 + q * q) + c * q);
 }
 
-struct GaussPoint {
-  double x = 0.0;        // on [-1, 1]
-  double inverse = 0.0;  // 2 over the weight there
-};
-
-// Gauss-Legendre points by Newton's method on the Legendre polynomial; the start values are cosines
-// close to its roots.                               Abramowitz & Stegun 1964, 25.4.30, 22.16.6
-std::vector<GaussPoint> gauss_points(std::size_t count) {
-  const auto n = static_cast<double>(count);
-  std::vector<GaussPoint> points;
-  for (std::size_t i = 0; i < count; ++i) {
-    double x = -std::cos(pi * (static_cast<double>(i) + 0.75) / (n + 0.5));
-    double slope = 1.0;
-    double change = 1.0;
-    for (int pass = 0; pass < 8 && std::abs(change) > 1e-15; ++pass) {
-      double p = 1.0, before = 0.0;  // P_k(x), P_(k-1)(x)
-      for (double k = 1.0; k <= n; ++k) {
-        const double next = ((2.0 * k - 1.0) * x * p - (k - 1.0) * before) / k;
-        before = p;
-        p = next;
-      }
-      slope = n * (x * p - before) / (x * x - 1.0);
-      change = p / slope;
-      x -= change;
-    }
-    points.push_back({x, (1.0 - x * x) * slope * slope});
-  }
-  return points;
-}
-
-// The rule on [0, end]. Every number of points is computed once in a process.
+// The rule on [0, end].
 void gauss_legendre(std::span<double> nodes, std::span<double> weights, double end) {
-  static std::mutex looking_up;
-  static std::map<std::size_t, std::vector<GaussPoint>> known;
-  const std::lock_guard lock(looking_up);
-  std::vector<GaussPoint>& points = known[nodes.size()];
-  if (points.empty()) points = gauss_points(nodes.size());
+  const numerics::GaussRule& rule = numerics::gauss_rule(static_cast<int>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    nodes[i] = 0.5 * end * (1.0 + points[i].x);
-    weights[i] = end / points[i].inverse;
+    nodes[i] = 0.5 * end * (1.0 + rule.nodes[i]);
+    weights[i] = 0.5 * end * rule.weights[i];
   }
 }
 

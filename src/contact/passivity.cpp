@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numerics.h"
+
 namespace palpate::contact {
 
 double needed_damping(double stiffness, const SampledDevice& device) {
@@ -25,12 +27,8 @@ double passive_depth(const PointLaw& law, const SampledDevice& device) {
     high *= 2.0;
     if (high > 1e3 || high > law.last_depth()) return std::numeric_limits<double>::infinity();
   }
-  // Bisection to the last digit.
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (law.stiffness(middle) < most ? low : high) = middle;
-  }
-  return high;
+  return numerics::root({low, high}, [&](double depth) { return law.stiffness(depth) - most; })
+      .high;
 }
 
 }  // namespace palpate::contact

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "base/numerics.h"
+
 namespace palpate::contact {
 namespace {
 
@@ -25,17 +27,15 @@ struct Quadrature {
 };
 
 // With s = sqrt(1 - r^2/a^2) the force p r dr becomes s^2 ds on [0, 1]: Gauss-Legendre points in s
-// and equal angles. 6-point abscissae: Abramowitz & Stegun 1964, table 25.4. docs/theory.md (9)
+// and equal angles.                                                          docs/theory.md (9)
 Quadrature make_quadrature() {
-  constexpr std::array abscissae{0.932469514203152028, 0.661209386466264514, 0.238619186083196909};
-  constexpr std::array weights{0.171324492379170345, 0.360761573048138608, 0.467913934572691047};
+  const numerics::GaussRule& rule = numerics::gauss_rule(static_cast<int>(ring_count));
   Quadrature found{};
   for (std::size_t ring = 0; ring < found.rings.size(); ++ring) {
-    const bool inner = ring < abscissae.size();
-    const std::size_t i = inner ? ring : found.rings.size() - 1 - ring;
-    const double s = 0.5 + (inner ? 0.5 : -0.5) * abscissae[i];
+    const std::size_t i = found.rings.size() - 1 - ring;
+    const double s = 0.5 + 0.5 * rule.nodes[i];
     found.rings[ring] = {std::sqrt(1.0 - s * s),
-                         3.0 * s * s * 0.5 * weights[i] / (2 * spoke_count)};
+                         3.0 * s * s * 0.5 * rule.weights[i] / (2 * spoke_count)};
   }
   for (std::size_t spoke = 0; spoke < found.spokes.size(); ++spoke) {
     const double angle = std::numbers::pi * (static_cast<double>(spoke) + 0.5) / spoke_count;

@@ -4,41 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/numerics.h"
+
 namespace palpate::contact {
-namespace {
-
-// Positive nodes of the Gauss-Legendre rule with 2 n points on [-1, 1], and their weights, by
-// Newton's iteration on the Legendre polynomial.
-struct Rule {
-  std::vector<double> nodes, weights;
-};
-Rule gauss_legendre_half(int n) {
-  Rule rule;
-  const int order = 2 * n;
-  for (int i = 0; i < n; ++i) {
-    double x = std::cos(std::numbers::pi * (i + 0.75) / (order + 0.5));
-    double slope = 1.0;
-    for (int pass = 0; pass < 100; ++pass) {
-      double before = 1.0;
-      double value = x;
-      for (int k = 2; k <= order; ++k) {
-        const double next = ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k;
-        before = value;
-        value = next;
-      }
-      slope = order * (x * value - before) / (x * x - 1.0);
-      const double step = value / slope;
-      x -= step;
-      if (std::abs(step) < 1e-15) break;
-    }
-    rule.nodes.push_back(x);
-    rule.weights.push_back(2.0 / ((1.0 - x * x) * slope * slope));
-  }
-  return rule;
-}
-
-}  // namespace
-
 PatchField::PatchField(double a, double b, const HalfSpace& half_space, int finer,
                        const Vec3& along)
     : half_space_(half_space), along_(along), reach_(std::max(a, b)) {
@@ -48,11 +16,12 @@ PatchField::PatchField(double a, double b, const HalfSpace& half_space, int fine
     const int spokes = finer * rings_and_spokes[level][1];
     // With v^2 = 1 - s^2 the load inside the radius s is the integral of 3 v^2 dv: polynomials in
     // s^2 are integrated exactly by a Gauss-Legendre rule for even functions of v.
-    const Rule rule = gauss_legendre_half(rings);
+    const numerics::GaussRule& rule = numerics::gauss_rule(2 * rings);
     for (int ring = 0; ring < rings; ++ring) {
-      const double v = rule.nodes[as_index(ring)];
+      const auto outermost = as_index(2 * rings - 1 - ring);  // of those that are left, v > 0
+      const double v = rule.nodes[outermost];
       const double s = std::sqrt(1.0 - v * v);
-      const double share = 3.0 * v * v * rule.weights[as_index(ring)] / spokes;
+      const double share = 3.0 * v * v * rule.weights[outermost] / spokes;
       for (int spoke = 0; spoke < spokes; ++spoke) {
         const double angle = 2.0 * std::numbers::pi * (spoke + 0.5 * (ring % 2)) / spokes;
         loads_[level].push_back({a * s * std::cos(angle), b * s * std::sin(angle), share});

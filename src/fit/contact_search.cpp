@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/index.h"
+#include "base/numerics.h"
 
 namespace palpate::fit {
 namespace {
@@ -116,17 +117,7 @@ std::optional<ContactGuess> search_contact(const UnitLaw& law, const PressRows& 
   };
   for (int i = 0; i < steps; ++i) (void)keep(first + i * step);
   if (!best) return std::nullopt;
-  double low = best->contact - step;
-  double high = std::min(best->contact + step, rows.high);
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  for (int i = 0; i < 40; ++i) {
-    const double left = high - golden * (high - low);
-    const double right = low + golden * (high - low);
-    if (keep(left) < keep(right))
-      high = right;
-    else
-      low = left;
-  }
+  (void)numerics::minimum({best->contact - step, std::min(best->contact + step, rows.high)}, keep);
   best->before = as_index(std::count_if(rows.depth.begin(), rows.depth.end(),
                                         [&](double h) { return h <= best->contact; }));
   const double share =

@@ -39,7 +39,7 @@ struct ContactGuess {
 };
 
 // The least-squares fit over all contact points: for each of 400 the rest is linear and solved for,
-// and the best is refined by golden sections. Without a baseline the contact may lie up to one
+// and the best is refined by Brent's method. Without a baseline the contact may lie up to one
 // range before the first row, otherwise it lies within the rows. More than 4000 rows are averaged
 // to 2000 for the search. Nothing if no contact point serves. This is the search by goodness of fit
 // of Lin, Dimitriadis and Horkay 2007, J. Biomech. Eng. 129, with the baseline as a part of the

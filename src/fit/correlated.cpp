@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/index.h"
+#include "base/numerics.h"
 
 namespace palpate::fit {
 namespace {
@@ -55,7 +56,7 @@ Likelihood likelihood(const Products& products, double rho, double degrees) {
           squares / degrees};
 }
 
-// The rho in [0, largest_rho] of the smallest value: the best of a grid, then golden sections.
+// The rho in [0, largest_rho] of the smallest value: the best of a grid, then Brent's method.
 double best_rho(const Products& products, double degrees) {
   const auto at = [&](double rho) { return likelihood(products, rho, degrees).minus_two_log; };
   constexpr int steps = 100;
@@ -69,18 +70,7 @@ double best_rho(const Products& products, double degrees) {
       least = value;
       best = i;
     }
-  double low = place(std::max(best - 1, 0));
-  double high = place(std::min(best + 1, steps));
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  for (int i = 0; i < 40; ++i) {
-    const double left = high - golden * (high - low);
-    const double right = low + golden * (high - low);
-    if (at(left) < at(right))
-      high = right;
-    else
-      low = left;
-  }
-  return 0.5 * (low + high);
+  return numerics::minimum({place(std::max(best - 1, 0)), place(std::min(best + 1, steps))}, at);
 }
 
 // S = J^T C J with C_ij = rho^|i-j|, by a sum forwards and a sum backwards.

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/numerics.h"
 #include "fit/ceres_fit.h"
 #include "fit/correlated.h"
 #include "fit/initial.h"
 #include "fit/residual_tests.h"
 #include "fit/settle.h"
-#include "fit/student.h"
 
 namespace palpate::fit {
 namespace {
@@ -86,7 +86,7 @@ void set_errors(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
     }
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) fit.covariance[i * count + j] *= scale[i] * scale[j];
-  const double t = student_t_quantile(0.975, degrees);
+  const double t = numerics::student_t_quantile(0.975, degrees);
   for (std::size_t i = 0; i < count; ++i) {
     Estimate& parameter = fit.parameters[i];
     parameter.std_error = std::sqrt(fit.covariance[i * count + i]);

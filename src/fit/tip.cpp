@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/index.h"
+#include "base/numerics.h"
 
 namespace palpate::fit {
 namespace {
@@ -14,14 +15,11 @@ namespace {
 // pass the root: t <= sqrt(d) because artanh(t) >= t, and t <= tanh(d / tanh(d)) because
 // artanh(t) >= d.
 double relative_radius(double d) {
-  double t = d < 0.5 ? std::sqrt(d) : std::tanh(d / std::tanh(d));
-  for (int i = 0; i < 50; ++i) {
-    const double inverse = std::atanh(t);
-    const double step = (t * inverse - d) / (inverse + t / (1.0 - t * t));
-    t -= step;
-    if (std::abs(step) <= 1e-8 * t) break;  // the error is now of the order of its square
-  }
-  return t;
+  return numerics::root(d < 0.5 ? std::sqrt(d) : std::tanh(d / std::tanh(d)), {0.0, 1.0},
+                        [&](double t) {
+                          const double inverse = std::atanh(t);
+                          return numerics::Tangent{t * inverse - d, inverse + t / (1.0 - t * t)};
+                        });
 }
 
 // (1 + t^2) artanh(t) - t. For small t the terms cancel, and the series

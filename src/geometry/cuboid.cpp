@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/numerics.h"
 
 namespace palpate::geometry {
 namespace {
@@ -46,17 +47,15 @@ void refuse_too_many(const Triple& cells) {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-// The q above 1 with q^count = target. It is computed by bisection and multiplications, because
-// pow() differs between processors and the nodes' positions affect every result.
+// The q above 1 with q^count = target. It is computed by multiplications, because pow() is not and
+// the nodes' positions affect every result.
 double root(int count, double target) {
-  double low = 1.0;
-  double high = target;
-  for (double q = 0.5 * (low + high); q > low && q < high; q = 0.5 * (low + high)) {
+  const auto excess = [&](double q) {
     double power = 1.0;
-    for (int i = 0; i < count; ++i) power *= q;
-    (power < target ? low : high) = q;
-  }
-  return high;
+    for (int i = 0; i < count && power < 2.0 * target; ++i) power *= q;
+    return power - target;
+  };
+  return numerics::root({1.0, target}, excess).high;
 }
 
 // The ends of `count` cells that cover a `length` (m) together, from the finest end on. Cells with

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numerics.h"
+
 namespace palpate::geometry {
 namespace {
 
@@ -103,18 +105,13 @@ std::optional<ShapeTouch> touch_sweep(const Sweep& sweep, double x, double y, do
   for (int i = 1; i <= pieces; ++i)
     if (sphere.height(place(i)) > sphere.height(place(best))) best = i;
   if (!std::isfinite(sphere.height(place(best)))) return std::nullopt;
-  double low = place(std::max(best - 1, 0));
-  double high = place(std::min(best + 1, pieces));
+  const double low = place(std::max(best - 1, 0));
+  const double high = place(std::min(best + 1, pieces));
   if ((low == 0.0 && !(sphere.slope(low) > 0.0)) ||
       (high == sweep.length && !(sphere.slope(high) < 0.0)))
     return on_edge();
-  for (double middle = 0.5 * (low + high); middle > low && middle < high;
-       middle = 0.5 * (low + high)) {
-    const double slope = sphere.slope(middle);
-    if (slope == 0.0) low = high = middle;
-    (slope > 0.0 ? low : high) = middle;
-  }
-  return on_side(sphere, low);
+  const auto rises = [&](double at) { return sphere.slope(at) > 0.0; };
+  return on_side(sphere, numerics::change({low, high}, 0.0, rises).low);
 }
 
 // The centre is at p + t p / a^2 (per axis) for the point p; t grows with the radius.
@@ -133,12 +130,9 @@ std::optional<ShapeTouch> touch_ellipsoid(const Ellipsoid& ellipsoid, double x, 
     const Vec3 p = point(t);
     return p.z() < 0.0 || t * p.cwiseQuotient(squares).norm() < radius;
   };
-  double near = 0.0;
   double far = 2.0 * radius * half.maxCoeff();  // |p / a^2| is at least 1 / max(a)
   if (too_near(far)) return std::nullopt;
-  for (double middle = 0.5 * (near + far); middle > near && middle < far;
-       middle = 0.5 * (near + far))
-    (too_near(middle) ? near : far) = middle;
+  far = numerics::change({0.0, far}, 0.0, too_near).high;
   const Vec3 p = point(far);
   // Beside the ellipsoid the search ends where the point reaches the widest section.
   if (far * p.cwiseQuotient(squares).norm() > radius * (1.0 + 1e-9)) return std::nullopt;

@@ -1,23 +1,9 @@
-// Computes neighbourhoods by sorting and counting, so that their order depends on the surface only.
+// Measures surfaces, and walks over neighbourhoods; half_edges.cpp finds these.
 #include "geometry/surface.h"
 
 #include <algorithm>
 
 namespace palpate::geometry {
-namespace {
-
-// Stores lists in one array, for list_of().
-void pack(const std::vector<std::vector<int>>& lists, std::vector<int>& starts,
-          std::vector<int>& items) {
-  starts.push_back(0);
-  for (const std::vector<int>& list : lists) {
-    items.insert(items.end(), list.begin(), list.end());
-    starts.push_back(static_cast<int>(items.size()));
-  }
-}
-
-}  // namespace
-
 Skin skin(const TetMesh& mesh) {
   Skin skin;
   skin.surface.triangles = boundary_faces(mesh);
@@ -86,49 +72,6 @@ std::span<const int> list_of(const std::vector<int>& starts, const std::vector<i
   const auto first = as_index(starts[as_index(index)]);
   const auto last = as_index(starts[as_index(index) + 1]);
   return std::span(items).subspan(first, last - first);
-}
-
-Neighbours::Neighbours(const Surface& surface) : across_(surface.triangles.size(), {-1, -1, -1}) {
-  std::vector<std::vector<int>> triangles(surface.vertices.size());
-  std::vector<std::vector<int>> vertices(surface.vertices.size());
-  struct Side {
-    int low, high, triangle;
-    std::size_t edge;
-  };
-  std::vector<Side> sides;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int from = surface.triangles[t][i];
-      const int to = surface.triangles[t][(i + 1) % 3];
-      triangles[as_index(from)].push_back(static_cast<int>(t));
-      vertices[as_index(from)].push_back(to);
-      vertices[as_index(to)].push_back(from);
-      sides.push_back({std::min(from, to), std::max(from, to), static_cast<int>(t), i});
-    }
-  }
-  for (std::vector<int>& list : vertices) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-  pack(triangles, triangle_starts_, triangles_);
-  pack(vertices, vertex_starts_, vertices_);
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
-  });
-  on_boundary_.assign(surface.vertices.size(), 0);
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Side& side = sides[i];
-    const bool shared =
-        i + 1 < sides.size() && sides[i + 1].low == side.low && sides[i + 1].high == side.high;
-    if (!shared) {
-      on_boundary_[as_index(side.low)] = 1;
-      on_boundary_[as_index(side.high)] = 1;
-      continue;
-    }
-    const Side& other = sides[++i];
-    across_[as_index(side.triangle)][side.edge] = other.triangle;
-    across_[as_index(other.triangle)][other.edge] = side.triangle;
-  }
 }
 
 std::span<const int> Neighbours::triangles_at(int vertex) const {

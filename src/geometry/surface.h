@@ -45,9 +45,11 @@ struct Enclosed {
 [[nodiscard]] std::span<const int> list_of(const std::vector<int>& starts,
                                            const std::vector<int>& items, int index);
 
-// Neighbourhoods of vertices and triangles. Every edge may have at most two triangles.
+// Neighbourhoods of vertices and triangles, from OpenMesh's half-edges.
 class Neighbours {
  public:
+  // Throws MeshError for the first triangle that is not part of an orientable manifold with those
+  // before it; see half_edges.h.
   explicit Neighbours(const Surface& surface);
 
   // The triangles at a vertex, ascending.

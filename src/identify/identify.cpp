@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/numerics.h"
 #include "base/text.h"
 #include "fit/residual_tests.h"
-#include "fit/student.h"
 #include "identify/box_errors.h"
 #include "identify/box_profile.h"
 #include "identify/fixed_rung.h"
@@ -143,7 +143,7 @@ class Search {
     const double degrees = static_cast<double>(found_.x.size() - n);
     sigma_ = std::max(std::sqrt(best_.squares / degrees), 1e-12);
     noise_ = sigma_;
-    t_ = fit::student_t_quantile(0.975, degrees);
+    t_ = numerics::student_t_quantile(0.975, degrees);
     widen_for_correlation();
     errors_ = box_errors(best_.jacobian, n, sigma_, t_);
     std::vector<char> moving(n, 1);
@@ -180,7 +180,7 @@ class Search {
     found_.rho = widened->rho;
     found_.effective_size = widened->effective_size;
     sigma_ *= std::sqrt(widened->factor);
-    t_ = fit::student_t_quantile(0.975, widened->degrees);
+    t_ = numerics::student_t_quantile(0.975, widened->degrees);
   }
 
   // Errors of the `moving` unknowns alone; the others get no variance.

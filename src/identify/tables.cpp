@@ -5,8 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/numerics.h"
 #include "base/text.h"
-#include "fit/student.h"
 
 namespace palpate::identify {
 namespace {
@@ -132,8 +132,8 @@ record::Table residual_table(const Identification& found) {
 record::Table profile_table(const Identification& found) {
   record::Table table;
   table.columns = {"unknown", "unit", "value", "delta", "threshold"};
-  const double t =
-      fit::student_t_quantile(0.975, static_cast<double>(found.x.size() - found.unknowns.size()));
+  const double t = numerics::student_t_quantile(
+      0.975, static_cast<double>(found.x.size() - found.unknowns.size()));
   for (const ProfilePoint& point : found.profile) {
     const Unknown& unknown = found.unknowns[point.unknown].unknown;
     const std::string unit = unknown.unit_text();

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "geometry/half_edges.h"
 
 namespace palpate::meshing {
 namespace {
@@ -89,21 +90,18 @@ class Checker {
     }
   }
 
-  void closed_boundary() const {
-    std::vector<std::array<int, 2>> rims;
-    for (const auto& face : geometry::boundary_faces(mesh_))
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto [low, high] = std::minmax(face[i], face[(i + 1) % 3]);
-        rims.push_back({low, high});
-      }
-    std::sort(rims.begin(), rims.end());
-    for (std::size_t first = 0, last = 0; first < rims.size(); first = last) {
-      while (last < rims.size() && rims[last] == rims[first]) ++last;
-      if (last - first != 2)
-        fail(
-            "edge " + listed(rims[first]) + " belongs to " + std::to_string(last - first) +
-            " boundary faces instead of 2; join the parts that only touch there, or separate them");
-    }
+  void boundary() const {
+    const geometry::Skin skin = geometry::skin(mesh_);
+    const auto refused = geometry::joints(skin.surface).refused;
+    if (!refused) return;
+    const auto node = [&](int vertex) { return skin.nodes[as_index(vertex)]; };
+    const std::string remedy = "; join the parts that only touch there, or separate them";
+    if (refused->to < 0)
+      fail("parts of its boundary touch in node " + std::to_string(node(refused->from)) + " only" +
+           remedy);
+    const auto [low, high] = std::minmax({node(refused->from), node(refused->to)});
+    fail("edge " + listed(std::array{low, high}) + " belongs to more than 2 boundary faces" +
+         remedy);
   }
 
   void total(double expected) const {
@@ -149,7 +147,7 @@ void check(const geometry::TetMesh& mesh, const std::string& name, double expect
   checker.shapes();
   checker.every_node_used();
   checker.faces();
-  checker.closed_boundary();
+  checker.boundary();
   if (expected_volume > 0.0) checker.total(expected_volume);
 }
 

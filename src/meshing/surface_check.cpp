@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "geometry/half_edges.h"
 #include "meshing/cgal_library.h"
 
 namespace palpate::meshing {
@@ -19,37 +19,6 @@ constexpr double smallest = 1e-6;  // m: smaller than any cell
 constexpr double largest = 10.0;   // m: larger than any tissue
 // In single precision a normal is meaningless below about 1e-7 of the longest edge.
 constexpr double needle = 1e-6;
-
-// An edge of one face.
-struct Side {
-  int low, high, face;
-  bool upwards;  // the face runs from low to high
-
-  [[nodiscard]] bool same_edge(const Side& other) const {
-    return low == other.low && high == other.high;
-  }
-};
-
-// Disjoint sets (union-find); the lowest member identifies a set.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int of(int item) {
-    while (parent(item) != item) item = parent(item) = parent(parent(item));
-    return item;
-  }
-  void join(int a, int b) {
-    const int root_a = of(a);
-    const int root_b = of(b);
-    parent(std::max(root_a, root_b)) = std::min(root_a, root_b);
-  }
-
- private:
-  int& parent(int item) { return parent_[as_index(item)]; }
-  std::vector<int> parent_;
-};
 
 class SurfaceChecker {
  public:
@@ -120,115 +89,66 @@ class SurfaceChecker {
            " belongs to no face; remove it and renumber the vertices");
   }
 
-  // Also fills sides_, which the following checks use.
-  void edges() {
-    for (int f = 0; f < faces(); ++f)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const int from = corners(f)[i];
-        const int to = corners(f)[(i + 1) % 3];
-        sides_.push_back({std::min(from, to), std::max(from, to), f, from < to});
-      }
-    std::stable_sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-      return std::pair(a.low, a.high) < std::pair(b.low, b.high);
-    });
-    for (std::size_t first = 0, last = 0; first < sides_.size(); first = last) {
-      std::string users;
-      for (; last < sides_.size() && sides_[last].same_edge(sides_[first]); ++last)
-        users += (users.empty() ? "" : ", ") + std::to_string(sides_[last].face);
-      if (last - first > 2)
-        fail(edge(sides_[first]) + " has " + std::to_string(last - first) + " faces (" + users +
-             ")" + place(sides_[first].low) + "; keep two of them, or separate the surfaces there");
-    }
-    for (std::size_t i = 1; i < sides_.size(); ++i)
-      if (sides_[i].same_edge(sides_[i - 1]) && sides_[i].upwards == sides_[i - 1].upwards)
-        fail("faces " + std::to_string(sides_[i - 1].face) + " and " +
-             std::to_string(sides_[i].face) + " face opposite sides across " + edge(sides_[i]) +
-             place(sides_[i].low) + "; turn one of them round, so that all normals point outwards");
+  // Also fills joints_, which the following checks use.
+  void joints() {
+    joints_ = geometry::joints(surface_);
+    if (!joints_.refused) return;
+    const auto& [f, from, to, others] = *joints_.refused;
+    const std::string first = std::to_string(others.front());
+    if (to < 0)
+      fail(face(f) + " touches face " + first + " in vertex " + std::to_string(from) +
+           " only; give each side a vertex of its own and move them apart, or join them");
+    if (others.size() > 1)
+      fail(face(f) + " is a third face at edge " + edge(from, to) + ", after faces " + first +
+           " and " + std::to_string(others.back()) +
+           "; keep two of them, or separate the surfaces there");
+    fail(face(f) + " faces the side opposite to that of face " + first + " across edge " +
+         edge(from, to) + "; turn one of them round, so that all normals point outwards");
   }
 
   void holes() const {
-    Groups rims(surface_.vertices.size());
-    std::vector<Side> open;
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-      const bool shared = (i > 0 && sides_[i].same_edge(sides_[i - 1])) ||
-                          (i + 1 < sides_.size() && sides_[i].same_edge(sides_[i + 1]));
-      if (shared) continue;
-      open.push_back(sides_[i]);
-      rims.join(sides_[i].low, sides_[i].high);
-    }
-    if (open.empty()) return;
-    std::vector<int> names;  // of the holes
-    for (const Side& side : open) names.push_back(rims.of(side.low));
-    std::sort(names.begin(), names.end());
-    const auto holes = std::unique(names.begin(), names.end()) - names.begin();
-    fail("is open: " + counted(open.size(), "edge") + " in " + counted(as_index(holes), "hole") +
-         " belong to one face only, first " + edge(open.front()) + " of face " +
-         std::to_string(open.front().face) + place(open.front().low) +
-         "; merge vertices in one place and fill the holes");
+    std::size_t count = 0;
+    const geometry::Joints::OpenEdge* first = nullptr;
+    const auto key = [](const auto& open) { return std::minmax({open.from, open.to}); };
+    for (const auto& hole : joints_.holes)
+      for (const auto& open : hole) {
+        ++count;
+        if (first == nullptr || key(open) < key(*first)) first = &open;
+      }
+    if (count > 0)
+      fail("is open: " + counted(count, "edge") + " in " + counted(joints_.holes.size(), "hole") +
+           " belong to one face only, first edge " + edge(first->from, first->to) + " of face " +
+           std::to_string(first->triangle) + place(std::min(first->from, first->to)) +
+           "; merge vertices in one place and fill the holes");
   }
 
   void parts() const {
-    Groups groups(surface_.vertices.size());
-    for (const auto& [a, b, c] : surface_.triangles) {
-      groups.join(a, b);
-      groups.join(b, c);
-    }
-    std::vector<int> roots;  // of the parts, in the order of their first faces
-    std::vector<char> seen(surface_.vertices.size(), 0);
-    int first_of_second = 0;
-    for (int f = 0; f < faces(); ++f) {
-      const int root = groups.of(corners(f)[0]);
-      if (std::exchange(seen[as_index(root)], 1) != 0) continue;
-      roots.push_back(root);
-      if (roots.size() == 2) first_of_second = f;
-    }
-    if (roots.size() < 2) return;
-    const auto box = [&](int root) {
-      std::pair<Vec3, Vec3> found{at(root), at(root)};
-      for (std::size_t v = 0; v < surface_.vertices.size(); ++v) {
-        if (groups.of(static_cast<int>(v)) != root) continue;
-        found.first = found.first.cwiseMin(surface_.vertices[v]);
-        found.second = found.second.cwiseMax(surface_.vertices[v]);
+    const std::vector<int>& first = joints_.first_triangles;
+    if (first.size() < 2) return;
+    const auto box = [&](int part) {
+      const Vec3& start = at(corners(first[as_index(part)])[0]);
+      std::pair<Vec3, Vec3> found{start, start};
+      for (int f = 0; f < faces(); ++f) {
+        if (joints_.part[as_index(f)] != part) continue;
+        for (const int v : corners(f)) {
+          found.first = found.first.cwiseMin(at(v));
+          found.second = found.second.cwiseMax(at(v));
+        }
       }
       return found;
     };
-    const auto [low_a, high_a] = box(roots[0]);
-    const auto [low_b, high_b] = box(roots[1]);
+    const auto [low_a, high_a] = box(0);
+    const auto [low_b, high_b] = box(1);
     const auto within = [](const Vec3& low, const Vec3& high, const Vec3& l, const Vec3& h) {
       return (low.array() > l.array()).all() && (high.array() < h.array()).all();
     };
     const char* how = within(low_b, high_b, low_a, high_a)   ? "the second inside the first"
                       : within(low_a, high_a, low_b, high_b) ? "the first inside the second"
                                                              : "beside each other";
-    fail("has " + std::to_string(roots.size()) + " parts, the first with face 0" +
-         place(corners(0)[0]) + ", the second with face " + std::to_string(first_of_second) +
-         place(corners(first_of_second)[0]) + ", " + how +
+    fail("has " + std::to_string(first.size()) + " parts, the first with face 0" +
+         place(corners(0)[0]) + ", the second with face " + std::to_string(first[1]) +
+         place(corners(first[1])[0]) + ", " + how +
          "; keep one of them, or join them into one surface");
-  }
-
-  // The faces around a vertex must form a single fan, closed or ending at a hole.
-  void fans() const {
-    std::vector<std::vector<int>> around(surface_.vertices.size());
-    for (int f = 0; f < faces(); ++f)
-      for (const int v : corners(f)) around[as_index(v)].push_back(f);
-    for (std::size_t v = 0; v < around.size(); ++v) {
-      // Faces of a fan share their other vertices: sort by these and join.
-      const std::vector<int>& fan = around[v];
-      std::vector<std::pair<int, int>> spokes;  // the other vertex, the face's index in `fan`
-      for (std::size_t i = 0; i < fan.size(); ++i)
-        for (const int other : corners(fan[i]))
-          if (other != static_cast<int>(v)) spokes.emplace_back(other, static_cast<int>(i));
-      std::sort(spokes.begin(), spokes.end());
-      Groups groups(fan.size());
-      for (std::size_t i = 1; i < spokes.size(); ++i)
-        if (spokes[i].first == spokes[i - 1].first)
-          groups.join(spokes[i].second, spokes[i - 1].second);
-      for (std::size_t i = 1; i < fan.size(); ++i)
-        if (groups.of(static_cast<int>(i)) != 0)
-          fail("faces " + std::to_string(fan[0]) + " and " + std::to_string(fan[i]) +
-               " touch in vertex " + std::to_string(v) + " only" + place(static_cast<int>(v)) +
-               "; give each side a vertex of its own and move them apart, or join them");
-    }
   }
 
   void right_side_out() const {
@@ -268,8 +188,9 @@ class SurfaceChecker {
     return "face " + std::to_string(f) + " (" + std::to_string(a) + ", " + std::to_string(b) +
            ", " + std::to_string(c) + ")" + place(a);
   }
-  [[nodiscard]] static std::string edge(const Side& side) {
-    return "edge (" + std::to_string(side.low) + ", " + std::to_string(side.high) + ")";
+  [[nodiscard]] static std::string edge(int from, int to) {
+    return "(" + std::to_string(std::min(from, to)) + ", " + std::to_string(std::max(from, to)) +
+           ")";
   }
   [[nodiscard]] static std::string counted(std::size_t count, const std::string& what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -277,7 +198,7 @@ class SurfaceChecker {
 
   const geometry::Surface& surface_;
   const std::string& name_;
-  std::vector<Side> sides_;  // sorted by edge and then by face
+  geometry::Joints joints_;
 };
 
 }  // namespace
@@ -287,10 +208,9 @@ void check_closed(const geometry::Surface& surface, const std::string& name) {
   checker.indices();
   checker.positions();
   checker.shapes();
-  checker.edges();
+  checker.joints();
   checker.holes();
   checker.parts();
-  checker.fans();
   checker.right_side_out();
   checker.crossings();
 }

@@ -14,10 +14,10 @@ namespace palpate::meshing {
 // Refused, in this order: no faces; an index out of range; a coordinate that is not finite; a size
 // (longest side of the bounding box) below 1e-6 m or above 10 m, probably a wrong unit; a face with
 // a repeated vertex; two faces with the same vertices; a face whose height is below 1e-6 of its
-// longest edge; a vertex without a face; an edge of more than two faces; two neighbours with
-// opposite orientations; holes; more than one part, beside or inside each other; a vertex at which
-// parts of the surface touch only in a point; an inside-out surface; two faces that cut, touch or
-// overlap each other. About 1 s for 1e5 faces.
+// longest edge; a vertex without a face; the first face that is a third one at an edge, faces the
+// side opposite to a neighbour's, or touches others in a vertex only; holes; more than one part,
+// beside or inside each other; an inside-out surface; two faces that cut, touch or overlap each
+// other. About 1 s for 1e5 faces.
 void check_closed(const geometry::Surface& surface, const std::string& name);
 
 }  // namespace palpate::meshing

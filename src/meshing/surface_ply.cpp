@@ -1,12 +1,12 @@
-// Checks PLY files, ASCII or binary of either byte order: the header against the data.
+// Reads PLY files, ASCII or binary of either byte order.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <map>
+#include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,14 +20,47 @@
 namespace palpate::meshing {
 namespace {
 
+// A type of numbers, and how one is read from bytes.
+struct Type {
+  std::string_view name, other_name;
+  bool whole = false;
+  std::size_t bytes = 0;
+  double (*read)(const char* at, bool big_endian) = nullptr;
+};
+
+template <typename Number>
+double read(const char* at, bool big_endian) {
+  std::array<char, sizeof(Number)> raw{};
+  std::copy_n(at, raw.size(), raw.begin());
+  if (big_endian) std::reverse(raw.begin(), raw.end());
+  return static_cast<double>(std::bit_cast<Number>(raw));
+}
+
+template <typename Number>
+constexpr Type type(std::string_view name, std::string_view other_name) {
+  return {name, other_name, std::is_integral_v<Number>, sizeof(Number), read<Number>};
+}
+
+constexpr std::array types{
+    type<std::int8_t>("char", "int8"),    type<std::uint8_t>("uchar", "uint8"),
+    type<std::int16_t>("short", "int16"), type<std::uint16_t>("ushort", "uint16"),
+    type<std::int32_t>("int", "int32"),   type<std::uint32_t>("uint", "uint32"),
+    type<float>("float", "float32"),      type<double>("double", "float64")};
+
+const Type* type_of(std::string_view word) {
+  const auto* const found = std::find_if(types.begin(), types.end(), [&](const Type& one) {
+    return one.name == word || one.other_name == word;
+  });
+  return found == types.end() ? nullptr : found;
+}
+
 struct Property {
   std::string name;
-  std::size_t bytes = 0;        // of the value, or of each item of a list
-  std::size_t count_bytes = 0;  // of a list's length; 0 if it is not a list
-  bool whole = false;           // the value or the items are whole numbers
+  const Type* type = nullptr;    // of the value, or of each item of a list; null if unknown
+  const Type* length = nullptr;  // of a list's length; null if it is not a list
 
   [[nodiscard]] bool is_corners() const {
-    return count_bytes > 0 && (name == "vertex_indices" || name == "vertex_index");
+    return length != nullptr && (name == "vertex_indices" || name == "vertex_index");
   }
 };
 
@@ -43,26 +76,13 @@ struct Header {
   std::size_t bytes = 0;  // including `end_header` and its line feed
 };
 
-std::size_t bytes_of(const std::string& type) {
-  static const std::map<std::string, std::size_t> sizes{
-      {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
-      {"int16", 2}, {"uint16", 2},  {"int", 4},    {"uint", 4},   {"int32", 4}, {"uint32", 4},
-      {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
-  const auto found = sizes.find(type);
-  return found == sizes.end() ? 0 : found->second;
-}
-
-bool is_whole(const std::string& type) {
-  return type.find("int") != type.npos || type.find("char") != type.npos ||
-         type.find("short") != type.npos;
-}
-
-// Parses `property float x` or `property list uchar int vertex_indices`; 0 bytes for anything else.
+// Parses `property float x` or `property list uchar int vertex_indices`; no type for anything else.
 Property property(const std::vector<std::string>& words) {
-  if (words.size() == 3) return {words[2], bytes_of(words[1]), 0, is_whole(words[1])};
-  if (words.size() == 5 && words[1] == "list" && is_whole(words[2]))
-    return {words[4], bytes_of(words[3]), bytes_of(words[2]), is_whole(words[3])};
-  return {};
+  if (words.size() == 3) return {words[2], type_of(words[1]), nullptr};
+  if (words.size() != 5 || words[1] != "list") return {};
+  const Type* const length = type_of(words[2]);
+  if (length == nullptr || !length->whole) return {};
+  return {words[4], type_of(words[3]), length};
 }
 
 std::vector<std::string> words_of(std::string_view line) {
@@ -95,7 +115,8 @@ Header header(const std::string& path, std::string_view content) {
         fail(path, "line " + std::to_string(line) +
                        " of its header wants a count from 0 to 1e9; export it again");
       header.elements.push_back({words[1], static_cast<std::size_t>(count), {}});
-    } else if (words[0] == "property" && !header.elements.empty() && property(words).bytes > 0) {
+    } else if (words[0] == "property" && !header.elements.empty() &&
+               property(words).type != nullptr) {
       header.elements.back().properties.push_back(property(words));
     } else {
       fail(path,
@@ -105,23 +126,24 @@ Header header(const std::string& path, std::string_view content) {
   return header;
 }
 
-// Requires what OpenMesh reads: vertices with x, y and z, then faces with a single list, the
-// corners.
-void check_header(const std::string& path, const Header& header, SurfaceText& text) {
+// Requires vertices with x, y and z, then faces with a single list, the corners. Returns the
+// elements up to the faces.
+std::span<const Element> needed(const std::string& path, const Header& header) {
   bool vertices = false;
-  for (const Element& element : header.elements) {
+  for (std::size_t i = 0; i < header.elements.size(); ++i) {
+    const Element& element = header.elements[i];
     if (element.properties.empty())
       fail(path, "element `" + element.name + "` has no property; export it again");
     const auto has = [&](const char* name) {
       return std::any_of(
           element.properties.begin(), element.properties.end(),
-          [&](const Property& p) { return p.name == name && p.count_bytes == 0 && !p.whole; });
+          [&](const Property& p) { return p.name == name && !p.length && !p.type->whole; });
     };
     std::size_t corners = 0;
     for (const Property& property : element.properties) {
-      if (element.name == "face" && property.is_corners() && property.whole)
+      if (element.name == "face" && property.is_corners() && property.type->whole)
         ++corners;
-      else if (property.count_bytes > 0)
+      else if (property.length != nullptr)
         fail(path, "element `" + element.name + "` has a list `" + property.name +
                        "`; export it without texture and other extras");
     }
@@ -129,7 +151,6 @@ void check_header(const std::string& path, const Header& header, SurfaceText& te
       if (!has("x") || !has("y") || !has("z"))
         fail(path,
              "its vertices want `x`, `y` and `z` of type `float` or `double`; export it again");
-      text.vertices = element.count;
       vertices = true;
     }
     if (element.name == "face") {
@@ -137,123 +158,169 @@ void check_header(const std::string& path, const Header& header, SurfaceText& te
         fail(path,
              "wants vertices first and then faces with one list `vertex_indices`; export it "
              "again");
-      text.faces = element.count;
-      return;  // elements after the faces are not read
+      return std::span(header.elements).first(i + 1);
     }
   }
   fail(path, "its header wants an element `vertex` and an element `face`; export it again");
 }
 
-void ascii(TableLines lines, const Header& header, SurfaceText& text) {
-  while (lines.next() && lines.words()[0] != "end_header") {
+// The numbers of an ASCII file, line by line.
+class AsciiBody {
+ public:
+  explicit AsciiBody(const std::string& path) : lines_(path) {
+    while (lines_.next() && lines_.words()[0] != "end_header") {
+    }
   }
-  for (const Element& element : header.elements) {
+
+  void begin(const Element& element, std::size_t i) {
+    if (!lines_.next())
+      lines_.fail("the file ends after " + std::to_string(i) + " of " +
+                  std::to_string(element.count) + " lines of element `" + element.name +
+                  "`; it is cut short: export it again");
+    no_comma(lines_);
+    word_ = 0;
+  }
+  double number(const Property& property) {
+    require(property);
+    return lines_.number(word_++, "`" + property.name + "`");
+  }
+  void corners(const Property& property, std::vector<int>& corners) {
+    require(property);
+    const auto count = as_index(std::max(0, lines_.whole(word_++, "a corner count")));
+    const std::size_t left = lines_.words().size() - word_;
+    if (count < 3 || left < count) lines_.fail(too_few_corners(std::min(count, left)));
+    for (std::size_t c = 0; c < count; ++c) corners.push_back(lines_.whole(word_++, "a corner"));
+  }
+  void end() const {
+    if (word_ != lines_.words().size())
+      lines_.fail("the line has " + std::to_string(lines_.words().size()) +
+                  " words, but its properties make " + std::to_string(word_) +
+                  "; export the file again");
+  }
+  void end_of_file(std::size_t faces) {
+    if (lines_.next())
+      lines_.fail("the header counts " + std::to_string(faces) +
+                  " faces, but another line follows; mend the count");
+  }
+  [[nodiscard]] std::string face(std::size_t) const { return "the face"; }
+  [[noreturn]] void fail(const std::string& message) const { lines_.fail(message); }
+
+ private:
+  void require(const Property& property) const {
+    if (word_ >= lines_.words().size())
+      lines_.fail("the line ends before `" + property.name +
+                  "`; the file may be cut short: export it again");
+  }
+
+  TableLines lines_;
+  std::size_t word_ = 0;  // the next one
+};
+
+// The numbers of a binary file.
+class BinaryBody {
+ public:
+  BinaryBody(const std::string& path, const std::string& content, std::size_t at, bool big_endian)
+      : path_(path), content_(content), at_(at), big_endian_(big_endian) {}
+
+  void begin(const Element& element, std::size_t i) {
+    element_ = &element;
+    i_ = i;
+  }
+  double number(const Property& property) { return next(*property.type); }
+  void corners(const Property& property, std::vector<int>& corners) {
+    const double count = next(*property.length);
+    if (count < 3.0)
+      fail(face(i_) + " wants three corners or more, got " + number_text(count) +
+           "; export the file again");
+    for (double c = 0.0; c < count; ++c)  // a number beyond an int names no vertex
+      corners.push_back(static_cast<int>(std::min(next(*property.type), 2147483647.0)));
+  }
+  void end() const {}
+  void end_of_file(std::size_t faces) const {
+    if (at_ != content_.size())
+      fail(std::to_string(content_.size() - at_) + " bytes follow the last of " +
+           std::to_string(faces) + " faces; the count is wrong: export it again");
+  }
+  [[nodiscard]] std::string face(std::size_t i) const {
+    return "face " + std::to_string(i) + " (counting from 0)";
+  }
+  [[noreturn]] void fail(const std::string& message) const { meshing::fail(path_, message); }
+
+ private:
+  double next(const Type& type) {
+    if (content_.size() - at_ < type.bytes)
+      fail("the file ends in number " + std::to_string(i_) + " of " +
+           std::to_string(element_->count) + " of element `" + element_->name +
+           "`; it is cut short: export it again");
+    at_ += type.bytes;
+    return type.read(content_.data() + at_ - type.bytes, big_endian_);
+  }
+
+  const std::string& path_;
+  const std::string& content_;
+  std::size_t at_;
+  bool big_endian_;
+  const Element* element_ = nullptr;
+  std::size_t i_ = 0;
+};
+
+template <class Body>
+Polygons polygons(Body&& body, std::span<const Element> elements, bool ends_with_faces) {
+  Polygons found;
+  for (const Element& element : elements)
     for (std::size_t i = 0; i < element.count; ++i) {
-      if (!lines.next())
-        lines.fail("the file ends after " + std::to_string(i) + " of " +
-                   std::to_string(element.count) + " lines of element `" + element.name +
-                   "`; it is cut short: export it again");
-      no_comma(lines);
-      std::size_t word = 0;
+      body.begin(element, i);
+      Vec3 vertex = Vec3::Zero();
+      std::vector<int> corners;
       for (const Property& property : element.properties) {
-        if (word >= lines.words().size())
-          lines.fail("the line ends before `" + property.name +
-                     "`; the file may be cut short: export it again");
-        if (!property.is_corners()) {
-          const double value = lines.number(word++, "`" + property.name + "`");
-          if (std::abs(value) > 3e38)
-            lines.fail_at(word - 1,
-                          "`" + property.name + "` wants single precision; use a larger unit");
+        if (property.is_corners()) {
+          body.corners(property, corners);
           continue;
         }
-        const auto corners = as_index(std::max(0, lines.whole(word++, "a corner count")));
-        if (corners < 3 || lines.words().size() - word < corners)
-          lines.fail("a face wants three corners or more, got " +
-                     std::to_string(std::min(corners, lines.words().size() - word)) +
-                     "; the file may be cut short: export it again");
-        for (std::size_t c = 0; c < corners; ++c) {
-          const int corner = lines.whole(word++, "a corner");
-          if (corner < 0 || as_index(corner) >= text.vertices)
-            lines.fail("the face names vertex `" + std::to_string(corner) +
-                       "`, but the vertices run from 0 to " + std::to_string(text.vertices - 1) +
-                       "; the file may be cut short: export it again");
-        }
+        const double value = body.number(property);
+        for (const auto& [axis, name] : {std::pair(0, "x"), std::pair(1, "y"), std::pair(2, "z")})
+          if (property.name == name) vertex[axis] = value;
       }
-      if (word != lines.words().size())
-        lines.fail("the line has " + std::to_string(lines.words().size()) +
-                   " words, but its properties make " + std::to_string(word) +
-                   "; export the file again");
-    }
-    if (element.name == "face") break;
-  }
-  if (header.elements.back().name == "face" && lines.next())
-    lines.fail("the header counts " + std::to_string(text.faces) +
-               " faces, but another line follows; mend the count");
-}
-
-std::size_t list_length(const char* bytes, std::size_t count, bool big_endian) {
-  std::size_t value = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    value = value * 256 + static_cast<unsigned char>(bytes[big_endian ? i : count - 1 - i]);
-  return value;
-}
-
-void binary(const std::string& path, const std::string& content, const Header& header) {
-  const bool big_endian = header.format == "binary_big_endian";
-  std::size_t at = header.bytes;
-  for (const Element& element : header.elements) {
-    for (std::size_t i = 0; i < element.count; ++i) {
-      for (const Property& property : element.properties) {
-        std::size_t items = 1;
-        if (property.count_bytes > 0 && at + property.count_bytes <= content.size()) {
-          items = list_length(content.data() + at, property.count_bytes, big_endian);
-          at += property.count_bytes;
-          if (items < 3)
-            fail(path, "face " + std::to_string(i) +
-                           " (counting from 0) wants three corners or "
-                           "more, got " +
-                           std::to_string(items) + "; export the file again");
-        }
-        at += items * property.bytes;
-        if (at > content.size())
-          fail(path, "the file ends in number " + std::to_string(i) + " of " +
-                         std::to_string(element.count) + " of element `" + element.name +
-                         "`; it is cut short: export it again");
+      body.end();
+      if (element.name == "vertex") {
+        if (!vertex.allFinite())
+          body.fail("vertex " + std::to_string(i) +
+                    " (counting from 0) has a coordinate that is not a finite number; export it "
+                    "again");
+        found.vertices.push_back(vertex);
+      } else if (element.name == "face") {
+        const std::string wrong = wrong_corners(body.face(i), corners, 0, found.vertices.size());
+        if (!wrong.empty()) body.fail(wrong);
+        found.corners.push_back(std::move(corners));
       }
     }
-    if (element.name != "face") continue;
-    if (&element == &header.elements.back() && at != content.size())
-      fail(path, std::to_string(content.size() - at) + " bytes follow the last of " +
-                     std::to_string(element.count) + " faces; the count is wrong: export it again");
-    return;
-  }
+  if (ends_with_faces) body.end_of_file(elements.back().count);
+  return found;
 }
 
 }  // namespace
 
-SurfaceText go_over_ply(const std::string& path) {
-  SurfaceText text;
-  text.content = read_text(path);
-  const Header found = header(path, text.content);
-  if (!is_text(text.content.substr(0, found.bytes)))
+Polygons read_ply(const std::string& path) {
+  const std::string content = read_text(path);
+  const Header found = header(path, content);
+  if (!is_text(content.substr(0, found.bytes)))
     fail(path, "its header is not text; export it again");
-  check_header(path, found, text);
+  const std::span<const Element> elements = needed(path, found);
+  const bool ends_with_faces = elements.size() == found.elements.size();
   if (found.format == "ascii") {
-    if (!is_text(text.content))
+    if (!is_text(content))
       fail(path, "is not a text file, though its header says `ascii`; export it again");
     try {
-      ascii(TableLines(path), found, text);
+      return polygons(AsciiBody(path), elements, ends_with_faces);
     } catch (const InputError& error) {
       throw MeshError(error.what());
     }
-  } else if (found.format == "binary_little_endian" || found.format == "binary_big_endian") {
-    text.binary = true;
-    binary(path, text.content, found);
-  } else {
+  }
+  const bool big_endian = found.format == "binary_big_endian";
+  if (!big_endian && found.format != "binary_little_endian")
     fail(path,
          "has no known `format` in its header; write it as `ascii` or `binary_little_endian`");
-  }
-  return text;
+  return polygons(BinaryBody(path, content, found.bytes, big_endian), elements, ends_with_faces);
 }
 
 }  // namespace palpate::meshing

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/numerics.h"
 #include "geometry/box_tree.h"
 #include "meshing/cgal_library.h"
 #include "meshing/child_bytes.h"
@@ -167,15 +168,12 @@ double cell_for(const Surface& surface, int nodes) {
   // Nodes on the surface have 0.866 h^2 each, and nodes inside, half an edge below it, 0.7 h^3.
   const double area = geometry::area(surface);
   const double volume = geometry::enclosed(surface).volume;
-  double low = 0.0;
-  double high = std::cbrt(volume) + std::sqrt(area);
-  constexpr int halvings = 60;
-  for (int i = 0; i < halvings; ++i) {
-    const double h = 0.5 * (low + high);
+  const double most = std::cbrt(volume) + std::sqrt(area);
+  const auto excess = [&](double h) {
     const double inside = std::max(0.0, volume - 0.5 * h * area);
-    (area / (0.866 * h * h) + inside / (0.7 * h * h * h) > nodes ? low : high) = h;
-  }
-  return high;
+    return area / (0.866 * h * h) + inside / (0.7 * h * h * h) - nodes;
+  };
+  return numerics::root({1e-6 * most, most}, excess).high;
 }
 
 double remeshing_limit(const Surface& surface, double spacing) {

@@ -1,9 +1,8 @@
-// Checks OBJ, OFF and STL files, by lines or records. For PLY see surface_ply.cpp.
+// Reads OBJ, OFF and STL files. For PLY see surface_ply.cpp.
 #include "meshing/surface_text.h"
 
 #include <algorithm>
 #include <array>
-#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -20,8 +19,6 @@
 namespace palpate::meshing {
 namespace {
 
-using Point = std::array<float, 3>;
-
 constexpr double most_items = 1e9;      // fits an int
 constexpr std::size_t stl_header = 84;  // bytes: 80 of text, the number of facets
 constexpr std::size_t stl_facet = 50;   // bytes: a normal, three corners, two spare ones
@@ -32,39 +29,35 @@ void expect_text(const std::string& path, const char* format) {
                    " format; export it again, or give it the ending of its real format");
 }
 
-// Reads the words `first` to `first` + 2 as coordinates and appends them to `content`.
-Point point(const TableLines& lines, std::size_t first, std::string& content) {
+// The words `first` to `first` + 2 as coordinates.
+Vec3 point(const TableLines& lines, std::size_t first) {
   if (lines.words().size() < first + 3)
     lines.fail("a vertex wants three coordinates, got " +
                std::to_string(lines.words().size() - std::min(first, lines.words().size())) +
                "; the file may be cut short: export it again");
   no_comma(lines);
-  Point at{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double value = lines.number(first + axis, "a coordinate");
-    if (std::abs(value) > static_cast<double>(FLT_MAX))
-      lines.fail_at(first + axis, "a coordinate wants single precision, got `" +
-                                      std::string(lines.words()[first + axis]) +
-                                      "`; use a larger unit");
-    at[axis] = static_cast<float>(value);
-    content += " " + number_text(value);
-  }
-  content += "\n";
+  Vec3 at;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    at[static_cast<Eigen::Index>(axis)] = lines.number(first + axis, "a coordinate");
   return at;
 }
 
-bool degenerate(const std::array<Point, 3>& corners) {
-  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+// Appends a facet with vertices of its own. False if two corners are in one place.
+bool add_facet(const std::array<Vec3, 3>& corners, Polygons& polygons) {
+  const auto next = static_cast<int>(polygons.vertices.size());
+  polygons.vertices.insert(polygons.vertices.end(), corners.begin(), corners.end());
+  polygons.corners.push_back({next, next + 1, next + 2});
+  return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-std::string two_in_one_place(std::size_t face) {
-  return "facet " + std::to_string(face) +
+std::string two_in_one_place(const Polygons& polygons) {
+  return "facet " + std::to_string(polygons.corners.size() - 1) +
          " (counting from 0) has two corners in one place; remove it or merge close vertices";
 }
 
 // Runs a pass over the lines. Mistakes in the content become MeshError.
 template <typename Pass>
-SurfaceText over_lines(const std::string& path, const char* format, const Pass& pass) {
+Polygons over_lines(const std::string& path, const char* format, const Pass& pass) {
   expect_text(path, format);
   TableLines lines(path);
   try {
@@ -74,28 +67,13 @@ SurfaceText over_lines(const std::string& path, const char* format, const Pass& 
   }
 }
 
-std::string corner_count(std::size_t corners) {
-  return "a face wants three corners or more, got " + std::to_string(corners) +
-         "; the file may be cut short: export it again";
-}
-
-// Appends a face's corners, which count from `first`; each must be an existing vertex, named once.
-void add_face(const TableLines& lines, const std::vector<int>& corners, int first,
-              SurfaceText& text) {
-  const int last = static_cast<int>(text.vertices) + first - 1;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (corners[i] < first || corners[i] > last)
-      lines.fail("the face names vertex `" + std::to_string(corners[i]) +
-                 "`, but the vertices run from " + std::to_string(first) + " to " +
-                 std::to_string(last) + "; the file may be cut short: export it again");
-    if (std::find(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(i), corners[i]) !=
-        corners.begin() + static_cast<std::ptrdiff_t>(i))
-      lines.fail("the face has vertex `" + std::to_string(corners[i]) +
-                 "` twice; remove the face, or split it there");
-    text.content += " " + std::to_string(corners[i]);
-  }
-  text.content += "\n";
-  ++text.faces;
+// Appends a face's corners, which count from `first`, among so many vertices.
+void add_face(const TableLines& lines, std::vector<int>&& corners, int first, std::size_t vertices,
+              Polygons& polygons) {
+  const std::string wrong = wrong_corners("the face", corners, first, vertices);
+  if (!wrong.empty()) lines.fail(wrong);
+  for (int& corner : corners) corner -= first;
+  polygons.corners.push_back(std::move(corners));
 }
 
 // `7`, `7/1`, `7//3` or `-1/-1/-1`: a vertex counted from 1, or backwards from the last one so far.
@@ -109,30 +87,27 @@ int obj_vertex(const TableLines& lines, std::size_t i, int vertices_so_far) {
   return vertex < 0 ? vertices_so_far + vertex + 1 : vertex;
 }
 
-SurfaceText obj(TableLines lines) {
-  SurfaceText text;
+Polygons obj(TableLines lines) {
+  std::size_t vertices = 0;
   TableLines ahead = lines;  // a face may name a later vertex
   while (ahead.next())
-    if (ahead.words()[0] == "v") ++text.vertices;
-  int vertices_so_far = 0;
+    if (ahead.words()[0] == "v") ++vertices;
+  Polygons polygons;
   while (lines.next()) {
     if (lines.words().back().ends_with('\\'))
       lines.fail("a line that goes on in the next one is not understood; write it as one line");
     if (lines.words()[0] == "v") {
-      text.content += "v";
-      point(lines, 1, text.content);
-      ++vertices_so_far;
+      polygons.vertices.push_back(point(lines, 1));
     } else if (lines.words()[0] == "f") {
       const std::size_t words = lines.words().size();
-      if (words < 4) lines.fail(corner_count(words - 1));
+      if (words < 4) lines.fail(too_few_corners(words - 1));
       std::vector<int> corners;
       for (std::size_t i = 1; i < words; ++i)
-        corners.push_back(obj_vertex(lines, i, vertices_so_far));
-      text.content += "f";
-      add_face(lines, corners, 1, text);
+        corners.push_back(obj_vertex(lines, i, static_cast<int>(polygons.vertices.size())));
+      add_face(lines, std::move(corners), 1, vertices, polygons);
     }
   }
-  return text;
+  return polygons;
 }
 
 // Goes to item `i` of `count`.
@@ -151,8 +126,7 @@ std::size_t count(const TableLines& lines, std::size_t i, const std::string& wha
   return as_index(number);
 }
 
-SurfaceText off(TableLines lines) {
-  SurfaceText text;
+Polygons off(TableLines lines) {
   const bool found = lines.next();
   const std::string_view header = found ? lines.words()[0] : std::string_view();
   if (!header.ends_with("OFF") || header.find_first_of("4n") != std::string_view::npos)
@@ -164,35 +138,34 @@ SurfaceText off(TableLines lines) {
     at = 0;
     item(lines, "header lines", 1, 2);
   }
-  text.vertices = count(lines, at, "the number of vertices");
+  const std::size_t vertices = count(lines, at, "the number of vertices");
   const std::size_t faces = count(lines, at + 1, "the number of faces");
-  text.content = "OFF\n" + std::to_string(text.vertices) + " " + std::to_string(faces) + " 0\n";
-  for (std::size_t i = 0; i < text.vertices; ++i) {
-    item(lines, "vertices", i, text.vertices);
-    point(lines, 0, text.content);
+  Polygons polygons;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    item(lines, "vertices", i, vertices);
+    polygons.vertices.push_back(point(lines, 0));
   }
   for (std::size_t i = 0; i < faces; ++i) {
     item(lines, "faces", i, faces);
     const auto corners = as_index(std::max(0, lines.whole(0, "a corner count")));
     if (corners < 3 || lines.words().size() <= corners)
-      lines.fail(corner_count(std::min(corners, lines.words().size() - 1)));
+      lines.fail(too_few_corners(std::min(corners, lines.words().size() - 1)));
     std::vector<int> corner;
     for (std::size_t c = 1; c <= corners; ++c) corner.push_back(lines.whole(c, "a corner"));
-    text.content += std::to_string(corners);
-    add_face(lines, corner, 0, text);
+    add_face(lines, std::move(corner), 0, vertices, polygons);
   }
   if (lines.next())
-    lines.fail("the header counts " + std::to_string(text.vertices) + " vertices and " +
+    lines.fail("the header counts " + std::to_string(vertices) + " vertices and " +
                std::to_string(faces) + " faces, but another line follows; mend the counts");
-  return text;
+  return polygons;
 }
 
-// Normals and names are left out: OpenMesh takes any line containing `outer` for a facet.
-SurfaceText ascii_stl(TableLines lines) {
+// Normals and names are ignored.
+Polygons ascii_stl(TableLines lines) {
   constexpr std::array<std::string_view, 7> keywords{"facet",  "outer",   "vertex",  "vertex",
                                                      "vertex", "endloop", "endfacet"};
-  SurfaceText text;
-  std::array<Point, 3> corners{};
+  Polygons polygons;
+  std::array<Vec3, 3> corners;
   std::size_t state = 0;
   bool open = false;  // between `solid` and `endsolid`
   while (lines.next()) {
@@ -204,25 +177,17 @@ SurfaceText ascii_stl(TableLines lines) {
     if (!open || keyword != keywords[state])
       lines.fail("the line wants `" + std::string(open ? keywords[state] : "solid") + "`, got `" +
                  std::string(lines.words()[0]) + "`; export the file again");
-    if (keyword == "vertex") {
-      text.content += "vertex";
-      corners[state - 2] = point(lines, 1, text.content);
-      if (state == 4 && degenerate(corners)) lines.fail(two_in_one_place(text.faces));
-    } else {
-      text.content += keyword + "\n";
-    }
+    if (keyword == "vertex") corners[state - 2] = point(lines, 1);
+    if (state == 4 && !add_facet(corners, polygons)) lines.fail(two_in_one_place(polygons));
     state = (state + 1) % keywords.size();
-    if (state == 0) ++text.faces;
   }
   if (open)
-    lines.fail("the file ends before `endsolid`, in or after facet " + std::to_string(text.faces) +
-               "; it is cut short: export it again");
-  return text;
+    lines.fail("the file ends before `endsolid`, in or after facet " +
+               std::to_string(polygons.corners.size()) + "; it is cut short: export it again");
+  return polygons;
 }
 
-SurfaceText binary_stl(const std::string& path, std::string&& content) {
-  SurfaceText text;
-  text.binary = true;
+Polygons binary_stl(const std::string& path, const std::string& content) {
   std::uint32_t facets = 0;
   if (content.size() >= stl_header)
     std::memcpy(&facets, content.data() + stl_header - sizeof(facets), sizeof(facets));
@@ -233,20 +198,22 @@ SurfaceText binary_stl(const std::string& path, std::string&& content) {
              std::to_string(stl_header + stl_facet * facets) + " bytes for its " +
              std::to_string(facets) + " facets, not " + std::to_string(content.size()) +
              "; it is cut short or of another format: export it again");
-  for (text.faces = 0; text.faces < facets; ++text.faces) {
-    std::array<Point, 3> corners{};
+  Polygons polygons;
+  for (std::size_t facet = 0; facet < facets; ++facet) {
+    std::array<std::array<float, 3>, 3> numbers{};
     // The normal, three floats, comes first.
-    std::memcpy(corners.data(), content.data() + stl_header + stl_facet * text.faces + 12,
-                sizeof(corners));
-    for (const Point& corner : corners)
-      for (const float coordinate : corner)
-        if (!std::isfinite(coordinate))
-          fail(path, "facet " + std::to_string(text.faces) +
-                         " has a coordinate that is not a finite number; export the file again");
-    if (degenerate(corners)) fail(path, two_in_one_place(text.faces));
+    std::memcpy(numbers.data(), content.data() + stl_header + stl_facet * facet + 12,
+                sizeof(numbers));
+    std::array<Vec3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = Eigen::Vector3f(numbers[i].data()).cast<double>();
+      if (!corners[i].allFinite())
+        fail(path, "facet " + std::to_string(facet) +
+                       " has a coordinate that is not a finite number; export the file again");
+    }
+    if (!add_facet(corners, polygons)) fail(path, two_in_one_place(polygons));
   }
-  text.content.swap(content);
-  return text;
+  return polygons;
 }
 
 }  // namespace
@@ -275,15 +242,36 @@ void no_comma(const TableLines& lines) {
     lines.fail("a number has a comma; write decimal points, and blanks between numbers");
 }
 
-SurfaceText go_over_obj(const std::string& path) { return over_lines(path, "OBJ", obj); }
+std::string too_few_corners(std::size_t corners) {
+  return "a face wants three corners or more, got " + std::to_string(corners) +
+         "; the file may be cut short: export it again";
+}
 
-SurfaceText go_over_off(const std::string& path) { return over_lines(path, "OFF", off); }
+std::string wrong_corners(const std::string& face, const std::vector<int>& corners, int first,
+                          std::size_t vertices) {
+  const int last = static_cast<int>(vertices) + first - 1;
+  for (const int corner : corners)
+    if (corner < first || corner > last)
+      return face + " names vertex `" + std::to_string(corner) + "`, but the vertices run from " +
+             std::to_string(first) + " to " + std::to_string(last) +
+             "; the file may be cut short: export it again";
+  std::vector<int> sorted = corners;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twin = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twin == sorted.end()) return "";
+  return face + " has vertex `" + std::to_string(*twin) +
+         "` twice; remove the face, or split it there";
+}
 
-SurfaceText go_over_stl(const std::string& path) {
-  std::string content = read_text(path);
+Polygons read_obj(const std::string& path) { return over_lines(path, "OBJ", obj); }
+
+Polygons read_off(const std::string& path) { return over_lines(path, "OFF", off); }
+
+Polygons read_stl(const std::string& path) {
+  const std::string content = read_text(path);
   // Many binary files begin with `solid` too. Their facet count, if below 2^24, contains a zero
   // byte, which text does not.
-  if (content.empty() || !is_text(content)) return binary_stl(path, std::move(content));
+  if (content.empty() || !is_text(content)) return binary_stl(path, content);
   return over_lines(path, "STL", ascii_stl);
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/numerics.h"
 #include "base/text.h"
 #include "geometry/box_surface.h"
 #include "meshing/mesh_check.h"
@@ -29,17 +30,13 @@ constexpr int tries_per_grid = 8;
 constexpr double grid_volume_per_cube = 0.22;
 constexpr double nodes_per_lattice = 1.1;
 
-// The spacing h (m) for `target` nodes, by bisection: the number of nodes decreases with h.
+// The spacing h (m) for `target` nodes, whose number decreases with h.
 double spacing_for(const Vec3& size, int target) {
-  double low = size.minCoeff() / (target + 1.0);
-  double high = 2.0 * size.maxCoeff();
-  for (int step = 0; step < 100; ++step) {
-    const double h = std::sqrt(low * high);
-    const double nodes =
-        nodes_per_lattice * (size.x() / h + 1.0) * (size.y() / h + 1.0) * (size.z() / h + 1.0);
-    (nodes > target ? low : high) = h;
-  }
-  return std::sqrt(low * high);
+  const auto excess = [&](double h) {
+    return nodes_per_lattice * (size.x() / h + 1.0) * (size.y() / h + 1.0) * (size.z() / h + 1.0) -
+           target;
+  };
+  return numerics::root({size.minCoeff() / (target + 1.0), 2.0 * size.maxCoeff()}, excess).middle();
 }
 
 Triple cells_for(const Vec3& size, double spacing) {

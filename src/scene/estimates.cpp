@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/numerics.h"
 #include "contact/hertz.h"
 #include "scenario/programme.h"
 #include "scene/scene.h"
@@ -59,10 +60,9 @@ void change_by_size(const SurfaceTouch& touch, Estimates& found) {
     const Footing::Compliance base = touch.footing->under(touch.position, touch.curvature.normal);
     const double a = found.tissue_share * found.contact_radius;
     const double x = std::min(1e3, a * (base.sinking + base.rocking));
-    double root = 1.0;  // of rho, the third; Newton's steps come down to it
-    for (int i = 0; i < 20; ++i)
-      root -= (root * root + 2.0 / 3.0 * x * root * root * root - 1.0) /
-              (2.0 * root + 2.0 * x * root * root);
+    const double root = numerics::root(1.0, {0.0, 1.0}, [&](double r) {  // of rho, the third
+      return numerics::Tangent{r * r + 2.0 / 3.0 * x * r * r * r - 1.0, 2.0 * r + 2.0 * x * r * r};
+    });
     found.narrow = 1.0 - root * root * root;
     // Chosen so that they cover.                        tests/accuracy/standing_bodies.py
     found.by_size_error =

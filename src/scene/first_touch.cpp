@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/numerics.h"
 #include "base/units.h"
 #include "contact/detection.h"
 
@@ -57,12 +58,10 @@ FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& plac
     clear = touching;
     touching -= 0.25 * radius;
   }
-  // To the last bit: two neighbouring numbers have no number between them.
-  for (double middle = 0.5 * (clear + touching); middle > touching && middle < clear;
-       middle = 0.5 * (clear + touching))
-    (touches(middle) ? touching : clear) = middle;
-  [[maybe_unused]] const bool reached = touches(touching);  // stores the touch at this height
-  touch.finger.z() = clear;                                 // without contact force at zero travel
+  // To the last bit: two neighbouring numbers.
+  const numerics::Interval reach = numerics::change({touching, clear}, 0.0, touches);
+  [[maybe_unused]] const bool reached = touches(reach.low);  // stores the touch at this height
+  touch.finger.z() = reach.high;                             // without contact force at zero travel
   return touch;
 }
 

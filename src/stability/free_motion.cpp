@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/numerics.h"
 #include "mechanics/stepper.h"
 
 namespace palpate::stability {
@@ -121,11 +122,7 @@ std::optional<double> bisect_limit(const std::function<bool(double)>& stable, do
       if (low < 1e-9 * start) return 0.0;
     } while (!stable(low));
   }
-  while (high > (1.0 + resolution) * low) {
-    const double middle = std::sqrt(low * high);
-    (stable(middle) ? low : high) = middle;
-  }
-  return std::sqrt(low * high);
+  return numerics::change({low, high}, resolution, stable).middle();
 }
 
 }  // namespace palpate::stability

@@ -62,7 +62,7 @@ struct Moved {
 void choose_length(FreeMotion& motion, double damping_ratio);
 
 // The limit between stable and unstable time steps, s, with the relative error `resolution`: from
-// `start` by doubling or halving, then by bisection in the logarithm. Nothing if every step up to
+// `start` by doubling or halving, then by bisection. Nothing if every step up to
 // `most` is stable; 0 if no step down to 1e-9 of `start` is.
 [[nodiscard]] std::optional<double> bisect_limit(const std::function<bool(double)>& stable,
                                                  double start, double most, double resolution);

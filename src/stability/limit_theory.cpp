@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 
+#include "base/numerics.h"
+
 namespace palpate::stability {
 namespace {
 
@@ -47,14 +49,10 @@ std::optional<double> limit_theory(const Method& method, double frequency,
     case Integrator::quasi_static:
     case Integrator::modal: return std::nullopt;
   }
-  double low = 0.0;
+  const auto over = [&](double time_step) { return excess(time_step, side, frequency, law); };
   double high = 2.0 / frequency;
-  while (excess(high, side, frequency, law) < 0.0) high *= 2.0;
-  for (int i = 0; i < 200; ++i) {  // bisection to the last digit
-    const double middle = 0.5 * (low + high);
-    (excess(middle, side, frequency, law) < 0.0 ? low : high) = middle;
-  }
-  return low;
+  while (over(high) < 0.0) high *= 2.0;
+  return numerics::root({0.0, high}, over).low;
 }
 
 double damping_ratio(double frequency, const tissue::ViscousLaw& law) {

@@ -16,13 +16,12 @@ struct BodyMode {
   integrate::Vector shape;  // kg^-1/2: the modal mass is 1
 };
 
-// Lanczos on M^-1/2 (K + k w w^T) M^-1/2 with full reorthogonalisation, from a scattered start, to
-// a relative residual of 1e-9 or 400 steps. The body is linear without branches; `contact` can be
-// null.
+// From M^-1/2 (K + k w w^T) M^-1/2, to a relative residual of 1e-9. The body is linear without
+// branches; `contact` can be null.
 [[nodiscard]] BodyMode highest_mode(const integrate::Body& body, const ContactSpring* contact);
 
-// Inverse iteration until the frequency changes by less than 1e-10 of it (at most 2000 rounds).
-// Throws std::domain_error if the body is not held and can move without energy.
+// From M^1/2 K^-1 M^1/2, to a relative residual of 1e-9. Throws std::domain_error if the body is
+// not held and can move without energy.
 [[nodiscard]] BodyMode lowest_mode(const integrate::Body& body);
 
 // Pseudo-random numbers in [-1/2, 1/2), the same on every machine; 0 for held degrees of freedom.

@@ -152,8 +152,8 @@ TEST(SurfaceCheck, refuses_an_edge_of_three_faces) {
   surface.vertices.emplace_back(0.01, 0.01, 0.01);
   surface.triangles.push_back({1, 2, 4});
   const std::string want =
-      "surface `paw`: edge (1, 2) has 3 faces (0, 3, 4) near (10, 0, 0) mm; keep two of "
-      "them, or separate the surfaces there";
+      "surface `paw`: face 4 (1, 2, 4) near (10, 0, 0) mm is a third face at edge (1, 2), after "
+      "faces 0 and 3; keep two of them, or separate the surfaces there";
   EXPECT_EQ(closed(surface), want);
 }
 
@@ -167,17 +167,16 @@ TEST(SurfaceCheck, refuses_two_bodies_that_share_an_edge) {
     surface.triangles.push_back({own(a), own(b), own(c)});
   }
   EXPECT_EQ(closed(surface),
-            "surface `paw`: edge (0, 1) has 4 faces (0, 1, 4, 5) near (0, 0, 0) mm; keep two of "
-            "them, or separate the surfaces there");
+            "surface `paw`: face 4 (0, 4, 1) near (0, 0, 0) mm is a third face at edge (0, 1), "
+            "after faces 0 and 1; keep two of them, or separate the surfaces there");
 }
 
 TEST(SurfaceCheck, refuses_a_turned_face) {
   geometry::Surface surface = corner();
   std::swap(surface.triangles[3][0], surface.triangles[3][1]);
   const std::string want =
-      "surface `paw`: faces 0 and 3 face opposite sides across edge (1, 2) near (10, 0, 0) mm; "
-      "turn "
-      "one of them round, so that all normals point outwards";
+      "surface `paw`: face 3 (2, 1, 3) near (0, 10, 0) mm faces the side opposite to that of face "
+      "0 across edge (1, 2); turn one of them round, so that all normals point outwards";
   EXPECT_EQ(closed(surface), want);
 }
 
@@ -229,8 +228,9 @@ TEST(SurfaceCheck, refuses_parts_that_touch_in_a_vertex) {
   for (const auto& t : {std::array{0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}})
     surface.triangles.push_back({t[0], t[1], t[2]});
   const std::string want =
-      "surface `paw`: faces 0 and 4 touch in vertex 0 only near (0, 0, 0) mm; give each side a "
-      "vertex of its own and move them apart, or join them";
+      "surface `paw`: face 4 (0, 4, 5) near (0, 0, 0) mm touches face 0 in vertex 0 only; give "
+      "each "
+      "side a vertex of its own and move them apart, or join them";
   EXPECT_EQ(closed(surface), want);
 }
 
