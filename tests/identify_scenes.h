@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -227,25 +228,35 @@ inline identify::Identification identified(const IdentifyScene& scene,
   return identify::identify(curve, family, unknowns, stop, options);
 }
 
-// How often of so many repeats the truth of each unknown lies inside its interval.
-inline std::vector<int> covered(const IdentifyScene& scene, int repeats,
-                                const identify::IdentifyOptions& options = {.searches = 1,
-                                                                            .profiles = false},
-                                double rho = 0.0) {
+// Of so many repeats with noise of 1 %: how often the truth of an unknown lies inside its interval,
+// and the interval's mean width (in the unknown's unit; infinite where one is open).
+struct Covered {
+  int inside = 0;
+  double width = 0.0;
+};
+inline constexpr double noise_share = 0.01;
+
+inline std::vector<Covered> covered(const IdentifyScene& scene, int repeats,
+                                    const identify::IdentifyOptions& options = {.searches = 1,
+                                                                                .profiles = false},
+                                    double rho = 0.0) {
   const identify::Measurement clean = clean_curve(scene);
-  std::vector<int> inside(scene.unknowns.size(), 0);
+  std::vector<Covered> all(scene.unknowns.size());
   for (int k = 0; k < repeats; ++k) {
-    const auto found =
-        identified(scene, noisy(clean, 0.01, static_cast<std::uint64_t>(k) + 1, rho), options);
-    for (std::size_t i = 0; i < inside.size(); ++i) {
+    const auto found = identified(
+        scene, noisy(clean, noise_share, static_cast<std::uint64_t>(k) + 1, rho), options);
+    for (std::size_t i = 0; i < all.size(); ++i) {
       const identify::Identified& one = found.unknowns[i];
       const identify::Interval interval = identify::trusted(one);
       const double truth = one.unknown.shown(scene.true_values[i]);
-      if (interval.low && interval.high && *interval.low <= truth && truth <= *interval.high)
-        ++inside[i];
+      constexpr double open = std::numeric_limits<double>::infinity();
+      const double low = interval.low.value_or(-open);
+      const double high = interval.high.value_or(open);
+      if (interval.low && interval.high && low <= truth && truth <= high) ++all[i].inside;
+      all[i].width += (high - low) / repeats;
     }
   }
-  return inside;
+  return all;
 }
 
 }  // namespace palpate::test

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -47,13 +49,23 @@ class Rows {
   record::Table table_;
 };
 
-// The stand's run by the machine's clock, as a process of its own; 2 s of it are the press from
-// -2 mm to -4 mm.
-inline Invocation stand_run(const fs::path& folder, const LiveEmulator& stand) {
+// The stand's run by the machine's clock, as a process of its own: it presses from -2 mm to -4 mm.
+inline Invocation stand_run(const fs::path& folder, const LiveEmulator& stand,
+                            const std::string& speed) {
   return {.arguments = {"run", project_file("scenarios/device_stand.toml"), "--device",
                         "mark10:" + stand.port(), "--arm", "--surface", "-2 mm", "--set",
-                        "output.figures=false", "--set", "step.1.rate=1 mm/s"},
+                        "output.figures=false", "--set", "step.1.rate=" + speed},
           .folder = folder};
+}
+
+// The child of a run that is named as the guard. Throws where there is none: 0 and -1 would be
+// many.
+inline pid_t guard_of(const Running& run) {
+  const std::string id = std::to_string(run.id());
+  pid_t child = -1;
+  std::ifstream("/proc/" + id + "/task/" + id + "/children") >> child;
+  if (child <= 0) throw std::runtime_error("the run has no guard");
+  return child;
 }
 
 // By the machine's clock a link is lost where the machine stands still for 0.1 s. Such a run tells
@@ -83,7 +95,9 @@ class Played {
                                       "--tissue") != session.emulator.end();
     if (session.link == "mark10" && !has_tissue)
       words.insert(words.end(), {"--tissue", project_file("scenarios/emulator/stand_tissue.toml")});
-    if (session.link != "mark10")
+    // The hand presses at a time of the emulator; by the machine's clock, where that may be before
+    // the run begins, it rests.
+    if (session.link != "mark10" && session.clock == "virtual")
       words.insert(words.end(), {"--hand", project_file("scenarios/emulator/arm_hand.toml")});
     words.insert(words.end(), session.emulator.begin(), session.emulator.end());
     LiveEmulator emulator(words);

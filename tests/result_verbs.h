@@ -106,10 +106,15 @@ class Hindered : public testing::TestWithParam<ResultVerb> {
       if (name.starts_with(place().filename().string() + "."))
         fs::remove_all(place().parent_path() / name);
     fs::remove_all(place());
+    if (!before_.empty()) {
+      fs::copy(folder_ / "saved", place(), fs::copy_options::recursive);
+      return;
+    }
     fs::create_directories(place());
     const Ended ended = run(GetParam().old_one);
     ASSERT_EQ(ended.code, 0) << ended.err;
     before_ = content(place());
+    fs::copy(place(), folder_ / "saved", fs::copy_options::recursive);
   }
   // What stands there is the old result or a new one.
   [[nodiscard]] bool is_old() const { return content(place()) == before_; }

@@ -2,6 +2,7 @@
 #include "emulator/pty.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -89,6 +90,12 @@ std::string Pty::read_all() const {
     if (got <= 0) return bytes;
     bytes.append(chunk.data(), palpate::as_index(got));
   }
+}
+
+// poll(2) of the client's end waits for bytes that the system still carries there (n_tty_poll).
+bool Pty::is_read() const {
+  pollfd unread{slave_, POLLIN, 0};
+  return ::poll(&unread, 1, 0) == 0;
 }
 
 std::size_t Pty::write_some(const std::string& bytes) const {

@@ -19,6 +19,8 @@ class Pty {
   // Whether the port still has the rate with which it was opened.
   [[nodiscard]] bool same_rate() const;
   [[nodiscard]] std::string read_all() const;
+  // Whether the client has read all that was written.
+  [[nodiscard]] bool is_read() const;
   // Returns the number of bytes that were accepted.
   [[nodiscard]] std::size_t write_some(const std::string& bytes) const;
 

@@ -101,8 +101,9 @@ class PtyLoop {
     if (run_.lifetime && now > nanoseconds(*run_.lifetime)) ended_ = true;
     if constexpr (requires { device_.hears_at(Device::Rate::same); })
       if (pty_) device_.hears_at(pty_->same_rate() ? Device::Rate::same : Device::Rate::other);
-    // A stream of a virtual clock goes on when its last line has been taken.
-    if (!lockstep() || due_.empty()) device_.pass(now);
+    // A stream of a virtual clock goes on when its last line has been read, so that an unplugged
+    // line loses nothing.
+    if (!lockstep() || (due_.empty() && (!pty_ || pty_->is_read()))) device_.pass(now);
     if (pty_) read(now);
     if (device_.unplugged()) unplug(now);
     queue(now);

@@ -31,7 +31,7 @@ LiveLog::~LiveLog() {
 
 void LiveLog::wait_for_room() const {
   constexpr auto pause = std::chrono::microseconds(200);
-  while (pushed_ - taken_.load(std::memory_order_acquire) >= capacity)
+  while (pushed_ - done_.load(std::memory_order_acquire) >= lead)
     std::this_thread::sleep_for(pause);
 }
 
@@ -78,7 +78,6 @@ bool LiveLog::collect_rows() {
     rows_.push_back(row);
     if (row.contact.step != step_) on_step_(step_ = row.contact.step);
   }
-  taken_.fetch_add(taken, std::memory_order_release);
   return taken == batch;
 }
 
@@ -115,6 +114,8 @@ bool LiveLog::collect() {
   const bool more_traffic = collect_traffic();
   const bool more_rows = collect_rows();
   const bool written = write_rows();
+  // A row is done when the traffic of its frame is written as well.
+  if (!more_traffic) done_.store(rows_.size(), std::memory_order_release);
   return more_traffic || more_rows || (!written && rows_file_.trouble().empty());
 }
 

@@ -33,8 +33,8 @@ struct LogPlan {
   // Called with a sentence if a file cannot be written, once per file, on the log's thread, and in
   // finish() if rows or traffic were lost.
   std::function<void(const std::string&)> on_trouble = {};
-  // If the disk is slower than the loop: with a device the loop drops the row; with a recording,
-  // for which nothing waits, the loop waits for the disk.
+  // If the disk is slower than the loop: with a device the loop drops the row; in lock-step and
+  // with a recording, for which nothing waits, the loop waits for the disk.
   enum class WhenFull { drop, wait };
   WhenFull when_full = WhenFull::drop;
 };
@@ -43,6 +43,8 @@ struct LogPlan {
 class LiveLog {
  public:
   static constexpr std::size_t capacity = 32768;  // rows: half a minute at 1 kHz
+  // With WhenFull::wait, rows that are not yet in the file, unless writing failed.
+  static constexpr std::size_t lead = 1000;
 
   // `on_step` is called on the log's thread when a row belongs to another step than the one before.
   explicit LiveLog(std::function<void(int step)> on_step, LogPlan plan = {});
@@ -88,7 +90,7 @@ class LiveLog {
   std::size_t in_file_ = 0;                // number of `rows_` in the file
   std::vector<record::CaseRecord> piece_;  // one record, with the rows being written
   std::uint64_t pushed_ = 0;               // rows, counted by the loop
-  std::atomic<std::uint64_t> taken_ = 0;   // rows taken out of the ring
+  std::atomic<std::uint64_t> done_ = 0;    // rows written, or kept in memory where writing failed
   int step_ = 0;
   bool written_ = false;
   std::atomic<bool> over_ = false;

@@ -29,13 +29,13 @@ int main(int count, char** words) {
         !interval.empty() && at < scene.text.size())
       scene.text.replace(at + 12, scene.text.find('"', at + 12) - at - 12, interval);
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<int> inside =
+    const std::vector<test::Covered> covered =
         test::covered(scene, repeats, {.searches = 1, .profiles = false}, rho);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (std::size_t i = 0; i < inside.size(); ++i)
-      std::printf("| %s | `%s` | %d | %.1f |\n", scene.name, scene.unknowns[i].c_str(), inside[i],
-                  100.0 * std::sqrt(0.95 * 0.05 / repeats));
+    for (std::size_t i = 0; i < covered.size(); ++i)
+      std::printf("| %s | `%s` | %d | %.1f |\n", scene.name, scene.unknowns[i].c_str(),
+                  covered[i].inside, 100.0 * std::sqrt(0.95 * 0.05 / repeats));
     std::fflush(stdout);
     std::fprintf(stderr, "%s: %.1f ms a fit\n", scene.name, 1e3 * seconds / repeats);
   }

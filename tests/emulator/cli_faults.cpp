@@ -5,7 +5,7 @@
 #include <ostream>
 #include <set>
 
-#include "live_session.h"
+#include "held_run.h"
 
 namespace palpate {
 namespace {
@@ -268,22 +268,15 @@ TEST(ArmFaults, LateRepliesAreStaleMeanwhile) {
 
 // Killed: the guard process stops the stand on its way.
 TEST(StandFaults, AKilledProgramLeavesNoMovingStand) {
-  const test::TemporaryFolder folder;
-  test::LiveEmulator emulator({"mark10", "--log", (folder / "log.csv").string(), "--tissue",
-                               test::project_file("scenarios/emulator/stand_tissue.toml")});
-  const auto last = [&](const char* column) {
-    return test::last_in_log(folder / "log.csv", column);
-  };
-  {
-    test::Running running(test::stand_run(folder.path(), emulator));
-    ASSERT_TRUE(running.until([&] { return last("position_m") < -2.5e-3; }));
-    running.send(SIGKILL);
-    (void)running.wait();
-  }
-  EXPECT_TRUE(test::seen([&] { return last("velocity_m_s") == 0.0; }));
-  const auto summary = emulator.end();
-  EXPECT_EQ(summary.at("summary").at("moving"), false);
-  EXPECT_GT(summary.at("summary").at("position_m").get<double>(), -3.9e-3);
+  const auto held = test::held_press();
+  ASSERT_TRUE(held->moves());
+  held->run().send(SIGKILL);
+  EXPECT_EQ(held->run().wait().signal, SIGKILL);
+  EXPECT_TRUE(test::seen([&] { return held->is_stopped(); }));
+  held->pass(10);
+  const auto summary = held->summary();
+  EXPECT_EQ(summary.at("moving"), false);
+  EXPECT_GT(summary.at("position_m").get<double>(), -3e-3);
 }
 
 }  // namespace

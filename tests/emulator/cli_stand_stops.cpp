@@ -1,57 +1,12 @@
 // An armed stand stops whatever happens to the program or to its guard process, and by hand.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "live_session.h"
+#include "held_run.h"
 
 namespace palpate {
 namespace {
 
 using test::has;
-using test::Played;
-using test::Session;
-
-// A run by the machine's clock that has begun to feel for the surface, 10 mm above the tissue.
-class Feeling {
- public:
-  Feeling()
-      : tissue_("surface = \"-10 mm\"\n"),
-        stand_({"mark10", "--tissue", tissue_.path(), "--log", log_}),
-        run_({.arguments = {"run", test::project_file("scenarios/device_stand.toml"), "--device",
-                            "mark10:" + stand_.port(), "--arm", "--set", "output.figures=false"},
-              .folder = folder_.path()}) {}
-
-  // False if the run ended before.
-  bool moves() {
-    return run_.until([&] { return test::last_in_log(log_, "velocity_m_s") < 0.0; });
-  }
-  [[nodiscard]] bool stands() const {
-    return test::seen([&] { return test::last_in_log(log_, "velocity_m_s") == 0.0; });
-  }
-  [[nodiscard]] double position() const { return test::last_in_log(log_, "position_m"); }
-  // The child of the run that is named as the guard.
-  [[nodiscard]] pid_t guard() const {
-    const std::string id = std::to_string(run_.id());
-    pid_t child = -1;
-    std::ifstream("/proc/" + id + "/task/" + id + "/children") >> child;
-    return child;
-  }
-  test::Running& run() { return run_; }
-  [[nodiscard]] std::string link() const { return "mark10:" + stand_.port(); }
-  [[nodiscard]] const test::fs::path& folder() const { return folder_.path(); }
-
- private:
-  test::TemporaryFolder folder_;
-  std::string log_ = (folder_ / "log.csv").string();
-  test::ScratchFile tissue_;
-  test::LiveEmulator stand_;
-  test::Running run_;
-};
-
-// m: of a signal that the program sees at once, and of one that the guard sees after 0.1 s of
-// silence at 0.5 mm/s, with up to 0.6 s in which this machine runs neither of them.
-constexpr double way_after = 0.35e-3;
 
 struct Blow {
   const char* what;
@@ -63,50 +18,92 @@ void PrintTo(const Blow& blow, std::ostream* out) { *out << blow.what; }
 class StandBlow : public testing::TestWithParam<Blow> {};
 
 TEST_P(StandBlow, StopsTheStand) {
-  Feeling feeling;
-  ASSERT_TRUE(feeling.moves());
-  const pid_t guard = feeling.guard();
-  ASSERT_GT(guard, 0);
-  const double before = feeling.position();
+  const auto held = test::held_press();
+  ASSERT_TRUE(held->moves());
+  const pid_t guard = held->guard();
   for (const int signal : GetParam().to_guard) ::kill(guard, signal);
-  // A program that has lost its guard stops the stand by itself, which takes it one reading.
-  if (!GetParam().to_guard.empty() && !GetParam().to_run.empty()) {
-    ASSERT_TRUE(feeling.stands());
+  if (!GetParam().to_guard.empty()) {
+    held->go_on();
+    // A program that has lost its guard stops the stand by itself.
+    EXPECT_TRUE(test::seen([&] { return held->is_stopped(); }));
   }
-  for (const int signal : GetParam().to_run) feeling.run().send(signal);
-  EXPECT_TRUE(feeling.stands());
-  EXPECT_GT(feeling.position(), before - way_after);
+  for (const int signal : GetParam().to_run) held->send(signal);
+  EXPECT_TRUE(test::seen([&] { return held->is_stopped(); }));
   if (GetParam().to_run.empty()) {
-    const test::Ended ended = feeling.run().wait();
+    const test::Ended ended = held->run().wait();
     EXPECT_EQ(ended.code, 6) << ended.err;
     EXPECT_TRUE(has(ended.err, "the process that guards the stand has ended")) << ended.err;
+  } else {
+    held->pass(10);  // 0.2 s of the 1.5 s that are left of the press
   }
   ::kill(guard, SIGKILL);
+  const auto summary = held->summary();
+  EXPECT_EQ(summary.at("moving"), false);
+  EXPECT_GT(summary.at("position_m").get<double>(), -3e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Blows, StandBlow,
-    testing::Values(Blow{"SIGKILL to the run", {SIGKILL}, {}},
-                    Blow{"SIGSTOP to the run", {SIGSTOP}, {}}, Blow{"Ctrl-Z", {SIGTSTP}, {}},
-                    Blow{"SIGSTOP and SIGKILL to the run", {SIGSTOP, SIGKILL}, {}},
+    testing::Values(Blow{"SIGKILL to the run", {SIGKILL}, {}}, Blow{"Ctrl-Z", {SIGTSTP}, {}},
                     Blow{"SIGUSR1 to the run", {SIGUSR1}, {}},
                     Blow{"SIGALRM to the run", {SIGALRM}, {}},
                     Blow{"SIGXCPU to the run", {SIGXCPU}, {}},
                     Blow{"SIGKILL to the guard", {}, {SIGKILL}},
-                    Blow{"SIGSTOP to the guard", {}, {SIGSTOP}},
                     Blow{"SIGKILL to the guard, then to the run", {SIGKILL}, {SIGKILL}}));
+
+// Silence is one by the machine's clock: who stands still is missed. By the same clock a press at
+// 0.1 mm/s has 20 s to be stopped in.
+class StandStill : public testing::TestWithParam<bool> {};
+
+TEST_P(StandStill, IsMissed) {
+  const bool guard_stops = GetParam();
+  const std::string unguarded = "the process that guards the stand has ended";
+  for (int i = 0; i < test::runs_by_the_clock; ++i) {
+    const test::TemporaryFolder folder;
+    const std::string log = (folder / "log.csv").string();
+    test::LiveEmulator stand({"mark10", "--log", log, "--tissue",
+                              test::project_file("scenarios/emulator/stand_tissue.toml")});
+    test::Running run(test::stand_run(folder.path(), stand, "0.1 mm/s"));
+    const bool presses = run.until([&] { return test::last_in_log(log, "position_m") < -2.05e-3; });
+    if (presses) {
+      ::kill(guard_stops ? test::guard_of(run) : run.id(), SIGSTOP);
+      EXPECT_TRUE(test::seen([&] { return test::last_in_log(log, "velocity_m_s") == 0.0; }));
+    }
+    if (!guard_stops) run.send(SIGKILL);
+    const test::Ended ended = run.wait();
+    // The machine may have kept the run from its link, and it has ended by itself.
+    if (!presses || (test::link_was_lost(ended) && !has(ended.err, unguarded))) continue;
+    const auto summary = stand.end().at("summary");
+    EXPECT_EQ(summary.at("moving"), false);
+    EXPECT_GT(summary.at("position_m").get<double>(), -4e-3 + 1e-4);
+    EXPECT_EQ(has(ended.err, unguarded), guard_stops) << ended.err;
+    EXPECT_EQ(ended.code, guard_stops ? 6 : -1) << ended.err;
+    return;
+  }
+  FAIL() << "the machine stood still in each of " << test::runs_by_the_clock << " runs";
+}
+INSTANTIATE_TEST_SUITE_P(RunAndGuard, StandStill, testing::Bool());
+
+// Feels for a surface 10 mm below, and is held on its way down.
+std::unique_ptr<test::HeldRun> held_feeling() {
+  return test::held_run("1.9 s", {}, "surface = \"-10 mm\"\n");
+}
 
 // If both die at once, nobody is left but the stand's own limit.
 TEST(StandStop, GoesAFifthOfAMillimetreAtMostWhenNobodyIsLeft) {
-  Feeling feeling;
-  ASSERT_TRUE(feeling.moves());
-  const pid_t guard = feeling.guard();
-  feeling.run().send(SIGSTOP);  // so that it cannot notice the end of its guard
-  ::kill(guard, SIGKILL);
-  feeling.run().send(SIGKILL);
-  const double before = feeling.position();
-  EXPECT_TRUE(feeling.stands());
-  EXPECT_GT(feeling.position(), before - 0.2e-3 - 2e-5);  // a step, and the stand's resolution
+  const auto held = held_feeling();
+  ASSERT_TRUE(held->moves());
+  ::kill(held->guard(), SIGKILL);  // while the run stands still and does not notice
+  held->run().send(SIGKILL);
+  EXPECT_EQ(held->run().wait().signal, SIGKILL);
+  const double before = held->position();
+  held->pass(30);  // 0.6 s at 0.5 mm/s
+  EXPECT_FALSE(held->is_stopped()) << "somebody is left";
+  const auto summary = held->summary();
+  EXPECT_EQ(summary.at("moving"), false);
+  const double after = summary.at("position_m").get<double>();
+  EXPECT_LT(after, before);
+  EXPECT_GT(after, before - 0.2e-3 - 2e-5);  // a step, and the stand's resolution
 }
 
 // A run whose messages nobody reads goes on, and none of them reaches the stand: the port must not
@@ -146,16 +143,13 @@ TEST_P(UnheardRun, GoesOn) {
 INSTANTIATE_TEST_SUITE_P(Streams, UnheardRun, testing::Bool());
 
 TEST(StandStop, IsAVerb) {
-  Feeling feeling;
-  ASSERT_TRUE(feeling.moves());
-  ::kill(feeling.guard(), SIGSTOP);
-  feeling.run().send(SIGSTOP);  // nobody stops the stand in this step
-  const test::Ended stopped = test::palpate(feeling.folder(), {"device", "stop", feeling.link()});
+  const auto held = held_feeling();
+  ASSERT_TRUE(held->moves());
+  const test::Ended stopped = test::palpate(held->folder(), {"device", "stop", held->link()});
   EXPECT_EQ(stopped.code, 0) << stopped.err;
   EXPECT_TRUE(has(stopped.err, "stands still")) << stopped.err;
-  ::kill(feeling.guard(), SIGKILL);
   const test::Ended recording =
-      test::palpate(feeling.folder(), {"device", "stop", "replay:none.csv"});
+      test::palpate(held->folder(), {"device", "stop", "replay:none.csv"});
   EXPECT_EQ(recording.code, 2) << recording.err;
   EXPECT_TRUE(has(recording.err, "wants a device that moves, got `replay:none.csv`"))
       << recording.err;

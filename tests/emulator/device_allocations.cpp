@@ -24,7 +24,7 @@ TEST(LinkAllocations, AreNoneInTheArmsLoop) {
   const std::size_t before = test::blocks_taken;
   int fresh = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Sample sample = link.sample(0.5);
+    const Sample sample = link.sample(test::wire_patience);
     clock.sleep_until(clock.now() + 1e-3);
     health.count(clock.now(), sample);
     if (safety.take(clock.now(), sample)) ++fresh;
@@ -52,7 +52,7 @@ TEST(LinkAllocations, AreNoneByEvents) {
   int fresh = 0;
   bool stalled = false;
   for (int i = 0; i < 1700; ++i) {
-    const Sample sample = link.sample(0.5);
+    const Sample sample = link.sample(test::wire_patience);
     if (sample.arrival == Arrival::fresh) ++fresh;
     stalled = stalled || sample.fault == Fault::stalled;
     static_cast<void>(link.command_force({0.0, 0.0, 0.5}));
@@ -65,7 +65,7 @@ TEST(LinkAllocations, AreNoneByEvents) {
 
 TEST(LinkAllocations, AreNoneInTheStandsLoop) {
   const test::LiveEmulator emulator({"mark10", "--clock", "virtual", "--tissue", "none"});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Link link("mark10:" + emulator.port(), Purpose::command, clock);
   ASSERT_EQ(link.set_travel_limits(-5e-3, 5e-3), Fault::none);
   const std::size_t before = test::blocks_taken;
@@ -77,7 +77,7 @@ TEST(LinkAllocations, AreNoneInTheStandsLoop) {
     if (i == 50) {
       EXPECT_TRUE(link.stop());
     }
-    if (link.sample(0.5).arrival == Arrival::fresh) ++fresh;
+    if (link.sample(test::wire_patience).arrival == Arrival::fresh) ++fresh;
   }
   EXPECT_EQ(test::blocks_taken - before, 0U);
   EXPECT_EQ(fresh, 100);
@@ -94,7 +94,7 @@ TEST(LinkAllocations, AreNoneInAGaugesLoop) {
   const std::size_t before = test::blocks_taken;
   int fresh = 0;
   for (int i = 0; i < 100; ++i)
-    if (link.sample(0.5).arrival == Arrival::fresh) ++fresh;
+    if (link.sample(test::wire_patience).arrival == Arrival::fresh) ++fresh;
   EXPECT_EQ(test::blocks_taken - before, 0U);
   EXPECT_EQ(fresh, 100);
 }

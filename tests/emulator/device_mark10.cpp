@@ -62,7 +62,7 @@ TEST(Mark10Link, SaysWhoIsThereAndReadsForceAndTravel) {
 
 TEST(Mark10Link, DoesNotMoveOrSetWhatIsOnlyLookedAt) {
   const LiveEmulator emulator({"mark10", "--clock", "virtual", "--tissue", "none"});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 stand(emulator.port(), Purpose::look, clock);
   EXPECT_EQ(stand.set_travel_limits(-0.01, 0.01), Fault::refused);
   EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::refused);
@@ -72,7 +72,7 @@ TEST(Mark10Link, DoesNotMoveOrSetWhatIsOnlyLookedAt) {
 TEST(Mark10Link, MovesOnlyBetweenLimitsThatItReadBack) {
   const LiveEmulator emulator(
       {"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue", "none"});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 stand(emulator.port(), Purpose::command, clock);
   EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::refused);
   EXPECT_EQ(stand.set_travel_limits(0.01, -0.01), Fault::refused);
@@ -91,7 +91,7 @@ TEST(Mark10Link, MovesOnlyBetweenLimitsThatItReadBack) {
 TEST(Mark10Link, StopsAndSaysSo) {
   const LiveEmulator emulator(
       {"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue", "none"});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 stand(emulator.port(), Purpose::command, clock);
   ASSERT_EQ(stand.set_travel_limits(-50e-3, 5e-3), Fault::none);
   ASSERT_EQ(stand.move({Motion::Act::down, 5e-3}), Fault::none);
@@ -105,7 +105,7 @@ TEST(Mark10Link, StopsAndSaysSo) {
 TEST(Mark10Link, StopsOnItsWayOut) {
   LiveEmulator emulator({"mark10", "--clock", "virtual", "--tick", "20 ms", "--tissue", "none"});
   try {
-    Clock clock(Clock::Kind::monotonic);
+    Clock clock(Clock::Kind::stepped);
     Mark10 stand(emulator.port(), Purpose::command, clock);
     ASSERT_EQ(stand.set_travel_limits(-50e-3, 5e-3), Fault::none);
     ASSERT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::none);
@@ -113,7 +113,7 @@ TEST(Mark10Link, StopsOnItsWayOut) {
     throw std::runtime_error("something else went wrong");
   } catch (const std::runtime_error&) {
   }
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 again(emulator.port(), Purpose::look, clock);
   const double where = next_of(again).position.z();
   EXPECT_LT(where, 0.0);
@@ -123,7 +123,7 @@ TEST(Mark10Link, StopsOnItsWayOut) {
 TEST(Mark10Link, LeavesTheGaugesUnitAsItIsWhereItOnlyLooks) {
   const ScratchFile settings("[gauge]\nunit = \"lbF\"\nnoise = \"0 N\"\n");
   const LiveEmulator emulator({"mark10", "--clock", "virtual", "--stand", settings.path()});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 looked(emulator.port(), Purpose::look, clock);
   EXPECT_EQ(looked.identity().dialect, "gauge in lbF");
   EXPECT_EQ(next_of(looked).fault, Fault::none);
@@ -135,7 +135,7 @@ TEST(Mark10Link, PressesWithAPositiveForceInNewton) {
   const ScratchFile script("[[fault]]\nat = \"6 s\"\nkind = \"unit_change\"\n");
   const LiveEmulator emulator(
       {"mark10", "--clock", "virtual", "--tick", "20 ms", "--fault", script.path()});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 stand(emulator.port(), Purpose::command, clock);
   ASSERT_EQ(stand.set_travel_limits(-4e-3, 5e-3), Fault::none);
   ASSERT_EQ(stand.move({Motion::Act::down, 5e-3}), Fault::none);
@@ -265,7 +265,7 @@ TEST(Mark10Link, DoesNotMoveAStandThatHasForgottenItsLimits) {
   const ScratchFile script("[[fault]]\nat = \"1.5 s\"\nkind = \"reset\"\n");
   const LiveEmulator emulator(
       {"mark10", "--clock", "virtual", "--tissue", "none", "--fault", script.path()});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 stand(emulator.port(), Purpose::command, clock);
   ASSERT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::none);
   EXPECT_EQ(stand.move({Motion::Act::down, 1e-3}), Fault::none);
@@ -276,7 +276,7 @@ TEST(Mark10Link, DoesNotMoveAStandThatHasForgottenItsLimits) {
 // The stand reads a limit back in steps of 0.02 mm, wherever between two of them it was asked for.
 TEST(Mark10Link, SetsLimitsBetweenTheStepsOfTheStand) {
   LiveEmulator emulator({"mark10", "--clock", "virtual", "--tissue", "none"});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 stand(emulator.port(), Purpose::command, clock);
   for (int i = 0; i < 10; ++i) {
     EXPECT_EQ(stand.set_travel_limits(-5e-3 - 2e-6 * i, 5e-3 + 3e-6 * i), Fault::none) << i;
@@ -290,7 +290,7 @@ TEST(Mark10Link, DoesNotMoveAtAnotherSpeedThanAsked) {
   const ScratchFile slow("[stand]\nfastest = \"600 mm/min\"\n");
   LiveEmulator emulator(
       {"mark10", "--clock", "virtual", "--tissue", "none", "--stand", slow.path()});
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 stand(emulator.port(), Purpose::command, clock);
   ASSERT_EQ(stand.set_travel_limits(-5e-3, 5e-3), Fault::none);
   EXPECT_EQ(stand.move({Motion::Act::down, 12e-3}), Fault::not_verified);  // 720 mm/min
@@ -321,7 +321,7 @@ TEST_P(Mark10Deaths, StopTheStand) {
   if (child == 0) {
     ::close(2);
     ::signal(GetParam(), SIG_DFL);  // a sanitizer has handlers of its own
-    Clock clock(Clock::Kind::monotonic);
+    Clock clock(Clock::Kind::stepped);
     Mark10 stand(emulator.port(), Purpose::command, clock);
     if (stand.set_travel_limits(-50e-3, 5e-3) != Fault::none) ::_exit(1);
     if (stand.move({Motion::Act::down, 5e-3}) != Fault::none) ::_exit(2);
@@ -332,7 +332,7 @@ TEST_P(Mark10Deaths, StopTheStand) {
   int status = 0;
   ::waitpid(child, &status, 0);
   ASSERT_TRUE(WIFSIGNALED(status)) << WEXITSTATUS(status);
-  Clock clock(Clock::Kind::monotonic);
+  Clock clock(Clock::Kind::stepped);
   Mark10 again(emulator.port(), Purpose::look, clock);
   const double where = next_of(again).position.z();
   EXPECT_LT(where, -0.2e-3);

@@ -149,7 +149,9 @@ TEST_F(RunStops, a_result_that_another_run_finished_meanwhile_stays) {
   Running running(call({"--set", "sweep.step.1.to=[\"0.005 mm\", \"0.006 mm\", \"0.02 mm\"]"}));
   wait_for_first_case(running);
   const fs::path beside = partial(running);
+  running.send(SIGSTOP);  // so that it does not end before the other
   finish_an_old_one();
+  running.send(SIGCONT);
   const Ended ended = running.wait();
   EXPECT_EQ(ended.code, 0);
   EXPECT_NE(ended.err.find(

@@ -123,8 +123,11 @@ TEST(GuardOfTheStand, SaysThatItActed) {
   const Guarded pair([](GuardProcess& guard) {
     if (guard.has_acted()) ::_exit(1);
     guard.watch(true);
-    ::poll(nullptr, 0, 400);  // ms of silence: it stops the stand after 100 and again after 150
-    ::_exit(guard.has_acted() && !guard.has_acted() ? 7 : 2);
+    if (!test::seen([&] { return guard.has_acted(); })) ::_exit(2);
+    if (!test::seen([&] { return guard.has_acted(); })) ::_exit(3);  // it stops the stand again
+    guard.watch(false);
+    // What it does at that moment is its last act.
+    ::_exit(test::seen([&] { return !guard.has_acted(); }) ? 7 : 4);
   });
   EXPECT_EQ(pair.code(), 7);
 }

@@ -161,14 +161,19 @@ TEST_F(LiveLogs, what_finds_no_room_is_counted_and_told) {
 TEST_F(LiveLogs, one_that_may_wait_loses_nothing) {
   LogPlan waits = plan();
   waits.when_full = LogPlan::WhenFull::wait;
-  constexpr int room = static_cast<int>(LiveLog::capacity);
+  constexpr int lead = static_cast<int>(LiveLog::lead);
   std::atomic<int> begun = 0;  // rows
-  // The disk does nothing until there is no more room.
-  LiveLog log([&](int) { EXPECT_TRUE(test::seen([&] { return begun > room; })); }, waits);
-  constexpr int count = 2 * room + 100;
+  // The disk does nothing until the loop waits.
+  LiveLog log([&](int) { EXPECT_TRUE(test::seen([&] { return begun > lead; })); }, waits);
+  constexpr int count = 40 * lead + 100;
   for (int i = 0; i < count; ++i) {
     ++begun;
     log.push(row(i));
+    // What a killed program leaves: every row but the last ones.
+    if (i % lead == 0 && i > lead) {
+      const std::string kept = content(path_);
+      EXPECT_GE(std::count(kept.begin(), kept.end(), '\n'), 1 + i + 1 - lead);
+    }
   }
   const std::vector<LogRow> rows = log.finish();
   EXPECT_EQ(log.dropped(), 0U);
