@@ -1,4 +1,4 @@
-# What an installation has besides the programs, and the Debian package (`./dev package`).
+# What an installation has besides the programs; the Debian package (`./dev package`) and the archive (`./dev archive`).
 include(GNUInstallDirs)
 set(pages ${CMAKE_BINARY_DIR}/pages)
 
@@ -55,8 +55,9 @@ set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 exact layers or meshes of springs, whichever is cheapest and accurate enough, with its
 error. Fits curves, runs sweeps, estimates tissue properties, and works with test stands
 and haptic arms.")
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGE_FILE_NAME palpate-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/archive.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

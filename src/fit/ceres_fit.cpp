@@ -3,9 +3,12 @@
 
 #include <ceres/ceres.h>
 #include <glog/logging.h>
+#include <pthread.h>
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
 #include <utility>
 
 #include "base/index.h"
@@ -167,3 +170,11 @@ Minimum minimise(std::span<const double> x, std::span<const double> y, Model mod
 std::string ceres_version() { return CERES_VERSION_STRING; }
 
 }  // namespace palpate::fit
+
+// Stands for std::condition_variable::wait() (src/CMakeLists.txt). Ceres's archive asks for that of
+// GCC 12, the only thing that would keep the program from running with the C++ library of GCC 11.
+extern "C" void
+__wrap__ZNSt18condition_variable4waitERSt11unique_lockISt5mutexE(  // NOLINT: the linker's name
+    std::condition_variable* signal, std::unique_lock<std::mutex>* lock) {
+  pthread_cond_wait(signal->native_handle(), lock->mutex()->native_handle());
+}
