@@ -141,8 +141,9 @@ Markup all_figures(const WholeFolder& folder,
 
 Markup making(const Making& made, const std::vector<HashedFile>& inputs,
               const WholeFolder& folder) {
-  Markup all = element("p", text("This repeats the result in this folder, with the same bytes on "
-                                 "every machine, by palpate " PALPATE_VERSION ":"));
+  Markup all = element(
+      "p", text("This repeats the result in this folder, with the same bytes on "
+                "every x86-64 processor, by the same build of palpate " PALPATE_VERSION ":"));
   all += element("pre", element("code", made.command), {{"tabindex", "0"}});
   if (!made.remark.empty()) all += paragraphs({made.remark});
   record::Table hashes{{"file", "SHA-256"}, {}};
