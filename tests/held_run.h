@@ -19,7 +19,7 @@ class HeldRun {
   explicit HeldRun(const std::string& at, const std::vector<std::string>& more,
                    const std::string& tissue = "surface = \"-2 mm\"\n")
       : tissue_(tissue),
-        stall_("[[fault]]\nkind = \"stall\"\nduration = \"60 ms\"\nat = \"" + at + "\"\n"),
+        stall_("[[fault]]\nkind = \"stall\"\nduration = \"10 ms\"\nat = \"" + at + "\"\n"),
         stand_({"mark10", "--clock", "virtual", "--tissue", tissue_.path(), "--fault",
                 stall_.path(), "--log", log_}),
         port_(stand_.port()),  // before the run holds it alone
