@@ -123,14 +123,14 @@ std::vector<std::string> libraries_of(const std::string& program) {
 
 // Exact by definition, or without arithmetic, so that all processors agree.
 const std::set<std::string> exact{
-    "ceil",       "floor",      "trunc",         "round",        "lround",       "llround",
-    "rint",       "lrint",      "llrint",        "nearbyint",    "fmod",         "remainder",
-    "fma",        "sqrt",       "fabs",          "copysign",     "fmin",         "fmax",
-    "fdim",       "frexp",      "ldexp",         "scalbn",       "logb",         "ilogb",
-    "modf",       "nan",        "nextafter",     "ceilf",        "floorf",       "roundf",
-    "sqrtf",      "fmodf",      "truncf",        "rintf",        "ldexpf",       "frexpf",
-    "fesetround", "fegetround", "feclearexcept", "fetestexcept", "feholdexcept", "feupdateenv",
-    "fesetenv",   "fegetenv"};
+    "ceil",         "floor",       "trunc",      "round",      "lround",        "llround",
+    "rint",         "lrint",       "llrint",     "nearbyint",  "fmod",          "remainder",
+    "fma",          "sqrt",        "fabs",       "copysign",   "fmin",          "fmax",
+    "fdim",         "frexp",       "ldexp",      "scalbn",     "logb",          "ilogb",
+    "modf",         "nan",         "nextafter",  "ceilf",      "floorf",        "roundf",
+    "sqrtf",        "fmodf",       "truncf",     "rintf",      "ldexpf",        "frexpf",
+    "frexpl",       "ldexpl",      "fesetround", "fegetround", "feclearexcept", "fetestexcept",
+    "feholdexcept", "feupdateenv", "fesetenv",   "fegetenv"};
 
 class ProcessorsProgram : public testing::TestWithParam<const char*> {};
 
