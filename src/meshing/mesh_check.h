@@ -14,9 +14,8 @@ namespace palpate::meshing {
 // Refused, in this order: no tetrahedra; a node index out of range; a node that is not finite; a
 // tetrahedron with a repeated node; a tetrahedron that is inverted, or flat (a volume below 1e-9 of
 // its longest edge cubed); a node without tetrahedra; a face of more than two tetrahedra, or of two
-// on the same side; a boundary edge of more than two boundary faces, or a node in which
-// parts of the boundary only touch; a volume that differs from
-// the expected one by more than 1e-6 of it. Every tolerance scales with the mesh.
+// on the same side; an edge or a node at which parts of the boundary only touch; a volume that
+// differs from the expected one by more than 1e-6 of it. Every tolerance scales with the mesh.
 void check(const geometry::TetMesh& mesh, const std::string& name, double expected_volume);
 
 }  // namespace palpate::meshing

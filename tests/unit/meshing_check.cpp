@@ -135,8 +135,8 @@ TEST(Check, refuses_parts_that_touch_in_an_edge_only) {
   mesh.tetrahedra.push_back({0, 1, 4, 5});
   ASSERT_GT(geometry::signed_volume(mesh, 1), 0.0);
   EXPECT_EQ(complaint(mesh),
-            "mesh `paw`: edge (0, 1) belongs to more than 2 boundary faces; join the parts that "
-            "only touch there, or separate them");
+            "mesh `paw`: parts of its boundary touch at node 1; join the parts that only touch "
+            "there, or separate them");
 }
 
 TEST(Check, refuses_parts_that_touch_in_a_node_only) {
@@ -145,10 +145,9 @@ TEST(Check, refuses_parts_that_touch_in_a_node_only) {
     mesh.nodes.push_back(node);
   mesh.tetrahedra.push_back({0, 4, 6, 5});
   ASSERT_GT(geometry::signed_volume(mesh, 1), 0.0);
-  EXPECT_EQ(
-      complaint(mesh),
-      "mesh `paw`: parts of its boundary touch in node 0 only; join the parts that only touch "
-      "there, or separate them");
+  EXPECT_EQ(complaint(mesh),
+            "mesh `paw`: parts of its boundary touch at node 0; join the parts that only touch "
+            "there, or separate them");
 }
 
 // A tetrahedron taken out of the middle of a box leaves it closed, so only the sum can tell.
