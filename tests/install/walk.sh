@@ -51,7 +51,7 @@ quickstart() {
     palpate run quickstart --out by_name --quiet
     cmp by_name/quickstart/force_indentation.csv out/quickstart/force_indentation.csv
     palpate new press; palpate run press.toml --quiet; palpate --version; palpate -V; palpate help run | grep -q dry-run
-    palpate-emulator --version'
+    palpate-emulator --help >/dev/null'
 }
 
 pages_and_completion() {
