@@ -110,7 +110,8 @@ record::Table correlation_table(const Identification& found) {
     table.rows.push_back({found.unknowns[i].unknown.key});
     for (std::size_t j = 0; j < n; ++j) {
       const double value = found.correlation[i * n + j];
-      table.rows.back().push_back(std::isnan(value) ? Cell() : Cell(value));
+      Cell& cell = table.rows.back().emplace_back();
+      if (!std::isnan(value)) cell = value;
     }
   }
   return table;

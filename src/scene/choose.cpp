@@ -166,10 +166,11 @@ class Chooser {
                  : ", the width of the body and of its base takes " + percent_text(e.narrow)));
     if (box) ask(Asked::layer, e.sides, limit);
     decide(e);
-    if (choice_.found.size_matters)
-      choice_.questions.back().answer =
-          std::string(choice_.questions.back().number < limit ? "small, but " : "") +
-          "with the factor for it no mesh is needed";
+    if (choice_.found.size_matters) {
+      std::string& answer = choice_.questions.back().answer;
+      answer = choice_.questions.back().number < limit ? "small, but " : "";
+      answer += "with the factor for it no mesh is needed";
+    }
     ask(Asked::deep, std::abs(e.deep), deep_limit(), deep_answer(e));
     if (choice_.found.depth_matters && std::abs(e.deep) < deep_limit())
       choice_.questions.back().answer =
@@ -240,8 +241,8 @@ class Chooser {
   }
 
   [[nodiscard]] std::string deep_answer(const Estimates& e) const {
-    const std::string change = std::string(e.deep < 0.0 ? "lower" : "raise") + " the force by " +
-                               percent_text(std::abs(e.deep));
+    std::string change = e.deep < 0.0 ? "lower" : "raise";
+    change += " the force by " + percent_text(std::abs(e.deep));
     if (!choice_.expected.depth_ratio)
       return "large strains " + change + " near this place, but the factor is not known here";
     return "large strains " + change + ", and a factor takes this into account";

@@ -250,7 +250,9 @@ TEST_F(LiveLogs, traffic_goes_to_its_file) {
   with.traffic_file = (folder_ / "traffic.csv").string();
   LiveLog log(ignore, with);
   tap.note(device::Tap::Way::sent, "n\r");
-  tap.note(device::Tap::Way::received, std::string(500, 'x') + "\n");
+  std::string line(500, 'x');
+  line += '\n';
+  tap.note(device::Tap::Way::received, line);
   ASSERT_TRUE(test::seen([&] { return content(with.traffic_file).ends_with("x\\n\"\n"); }));
   const std::string text = content(with.traffic_file);
   EXPECT_TRUE(text.starts_with("time_s,way,bytes\n0,sent,\"n\\r\"\n")) << text;
