@@ -23,6 +23,9 @@
 
 extern "C" {
 
+// GCC's and Clang's complex number, which std::complex<double> is passed as.
+__extension__ typedef double _Complex Complex;
+
 PALPATE_OF_ONE(exp, u10)
 PALPATE_OF_ONE(exp2, u10)
 PALPATE_OF_ONE(exp10, u10)
@@ -52,6 +55,9 @@ PALPATE_OF_TWO(pow, u10)
 PALPATE_OF_TWO(atan2, u10)
 PALPATE_OF_TWO(hypot, u05)
 
+double cabs(Complex z) {
+  return Sleef_cinz_hypotd1_u05purec(__extension__ __real__ z, __extension__ __imag__ z);
+}
 void sincos(double x, double* sine, double* cosine) {
   *sine = Sleef_cinz_sind1_u10purec(x);
   *cosine = Sleef_cinz_cosd1_u10purec(x);

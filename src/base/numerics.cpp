@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/special_functions/legendre.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -95,5 +96,7 @@ const GaussRule& gauss_rule(int points) {
 double student_t_quantile(double probability, double degrees) {
   return boost::math::quantile(boost::math::students_t_distribution<double>(degrees), probability);
 }
+
+double bessel_j(int order, double x) { return boost::math::cyl_bessel_j(order, x); }
 
 }  // namespace palpate::numerics

@@ -1,4 +1,5 @@
-// Roots, minima, Gauss points and Student's t, by Boost.Math in double precision.
+// Roots, minima, Gauss points, Student's t and Bessel's functions, by Boost.Math in double
+// precision.
 #pragma once
 
 #include <memory>
@@ -62,5 +63,9 @@ struct GaussRule {
 
 // The t for which P(T <= t) = probability, 0 to 1, with `degrees` > 0 degrees of freedom.
 [[nodiscard]] double student_t_quantile(double probability, double degrees);
+
+// Bessel's function of the first kind, of order 0 or 1, for any x. The C library's j0 and j1 differ
+// between processors.
+[[nodiscard]] double bessel_j(int order, double x);
 
 }  // namespace palpate::numerics

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/index.h"
+#include "base/numerics.h"
 
 namespace palpate::contact {
 namespace {
@@ -27,11 +28,9 @@ LayerSinking::LayerSinking(const Layer& layer, double farthest) {
     for (int i = 0; i <= most; ++i) {
       const double rho = last * i / pieces;
       Knot knot{0.0, 0.0};
-      // The Bessel functions of the C library agree with std::cyl_bessel_j to the last digits and
-      // are 30 times faster. They are evaluated only here, at set-up.
       for (const auto& wave : waves) {
-        knot.value += wave.missing * ::j0(wave.number * rho);
-        knot.slope -= wave.missing * wave.number * ::j1(wave.number * rho);
+        knot.value += wave.missing * numerics::bessel_j(0, wave.number * rho);
+        knot.slope -= wave.missing * wave.number * numerics::bessel_j(1, wave.number * rho);
       }
       table.knots.push_back(knot);
     }
