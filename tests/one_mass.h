@@ -23,18 +23,28 @@ struct OneMass final : integrate::Body {
     drag_vector = Vector::Constant(3, d);
     damping.drag_rate = d / m;
     damping.retardation_time = tau;
+    matrix = block(k);
   }
 
   Vector mass_vector;
   Vector drag_vector;
   integrate::Proportional damping;
+  BlockMatrix matrix;
 
   [[nodiscard]] const Vector& mass() const override { return mass_vector; }
   [[nodiscard]] const Vector& drag() const override { return drag_vector; }
   [[nodiscard]] std::span<const char> held() const override { return held_flags; }
   [[nodiscard]] bool linear() const override { return true; }
   [[nodiscard]] const integrate::Proportional& proportional() const override { return damping; }
-  void force(const Vector& u, std::span<const double>, Vector& f) const override { f = k * u; }
+  void look(integrate::State& state) const override {
+    state.force = k * state.displacement;
+    state.stored = 0.5 * k * state.displacement.squaredNorm();
+  }
+  [[nodiscard]] static BlockMatrix block(double x) {
+    BlockMatrix matrix(1, {});
+    matrix.add(0, 0, Vec3(x, 0.0, 0.0).asDiagonal().toDenseMatrix());
+    return matrix;
+  }
   [[nodiscard]] SplitMatrix diagonal(double x) const {
     SplitMatrix matrix;
     matrix.local.resize(3, 3);
@@ -43,14 +53,9 @@ struct OneMass final : integrate::Body {
     matrix.local.insert(2, 2) = 1.0;
     return matrix;
   }
-  [[nodiscard]] SplitMatrix stiffness() const override { return diagonal(k); }
+  [[nodiscard]] const BlockMatrix& stiffness() const override { return matrix; }
   [[nodiscard]] bool has_dashpots() const override { return tau > 0.0; }
-  [[nodiscard]] SplitMatrix dashpots(const Vector&) const override { return diagonal(tau * k); }
-  [[nodiscard]] BlockMatrix dashpot_blocks(const Vector&) const override {
-    BlockMatrix matrix(1, {});
-    matrix.at(0, 0)(0, 0) = tau * k;
-    return matrix;
-  }
+  [[nodiscard]] BlockMatrix dashpots(const Vector&) const override { return block(tau * k); }
   void dashpot_force(const Vector&, const Vector& v, Vector& f) const override { f = tau * k * v; }
   using Body::memory_at;
   void memory_at(const Vector& u, std::vector<double>& memory) const override {

@@ -13,7 +13,7 @@ constexpr std::size_t group_size = 60;
 
 // The group of every node. A new group begins where the groups before left off, so that few nodes
 // are enclosed by others; those that are join a neighbour.
-std::vector<int> groups(const BlockRows& rows, int& count) {
+std::vector<int> groups(const BlockMatrix::Neighbours& rows, int& count) {
   const std::size_t nodes = rows.start.size() - 1;
   std::vector<int> group(nodes, -1);
   std::vector<int> border;  // nodes beside finished groups, in the order in which they were met
@@ -37,7 +37,7 @@ std::vector<int> groups(const BlockRows& rows, int& count) {
     for (std::size_t m = 0; m < members.size(); ++m) {
       const std::size_t node = as_index(members[m]);
       for (int k = rows.start[node]; k < rows.start[node + 1]; ++k) {
-        const int neighbour = rows.column[as_index(k)];
+        const int neighbour = rows.each[as_index(k)].node;
         int& of_neighbour = group[as_index(neighbour)];
         if (of_neighbour >= 0 && of_neighbour != count) beside = of_neighbour;
         if (of_neighbour >= 0) continue;
@@ -61,7 +61,7 @@ std::vector<int> groups(const BlockRows& rows, int& count) {
 
 bool CoarseCorrection::prepare(const BlockMatrix& matrix, std::span<const char> held) {
   int count = 0;
-  const std::vector<int> group_of = groups(matrix.rows, count);
+  const std::vector<int> group_of = groups(matrix.neighbours(), count);
   const auto group = [&](int node) { return group_of[as_index(node)]; };
   // A group whose nodes are all held in one direction is held in it.
   std::vector<char> groups_held(3 * as_index(count), 1);
@@ -75,18 +75,20 @@ bool CoarseCorrection::prepare(const BlockMatrix& matrix, std::span<const char> 
   }
 
   std::vector<std::array<int, 2>> pairs;
-  const auto all_pairs = [&](const BlockRows& rows, std::size_t row, const auto& with) {
-    for (int k = rows.start[row]; k < rows.start[row + 1]; ++k) with(rows.column[as_index(k)], k);
+  const auto pair = [&](int a, int b) {
+    if (a != b) pairs.push_back({std::min(a, b), std::max(a, b)});
+  };
+  const BlockRows& rows = matrix.rows();
+  const auto each = [](const BlockRows& all, std::size_t row, const auto& with) {
+    for (int k = all.start[row]; k < all.start[row + 1]; ++k) with(all.column[as_index(k)], k);
   };
   for (std::size_t n = 0; n < group_of.size(); ++n)
-    all_pairs(matrix.rows, n, [&](int other, int) {
-      if (group(other) > group_of[n]) pairs.push_back({group_of[n], group(other)});
-    });
-  std::vector<std::vector<std::pair<int, Vec3>>> changes(matrix.weights.size());  // by groups
+    each(rows, n, [&](int other, int) { pair(group_of[n], group(other)); });
+  std::vector<std::vector<std::pair<int, Vec3>>> changes(matrix.weights().size());  // by groups
   for (std::size_t v = 0; v < changes.size(); ++v) {
     std::vector<std::pair<int, Vec3>>& own = changes[v];
-    all_pairs(matrix.volumes, v, [&](int node, int k) {
-      Vec3 change = matrix.changes[as_index(k)];
+    each(matrix.shared(), v, [&](int node, int k) {
+      Vec3 change = matrix.change(k);
       for (int axis = 0; axis < 3; ++axis)
         if (held[as_index(3 * node + axis)] != 0) change[axis] = 0.0;
       const auto same = std::find_if(own.begin(), own.end(),
@@ -97,44 +99,45 @@ bool CoarseCorrection::prepare(const BlockMatrix& matrix, std::span<const char> 
         same->second += change;
     });
     for (const auto& [a, unused] : own)
-      for (const auto& [b, unused_too] : own)
-        if (a < b) pairs.push_back({a, b});
+      for (const auto& [b, unused_too] : own) pair(a, b);
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 
   BlockMatrix coarse(count, pairs);
   for (std::size_t n = 0; n < group_of.size(); ++n)
-    all_pairs(matrix.rows, n, [&](int other, int k) {
-      BlockMatrix::Block& sum = coarse.at(group_of[n], group(other));
+    each(rows, n, [&](int other, int k) {
+      BlockMatrix::Block kept = matrix.block(k);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-          if (held[3 * n + as_index(i)] == 0 && held[as_index(3 * other + j)] == 0)
-            sum(i, j) += matrix.blocks[as_index(k)](i, j);
+          if (held[3 * n + as_index(i)] != 0 || held[as_index(3 * other + j)] != 0)
+            kept(i, j) = 0.0;
+      coarse.add(group_of[n], group(other), kept);
+      if (other != static_cast<int>(n)) coarse.add(group(other), group_of[n], kept.transpose());
     });
   for (std::size_t v = 0; v < changes.size(); ++v)
     for (const auto& [a, change] : changes[v])
       for (const auto& [b, other] : changes[v])
-        coarse.at(a, b) += matrix.weights[v] * change * other.transpose();
+        coarse.add(a, b, matrix.weights()[v] * change * other.transpose());
   load_.resize(3 * count);
   return factors_.factor(coarse.split(groups_held));
 }
 
-void CoarseCorrection::add(std::span<const double> r, std::size_t lanes, std::size_t stride,
-                           std::span<double> z) {
+void CoarseCorrection::add(const Eigen::VectorXd& r, std::size_t lanes, std::size_t stride,
+                           Eigen::VectorXd& z) {
   const auto for_free = [&](const auto& with) {
     for (std::size_t f = 0; f < free_.size(); ++f)
       for (std::size_t l = 0; l < stride; ++l)
         with(stride * as_index(free_[f]) + l, gathered_[stride * as_index(unknown_[f]) + l]);
   };
   gathered_.assign(stride * as_index(load_.size()), 0.0);
-  for_free([&](std::size_t i, double& sum) { sum += r[i]; });
+  for_free([&](std::size_t i, double& sum) { sum += r[static_cast<Eigen::Index>(i)]; });
   for (std::size_t l = 0; l < lanes; ++l) {
     for (Eigen::Index u = 0; u < load_.size(); ++u) load_[u] = gathered_[stride * as_index(u) + l];
     factors_.solve(load_, moved_);
     for (Eigen::Index u = 0; u < load_.size(); ++u) gathered_[stride * as_index(u) + l] = moved_[u];
   }
-  for_free([&](std::size_t i, double moved) { z[i] += moved; });
+  for_free([&](std::size_t i, double moved) { z[static_cast<Eigen::Index>(i)] += moved; });
 }
 
 }  // namespace palpate

@@ -20,7 +20,7 @@ class CoarseCorrection {
   [[nodiscard]] bool prepare(const BlockMatrix& matrix, std::span<const char> held);
 
   // z += P C^-1 P^T r for `lanes` vectors: entry l of degree of freedom d is r[stride d + l].
-  void add(std::span<const double> r, std::size_t lanes, std::size_t stride, std::span<double> z);
+  void add(const Eigen::VectorXd& r, std::size_t lanes, std::size_t stride, Eigen::VectorXd& z);
 
  private:
   std::vector<int> free_;     // the degrees of freedom that are not held

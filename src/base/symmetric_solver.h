@@ -8,6 +8,7 @@
 #include "base/block_matrix.h"
 #include "base/cholesky.h"
 #include "base/coarse_correction.h"
+#include "base/conjugate_gradients.h"
 
 namespace palpate {
 
@@ -39,6 +40,9 @@ class SymmetricSolver {
     return solve(std::span(&b, 1), std::span(&x, 1));
   }
 
+  // z = C r with C near the inverse of A, and equal to it if it was factored; 0 where held.
+  void precondition(const Vector& r, Vector& z);
+
   [[nodiscard]] double tolerance() const { return tolerance_; }
   void set_tolerance(double tolerance) { tolerance_ = tolerance; }
 
@@ -56,10 +60,10 @@ class SymmetricSolver {
   BlockMatrix matrix_;
   std::vector<char> held_;
   std::optional<Cholesky> factors_;
-  std::vector<double> inverse_diagonal_;  // 0 where held
+  Vector inverse_diagonal_;  // 0 where held
   std::optional<CoarseCorrection> coarse_;
   double error_ = 0.0;
-  std::vector<double> right_, x_, r_, p_, image_;  // block_lanes numbers per degree of freedom
+  GradientVectors vectors_;
   Vector unheld_;
 };
 

@@ -299,8 +299,8 @@ Integrator base_integrator(const scenario::Case& one) {
   const scenario::Solver& solver = scenario.solver;
   if (solver.integrator) return *solver.integrator;
   const bool drag = scenario.tissue.viscosity == tissue::Viscosity::nodal_drag;
-  if (compresses(scenario)) return Integrator::quasi_static;
-  if (scenario.uniform() || drag) return Integrator::central_difference;
+  if (drag) return Integrator::central_difference;
+  if (scenario.uniform()) return Integrator::quasi_static;
   return scene::choose(one).expected.inertia < solver.tolerance ? Integrator::quasi_static
                                                                 : Integrator::central_difference;
 }

@@ -209,24 +209,8 @@ class Finder {
   }
 
   std::optional<Truth> uniform() const {
-    constexpr double few = 60.0;  // nodes; the modes of so small a mesh take no time
-    const bool drag = scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag;
-    if (drag) return extrapolated("modal", 0.0);
-    if (scenario::compresses(scenario_)) return extrapolated("quasi_static", 0.0);
-    told_("effect of inertia");
-    const auto of_few = inertia_on(few);
-    if (!of_few) return std::nullopt;
-    const bool moves = of_few->greatest > 0.5 * scenario_.solver.tolerance;
-    if (!moves && !even()) return extrapolated("quasi_static", of_few->greatest);
-    // Without viscosity the body rings for ever, and two meshes soon are out of step.
-    const bool rings = moves && scenario_.tissue.viscosity == tissue::Viscosity::none;
-    if (rings || 4.0 * nodes_ > most_modal_nodes) return extrapolated("modal", 0.0);
-    const auto of_more = inertia_on(4.0 * nodes_);
-    if (!of_more) return std::nullopt;
-    if (even()) return material(*of_few, *of_more);
-    auto truth = extrapolated("quasi_static", 0.0);
-    if (truth) add_inertia(*of_few, *of_more, *truth);
-    return truth;
+    if (scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag) return extrapolated("modal");
+    return even() ? material() : extrapolated("quasi_static");
   }
 
   // Of the nodes in the mesh of the last run(), relative to the specimen's size.
@@ -237,18 +221,14 @@ class Finder {
   struct Inertia {
     History added;
     double greatest = 1.0;
-    double spacing = 0.0;  // of the nodes, relative to the specimen
   };
-  [[nodiscard]] std::optional<Inertia> inertia_on(double nodes) const {
-    return inertia_of([&](const char* integrator) { return run_coupled(nodes, integrator); });
-  }
   template <class Run>
   [[nodiscard]] std::optional<Inertia> inertia_of(const Run& run_with) const {
     const auto moving = run_with("modal");
     const auto quiet = moving ? run_with("quasi_static") : std::nullopt;
     if (!quiet) return std::nullopt;
     const History still = without_starts(scenario_, *quiet);
-    Inertia inertia{.added = without_starts(scenario_, *moving), .spacing = spacing()};
+    Inertia inertia{.added = without_starts(scenario_, *moving)};
     if (const auto off = deviation(scenario_, *moving, still)) inertia.greatest = off->greatest;
     for (std::size_t i = 0; i < still.size(); ++i) inertia.added[i].value -= still[i].value;
     return inertia;
@@ -297,31 +277,21 @@ class Finder {
     return value * creeps.stress / modulus;
   }
 
-  // The effect of inertia converges with the square of the spacing.
-  void add_inertia(const Inertia& coarse, const Inertia& fine, Truth& truth) const {
-    const double rest = 1.0 / (std::pow(coarse.spacing / fine.spacing, 2) - 1.0);
-    for (std::size_t i = 0; i < truth.moments.size(); ++i) {
-      const double finer = rest * (fine.added[i].value - coarse.added[i].value);
-      truth.moments[i].value += fine.added[i].value + finer;
-      truth.moments[i].error += std::abs(finer);
-    }
-    truth.sentence += ", and the effect of inertia by coupled springs, " +
-                      percent_text(fine.greatest) + "; its own error is about " +
-                      percent_text(own_error(scenario_, truth.moments).greatest);
-  }
-
-  [[nodiscard]] Truth material(const Inertia& coarse, const Inertia& fine) const {
-    Truth truth{"closed form", "the material's law between frictionless platens", fine.added};
+  // At the moments of the variants with the longest interval, which statics on few nodes give.
+  [[nodiscard]] std::optional<Truth> material() const {
+    const auto few = run_coupled(60.0, "quasi_static");
+    if (!few) return std::nullopt;
+    Truth truth{"closed form", "the material's law between frictionless platens",
+                without_starts(scenario_, *few)};
     for (Moment& at : truth.moments)
       at = {at.step, at.time,
             of_law(scenario_.steps[as_index(at.step - 1)], at.time - start_of(scenario_, at.step))};
-    add_inertia(coarse, fine, truth);
     return truth;
   }
 
-  std::optional<Truth> extrapolated(const char* integrator, double more) const {
+  std::optional<Truth> extrapolated(const char* integrator) const {
     const bool ready = std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh);
-    if (ready) return vouched_uniform(integrator, more);
+    if (ready) return vouched_uniform(integrator);
     std::vector<History> levels;
     std::vector<double> spacings;
     double coarsest = integrator == std::string("modal") ? 40.0 : 600.0;
@@ -342,8 +312,7 @@ class Finder {
       for (const History& level : levels) values.push_back(level[i].value);
       const chart::Extrapolated found = chart::extrapolate(spacings, values);
       const Moment& at = levels.back()[i];
-      truth.moments.push_back(
-          {at.step, at.time, found.value, found.error + more * std::abs(found.value)});
+      truth.moments.push_back({at.step, at.time, found.value, found.error});
     }
     truth.sentence = std::string("coupled springs on three meshes by `") + integrator +
                      "`, extrapolated; further refinement may change " +
@@ -351,9 +320,9 @@ class Finder {
     return truth;
   }
 
-  std::optional<Truth> vouched_uniform(const char* integrator, double more) const {
+  std::optional<Truth> vouched_uniform(const char* integrator) const {
     auto truth = vouched("own mesh", "`coupled_springs` on the ready mesh",
-                         coupled(0.0, integrator), strongest_error() + more);
+                         coupled(0.0, integrator), strongest_error());
     if (truth) truth->moments = without_starts(scenario_, truth->moments);
     return truth;
   }

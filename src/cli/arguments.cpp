@@ -267,9 +267,6 @@ void add_options(CLI::App& all, Sweep& sweep) {
   verb = add("run", Sweep::Act::run, "Run the cases that are not finished");
   verb->add_option("--shard", sweep.shard, "The I-th of N parts: I/N")->capture_default_str();
   add_jobs(*verb, sweep.jobs);
-  verb->add_option("--lanes", sweep.lanes, "Cases in one loop: auto, none, all (same results)")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "none", "all"}));
   add("status", Sweep::Act::status, "How many cases are finished, failed and missing");
   add("retry", Sweep::Act::retry, "Run failed cases once more");
   verb = add("merge", Sweep::Act::merge, "All results as one table, with figures");

@@ -165,7 +165,6 @@ struct Sweep {
   bool curves = false;        // keeps the curves of every case
   std::string shard = "1/1";  // I/N
   int jobs = 0;
-  std::string lanes = "auto";     // cases that share a loop: auto, none, all
   int chunk = 50;                 // cases per task of the array
   std::string time;               // limit per task, as Slurm writes it; empty: the cluster's
   std::vector<std::string> show;  // columns that `merge` draws; empty: the usual ones

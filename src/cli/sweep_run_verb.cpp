@@ -62,8 +62,6 @@ class Ticker {
 int sweep_run(const Sweep& command, const Talk& talk) {
   sweep::SweepTask task{.shard = sweep::parse_shard(command.shard),
                         .workers = worker_count(command.jobs)};
-  if (command.lanes != "auto")
-    task.lanes = command.lanes == "all" ? run::Lanes::wherever_possible : run::Lanes::none;
   if (command.act == Sweep::Act::retry) task.which = sweep::SweepTask::Which::failed;
   const sweep::SweepPlan plan = sweep::read_plan(command.subject, program_identity());
   // From here a second signal ends the program at once, without losing a finished row.

@@ -111,6 +111,14 @@ double Creep::compliance_ratio(double time) const {
   return at_once + later;
 }
 
+double Creep::recovery_ratio(double load_time, double time) const {
+  // J(load_time + t) - J(t) = sum j (1 - exp(-load_time/T)) exp(-t/T), without cancellation
+  double left = 0.0;
+  for (const Branch& mode : modes)
+    left -= mode.ratio * std::expm1(-load_time / mode.time) * std::exp(-time / mode.time);
+  return left;
+}
+
 Relaxation sorted(const Relaxation& relaxation) {
   assert(relaxation.branches.empty() || relaxation.retardation_time == 0.0);
   assert(relaxation.retardation_time >= 0.0);

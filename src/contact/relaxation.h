@@ -36,6 +36,8 @@ struct Creep {
 
   // J(t) E_inf for t >= 0, s.
   [[nodiscard]] double compliance_ratio(double time) const;
+  // The same at `time` (s) after the end of a stress that lasted for `load_time` (s).
+  [[nodiscard]] double recovery_ratio(double load_time, double time) const;
 };
 
 // The creep function of a relaxation function: as many modes as branches, T_m between tau_m and

@@ -53,11 +53,6 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
   std::vector<scene::Choice> choices;
   scene::SpecimenShapes shapes;
   std::vector<Problem> wrong;
-  // Creep and relaxation tests measure the flow of a specimen, so that its waves are left out; the
-  // caller checks this afterwards with inertia_of_flow().
-  const bool still_flow = scenario.uniform() &&
-                          scenario.tissue.viscosity != tissue::Viscosity::nodal_drag &&
-                          scenario.tissue.viscosity != tissue::Viscosity::none;
   bool deep_known = true;  // the factor of deep presses exists for all values tried
   for (const std::vector<double>& u : places(unknowns.size())) {
     std::vector<double> values;
@@ -103,7 +98,6 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
     found.inertia_matters |= choice.found.inertia_matters;
     found.depth_matters |= choice.found.depth_matters;
   }
-  if (!fixed.given && still_flow) found.inertia_matters = false;
   found.depth_matters = found.depth_matters && deep_known;
   fixed.one.scenario = scenario::answered(one, scenario::resolve(one, fixed.model, found));
   return fixed;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/block_matrix.h"
@@ -32,6 +33,19 @@ struct Proportional {
   std::vector<Branch> branches;   // springs in series with dashpots
 };
 
+// The part of a simulation that changes with time.
+struct State {
+  double time = 0.0;           // s
+  Vector displacement;         // m
+  Vector velocity;             // m/s
+  std::vector<double> memory;  // of the viscous branches, in the layout of the body
+
+  // What Body::look() fills. Whoever changes displacement or memory otherwise leaves `force` empty.
+  Vector force;               // N
+  std::vector<Vector> parts;  // of the force: those of the branches, or that of Kelvin-Voigt
+  double stored = 0.0;        // J
+};
+
 // All vectors have one entry per degree of freedom. Held degrees of freedom do not move.
 class Body {
  public:
@@ -43,18 +57,31 @@ class Body {
   [[nodiscard]] virtual bool linear() const = 0;
   [[nodiscard]] virtual const Proportional& proportional() const = 0;
 
-  // The internal force (N), equal to the load in equilibrium, without dashpots and drag.
-  virtual void force(const Vector& displacement, std::span<const double> memory,
-                     Vector& force) const = 0;
+  // Fills the internal force of a state, which is equal to the load in equilibrium, without
+  // dashpots and drag, and its energy, from its displacement and memory.
+  virtual void look(State& state) const = 0;
+  // The same at the end of a step to the displacement that the state has already: advances its
+  // memory first.
+  void arrive(State& state, const TimeStep& step) const {
+    remember(state.displacement, step, state.memory);
+    look(state);
+  }
 
-  // The elastic stiffness at rest, N/m; the rows of held freedoms are those of the identity.
-  [[nodiscard]] virtual SplitMatrix stiffness() const = 0;
+  // The force of such a state alone.
+  void force(const Vector& displacement, std::span<const double> memory, Vector& force) const {
+    State state;
+    state.displacement = displacement;
+    state.memory.assign(memory.begin(), memory.end());
+    look(state);
+    force = std::move(state.force);
+  }
 
-  // Dashpots between nodes: their matrix (N s/m; held rows as above) and their force (N).
+  // The elastic stiffness at rest, N/m, without supports.
+  [[nodiscard]] virtual const BlockMatrix& stiffness() const = 0;
+
+  // Dashpots between nodes: their matrix (N s/m, without supports) and their force (N).
   [[nodiscard]] virtual bool has_dashpots() const = 0;
-  [[nodiscard]] virtual SplitMatrix dashpots(const Vector& displacement) const = 0;
-  // The same matrix by blocks of nodes, without supports; only asked of large bodies.
-  [[nodiscard]] virtual BlockMatrix dashpot_blocks(const Vector& displacement) const = 0;
+  [[nodiscard]] virtual BlockMatrix dashpots(const Vector& displacement) const = 0;
   virtual void dashpot_force(const Vector& displacement, const Vector& velocity,
                              Vector& force) const = 0;
 
@@ -70,20 +97,13 @@ class Body {
                         std::vector<double>& memory) const = 0;
 
   // For implicit steps: the internal force (N) at the end of a step that ends at `displacement`,
-  // dashpots included, and its derivative (N/m; held rows as above).
+  // dashpots included, and its derivative (N/m; the rows of held freedoms are those of the
+  // identity).
   virtual void step_force(const Vector& displacement, std::span<const double> memory,
                           const TimeStep& step, Vector& force) const = 0;
   [[nodiscard]] virtual SplitMatrix step_stiffness(const Vector& displacement,
                                                    std::span<const double> memory,
                                                    const TimeStep& step) const = 0;
-};
-
-// The part of a simulation that changes with time.
-struct State {
-  double time = 0.0;           // s
-  Vector displacement;         // m
-  Vector velocity;             // m/s
-  std::vector<double> memory;  // of the viscous branches, in the layout of the body
 };
 
 }  // namespace palpate::integrate

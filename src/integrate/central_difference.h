@@ -1,9 +1,8 @@
 // Central differences: eq. (12) of Chen 2007.
 #pragma once
 
-#include "base/coarse_correction.h"
+#include "base/symmetric_solver.h"
 #include "integrate/body.h"
-#include "integrate/panel_factors.h"
 
 namespace palpate::integrate {
 
@@ -32,10 +31,10 @@ struct FastestMode {
 [[nodiscard]] double explicit_limit(DampingVelocity velocity, const FastestMode& mode);
 
 // The integrator is of second order. With a centred velocity it is stable for dt < 2 / omega_max
-// with any damping, because mass, drag and dashpots are in the matrix on the left. That matrix is
-// inverted once: by division if it is diagonal, by a sparse factorisation if dashpots join nodes.
-// If the dashpots rotate with the body, the factors are a preconditioner, which is renewed after a
-// step that needs more than a dozen iterations.                          docs/theory.md (38)
+// with any damping, because mass, drag and dashpots are in the matrix on the left. It is inverted
+// by division if it is diagonal, and by a SymmetricSolver if dashpots join nodes. If these rotate
+// with the body, that solver is a preconditioner, which is renewed after a step that needs more
+// than a dozen iterations.                                             docs/theory.md (38)
 class CentralDifference {
  public:
   CentralDifference(const Body& body, double time_step, Start start,
@@ -46,10 +45,8 @@ class CentralDifference {
   void step(State& state, const Vector& load);
 
  private:
-  void factor(const Vector& displacement);
   void solve_dashpots(const State& state, double lag);
-  void solve_turned(const Vector& displacement, bool large);
-  void precondition_large(const Vector& displacement);
+  void solve_turned(const Vector& displacement);
 
   const Body* body_;
   double time_step_;
@@ -58,24 +55,34 @@ class CentralDifference {
   double left_rate_;   // s, the factor of D in the matrix on the left
   double right_rate_;  // s, the factor of D on the right
   bool first_ = true;
-  bool has_factors_ = false;
-  Vector before_;         // u(t) - u(t - dt)
-  Vector earlier_;        // the same one step before, if the dashpots' equations are iterated
-  Vector diagonal_;       // 2 M + left_rate_ D, with D the drag alone
-  Vector inverse_;        // of the diagonal; 0 where held
-  Vector keep_;           // 2 M - right_rate_ D, with D the drag alone
-  Vector keep_first_;     // the same for a consistent first step
-  PanelFactors factors_;  // of the matrix on the left, if dashpots join nodes
-  // For large bodies, of the dashpots as they first were: the inverse of the diagonal of the matrix
-  // on the left, 0 where held, and the smooth part of a solution.
-  Vector large_inverse_;
-  CoarseCorrection smooth_;
-  Vector force_;
+  bool prepared_ = false;
+  Vector before_;           // u(t) - u(t - dt)
+  Vector earlier_;          // the same one step before, if the dashpots' equations are iterated
+  Vector diagonal_;         // 2 M + left_rate_ D, with D the drag alone
+  Vector inverse_;          // of the diagonal; 0 where held
+  Vector keep_;             // 2 M - right_rate_ D, with D the drag alone
+  Vector keep_first_;       // the same for a consistent first step
+  SymmetricSolver solver_;  // of the matrix on the left, if dashpots join nodes
+  GradientVectors vectors_;
   Vector right_;
-  Vector image_;     // product of a vector with D or with the matrix on the left
-  Vector residual_;  // of conjugate gradients, like the next two
-  Vector refined_;   // factors_ applied to residual_
-  Vector direction_;
+  Vector image_;  // product of a vector with D
+};
+
+//   (M + D dt) v1 = M v0 + dt (F - f(u0)),  u1 = u0 + dt v1
+// with the forces at the start of the step. It is of first order: without damping it is a central
+// difference whose velocities are assigned to a time half a step too late. It is stable for
+// dt omega < 2 (sqrt(1 + zeta^2) + zeta), because the damping is in the matrix on the left, which
+// is inverted as that of CentralDifference.                         docs/theory.md (80), (81)
+class SemiImplicitEuler {
+ public:
+  SemiImplicitEuler(const Body& body, double time_step)
+      : method_(body, time_step, Start::consistent, DampingVelocity::ahead) {}
+
+  // Advances the state from t to t + dt under the load (N) at t.
+  void step(State& state, const Vector& load) { method_.step(state, load); }
+
+ private:
+  CentralDifference method_;
 };
 
 }  // namespace palpate::integrate

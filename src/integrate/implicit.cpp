@@ -46,12 +46,12 @@ void Implicit::response(const Vector& load, Vector& moved) const {
 }
 
 void Implicit::finish(State& state, const Vector& displacement, const Vector&) {
-  body_->remember(displacement, step_, state.memory);
   // Without inertia the velocity has no meaning; it stays as it is.
   if (inertia_ == Inertia::backward_difference && step_.size > 0.0)
     state.velocity = (displacement - state.displacement) / step_.size;
   state.displacement = displacement;
   state.time += step_.size;
+  body_->arrive(state, step_);
 }
 
 }  // namespace palpate::integrate

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "integrate/mode_loops.h"
+#include "integrate/wide_loops.h"
 #include "tissue/supports.h"
 
 namespace palpate::integrate {
@@ -106,7 +106,7 @@ Modal::Modal(const Body& body, Eigen::Index most, SymmetricSolver& statics, Know
 }
 
 void Modal::find_all(KnownModes* known) {
-  const SplitMatrix stiffness = body_->stiffness();
+  const SplitMatrix stiffness = body_->stiffness().split(body_->held());
   const auto size = static_cast<Eigen::Index>(free_.size());
   Vector scale(size);
   for (Eigen::Index i = 0; i < size; ++i)
@@ -244,16 +244,16 @@ void Modal::modal_force(const Vector& load, Vector& sum) const {
   sum.setZero(omega_.size());
   for (std::size_t i = 0; i < free_.size(); ++i)
     if (const double newton = load[free_[i]]; newton != 0.0)
-      mode_loops::add_scaled(as_index(sum.size()), newton,
-                             shapes_.row(static_cast<Eigen::Index>(i)).data(), sum.data());
+      wide::add_scaled(as_index(sum.size()), newton,
+                       shapes_.row(static_cast<Eigen::Index>(i)).data(), sum.data());
 }
 
 // all += Phi a
 void Modal::add_shapes(const Vector& amplitudes, Vector& all) const {
   for (std::size_t i = 0; i < free_.size(); ++i)
     all[free_[i]] +=
-        mode_loops::product(as_index(amplitudes.size()),
-                            shapes_.row(static_cast<Eigen::Index>(i)).data(), amplitudes.data());
+        wide::product(as_index(amplitudes.size()), shapes_.row(static_cast<Eigen::Index>(i)).data(),
+                      amplitudes.data());
 }
 
 // One component of the modes at the end of a step, from the modal forces at its start and end.
@@ -262,10 +262,9 @@ void Modal::next(std::size_t component, const Vector& before, const Vector& afte
   const auto size = as_index(omega_.size());
   sum.setZero(omega_.size());
   for (std::size_t d = 0; d < modes_.size(); ++d)
-    mode_loops::add_products(size, propagators_.keep[component][d].data(), modes_[d].data(),
-                             sum.data());
-  mode_loops::add_products(size, propagators_.begin[component].data(), before.data(), sum.data());
-  mode_loops::add_products(size, propagators_.end[component].data(), after.data(), sum.data());
+    wide::add_products(size, propagators_.keep[component][d].data(), modes_[d].data(), sum.data());
+  wide::add_products(size, propagators_.begin[component].data(), before.data(), sum.data());
+  wide::add_products(size, propagators_.end[component].data(), after.data(), sum.data());
 }
 
 // The modes move about the displacement at the start, which must be in equilibrium.
@@ -316,17 +315,16 @@ void Modal::finish(State& state, const Vector& displacement, const Vector& load)
   state.velocity.setZero();
   amplitudes_ = modes_[1].cwiseProduct(omega_);
   add_shapes(amplitudes_, state.velocity);
-  body_->remember(displacement, {time_step_, MemoryRule::exact}, state.memory);
   state.displacement = displacement;
   state.time += time_step_;
+  body_->arrive(state, {time_step_, MemoryRule::exact});
 }
 
 void Modal::press(Eigen::Index freedom, double load) {
   const Eigen::Index row = row_[as_index(freedom)];
   if (row < 0 || load == 0.0) return;
   if (load_after_.size() == 0) load_after_ = Vector::Zero(omega_.size());
-  mode_loops::add_scaled(as_index(omega_.size()), load, shapes_.row(row).data(),
-                         load_after_.data());
+  wide::add_scaled(as_index(omega_.size()), load, shapes_.row(row).data(), load_after_.data());
 }
 
 void Modal::pass(const State& start, double time_step) {
@@ -337,16 +335,16 @@ void Modal::pass(const State& start, double time_step) {
   }
   prepare(time_step);
   const Propagators& p = propagators_;
-  mode_loops::pass(as_index(omega_.size()), {.keep = {{p.keep[0][0].data(), p.keep[0][1].data()},
-                                                      {p.keep[1][0].data(), p.keep[1][1].data()}},
-                                             .begin = {p.begin[0].data(), p.begin[1].data()},
-                                             .end = {p.end[0].data(), p.end[1].data()},
-                                             .force_before = load_before_.data(),
-                                             .force_after = load_after_.data(),
-                                             .damping = p.damping.data(),
-                                             .x = {modes_[0].data(), modes_[1].data()},
-                                             .work = work_.data(),
-                                             .lost = lost_.data()});
+  wide::pass(as_index(omega_.size()), {.keep = {{p.keep[0][0].data(), p.keep[0][1].data()},
+                                                {p.keep[1][0].data(), p.keep[1][1].data()}},
+                                       .begin = {p.begin[0].data(), p.begin[1].data()},
+                                       .end = {p.end[0].data(), p.end[1].data()},
+                                       .force_before = load_before_.data(),
+                                       .force_after = load_after_.data(),
+                                       .damping = p.damping.data(),
+                                       .x = {modes_[0].data(), modes_[1].data()},
+                                       .work = work_.data(),
+                                       .lost = lost_.data()});
   load_before_.swap(load_after_);
   load_after_.setZero();
 }
@@ -356,7 +354,8 @@ void Modal::show(State& state) const {
   add_shapes(modes_[0], state.displacement);
   state.velocity.setZero();
   add_shapes(modes_[1].cwiseProduct(omega_), state.velocity);
-  state.memory = body_->memory_at(state.displacement);
+  body_->memory_at(state.displacement, state.memory);
+  state.force.resize(0);
 }
 
 // `held` is the sum of 1/2 omega^2 (q^2 + (q'/omega)^2) over the modes.

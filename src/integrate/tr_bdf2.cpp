@@ -6,19 +6,18 @@ namespace palpate::integrate {
 // past_ = the state advanced by `time` (s) with explicit Euler. An implicit Euler step of the same
 // length from there gives the trapezoidal rule.
 void TrBdf2::extrapolate(const State& state, double time) {
-  Vector& force = force_;
   Vector& acceleration = acceleration_;
-  body_->force(state.displacement, state.memory, force);
-  acceleration = load_ - force - body_->drag().cwiseProduct(state.velocity);
+  past_ = state;
+  if (past_.force.size() == 0) body_->look(past_);
+  acceleration = load_ - past_.force - body_->drag().cwiseProduct(state.velocity);
   if (body_->has_dashpots()) {
-    body_->dashpot_force(state.displacement, state.velocity, force);
-    acceleration -= force;
+    body_->dashpot_force(state.displacement, state.velocity, force_);
+    acceleration -= force_;
   }
   acceleration = acceleration.cwiseQuotient(body_->mass());
   const auto held = body_->held();
   for (std::size_t d = 0; d < held.size(); ++d)
     if (held[d] != 0) acceleration[static_cast<Eigen::Index>(d)] = 0.0;
-  past_ = state;
   past_.displacement += time * state.velocity;
   past_.velocity += time * acceleration;
   if (!body_->has_dashpots()) {
@@ -58,9 +57,7 @@ void TrBdf2::begin(const State& state, double time_step, MemoryRule) {
 
 void TrBdf2::finish(State& state, const Vector& displacement, const Vector& load) {
   euler_.finish(past_, displacement, load);
-  state.displacement = past_.displacement;
-  state.velocity = past_.velocity;
-  state.memory = past_.memory;
+  state = past_;
   state.time = start_.time + (second_ ? 1.0 : first_part) * time_step_;
   second_ = !second_;
 }

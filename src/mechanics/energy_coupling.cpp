@@ -1,12 +1,15 @@
-// Loads of the half-space's field on the body, and the solution for the rest.
+// Loads of the half-space's field on the body, the solution for the rest, and its error.
 #include "mechanics/energy_coupling.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
 #include "base/error.h"
-#include "mechanics/energy_loads.h"
 #include "scenario/rungs.h"
 #include "tissue/coupled.h"
 
@@ -19,13 +22,194 @@ namespace {
 // Of solutions, in the energy norm. The sinking is an energy: its error is the square.
 constexpr double tolerance = 3e-4;
 
+// Under the patch itself nothing is left over, because the finger's pressure acts there.
+constexpr double under_finger = 1.05;
+// Cosine between a facet and the plane of the contact: the curvature is followed on flatter ones.
+constexpr double steepest = 0.3;
+
+// The longest edge over the distance on which the rest varies, up to which the estimate sees what a
+// tetrahedron misses.
+constexpr double seen_width = 0.45;
+
 }  // namespace
+
+// Quadrature of the half-space's tractions over the faces, for one patch.
+class EnergyCoupling::Loads {
+ public:
+  Loads(const geometry::TetMesh& mesh, const geometry::SmoothSurface& skin,
+        const contact::Patch& patch, const Tissue& tissue, int finer, const Vec3& along)
+      : mesh_(&mesh),
+        skin_(&skin),
+        patch_(&patch),
+        axes_(axes_of(patch)),
+        field_(patch.a, patch.b, {tissue.shear_modulus, tissue.elastic.poisson_ratio}, finer,
+               axes_.transpose() * along),
+        finer_(finer),
+        presses_(along.dot(patch.normal) < -0.5),
+        elastic_(tissue.elastic) {
+    nodal = integrate::Vector::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()));
+    curved = nodal;
+  }
+
+  [[nodiscard]] Vec3 displacement(int node) const {
+    return axes_ * field_.displacement(local(mesh_->nodes[as_index(node)]));
+  }
+
+  void add(const Face& face, const integrate::Vector& interpolated) {
+    std::array<Vec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = local(mesh_->nodes[as_index(face.nodes[k])]);
+    normal_ = axes_.transpose() * face.normal;
+    // The plane of the contact is free of stress outside the patch.
+    const double flat = 1e-9 * (corners[1] - corners[0]).norm();
+    if (!face.interface && std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+          return std::abs(corner.z()) <= flat;
+        }))
+      return;
+    divide(face, corners, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, 0, interpolated);
+  }
+
+  integrate::Vector nodal;   // N/N, g
+  integrate::Vector curved;  // N/N, of a curved skin under the patch
+  double known = 0.0;        // m/N, c
+
+ private:
+  [[nodiscard]] static Eigen::Matrix3d axes_of(const contact::Patch& patch) {
+    Eigen::Matrix3d axes;
+    axes << patch.axis, patch.normal.cross(patch.axis), patch.normal;
+    return axes;
+  }
+  [[nodiscard]] Vec3 local(const Vec3& point) const {
+    return axes_.transpose() * (point - patch_->position);
+  }
+
+  // Divides a triangle until it is small against its distance from the patch.
+  void divide(const Face& face, const std::array<Vec3, 3>& corners,
+              const std::array<Vec3, 3>& weights, int depth,
+              const integrate::Vector& interpolated) {
+    constexpr int deepest = 8;
+    constexpr double nearest = 0.25;  // of the patch's radius
+    double edge = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      edge = std::max(edge, (corners[(k + 1) % 3] - corners[k]).norm());
+    const double distance = ((corners[0] + corners[1] + corners[2]) / 3.0).norm();
+    const double size = std::max(0.6 * distance, nearest * patch_->radius());
+    if (finer_ * edge <= size || depth == deepest)
+      return integrate(face, corners, weights, interpolated);
+    const std::array<Vec3, 3> middle{0.5 * (corners[1] + corners[2]),
+                                     0.5 * (corners[2] + corners[0]),
+                                     0.5 * (corners[0] + corners[1])};
+    const std::array<Vec3, 3> share{0.5 * (weights[1] + weights[2]),
+                                    0.5 * (weights[2] + weights[0]),
+                                    0.5 * (weights[0] + weights[1])};
+    for (std::size_t k = 0; k < 3; ++k)
+      divide(face, {corners[k], middle[(k + 2) % 3], middle[(k + 1) % 3]},
+             {weights[k], share[(k + 2) % 3], share[(k + 1) % 3]}, depth + 1, interpolated);
+    divide(face, middle, share, depth + 1, interpolated);
+  }
+
+  void integrate(const Face& face, const std::array<Vec3, 3>& corners,
+                 const std::array<Vec3, 3>& weights, const integrate::Vector& interpolated) {
+    const double area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    for (std::size_t q = 0; q < 3; ++q) {  // degree 2
+      Vec3 point = Vec3::Zero();
+      Vec3 shares = Vec3::Zero();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double weight = k == q ? 2.0 / 3.0 : 1.0 / 6.0;
+        point += weight * corners[k];
+        shares += weight * weights[k];
+      }
+      Vec3 normal = normal_;
+      if (face.triangle >= 0) {
+        // The contact lies on the smooth surface, from which a coarse facet is far away.
+        geometry::SurfacePoint at{.triangle = face.triangle, .weights = Vec3::Zero()};
+        for (std::size_t k = 0; k < 3; ++k)
+          at.weights[face.corners[k]] = shares[static_cast<Eigen::Index>(k)];
+        point = local(skin_->position(at));
+        normal = axes_.transpose() * skin_->normal(at);
+      }
+      if (!face.interface && normal.z() > 0.0 && std::abs(point.z()) < patch_->a) {
+        const double x = point.x() / patch_->a;
+        const double y = point.y() / patch_->b;
+        const double from_centre = std::hypot(x, y);
+        if (from_centre < 1.0 && presses_ && std::min(normal.z(), normal_.z()) > steepest)
+          press_curved(face, corners, weights, shares, point, normal, from_centre, area / 3.0);
+        if (from_centre < under_finger) continue;
+      }
+      const contact::FieldValue value = field_.at(point);
+      const Vec3 traction = area / 3.0 * (axes_ * (value.stress * normal));
+      Vec3 moved = axes_ * value.displacement;
+      if (face.interface) {
+        moved.setZero();
+        for (std::size_t k = 0; k < 3; ++k)
+          moved +=
+              shares[static_cast<Eigen::Index>(k)] * interpolated.segment<3>(3 * face.nodes[k]);
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        const double work = traction[axis] * moved[axis];
+        if (face.held[as_index(axis)] && !face.interface) {
+          known += work;
+          continue;
+        }
+        known -= work;
+        for (std::size_t k = 0; k < 3; ++k)
+          nodal[3 * face.nodes[k] + axis] -= shares[static_cast<Eigen::Index>(k)] * traction[axis];
+      }
+    }
+  }
+
+  // What a skin that is curved under the patch changes to the first order in its height z above the
+  // plane: beyond the half-space's stress it carries stress grad z - z grad p in the plane. The
+  // work of the second term on a shape function N is p (z grad N + N grad z), integrated by parts.
+  // `r` is the distance from the centre, 0 to 1; an ellipse counts as a circle of its area.
+  //                                 docs/theory.md (12a); K. L. Johnson 1985, eq. (3.41)-(3.43)
+  void press_curved(const Face& face, const std::array<Vec3, 3>& corners,
+                    const std::array<Vec3, 3>& weights, const Vec3& shares, const Vec3& point,
+                    const Vec3& normal, double r, double area) {
+    using Eigen::Vector2d;
+    const Vector2d slope = -normal.head<2>() / normal.z();
+    const double seen = area * normal.z();  // from above
+    const double root = std::sqrt(1.0 - r * r);
+    const double middle = 1.5 / (std::numbers::pi * patch_->a * patch_->b);  // Pa/N
+    const double p = middle * root;
+    const double spread = r < 1e-6 ? 1.5 : (1.0 - root * root * root) / (r * r);
+    const double nu = elastic_.poisson_ratio;
+    const double sideways = (1.0 - 2.0 * nu) / 3.0 * middle * spread;
+    const Vector2d outward = point.head<2>().stableNormalized();
+    const Vector2d around(-outward.y(), outward.x());
+    const Vector2d pull = p * slope + (sideways - p) * outward.dot(slope) * outward -
+                          (sideways + 2.0 * nu * p) * around.dot(slope) * around;
+    const double moved =  // inwards
+        0.5 * sideways / tissue::shear_modulus(elastic_) * patch_->radius() * r;
+    known -= seen * moved * outward.dot(pull);
+    Eigen::Matrix2d edges;
+    edges << (corners[1] - corners[0]).head<2>(), (corners[2] - corners[0]).head<2>();
+    const Eigen::Matrix2d inverse = edges.transpose().inverse();
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Vector2d gradient =
+          inverse * Vector2d(weights[1][k] - weights[0][k], weights[2][k] - weights[0][k]);
+      const Vector2d load = seen * (p * point.z() * gradient + shares[k] * pull);
+      const Vec3 force = axes_.leftCols<2>() * load;
+      for (int axis = 0; axis < 3; ++axis)
+        if (!face.held[as_index(axis)]) curved[3 * face.nodes[as_index(k)] + axis] += force[axis];
+    }
+  }
+
+  const geometry::TetMesh* mesh_;
+  const geometry::SmoothSurface* skin_;
+  const contact::Patch* patch_;
+  Eigen::Matrix3d axes_;  // columns: the patch's axes
+  contact::PatchField field_;
+  int finer_;
+  bool presses_;
+  tissue::Isotropic elastic_;
+  Vec3 normal_ = Vec3::Zero();
+};
 
 EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& part,
                                std::span<const char> held, double unit)
     : skin_(&*scene.specimen->surface),
       held_(held.begin(), held.end()),
-      pairs_(part.network.ends),
+      springs_(part.network),
       solver_(tolerance),
       volume_(scenario::rung(scene.scenario.solver.model).coupled() ? scene.scenario.solver.volume
                                                                     : tissue::Volume::nodal) {
@@ -76,62 +260,18 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
   }
   find_tissues(scene, unit);
   homes_.resize(tissues_.size());
-  if (!solver_.prepare(stiffness([](int) { return true; }), held_))
-    throw MeshError(tissue::not_held);
+  if (!solver_.prepare(stiffness(), held_)) throw MeshError(tissue::not_held);
 }
 
-// Linear finite elements, whose pressure is partly that of volumes averaged around nodes.
-template <class Takes>
-BlockMatrix EnergyCoupling::stiffness(const Takes& takes) const {
-  BlockMatrix matrix(static_cast<int>(mesh_.nodes.size()), pairs_);
-  std::vector<std::vector<std::pair<int, Vec3>>> changes(count_around_.size());
-  std::vector<double> volumes(count_around_.size(), 0.0);
-  std::vector<double> weights(count_around_.size(), 0.0);
-  for (std::size_t t = 0; t < elements_.size(); ++t) {
-    if (!takes(mesh_.regions[t])) continue;
-    const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
-    const auto& [gradients, volume] = elements_[t];
-    const double lame = tissue.own_bulk - 2.0 / 3.0 * tissue.shear_modulus;
-    const Eigen::Matrix4d products = gradients * gradients.transpose();
-    for (Eigen::Index i = 0; i < 4; ++i)
-      for (Eigen::Index j = 0; j < 4; ++j) {
-        const Vec3 own = volume * gradients.row(i).transpose();
-        const Eigen::RowVector3d other = gradients.row(j);
-        BlockMatrix::Block& block =
-            matrix.at(mesh_.tetrahedra[t][as_index(i)], mesh_.tetrahedra[t][as_index(j)]);
-        block += lame * own * other + tissue.shear_modulus * other.transpose() * own.transpose();
-        block.diagonal().array() += volume * tissue.shear_modulus * products(i, j);
-      }
-    if (tissue.shared_bulk <= 0.0) continue;
-    for (const int at : around_[t]) {
-      volumes[as_index(at)] += volume;
-      weights[as_index(at)] += 0.25 * volume * tissue.shared_bulk;
-      auto& row = changes[as_index(at)];
-      for (std::size_t k = 0; k < 4; ++k) {
-        const int node = mesh_.tetrahedra[t][k];
-        const Vec3 change = volume * gradients.row(static_cast<Eigen::Index>(k)).transpose();
-        const auto known = std::find_if(row.begin(), row.end(),
-                                        [&](const auto& one) { return one.first == node; });
-        if (known == row.end())
-          row.emplace_back(node, change);
-        else
-          known->second += change;
-      }
-    }
-  }
-  for (std::size_t v = 0; v < changes.size(); ++v) {
-    if (changes[v].empty()) continue;
-    std::sort(changes[v].begin(), changes[v].end(),
-              [](const auto& one, const auto& other) { return one.first < other.first; });
-    for (const auto& [node, change] : changes[v]) {
-      matrix.volumes.column.push_back(node);
-      matrix.changes.emplace_back(change / volumes[v]);
-    }
-    matrix.volumes.start.push_back(static_cast<int>(matrix.changes.size()));
-    matrix.weights.push_back(weights[v]);
-  }
-  if (!matrix.weights.empty()) matrix.end_volumes();
-  return matrix;
+// The linear finite elements of the mesh are its coupled springs; those of a region without
+// stiffness are left out.
+BlockMatrix EnergyCoupling::stiffness(int without) const {
+  std::vector<tissue::Isotropic> tissues;
+  for (const Tissue& tissue : tissues_) tissues.push_back(tissue.elastic);
+  if (without >= 0) tissues[as_index(without)].young_modulus = 0.0;
+  tissue::Network network = springs_;
+  tissue::couple(network, mesh_, tissues, volume_, scene::own_share);
+  return tissue::stiffness_matrix(network);
 }
 
 void EnergyCoupling::find_tissues(const scene::Scene& scene, double unit) {
@@ -201,7 +341,7 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
     several = true;
     for (const int node : mesh_.tetrahedra[t]) here.other[as_index(node)] = 1;
   }
-  if (several) here.others = stiffness([&](int other) { return other != region; });
+  if (several) here.others = stiffness(region);
   return here;
 }
 
@@ -268,6 +408,137 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
     find_errors(presses[i].patch, one.interpolated, one.region, home(one.region), result);
   }
   return results;
+}
+
+// Zienkiewicz and Zhu 1992: the stress is recovered at the nodes by a linear fit over the
+// tetrahedra around them, of one tissue at a time; the error is the energy of the difference.
+void EnergyCoupling::find_errors(const contact::Patch& patch, const Vector& interpolated,
+                                 int region, const Home& home, BeyondHalfSpace& result) const {
+  const Vector& rest = result.rest;
+  using Stress = Eigen::Matrix<double, 6, 1>;  // xx yy zz xy xz yz
+  const std::size_t count = elements_.size();
+  std::vector<Stress> stresses(count);
+  std::vector<double> dilations(count);
+  std::vector<double> shared(count_around_.size(), 0.0);  // around (node, region)
+  std::vector<double> volumes(count_around_.size(), 0.0);
+  double whole = 0.0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const Element& element = elements_[t];
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Eigen::Index first = 3 * mesh_.tetrahedra[t][k];
+      Vec3 moved = rest.segment<3>(first);
+      if (mesh_.regions[t] != region) moved += interpolated.segment<3>(first);
+      gradient += moved * element.gradients.row(static_cast<Eigen::Index>(k));
+    }
+    dilations[t] = gradient.trace();
+    whole += element.volume;
+    for (const int at : around_[t]) {
+      shared[as_index(at)] += element.volume * dilations[t];
+      volumes[as_index(at)] += element.volume;
+    }
+    const double shear = tissues_[as_index(mesh_.regions[t])].shear_modulus;
+    const double mean = 2.0 / 3.0 * dilations[t];
+    const auto deviator = [&](int i, int j) {
+      return shear * (gradient(i, j) + gradient(j, i) - (i == j ? mean : 0.0));
+    };
+    stresses[t] << deviator(0, 0), deviator(1, 1), deviator(2, 2), deviator(0, 1), deviator(0, 2),
+        deviator(1, 2);
+  }
+  const double scale = std::cbrt(whole / static_cast<double>(count));
+  std::vector<Eigen::Matrix4d> left(count_around_.size(), Eigen::Matrix4d::Zero());
+  std::vector<Eigen::Matrix<double, 4, 6>> right(count_around_.size(),
+                                                 Eigen::Matrix<double, 4, 6>::Zero());
+  for (std::size_t t = 0; t < count; ++t) {
+    const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
+    double pressure = tissue.own_bulk * dilations[t];
+    for (const int at : around_[t])
+      pressure += 0.25 * tissue.shared_bulk * shared[as_index(at)] / volumes[as_index(at)];
+    stresses[t].head<3>().array() += pressure;
+    const auto& corners = mesh_.tetrahedra[t];
+    Vec3 centre = Vec3::Zero();
+    for (const int node : corners) centre += 0.25 * mesh_.nodes[as_index(node)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      Eigen::Vector4d basis;
+      basis << 1.0, (centre - mesh_.nodes[as_index(corners[k])]) / scale;
+      left[as_index(around_[t][k])] += basis * basis.transpose();
+      right[as_index(around_[t][k])] += basis * stresses[t].transpose();
+    }
+  }
+  std::vector<Stress> nodal(count_around_.size());
+  for (std::size_t i = 0; i < nodal.size(); ++i) {
+    constexpr int fewest = 8;  // tetrahedra for a linear fit; otherwise their mean
+    const double number = left[i](0, 0);
+    if (count_around_[i] < fewest) {
+      nodal[i] = right[i].row(0).transpose() / number;
+      continue;
+    }
+    const Eigen::Matrix4d ridged = left[i] + 1e-9 * number * Eigen::Matrix4d::Identity();
+    nodal[i] = (ridged.ldlt().solve(right[i])).row(0).transpose();
+  }
+  // Twice the energy of a stress, J per m^3.
+  const auto density = [&](std::size_t t, Stress stress) {
+    const Tissue& tissue = tissues_[as_index(mesh_.regions[t])];
+    const double pressure = stress.head<3>().sum() / 3.0;
+    stress.head<3>().array() -= pressure;
+    const double shear = (stress.head<3>().squaredNorm() + 2.0 * stress.tail<3>().squaredNorm()) /
+                         (2.0 * tissue.shear_modulus);
+    return shear + pressure * pressure / (tissue.own_bulk + tissue.shared_bulk);
+  };
+  result.errors.assign(count, 0.0);
+  for (std::size_t t = 0; t < count; ++t) {
+    for (std::size_t q = 0; q < 4; ++q) {  // four points, degree 2
+      constexpr double far = 0.13819660112501051;
+      Stress difference = -stresses[t];
+      for (std::size_t k = 0; k < 4; ++k)
+        difference += (k == q ? 1.0 - 3.0 * far : far) * nodal[as_index(around_[t][k])];
+      result.errors[t] += 0.25 * elements_[t].volume * density(t, difference);
+    }
+    result.error += result.errors[t];
+  }
+  // The rest of the displacement varies over the distance from the contact and, at the contact,
+  // over that to the next boundary. Of what wider tetrahedra miss, the estimate sees a part only.
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < mesh_.nodes.size(); ++n)
+    if (held_[3 * n + 2] != 0 || home.other[n] != 0)
+      nearest = std::min(nearest, (mesh_.nodes[n] - patch.position).norm());
+  nearest = std::max(nearest, 0.5 * patch.radius());
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto node = [&](std::size_t k) -> const Vec3& {
+      return mesh_.nodes[as_index(mesh_.tetrahedra[t][k])];
+    };
+    double longest = 0.0;
+    for (const auto& [a, b] : geometry::corner_edges)
+      longest = std::max(longest, (node(as_index(a)) - node(as_index(b))).norm());
+    const Vec3 centre = 0.25 * (node(0) + node(1) + node(2) + node(3));
+    const double ratio = longest / (seen_width * ((centre - patch.position).norm() + nearest));
+    const double unseen = std::max(0.0, ratio * ratio - 1.0) * result.errors[t];
+    result.doubt += unseen;
+    result.errors[t] += unseen;
+  }
+  // A boundary moved outwards by d lowers the compliance by d times the density of energy there.
+  for (const Face& face : home.faces) {
+    const std::size_t t = as_index(face.tetrahedron);
+    const double change = std::abs(face.cut_off) * density(t, stresses[t]);
+    result.doubt += change;
+    result.errors[t] += change;
+  }
+}
+
+// Of a curved triangle, by three points.
+double EnergyCoupling::cut_off(const Face& face) const {
+  const auto& corners = skin_->surface().triangles[as_index(face.triangle)];
+  const auto vertex = [&](std::size_t k) -> const Vec3& {
+    return skin_->surface().vertices[as_index(corners[k])];
+  };
+  const Vec3 twice_area = (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0));
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    geometry::SurfacePoint at{.triangle = face.triangle, .weights = Vec3::Constant(0.5)};
+    at.weights[k] = 0.0;  // the middles of the sides: exact to degree 2
+    sum += (skin_->position(at) - skin_->flat_position(at)).dot(twice_area) / 6.0;
+  }
+  return sum;
 }
 
 }  // namespace palpate::mechanics

@@ -93,9 +93,8 @@ class EnergyCoupling {
   class Loads;
 
   void find_tissues(const scene::Scene& scene, double unit);
-  // The stiffness (N/m) of the tetrahedra that `takes` accepts by the number of their region.
-  template <class Takes>
-  [[nodiscard]] BlockMatrix stiffness(const Takes& takes) const;
+  // The stiffness (N/m) of all tetrahedra, or of those in other regions than `without`.
+  [[nodiscard]] BlockMatrix stiffness(int without = -1) const;
   [[nodiscard]] int region_under(int triangle) const;
   [[nodiscard]] const Home& home(int region);
   [[nodiscard]] double cut_off(const Face& face) const;
@@ -115,7 +114,7 @@ class EnergyCoupling {
   std::vector<char> held_;
   std::vector<std::array<int, 4>> around_;  // per tetrahedron and corner: number of (node, region)
   std::vector<int> count_around_;           // tetrahedra per (node, region)
-  std::vector<std::array<int, 2>> pairs_;   // of nodes with a common tetrahedron
+  tissue::Network springs_;                 // along the edges of the part
   SymmetricSolver solver_;                  // of the whole stiffness
   tissue::Volume volume_;
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tissue/fast_vectors.h"
+#include "integrate/wide_loops.h"
 
 namespace palpate::mechanics {
 
@@ -26,9 +26,9 @@ std::optional<std::string> EnergyMonitor::step(const integrate::State& before,
                                                const integrate::State& after,
                                                const integrate::Vector& load_before,
                                                const integrate::Vector& load_after) {
-  const double work = tissue::work_of_forces(as_index(after.displacement.size()),
-                                             load_before.data(), load_after.data(),
-                                             before.displacement.data(), after.displacement.data());
+  const double work = integrate::wide::work(as_index(after.displacement.size()), load_before.data(),
+                                            load_after.data(), before.displacement.data(),
+                                            after.displacement.data());
   const double lost = body_->dissipated(before, after);
   return account(work, lost, body_->stored(after) + body_->kinetic(after));
 }

@@ -86,12 +86,20 @@ std::vector<Eigen::Index> MovingPart::take(tissue::Part next) {
     state.displacement.segment<3>(3 * now) = old.displacement.segment<3>(from);
     state.velocity.segment<3>(3 * now) = old.velocity.segment<3>(from);
   }
-  state.memory = body->memory_at(state.displacement);
-  for (std::size_t s = 0; s < previous.springs.size(); ++s) {
-    const auto now =
-        std::lower_bound(part.springs.begin(), part.springs.end(), previous.springs[s]);
-    if (now == part.springs.end() || *now != previous.springs[s]) continue;
-    body->inherit(old.memory, s, as_index(now - part.springs.begin()), state.memory);
+  body->memory_at(state.displacement, state.memory);
+  if (body->linear()) {
+    for (std::size_t d = 0; d < held.size(); ++d)
+      if (freedom_before[d] >= 0 && part.edge[d / 3] == 0)
+        body->inherit(old.memory, 3 * previous.nodes.size(), as_index(freedom_before[d]), d,
+                      state.memory);
+  } else {
+    for (std::size_t s = 0; s < previous.springs.size(); ++s) {
+      const auto now =
+          std::lower_bound(part.springs.begin(), part.springs.end(), previous.springs[s]);
+      if (now == part.springs.end() || *now != previous.springs[s]) continue;
+      body->inherit(old.memory, previous.springs.size(), s, as_index(now - part.springs.begin()),
+                    state.memory);
+    }
   }
   load = Vector::Zero(freedoms);
   statics = SymmetricSolver();

@@ -42,8 +42,8 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
 }  // namespace
 
 void prepare(SymmetricSolver& statics, const scene::SpringBody& body) {
-  if (!statics.prepared() && !statics.prepare(tissue::stiffness_matrix(body.network()),
-                                              {body.held().begin(), body.held().end()}))
+  if (!statics.prepared() &&
+      !statics.prepare(body.stiffness(), {body.held().begin(), body.held().end()}))
     throw MeshError(tissue::not_held);
 }
 

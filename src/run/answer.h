@@ -2,12 +2,26 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "record/record.h"
-#include "run/left_out.h"
+#include "scene/scene.h"
 
 namespace palpate::run {
+
+struct LeftOut {
+  std::string what;     // "viscosity"
+  double change = 0.0;  // of the force (in a uniform test of the strain) by the effect, relative
+  std::string when;     // the change in words: "which would add 36 % to the force while pressing"
+  std::string remedy;   // an instruction such as "add `key = value`"; empty if there is none
+  std::string
+      beside;  // what the stated error does not contain: "viscosity"; empty if it contains it
+};
+
+// Viscosity and large strains count from a fifth of `solver.tolerance` on, the others from the
+// tolerance on. The largest is the first.
+[[nodiscard]] std::vector<LeftOut> left_out(const scene::Scene& scene);
 
 // What is known before a case runs.
 struct Expected {
@@ -24,5 +38,10 @@ struct Expected {
 
 // The answer of a case that has ended.
 [[nodiscard]] record::Answer answer(const scene::Scene& scene, const record::CaseRecord& record);
+
+// The mesh's own error in the static force at the deepest travel of the programme, a fraction of
+// it. Nothing without a finger on a mesh with `consistent`, or where the contact has no solution.
+//                                                                        docs/theory.md (12)
+[[nodiscard]] std::optional<double> mesh_error(const scene::Scene& scene);
 
 }  // namespace palpate::run

@@ -7,7 +7,6 @@
 
 #include "base/stop_scope.h"
 #include "run/findings.h"
-#include "run/lanes.h"
 #include "run/pace.h"
 #include "run/press.h"
 #include "run/refined_mesh.h"
@@ -52,85 +51,38 @@ record::CaseRecord begin_case(const scene::Scene& scene) {
   return record;
 }
 
-namespace {
-
-// A task for one worker: a single case, or a team of lanes.
-struct Task {
-  std::size_t number = 0;
-  LaneQueue* queue = nullptr;
-  std::size_t lanes = 0;
-};
-
-// Makes the tasks; teams of lanes come first, because they take longest.
-std::vector<Task> share_lanes(const std::vector<scene::Scene>& scenes, int workers, Lanes lanes,
-                              const std::vector<std::vector<std::size_t>>& groups,
-                              std::vector<LaneQueue>& queues) {
-  std::vector<Task> tasks;
-  std::vector<char> taken(scenes.size(), 0);
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const std::size_t cases = groups[g].size();
-    const std::size_t least =
-        lanes == Lanes::wherever_possible ? 1 : least_for_lanes(scenes[groups[g].front()]);
-    if (cases < least || least > tissue::LaneSprings::width) continue;
-    for (const std::size_t i : groups[g]) taken[i] = 1;
-    queues[g].group = groups[g];
-    const std::size_t teams = std::min(as_index(std::max(1, workers)), cases / least);
-    const std::size_t each = std::min(tissue::LaneSprings::width, (cases + teams - 1) / teams);
-    for (std::size_t team = 0; team < teams; ++team) tasks.push_back({0, &queues[g], each});
-  }
-  for (std::size_t i = 0; i < scenes.size(); ++i)
-    if (taken[i] == 0) tasks.push_back({.number = i});
-  return tasks;
-}
-
-}  // namespace
-
 void run_programme(const scene::Scene& scene, const std::atomic<bool>& stop,
                    record::CaseRecord& record) {
-  if (scene.scenario.uniform())
-    load_uniformly(scene, stop, record);
-  else
-    press(scene, stop, record);
+  const StopScope scope(stop);
+  try {
+    if (scene.scenario.uniform())
+      load_uniformly(scene, record);
+    else
+      press(scene, record);
+  } catch (const Stopped& stopped) {
+    (void)end_early(record, record::Outcome::interrupted, stopped.what());
+  }
 }
 
 record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop) {
   const auto start = std::chrono::steady_clock::now();
   record::CaseRecord record = begin_case(scene);
-  const StopScope scope(stop);
-  try {
-    run_programme(scene, stop, record);
-    add_findings(scene, record);
-  } catch (const Stopped& stopped) {
-    (void)end_early(record, record::Outcome::interrupted, stopped.what());
-  }
+  run_programme(scene, stop, record);
+  add_findings(scene, record);
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;
 }
 
 void run_each(const std::vector<scene::Scene>& scenes, int workers, const Stop& stop,
-              const std::function<void(std::size_t, record::CaseRecord&&)>& ended, Lanes lanes) {
-  const LaneCalls calls{[&](std::size_t i) { return begin_case(scenes[i]); },
-                        [&](std::size_t i, record::CaseRecord&& record) {
-                          add_findings(scenes[i], record);
-                          ended(i, std::move(record));
-                        }};
-  std::vector<std::vector<std::size_t>> groups;
-  if (lanes != Lanes::none) groups = lane_groups(scenes);
-  std::vector<LaneQueue> queues(groups.size());
-  const std::vector<Task> tasks = share_lanes(scenes, workers, lanes, groups, queues);
-  share_out(tasks.size(), workers, [&](std::size_t t) {
-    if (stop.no_more()) return;
-    const Task& task = tasks[t];
-    if (task.queue != nullptr)
-      run_in_lanes(scenes, *task.queue, task.lanes, stop, calls);
-    else
-      ended(task.number, run_case(scenes[task.number], stop.end_now));
+              const std::function<void(std::size_t, record::CaseRecord&&)>& ended) {
+  share_out(scenes.size(), workers, [&](std::size_t i) {
+    if (!stop.no_more()) ended(i, run_case(scenes[i], stop.end_now));
   });
 }
 
 std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
-    const std::function<void(std::size_t, const record::CaseRecord&)>& finished, Lanes lanes) {
+    const std::function<void(std::size_t, const record::CaseRecord&)>& finished) {
   std::vector<std::optional<record::CaseRecord>> slots(scenes.size());
   std::mutex one_at_a_time;
   const auto keep = [&](std::size_t i, record::CaseRecord&& record) {
@@ -138,7 +90,7 @@ std::vector<record::CaseRecord> run_all(
     finished(i, record);
     slots[i] = std::move(record);
   };
-  run_each(scenes, workers, {stop, stop}, keep, lanes);
+  run_each(scenes, workers, {stop, stop}, keep);
   std::vector<record::CaseRecord> records;
   for (auto& slot : slots)
     if (slot && slot->outcome != record::Outcome::interrupted) records.push_back(std::move(*slot));

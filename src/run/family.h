@@ -26,22 +26,16 @@ void run_programme(const scene::Scene& scene, const std::atomic<bool>& stop,
 // Runs one scene to its end, with findings.
 [[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop);
 
-// Which cases are computed together in lanes: those for which this is faster, all that can be, or
-// none. The records are the same bits in each case.
-enum class Lanes { where_they_pay, wherever_possible, none };
-
 // Runs the scenes and returns their records in the order of the scenes. `finished` is called after
 // each case, one call at a time, on the worker's thread. When `stop` is set, running cases end as
 // interrupted at their next row; these and the cases not begun are left out of the result.
 [[nodiscard]] std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
-    const std::function<void(std::size_t, const record::CaseRecord&)>& finished,
-    Lanes lanes = Lanes::where_they_pay);
+    const std::function<void(std::size_t, const record::CaseRecord&)>& finished);
 
 // The same without collecting the records: `ended` receives each one when its case has ended, on
 // the worker's thread, with several calls at a time.
 void run_each(const std::vector<scene::Scene>& scenes, int workers, const Stop& stop,
-              const std::function<void(std::size_t, record::CaseRecord&&)>& ended,
-              Lanes lanes = Lanes::where_they_pay);
+              const std::function<void(std::size_t, record::CaseRecord&&)>& ended);
 
 }  // namespace palpate::run

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/stop_scope.h"
 #include "base/units.h"
 #include "mechanics/half_space_contact.h"
 #include "mechanics/pressed_mesh.h"
@@ -64,8 +65,8 @@ Motion make_motion(const scenario::Step& step, double travel, const Vec3& sidewa
 
 class Press {
  public:
-  Press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record)
-      : scene_(scene), stop_(stop), record_(record), history_(scene) {
+  Press(const scene::Scene& scene, record::CaseRecord& record)
+      : scene_(scene), record_(record), history_(scene) {
     if (!scene.specimen) {
       first_ = scene::pressed_place(scene);
       touch_.finger = first_ + scene.finger.sphere_radius * Vec3::UnitZ();
@@ -166,7 +167,7 @@ class Press {
     const double start = time_;
     for (int row = 0; row < pace.rows; ++row) {
       for (int k = 1; k <= pace.steps; ++k) {
-        if (stop_.load()) return end_early(record_, record::Outcome::interrupted, "interrupted");
+        StopScope::end_if_stopped();
         const double time = pace.time(row, k);
         if (!advance(motion, time, start + time)) return false;
         if (touch_.force() >= motion.force) {
@@ -317,7 +318,6 @@ class Press {
   }
 
   const scene::Scene& scene_;
-  const std::atomic<bool>& stop_;
   record::CaseRecord& record_;
   mechanics::ContactHistory history_;
   std::optional<mechanics::PressedMesh> mesh_;
@@ -339,8 +339,6 @@ class Press {
 
 }  // namespace
 
-void press(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
-  Press(scene, stop, record).run();
-}
+void press(const scene::Scene& scene, record::CaseRecord& record) { Press(scene, record).run(); }
 
 }  // namespace palpate::run

@@ -2,6 +2,12 @@
 #include "scenario/resolved.h"
 
 namespace palpate::scenario {
+
+bool asks_for_steps(const Solver& solver) {
+  return solver.substeps || solver.allow_unstable || solver.start != PlainSolver{}.start ||
+         solver.damping != PlainSolver{}.damping;
+}
+
 namespace {
 
 void fill(std::optional<double>& value, const std::optional<material::Sourced>& from) {
@@ -47,14 +53,10 @@ Resolved::Contact resolve_contact(const Scenario& asked, const Found& found) {
 }
 
 // Whether the mesh's motion cannot reach the force of a press, whatever the integrator, so that it
-// is computed for pictures alone. Keys of explicit steps ask for these.
+// is computed for pictures alone.
 bool motion_is_for_show(const Scenario& asked) {
   const Solver& solver = asked.solver;
-  const bool explicit_steps = solver.substeps || solver.allow_unstable ||
-                              solver.start != PlainSolver{}.start ||
-                              solver.damping != PlainSolver{}.damping;
-  if (asked.uniform() || solver.kinematics != Solver::Kinematics::linear || solver.rings ||
-      explicit_steps)
+  if (solver.kinematics != Solver::Kinematics::linear || solver.rings || asks_for_steps(solver))
     return false;
   return asked.contact.coupling == contact::Coupling::one_way ||
          (asked.contact.coupling == contact::Coupling::consistent &&
@@ -64,9 +66,11 @@ bool motion_is_for_show(const Scenario& asked) {
 Resolved::Solver resolve_solver(const Scenario& asked, const Rung& rung, const Found& found) {
   using Integrator = Solver::Integrator;
   const bool drag = asked.tissue.viscosity == tissue::Viscosity::nodal_drag;
-  const bool still =
-      rung.meshed() && (asked.contact.coupling == contact::Coupling::resolved ||
-                        (!drag && (!found.inertia_matters || motion_is_for_show(asked))));
+  // A uniform test is its law of time; inertia comes with an integrator that is named.
+  const bool law_alone = asked.uniform() ? !asks_for_steps(asked.solver)
+                                         : !found.inertia_matters || motion_is_for_show(asked);
+  const bool still = rung.meshed() && (asked.contact.coupling == contact::Coupling::resolved ||
+                                       (!drag && law_alone));
   return {asked.solver, rung.of, asked.solver.volume.value_or(rung.volume),
           asked.solver.integrator.value_or(still ? Integrator::quasi_static
                                                  : Integrator::central_difference)};

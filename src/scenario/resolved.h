@@ -56,6 +56,9 @@ struct Found {
 // If viscosity does not matter, the contact has none, even if the scenario requests it.
 [[nodiscard]] Resolved resolve(const Case& one, Model model, const Found& found = {});
 
+// Whether a scenario without an integrator has keys of explicit steps.
+[[nodiscard]] bool asks_for_steps(const Solver& solver);
+
 // The scenario with the materials' values for all properties that it leaves open.
 [[nodiscard]] Scenario filled(const Case& one);
 

@@ -85,10 +85,12 @@ inline constexpr auto volumes =
     words_of<Solver::Volume>({{"none", "springs alone, which have a Poisson's ratio near 1/4"},
                               {"tetrahedron", "of every tetrahedron; locks towards nu = 1/2"},
                               {"nodal", "averaged over the tetrahedra around every node"}});
-inline constexpr Word auto_integrators{"auto",
-                                       "`quasi_static` where the mesh's motion cannot reach the "
-                                       "force, or `model = \"auto\"` finds that inertia does not "
-                                       "matter; else `central_difference`"};
+inline constexpr Word auto_integrators{
+    "auto",
+    "`quasi_static` in uniform tests, in slow presses by springs "
+    "without viscosity, where the mesh's motion cannot reach the "
+    "force, or where `model = \"auto\"` finds that inertia does not "
+    "matter; else `central_difference`"};
 inline constexpr Words<Solver::Integrator, integrator_table.size()> integrators(integrator_table);
 inline constexpr auto starts = words_of<integrate::Start>(
     {{"consistent", "second order"}, {"paper", "U(-dt) = U(0), first order"}});

@@ -82,7 +82,7 @@ class Chooser {
       uniform();
     else
       pressed();
-    if (choice_.given) choice_.found = {};
+    if (choice_.given) choice_.found = {.inertia_matters = !rests()};
     choice_.chosen = scenario::resolve(case_, model_, choice_.found);
     return choice_;
   }
@@ -100,6 +100,15 @@ class Chooser {
   }
 
   [[nodiscard]] double tolerance() const { return asked_.solver.tolerance; }
+
+  // Whether a slow press by a named model is one of statics: nothing damps the ringing of a mesh
+  // without viscosity, which would turn its tetrahedra inside out.
+  [[nodiscard]] bool rests() const {
+    return !asked_.uniform() && !choice_.otherwise_found.inertia_matters &&
+           asked_.tissue.viscosity == tissue::Viscosity::none &&
+           asked_.solver.kinematics == scenario::Solver::Kinematics::linear &&
+           !asked_.solver.rings && !scenario::asks_for_steps(case_.scenario.solver);
+  }
 
   // Questions for a test of a specimen between platens.
   void uniform() {
@@ -126,19 +135,18 @@ class Chooser {
         !prism   ? "error of independent springs on a shape that is no prism"
         : uneven ? "error of independent springs with fixed ends or several tissues"
                  : "");
-    const double inertia = uniform_inertia(asked_);
-    ask(Asked::inertia, inertia, tolerance(), "the body rings", "change of the strain by waves");
+    const bool moving = about(asked_.solver.integrator).inertia;
+    const double ringing = moving ? uniform_ringing(asked_) : 0.0;
+    if (moving)
+      ask(Asked::inertia, ringing, tolerance(), "the body rings",
+          "share of the strain by which it rings");
+    choice_.found.inertia_matters = moving;
     const auto error_of_still = [&](const Rung& rung) {
       return rung.own_ratio ? even_error + std::max(uneven ? rung.error.uneven : 0.0, meshed)
                             : ratio_error;
     };
-    choice_.found.inertia_matters =
-        inertia >= tolerance() ||
-        error_of_still(scenario::strongest) + errors_.counted(inertia) > tolerance();
-    const auto& integrator = case_.scenario.solver.integrator;
-    const bool moving = integrator ? about(*integrator).inertia : choice_.found.inertia_matters;
     for (const Rung& rung : scenario::ladder)
-      if (rung.uniform) add(rung, (moving ? 0.0 : errors_.counted(inertia)) + error_of_still(rung));
+      if (rung.uniform) add(rung, errors_.counted(ringing) + error_of_still(rung));
     take_cheapest();
   }
 

@@ -278,14 +278,16 @@ double half_space_error(const Estimates& estimates) {
   return std::abs(1.0 / (1.0 + estimates.by_size) - 1.0) + estimates.by_size_error;
 }
 
-double uniform_inertia(const scenario::Resolved& scenario) {
+double uniform_ringing(const scenario::Resolved& scenario) {
   const scenario::Resolved::Tissue& tissue = scenario.tissue;
-  const bool creeps = std::all_of(
+  const bool jumps = std::any_of(
       scenario.steps.begin(), scenario.steps.end(),
       [](const scenario::Step& step) { return std::holds_alternative<scenario::Creep>(step); });
+  if (!jumps || tissue.viscosity == tissue::Viscosity::nodal_drag) return 0.0;
+  if (tissue.viscosity != tissue::Viscosity::kelvin_voigt)
+    return 1.0 / tissue.law.instantaneous_ratio();
   const auto shape = parametric(tissue.shape);
-  if (scenario::compresses(scenario)) return 0.0;
-  if (!creeps || !shape || tissue.viscosity != tissue::Viscosity::kelvin_voigt) return 1.0;
+  if (!shape) return 1.0;
   double softest = tissue.young_modulus;
   double densest = tissue.density;
   for (const auto& region : scenario.regions) {

@@ -67,10 +67,10 @@ inline constexpr double doubt_of_sides = 0.4;  // relative, of `sides`, which is
 // that cancel in `by_size` are still uncertain.
 [[nodiscard]] double half_space_error(const Estimates& estimates);
 
-// The change of the strain in a creep test by the tissue's inertia, relative to the final strain;
-// 1 for tissue that rings, for relaxation tests and for shapes from files.
-//                                                                        docs/theory.md (68)
-[[nodiscard]] double uniform_inertia(const scenario::Resolved& scenario);
+// By how much of the final strain a specimen rings about its law of time in steps with inertia: by
+// what it strains at once under a load that jumps. Relaxation starts in its static shape and does
+// not ring, nor does nodal drag, whose motion is the law.                docs/theory.md (68)
+[[nodiscard]] double uniform_ringing(const scenario::Resolved& scenario);
 
 // Meshes that follow their error are refined until this share of `solver.tolerance` is stated.
 inline constexpr double refined_share = 0.5;

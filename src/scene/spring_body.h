@@ -5,13 +5,16 @@
 #include <vector>
 
 #include "integrate/body.h"
-#include "tissue/energy.h"
-#include "tissue/fast_springs.h"
+#include "tissue/spring_loop.h"
 #include "tissue/springs.h"
 #include "tissue/viscous.h"
 
 namespace palpate::scene {
 
+// All springs have one viscous law. With E the linear map from elongations to tensions, and q_k the
+// elongations that the branches remember, the tensions are  E (e + sum_k b_k (e - q_k)).  Where
+// springs do not turn, this is  f = K (u + sum_k b_k (u - z_k))  for the whole body, with one
+// matrix and the memory z_k of its nodes.                                docs/theory.md (37)
 class SpringBody final : public integrate::Body {
  public:
   using Vector = integrate::Vector;
@@ -32,12 +35,10 @@ class SpringBody final : public integrate::Body {
   [[nodiscard]] const integrate::Proportional& proportional() const override {
     return proportional_;
   }
-  void force(const Vector& displacement, std::span<const double> memory,
-             Vector& force) const override;
-  [[nodiscard]] SplitMatrix stiffness() const override;
+  void look(integrate::State& state) const override;
+  [[nodiscard]] const BlockMatrix& stiffness() const override;
   [[nodiscard]] bool has_dashpots() const override;
-  [[nodiscard]] SplitMatrix dashpots(const Vector& displacement) const override;
-  [[nodiscard]] BlockMatrix dashpot_blocks(const Vector& displacement) const override;
+  [[nodiscard]] BlockMatrix dashpots(const Vector& displacement) const override;
   void dashpot_force(const Vector& displacement, const Vector& velocity,
                      Vector& force) const override;
   using Body::memory_at;
@@ -50,13 +51,13 @@ class SpringBody final : public integrate::Body {
                                            std::span<const double> memory,
                                            const integrate::TimeStep& step) const override;
 
-  // Copies the branches' memory of spring `from` in `other`, the memory of another body, to spring
-  // `to` in `memory`; the elongation there does not change.
-  void inherit(std::span<const double> other, std::size_t from, std::size_t to,
+  // Copies what the branches of another body of the same law remember of number `from` of its
+  // `count` numbers to number `to` of `memory`. Numbers are those of degrees of freedom or, where
+  // springs turn, of springs.
+  void inherit(std::span<const double> other, std::size_t count, std::size_t from, std::size_t to,
                std::vector<double>& memory) const;
 
-  // Energies of a state, J, and the energy dissipated between two states. They are fast if the
-  // body's last call was remember() to that state, from `before`.
+  // Energies of a state, J, and the energy dissipated between two states.   docs/theory.md (43)
   [[nodiscard]] double stored(const integrate::State& state) const;
   [[nodiscard]] double kinetic(const integrate::State& state) const;
   [[nodiscard]] double dissipated(const integrate::State& before,
@@ -64,7 +65,9 @@ class SpringBody final : public integrate::Body {
 
  private:
   void prepare(const integrate::TimeStep& step) const;
-  [[nodiscard]] tissue::FastSprings& fast() const;
+  [[nodiscard]] tissue::SpringLoop& loop() const;
+  [[nodiscard]] const Vector& measure(const Vector& displacement) const;
+  void respond(const Vector& measured, Vector& response) const;
   [[nodiscard]] Vector spread_mass(double factor) const;
 
   const tissue::Network* network_;
@@ -74,17 +77,10 @@ class SpringBody final : public integrate::Body {
   Vector mass_;
   Vector drag_;
   integrate::Proportional proportional_;
-  // At the displacement that was requested last; statics alone do not need it.
-  mutable std::optional<tissue::FastSprings> fast_;
-  mutable std::optional<tissue::FastSprings> dashpots_;  // of Kelvin-Voigt, applied to velocities
-  mutable Vector turned_at_;                             // m, displacement of their directions
-  mutable std::vector<double> elongation_;
-  mutable std::vector<double> tension_;
-  mutable std::vector<double> effective_;
-  mutable std::vector<double> memory_at_;  // a buffer of dashpot_force()
-  mutable tissue::EnergyScratch scratch_;
-  mutable std::optional<integrate::TimeStep> prepared_;
-  mutable std::vector<tissue::MemoryStep> steps_;  // of `prepared_`
+  mutable std::optional<BlockMatrix> stiffness_;      // when first needed
+  mutable std::optional<tissue::SpringLoop> loop_;    // likewise
+  mutable std::vector<tissue::MemoryStep> steps_;     // of a step, one per branch
+  mutable Vector elongation_, tension_, difference_;  // buffers
 };
 
 }  // namespace palpate::scene

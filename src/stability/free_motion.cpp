@@ -14,19 +14,19 @@ using integrate::Vector;
 
 void LaggedDifference::step(integrate::State& state, const Vector& load) {
   const double dt = time_step_;
-  body_->force(state.displacement, state.memory, force_);
+  if (state.force.size() == 0) body_->look(state);
   damping_ = body_->drag().cwiseProduct(state.velocity);
   if (body_->has_dashpots()) {
     body_->dashpot_force(state.displacement, state.velocity, dashpots_);
     damping_ += dashpots_;
   }
-  state.velocity += dt * (load - force_ - damping_).cwiseQuotient(body_->mass());
+  state.velocity += dt * (load - state.force - damping_).cwiseQuotient(body_->mass());
   const auto held = body_->held();
   for (std::size_t d = 0; d < held.size(); ++d)
     if (held[d] != 0) state.velocity[static_cast<Eigen::Index>(d)] = 0.0;
   state.displacement += dt * state.velocity;
   state.time += dt;
-  body_->remember(state.displacement, {dt, integrate::MemoryRule::exact}, state.memory);
+  body_->arrive(state, {dt, integrate::MemoryRule::exact});
 }
 
 Moved move(const FreeMotion& motion, double time_step, double enough) {

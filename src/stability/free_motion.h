@@ -23,7 +23,6 @@ class LaggedDifference {
  private:
   const integrate::Body* body_;
   double time_step_;
-  integrate::Vector force_;
   integrate::Vector damping_;
   integrate::Vector dashpots_;
 };

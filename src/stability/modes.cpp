@@ -29,11 +29,10 @@ BodyMode highest_mode(const integrate::Body& body, const ContactSpring* contact)
   Vector scale = body.mass().cwiseSqrt().cwiseInverse();
   for (Eigen::Index d = 0; d < scale.size(); ++d)
     if (body.held()[as_index(d)] != 0) scale[d] = 0.0;
-  const std::vector<double> no_memory = body.memory_at(Vector::Zero(scale.size()));
   Vector force;
   const auto multiply = [&](const Vector& x, Vector& image) {
     const Vector u = scale.cwiseProduct(x);
-    body.force(u, no_memory, force);
+    body.stiffness().multiply(u, force);
     if (contact != nullptr)
       force += contact->stiffness * contact->weights.dot(u) * contact->weights;
     image = scale.cwiseProduct(force);

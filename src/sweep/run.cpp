@@ -162,7 +162,7 @@ class Runner {
   static bool waits(const Made& made) { return made.one && !made.tried; }
 
   // Builds cases that have not been tried for a while, at least one per worker, and runs them: rows
-  // must reach the disk long before a job's time is over. Lanes give the same bits in any group.
+  // must reach the disk long before a job's time is over.
   void run_part(std::span<Made> all) {
     constexpr double longest = 0.3;  // s
     if (shapes_->size() > most_shapes) shapes_ = std::make_unique<scene::SpecimenShapes>();
@@ -197,7 +197,7 @@ class Runner {
       ended[i] = 1;
     };
     try {
-      run::run_each(scenes, task_.workers, stop_, keep_record, task_.lanes);
+      run::run_each(scenes, task_.workers, stop_, keep_record);
     } catch (const InputError&) {  // the loop below finds the case
     } catch (const MeshError&) {
     }

@@ -14,7 +14,6 @@ namespace palpate::sweep {
 struct SweepTask {
   Shard shard = {};
   int workers = 1;
-  run::Lanes lanes = run::Lanes::where_they_pay;
   enum class Which { missing, failed } which = Which::missing;
   enum class Order { of_the_plan, backwards } order = Order::of_the_plan;
 };
@@ -37,7 +36,7 @@ struct SweepEnd {
 
 // Runs the cases of a shard that have no row or, with Which::failed, those whose row says that they
 // failed. A case that cannot be built or diverges also gets a row. Rows do not depend on workers,
-// lanes, order or shards. A separate thread calls `tick` about five times a second. After `no_more`
+// order or shards. A separate thread calls `tick` about five times a second. After `no_more`
 // is set no case begins; running cases are finished and kept. Throws InputError if another process
 // runs this part, and SystemError if a row cannot be written (disk full); earlier rows are kept.
 [[nodiscard]] SweepEnd run_sweep(const SweepPlan& plan, const SweepTask& task,

@@ -1,5 +1,5 @@
-// Loops over springs in index order, because sums that reach files need a fixed order. FastSprings
-// does the same in lanes and must give the same bits: change both together.
+// Loops over springs in index order, because sums that reach files need a fixed order. SpringLoop
+// does the same for a few springs at a time.
 #include "tissue/springs.h"
 
 #include <algorithm>
@@ -121,18 +121,6 @@ void directions(const Network& network, Kinematics kinematics, const Vector& dis
 
 namespace {
 
-// Adds the 3 x 3 block of two springs: the forces on the first one's ends as the second stretches.
-void add_springs(const std::array<int, 2>& ends, const std::array<int, 2>& others,
-                 const Eigen::Matrix3d& block, BlockMatrix& matrix) {
-  for (std::size_t p = 0; p < 2; ++p)
-    for (std::size_t q = 0; q < 2; ++q) {
-      if (p == q)
-        matrix.at(ends[p], others[q]) += block;
-      else
-        matrix.at(ends[p], others[q]) -= block;
-    }
-}
-
 // One row per volume with its change per displacement, and its stiffness as weight.
 void add_volumes(const Network& network, std::span<const Vec3> along, double factor,
                  BlockMatrix& matrix) {
@@ -147,19 +135,14 @@ void add_volumes(const Network& network, std::span<const Vec3> along, double fac
     }
     std::stable_sort(row.begin(), row.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [node, change] : row) {
-      if (static_cast<std::size_t>(matrix.volumes.start.back()) < matrix.changes.size() &&
-          matrix.volumes.column.back() == node) {
-        matrix.changes.back() += change;
-        continue;
-      }
-      matrix.volumes.column.push_back(node);
-      matrix.changes.push_back(change);
-    }
-    matrix.volumes.start.push_back(static_cast<int>(matrix.changes.size()));
-    matrix.weights.push_back(factor * volume.stiffness);
+    std::size_t kept = 0;
+    for (std::size_t i = 1; i < row.size(); ++i)
+      if (row[i].first == row[kept].first)
+        row[kept].second += row[i].second;
+      else
+        row[++kept] = row[i];
+    matrix.add_shared(std::span(row).first(row.empty() ? 0 : kept + 1), factor * volume.stiffness);
   }
-  matrix.end_volumes();
 }
 
 }  // namespace
@@ -202,16 +185,20 @@ BlockMatrix tangent(const Network& network, Kinematics kinematics, const Vector&
     if (stretching == 0.0 && across == 0.0) continue;
     Eigen::Matrix3d block;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) block(i, j) = stretching * n[i] * n[j] + (i == j ? across : 0.0);
-    add_springs(network.ends[s], network.ends[s], block, matrix);
+      for (int j = 0; j < 3; ++j)
+        block(i, j) = stretching * (n[i] * n[j]) + (i == j ? across : 0.0);
+    const auto& [a, b] = network.ends[s];
+    matrix.add(a, a, block);
+    matrix.add(b, b, block);
+    matrix.add(a, b, -block);
   }
   for (const CoupledSprings& six : network.coupled) {
     const ElementPulls pulls = element_pulls(network, six, along);
     const Eigen::Matrix<double, 12, 6> forces = factor * (pulls.along * six.stiffness);
     for (Eigen::Index i = 0; i < 4; ++i)
       for (Eigen::Index j = 0; j < 4; ++j)
-        matrix.at(pulls.corners[as_index(i)], pulls.corners[as_index(j)]) +=
-            forces.middleRows<3>(3 * i) * pulls.along.middleRows<3>(3 * j).transpose();
+        matrix.add(pulls.corners[as_index(i)], pulls.corners[as_index(j)],
+                   forces.middleRows<3>(3 * i) * pulls.along.middleRows<3>(3 * j).transpose());
   }
   if (!network.volumes.empty()) add_volumes(network, along, factor, matrix);
   return matrix;

@@ -36,10 +36,10 @@ constexpr const char* not_rigid =
     "cells or another mesh kind";
 
 // The static displacement under a load; of `held` degrees of freedom none.
-Vector solve(const Network& network, const std::vector<char>& held, const Vector& load) {
+Vector solve(const BlockMatrix& stiffness, const std::vector<char>& held, const Vector& load) {
   SymmetricSolver solver;
   Vector displacement;
-  if (!solver.prepare(stiffness_matrix(network), held) || !solver.solve(load, displacement))
+  if (!solver.prepare(stiffness, held) || !solver.solve(load, displacement))
     throw MeshError(not_rigid);
   return displacement;
 }
@@ -84,7 +84,7 @@ Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh) {
     for (const int vertex : skin.surface.triangles[t]) load[3 * node(vertex) + 2] += face.z() / 3.0;
   }
   // The tractions balance, so that the supports bear nothing.
-  const Vector displacement = solve(network, held, load);
+  const Vector displacement = solve(stiffness_matrix(network), held, load);
   // mean strain = 1/V sum over the skin of (mean displacement) x (area vector)  docs/theory.md (46)
   Vec3 stretch = Vec3::Zero();
   for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
@@ -113,18 +113,10 @@ Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh, Ba
   for (const int node : result.top) prescribed[3 * node + 2] = -result.height;
 
   // K u = 0 at the free degrees of freedom: u = prescribed - K_ff^-1 (K prescribed)_f
-  std::vector<double> elongation(network.ends.size());
-  std::vector<double> tension(network.ends.size());
-  Vector force;
-  const auto forces_at = [&](const Vector& displacement) {
-    elongations(network, Kinematics::linear, displacement, elongation);
-    tensions(network, elongation, tension);
-    gather_forces(network, Kinematics::linear, displacement, tension, force);
-  };
-  forces_at(prescribed);
-  result.displacement = prescribed - solve(network, held, force);
+  const BlockMatrix stiffness = stiffness_matrix(network);
+  result.displacement = prescribed - solve(stiffness, held, stiffness * prescribed);
 
-  forces_at(result.displacement);
+  const Vector force = stiffness * result.displacement;
   double reaction = 0.0;
   for (const int node : result.top) reaction -= force[3 * node + 2];
   for (const int node : result.top) result.shares.push_back(-force[3 * node + 2] / reaction);

@@ -55,11 +55,10 @@ std::size_t memory_size(const ViscousLaw& law) {
 namespace {
 
 // Kelvin-Voigt: e_1 = keep e_0 + begin s_0/k + end s_1/k, solved for s_1/k   docs/theory.md (36)
-double kelvin_voigt(const MemoryStep& step, const double* memory, double elongation) {
+double kelvin_voigt(const MemoryStep& step, double before, double effective, double elongation) {
   // A dashpot stretched in no time only transmits an impulse; afterwards it carries no force.
   if (step.end == 0.0) return elongation;
-  const double past = step.keep * memory[0] + step.begin * memory[1];
-  return (elongation - past) / step.end;
+  return (elongation - (step.keep * before + step.begin * effective)) / step.end;
 }
 
 }  // namespace
@@ -67,21 +66,20 @@ double kelvin_voigt(const MemoryStep& step, const double* memory, double elongat
 void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> steps,
                            std::span<const double> memory, std::span<const double> elongation,
                            std::span<double> effective) {
-  const std::size_t size = memory_size(law);
-  for (std::size_t s = 0; s < elongation.size(); ++s) {
-    const double e = elongation[s];
-    const double* const own = memory.data() + size * s;
-    if (law.kind == Viscosity::kelvin_voigt) {
-      effective[s] = kelvin_voigt(steps[0], own, e);
-      continue;
-    }
+  const std::size_t count = elongation.size();
+  if (law.kind == Viscosity::kelvin_voigt) {
+    for (std::size_t s = 0; s < count; ++s)
+      effective[s] = kelvin_voigt(steps[0], memory[s], memory[count + s], elongation[s]);
+    return;
+  }
+  std::copy(elongation.begin(), elongation.end(), effective.begin());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
     // s/k = e + sum of k_i/k (e - q_1)                                     docs/theory.md (37)
-    double sum = e;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const double past = steps[i].keep * own[1 + i] + steps[i].begin * own[0];
-      sum += law.branches[i].ratio * (e * (1.0 - steps[i].end) - past);
-    }
-    effective[s] = sum;
+    const double* const inner = &memory[(1 + i) * count];
+    const double ratio = law.branches[i].ratio;
+    const auto [keep, begin, end] = steps[i];
+    for (std::size_t s = 0; s < count; ++s)
+      effective[s] += ratio * (elongation[s] * (1.0 - end) - (keep * inner[s] + begin * memory[s]));
   }
 }
 
@@ -95,19 +93,20 @@ double effective_slope(const ViscousLaw& law, std::span<const MemoryStep> steps)
 
 void remember(const ViscousLaw& law, std::span<const MemoryStep> steps,
               std::span<const double> elongation, std::span<double> memory) {
-  const std::size_t size = memory_size(law);
-  if (size == 0) return;
-  for (std::size_t s = 0; s < elongation.size(); ++s) {
-    double* const own = &memory[size * s];
-    if (law.kind == Viscosity::kelvin_voigt) {
-      own[1] = kelvin_voigt(steps[0], own, elongation[s]);
-    } else {
-      for (std::size_t i = 0; i < steps.size(); ++i)
-        own[1 + i] =
-            steps[i].keep * own[1 + i] + steps[i].begin * own[0] + steps[i].end * elongation[s];
+  if (memory.empty()) return;
+  const std::size_t count = elongation.size();
+  if (law.kind == Viscosity::kelvin_voigt) {
+    for (std::size_t s = 0; s < count; ++s)
+      memory[count + s] = kelvin_voigt(steps[0], memory[s], memory[count + s], elongation[s]);
+  } else {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      double* const inner = &memory[(1 + i) * count];
+      const auto [keep, begin, end] = steps[i];
+      for (std::size_t s = 0; s < count; ++s)
+        inner[s] = keep * inner[s] + begin * memory[s] + end * elongation[s];
     }
-    own[0] = elongation[s];
   }
+  std::copy(elongation.begin(), elongation.end(), memory.begin());
 }
 
 }  // namespace palpate::tissue

@@ -44,10 +44,11 @@ struct MemoryStep {
   [[nodiscard]] static MemoryStep at_once() { return {}; }
 };
 
-// The memory of the springs is one array with memory_size() numbers per spring: the elongation at
-// the last step (m), then the internal elongation q of every branch or, for Kelvin-Voigt, the
-// effective elongation s/k (m). Other laws have no memory. `steps` has one entry per branch, and
-// one for Kelvin-Voigt.
+// What a law remembers of elongations e (m) or, because all springs have the same times, of the
+// displacements of a body whose springs do not turn: memory_size() arrays as long as e, one after
+// the other. They are e at the last step, then the internal elongation q of every branch or, for
+// Kelvin-Voigt, the effective elongation s/k. Other laws have no memory. `steps` has one entry per
+// branch, and one for Kelvin-Voigt.
 [[nodiscard]] std::size_t memory_size(const ViscousLaw& law);
 
 // The effective elongations (m) at the end of a step to `elongation`. A spring has the tension that

@@ -13,7 +13,6 @@
 #include "integrate/central_difference.h"
 #include "mechanics/monitor.h"
 #include "scene/spring_body.h"
-#include "tissue/energy.h"
 #include "tissue/stable_step.h"
 
 namespace palpate {

@@ -1,12 +1,11 @@
-// A sweep's merged table is the same bytes whatever shards, workers, lanes, order and stops made
-// it.
+// A sweep's merged table is the same bytes whatever shards, workers, order and stops made it.
 #include "sweep_folder.h"
 
 namespace palpate::sweep {
 namespace {
 
-// Meshes of two sizes that are moved step by step, so that lanes have work; one case diverges: its
-// steps of 3 ms are too long.
+// Meshes of two sizes that are moved step by step; one case diverges: its steps of 3 ms are too
+// long.
 const std::string meshes =
     "[tissue]\nviscosity = \"none\"\n"
     "[solver]\nmodel = \"mass_spring\"\nintegrator = \"central_difference\"\nsubsteps = 4\n"
@@ -42,16 +41,14 @@ class SweepBits : public SweepFolder {
     const std::string curve = curves ? merged(plan, "strain_time.csv") : "";
     for (const std::size_t shards : {1U, 2U, 3U, 7U})
       for (const int workers : {1, 3})
-        for (const run::Lanes lanes : {run::Lanes::wherever_possible, run::Lanes::none})
-          for (const auto way : {SweepTask::Order::of_the_plan, SweepTask::Order::backwards}) {
-            const SweepPlan again = afresh(plan);
-            for (std::size_t shard = shards; shard > 0; --shard)
-              run(again,
-                  {.shard = {shard, shards}, .workers = workers, .lanes = lanes, .order = way});
-            EXPECT_EQ(merged(again), expected) << shards << " shards, " << workers << " workers";
-            if (!curves) continue;
-            EXPECT_EQ(merged(again, "strain_time.csv"), curve);
-          }
+        for (const auto way : {SweepTask::Order::of_the_plan, SweepTask::Order::backwards}) {
+          const SweepPlan again = afresh(plan);
+          for (std::size_t shard = shards; shard > 0; --shard)
+            run(again, {.shard = {shard, shards}, .workers = workers, .order = way});
+          EXPECT_EQ(merged(again), expected) << shards << " shards, " << workers << " workers";
+          if (!curves) continue;
+          EXPECT_EQ(merged(again, "strain_time.csv"), curve);
+        }
   }
 };
 
@@ -107,8 +104,8 @@ TEST_F(SweepBits, stops_change_nothing) {
   int runs = 0;
   for (bool interrupted = true; interrupted; ++runs) {
     std::atomic<bool> stop = false;
-    const SweepEnd end = run_sweep(again, {.lanes = run::Lanes::none}, stop,
-                                   [&](const SweepProgress& now) { stop = now.done > 0; });
+    const SweepEnd end =
+        run_sweep(again, {}, stop, [&](const SweepProgress& now) { stop = now.done > 0; });
     interrupted = end.missing > 0;
     ASSERT_LT(runs, 11) << "no run got anywhere";
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "every.h"
-#include "integrate/semi_implicit_euler.h"
+#include "integrate/central_difference.h"
 #include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/words.h"

@@ -8,7 +8,7 @@
 #include "base/cholesky.h"
 #include "base/index.h"
 #include "jittered_block.h"
-#include "tissue/energy.h"
+#include "plain_energy.h"
 #include "tissue/stable_step.h"
 #include "tissue/stiffness.h"
 
@@ -231,7 +231,7 @@ TEST(CoupledInTime, EnergyNeverGrowsUnloaded) {
         const std::vector<MemoryStep> at_once(steps.size(), MemoryStep::at_once());
         tissue::remember(law, at_once, elongation, memory);
         const auto energy = [&] {
-          return tissue::stored_energy(network, law, memory.empty() ? elongation : memory) +
+          return test::stored_energy(network, law, memory.empty() ? elongation : memory) +
                  0.5 * v.dot(mass.cwiseProduct(v));
         };
         const double start = energy();

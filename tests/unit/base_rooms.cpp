@@ -19,8 +19,7 @@
 
 namespace {
 
-constexpr int longest_file = 400;         // lines; docs/style.md
-constexpr std::size_t fullest_room = 55;  // files
+constexpr int longest_file = 800;  // lines; docs/style.md
 
 struct SourceFile {
   std::string path;  // below src/, with `/`: "contact/hertz.cpp"
@@ -214,18 +213,6 @@ std::vector<std::string> form_faults(const std::vector<SourceFile>& files) {
   return faults;
 }
 
-// Rooms with more files than one finds one's way in.
-std::vector<std::string> size_faults(const std::vector<SourceFile>& files) {
-  std::map<std::string, std::size_t> count;
-  for (const SourceFile& file : files) ++count[room_of(file.path)];
-  std::vector<std::string> faults;
-  for (const auto& [room, number] : count)
-    if (number > fullest_room)
-      faults.push_back("src/" + room + " has " + std::to_string(number) + " files, more than " +
-                       std::to_string(fullest_room) + "; split the room");
-  return faults;
-}
-
 // The text with comments, string literals and preprocessor lines blanked out.
 std::string code_of(const std::string& text) {
   static const std::regex other(
@@ -345,8 +332,6 @@ TEST(Rooms, HaveASectionEach) {
   EXPECT_EQ(sections, rooms);
 }
 
-TEST(Rooms, AreSmall) { EXPECT_EQ(fault_lines(size_faults(our_files())), ""); }
-
 TEST(Rooms, ShareNoTypeName) {
   const auto files = our_files();
   std::size_t types = 0;
@@ -407,16 +392,6 @@ TEST(RoomCheck, CatchesAnIncludeOrAFileOutsideTheRooms) {
             "src/base/units.cpp:1: `units.h` names no room; write \"room/file.h\"\n");
   EXPECT_EQ(faults_of({{"attic/trunk.cpp", "// Old things.\n"}}),
             "src/attic/trunk.cpp:1: is in no room of src/CMakeLists.txt\n");
-}
-
-TEST(RoomCheck, CatchesARoomThatIsFull) {
-  std::vector<SourceFile> files;
-  for (std::size_t i = 0; i < fullest_room; ++i)
-    files.push_back({"base/" + std::to_string(i) + ".h", ""});
-  EXPECT_EQ(fault_lines(size_faults(files)), "");
-  files.push_back({"base/more.h", ""});
-  EXPECT_EQ(fault_lines(size_faults(files)),
-            "src/base has 56 files, more than 55; split the room\n");
 }
 
 TEST(RoomCheck, CatchesTwoTypesOfOneName) {

@@ -92,7 +92,7 @@ TEST(Choose, ARefinedMeshIsForecastByItsTolerance) {
   EXPECT_NEAR(forecast("", 0.02) - forecast("", 0.01), 0.5 * 0.01, 1e-9);
 }
 
-TEST(Choose, CreepIsQuasiStaticWhereItIsSlow) {
+TEST(Choose, AUniformTestIsItsLawOfTimeUnlessItNamesInertia) {
   const std::string creep =
       "[tissue]\nviscosity = \"kelvin_voigt\"\nyoung_modulus = \"10 kPa\"\n[[step]]\nkind = "
       "\"creep\"\n";
@@ -100,9 +100,36 @@ TEST(Choose, CreepIsQuasiStaticWhereItIsSlow) {
   slow.scenario.tissue.retardation_time = 0.1;
   EXPECT_EQ(choose(slow).chosen.solver.integrator, Integrator::quasi_static);
   slow.scenario.tissue.retardation_time = 0.005;
-  EXPECT_EQ(choose(slow).chosen.solver.integrator, Integrator::central_difference);
+  EXPECT_EQ(choose(slow).chosen.solver.integrator, Integrator::quasi_static);
+  const double still = choose(slow).taken()->error;
   slow.scenario.tissue.viscosity = tissue::Viscosity::none;
+  EXPECT_EQ(choose(slow).chosen.solver.integrator, Integrator::quasi_static);
+  EXPECT_EQ(choose(slow).taken()->error, still);
+  // What an elastic body rings is all of its strain.
+  slow.scenario.solver.integrator = Integrator::central_difference;
+  EXPECT_NEAR(choose(slow).taken()->error, still + 1.0, 1e-12);
+  // Drag moves by nothing but motion, and keys of explicit steps ask for these.
+  slow.scenario.solver.integrator.reset();
+  slow.scenario.solver.substeps = 4;
   EXPECT_EQ(choose(slow).chosen.solver.integrator, Integrator::central_difference);
+  const Choice drag =
+      choose(read("[tissue]\nviscosity = \"nodal_drag\"\n[[step]]\nkind = \"creep\"\n"));
+  EXPECT_EQ(drag.chosen.solver.integrator, Integrator::central_difference);
+}
+
+TEST(Choose, ASlowPressByNamedSpringsWithoutViscosityRests) {
+  const std::string named = "[solver]\nmodel = \"mass_spring\"\n";
+  const std::string elastic = "[tissue]\nviscosity = \"none\"\n";
+  const auto integrator = [](const std::string& text) {
+    return choose(read(text)).chosen.solver.integrator;
+  };
+  EXPECT_EQ(integrator(elastic + press + "rate = \"1 mm/s\"\n" + named), Integrator::quasi_static);
+  for (const char* key : {"substeps = 2", "rings = 3", "kinematics = \"nonlinear\""})
+    EXPECT_EQ(integrator(elastic + press + "rate = \"1 mm/s\"\n" + named + key + "\n"),
+              Integrator::central_difference)
+        << key;
+  EXPECT_EQ(integrator(elastic + press + "rate = \"500 mm/s\"\n" + named),
+            Integrator::central_difference);
 }
 
 TEST(Choose, IndependentSpringsAreNotTakenForAShapeThatIsNoPrism) {

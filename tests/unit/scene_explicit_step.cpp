@@ -59,7 +59,7 @@ TEST_P(KelvinVoigtStep, solves_the_equation_with_dashpots_as_they_stand) {
     const Vector moved_before = time_step * state.velocity;
     Vector force;
     other.force(before, other.memory_at(before), force);
-    const Eigen::MatrixXd damping = test::dense(other.dashpots(before));
+    const Eigen::MatrixXd damping = test::dense(other.dashpots(before).split(block.held));
     method.step(state, load);
     Eigen::MatrixXd left = time_step * damping;
     left.diagonal() += 2.0 * body.mass();
@@ -84,59 +84,6 @@ INSTANTIATE_TEST_SUITE_P(every, KelvinVoigtStep,
                                          Choice{Kinematics::nonlinear, Coupling::none},
                                          Choice{Kinematics::linear, Coupling::six_and_nodal},
                                          Choice{Kinematics::squared, Coupling::six_and_nodal}));
-
-// What the body keeps from its last call never stands in for what was not asked.
-TEST(SpringBody, ForcesFollowWhatTheyAreAskedFor) {
-  const Block block(Coupling::none);
-  tissue::ViscousLaw law{.kind = Viscosity::standard_linear_solid, .branches = {{0.1, 0.5}}};
-  const scene::SpringBody body(block.network, Kinematics::nonlinear, law, block.held);
-  const Vector u = test::scattered_displacement(block.mesh, 2e-4);
-  std::vector<double> memory = body.memory_at(Vector::Zero(u.size()));
-  const auto fresh = [&](const Vector& at) {
-    const scene::SpringBody another(block.network, Kinematics::nonlinear, law, block.held);
-    Vector force;
-    another.force(at, memory, force);
-    return force;
-  };
-  Vector force;
-  body.force(u, memory, force);
-  EXPECT_EQ(force, fresh(u));
-  body.remember(u, {time_step, integrate::MemoryRule::exact}, memory);
-  body.force(u, memory, force);
-  EXPECT_EQ(force, fresh(u));
-  memory[3] += 1e-6;  // the branch of one spring
-  body.force(u, memory, force);
-  EXPECT_EQ(force, fresh(u));
-  Vector elsewhere = u;
-  elsewhere[10] += 1e-6;
-  body.force(elsewhere, memory, force);
-  EXPECT_EQ(force, fresh(elsewhere));
-}
-
-// Energies at hand are those of the plain sums, and only of the states they belong to.
-TEST(SpringBody, EnergiesBelongToTheirStates) {
-  const Block block(Coupling::six_and_nodal);
-  const tissue::ViscousLaw law{.kind = Viscosity::kelvin_voigt, .time = 0.1};
-  const scene::SpringBody body(block.network, Kinematics::linear, law, block.held);
-  integrate::State before;
-  before.displacement = test::scattered_displacement(block.mesh, 1e-4);
-  before.velocity = before.displacement;
-  before.memory = body.memory_at(before.displacement);
-  body.remember(before.displacement, {time_step, integrate::MemoryRule::exact}, before.memory);
-  integrate::State after = before;
-  after.time = time_step;
-  after.displacement *= 1.25;
-  body.remember(after.displacement, {time_step, integrate::MemoryRule::exact}, after.memory);
-  const scene::SpringBody unaware(block.network, Kinematics::linear, law, block.held);
-  const auto close = [](double a, double b) { EXPECT_NEAR(a, b, 1e-11 * std::abs(b)); };
-  close(body.stored(after), unaware.stored(after));  // sums in another order
-  close(body.dissipated(before, after), unaware.dissipated(before, after));
-  close(body.stored(before), unaware.stored(before));
-  integrate::State elsewhere = before;
-  elsewhere.displacement *= 0.5;
-  elsewhere.memory = body.memory_at(elsewhere.displacement);
-  close(body.dissipated(elsewhere, after), unaware.dissipated(elsewhere, after));
-}
 
 }  // namespace
 }  // namespace palpate

@@ -1,0 +1,230 @@
+// Spans and pulls with x, y and z in one vector, lengths with several springs in one vector.
+#include "tissue/spring_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic ignored "-Wpsabi"  // all functions that take vectors of four are inlined
+#endif
+
+#if defined(__x86_64__)
+#define PALPATE_WIDE __attribute__((target_clones("default", "avx2")))
+#else
+#define PALPATE_WIDE
+#endif
+#define PALPATE_ALWAYS [[gnu::always_inline]] inline
+
+namespace palpate::tissue {
+namespace {
+
+using Four = double __attribute__((vector_size(32)));
+using Springs = SpringLoop::Springs;
+using Node = SpringLoop::Node;
+
+PALPATE_ALWAYS Four load(const double* from) {
+  Four values;
+  __builtin_memcpy(&values, from, sizeof values);
+  return values;
+}
+PALPATE_ALWAYS void store(double* to, const Four& values) {
+  __builtin_memcpy(to, &values, sizeof values);
+}
+
+// For each argument the sum of its first three numbers.
+PALPATE_ALWAYS Four sums(const Four* p) {
+  const Four xz_ab = __builtin_shufflevector(p[0], p[1], 0, 4, 2, 6);
+  const Four y_ab = __builtin_shufflevector(p[0], p[1], 1, 5, 3, 7);
+  const Four xz_cd = __builtin_shufflevector(p[2], p[3], 0, 4, 2, 6);
+  const Four y_cd = __builtin_shufflevector(p[2], p[3], 1, 5, 3, 7);
+  return __builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5) +
+         (__builtin_shufflevector(y_ab, y_cd, 0, 1, 4, 5) +
+          __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7));
+}
+
+PALPATE_ALWAYS Four all(double value) { return Four{value, value, value, value}; }
+
+PALPATE_ALWAYS Four root(const Four& x) {
+#if defined(__x86_64__)
+  const __m128d low = _mm_sqrt_pd(__builtin_shufflevector(x, x, 0, 1));
+  const __m128d high = _mm_sqrt_pd(__builtin_shufflevector(x, x, 2, 3));
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+#else
+  return Four{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+#endif
+}
+
+// Four springs at the present displacement.
+struct Stretched {
+  Four span[4];     // m, of each: x, y, z and an unused number
+  Four elongation;  // m
+  Four per_length;  // 1/m: direction = per_length * span
+};
+
+PALPATE_ALWAYS Stretched stretch(const Springs springs, const Node* nodes, std::size_t first) {
+  Stretched now;
+  Four product[4];
+#pragma GCC unroll 4
+  for (std::size_t j = 0; j < 4; ++j) {
+    const std::size_t s = first + j;
+    const Four change = load(nodes[springs.ends[2 * s + 1]].displacement) -
+                        load(nodes[springs.ends[2 * s]].displacement);
+    const Four rest = load(springs.span + 3 * s);
+    product[j] = change * ((rest + rest) + change);
+    now.span[j] = rest + change;
+  }
+  // As in springs.cpp.                                                   docs/theory.md (33)
+  const Four squares = sums(product);
+  const Four rest = load(springs.rest_length + first);
+  if (springs.squared) {
+    now.per_length = 1.0 / rest;
+    now.elongation = (0.5 * squares) * now.per_length;
+    return now;
+  }
+  const Four length = root(rest * rest + squares);
+  const Four inverse = 1.0 / ((length + rest) * length);
+  now.elongation = squares * (length * inverse);
+  now.per_length = (length + rest) * inverse;
+  return now;
+}
+
+PALPATE_ALWAYS void pull_four(const Springs springs, Node* nodes, std::size_t first,
+                              const Stretched& now, const Four& scale) {
+#pragma GCC unroll 4
+  for (std::size_t j = 0; j < 4; ++j) {
+    const std::size_t s = first + j;
+    const Four force = all(scale[j]) * now.span[j];
+    double* const a = nodes[springs.ends[2 * s]].force;
+    store(a, load(a) - force);
+    double* const b = nodes[springs.ends[2 * s + 1]].force;
+    store(b, load(b) + force);
+  }
+}
+
+// The fourth number of a node is that of the next one's x and is never used.
+PALPATE_WIDE void place_all(const double* from, Node* nodes, std::size_t count) {
+  for (std::size_t n = 0; n + 1 < count; ++n) {
+    store(nodes[n].displacement, load(from + 3 * n));
+    store(nodes[n].force, Four{});
+  }
+  Node& last = nodes[count - 1];
+  for (std::size_t i = 0; i < 3; ++i) last.displacement[i] = from[3 * (count - 1) + i];
+  store(last.force, Four{});
+}
+
+PALPATE_WIDE void collect_all(const Node* nodes, double* to, std::size_t count) {
+  for (std::size_t n = 0; n + 1 < count; ++n) store(to + 3 * n, load(nodes[n].force));
+  for (std::size_t i = 0; i < 3; ++i) to[3 * (count - 1) + i] = nodes[count - 1].force[i];
+}
+
+PALPATE_WIDE double pass_elastic(const Springs springs, Node* nodes) {
+  Four energy{};
+  for (std::size_t first = 0; first < springs.count; first += 4) {
+    const Stretched now = stretch(springs, nodes, first);
+    const Four tension = load(springs.stiffness + first) * now.elongation;
+    energy += tension * now.elongation;
+    pull_four(springs, nodes, first, now, tension * now.per_length);
+  }
+  return 0.5 * ((energy[0] + energy[1]) + (energy[2] + energy[3]));
+}
+
+PALPATE_WIDE void pass_elongations(const Springs springs, const Node* nodes, double* elongation) {
+  for (std::size_t first = 0; first < springs.count; first += 4)
+    store(elongation + first, stretch(springs, nodes, first).elongation);
+}
+
+// Of the velocities in place of the nodes' forces.
+PALPATE_WIDE void pass_rates(const Springs springs, const Node* nodes, double* rate) {
+  for (std::size_t first = 0; first < springs.count; first += 4) {
+    const Stretched now = stretch(springs, nodes, first);
+    Four product[4];
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < 4; ++j) {
+      const std::size_t s = first + j;
+      product[j] = now.span[j] * (load(nodes[springs.ends[2 * s + 1]].force) -
+                                  load(nodes[springs.ends[2 * s]].force));
+    }
+    store(rate + first, now.per_length * sums(product));
+  }
+}
+
+PALPATE_WIDE void pass_pull(const Springs springs, Node* nodes, const double* tension) {
+  for (std::size_t first = 0; first < springs.count; first += 4) {
+    const Stretched now = stretch(springs, nodes, first);
+    pull_four(springs, nodes, first, now, load(tension + first) * now.per_length);
+  }
+}
+
+}  // namespace
+
+SpringLoop::SpringLoop(const Network& network, Kinematics kinematics) {
+  const std::size_t count = network.ends.size();
+  const std::size_t padded = (count + chunk - 1) / chunk * chunk;
+  const auto nobody = static_cast<std::int32_t>(network.rest.size());
+  nodes_.resize(network.rest.size() + 1);
+  ends_.assign(2 * padded, nobody);
+  span_.assign(3 * padded + 1, 0.0);  // loads take four numbers
+  rest_length_.assign(padded, 1.0);
+  stiffness_.assign(padded, 0.0);
+  values_.assign(padded, 0.0);
+  for (std::size_t s = 0; s < count; ++s) {
+    const auto [a, b] = network.ends[s];
+    ends_[2 * s] = a;
+    ends_[2 * s + 1] = b;
+    const Vec3 rest = network.rest[as_index(b)] - network.rest[as_index(a)];
+    std::copy(rest.begin(), rest.end(), &span_[3 * s]);
+    rest_length_[s] = network.rest_length[s];
+    stiffness_[s] = network.stiffness[s];
+  }
+  springs_ = {.squared = kinematics == Kinematics::squared,
+              .count = padded,
+              .ends = ends_.data(),
+              .span = span_.data(),
+              .rest_length = rest_length_.data(),
+              .stiffness = stiffness_.data()};
+}
+
+// Copies displacements to the nodes and clears their forces.
+void SpringLoop::place(const Vector& displacement) {
+  place_all(displacement.data(), nodes_.data(), nodes_.size() - 1);
+}
+
+void SpringLoop::collect(Vector& force) const {
+  force.resize(3 * static_cast<Eigen::Index>(nodes_.size() - 1));
+  collect_all(nodes_.data(), force.data(), nodes_.size() - 1);
+}
+
+double SpringLoop::elastic(const Vector& displacement, Vector& force) {
+  place(displacement);
+  const double stored = pass_elastic(springs_, nodes_.data());
+  collect(force);
+  return stored;
+}
+
+void SpringLoop::elongations(const Vector& displacement, std::span<double> elongation) {
+  place(displacement);
+  pass_elongations(springs_, nodes_.data(), values_.data());
+  std::copy_n(values_.begin(), elongation.size(), elongation.begin());
+}
+
+void SpringLoop::rates(const Vector& displacement, const Vector& velocity, std::span<double> rate) {
+  place(displacement);
+  for (std::size_t n = 0; n + 1 < nodes_.size(); ++n)
+    for (std::size_t i = 0; i < 3; ++i)
+      nodes_[n].force[i] = velocity[static_cast<Eigen::Index>(3 * n + i)];
+  pass_rates(springs_, nodes_.data(), values_.data());
+  std::copy_n(values_.begin(), rate.size(), rate.begin());
+}
+
+void SpringLoop::pull(const Vector& displacement, std::span<const double> tension, Vector& force) {
+  place(displacement);
+  std::copy(tension.begin(), tension.end(), values_.begin());
+  pass_pull(springs_, nodes_.data(), values_.data());
+  collect(force);
+}
+
+}  // namespace palpate::tissue
