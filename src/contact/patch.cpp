@@ -45,6 +45,9 @@ Quadrature make_quadrature() {
   return found;
 }
 
+// Made before the first step, which allocates nothing.
+const Quadrature quadrature = make_quadrature();
+
 static_assert(most_shares == 3 * 2 * ring_count * spoke_count);
 
 constexpr std::size_t most_stretches = 1000;
@@ -139,7 +142,6 @@ void Spreader::share(const geometry::SurfacePoint& point, double weight) {
 }
 
 void Spreader::spread(const Patch& patch, Spread& spread) {
-  static const Quadrature quadrature = make_quadrature();
   look_from(patch);
   touched_.clear();
   met_.clear();
