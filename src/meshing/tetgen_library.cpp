@@ -82,8 +82,8 @@ const std::function<double(const Vec3&)>* wanted_size = nullptr;
 // Whether a tetrahedron is too large: by its volume, that of a regular one with the wanted edges
 // being 0.118, or by its longest edge.
 bool too_large(double* a, double* b, double* c, double* d, double*, double) {
-  constexpr double largest = 0.17;
-  constexpr double longest = 1.8;
+  constexpr double largest = 0.26;
+  constexpr double longest = 2.2;
   const std::array<Vec3, 4> corner{Vec3(a[0], a[1], a[2]), Vec3(b[0], b[1], b[2]),
                                    Vec3(c[0], c[1], c[2]), Vec3(d[0], d[1], d[2])};
   const double size = (*wanted_size)(0.25 * (corner[0] + corner[1] + corner[2] + corner[3]));

@@ -28,7 +28,7 @@ Extent extent_of(const BodyOrder& order) {
   return found;
 }
 
-// Around the touched places, through the layers under them, and in balls.  docs/theory.md (98)
+// Around the touched places, through the layers under them, and in balls.  docs/theory.md (122)
 Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
   Sizes sizes;
   const double a = std::sqrt(order.radius * order.travel);
@@ -153,8 +153,8 @@ Body make_body(const BodyOrder& order) {
   Body body;
   body.mesh = mesh_for(wanted);
   body.tissues = order.tissues;
-  body.size = wanted.sizes.least();
-  if (!order.touched.empty()) body.size = std::sqrt(order.radius * order.travel) / order.per_radius;
+  body.size = std::sqrt(order.radius * order.travel) / order.per_radius;
+  body.travel = order.travel;
   support(order, mirrors, extent, body);
   return body;
 }
@@ -174,6 +174,7 @@ Body make_ball(double radius, double travel, const tissue::Isotropic& material, 
   for (Vec3& node : body.mesh.nodes) node -= centre;
   body.tissues = {material};
   body.size = a / per_radius;
+  body.travel = travel;
   body.copies = 4;
   body.mirrored = {true, true};
   body.held.assign(3 * body.mesh.nodes.size(), 0);

@@ -326,12 +326,6 @@ double Sizes::at(const Vec3& place) const {
   return size;
 }
 
-double Sizes::least() const {
-  double size = largest;
-  for (const Spot& spot : spots) size = std::min(size, spot.size);
-  return size;
-}
-
 Mesh mesh_for(const MeshOrder& order) {
   if (order.mesh != nullptr) return refined(order);
   return Mesher(order).made();

@@ -24,9 +24,8 @@ struct Sizes {
   std::vector<Spot> spots;
   double largest = 0.0;  // m
 
-  // m; 0.35 of the distance is added.                                    docs/theory.md (98)
+  // m; 0.35 of the distance is added.                                    docs/theory.md (122)
   [[nodiscard]] double at(const Vec3& place) const;
-  [[nodiscard]] double least() const;
 };
 
 // A part of a body with a tissue of its own: a ball, or a slab from side to side.

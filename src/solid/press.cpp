@@ -11,8 +11,8 @@ namespace palpate::solid {
 namespace {
 
 constexpr double stiff = 100.0;     // penalty over E / h
-constexpr double last_step = 1e-6;  // of the radius: Newton's, what is left is of its square
-constexpr double longest = 0.075;   // of the radius: a step's largest change of displacement
+constexpr double last_step = 1e-3;  // of the travel: Newton's, what is left is of its square
+constexpr double longest = 0.5;     // of the size: a step's largest change of displacement
 constexpr int most_steps = 40;
 constexpr int most_halvings = 5;
 
@@ -70,7 +70,6 @@ bool Press::factor() {
 std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
   std::vector<Ball> balls = balls_;
   for (Ball& ball : balls) ball.centre += finger;
-  const double radius = balls.front().hollow ? 20.0 * body_.size : balls.front().radius;
   Vector u = now_.displacement;
   std::vector<double> pressures = now_.pressures;
   if (extrapolate) {
@@ -96,12 +95,12 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
     factors_.solve(right, solution);
     const double most = solution.size() > 0 ? solution.cwiseAbs().maxCoeff() : 0.0;
     if (!std::isfinite(most)) return std::nullopt;
-    const double share = std::min(1.0, longest * radius / most);
+    const double share = std::min(1.0, longest * body_.size / most);
     for (int d = 0; d < static_cast<int>(u.size()); ++d)
       if (const int unknown = elements_.unknown(d); unknown >= 0) step[d] = solution[unknown];
     elements_.advance(u, step, share);
     u += share * step;
-    if (most > last_step * radius) continue;
+    if (most > last_step * body_.travel) continue;
     const double folded = elements_.assemble(u, force, stiffness_);
     if (!(folded > 0.0)) return std::nullopt;
     contact_.add(u, balls, hardest_, force, stiffness_, met);

@@ -19,6 +19,7 @@ struct Body {
   std::vector<char> held;                  // per degree of freedom
   std::vector<OuterFace> met;              // faces that the finger may meet
   double size = 0.0;                       // m, of the elements under the finger
+  double travel = 0.0;                     // m, the deepest
   int copies = 1;                          // how often the mesh makes the body, by its mirrors
   std::array<bool, 2> mirrored{};          // across x, across y
   std::string remark;                      // a sentence on the mesh, or empty
@@ -37,7 +38,7 @@ struct Answer {
 };
 
 // Newton's method from the place before, with a start extrapolated from the last two places; where
-// it fails the way is halved.                                            docs/theory.md (98)
+// it fails the way is halved.                                            docs/theory.md (121)
 class Press {
  public:
   explicit Press(Body body);

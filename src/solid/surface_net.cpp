@@ -179,7 +179,7 @@ void SurfaceNet::drop_below(const Plane& plane) {
 }
 
 void SurfaceNet::refine(const std::function<double(const Vec3&)>& size) {
-  constexpr double longest = 1.4;
+  constexpr double longest = 1.6;
   struct Long {
     double excess;  // length over wanted length
     Edge edge;

@@ -35,6 +35,7 @@ Body block(double half, std::array<int, 3> cells, double ratio, const tissue::Is
   for (const auto& node : body.mesh.nodes)
     if (node.x() > 1e-9) least = std::min(least, 2.0 * node.x());
   body.size = least;
+  body.travel = 1e-3;
   return body;
 }
 
