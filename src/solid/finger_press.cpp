@@ -99,7 +99,11 @@ void FingerPress::find_ball() {
   for (const double times : {0.25, 0.5, 1.0}) {
     const double travel = times * part;
     const auto found = press.go(-travel * Vec3::UnitZ());
-    if (!found) break;
+    if (!found) {
+      reason_ = "the solid finds no equilibrium of the finger's ball beyond a travel of " +
+                quantity_text(travel, unit::mm) + "; press less deep";
+      return;
+    }
     ball_.push_back({travel - found->lost, found->normal(), {}});
   }
 }
@@ -121,20 +125,18 @@ std::optional<Answer> FingerPress::go(const Vec3& place, double travel) {
   return found;
 }
 
-// Adds points of the tissue up to its travel.
+// Adds points of the tissue at a quarter and half of the order's travel and there, and beyond it by
+// doubling up to the tissue's travel: a curve does not depend on what was asked first.
 bool FingerPress::extend(double travel) {
-  const double first = 0.25 * order_.share * order_.deepest;
-  while (points_.empty() || points_.back().travel < travel * (1.0 - 0.02)) {
-    const double reached = points_.empty() ? 0.0 : order_.first_touch.z() - press_->reached().z();
-    if (!points_.empty() && reached >= travel) break;
-    const double next =
-        points_.empty() ? std::min(first, std::max(travel, first)) : std::max(2.0 * reached, first);
-    const double limit = std::max(travel, order_.share * order_.deepest);
-    const double to = std::min(next, limit);
-    const auto found = go(Vec3::Zero(), to);
+  if (!reason_.empty()) return false;
+  const double deepest = order_.share * order_.deepest;
+  while (reached_ < std::max(deepest, travel)) {
+    double next = points_.empty() ? 0.25 * deepest : 2.0 * reached_;
+    if (reached_ >= deepest) next = std::min(next, 1.5 * reached_);
+    const auto found = go(Vec3::Zero(), next);
     if (!found) return false;
-    points_.push_back({to - found->lost, found->normal(), moment_of(*found, found->normal())});
-    if (to >= limit) break;
+    reached_ = next;
+    points_.push_back({next - found->lost, found->normal(), moment_of(*found, found->normal())});
   }
   return true;
 }

@@ -75,6 +75,7 @@ class FingerPress {
   Told told_;
   std::unique_ptr<Press> press_;
   std::vector<Point> points_;  // of the tissue
+  double reached_ = 0.0;       // m, travel of the tissue at the last of them, with what is lost
   std::vector<Point> ball_;    // of an elastic finger
   std::string reason_;
   // The slide at hand.
