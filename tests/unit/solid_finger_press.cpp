@@ -1,4 +1,4 @@
-// Presses of cases that an independent program computed (tests/cases/solid.csv), curves and slides.
+// Presses of cases that an independent program computed (cases lump_none and lump_a), curves and slides.
 #include "solid/finger_press.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace palpate::solid {
 namespace {
 
-// tests/cases/scenes/lump_none.toml: mN, kPa and mm of the scene as SI.
+// Case lump_none: mN, kPa and mm of the scene as SI.
 FingerOrder plain() {
   FingerOrder order;
   order.body.shape = geometry::Cuboid{Vec3(0.048, 0.044, 0.024)};
@@ -21,7 +21,7 @@ FingerOrder plain() {
   return order;
 }
 
-// tests/cases/scenes/lump_a.toml
+// Case lump_a: a stiff ball in it.
 FingerOrder with_lump() {
   FingerOrder order = plain();
   order.body.tissues.push_back({200.49e3, 0.44});
