@@ -11,42 +11,29 @@
 #include "base/index.h"
 #include "base/metis_lock.h"
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // all functions that take vectors of four are inlined
-#endif
-
-namespace palpate {
-namespace {
-
-using Four = double __attribute__((vector_size(32)));
-
-}  // namespace
-}  // namespace palpate
-
-#define PALPATE_LOOPS front_portable
-#define PALPATE_TARGET
-#include "base/front_loops.h"
-#undef PALPATE_LOOPS
-#undef PALPATE_TARGET
-#if defined(__x86_64__)
-#define PALPATE_LOOPS front_avx2
-#define PALPATE_TARGET __attribute__((target("avx2")))
-#include "base/front_loops.h"
-#undef PALPATE_LOOPS
-#undef PALPATE_TARGET
-#endif
-
 namespace palpate {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-using Product = void (*)(const double*, const double*, int, double*);
 
-Product widest_product() {
+// The loop is wide whatever the build, with the same bits: no fused products.
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return &front_avx2::product;
+#define PALPATE_WIDE __attribute__((target_clones("default", "avx2")))
+#else
+#define PALPATE_WIDE
 #endif
-  return &front_portable::product;
+
+// out = sum over k < depth of a_k b_k^T as four columns of four rows; a_k and b_k are four numbers.
+PALPATE_WIDE void product(const double* a, const double* b, int depth, double* out) {
+  using Four = double __attribute__((vector_size(32)));
+  Four sum[4] = {};
+  for (int k = 0; k < depth; ++k, a += 4, b += 4) {
+    Four row;
+    __builtin_memcpy(&row, a, sizeof row);
+#pragma GCC unroll 4
+    for (int c = 0; c < 4; ++c) sum[c] += row * Four{b[c], b[c], b[c], b[c]};
+  }
+  __builtin_memcpy(out, sum, sizeof sum);
 }
 
 // Neighbours of every node, ascending and without itself.
@@ -177,8 +164,8 @@ constexpr int block = 64;  // columns that are eliminated together
 
 // Subtracts A A^T of packed rows from the lower triangle of `to`, of `size` rows and `columns`
 // columns with distance `stride`; its first row is that of the first packed one.
-void subtract(Product product, const std::vector<double>& packed, int depth, int size, int columns,
-              double* to, std::size_t stride) {
+void subtract(const std::vector<double>& packed, int depth, int size, int columns, double* to,
+              std::size_t stride) {
   double tile[16];
   for (int c = 0; c < columns; c += 4)
     for (int r = c; r < size; r += 4) {
@@ -286,7 +273,6 @@ void FrontCholesky::analyse(const SparseMatrix& lower, std::span<const int> firs
 }
 
 bool FrontCholesky::factor(const SparseMatrix& lower) {
-  const Product product = widest_product();
   std::fill(values_.begin(), values_.end(), 0.0);
   // What a front leaves to its parent: a lower triangle by columns of full height.
   std::vector<std::vector<double>> left(fronts_.size());
@@ -343,13 +329,13 @@ bool FrontCholesky::factor(const SparseMatrix& lower) {
       if (end == height) break;
       pack(panel, height, end, begin, end, packed);
       if (end < width)
-        subtract(product, packed, end - begin, height - end, width - end,
+        subtract(packed, end - begin, height - end, width - end,
                  panel + as_index(end) * high + as_index(end), high);
     }
     for (int begin = 0; begin < width && below > 0; begin += 2 * block) {
       const int end = std::min(begin + 2 * block, width);
       pack(panel, height, width, begin, end, packed);
-      subtract(product, packed, end - begin, below, below, rest.data(), as_index(below));
+      subtract(packed, end - begin, below, below, rest.data(), as_index(below));
     }
     if (front.parent >= 0) children[as_index(front.parent)].push_back(static_cast<int>(f));
   }

@@ -29,7 +29,7 @@ std::map<int, double> volumes(const Mesh& mesh) {
 
 constexpr double ball = 4.0 / 3.0 * 3.14159265358979;
 
-MeshOrder block() {
+MeshOrder box() {
   return {.shape = geometry::Cuboid{Vec3(0.040, 0.036, 0.020)},
           .sizes = {{{Vec3(0.020, 0.018, 0.020), 0.003, 0.0015}}, 0.009}};
 }
@@ -39,7 +39,7 @@ TEST(SolidMesher, LaterRegionsReplaceEarlierOnes) {
   const geometry::Lump lump{Vec3(0.022, 0.018, 0.010), 0.004, 0};
   const Inclusion of_lump{.region = 2, .lump = lump};
   const Inclusion slab{.region = 1, .bottom = 0.0, .top = 0.011};
-  MeshOrder order = block();
+  MeshOrder order = box();
   order.sizes.spots.push_back({lump.centre, lump.radius, 0.002});
   order.mirrors = {{1, 0.018}};
   const double all = 0.040 * 0.018 * 0.020;
@@ -60,7 +60,7 @@ TEST(SolidMesher, LaterRegionsReplaceEarlierOnes) {
 }
 
 TEST(SolidMesher, MirrorsCutExactlyAndSizesAreKept) {
-  MeshOrder order = block();
+  MeshOrder order = box();
   order.mirrors = {{0, 0.020}, {1, 0.018}};
   const Mesh mesh = mesh_for(order);
   EXPECT_NEAR(volumes(mesh)[0], 0.020 * 0.018 * 0.020, 1e-15);
@@ -114,7 +114,7 @@ TEST(SolidMesher, RefinesGivenTetrahedraWithTheirRegions) {
     if (z > 0.010) given.regions[t] = 1;
     if (z > 0.010) upper += geometry::signed_volume(given, int(t));
   }
-  MeshOrder order = block();
+  MeshOrder order = box();
   order.shape.reset();
   order.mesh = &given;
   const Mesh mesh = mesh_for(order);
@@ -123,13 +123,13 @@ TEST(SolidMesher, RefinesGivenTetrahedraWithTheirRegions) {
 }
 
 TEST(SolidMesher, RefusesALumpThatSticksOut) {
-  MeshOrder order = block();
+  MeshOrder order = box();
   order.inclusions = {{.region = 1, .lump = geometry::Lump{Vec3(0.020, 0.018, 0.018), 0.003, 0}}};
   EXPECT_THROW((void)mesh_for(order), MeshError);
 }
 
 TEST(SolidMesher, GivesTheSameMeshTwice) {
-  const MeshOrder order = block();
+  const MeshOrder order = box();
   const Mesh one = mesh_for(order);
   const Mesh two = mesh_for(order);
   EXPECT_EQ(one.nodes, two.nodes);
