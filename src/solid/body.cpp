@@ -28,7 +28,7 @@ Extent extent_of(const BodyOrder& order) {
   return found;
 }
 
-// Around the touched places, through the layers under them, and in balls.  docs/theory.md (122)
+// Around the touched places, through the layers under them, and in balls.  docs/theory.md (111)
 Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
   Sizes sizes;
   const double a = std::sqrt(order.radius * order.travel);

@@ -38,7 +38,7 @@ struct Moment {
 // its points at a quarter and half of the deepest travel and there, and the logarithm of the force
 // is a parabola of that of the travel between them. An elastic finger is a ball of its own radius:
 // both bodies meet at a sphere whose curvature is their shares of 1/R, ball and tissue are pressed
-// by that sphere alone, and their travels at equal forces add.           docs/theory.md (123)
+// by that sphere alone, and their travels at equal forces add.           docs/theory.md (112)
 class FingerPress {
  public:
   // Called with a sentence on what is computed now.
@@ -90,7 +90,7 @@ inline constexpr double error_of_one_mesh = 0.03;
 
 // A force on finer and finer meshes: that of an infinitely fine one, with its error, N. Errors fall
 // with the square of the elements' size; `per_radius` are the numbers of elements in a contact
-// radius, ascending, one per force.                                      docs/theory.md (123)
+// radius, ascending, one per force.                                      docs/theory.md (112)
 struct Extrapolated {
   double force = 0.0;
   double error = 0.0;

@@ -24,7 +24,7 @@ struct Sizes {
   std::vector<Spot> spots;
   double largest = 0.0;  // m
 
-  // m; 0.35 of the distance is added.                                    docs/theory.md (122)
+  // m; 0.35 of the distance is added.                                    docs/theory.md (111)
   [[nodiscard]] double at(const Vec3& place) const;
 };
 
