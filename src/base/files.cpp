@@ -77,7 +77,9 @@ class Source {
   [[noreturn]] void refuse() {
     const int error = errno;
     refuse(std::string("cannot be read: ") + std::strerror(error) +
-           (error == EIO ? "; copy it from a disk that works" : "; check the path"));
+           (error == EIO      ? "; copy it from a disk that works"
+            : error == EACCES ? "; check its permissions"
+                              : "; check the path"));
   }
   void close() {
     if (file_ >= 0) ::close(std::exchange(file_, -1));

@@ -56,7 +56,8 @@ TEST_F(BrokenSurfaces, files_that_cannot_be_read) {
   write_atomically(path("locked.obj"), good_obj);
   ::chmod(path("locked.obj").c_str(), 0);
   const NoPrivileges none;
-  EXPECT_EQ(verdict("locked.obj"), "input: locked.obj: cannot be read; check its permissions");
+  EXPECT_EQ(verdict("locked.obj"),
+            "input: locked.obj: cannot be read: Permission denied; check its permissions");
 }
 
 TEST_F(BrokenSurfaces, empty_files) {
