@@ -7,7 +7,6 @@ import os
 import subprocess
 import sys
 import threading
-import time
 from functools import partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -61,20 +60,35 @@ def search_faults(site):
             yield f"the search does not know {path.name}"
 
 
+# Tells the server when the search, which runs in a thread of its own, has put its answer into the page.
+WATCH = b"""<img src="held.png"><script>
+const results = document.getElementById('mkdocs-search-results');
+const told = () => { if (results.textContent.trim()) fetch('answered'); };
+new MutationObserver(told).observe(results, {childList: true, subtree: true});
+told();
+</script></body>"""
+
+
 class Server(SimpleHTTPRequestHandler):
-    """The site, and its first page once more as /searched.html, with a picture that comes late: Chromium
-    shows a page when its pictures are there, and the search runs in a thread of its own before that."""
+    """The site, and its first page once more as /searched.html, with a picture that comes when the search has
+    answered: Chromium prints a page when its pictures are there."""
+
+    answered = threading.Event()
 
     def do_GET(self):
-        if self.path == "/late.png":
-            time.sleep(5)
+        if self.path == "/held.png":
+            self.answered.wait(100)
+            self.send_error(404)
+        elif self.path == "/answered":
+            self.answered.set()
             self.send_error(404)
         elif self.path.startswith("/searched.html"):
+            self.answered.clear()
             text = (Path(self.directory) / "index.html").read_bytes()
             self.send_response(200)
             self.send_header("Content-Type", "text/html")
             self.end_headers()
-            self.wfile.write(text.replace(b"</body>", b'<img src="late.png"></body>'))
+            self.wfile.write(text.replace(b"</body>", WATCH))
         else:
             super().do_GET()
 
@@ -88,15 +102,11 @@ def browser_faults(site):
     threading.Thread(target=server.serve_forever, daemon=True).start()
     for wanted, shown in (("saltelli", "theory.html#sensitivity-of-a-sweep"), ("nonsenseword", "No results found</p>")):
         address = f"http://127.0.0.1:{server.server_port}/searched.html?q={wanted}"
-        # The search runs beside the page, which may be printed before it is done.
-        for _ in range(5):
-            page = subprocess.run(
-                ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", address],
-                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=120, check=True,
-            ).stdout
-            if shown in page.partition('id="mkdocs-search-results"')[2].partition("modal-footer")[0]:
-                break
-        else:
+        page = subprocess.run(
+            ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", address],
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=120, check=True,
+        ).stdout
+        if shown not in page.partition('id="mkdocs-search-results"')[2].partition("modal-footer")[0]:
             yield f"in Chromium the search for `{wanted}` does not show `{shown}`"
     server.shutdown()
 
