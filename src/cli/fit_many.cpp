@@ -88,9 +88,10 @@ record::Table row_table(const std::vector<Row>& rows,
       for (const double value : {row.fit.r2, static_cast<double>(row.fit.n),
                                  static_cast<double>(row.fit.left_out), row.fit.effective_size})
         cells.push_back(number(value));
-      cells.push_back(row.fit.law.empty() ? record::Cell() : record::Cell(row.fit.law));
-      cells.push_back(row.fit.warnings.empty() ? record::Cell()
-                                               : record::Cell(joined(row.fit.warnings, "; ")));
+      for (const std::string& text : {row.fit.law, joined(row.fit.warnings, "; ")}) {
+        record::Cell& cell = cells.emplace_back();
+        if (!text.empty()) cell = text;
+      }
     } else {
       for (int k = 0; k < 5; ++k) cells.emplace_back();
       cells.emplace_back(row.reason);
