@@ -7,7 +7,7 @@
 // (TetGen, METIS, Ceres, OpenEXR). They are SLEEF's deterministic functions in plain C: at most 1
 // ulp from the true value (the error function's complement 1.5), about 30 to 140 ns each. Shibata
 // and Petrogalli, IEEE Trans. Parallel Distrib. Syst. 31 (2020) 1316. sqrt, fmod, floor and their
-// like are exact whoever computes them and stay the C library's. tests/install/mathematics.cpp
+// like are exact whoever computes them and stay the C library's. tests/bits/cli_processors.cpp
 // reads which are called.
 //
 // No header declares them here: <cmath> does so for those who call them, and would give the
