@@ -6,11 +6,11 @@
 #include <Eigen/MetisSupport>
 #include <Eigen/SparseCholesky>
 #include <cmath>
-#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "base/index.h"
+#include "base/metis_lock.h"
 
 namespace palpate {
 namespace {
@@ -29,9 +29,7 @@ struct Ordering {
       Eigen::AMDOrdering<int>()(matrix, order);
       return;
     }
-    // METIS uses rand(), which all threads share: without this lock its order would depend on them.
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
+    const std::lock_guard lock(metis_lock());
     Eigen::MetisOrdering<int>()(matrix, order);
   }
 };

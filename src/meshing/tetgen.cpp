@@ -31,8 +31,7 @@ std::string packed(const geometry::TetMesh& mesh) {
   return bytes;
 }
 
-geometry::TetMesh unpacked_mesh(const std::string& bytes) {
-  ChildBytes from(bytes, "TetGen");
+geometry::TetMesh taken_mesh(ChildBytes& from) {
   Counts counts{};
   from.take(&counts, 1);
   geometry::TetMesh mesh;
@@ -40,7 +39,18 @@ geometry::TetMesh unpacked_mesh(const std::string& bytes) {
   from.take(mesh.tetrahedra, counts.tetrahedra);
   from.take(mesh.regions, counts.regions);
   if (!from.done()) from.refuse();
+  if (mesh.tetrahedra.empty())
+    throw MeshError("TetGen found no inside; close the surface, so that every edge has two faces");
   return mesh;
+}
+
+std::string packed(const PieceMesh& made) {
+  std::string bytes;
+  const std::size_t faces = made.faces.size();
+  append(bytes, &faces, 1);
+  append(bytes, made.faces.data(), faces);
+  append(bytes, made.numbers.data(), faces);
+  return bytes + packed(made.mesh);
 }
 
 std::string advice(int exit_code) {
@@ -65,35 +75,53 @@ std::string advice(int exit_code) {
 struct Outcome {
   double time_limit;
 
-  geometry::TetMesh operator()(const ChildAnswer& answer) const {
-    geometry::TetMesh mesh = unpacked_mesh(answer.bytes);
-    if (mesh.tetrahedra.empty())
-      throw MeshError(
-          "TetGen found no inside; close the surface, so that every edge has two faces");
-    return mesh;
-  }
-  geometry::TetMesh operator()(const ChildExit& exit) const { throw MeshError(advice(exit.code)); }
-  geometry::TetMesh operator()(const ChildSignal& signal) const {
+  std::string operator()(ChildAnswer& answer) const { return std::move(answer.bytes); }
+  std::string operator()(const ChildExit& exit) const { throw MeshError(advice(exit.code)); }
+  std::string operator()(const ChildSignal& signal) const {
     if (signal.number == SIGXCPU) return (*this)(ChildTimeout{});
     throw MeshError("TetGen crashed (signal " + std::to_string(signal.number) +
                     "); look for facets that cross or fold, or change the node count a little");
   }
-  geometry::TetMesh operator()(const ChildTimeout&) const {
+  std::string operator()(const ChildTimeout&) const {
     throw MeshError("TetGen did not finish within " + rounded_text(time_limit) +
                     " s; ask for fewer nodes or allow more time");
   }
 };
 
+// The bytes that `work` gives after TetGen's call.
+std::string by_tetgen(const std::function<std::string()>& work, double time_limit) {
+  if (!(time_limit > 0.0)) return Outcome{time_limit}(ChildTimeout{});
+  ChildResult result = run_in_child(
+      [&] {
+        tetgen_library::install_exit();
+        return work();
+      },
+      {time_limit, most_memory});
+  return std::visit(Outcome{time_limit}, result);
+}
+
 }  // namespace
 
 geometry::TetMesh tetgen_surface(const geometry::Surface& surface, const std::string& switches,
                                  double time_limit) {
-  if (!(time_limit > 0.0)) return Outcome{time_limit}(ChildTimeout{});
-  const auto work = [&] {
-    tetgen_library::install_exit();
-    return packed(tetgen_library::run(surface, switches));
-  };
-  return std::visit(Outcome{time_limit}, run_in_child(work, {time_limit, most_memory}));
+  const std::string bytes =
+      by_tetgen([&] { return packed(tetgen_library::run(surface, switches)); }, time_limit);
+  ChildBytes from(bytes, "TetGen");
+  return taken_mesh(from);
+}
+
+PieceMesh tetgen_pieces(const Pieces& pieces, const std::function<double(const Vec3&)>& size,
+                        double time_limit) {
+  const std::string bytes = by_tetgen(
+      [&] { return packed(tetgen_library::run(pieces, size, "pAq1.5/8o/150O7")); }, time_limit);
+  ChildBytes from(bytes, "TetGen");
+  PieceMesh made;
+  std::size_t faces = 0;
+  from.take(&faces, 1);
+  from.take(made.faces, faces);
+  from.take(made.numbers, faces);
+  made.mesh = taken_mesh(from);
+  return made;
 }
 
 }  // namespace palpate::meshing

@@ -1,7 +1,9 @@
 // Tetrahedral meshes by TetGen, which runs in a child process.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "geometry/surface.h"
 
@@ -19,6 +21,29 @@ namespace palpate::meshing {
 // finds no interior; SystemError if no child process can be started.
 [[nodiscard]] geometry::TetMesh tetgen_surface(const geometry::Surface& surface,
                                                const std::string& switches, double time_limit);
+
+// A closed body in pieces: triangles with a number each, which may meet in any way along edges, and
+// plane faces between them, each given by segments of its border and of lines in it.
+struct Pieces {
+  geometry::Surface surface;
+  std::vector<int> numbers;  // one per triangle, above 0
+  struct Plane {
+    std::vector<std::array<int, 2>> segments;  // of vertices of `surface`
+    int number = 0;                            // above 0
+  };
+  std::vector<Plane> planes;
+};
+// The mesh of pieces, with the faces that lie on them.
+struct PieceMesh {
+  geometry::TetMesh mesh;                 // its first nodes are the vertices of the pieces
+  std::vector<std::array<int, 3>> faces;  // corners, in no particular direction
+  std::vector<int> numbers;               // of the pieces, one per face
+};
+// Tetrahedra with edges of about size(place) (m) in the body; faces are split as well. Throws as
+// tetgen_surface() does.
+[[nodiscard]] PieceMesh tetgen_pieces(const Pieces& pieces,
+                                      const std::function<double(const Vec3&)>& size,
+                                      double time_limit);
 
 // A box from the origin to `size` (m), with about `target_nodes` nodes: within 3 % for most targets
 // of 60 or more. Its surface is a grid of squares cut in two, with spacings of about the edge

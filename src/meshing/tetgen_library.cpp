@@ -4,10 +4,20 @@
 
 #include <tetgen.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace palpate::meshing::tetgen_library {
 namespace {
+
+void fill(tetgenio::facet& facet, const std::array<int, 3>& triangle) {
+  tetgenio::init(&facet);
+  facet.numberofpolygons = 1;
+  facet.polygonlist = new tetgenio::polygon[1];
+  facet.polygonlist->numberofvertices = 3;
+  facet.polygonlist->vertexlist = new int[3]{triangle[0], triangle[1], triangle[2]};
+}
 
 // TetGen frees the arrays with delete[], so they are allocated with new[].
 void fill(tetgenio& io, const geometry::Surface& surface) {
@@ -20,13 +30,32 @@ void fill(tetgenio& io, const geometry::Surface& surface) {
   io.numberoffacets = static_cast<int>(surface.triangles.size());
   io.facetlist = new tetgenio::facet[surface.triangles.size()];
   tetgenio::facet* facet = io.facetlist;
-  for (const auto& triangle : surface.triangles) {
-    tetgenio::init(facet);
-    facet->numberofpolygons = 1;
-    facet->polygonlist = new tetgenio::polygon[1];
-    facet->polygonlist->numberofvertices = 3;
-    facet->polygonlist->vertexlist = new int[3]{triangle[0], triangle[1], triangle[2]};
-    ++facet;
+  for (const auto& triangle : surface.triangles) fill(*facet++, triangle);
+}
+
+// The same of pieces, with their numbers.
+void fill(tetgenio& io, const Pieces& pieces) {
+  fill(io, pieces.surface);
+  const std::size_t triangles = pieces.surface.triangles.size();
+  const std::size_t all = triangles + pieces.planes.size();
+  auto* facets = new tetgenio::facet[all];
+  std::copy(io.facetlist, io.facetlist + triangles, facets);
+  delete[] io.facetlist;
+  io.facetlist = facets;
+  io.numberoffacets = static_cast<int>(all);
+  io.facetmarkerlist = new int[all];
+  std::copy(pieces.numbers.begin(), pieces.numbers.end(), io.facetmarkerlist);
+  for (std::size_t p = 0; p < pieces.planes.size(); ++p) {
+    const Pieces::Plane& plane = pieces.planes[p];
+    tetgenio::facet& facet = facets[triangles + p];
+    tetgenio::init(&facet);
+    facet.numberofpolygons = static_cast<int>(plane.segments.size());
+    facet.polygonlist = new tetgenio::polygon[plane.segments.size()];
+    for (std::size_t i = 0; i < plane.segments.size(); ++i) {
+      facet.polygonlist[i].numberofvertices = 2;
+      facet.polygonlist[i].vertexlist = new int[2]{plane.segments[i][0], plane.segments[i][1]};
+    }
+    io.facetmarkerlist[triangles + p] = plane.number;
   }
 }
 
@@ -47,7 +76,45 @@ geometry::TetMesh taken(const tetgenio& io) {
   return mesh;
 }
 
+// The size that TetGen's callback asks for; the child process exists for one mesh only.
+const std::function<double(const Vec3&)>* wanted_size = nullptr;
+
+// Whether a tetrahedron is too large: by its volume, that of a regular one with the wanted edges
+// being 0.118, or by its longest edge.
+bool too_large(double* a, double* b, double* c, double* d, double*, double) {
+  constexpr double largest = 0.26;
+  constexpr double longest = 2.2;
+  const std::array<Vec3, 4> corner{Vec3(a[0], a[1], a[2]), Vec3(b[0], b[1], b[2]),
+                                   Vec3(c[0], c[1], c[2]), Vec3(d[0], d[1], d[2])};
+  const double size = (*wanted_size)(0.25 * (corner[0] + corner[1] + corner[2] + corner[3]));
+  double most = 0.0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j) most = std::max(most, (corner[i] - corner[j]).norm());
+  const double volume =
+      std::abs((corner[1] - corner[0]).cross(corner[2] - corner[0]).dot(corner[3] - corner[0])) /
+      6.0;
+  return volume > largest * size * size * size || most > longest * size;
+}
+
 }  // namespace
+
+PieceMesh run(const Pieces& pieces, const std::function<double(const Vec3&)>& size,
+              const std::string& switches) {
+  tetgenio in;
+  tetgenio out;
+  fill(in, pieces);
+  wanted_size = &size;
+  in.tetunsuitable = &too_large;
+  std::string quiet = "Q" + switches;
+  tetrahedralize(quiet.data(), &in, &out);
+  PieceMesh made{taken(out), {}, {}};
+  for (int f = 0; f < out.numberoftrifaces; ++f) {
+    const int* corner = out.trifacelist + 3 * f;
+    made.faces.push_back({corner[0], corner[1], corner[2]});
+    made.numbers.push_back(out.trifacemarkerlist[f]);
+  }
+  return made;
+}
 
 geometry::TetMesh run(const geometry::Surface& surface, const std::string& switches) {
   tetgenio in;

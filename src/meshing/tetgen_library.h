@@ -21,6 +21,10 @@ enum ExitCode {
 // fails: for a child process that exists only for this. All tetrahedra are positive.
 [[nodiscard]] geometry::TetMesh run(const geometry::Surface& surface, const std::string& switches);
 
+// The same of pieces.
+[[nodiscard]] PieceMesh run(const Pieces& pieces, const std::function<double(const Vec3&)>& size,
+                            const std::string& switches);
+
 // Keeps palpate's terminatetetgen() in the program: call it before run().
 void install_exit();
 

@@ -1,0 +1,373 @@
+// Orders nodes, finds the fronts, and eliminates them from the leaves of the tree to its roots.
+#include "base/front_cholesky.h"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/index.h"
+#include "base/metis_lock.h"
+
+namespace palpate {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+// The loop is wide whatever the build, with the same bits: no fused products.
+#if defined(__x86_64__)
+#define PALPATE_WIDE __attribute__((target_clones("default", "avx2")))
+#else
+#define PALPATE_WIDE
+#endif
+
+// out = sum over k < depth of a_k b_k^T as four columns of four rows; a_k and b_k are four numbers.
+PALPATE_WIDE void product(const double* a, const double* b, int depth, double* out) {
+  using Four = double __attribute__((vector_size(32)));
+  Four sum[4] = {};
+  for (int k = 0; k < depth; ++k, a += 4, b += 4) {
+    Four row;
+    __builtin_memcpy(&row, a, sizeof row);
+#pragma GCC unroll 4
+    for (int c = 0; c < 4; ++c) sum[c] += row * Four{b[c], b[c], b[c], b[c]};
+  }
+  __builtin_memcpy(out, sum, sizeof sum);
+}
+
+// Neighbours of every node, ascending and without itself.
+struct Graph {
+  std::vector<idx_t> start{0};
+  std::vector<idx_t> to;
+};
+
+Graph node_graph(const SparseMatrix& lower, std::span<const int> first) {
+  const int nodes = static_cast<int>(first.size()) - 1;
+  std::vector<int> node_of(as_index(lower.rows()));
+  for (int n = 0; n < nodes; ++n)
+    for (int d = first[as_index(n)]; d < first[as_index(n) + 1]; ++d) node_of[as_index(d)] = n;
+  std::vector<std::vector<int>> around(as_index(nodes));
+  for (int column = 0; column < lower.cols(); ++column)
+    for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {
+      const int a = node_of[as_index(column)];
+      const int b = node_of[as_index(entry.row())];
+      if (a == b || (!around[as_index(a)].empty() && around[as_index(a)].back() == b)) continue;
+      around[as_index(a)].push_back(b);
+      around[as_index(b)].push_back(a);
+    }
+  Graph graph;
+  for (std::vector<int>& list : around) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    graph.to.insert(graph.to.end(), list.begin(), list.end());
+    graph.start.push_back(static_cast<idx_t>(graph.to.size()));
+  }
+  return graph;
+}
+
+// order[i] is the node that is eliminated as number i.
+std::vector<int> dissect(Graph& graph) {
+  idx_t nodes = static_cast<idx_t>(graph.start.size()) - 1;
+  std::vector<idx_t> order(as_index(nodes));
+  std::vector<idx_t> place(as_index(nodes));
+  std::iota(order.begin(), order.end(), 0);
+  if (!graph.to.empty()) {
+    idx_t options[METIS_NOPTIONS];
+    METIS_SetDefaultOptions(options);
+    options[METIS_OPTION_NUMBERING] = 0;
+    const std::lock_guard lock(metis_lock());
+    METIS_NodeND(&nodes, graph.start.data(), graph.to.data(), nullptr, options, order.data(),
+                 place.data());
+  }
+  return {order.begin(), order.end()};
+}
+
+// The elimination of nodes: parents, and the later nodes that each meets (Liu 1990, SIAM J. Matrix
+// Anal. Appl. 11, 134). Numbers are places in the order.
+struct Elimination {
+  std::vector<int> parent;
+  std::vector<std::vector<int>> later;
+};
+
+Elimination eliminate(const Graph& graph, const std::vector<int>& order) {
+  const int nodes = static_cast<int>(order.size());
+  std::vector<int> place(order.size());
+  for (int i = 0; i < nodes; ++i) place[as_index(order[as_index(i)])] = i;
+  Elimination found{std::vector<int>(order.size(), -1),
+                    std::vector<std::vector<int>>(order.size())};
+  std::vector<std::vector<int>> children(order.size());
+  std::vector<int> seen(order.size(), -1);
+  for (int i = 0; i < nodes; ++i) {
+    std::vector<int>& later = found.later[as_index(i)];
+    const auto take = [&](int j) {
+      if (j <= i || seen[as_index(j)] == i) return;
+      seen[as_index(j)] = i;
+      later.push_back(j);
+    };
+    const auto node = as_index(order[as_index(i)]);
+    for (idx_t k = graph.start[node]; k < graph.start[node + 1]; ++k)
+      take(place[as_index(graph.to[as_index(k)])]);
+    for (const int child : children[as_index(i)])
+      for (const int j : found.later[as_index(child)]) take(j);
+    std::sort(later.begin(), later.end());
+    if (later.empty()) continue;
+    found.parent[as_index(i)] = later.front();
+    children[as_index(later.front())].push_back(i);
+  }
+  return found;
+}
+
+// Places in an order in which every subtree is consecutive, children before parents.
+std::vector<int> postorder(const std::vector<int>& parent) {
+  const int nodes = static_cast<int>(parent.size());
+  std::vector<int> first_child(parent.size(), -1);
+  std::vector<int> next(parent.size(), -1);
+  for (int i = nodes - 1; i >= 0; --i) {
+    if (parent[as_index(i)] < 0) continue;
+    next[as_index(i)] = std::exchange(first_child[as_index(parent[as_index(i)])], i);
+  }
+  std::vector<int> order;
+  std::vector<int> stack;
+  for (int root = 0; root < nodes; ++root) {
+    if (parent[as_index(root)] >= 0) continue;
+    stack.push_back(root);
+    while (!stack.empty()) {
+      const int top = stack.back();
+      if (const int child = std::exchange(first_child[as_index(top)], -1); child >= 0) {
+        for (int c = child; c >= 0; c = next[as_index(c)]) stack.push_back(c);
+        continue;
+      }
+      order.push_back(top);
+      stack.pop_back();
+    }
+  }
+  return order;
+}
+
+// Rows of a matrix with `height` rows by columns, from row `top`, columns `begin` to `end`: packed
+// by four rows, missing ones zero.
+void pack(const double* from, int height, int top, int begin, int end, std::vector<double>& to) {
+  const int depth = end - begin;
+  const int fours = (height - top + 3) / 4;
+  to.assign(4 * as_index(fours) * as_index(depth), 0.0);
+  for (int g = 0; g < fours; ++g) {
+    double* out = &to[4 * as_index(g) * as_index(depth)];
+    const int rows = std::min(4, height - top - 4 * g);
+    for (int k = begin; k < end; ++k, out += 4)
+      for (int r = 0; r < rows; ++r)
+        out[r] = from[as_index(k) * as_index(height) + as_index(top + 4 * g + r)];
+  }
+}
+
+constexpr int block = 64;  // columns that are eliminated together
+
+// Subtracts A A^T of packed rows from the lower triangle of `to`, of `size` rows and `columns`
+// columns with distance `stride`; its first row is that of the first packed one.
+void subtract(const std::vector<double>& packed, int depth, int size, int columns, double* to,
+              std::size_t stride) {
+  double tile[16];
+  for (int c = 0; c < columns; c += 4)
+    for (int r = c; r < size; r += 4) {
+      product(&packed[as_index(r) * as_index(depth)], &packed[as_index(c) * as_index(depth)], depth,
+              tile);
+      const int wide = std::min(4, columns - c);
+      const int high = std::min(4, size - r);
+      for (int j = 0; j < wide; ++j) {
+        double* column = to + as_index(c + j) * stride + as_index(r);
+        for (int i = r == c ? j : 0; i < high; ++i) column[i] -= tile[4 * j + i];
+      }
+    }
+}
+
+}  // namespace
+
+void FrontCholesky::analyse(const SparseMatrix& lower, std::span<const int> first) {
+  Graph graph = node_graph(lower, first);
+  std::vector<int> order = dissect(graph);
+  {
+    const Elimination once = eliminate(graph, order);
+    std::vector<int> sorted;
+    for (const int i : postorder(once.parent)) sorted.push_back(order[as_index(i)]);
+    order = std::move(sorted);
+  }
+  const Elimination tree = eliminate(graph, order);
+  const int nodes = static_cast<int>(order.size());
+  const auto unknowns = [&](int i) {
+    const auto node = as_index(order[as_index(i)]);
+    return first[node + 1] - first[node];
+  };
+  place_.assign(as_index(lower.rows()), 0);
+  std::vector<int> at(as_index(nodes) + 1, 0);  // first unknown of every node, in the order
+  for (int i = 0; i < nodes; ++i) {
+    at[as_index(i) + 1] = at[as_index(i)] + unknowns(i);
+    for (int d = 0; d < unknowns(i); ++d)
+      place_[as_index(first[as_index(order[as_index(i)])] + d)] = at[as_index(i)] + d;
+  }
+  // A node joins the front of the one before if that is its only way on and few zeros are added.
+  fronts_.clear();
+  rows_.clear();
+  std::vector<int> front_of(as_index(nodes), -1);
+  std::size_t values = 0;
+  const auto count = [&](const std::vector<int>& list) {
+    int sum = 0;
+    for (const int j : list) sum += unknowns(j);
+    return sum;
+  };
+  for (int start = 0; start < nodes;) {
+    int end = start;  // the last node of the front
+    long zeros = 0;
+    while (end + 1 < nodes && tree.parent[as_index(end)] == end + 1) {
+      const long width = at[as_index(end) + 1] - at[as_index(start)];
+      const long more = count(tree.later[as_index(end) + 1]) + unknowns(end + 1) -
+                        count(tree.later[as_index(end)]);
+      const long height = width + count(tree.later[as_index(end)]);
+      if (more > 0 && zeros + width * more > std::max(64L, (width * height) / 8)) break;
+      zeros += width * more;
+      ++end;
+    }
+    Front front;
+    front.first = at[as_index(start)];
+    front.width = at[as_index(end) + 1] - front.first;
+    front.below = count(tree.later[as_index(end)]);
+    front.rows = rows_.size();
+    front.values = values;
+    for (int i = start; i <= end; ++i) front_of[as_index(i)] = static_cast<int>(fronts_.size());
+    for (int d = 0; d < front.width; ++d) rows_.push_back(front.first + d);
+    for (const int j : tree.later[as_index(end)])
+      for (int d = at[as_index(j)]; d < at[as_index(j) + 1]; ++d) rows_.push_back(d);
+    values += as_index(front.width) * as_index(front.width + front.below);
+    fronts_.push_back(front);
+    start = end + 1;
+  }
+  std::vector<int> front_at(as_index(lower.rows()), -1);
+  for (std::size_t f = 0; f < fronts_.size(); ++f)
+    for (int d = 0; d < fronts_[f].width; ++d)
+      front_at[as_index(fronts_[f].first + d)] = static_cast<int>(f);
+  for (Front& front : fronts_)
+    if (front.below > 0)
+      front.parent = front_at[as_index(rows_[front.rows + as_index(front.width)])];
+  values_.assign(values, 0.0);
+
+  // Where every entry of the matrix goes.
+  std::vector<std::vector<Entry>> of_front(fronts_.size());
+  diagonal_.assign(as_index(lower.rows()), -1);
+  for (int column = 0; column < lower.cols(); ++column)
+    for (int k = lower.outerIndexPtr()[column]; k < lower.outerIndexPtr()[column + 1]; ++k) {
+      const int a = place_[as_index(column)];
+      const int b = place_[as_index(lower.innerIndexPtr()[k])];
+      if (a == b) diagonal_[as_index(a)] = k;
+      const auto f = as_index(front_at[as_index(std::min(a, b))]);
+      const Front& front = fronts_[f];
+      const auto begin = rows_.begin() + static_cast<std::ptrdiff_t>(front.rows);
+      const auto end = begin + front.width + front.below;
+      const int row = static_cast<int>(std::lower_bound(begin, end, std::max(a, b)) - begin);
+      of_front[f].push_back(
+          {k, (std::min(a, b) - front.first) * (front.width + front.below) + row});
+    }
+  entries_.clear();
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    fronts_[f].entries = entries_.size();
+    entries_.insert(entries_.end(), of_front[f].begin(), of_front[f].end());
+  }
+}
+
+bool FrontCholesky::factor(const SparseMatrix& lower) {
+  std::fill(values_.begin(), values_.end(), 0.0);
+  // What a front leaves to its parent: a lower triangle by columns of full height.
+  std::vector<std::vector<double>> left(fronts_.size());
+  std::vector<std::vector<int>> children(fronts_.size());
+  std::vector<int> local(place_.size(), -1);
+  std::vector<int> to;
+  std::vector<double> packed;
+  const double* matrix = lower.valuePtr();
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    const Front& front = fronts_[f];
+    const int width = front.width;
+    const int below = front.below;
+    const int height = width + below;
+    const auto high = as_index(height);
+    double* panel = &values_[front.values];
+    const std::size_t last = f + 1 < fronts_.size() ? fronts_[f + 1].entries : entries_.size();
+    for (std::size_t e = front.entries; e < last; ++e)
+      panel[entries_[e].at] += matrix[entries_[e].of_matrix];
+    std::vector<double>& rest = left[f];
+    rest.assign(as_index(below) * as_index(below), 0.0);
+    const int* rows = &rows_[front.rows];
+    for (int r = 0; r < height; ++r) local[as_index(rows[r])] = r;
+    for (const int child : children[f]) {
+      const Front& from = fronts_[as_index(child)];
+      std::vector<double>& update = left[as_index(child)];
+      to.resize(as_index(from.below));
+      for (int i = 0; i < from.below; ++i)
+        to[as_index(i)] = local[as_index(rows_[from.rows + as_index(from.width + i)])];
+      for (int j = 0; j < from.below; ++j) {
+        const double* column = &update[as_index(j) * as_index(from.below)];
+        const int c = to[as_index(j)];
+        double* into = c < width ? panel + as_index(c) * high
+                                 : &rest[as_index(c - width) * as_index(below)] - width;
+        for (int i = j; i < from.below; ++i) into[to[as_index(i)]] += column[i];
+      }
+      std::vector<double>().swap(update);
+    }
+    for (int begin = 0; begin < width; begin += block) {
+      const int end = std::min(begin + block, width);
+      for (int c = begin; c < end; ++c) {
+        double* column = panel + as_index(c) * high;
+        for (int k = begin; k < c; ++k) {
+          const double* before = panel + as_index(k) * high;
+          const double factor = before[c];
+          for (int r = c; r < height; ++r) column[r] -= factor * before[r];
+        }
+        const int own = diagonal_[as_index(front.first + c)];
+        if (!(column[c] > 1e-14 * std::abs(matrix[own])) || !std::isfinite(column[c])) return false;
+        const double root = std::sqrt(column[c]);
+        const double inverse = 1.0 / root;
+        column[c] = root;
+        for (int r = c + 1; r < height; ++r) column[r] *= inverse;
+      }
+      if (end == height) break;
+      pack(panel, height, end, begin, end, packed);
+      if (end < width)
+        subtract(packed, end - begin, height - end, width - end,
+                 panel + as_index(end) * high + as_index(end), high);
+    }
+    for (int begin = 0; begin < width && below > 0; begin += 2 * block) {
+      const int end = std::min(begin + 2 * block, width);
+      pack(panel, height, width, begin, end, packed);
+      subtract(packed, end - begin, below, below, rest.data(), as_index(below));
+    }
+    if (front.parent >= 0) children[as_index(front.parent)].push_back(static_cast<int>(f));
+  }
+  return true;
+}
+
+void FrontCholesky::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  const auto size = place_.size();
+  x_.resize(size);
+  for (std::size_t i = 0; i < size; ++i) x_[as_index(place_[i])] = b[static_cast<Eigen::Index>(i)];
+  for (const Front& front : fronts_) {
+    const int height = front.width + front.below;
+    const int* rows = &rows_[front.rows];
+    for (int c = 0; c < front.width; ++c) {
+      const double* column = &values_[front.values + as_index(c) * as_index(height)];
+      const double value = x_[as_index(front.first + c)] /= column[c];
+      for (int r = c + 1; r < height; ++r) x_[as_index(rows[r])] -= column[r] * value;
+    }
+  }
+  for (std::size_t f = fronts_.size(); f-- > 0;) {
+    const Front& front = fronts_[f];
+    const int height = front.width + front.below;
+    const int* rows = &rows_[front.rows];
+    for (int c = front.width - 1; c >= 0; --c) {
+      const double* column = &values_[front.values + as_index(c) * as_index(height)];
+      double value = x_[as_index(front.first + c)];
+      for (int r = c + 1; r < height; ++r) value -= column[r] * x_[as_index(rows[r])];
+      x_[as_index(front.first + c)] = value / column[c];
+    }
+  }
+  x.resize(static_cast<Eigen::Index>(size));
+  for (std::size_t i = 0; i < size; ++i) x[static_cast<Eigen::Index>(i)] = x_[as_index(place_[i])];
+}
+
+}  // namespace palpate

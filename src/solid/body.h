@@ -1,0 +1,43 @@
+// The body under a finger as a mesh with supports, from its shape and the way of the finger.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "solid/mesher.h"
+#include "solid/press.h"
+#include "tissue/supports.h"
+
+namespace palpate::solid {
+
+struct BodyOrder {
+  // One of the three gives the body, as in MeshOrder.
+  std::optional<geometry::Shape> shape = {};
+  const geometry::SmoothSurface* surface = nullptr;
+  const geometry::TetMesh* mesh = nullptr;
+  std::function<int(int)> region_of = {};
+  std::vector<Inclusion> inclusions = {};
+
+  std::vector<tissue::Isotropic> tissues;  // one per region
+  tissue::Base base = tissue::Base::bonded;
+  double base_level = 0.0;  // m, absolute; the skin up to this height is the base
+
+  double radius = 0.0;             // m, of the balls
+  double travel = 0.0;             // m, the deepest
+  std::vector<Vec3> touched = {};  // m, where balls meet the body along their way
+  // Whether finger and way are their own images across a plane through the first touch, normal to x
+  // and y. The body is then halved where it is its own image too.
+  std::array<bool, 2> mirrored{};
+  double per_radius = 2.0;  // elements per contact radius sqrt(radius travel)
+};
+
+// Throws MeshError as mesh_for() does, and if the base does not hold the body.
+[[nodiscard]] Body make_body(const BodyOrder& order);
+
+// The lower half of an elastic ball, turned up: its equator lies on a plane on which it slides, its
+// pole is at (0, 0, radius). A quarter is meshed.
+[[nodiscard]] Body make_ball(double radius, double travel, const tissue::Isotropic& material,
+                             double per_radius);
+
+}  // namespace palpate::solid

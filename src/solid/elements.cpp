@@ -1,0 +1,267 @@
+// Sums over elements in their order, so that results do not depend on anything else.
+#include "solid/elements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace palpate::solid {
+namespace {
+
+using Nine = std::array<double, 9>;     // rows of a matrix
+using Thirty = std::array<double, 30>;  // three numbers for each of ten nodes
+
+constexpr double least_ratio = 0.02;  // J below which an element counts as folded
+
+// 1 + sum of u_a G_a^T.
+Nine stretch(const Thirty& u, const Thirty& g) {
+  Nine f{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  for (std::size_t a = 0; a < 30; a += 3)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) f[3 * i + k] += u[a + i] * g[a + k];
+  return f;
+}
+
+Nine cofactors(const Nine& f) {
+  return {f[4] * f[8] - f[5] * f[7], f[5] * f[6] - f[3] * f[8], f[3] * f[7] - f[4] * f[6],
+          f[2] * f[7] - f[1] * f[8], f[0] * f[8] - f[2] * f[6], f[1] * f[6] - f[0] * f[7],
+          f[1] * f[5] - f[2] * f[4], f[2] * f[3] - f[0] * f[5], f[0] * f[4] - f[1] * f[3]};
+}
+
+double ratio_of(const Nine& f, const Nine& c) { return f[0] * c[0] + f[1] * c[1] + f[2] * c[2]; }
+
+// M G_a for all ten functions.
+Thirty times(const Nine& m, const Thirty& g) {
+  Thirty out;
+  for (std::size_t a = 0; a < 30; a += 3)
+    for (std::size_t i = 0; i < 3; ++i)
+      out[a + i] = m[3 * i] * g[a] + m[3 * i + 1] * g[a + 1] + m[3 * i + 2] * g[a + 2];
+  return out;
+}
+
+Thirty gathered(const Element& element, const Vector& x) {
+  Thirty out;
+  for (std::size_t a = 0; a < 10; ++a)
+    for (int i = 0; i < 3; ++i) out[3 * a + as_index(i)] = x[3 * element[a] + i];
+  return out;
+}
+
+}  // namespace
+
+Elements::Elements(const Mesh& mesh, std::span<const tissue::Isotropic> tissues,
+                   std::span<const char> held)
+    : mesh_(&mesh), tissues_(tissues.begin(), tissues.end()) {
+  for (const int region : mesh.regions) {
+    const tissue::Isotropic& own = tissues[as_index(region)];
+    shear_.push_back(tissue::shear_modulus(own));
+    bulk_.push_back(tissue::bulk_modulus(own));
+    mean_.push_back(own.poisson_ratio > mean_above ? 1 : 0);
+  }
+  pressures_.assign(points * mesh.elements.size(), 0.0);
+  unknowns_.assign(3 * mesh.nodes.size(), -1);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    const int before = count_;
+    for (std::size_t i = 3 * n; i < 3 * n + 3; ++i)
+      if (held[i] == 0) unknowns_[i] = count_++;
+    if (count_ > before) first_.push_back(before);
+  }
+  first_.push_back(count_);
+  find_points();
+  find_pattern();
+}
+
+void Elements::find_points() {
+  for (const Element& element : mesh_->elements)
+    for (const Functions& at : at_points()) {
+      Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();  // dx / d(coordinates)
+      for (std::size_t a = 0; a < 10; ++a)
+        jacobian += mesh_->nodes[as_index(element[a])] * at.derivatives[a].transpose();
+      Point point;
+      point.weight = jacobian.determinant() / 24.0;
+      const Eigen::Matrix3d back = jacobian.inverse().transpose();
+      for (std::size_t a = 0; a < 10; ++a) {
+        const Vec3 gradient = back * at.derivatives[a];
+        for (std::size_t k = 0; k < 3; ++k)
+          point.gradient[3 * a + k] = gradient[static_cast<Eigen::Index>(k)];
+      }
+      points_.push_back(point);
+    }
+}
+
+void Elements::find_pattern() {
+  std::vector<std::vector<int>> rows(as_index(count_));  // by columns
+  std::array<int, 30> own;
+  const auto gather = [&](const Element& element) {
+    for (std::size_t a = 0; a < 10; ++a)
+      for (int i = 0; i < 3; ++i)
+        own[3 * a + as_index(i)] = unknowns_[as_index(3 * element[a] + i)];
+  };
+  for (const Element& element : mesh_->elements) {
+    gather(element);
+    for (const int column : own)
+      for (const int row : own)
+        if (column >= 0 && row >= column) rows[as_index(column)].push_back(row);
+  }
+  pattern_.resize(count_, count_);
+  std::vector<int> sizes;
+  for (std::vector<int>& list : rows) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sizes.push_back(static_cast<int>(list.size()));
+  }
+  pattern_.reserve(sizes);
+  for (int column = 0; column < count_; ++column)
+    for (const int row : rows[as_index(column)]) pattern_.insert(row, column) = 0.0;
+  pattern_.makeCompressed();
+  entries_.reserve(465 * mesh_->elements.size());
+  for (const Element& element : mesh_->elements) {
+    gather(element);
+    for (std::size_t r = 0; r < 30; ++r)
+      for (std::size_t c = 0; c <= r; ++c)
+        entries_.push_back(own[r] < 0 || own[c] < 0
+                               ? -1
+                               : entry(std::max(own[r], own[c]), std::min(own[r], own[c])));
+  }
+}
+
+int Elements::entry(int row, int column) const {
+  const int* begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column];
+  const int* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + 1];
+  const int* found = std::lower_bound(begin, end, row);
+  return found == end || *found != row ? -1 : static_cast<int>(found - pattern_.innerIndexPtr());
+}
+
+// Per point, with h_a = F^-T G_a, f_a = F G_a, c = mu J^(-2/3) and t, s the parts of the pressure:
+//   K_ab = c ((G_a . G_b) 1 - 2/3 (f_a h_b^T + h_a f_b^T) + 2/9 I1 h_a h_b^T + I1/3 h_b h_a^T)
+//          + t h_a h_b^T - s h_b h_a^T                                     docs/theory.md (109)
+double Elements::assemble(const Vector& displacement, Vector& force,
+                          Eigen::SparseMatrix<double>& stiffness) {
+  if (stiffness.nonZeros() != pattern_.nonZeros()) stiffness = pattern_;
+  double* values = stiffness.valuePtr();
+  std::fill(values, values + stiffness.nonZeros(), 0.0);
+  force.setZero(static_cast<Eigen::Index>(3 * mesh_->nodes.size()));
+  double least = 1.0;
+  std::array<double, 900> k;
+  for (std::size_t e = 0; e < mesh_->elements.size(); ++e) {
+    const Element& element = mesh_->elements[e];
+    const Thirty u = gathered(element, displacement);
+    k.fill(0.0);
+    Thirty f{};
+    Thirty volume_change{};
+    double volume = 0.0;
+    double now = 0.0;
+    const bool mean = mean_[e] != 0;
+    for (std::size_t q = points * e; q < points * (e + 1); ++q) {
+      const Thirty& g = points_[q].gradient;
+      const double w = points_[q].weight;
+      const Nine stretched = stretch(u, g);
+      const Nine c = cofactors(stretched);
+      const double ratio = ratio_of(stretched, c);
+      least = std::min(least, ratio);
+      const double j = std::max(ratio, least_ratio);
+      Nine back;
+      for (std::size_t i = 0; i < 9; ++i) back[i] = c[i] / j;
+      double first = 0.0;
+      for (const double x : stretched) first += x * x;
+      const double scaled = w * shear_[e] / std::cbrt(j * j);
+      const double own = mean ? 0.0 : bulk_[e];
+      const double pressed = w * pressures_[q] * j;
+      const double along = 2.0 / 9.0 * first * scaled + w * own * j * j + pressed;
+      const double across = first / 3.0 * scaled - pressed;
+      const Thirty h = times(back, g);
+      const Thirty fg = times(stretched, g);
+      const double spherical = w * own * (ratio - 1.0) * j - first / 3.0 * scaled;
+      for (std::size_t a = 0; a < 30; ++a) f[a] += scaled * fg[a] + spherical * h[a];
+      if (mean) {
+        volume += w;
+        now += w * ratio;
+        for (std::size_t a = 0; a < 30; ++a) volume_change[a] += w * j * h[a];
+      }
+      for (std::size_t a = 0; a < 30; a += 3) {
+        std::array<double, 3> left;   // of h_b^T
+        std::array<double, 3> right;  // of f_b^T
+        for (std::size_t i = 0; i < 3; ++i) {
+          left[i] = along * h[a + i] - 2.0 / 3.0 * scaled * fg[a + i];
+          right[i] = -2.0 / 3.0 * scaled * h[a + i];
+        }
+        for (std::size_t b = 0; b <= a; b += 3) {
+          const double dot = scaled * (g[a] * g[b] + g[a + 1] * g[b + 1] + g[a + 2] * g[b + 2]);
+          for (std::size_t i = 0; i < 3; ++i) {
+            double* row = &k[30 * (a + i) + b];
+            const double turned = across * h[b + i];
+            for (std::size_t l = 0; l < 3; ++l)
+              row[l] += left[i] * h[b + l] + right[i] * fg[b + l] + turned * h[a + l];
+            row[i] += dot;
+          }
+        }
+      }
+    }
+    if (mean) {
+      const double pressure = bulk_[e] * (now / volume - 1.0);
+      const double rate = bulk_[e] / volume;
+      for (std::size_t a = 0; a < 30; ++a) f[a] += pressure * volume_change[a];
+      for (std::size_t r = 0; r < 30; ++r)
+        for (std::size_t c = 0; c <= r; ++c)
+          k[30 * r + c] += rate * volume_change[r] * volume_change[c];
+    }
+    for (std::size_t a = 0; a < 10; ++a)
+      for (int i = 0; i < 3; ++i) force[3 * element[a] + i] += f[3 * a + as_index(i)];
+    const int* entries = &entries_[465 * e];
+    for (std::size_t r = 0; r < 30; ++r)
+      for (std::size_t c = 0; c <= r; ++c, ++entries)
+        if (*entries >= 0) values[*entries] += k[30 * r + c];
+  }
+  return least;
+}
+
+double Elements::energy(const Vector& displacement) const {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < mesh_->elements.size(); ++e) {
+    const Thirty u = gathered(mesh_->elements[e], displacement);
+    double volume = 0.0;
+    double now = 0.0;
+    for (std::size_t q = points * e; q < points * (e + 1); ++q) {
+      const Nine f = stretch(u, points_[q].gradient);
+      const double ratio = ratio_of(f, cofactors(f));
+      const double w = points_[q].weight;
+      double first = 0.0;
+      for (const double x : f) first += x * x;
+      sum += 0.5 * w * shear_[e] * (first / std::cbrt(ratio * ratio) - 3.0);
+      if (mean_[e] == 0) sum += 0.5 * w * bulk_[e] * (ratio - 1.0) * (ratio - 1.0);
+      volume += w;
+      now += w * ratio;
+    }
+    const double change = now / volume - 1.0;
+    if (mean_[e] != 0) sum += 0.5 * volume * bulk_[e] * change * change;
+  }
+  return sum;
+}
+
+void Elements::advance(const Vector& displacement, const Vector& step, double share) {
+  for (std::size_t e = 0; e < mesh_->elements.size(); ++e) {
+    const Thirty u = gathered(mesh_->elements[e], displacement);
+    const Thirty du = gathered(mesh_->elements[e], step);
+    double volume = 0.0;
+    double sum = 0.0;
+    std::array<double, points> dilatation{};
+    for (std::size_t q = 0; q < points; ++q) {
+      const Point& point = points_[points * e + q];
+      const Nine f = stretch(u, point.gradient);
+      const Nine c = cofactors(f);
+      const Thirty change = times(c, point.gradient);
+      double dilated = ratio_of(f, c) - 1.0;
+      for (std::size_t a = 0; a < 30; ++a) dilated += change[a] * du[a];
+      dilatation[q] = dilated;
+      volume += point.weight;
+      sum += point.weight * dilated;
+    }
+    for (std::size_t q = 0; q < points; ++q) {
+      double& pressure = pressures_[points * e + q];
+      const double next = bulk_[e] * (mean_[e] != 0 ? sum / volume : dilatation[q]);
+      pressure += share * (next - pressure);
+    }
+  }
+}
+
+}  // namespace palpate::solid

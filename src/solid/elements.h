@@ -1,0 +1,78 @@
+// Neo-Hookean ten-node tetrahedra: forces, stiffness, and the pressure that is eliminated.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <span>
+#include <vector>
+
+#include "solid/mesh.h"
+#include "tissue/coupled.h"
+
+namespace palpate::solid {
+
+using Vector = Eigen::VectorXd;
+
+// The energy per volume is mu/2 (J^(-2/3) tr F^T F - 3) + kappa/2 (J - 1)^2, at four points of
+// every element. Where a tissue has nu above 0.46, J in the second term is the mean of the element,
+// so that it does not lock. The stiffness is taken at a pressure p of its own, which becomes kappa
+// (J - 1) by advance(): Newton's method then converges near nu = 1/2 as well.
+//                                                                        docs/theory.md (109)
+class Elements {
+ public:
+  static constexpr double mean_above = 0.46;
+
+  // `tissues` has one entry per region of the mesh. Degrees of freedom with `held` != 0 do not
+  // move. The mesh must outlive this.
+  Elements(const Mesh& mesh, std::span<const tissue::Isotropic> tissues,
+           std::span<const char> held);
+
+  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+  [[nodiscard]] const tissue::Isotropic& tissue(int element) const {
+    return tissues_[as_index(mesh_->regions[as_index(element)])];
+  }
+  // The unknown of a degree of freedom (3 node + axis), or -1 if it is held.
+  [[nodiscard]] int unknown(int freedom) const { return unknowns_[as_index(freedom)]; }
+  [[nodiscard]] int unknowns() const { return count_; }
+  // The first unknown of every node with unknowns, then their number.
+  [[nodiscard]] std::span<const int> first_unknowns() const { return first_; }
+  // Where the entry of two unknowns is in the values of the stiffness; -1 outside its pattern.
+  [[nodiscard]] int entry(int row, int column) const;
+
+  // Sets `force` (N, 3 per node) to the gradient of the energy at `displacement` (m), and the lower
+  // triangle `stiffness` (N/m) to the derivative at the present pressures. Returns the least J.
+  double assemble(const Vector& displacement, Vector& force,
+                  Eigen::SparseMatrix<double>& stiffness);
+
+  // The energy, J; its gradient is the force of assemble().
+  [[nodiscard]] double energy(const Vector& displacement) const;
+
+  // Moves the pressures by `share` of the way to kappa (J - 1 + dJ), linear in the change `step` of
+  // the displacement.
+  void advance(const Vector& displacement, const Vector& step, double share);
+
+  // One per point of every element, Pa.
+  [[nodiscard]] const std::vector<double>& pressures() const { return pressures_; }
+  void set_pressures(std::vector<double> pressures) { pressures_ = std::move(pressures); }
+
+ private:
+  struct Point {
+    double weight = 0.0;                // m^3
+    std::array<double, 30> gradient{};  // 1/m: of function a along axis k at 3 a + k
+  };
+  void find_points();
+  void find_pattern();
+
+  const Mesh* mesh_;
+  std::vector<tissue::Isotropic> tissues_;
+  std::vector<Point> points_;         // four per element
+  std::vector<double> shear_, bulk_;  // Pa, per element
+  std::vector<char> mean_;            // per element
+  std::vector<double> pressures_;
+  std::vector<int> unknowns_;
+  std::vector<int> first_;
+  int count_ = 0;
+  Eigen::SparseMatrix<double> pattern_;
+  std::vector<int> entries_;  // 465 per element: of its lower triangle by rows, -1 where held
+};
+
+}  // namespace palpate::solid

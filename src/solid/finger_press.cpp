@@ -1,0 +1,245 @@
+// Points of the curve, and interpolation between them.
+#include "solid/finger_press.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+#include "base/units.h"
+#include "geometry/box_tree.h"
+
+namespace palpate::solid {
+namespace {
+
+using Curve = std::vector<std::pair<double, double>>;  // travel and force, ascending
+
+// The parabola through the three points nearest to x in logarithms; a power below the first.
+double between(const Curve& points, double x) {
+  if (!(x > 0.0)) return 0.0;
+  if (points.size() == 1 || x < points.front().first) {
+    const auto& [d, f] = points.front();
+    return f * std::pow(x / d, 1.5);
+  }
+  std::size_t first = 0;
+  while (first + 3 < points.size() && x > points[first + 1].first) ++first;
+  const std::size_t count = std::min<std::size_t>(3, points.size() - first);
+  double sum = 0.0;
+  for (std::size_t i = first; i < first + count; ++i) {
+    double weight = 1.0;
+    for (std::size_t j = first; j < first + count; ++j)
+      if (j != i)
+        weight *= std::log(x / points[j].first) / std::log(points[i].first / points[j].first);
+    sum += weight * std::log(points[i].second);
+  }
+  return std::exp(sum);
+}
+
+// Whether points are their own images across the plane through 0 normal to an axis.
+bool mirrored(std::span<const Vec3> points, int axis, double near) {
+  return std::all_of(points.begin(), points.end(), [&](const Vec3& point) {
+    Vec3 image = point;
+    image[axis] = -image[axis];
+    return std::any_of(points.begin(), points.end(),
+                       [&](const Vec3& other) { return (other - image).norm() < near; });
+  });
+}
+
+}  // namespace
+
+FingerPress::FingerPress(FingerOrder order, const Told& told)
+    : order_(std::move(order)), told_(told) {
+  BodyOrder body = order_.body;
+  body.radius = order_.radius / order_.share;
+  body.travel = order_.deepest * order_.share;
+  // Where the spheres meet the body on their way.
+  const std::vector<Vec3>& corners = order_.corners;
+  const bool several = order_.centres.size() > 1;
+  std::optional<geometry::BoxTree> tree;
+  if (several || corners.size() > 1) tree.emplace(order_.skin->surface());
+  const double step = 0.5 * std::sqrt(order_.radius * order_.deepest);
+  // A plane of symmetry passes through the finger's point, not through one of its spheres.
+  body.touched = {order_.touched};
+  if (several) body.touched.front().head<2>() = order_.first_touch.head<2>();
+  for (const Vec3& centre : order_.centres)
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (i == 0 && !several) continue;
+      const Vec3 from = corners[i == 0 ? 0 : i - 1];
+      const int parts = std::max(1, static_cast<int>(std::ceil((corners[i] - from).norm() / step)));
+      for (int k = 1; k <= parts; ++k) {
+        const Vec3 place = order_.first_touch + centre + from +
+                           (corners[i] - from) * (static_cast<double>(k) / parts);
+        body.touched.push_back(order_.skin->foot(place, tree->nearest(place)).position);
+      }
+    }
+  const double near = 1e-6 * order_.radius;
+  for (const int axis : {0, 1})
+    body.mirrored[as_index(axis)] =
+        body.mirrored[as_index(axis)] && mirrored(order_.centres, axis, near) &&
+        std::all_of(corners.begin(), corners.end(),
+                    [&](const Vec3& at) { return std::abs(at[axis]) < near; });
+  if (told_) told_("meshing");
+  press_ = std::make_unique<Press>(make_body(body));
+  std::vector<Ball> balls;
+  for (const Vec3& centre : order_.centres)
+    balls.push_back({centre + (body.radius - order_.radius) * Vec3::UnitZ(), body.radius, false});
+  press_->set_finger(std::move(balls));
+  press_->begin(order_.first_touch);
+  if (order_.ball) find_ball();
+}
+
+// The ball under a cup whose curvature is the tissue's share of 1/R.
+void FingerPress::find_ball() {
+  if (told_) told_("pressing the finger's ball");
+  const double part = (1.0 - order_.share) * order_.deepest;
+  Press press(make_ball(order_.radius, order_.deepest, *order_.ball, order_.body.per_radius));
+  const double cup = order_.radius / std::max(order_.share, 1e-4);
+  press.set_finger({{Vec3(0.0, 0.0, order_.radius - cup), cup, true}});
+  press.begin(Vec3::Zero());
+  for (const double times : {0.25, 0.5, 1.0}) {
+    const double travel = times * part;
+    const auto found = press.go(-travel * Vec3::UnitZ());
+    if (!found) {
+      reason_ = "the solid finds no equilibrium of the finger's ball beyond a travel of " +
+                quantity_text(travel, unit::mm) + "; press less deep";
+      return;
+    }
+    ball_.push_back({travel - found->lost, found->normal(), {}});
+  }
+}
+
+Moment FingerPress::moment_of(const Answer& answer, double force) {
+  return {force, std::sqrt(answer.area / std::numbers::pi), answer.peak, answer.touching};
+}
+
+std::optional<Answer> FingerPress::go(const Vec3& place, double travel) {
+  if (told_)
+    told_("travel " + quantity_text(travel / order_.share, unit::mm) + ", " +
+          std::to_string(press_->unknowns()) + " unknowns");
+  auto found = press_->go(order_.first_touch + place - travel * Vec3::UnitZ());
+  if (!found) {
+    const double reached = (order_.first_touch.z() - press_->reached().z()) / order_.share;
+    reason_ = "the solid finds no equilibrium beyond a travel of " +
+              quantity_text(reached, unit::mm) + ": the tissue folds there; press less deep";
+  }
+  return found;
+}
+
+// Adds points of the tissue at a quarter and half of the order's travel and there, and beyond it by
+// doubling up to the tissue's travel: a curve does not depend on what was asked first.
+bool FingerPress::extend(double travel) {
+  if (!reason_.empty()) return false;
+  const double deepest = order_.share * order_.deepest;
+  while (reached_ < std::max(deepest, travel)) {
+    double next = points_.empty() ? 0.25 * deepest : 2.0 * reached_;
+    if (reached_ >= deepest) next = std::min(next, 1.5 * reached_);
+    const auto found = go(Vec3::Zero(), next);
+    if (!found) return false;
+    reached_ = next;
+    points_.push_back({next - found->lost, found->normal(), moment_of(*found, found->normal())});
+  }
+  return true;
+}
+
+// The tissue's part of the finger's travel: the ball takes the rest at the same force.
+double FingerPress::tissue_travel(double travel) const {
+  if (ball_.empty()) return order_.share * travel;
+  Curve tissue;
+  Curve ball;
+  for (const Point& point : points_) tissue.emplace_back(point.travel, point.force);
+  for (const Point& point : ball_) ball.emplace_back(point.travel, point.force);
+  double low = 0.0;
+  double high = travel;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (between(tissue, middle) < between(ball, travel - middle) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::optional<Moment> FingerPress::at_travel(double travel) {
+  if (!(travel > 0.0)) return Moment{};
+  if (!extend(order_.share * travel)) return std::nullopt;
+  const double own = tissue_travel(travel);
+  Curve force;
+  Curve radius;
+  Curve pressure;
+  for (const Point& point : points_) {
+    force.emplace_back(point.travel, point.force);
+    radius.emplace_back(point.travel, point.moment.contact_radius);
+    pressure.emplace_back(point.travel, point.moment.peak_pressure);
+  }
+  const auto root = [&](const Curve& points) {
+    // Contact radius and pressure begin with the root of the travel.
+    return own < points.front().first
+               ? points.front().second * std::sqrt(own / points.front().first)
+               : between(points, own);
+  };
+  const auto nearest = std::find_if(points_.begin(), points_.end(),
+                                    [&](const Point& point) { return point.travel >= own; });
+  return Moment{between(force, own), root(radius), root(pressure),
+                (nearest == points_.end() ? points_.back() : *nearest).moment.touching};
+}
+
+std::optional<Moment> FingerPress::at_slide(double travel, const Vec3& start, const Vec3& end,
+                                            double slid) {
+  const double length = (end - start).norm();
+  if (slid_.empty() || slide_start_ != start || slide_end_ != end || slide_travel_ != travel) {
+    const auto pressed = at_travel(travel);
+    if (!pressed) return std::nullopt;
+    std::tie(slide_start_, slide_end_, slide_travel_) = std::tuple(start, end, travel);
+    slid_.clear();
+    const double own = tissue_travel(travel);
+    const double step = 0.5 * std::sqrt(order_.radius * travel);
+    const int parts = std::clamp(static_cast<int>(std::ceil(length / step)), 4, 60);
+    // The exponent of the force at this depth, by which the penalty's depth is taken out.
+    const Point& last = points_.back();
+    const double power = points_.size() > 1
+                             ? std::log(last.force / points_[points_.size() - 2].force) /
+                                   std::log(last.travel / points_[points_.size() - 2].travel)
+                             : 1.5;
+    for (int k = 0; k <= parts; ++k) {
+      const double share = static_cast<double>(k) / parts;
+      const auto found = go(start + share * (end - start), own);
+      if (!found) return std::nullopt;
+      slid_.emplace_back(share * length,
+                         moment_of(*found, found->normal() * (1.0 + power * found->lost / own)));
+    }
+  }
+  // The parabola through the three nearest points.
+  std::size_t first = 0;
+  while (first + 3 < slid_.size() && slid_[first + 1].first + slid_[first + 2].first < 2.0 * slid)
+    ++first;
+  Moment sum;
+  for (std::size_t i = first; i < first + 3; ++i) {
+    double weight = 1.0;
+    for (std::size_t j = first; j < first + 3; ++j)
+      if (j != i) weight *= (slid - slid_[j].first) / (slid_[i].first - slid_[j].first);
+    sum.force += weight * slid_[i].second.force;
+    sum.contact_radius += weight * slid_[i].second.contact_radius;
+    sum.peak_pressure += weight * slid_[i].second.peak_pressure;
+    sum.touching = std::max(sum.touching, slid_[i].second.touching);
+  }
+  return sum;
+}
+
+Extrapolated extrapolated(std::span<const double> per_radius, std::span<const double> forces) {
+  constexpr double least = 0.002;  // of the force: small contacts at the start, the penalty
+  const std::size_t n = forces.size();
+  if (n == 1) return {forces[0], error_of_one_mesh * std::abs(forces[0])};
+  const auto change = [&](std::size_t i) {
+    const double ratio = per_radius[i + 1] / per_radius[i];
+    return (forces[i + 1] - forces[i]) / (ratio * ratio - 1.0);
+  };
+  const double last = change(n - 2);
+  Extrapolated found{forces[n - 1] + last, 0.5 * std::abs(last)};
+  // Of three meshes the first two say it as well.
+  if (n > 2)
+    found.error =
+        std::max(found.error, 0.5 * std::abs(found.force - (forces[n - 2] + change(n - 3))));
+  found.error = std::max(found.error, least * std::abs(found.force));
+  return found;
+}
+
+}  // namespace palpate::solid

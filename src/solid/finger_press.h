@@ -1,0 +1,101 @@
+// A finger on a solid: the force at any travel and on the way of slides.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/smooth_surface.h"
+#include "solid/body.h"
+
+namespace palpate::solid {
+
+// A press: the body, the finger and its way.
+struct FingerOrder {
+  // Its radius, travel, touched places and mirrors are set by FingerPress.
+  BodyOrder body;
+  const geometry::SmoothSurface* skin = nullptr;  // of the body, for slides and several spheres
+  std::vector<Vec3> centres{Vec3::Zero()};        // m, of the spheres, from the finger's point
+  double radius = 0.0;                            // m, of each
+  std::optional<tissue::Isotropic> ball = {};     // an elastic finger's; of one sphere
+  double share = 1.0;    // of the tissue in the compliance of the contact; 1 if the finger is rigid
+  double deepest = 0.0;  // m, travel of the finger
+  Vec3 first_touch = Vec3::Zero();          // m, the finger's point at travel 0
+  Vec3 touched = Vec3::Zero();              // m, the place of the body that it touches there
+  std::vector<Vec3> corners{Vec3::Zero()};  // m, beside it, where slides begin and end
+};
+
+// Force over travel or slide by a few equilibria and what lies between them.
+struct Moment {
+  double force = 0.0;           // N, upwards
+  double contact_radius = 0.0;  // m, of the circle with the area of the contact
+  double peak_pressure = 0.0;   // Pa
+  int touching = 0;             // spheres in contact
+};
+
+// Nothing depends on time, so that a press is one curve of force over travel: Newton's method finds
+// its points at a quarter and half of the deepest travel and there, and the logarithm of the force
+// is a parabola of that of the travel between them. An elastic finger is a ball of its own radius:
+// both bodies meet at a sphere whose curvature is their shares of 1/R, ball and tissue are pressed
+// by that sphere alone, and their travels at equal forces add.           docs/theory.md (112)
+class FingerPress {
+ public:
+  // Called with a sentence on what is computed now.
+  using Told = std::function<void(const std::string&)>;
+
+  // What the order points to must outlive the call. Throws MeshError.
+  explicit FingerPress(FingerOrder order, const Told& told = {});
+
+  // Nothing where no equilibrium was found; reason() then says why. Throws Stopped.
+  [[nodiscard]] std::optional<Moment> at_travel(double travel);
+  // At a place beside the first touch, after `slid` m from the start of a slide that begins beside
+  // it by `start` (m) and ends at `end`. Its points are found in the order of calls.
+  [[nodiscard]] std::optional<Moment> at_slide(double travel, const Vec3& start, const Vec3& end,
+                                               double slid);
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+  [[nodiscard]] const Press& press() const { return *press_; }
+  // The finger's point at first touch, m.
+  [[nodiscard]] const Vec3& first() const { return order_.first_touch; }
+
+ private:
+  struct Point {
+    double travel = 0.0;  // m, without what the penalty lets through
+    double force = 0.0;   // N
+    Moment moment;
+  };
+  [[nodiscard]] bool extend(double travel);
+  [[nodiscard]] std::optional<Answer> go(const Vec3& place, double travel);
+  [[nodiscard]] static Moment moment_of(const Answer& answer, double force);
+  void find_ball();
+  [[nodiscard]] double tissue_travel(double travel) const;
+
+  FingerOrder order_;
+  Told told_;
+  std::unique_ptr<Press> press_;
+  std::vector<Point> points_;  // of the tissue
+  double reached_ = 0.0;       // m, travel of the tissue at the last of them, with what is lost
+  std::vector<Point> ball_;    // of an elastic finger
+  std::string reason_;
+  // The slide at hand.
+  Vec3 slide_start_ = Vec3::Zero(), slide_end_ = Vec3::Zero();
+  double slide_travel_ = 0.0;
+  std::vector<std::pair<double, Moment>> slid_;
+};
+
+// What one mesh of BodyOrder's default size states, a fraction of the force.     docs/theory.md
+// (99)
+inline constexpr double error_of_one_mesh = 0.03;
+
+// A force on finer and finer meshes: that of an infinitely fine one, with its error, N. Errors fall
+// with the square of the elements' size; `per_radius` are the numbers of elements in a contact
+// radius, ascending, one per force.                                      docs/theory.md (112)
+struct Extrapolated {
+  double force = 0.0;
+  double error = 0.0;
+};
+[[nodiscard]] Extrapolated extrapolated(std::span<const double> per_radius,
+                                        std::span<const double> forces);
+
+}  // namespace palpate::solid

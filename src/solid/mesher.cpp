@@ -1,0 +1,349 @@
+// Samples the body's faces, cuts them at planes, refines them, and lets TetGen fill them.
+#include "solid/mesher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "geometry/body.h"
+#include "geometry/box_tree.h"
+#include "meshing/bisection.h"
+#include "meshing/surface_remeshing.h"
+#include "meshing/tetgen.h"
+#include "meshing/true_boundary.h"
+
+namespace palpate::solid {
+namespace {
+
+constexpr double time_limit = 300.0;  // s
+constexpr double growth = 0.35;
+
+// Numbers of faces: flat ones, the shape's round ones, those of a file, then lumps, then planes.
+enum Number { flat = 1, round_side = 2, of_file = 3, first_lump = 10, first_plane = 1000 };
+
+// Whether a point is inside a closed surface, by the winding number.
+bool inside(const geometry::Surface& surface, const Vec3& point) {
+  double angle = 0.0;  // Van Oosterom and Strackee 1983
+  for (const auto& t : surface.triangles) {
+    const Vec3 a = surface.vertices[as_index(t[0])] - point;
+    const Vec3 b = surface.vertices[as_index(t[1])] - point;
+    const Vec3 c = surface.vertices[as_index(t[2])] - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle +=
+        std::atan2(a.cross(b).dot(c), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle > M_PI;  // half of 4 pi, of which the sum is half
+}
+
+class Mesher {
+ public:
+  explicit Mesher(const MeshOrder& order) : order_(order) {
+    if (order.surface != nullptr) tree_.emplace(order.surface->surface());
+  }
+
+  [[nodiscard]] Mesh made() {
+    sample();
+    SurfaceNet net(
+        std::move(faces_), std::move(numbers_),
+        [this](const Vec3& point, std::span<const int> numbers) { return onto(point, numbers); });
+    for (const Plane& mirror : order_.mirrors) {
+      net.cut(mirror);
+      net.drop_below(mirror);
+    }
+    for (const Inclusion& one : order_.inclusions)
+      if (!one.lump)
+        for (const double level : {one.bottom, one.top})
+          if (level > low_.z() && level < high_.z()) add_level(level);
+    for (const Plane& level : levels_) net.cut(level);
+    if (order_.base_level > low_.z() &&
+        std::none_of(levels_.begin(), levels_.end(),
+                     [&](const Plane& level) { return level.at == order_.base_level; }))
+      net.cut({2, order_.base_level});
+    net.refine([this](const Vec3& place) { return order_.sizes.at(place); });
+    meshing::PieceMesh filled = meshing::tetgen_pieces(
+        pieces(net), [this](const Vec3& place) { return order_.sizes.at(place); }, time_limit);
+    name_regions(filled.mesh);
+    return curved(filled, net.vertices().size());
+  }
+
+ private:
+  void add_level(double level) {
+    for (const Plane& before : levels_)
+      if (before.at == level) return;
+    levels_.push_back({2, level});
+  }
+
+  void sample() {
+    double spacing = order_.sizes.largest;
+    if (order_.shape) {
+      const auto* box = std::get_if<geometry::Cuboid>(&*order_.shape);
+      const Vec3 size = geometry::extent(*order_.shape);
+      // A chord of this length of the least radius is a tenth of its length off.
+      if (box == nullptr) spacing = std::min(spacing, 0.35 * size.minCoeff());
+      body_ = geometry::sampled(*order_.shape, {spacing, spacing});
+      faces_ = geometry::facets(body_);
+      for (const auto& triangle : faces_.triangles) numbers_.push_back(number_of(triangle));
+    } else {
+      const geometry::Surface& given = order_.surface->surface();
+      auto coarse = meshing::remeshed(given, spacing);
+      body_.parts.push_back({coarse ? std::move(coarse->surface) : given, 0});
+      faces_ = body_.parts.front().surface;
+      numbers_.assign(faces_.triangles.size(), of_file);
+    }
+    low_ = high_ = faces_.vertices.front();
+    for (const Vec3& vertex : faces_.vertices) {
+      low_ = low_.cwiseMin(vertex);
+      high_ = high_.cwiseMax(vertex);
+    }
+    for (std::size_t i = 0; i < order_.inclusions.size(); ++i) {
+      if (!order_.inclusions[i].lump) continue;
+      const geometry::Lump& lump = *order_.inclusions[i].lump;
+      geometry::Body checked = body_;
+      geometry::add_lump(checked, lump, 0.5 * lump.radius);  // refuses one that sticks out
+      const double edge = std::min(0.75 * lump.radius, 1.2 * order_.sizes.at(lump.centre));
+      const geometry::Surface ball =
+          geometry::ellipsoid_surface(lump.centre, Vec3::Constant(2.0 * lump.radius), edge);
+      const int before = static_cast<int>(faces_.vertices.size());
+      faces_.vertices.insert(faces_.vertices.end(), ball.vertices.begin(), ball.vertices.end());
+      for (auto triangle : ball.triangles) {
+        for (int& v : triangle) v += before;
+        faces_.triangles.push_back(triangle);
+        numbers_.push_back(first_lump + static_cast<int>(i));
+      }
+    }
+  }
+
+  // Of a triangle of the sampled shape.
+  [[nodiscard]] int number_of(const std::array<int, 3>& triangle) const {
+    if (std::holds_alternative<geometry::Cuboid>(*order_.shape)) return flat;
+    if (std::holds_alternative<geometry::Ellipsoid>(*order_.shape)) return round_side;
+    const double length = geometry::extent(*order_.shape).y();
+    for (const double end : {0.0, length})
+      if (std::all_of(triangle.begin(), triangle.end(), [&](int v) {
+            return std::abs(faces_.vertices[as_index(v)].y() - end) < 1e-9 * length;
+          }))
+        return flat;
+    return round_side;
+  }
+
+  // The place on the first of these faces that is not flat.
+  [[nodiscard]] Vec3 onto(const Vec3& point, std::span<const int> numbers) const {
+    for (const int number : numbers)
+      if (number >= first_lump && number < first_plane) {
+        const geometry::Lump& lump = *order_.inclusions[as_index(number - first_lump)].lump;
+        return lump.centre + lump.radius * (point - lump.centre).normalized();
+      }
+    for (const int number : numbers) {
+      if (number == round_side) return geometry::onto(*order_.shape, point);
+      if (number == of_file) return order_.surface->foot(point, tree_->nearest(point)).position;
+    }
+    return point;
+  }
+
+  [[nodiscard]] meshing::Pieces pieces(SurfaceNet& net) const {
+    meshing::Pieces made;
+    made.numbers = net.numbers();
+    std::vector<Plane> planes = order_.mirrors;
+    planes.insert(planes.end(), levels_.begin(), levels_.end());
+    std::vector<std::set<std::array<int, 2>>> segments(planes.size());
+    // Where two planes meet inside the body.
+    for (std::size_t p = 0; p < planes.size(); ++p)
+      for (std::size_t q = 0; q < p; ++q) {
+        if (planes[p].axis == planes[q].axis) continue;
+        const int along = 3 - planes[p].axis - planes[q].axis;
+        for (const Plane& third : planes) {
+          if (third.axis != along) continue;
+          Vec3 corner;
+          for (const Plane& plane : {planes[p], planes[q], third}) corner[plane.axis] = plane.at;
+          if (std::none_of(net.vertices().begin(), net.vertices().end(),
+                           [&](const Vec3& v) { return v == corner; }) &&
+              inside(body_.parts.front().surface, corner))
+            net.add(corner);
+        }
+      }
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+      for (const auto& edge : net.edges_on(planes[p])) segments[p].insert(edge);
+      for (std::size_t q = 0; q < p; ++q) {
+        if (planes[p].axis == planes[q].axis) continue;
+        const int along = 3 - planes[p].axis - planes[q].axis;
+        std::vector<std::pair<double, int>> on_line;
+        for (int v = 0; v < static_cast<int>(net.vertices().size()); ++v) {
+          const Vec3& place = net.vertices()[as_index(v)];
+          if (planes[p].beyond(place) == 0.0 && planes[q].beyond(place) == 0.0)
+            on_line.emplace_back(place[along], v);
+        }
+        std::sort(on_line.begin(), on_line.end());
+        for (std::size_t i = 1; i < on_line.size(); ++i) {
+          const int a = on_line[i - 1].second;
+          const int b = on_line[i].second;
+          const Vec3 middle = 0.5 * (net.vertices()[as_index(a)] + net.vertices()[as_index(b)]);
+          if (!inside(body_.parts.front().surface, middle)) continue;
+          const bool kept =
+              std::all_of(order_.mirrors.begin(), order_.mirrors.end(),
+                          [&](const Plane& mirror) { return mirror.beyond(middle) >= 0.0; });
+          if (!kept) continue;
+          for (const std::size_t of : {p, q}) segments[of].insert({std::min(a, b), std::max(a, b)});
+        }
+      }
+    }
+    made.surface = {net.vertices(), net.triangles()};
+    for (std::size_t p = 0; p < planes.size(); ++p)
+      made.planes.push_back(
+          {{segments[p].begin(), segments[p].end()}, first_plane + static_cast<int>(p)});
+    return made;
+  }
+
+  // The tissue at a place inside.
+  [[nodiscard]] int region_at(const Vec3& place) const {
+    int found = 0;
+    if (order_.shape) found = geometry::region_at(body_, place).value_or(0);
+    if (order_.region_of) found = order_.region_of(found);
+    for (const Inclusion& one : order_.inclusions)
+      if (one.lump ? (place - one.lump->centre).norm() < one.lump->radius
+                   : place.z() > one.bottom && place.z() < one.top)
+        found = one.region;
+    return found;
+  }
+
+  // TetGen's numbers of enclosed parts become those of tissues, by one place in each.
+  void name_regions(geometry::TetMesh& mesh) const {
+    std::map<int, std::pair<double, int>> largest;
+    for (int t = 0; t < static_cast<int>(mesh.tetrahedra.size()); ++t) {
+      auto& [volume, which] = largest[mesh.region(t)];
+      const double own = geometry::signed_volume(mesh, t);
+      if (own > volume) std::tie(volume, which) = std::pair(own, t);
+    }
+    std::map<int, int> names;
+    for (const auto& [number, best] : largest) {
+      Vec3 middle = Vec3::Zero();
+      for (const int node : mesh.tetrahedra[as_index(best.second)])
+        middle += 0.25 * mesh.nodes[as_index(node)];
+      names[number] = region_at(middle);
+    }
+    for (int& region : mesh.regions) region = names[region];
+  }
+
+  // Moves what TetGen added on round faces onto them, and the middles of edges there.
+  [[nodiscard]] Mesh curved(meshing::PieceMesh& filled, std::size_t given) const {
+    std::vector<Plane> planes = order_.mirrors;
+    planes.insert(planes.end(), levels_.begin(), levels_.end());
+    planes.push_back({2, order_.base_level});
+    std::map<int, std::vector<int>> of_node;
+    std::map<std::array<int, 2>, std::vector<int>> of_edge;
+    for (std::size_t f = 0; f < filled.faces.size(); ++f)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int a = filled.faces[f][i];
+        const int b = filled.faces[f][(i + 1) % 3];
+        of_edge[{std::min(a, b), std::max(a, b)}].push_back(filled.numbers[f]);
+        if (as_index(a) >= given) of_node[a].push_back(filled.numbers[f]);
+      }
+    std::vector<Vec3>& nodes = filled.mesh.nodes;
+    const auto placed = [&](Vec3 point, std::span<const int> numbers, const auto& on_plane) {
+      for (int i = 0; i < 3; ++i) {
+        point = onto(point, numbers);
+        for (const Plane& plane : planes)
+          if (on_plane(plane)) point[plane.axis] = plane.at;
+      }
+      return point;
+    };
+    const double rounding = 1e-9 * (high_ - low_).norm();
+    std::vector<std::vector<int>> around(nodes.size());
+    for (int t = 0; t < static_cast<int>(filled.mesh.tetrahedra.size()); ++t)
+      for (const int node : filled.mesh.tetrahedra[as_index(t)])
+        around[as_index(node)].push_back(t);
+    for (const auto& [node, numbers] : of_node) {
+      Vec3& place = nodes[as_index(node)];
+      const Vec3 before = place;
+      std::vector<double> volumes;
+      for (const int t : around[as_index(node)])
+        volumes.push_back(geometry::signed_volume(filled.mesh, t));
+      place = placed(place, numbers,
+                     [&](const Plane& plane) { return std::abs(plane.beyond(before)) < rounding; });
+      for (std::size_t i = 0; i < volumes.size(); ++i)
+        if (geometry::signed_volume(filled.mesh, around[as_index(node)][i]) < 0.2 * volumes[i])
+          place = before;
+    }
+    return quadratic(filled.mesh, [&](const std::array<int, 2>& edge) -> std::optional<Vec3> {
+      const auto found = of_edge.find(edge);
+      if (found == of_edge.end()) return std::nullopt;
+      const Vec3& a = nodes[as_index(edge[0])];
+      const Vec3& b = nodes[as_index(edge[1])];
+      return placed(0.5 * (a + b), found->second, [&](const Plane& plane) {
+        return std::abs(plane.beyond(a)) < rounding && std::abs(plane.beyond(b)) < rounding;
+      });
+    });
+  }
+
+  const MeshOrder& order_;
+  std::optional<geometry::BoxTree> tree_;
+  geometry::Body body_;  // as sampled, without lumps
+  geometry::Surface faces_;
+  std::vector<int> numbers_;
+  std::vector<Plane> levels_;
+  Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
+};
+
+// Halves tetrahedra of a given mesh that are too large.
+Mesh refined(const MeshOrder& order) {
+  constexpr double longest = 1.8;
+  constexpr int most_rounds = 30;
+  geometry::TetMesh mesh = *order.mesh;
+  meshing::TrueBoundary boundary(mesh, std::nullopt, {}, {});
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<char> marks(mesh.tetrahedra.size(), 0);
+    bool any = false;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      const auto& corners = mesh.tetrahedra[t];
+      Vec3 middle = Vec3::Zero();
+      double most = 0.0;
+      for (const int node : corners) middle += 0.25 * mesh.nodes[as_index(node)];
+      for (const auto& [i, j] : geometry::corner_edges)
+        most = std::max(most, (mesh.nodes[as_index(corners[as_index(i)])] -
+                               mesh.nodes[as_index(corners[as_index(j)])])
+                                  .norm());
+      if (most <= longest * order.sizes.at(middle)) continue;
+      marks[t] = 1;
+      any = true;
+    }
+    if (!any) break;
+    meshing::Bisection bisection(
+        mesh, [&](const meshing::Bisection::Middle& edge) { return boundary.place(edge); });
+    bisection.halve(marks);
+    mesh = bisection.mesh();
+  }
+  return quadratic(mesh);
+}
+
+}  // namespace
+
+double Sizes::at(const Vec3& place) const {
+  double size = largest;
+  for (const Spot& spot : spots)
+    size = std::min(size,
+                    spot.size + growth * std::max(0.0, (place - spot.centre).norm() - spot.radius));
+  return size;
+}
+
+Mesh mesh_for(const MeshOrder& order) {
+  if (order.mesh != nullptr) return refined(order);
+  return Mesher(order).made();
+}
+
+bool symmetric(const geometry::Surface& surface, const Plane& plane) {
+  const geometry::BoxTree tree(surface);
+  Vec3 low = surface.vertices.front();
+  Vec3 high = low;
+  for (const Vec3& vertex : surface.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  const double near = 1e-4 * (high - low).norm();
+  return std::all_of(surface.vertices.begin(), surface.vertices.end(), [&](Vec3 vertex) {
+    vertex[plane.axis] = 2.0 * plane.at - vertex[plane.axis];
+    return tree.nearest(vertex).distance_squared < near * near;
+  });
+}
+
+}  // namespace palpate::solid

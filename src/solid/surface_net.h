@@ -1,0 +1,64 @@
+// Triangles of a body's faces, inner ones too, that are cut at planes and refined.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "geometry/surface.h"
+
+namespace palpate::solid {
+
+// A plane normal to an axis.
+struct Plane {
+  int axis = 0;
+  double at = 0.0;  // m
+
+  [[nodiscard]] double beyond(const Vec3& point) const { return point[axis] - at; }
+};
+
+// Any number of triangles may meet at an edge. Every triangle has a number, which its parts keep.
+class SurfaceNet {
+ public:
+  // The true place (m) of a point near triangles of these numbers.
+  using Onto = std::function<Vec3(const Vec3& point, std::span<const int> numbers)>;
+
+  SurfaceNet(geometry::Surface surface, std::vector<int> numbers, Onto onto);
+
+  // Makes edges along a plane: moves vertices that are near it, and splits edges that cross it.
+  // Vertices on it then have its coordinate exactly, also after refine().
+  void cut(const Plane& plane);
+  // Removes the triangles of which a part lies below the plane, which has been cut.
+  void drop_below(const Plane& plane);
+  // Splits edges that are longer than `size` says for their middles, the longest first, and turns
+  // edges between triangles of one number where that makes them rounder.
+  void refine(const std::function<double(const Vec3&)>& size);
+
+  // Adds a vertex on no triangle.
+  int add(const Vec3& point);
+
+  [[nodiscard]] const std::vector<Vec3>& vertices() const { return vertices_; }
+  [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::vector<int>& numbers() const { return numbers_; }
+  // All edges with both ends on a plane, ascending.
+  [[nodiscard]] std::vector<std::array<int, 2>> edges_on(const Plane& plane) const;
+
+ private:
+  using Edge = std::array<int, 2>;  // ascending
+  [[nodiscard]] Vec3 placed(const Edge& edge, double share) const;
+  int split(const Edge& edge, const Vec3& at);
+  void connect(int triangle);
+  void disconnect(int triangle);
+  void turn_edges();
+  [[nodiscard]] bool crease(const Edge& edge) const;
+
+  std::vector<Vec3> vertices_;
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<int> numbers_;
+  std::map<Edge, std::vector<int>> at_;  // triangles at every edge
+  std::vector<Plane> planes_;
+  Onto onto_;
+};
+
+}  // namespace palpate::solid

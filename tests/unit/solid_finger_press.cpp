@@ -1,0 +1,113 @@
+// Presses of cases that an independent program computed (cases lump_none and lump_a), curves and slides.
+#include "solid/finger_press.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace palpate::solid {
+namespace {
+
+// Case lump_none: mN, kPa and mm of the scene as SI.
+FingerOrder plain() {
+  FingerOrder order;
+  order.body.shape = geometry::Cuboid{Vec3(0.048, 0.044, 0.024)};
+  order.body.tissues = {{16.3e3, 0.44}};
+  order.body.mirrored = {true, true};
+  order.radius = 7.9e-3;
+  order.deepest = 0.83e-3;
+  order.touched = Vec3(0.024, 0.022, 0.024);
+  order.first_touch = order.touched + order.radius * Vec3::UnitZ();
+  return order;
+}
+
+// Case lump_a: a stiff ball in it.
+FingerOrder with_lump() {
+  FingerOrder order = plain();
+  order.body.tissues.push_back({200.49e3, 0.44});
+  order.body.inclusions = {
+      {.region = 1, .lump = geometry::Lump{Vec3(0.0283, 0.022, 0.0161), 4.6e-3, 1}}};
+  return order;
+}
+
+TEST(FingerPress, HasTheForcesAndTheContrastOfTheWitness) {
+  FingerPress without(plain());
+  FingerPress with(with_lump());
+  const auto low = without.at_travel(0.83e-3);
+  const auto high = with.at_travel(0.83e-3);
+  ASSERT_TRUE(low && high);
+  EXPECT_NEAR(low->force, 62.359e-3, 0.03 * 62.359e-3);   // lump_none, what one mesh states
+  EXPECT_NEAR(high->force, 73.049e-3, 0.03 * 73.049e-3);  // lump_a
+  EXPECT_NEAR(high->force / low->force, 73.049 / 62.359, 0.015);
+  EXPECT_EQ(without.press().body().copies, 4);
+  EXPECT_EQ(with.press().body().copies, 2);
+}
+
+TEST(FingerPress, IsOneCurveWhateverIsAskedFirst) {
+  FingerPress up(plain());
+  FingerPress down(plain());
+  const std::vector<double> travels{0.05e-3, 0.2e-3, 0.4e-3, 0.6e-3, 0.83e-3};
+  std::vector<double> forces;
+  for (const double travel : travels) forces.push_back(up.at_travel(travel)->force);
+  for (std::size_t i = travels.size(); i-- > 0;)
+    EXPECT_EQ(down.at_travel(travels[i])->force, forces[i]);
+  for (std::size_t i = 1; i < travels.size(); ++i) {
+    const double power =
+        std::log(forces[i] / forces[i - 1]) / std::log(travels[i] / travels[i - 1]);
+    EXPECT_GT(power, 1.4);
+    EXPECT_LT(power, 1.75);  // the base stiffens
+  }
+  EXPECT_EQ(up.at_travel(0.0)->force, 0.0);
+}
+
+// An elastic finger as stiff as the tissue, of one radius: Hertz's force, less by the ball's size.
+TEST(FingerPress, AnElasticFingerIsABallOfItsOwnSize) {
+  FingerOrder order = plain();
+  order.body.shape = geometry::Cuboid{Vec3(0.0753, 0.0604, 0.0183)};
+  order.body.tissues = {{2050e3, 0.45}};
+  order.ball = tissue::Isotropic{2050e3, 0.4995};
+  order.share = (1.0 - 0.45 * 0.45) / (1.0 - 0.45 * 0.45 + 0.75);
+  order.radius = 9.7e-3;
+  order.deepest = 0.61e-3;
+  order.touched = Vec3(0.03765, 0.0302, 0.0183);
+  order.first_touch = order.touched + order.radius * Vec3::UnitZ();
+  FingerPress press(order);
+  const auto found = press.at_travel(0.61e-3);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->force, 2965.6e-3, 0.03 * 2965.6e-3);  // finger_2050_061
+}
+
+// Beside the middle of a wide block the force of a slide hardly changes, and begins as pressed.
+TEST(FingerPress, SlidesAtADepth) {
+  FingerOrder order = plain();
+  const geometry::SmoothSurface skin(
+      geometry::sampled(*order.body.shape, {0.004, 0.004}).parts.front().surface);
+  order.skin = &skin;
+  order.corners.emplace_back(0.006, 0.0, 0.0);
+  FingerPress press(order);
+  EXPECT_EQ(press.press().body().copies, 2);
+  const double pressed = press.at_travel(0.83e-3)->force;
+  for (const double slid : {0.0, 0.001, 0.003, 0.006}) {
+    const auto found = press.at_slide(0.83e-3, order.corners[0], order.corners[1], slid);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->force, pressed, 0.015 * pressed) << slid;  // of other elements
+  }
+}
+
+TEST(FingerPress, ExtrapolatesWithTheSquareOfTheSize) {
+  const std::vector<double> sizes{2.0, 4.0, 8.0};
+  std::vector<double> forces;
+  for (const double n : sizes) forces.push_back(1.0 + 0.4 / (n * n));
+  const Extrapolated one = extrapolated({sizes.data(), 1}, {forces.data(), 1});
+  EXPECT_EQ(one.force, forces[0]);
+  EXPECT_EQ(one.error, error_of_one_mesh * forces[0]);
+  const Extrapolated two = extrapolated({sizes.data(), 2}, {forces.data(), 2});
+  EXPECT_NEAR(two.force, 1.0, 1e-12);
+  EXPECT_NEAR(two.error, 0.5 * 0.4 / 16.0, 1e-12);
+  EXPECT_NEAR(extrapolated(sizes, forces).error, 0.5 * 0.4 / 64.0, 1e-12);
+  forces[0] += 0.1;  // what the first two say is another thing
+  EXPECT_GT(extrapolated(sizes, forces).error, 0.01);
+}
+
+}  // namespace
+}  // namespace palpate::solid

@@ -1,0 +1,149 @@
+// Meshes for a press: volumes of parts, mirrors, true boundaries, sizes.
+#include "solid/mesher.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "geometry/cuboid.h"
+#include "solid/body.h"
+
+namespace palpate::solid {
+namespace {
+
+// Volumes (m^3) of the regions, by the integration points of curved elements.
+std::map<int, double> volumes(const Mesh& mesh) {
+  std::map<int, double> found;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    for (const Functions& at : at_points()) {
+      Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+      for (std::size_t a = 0; a < 10; ++a)
+        jacobian += mesh.nodes[std::size_t(mesh.elements[e][a])] * at.derivatives[a].transpose();
+      EXPECT_GT(jacobian.determinant(), 0.0);
+      found[mesh.regions[e]] += jacobian.determinant() / 24.0;
+    }
+  return found;
+}
+
+constexpr double ball = 4.0 / 3.0 * 3.14159265358979;
+
+MeshOrder box() {
+  return {.shape = geometry::Cuboid{Vec3(0.040, 0.036, 0.020)},
+          .sizes = {{{Vec3(0.020, 0.018, 0.020), 0.003, 0.0015}}, 0.009}};
+}
+
+// "Skin over fat with a lump": a later region replaces an earlier one, also where a slab cuts it.
+TEST(SolidMesher, LaterRegionsReplaceEarlierOnes) {
+  const geometry::Lump lump{Vec3(0.022, 0.018, 0.010), 0.004, 0};
+  const Inclusion of_lump{.region = 2, .lump = lump};
+  const Inclusion slab{.region = 1, .bottom = 0.0, .top = 0.011};
+  MeshOrder order = box();
+  order.sizes.spots.push_back({lump.centre, lump.radius, 0.002});
+  order.mirrors = {{1, 0.018}};
+  const double all = 0.040 * 0.018 * 0.020;
+  const double low = 0.040 * 0.018 * 0.011;
+  const double sphere = 0.5 * ball * std::pow(lump.radius, 3);
+  order.inclusions = {slab, of_lump};
+  std::map<int, double> found = volumes(mesh_for(order));
+  EXPECT_NEAR(found[2], sphere, 0.01 * sphere);  // curved faces of 2 mm on a radius of 4 mm
+  EXPECT_NEAR(found[0] + found[1] + found[2], all, 1e-9 * all);
+  // What of the ball is above the slab: a cap of the height h = 3 mm.
+  const double cap = 0.5 * 3.14159265358979 * 0.003 * 0.003 * (3.0 * 0.004 - 0.003) / 3.0;
+  EXPECT_NEAR(found[0], all - low - cap, 0.002 * all);
+  order.inclusions = {of_lump, slab};
+  found = volumes(mesh_for(order));
+  EXPECT_NEAR(found[1], low, 1e-9 * low);
+  EXPECT_NEAR(found[2], cap, 0.03 * cap);
+  EXPECT_NEAR(found[0] + found[1] + found[2], all, 1e-9 * all);
+}
+
+TEST(SolidMesher, MirrorsCutExactlyAndSizesAreKept) {
+  MeshOrder order = box();
+  order.mirrors = {{0, 0.020}, {1, 0.018}};
+  const Mesh mesh = mesh_for(order);
+  EXPECT_NEAR(volumes(mesh)[0], 0.020 * 0.018 * 0.020, 1e-15);
+  double sum = 0.0;
+  int near = 0;
+  for (const Element& element : mesh.elements) {
+    const Vec3& a = mesh.nodes[std::size_t(element[0])];
+    const Vec3& b = mesh.nodes[std::size_t(element[1])];
+    EXPECT_LT((a - b).norm(), 2.3 * order.sizes.at(0.5 * (a + b)) + 0.002);
+    if ((a - order.sizes.spots[0].centre).norm() > 0.002) continue;
+    sum += (a - b).norm();
+    ++near;
+  }
+  ASSERT_GT(near, 5);
+  EXPECT_NEAR(sum / near, 0.0015, 0.0006);
+  for (const Vec3& node : mesh.nodes) {
+    EXPECT_GE(node.x(), 0.020);
+    EXPECT_GE(node.y(), 0.018);
+  }
+}
+
+TEST(SolidMesher, MiddlesLieOnTheTrueBoundary) {
+  const Vec3 half(0.030, 0.026, 0.018);
+  MeshOrder order{.shape = geometry::Ellipsoid{2.0 * half},
+                  .mirrors = {{1, half.y()}},
+                  .base_level = 0.0036,
+                  .sizes = {{{Vec3(half.x(), half.y(), 2.0 * half.z()), 0.003, 0.002}}, 0.010}};
+  const Mesh mesh = mesh_for(order);
+  const double want = 0.5 * ball * half.prod();
+  EXPECT_NEAR(volumes(mesh)[0], want, 0.005 * want);  // quadratic faces of up to 10 mm
+  int on = 0;
+  int all = 0;
+  for (const OuterFace& face : mesh.boundary)
+    for (const int node : face.nodes) {
+      const Vec3& place = mesh.nodes[std::size_t(node)];
+      if (std::abs(place.y() - half.y()) < 1e-9) continue;
+      ++all;
+      on += std::abs((place - half).cwiseQuotient(half).norm() - 1.0) < 1e-6 ? 1 : 0;
+    }
+  EXPECT_GT(on, 0.98 * all);  // an edge that would turn an element inside out stays straight
+}
+
+TEST(SolidMesher, RefinesGivenTetrahedraWithTheirRegions) {
+  geometry::TetMesh given =
+      geometry::cuboid({0.040, 0.036, 0.020}, {4, 4, 2}, geometry::CellPattern::mirrored);
+  given.regions.assign(given.tetrahedra.size(), 0);
+  double upper = 0.0;
+  for (std::size_t t = 0; t < given.tetrahedra.size(); ++t) {
+    double z = 0.0;
+    for (const int node : given.tetrahedra[t]) z += 0.25 * given.nodes[std::size_t(node)].z();
+    if (z > 0.010) given.regions[t] = 1;
+    if (z > 0.010) upper += geometry::signed_volume(given, int(t));
+  }
+  MeshOrder order = box();
+  order.shape.reset();
+  order.mesh = &given;
+  const Mesh mesh = mesh_for(order);
+  EXPECT_GT(mesh.elements.size(), 2 * given.tetrahedra.size());
+  EXPECT_NEAR(volumes(mesh)[1], upper, 1e-12 * upper);
+}
+
+TEST(SolidMesher, RefusesALumpThatSticksOut) {
+  MeshOrder order = box();
+  order.inclusions = {{.region = 1, .lump = geometry::Lump{Vec3(0.020, 0.018, 0.018), 0.003, 0}}};
+  EXPECT_THROW((void)mesh_for(order), MeshError);
+}
+
+TEST(SolidMesher, GivesTheSameMeshTwice) {
+  const MeshOrder order = box();
+  const Mesh one = mesh_for(order);
+  const Mesh two = mesh_for(order);
+  EXPECT_EQ(one.nodes, two.nodes);
+  EXPECT_EQ(one.elements, two.elements);
+}
+
+TEST(SolidMesher, KnowsMirrorImages) {
+  const geometry::Surface surface =
+      geometry::sampled(geometry::Ellipsoid{Vec3(0.03, 0.04, 0.05)}, {0.004, 0.004})
+          .parts.front()
+          .surface;
+  EXPECT_TRUE(symmetric(surface, {0, 0.015}));
+  EXPECT_FALSE(symmetric(surface, {0, 0.016}));
+}
+
+}  // namespace
+}  // namespace palpate::solid
