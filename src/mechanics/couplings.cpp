@@ -430,10 +430,4 @@ std::optional<std::string> Resolved::step(const StepTo& to) {
   return step_by(MemoryRule::first_order, find, to.touch);
 }
 
-std::optional<std::string> OnSolid::step(const StepTo& to) {
-  if (auto wrong = contact_.press(to.finger, part->state.displacement, to.touch)) return wrong;
-  contact_load(to.touch, *part, part->load);
-  return std::nullopt;
-}
-
 }  // namespace palpate::mechanics

@@ -12,7 +12,6 @@
 #include "mechanics/contact_inertia.h"
 #include "mechanics/resolved_contact.h"
 #include "mechanics/skin_contacts.h"
-#include "mechanics/solid_contact.h"
 
 namespace palpate::mechanics {
 
@@ -166,19 +165,7 @@ class Resolved : public FromMesh {
   ResolvedContact contact_;
 };
 
-// `resolved` on a neo-Hookean solid, which is in equilibrium at the end of every step.
-class OnSolid : public OnMesh {
- public:
-  OnSolid(SkinContacts& contacts, MovingPart& moving)
-      : OnMesh(contacts, moving), contact_(moving) {}
-  [[nodiscard]] std::optional<std::string> step(const StepTo& to);
-  [[nodiscard]] double stored() const { return contact_.stored(); }  // J
-
- private:
-  SolidContact contact_;
-};
-
 // The coupling of a scene, chosen once.
-using Coupling = std::variant<OneWay, Consistent, ConsistentWithInertia, Series, Resolved, OnSolid>;
+using Coupling = std::variant<OneWay, Consistent, ConsistentWithInertia, Series, Resolved>;
 
 }  // namespace palpate::mechanics

@@ -11,8 +11,6 @@ using integrate::Vector;
 
 Coupling make_coupling(SkinContacts& skin, MovingPart& part) {
   const scenario::Resolved& scenario = part.scene->scenario;
-  if (scenario::rung(scenario.solver.model).solid)
-    return Coupling(std::in_place_type<OnSolid>, skin, part);
   switch (scenario.contact.coupling) {
     case contact::Coupling::one_way: return Coupling(std::in_place_type<OneWay>, skin, part);
     case contact::Coupling::series: return Coupling(std::in_place_type<Series>, skin, part);
@@ -113,11 +111,6 @@ std::optional<std::string> PressedMesh::step(const Vec3& finger, double time,
   }
   if (auto wrong = go(finger, duration)) return wrong;
   part_.state.time = time;  // a sum of steps would accumulate rounding errors
-  if (const auto* solid = std::get_if<OnSolid>(&coupling_))
-    return part_.monitor->account(
-        0.5 * (part_.load_before + part_.load)
-                  .dot(part_.state.displacement - part_.before.displacement),
-        0.0, solid->stored());
   // Modal steps with inertia are loaded by the mean load during the whole step.
   const bool mean = std::holds_alternative<ConsistentWithInertia>(coupling_) &&
                     std::holds_alternative<integrate::Modal>(part_.stepper->method());

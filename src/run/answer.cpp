@@ -24,7 +24,7 @@ const char* plain_word(Model model) {
     case Model::layer: return "the formula for a flat layer";
     case Model::mass_spring: return "a mesh of springs";
     case Model::coupled_springs: return "a mesh with the tissue's elasticity";
-    case Model::neo_hookean: return "a mesh for large strains";
+    case Model::solid: return "a mesh for large strains";
   }
   return "";
 }
@@ -94,7 +94,7 @@ class Words {
       const scene::Forecast& other = choice.otherwise;
       if (other.model == rung_.of && factors(choice.otherwise_found) == factors())
         return "It would be chosen anyway.";
-      const bool corrected = rung_.meshed() || scene_.size_ratio;
+      const bool corrected = !rung_.formula() || scene_.size_ratio;
       const std::string reason = corrected ? "" : " " + against(rung_.of, " is ");
       return "Without `solver.model` it would be " + word(other.model) +
              (other.model == rung_.of ? factors(choice.otherwise_found) : "") + ", " +
@@ -331,7 +331,7 @@ class LeftOuts {
 
   void overhang() {
     const double most = e_.overhang * (2.0 - e_.overhang);  // as ModelErrors counts it
-    if (!mesh_is_tissue() && most > 0.2 * tolerance())
+    if (!rung_.solid && !mesh_is_tissue() && most > 0.2 * tolerance())
       omit("that the contact reaches beyond an edge of the body", -most,
            "which may take up to " + percent_text(most) + " off the force",
            "press farther from the edge");
@@ -349,18 +349,16 @@ class LeftOuts {
     if (rung_.solid || scene_.depth_ratio || std::abs(e_.deep) < 0.2 * tolerance()) return;
     std::string remedy;
     if (mesh_is_tissue())
-      remedy = "set `solver.model = \"neo_hookean\"`";
+      remedy = "set `solver.model = \"solid\"` and leave out `contact.coupling`";
     else if (e_.depth_ratio)
       remedy = "add `contact.depth = \"neo_hookean\"`";
     omit("large strains", e_.deep, would(e_.deep) + " where it is deepest", remedy);
   }
 
   void viscosity() {
-    if (!scene_.relaxation.elastic() || (mesh_is_tissue() && !rung_.solid) ||
-        e_.viscous <= 0.2 * tolerance())
+    if (!scene_.relaxation.elastic() || mesh_is_tissue() || e_.viscous <= 0.2 * tolerance())
       return;
     std::string remedy = "add `contact.viscosity = \"tissue\"`";
-    if (rung_.solid) remedy = "";
     if (one_way()) remedy += " and leave out `contact.coupling`";
     omit("viscosity", e_.viscous, would(e_.viscous) + " while pressing", remedy, "viscosity");
   }
@@ -394,10 +392,14 @@ class LeftOuts {
 
 std::vector<LeftOut> left_out(const scene::Scene& scene) { return LeftOuts(scene).all(); }
 
+bool states_mesh_error(const scene::Scene& scene) {
+  return !scene.scenario.uniform() &&
+         (scene.solid || (scene.specimen && scene.scenario.contact.coupling ==
+                                                contact::Coupling::consistent));
+}
+
 std::optional<double> mesh_error(const scene::Scene& scene) {
-  if (!scene.specimen || scene.scenario.uniform() ||
-      scene.scenario.contact.coupling != contact::Coupling::consistent)
-    return std::nullopt;
+  if (scene.solid || !states_mesh_error(scene)) return std::nullopt;
   mechanics::PressedMesh mesh(scene);
   mechanics::Touch touch;
   touch.finger = scene::first_touch(scene).finger;

@@ -143,9 +143,9 @@ class Findings {
     // JKR pull-off 1.5 pi w R at w = 0.05 J/m^2, of the order of wet skin    docs/theory.md (44)
     const double pull_off = 1.5 * std::numbers::pi * 0.05 * radius;
     add("force_over_pull_off", peak.contact_force / pull_off);
-    if (scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent) {
+    if (states_mesh_error(scene_)) {
       add("mesh_error", peak.mesh_error);
-      if (peak.mesh_error > scene_.scenario.solver.tolerance)
+      if (scene_.specimen && peak.mesh_error > scene_.scenario.solver.tolerance)
         remark("the mesh's own error in the force is " + error_text(peak.mesh_error) +
                ", above the tolerance of " + percent_text(scene_.scenario.solver.tolerance) +
                (scene_.specimen->refined
@@ -205,9 +205,8 @@ class Findings {
     add("inertia_effect", expected_.inertia);
     add("curvature_ratio", expected_.curvature_ratio);
     if (const auto* forecast = scene_.choice.taken()) add("predicted_error", forecast->error);
-    const bool states =
-        scene_.specimen && scene_.scenario.contact.coupling == contact::Coupling::consistent;
-    const auto mesh_error = states ? std::optional(peak.mesh_error) : std::nullopt;
+    const auto mesh_error =
+        states_mesh_error(scene_) ? std::optional(peak.mesh_error) : std::nullopt;
     if (const auto stated = stated_error(scene_, mesh_error)) add("stated_error", *stated);
     if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty()) remark(text);
     const scene::SurfaceTouch& touch = scene_.choice.touch;

@@ -14,6 +14,7 @@
 #include "run/pace.h"
 #include "run/pressure_map.h"
 #include "run/scene_picture.h"
+#include "run/solid_press.h"
 #include "scene/first_touch.h"
 
 namespace palpate::run {
@@ -67,6 +68,11 @@ class Press {
  public:
   Press(const scene::Scene& scene, record::CaseRecord& record)
       : scene_(scene), record_(record), history_(scene) {
+    if (scene.solid) {
+      solid_.emplace(scene);
+      first_ = touch_.finger = scene.solid->first_touch;
+      return;
+    }
     if (!scene.specimen) {
       first_ = scene::pressed_place(scene);
       touch_.finger = first_ + scene.finger.sphere_radius * Vec3::UnitZ();
@@ -98,7 +104,7 @@ class Press {
         if (kept && (!kept_modes_ || kept->dropped_share > kept_modes_->dropped_share))
           kept_modes_ = kept;
       }
-      if (scene_.scenario.output.pressure_maps) add_map();
+      if (scene_.scenario.output.pressure_maps && !solid_) add_map();
       if (wants_meshes_at(scenario::Output::Meshes::steps)) add_frame();
     }
     if (mesh_) {
@@ -111,6 +117,7 @@ class Press {
         record_.findings.push_back({"dropped_inertia", kept_modes_->dropped_share});
       }
     }
+    if (solid_) solid_->add_findings(record_);
     if (mesh_ && scene_.scenario.solver.rings)
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
     if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
@@ -205,6 +212,13 @@ class Press {
   // Advances to the finger's position after `time` s of the motion, at `now` (s).
   bool advance(const Motion& motion, double time, double now) {
     const Vec3 sideways = move_finger(motion, time);
+    if (solid_) {
+      const double along = (sideways - motion.start).norm();
+      if (auto wrong = solid_->find({motion.start, motion.end, along}, touch_))
+        return diverged(*wrong);
+      history_.pass(scene_, solver_step_, touch_);
+      return true;
+    }
     if (!mesh_) {
       if (auto wrong = mechanics::press_half_space(scene_, first_ + sideways, touch_))
         return diverged(*wrong);
@@ -252,6 +266,7 @@ class Press {
 
   void write_row() {
     record::ContactRow row = contact_row(scene_, touch_);
+    if (solid_) solid_->complete(row);
     row.step = step_;
     row.time = time_;
     record_.add(row);
@@ -321,6 +336,7 @@ class Press {
   record::CaseRecord& record_;
   mechanics::ContactHistory history_;
   std::optional<mechanics::PressedMesh> mesh_;
+  std::optional<SolidPress> solid_;
   double solver_step_ = 0.0;  // s
   Vec3 first_ =
       Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's

@@ -247,9 +247,9 @@ class Checker {
       problem("contact.depth",
               "with this `coupling` the mesh is the tissue, and the factor is that of a contact "
               "law; write `coupling = \"consistent\"`, or `depth = \"hertz\"`");
+    if (given != nullptr && given->solid && !scenario_.uniform()) solid();
     if (!scenario_.meshed()) return;
     if (given != nullptr) springs(*given);
-    if (given != nullptr && given->solid) solid();
     if (scenario_.contact.coupling == contact::Coupling::resolved && solver.integrator &&
         (about(*solver.integrator).explicit_steps || solver.integrator == Integrator::modal))
       problem("solver.integrator",
@@ -299,23 +299,22 @@ class Checker {
                                    independent);
   }
 
-  // Checks `neo_hookean`, which is solved at rest, node by node.
+  // Checks what `solid` does not know: it is at rest, and without friction.
   void solid() {
-    const Solver& solver = scenario_.solver;
-    if (scenario_.contact.coupling != contact::Coupling::resolved && !scenario_.uniform())
+    if (scenario_.contact.coupling != contact::Coupling::consistent)
       problem("contact.coupling",
-              "`neo_hookean` meets the finger node by node; write `coupling = \"resolved\"`");
-    if (!scenario_.finger.rigid() && !scenario_.uniform())
-      problem("finger.material",
-              "`neo_hookean` knows a rigid finger only; write `material = \"rigid\"`");
-    if (solver.integrator && *solver.integrator != Integrator::quasi_static)
-      problem("solver.integrator",
-              "`neo_hookean` is solved at rest; write `integrator = \"quasi_static\"`");
-    if (solver.rings)
-      problem("solver.rings", "`neo_hookean` moves the whole specimen; leave `rings` out");
-    if (solver.kinematics == Solver::Kinematics::nonlinear)
-      problem("solver.kinematics",
-              "`neo_hookean` has kinematics of its own; leave `kinematics` out");
+              "`solid` carries contact and tissue in one mesh; leave `coupling` out");
+    for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
+      const auto* slide = std::get_if<Slide>(&scenario_.steps[i]);
+      if (slide == nullptr) continue;
+      const std::string meshed = models_that(std::mem_fn(&Rung::meshed));
+      if (slide->keep == Slide::Keep::force)
+        problem("step." + std::to_string(i + 1) + ".keep",
+                "`solid` slides at a depth; write `keep = \"travel\"`, or set " + meshed);
+      if (scenario_.contact.friction > 0.0)
+        problem("contact.friction",
+                "`solid` slides without friction; leave `friction` out, or set " + meshed);
+    }
   }
 
   // Whether the scenario itself contains a dotted path.

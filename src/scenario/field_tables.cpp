@@ -22,8 +22,7 @@ Conditions::Conditions(const Scenario& scenario) {
                       "with " + models_that(std::mem_fn(&Rung::independent)), Use::Otherwise::note}
                 : mesh;
   based = model && rung(*model).thickness ? Use{} : mesh;
-  formula = {!model || !rung(*model).meshed(),
-             "with " + models_that([](const Rung& one) { return !one.meshed(); }),
+  formula = {!model || rung(*model).formula(), "with " + models_that(std::mem_fn(&Rung::formula)),
              Use::Otherwise::note};
   // If steps of both kinds are mixed, the mixture is reported instead of the keys of the finger.
   const bool presses = !std::all_of(scenario.steps.begin(), scenario.steps.end(), loads_end_faces);

@@ -230,7 +230,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   specimen->mesh = shape.mesh;
   specimen->refined = shape.refined;
   const scenario::Rung& rung = scenario::rung(scenario.solver.model);
-  if (!rung.solid) specimen->law = scenario.tissue.law;
+  specimen->law = scenario.tissue.law;
   if (scenario.solver.kinematics == scenario::Solver::Kinematics::nonlinear)
     specimen->kinematics =
         rung.coupled() ? tissue::Kinematics::squared : tissue::Kinematics::nonlinear;
@@ -299,7 +299,7 @@ void set_depth_ratio(Scene& scene, const scenario::Family& family) {
 
 void set_size_ratio(Scene& scene, const scenario::Family& family) {
   const scenario::Resolved& scenario = scene.scenario;
-  const bool formula = !scenario.meshed() && !scenario.uniform();
+  const bool formula = scenario::rung(scenario.solver.model).formula() && !scenario.uniform();
   if (!formula || scenario.contact.size != scenario::Contact::Size::body) return;
   const Choice& choice = scene.choice;
   scene.size_ratio = size_ratio(scenario.solver.model, scenario, choice.touch, choice.expected);
@@ -334,7 +334,7 @@ void refuse_sliding(const Scene& scene, const scenario::Family& family) {
   constexpr double steepest = 3.0;  // degrees; less is the uncertainty of a triangulated surface
   const SurfaceTouch& touch = scene.choice.touch;
   if (scene.scenario.uniform() || scene.scenario.tissue.base != tissue::Base::frictionless ||
-      !scenario::rung(scene.scenario.solver.model).meshed() || !touch.known() ||
+      scenario::rung(scene.scenario.solver.model).formula() || !touch.known() ||
       touch.inclination() <= steepest)
     return;
   throw InputError(place_of(family.document, "tissue.base"),
@@ -391,8 +391,8 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
     case Model::hertz: break;
     case Model::layer: set_layer(scene, shapes); break;
     case Model::mass_spring:
-    case Model::coupled_springs:
-    case Model::neo_hookean: set_specimen(scene, family, shapes); break;
+    case Model::coupled_springs: set_specimen(scene, family, shapes); break;
+    case Model::solid: scene.solid = make_solid_body(scene, family.folder, shapes); break;
   }
   return scene;
 }

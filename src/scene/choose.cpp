@@ -164,7 +164,7 @@ class Chooser {
     }
     std::string formulas;
     for (const Rung& rung : scenario::ladder)
-      if (!rung.meshed() && !beyond(rung.of, asked_, choice_.touch))
+      if (rung.formula() && !beyond(rung.of, asked_, choice_.touch))
         formulas += (formulas.empty() ? "" : " or ") + std::string(rung.word);
     ask(Asked::rigid_tissue, e.tissue_share, std::min(limit, 0.02));
     ask(Asked::half_space, half_space_error(e), limit,
@@ -277,16 +277,15 @@ class Chooser {
         choice_.rungs.push_back({.model = rung.of, .cannot = *cannot});
         return;
       }
-    // The times of a set-up by conjugate gradients and of a sparse Cholesky factorisation.
+    // The time of a set-up by conjugate gradients.
     const double nodes = expected_nodes(asked_.tissue.mesh);
     const double set_up = 5.5e-5 * nodes * std::max(1.0, std::cbrt(nodes / 8000.0));
-    const double factorisation = 0.4 * std::pow(nodes / 2200.0, 2.27) + 1e-4 * nodes;
     choice_.rungs.push_back(
         {.model = rung.of,
          .error = error,
          .of_mesh = of_mesh,
          .seconds = rung.cost.once + (asked_.regions.empty() ? 0.0 : rung.cost.layered) +
-                    rung.cost.set_ups * set_up + rung.cost.factorisations * factorisation});
+                    rung.cost.set_ups * set_up});
   }
 
   void take_cheapest() {

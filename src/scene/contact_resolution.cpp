@@ -74,10 +74,7 @@ void refuse_unresolved(const Scene& scene) {
   throw MeshError("`resolved` needs 3 cells along the contact radius, and the mesh has " +
                   rounded_text(cells, 2) + " at the deepest travel of " +
                   quantity_text(deepest_travel(scene.scenario, scene.law()), unit::mm) +
-                  "; give `tissue.mesh` more cells or a `grading`, or set " +
-                  (scenario::rung(scene.scenario.solver.model).solid
-                       ? "`solver.model = \"coupled_springs\"` with "
-                       : "") +
+                  "; give `tissue.mesh` more cells or a `grading`, or set "
                   "`contact.coupling = \"consistent\"`");
 }
 

@@ -52,7 +52,7 @@ std::optional<std::string> beyond(scenario::Model model, const scenario::Resolve
       return beyond_half_space(scenario, touch);
     case scenario::Model::mass_spring:
     case scenario::Model::coupled_springs:
-    case scenario::Model::neo_hookean:
+    case scenario::Model::solid:
       if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
         return "a `half_space` is infinite and cannot be meshed";
   }

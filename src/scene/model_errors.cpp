@@ -16,6 +16,9 @@ using scenario::Rung;
 
 namespace {
 
+// What two or three meshes of `solid` leave open where a tolerance below that of one is asked for.
+constexpr double least_of_solid = 0.005;
+
 // The error of cells that are coarse compared with the thickness, 0.15 (cell / thickness)^2:
 // measured on discs of 5 and 10 mm and on thin blocks. Flat layers have an exact law.
 double coarseness(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
@@ -40,14 +43,16 @@ double beside_edge(const SurfaceTouch& touch, const Estimates& estimates) {
 }  // namespace
 
 double ModelErrors::of(const Rung& rung, const Found& found) const {
+  if (rung.solid) return of_mesh(rung) + of_waves(rung, found);
   return (rung.meshed() ? of_mesh(rung) : of_size(rung, found) + beside_edge(touch_, e_)) +
-         of_waves(rung, found) + of_overhang() + (rung.solid ? 0.0 : of_depth(found));
+         of_waves(rung, found) + of_overhang() + of_depth(found);
 }
 
 double ModelErrors::of_mesh(const Rung& rung) const {
+  if (rung.solid)
+    return std::min(rung.error.flat, std::max(asked_.solver.tolerance, least_of_solid));
   if (!rung.meshed()) return 0.0;
   const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
-  if (rung.solid) return rung.error.flat + coarseness_of_solid() + (box ? 0.0 : rung.error.curved);
   const double error = coarseness(asked_, touch_) + rung.error.flat + rung.error.sides * e_.sides +
                        (box ? 0.0 : rung.error.curved + rung.error.size * e_.curved_body) +
                        (all_slabs(asked_) || !several_tissues(asked_) ? 0.0 : rung.error.mixed);
@@ -98,15 +103,6 @@ double ModelErrors::of_waves(const Rung& rung, const Found& found) const {
   const auto& integrator = given_.solver.integrator;
   const bool moving = integrator ? about(*integrator).inertia : found.inertia_matters;
   return (rung.inertia && moving && moves() ? rung.error.waves : 1.0) * counted(e_.inertia);
-}
-
-// What cells cost nearly incompressible tetrahedra: measured on a block of 60 x 60 x 30 mm,
-// pressed by 8 mm, on 726 to 3179 nodes, with nu from 0.33 to 0.49.
-double ModelErrors::coarseness_of_solid() const {
-  const Vec3& size = touch_.size;
-  const double cell = std::cbrt(size.prod() / expected_nodes(asked_.tissue.mesh));
-  const double ratio = std::min(1.0, cell / size.z());
-  return 30.0 * ratio * ratio * std::max(0.0, asked_.tissue.poisson_ratio - 0.4);
 }
 
 bool coarse_mesh(const scenario::Resolved& scenario, const SurfaceTouch& touch) {

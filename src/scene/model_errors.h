@@ -36,7 +36,6 @@ class ModelErrors {
   [[nodiscard]] double of_depth(const scenario::Found& found) const;
   [[nodiscard]] double of_overhang() const;
   [[nodiscard]] double of_waves(const scenario::Rung& rung, const scenario::Found& found) const;
-  [[nodiscard]] double coarseness_of_solid() const;
 
   const scenario::Scenario& given_;
   const scenario::Resolved& asked_;

@@ -13,6 +13,7 @@
 #include "scenario/resolved.h"
 #include "scene/estimates.h"
 #include "scene/refining_press.h"
+#include "scene/solid_body.h"
 #include "scene/spring_body.h"
 #include "scene/surface_touch.h"
 #include "scene/time_plan.h"
@@ -59,7 +60,7 @@ struct Forecast {
 
   // The error with what the mesh at hand costs, if that is known.
   [[nodiscard]] double known(std::optional<double> mesh_error) const {
-    return mesh_error && scenario::rung(model).meshed() ? error - of_mesh + *mesh_error : error;
+    return mesh_error && !scenario::rung(model).formula() ? error - of_mesh + *mesh_error : error;
   }
 };
 
@@ -156,7 +157,8 @@ struct Scene {
   std::optional<contact::DepthRatio> depth_ratio;  // with `contact.depth = "neo_hookean"`
   std::optional<SizeRatio> size_ratio;             // with `contact.size = "body"`
   std::optional<contact::LayerContact> layer;    // for `layer`, and for `consistent` on flat layers
-  std::unique_ptr<Specimen> specimen;            // null for `hertz` and `layer`
+  std::unique_ptr<Specimen> specimen;            // null for `hertz`, `layer` and `solid`
+  std::unique_ptr<SolidBody> solid;              // null for the others
   SinkingStore* sinkings = nullptr;              // of cases that share bodies; outlives the scene
   integrate::KnownModes* known_modes = nullptr;  // of a body that is run again; outlives the scene
 

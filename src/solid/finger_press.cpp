@@ -12,10 +12,10 @@
 namespace palpate::solid {
 namespace {
 
-using Curve = std::vector<std::pair<double, double>>;  // travel and force, ascending
+using Pairs = std::vector<std::pair<double, double>>;  // of a travel and another quantity, ascending
 
 // The parabola through the three points nearest to x in logarithms; a power below the first.
-double between(const Curve& points, double x) {
+double between(const Pairs& points, double x) {
   if (!(x > 0.0)) return 0.0;
   if (points.size() == 1 || x < points.front().first) {
     const auto& [d, f] = points.front();
@@ -125,79 +125,93 @@ std::optional<Answer> FingerPress::go(const Vec3& place, double travel) {
   return found;
 }
 
-// Adds points of the tissue at a quarter and half of the order's travel and there, and beyond it by
-// doubling up to the tissue's travel: a curve does not depend on what was asked first.
-bool FingerPress::extend(double travel) {
-  if (!reason_.empty()) return false;
+// The curve at a place, with points at a quarter and half of the order's travel and there, and beyond
+// it by up to half more at a time: a curve does not depend on what was asked first. Null where no
+// equilibrium was found.
+FingerPress::Curve* FingerPress::curve_at(const Vec3& place, double travel) {
+  if (!reason_.empty()) return nullptr;
+  auto found = std::find_if(curves_.begin(), curves_.end(),
+                            [&](const Curve& one) { return one.place == place; });
+  if (found == curves_.end()) found = curves_.insert(found, {.place = place});
+  Curve& curve = *found;
   const double deepest = order_.share * order_.deepest;
-  while (reached_ < std::max(deepest, travel)) {
-    double next = points_.empty() ? 0.25 * deepest : 2.0 * reached_;
-    if (reached_ >= deepest) next = std::min(next, 1.5 * reached_);
-    const auto found = go(Vec3::Zero(), next);
-    if (!found) return false;
-    reached_ = next;
-    points_.push_back({next - found->lost, found->normal(), moment_of(*found, found->normal())});
+  if (curve.points.empty()) press_->begin(order_.first_touch + place);
+  while (curve.reached < std::max(deepest, travel)) {
+    double next = curve.points.empty() ? 0.25 * deepest : 2.0 * curve.reached;
+    if (curve.reached >= deepest) next = std::min(next, 1.5 * curve.reached);
+    const auto answer = go(place, next);
+    if (!answer) return nullptr;
+    curve.reached = next;
+    if (answer->normal() > 0.0)
+      curve.points.push_back(
+          {next - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
   }
-  return true;
+  return &curve;
 }
 
 // The tissue's part of the finger's travel: the ball takes the rest at the same force.
-double FingerPress::tissue_travel(double travel) const {
+double FingerPress::tissue_travel(const Curve& tissue, double travel) const {
   if (ball_.empty()) return order_.share * travel;
-  Curve tissue;
-  Curve ball;
-  for (const Point& point : points_) tissue.emplace_back(point.travel, point.force);
-  for (const Point& point : ball_) ball.emplace_back(point.travel, point.force);
+  Pairs of_tissue;
+  Pairs of_ball;
+  for (const Point& point : tissue.points) of_tissue.emplace_back(point.travel, point.force);
+  for (const Point& point : ball_) of_ball.emplace_back(point.travel, point.force);
   double low = 0.0;
   double high = travel;
   constexpr int halvings = 60;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
-    (between(tissue, middle) < between(ball, travel - middle) ? low : high) = middle;
+    (between(of_tissue, middle) < between(of_ball, travel - middle) ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
-std::optional<Moment> FingerPress::at_travel(double travel) {
+std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
   if (!(travel > 0.0)) return Moment{};
-  if (!extend(order_.share * travel)) return std::nullopt;
-  const double own = tissue_travel(travel);
-  Curve force;
-  Curve radius;
-  Curve pressure;
-  for (const Point& point : points_) {
+  const Curve* curve = curve_at(place, order_.share * travel);
+  if (curve == nullptr) return std::nullopt;
+  if (curve->points.empty()) return Moment{};
+  const double own = tissue_travel(*curve, travel);
+  Pairs force;
+  Pairs radius;
+  Pairs pressure;
+  for (const Point& point : curve->points) {
     force.emplace_back(point.travel, point.force);
     radius.emplace_back(point.travel, point.moment.contact_radius);
     pressure.emplace_back(point.travel, point.moment.peak_pressure);
   }
-  const auto root = [&](const Curve& points) {
+  const auto root = [&](const Pairs& points) {
     // Contact radius and pressure begin with the root of the travel.
     return own < points.front().first
                ? points.front().second * std::sqrt(own / points.front().first)
                : between(points, own);
   };
-  const auto nearest = std::find_if(points_.begin(), points_.end(),
+  const auto nearest = std::find_if(curve->points.begin(), curve->points.end(),
                                     [&](const Point& point) { return point.travel >= own; });
-  return Moment{between(force, own), root(radius), root(pressure),
-                (nearest == points_.end() ? points_.back() : *nearest).moment.touching};
+  const Point& at = nearest == curve->points.end() ? curve->points.back() : *nearest;
+  return Moment{between(force, own), root(radius), root(pressure), at.moment.touching};
 }
 
 std::optional<Moment> FingerPress::at_slide(double travel, const Vec3& start, const Vec3& end,
                                             double slid) {
   const double length = (end - start).norm();
   if (slid_.empty() || slide_start_ != start || slide_end_ != end || slide_travel_ != travel) {
-    const auto pressed = at_travel(travel);
-    if (!pressed) return std::nullopt;
+    const Curve* curve = travel > 0.0 ? curve_at(start, order_.share * travel) : nullptr;
+    if (curve == nullptr || curve->points.empty()) {
+      if (reason_.empty()) return Moment{};
+      return std::nullopt;
+    }
     std::tie(slide_start_, slide_end_, slide_travel_) = std::tuple(start, end, travel);
     slid_.clear();
-    const double own = tissue_travel(travel);
+    const double own = tissue_travel(*curve, travel);
     const double step = 0.5 * std::sqrt(order_.radius * travel);
     const int parts = std::clamp(static_cast<int>(std::ceil(length / step)), 4, 60);
     // The exponent of the force at this depth, by which the penalty's depth is taken out.
-    const Point& last = points_.back();
-    const double power = points_.size() > 1
-                             ? std::log(last.force / points_[points_.size() - 2].force) /
-                                   std::log(last.travel / points_[points_.size() - 2].travel)
+    const std::vector<Point>& points = curve->points;
+    const Point& last = points.back();
+    const double power = points.size() > 1
+                             ? std::log(last.force / points[points.size() - 2].force) /
+                                   std::log(last.travel / points[points.size() - 2].travel)
                              : 1.5;
     for (int k = 0; k <= parts; ++k) {
       const double share = static_cast<double>(k) / parts;

@@ -47,10 +47,11 @@ class FingerPress {
   // What the order points to must outlive the call. Throws MeshError.
   explicit FingerPress(FingerOrder order, const Told& told = {});
 
-  // Nothing where no equilibrium was found; reason() then says why. Throws Stopped.
-  [[nodiscard]] std::optional<Moment> at_travel(double travel);
-  // At a place beside the first touch, after `slid` m from the start of a slide that begins beside
-  // it by `start` (m) and ends at `end`. Its points are found in the order of calls.
+  // At a place beside the first touch (m). Nothing where no equilibrium was found; reason() then
+  // says why. Throws Stopped.
+  [[nodiscard]] std::optional<Moment> at_travel(double travel, const Vec3& place = Vec3::Zero());
+  // At one travel after `slid` m of a slide from `start` to `end`, which are places beside the first
+  // touch (m). The points of the slide are found with the first call for it.
   [[nodiscard]] std::optional<Moment> at_slide(double travel, const Vec3& start, const Vec3& end,
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
@@ -65,17 +66,22 @@ class FingerPress {
     double force = 0.0;   // N
     Moment moment;
   };
-  [[nodiscard]] bool extend(double travel);
+  // The force on the tissue over its part of the travel, at one place.
+  struct Curve {
+    Vec3 place = Vec3::Zero();
+    std::vector<Point> points = {};
+    double reached = 0.0;  // m, travel of the tissue at the last of them, with what is lost
+  };
+  [[nodiscard]] Curve* curve_at(const Vec3& place, double travel);
   [[nodiscard]] std::optional<Answer> go(const Vec3& place, double travel);
   [[nodiscard]] static Moment moment_of(const Answer& answer, double force);
   void find_ball();
-  [[nodiscard]] double tissue_travel(double travel) const;
+  [[nodiscard]] double tissue_travel(const Curve& tissue, double travel) const;
 
   FingerOrder order_;
   Told told_;
   std::unique_ptr<Press> press_;
-  std::vector<Point> points_;  // of the tissue
-  double reached_ = 0.0;       // m, travel of the tissue at the last of them, with what is lost
+  std::vector<Curve> curves_;
   std::vector<Point> ball_;    // of an elastic finger
   std::string reason_;
   // The slide at hand.

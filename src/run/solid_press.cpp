@@ -1,0 +1,149 @@
+// Presses the solid on one or several meshes.
+#include "run/solid_press.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+#include "base/units.h"
+
+namespace palpate::run {
+namespace {
+
+// Elements per contact radius of the one mesh, and of those that are extrapolated. The third is
+// taken where the second states more than half a percent.
+constexpr double of_one = 2.0;
+constexpr std::array<double, 2> of_two{2.0, 3.2};
+constexpr double of_third = 4.4;
+constexpr double agreed = 0.005;
+
+// Where slides begin and end, m beside the first touch, from there on.
+std::vector<Vec3> corners_of(const scenario::Resolved& scenario) {
+  std::vector<Vec3> corners{Vec3::Zero()};
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
+      const double angle = slide->direction * std::numbers::pi / 180.0;
+      corners.push_back(corners.back() +
+                        slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0));
+    }
+  return corners;
+}
+
+}  // namespace
+
+SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
+  if (scene.scenario.solver.tolerance < solid::error_of_one_mesh)
+    for (const double number : of_two) add_mesh(number);
+  else
+    add_mesh(of_one);
+}
+
+solid::FingerOrder SolidPress::order(double per_radius) const {
+  const scenario::Resolved& scenario = scene_->scenario;
+  const scene::SolidBody& given = *scene_->solid;
+  const scene::Finger& finger = scene_->finger;
+  solid::FingerOrder order;
+  solid::BodyOrder& body = order.body;
+  body.shape = given.shape;
+  body.surface = given.surface.get();
+  body.mesh = given.mesh ? &*given.mesh : nullptr;
+  body.region_of = given.substance_of;
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
+    solid::Inclusion one{.region = static_cast<int>(i) + 1};
+    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
+      one.lump = geometry::Lump{Vec3(lump->centre[0], lump->centre[1], lump->centre[2]),
+                                lump->radius, one.region};
+    else if (const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part))
+      std::tie(one.bottom, one.top) = std::pair(slab->bottom, slab->top);
+    else
+      continue;
+    body.inclusions.push_back(one);
+  }
+  body.tissues = scene::tissues_of(scenario);
+  body.base = scenario.tissue.base;
+  body.base_level = given.base_level;
+  body.mirrored = {true, true};
+  body.per_radius = per_radius;
+  order.skin = given.skin.get();
+  order.centres = finger.centres;
+  order.radius = finger.sphere_radius;
+  if (scenario.finger.elastic) {
+    const auto& [modulus, ratio] = *scenario.finger.elastic;
+    order.ball = tissue::Isotropic{modulus, std::min(ratio, scene::most_poisson_ratio)};
+    order.share = 1.0 - finger.compliance_share;
+  }
+  order.deepest = scene::deepest_travel(scenario, finger.whole);
+  order.first_touch = given.first_touch;
+  order.touched = given.touched;
+  order.corners = corners_of(scenario);
+  return order;
+}
+
+void SolidPress::add_mesh(double per_radius) {
+  presses_.push_back(std::make_unique<solid::FingerPress>(order(per_radius)));
+  per_radius_.push_back(per_radius);
+}
+
+std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& touch) {
+  std::vector<double> forces;
+  const auto take = [&](solid::FingerPress& press) -> std::optional<std::string> {
+    const auto found = way.start != way.end
+                           ? press.at_slide(touch.travel, way.start, way.end, way.along)
+                           : press.at_travel(touch.travel, way.start);
+    if (!found) return press.reason();
+    now_ = *found;
+    forces.push_back(found->force);
+    return std::nullopt;
+  };
+  for (const auto& press : presses_)
+    if (auto wrong = take(*press)) return wrong;
+  solid::Extrapolated best = solid::extrapolated(per_radius_, forces);
+  if (presses_.size() == of_two.size() && best.error > agreed * best.force) {
+    add_mesh(of_third);
+    if (auto wrong = take(*presses_.back())) return wrong;
+    best = solid::extrapolated(per_radius_, forces);
+  }
+  now_.force = best.force;
+  error_ = best.force > 0.0 ? best.error / best.force : 0.0;
+  touch.finger = scene_->solid->first_touch + way.start - touch.travel * Vec3::UnitZ();
+  if (way.start != way.end) touch.finger += way.along * (way.end - way.start).normalized();
+  touch.contacts.resize(now_.force > 0.0 ? 1 : 0);
+  if (now_.force > 0.0) {
+    mechanics::SphereContact& contact = touch.contacts[0];
+    contact.renew();
+    contact.force = contact.elastic = now_.force;
+    contact.approach = contact.depth = touch.travel;
+    contact.patch.position = touch.finger - scene_->finger.sphere_radius * Vec3::UnitZ();
+    contact.patch.normal = Vec3::UnitZ();
+    contact.patch.axis = Vec3::UnitX();
+    contact.patch.a = contact.patch.b = now_.contact_radius;
+  }
+  return std::nullopt;
+}
+
+void SolidPress::complete(record::ContactRow& row) const {
+  const scene::SurfaceTouch& place = scene_->choice.touch;
+  if (place.known() && place.curved())
+    row.tissue_radius = 2.0 / (place.curvature.kappa_1 + place.curvature.kappa_2);
+  if (!(row.contact_force > 0.0)) return;
+  row.peak_pressure = now_.peak_pressure * row.contact_force / now_.force;
+  row.contacts = now_.touching;
+  row.mesh_error = error_;
+}
+
+void SolidPress::add_findings(record::CaseRecord& record) const {
+  const solid::Press& finest = presses_.back()->press();
+  const auto add = [&](const char* name, double value) {
+    record.findings.push_back({name, value});
+  };
+  add("nodes", static_cast<double>(finest.body().mesh.nodes.size()));
+  add("tetrahedra", static_cast<double>(finest.body().mesh.elements.size()));
+  add("mirrored_copies", static_cast<double>(finest.body().copies));
+  add("meshes", static_cast<double>(presses_.size()));
+  add("factorisations", static_cast<double>(finest.factorisations()));
+  if (!finest.body().remark.empty()) record.remarks.push_back(finest.body().remark);
+}
+
+}  // namespace palpate::run

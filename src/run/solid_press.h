@@ -1,0 +1,49 @@
+// A press by the model `solid`: contacts, rows and findings.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/contacts.h"
+#include "record/record.h"
+#include "scene/scene.h"
+#include "solid/finger_press.h"
+
+namespace palpate::run {
+
+// On one mesh; on two, extrapolated, where `solver.tolerance` is below what one mesh states, and on
+// three where these do not agree.                                        docs/theory.md (112)
+class SolidPress {
+ public:
+  // The scene must outlive this. Throws MeshError.
+  explicit SolidPress(const scene::Scene& scene);
+
+  // The straight way sideways of a step, m beside the first touch, and how far along it the finger
+  // is.
+  struct Way {
+    Vec3 start, end;
+    double along = 0.0;
+  };
+  // Finds the force at touch.travel and sets the touch's contact, one for all spheres, to it.
+  // Returns a sentence if there is no equilibrium. Throws Stopped.
+  [[nodiscard]] std::optional<std::string> find(const Way& way, mechanics::Touch& touch);
+
+  // What the last find() knows better than the touch: radius, pressure, spheres, error.
+  void complete(record::ContactRow& row) const;
+
+  void add_findings(record::CaseRecord& record) const;
+
+ private:
+  [[nodiscard]] solid::FingerOrder order(double per_radius) const;
+  void add_mesh(double per_radius);
+
+  const scene::Scene* scene_;
+  std::vector<std::unique_ptr<solid::FingerPress>> presses_;  // coarsest mesh first
+  std::vector<double> per_radius_;
+  solid::Moment now_;
+  double error_ = 0.0;  // of the last force, a fraction of it
+};
+
+}  // namespace palpate::run

@@ -1,0 +1,76 @@
+// Finds the first touch of the finger on the body as it is given.
+#include "scene/solid_body.h"
+
+#include <algorithm>
+
+#include "geometry/surface.h"
+#include "scene/first_touch.h"
+#include "scene/specimen_mesh.h"
+#include "scene/specimen_shape.h"
+
+namespace palpate::scene {
+namespace {
+
+// Whether a triangle lies in the plane of the lowest vertex.
+bool stands_flat(const geometry::Surface& surface, double low, double rounding) {
+  return std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const auto& triangle) {
+    return std::all_of(triangle.begin(), triangle.end(), [&](int vertex) {
+      return surface.vertices[as_index(vertex)].z() <= low + rounding;
+    });
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string& folder,
+                                           SpecimenShapes& shapes) {
+  constexpr double spacing_over_size = 0.02;  // of shapes, for the first touch alone
+  const scenario::Resolved& scenario = scene.scenario;
+  auto body = std::make_unique<SolidBody>();
+  if (std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
+    body->mesh = specimen_mesh(scenario, folder).mesh;
+    body->skin =
+        std::make_shared<const geometry::SmoothSurface>(geometry::skin(*body->mesh).surface);
+  } else if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
+    body->surface = body->skin = shapes.surface(*file, folder).surface;
+  } else {
+    body->shape = parametric(scenario.tissue.shape);
+    const double spacing = spacing_over_size * geometry::extent(*body->shape).norm();
+    body->skin = std::make_shared<const geometry::SmoothSurface>(
+        geometry::sampled(*body->shape, {spacing, spacing}).parts.front().surface);
+  }
+  body->substance_of = [regions = scenario.regions](int part) {
+    for (std::size_t i = 0; i < regions.size(); ++i)
+      if (const auto* tagged = std::get_if<scenario::TaggedRegion>(&regions[i].part))
+        if (tagged->tag == part) return static_cast<int>(i) + 1;
+    return 0;
+  };
+
+  const geometry::Surface& skin = body->skin->surface();
+  Vec3 low = skin.vertices.front();
+  Vec3 high = low;
+  for (const Vec3& vertex : skin.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  const bool flat = stands_flat(skin, low.z(), 1e-9 * (high - low).norm());
+  body->base_level =
+      low.z() + scenario.tissue.base_height.value_or(flat ? 0.0 : 0.1 * (high.z() - low.z()));
+
+  const SurfaceTouch& touch = scene.choice.touch;
+  if (body->shape && touch.known() && scene.finger.centres.size() == 1) {
+    body->first_touch = touch.lowest + scene.finger.sphere_radius * Vec3::UnitZ();
+    body->touched = touch.position;
+    return body;
+  }
+  const Vec3 middle = 0.5 * (low + high);
+  const Vec3 place(scenario.finger.x.value_or(middle.x()), scenario.finger.y.value_or(middle.y()),
+                   high.z());
+  const FirstTouch first =
+      lowered_onto(*body->skin, place, {scene.finger.centres, scene.finger.sphere_radius});
+  body->first_touch = first.finger;
+  body->touched = body->skin->position(first.at);
+  return body;
+}
+
+}  // namespace palpate::scene

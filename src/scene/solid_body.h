@@ -1,0 +1,38 @@
+// The body of a scene for the model `solid`, which makes meshes of its own.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "geometry/shapes.h"
+#include "geometry/smooth_surface.h"
+#include "geometry/tet_mesh.h"
+#include "scenario/resolved.h"
+
+namespace palpate::scene {
+
+struct Scene;
+class SpecimenShapes;
+
+// One of the first three gives the body; lumps and slabs of the scenario come on top.
+struct SolidBody {
+  std::optional<geometry::Shape> shape;
+  std::shared_ptr<const geometry::SmoothSurface> surface;  // of a file
+  std::optional<geometry::TetMesh> mesh;                   // with the numbers of substances
+  std::shared_ptr<const geometry::SmoothSurface> skin;     // the surface of any of them
+  double base_level = 0.0;                                 // m; the skin up to this height is held
+  Vec3 first_touch = Vec3::Zero();                         // m, the finger's point there
+  Vec3 touched = Vec3::Zero();                             // m, the place of the skin there
+
+  // The substance of a part of the shape: 0 is the tissue, then the scenario's regions in order.
+  std::function<int(int part)> substance_of;
+};
+
+// Throws MeshError if the finger passes beside the body, or as specimen_mesh() does.
+[[nodiscard]] std::unique_ptr<SolidBody> make_solid_body(const Scene& scene,
+                                                         const std::string& folder,
+                                                         SpecimenShapes& shapes);
+
+}  // namespace palpate::scene
