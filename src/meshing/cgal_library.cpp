@@ -3,6 +3,7 @@
 #define CGAL_DISABLE_GMP 1
 #include "meshing/cgal_library.h"
 
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
@@ -12,6 +13,8 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
 #include <array>
@@ -116,6 +119,45 @@ std::optional<std::array<int, 2>> self_intersection(const geometry::Surface& sur
     if (!lowest || pair < *lowest) lowest = pair;
   }
   return lowest;
+}
+
+std::optional<std::vector<std::array<int, 3>>> triangulated(
+    std::span<const Eigen::Vector2d> points, std::span<const std::array<int, 2>> segments) {
+  using Vertices = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+  using Faces = CGAL::Constrained_triangulation_face_base_2<
+      Kernel, CGAL::Triangulation_face_base_with_info_2<bool, Kernel>>;
+  using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
+      Kernel, CGAL::Triangulation_data_structure_2<Vertices, Faces>,
+      CGAL::No_constraint_intersection_requiring_constructions_tag>;
+  Triangulation plane;
+  std::vector<Triangulation::Vertex_handle> vertices;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    vertices.push_back(plane.insert({points[i].x(), points[i].y()}));
+    vertices.back()->info() = static_cast<int>(i);
+  }
+  try {
+    for (const auto& [a, b] : segments)
+      plane.insert_constraint(vertices[as_index(a)], vertices[as_index(b)]);
+  } catch (const Triangulation::Intersection_of_constraints_exception&) {
+    return std::nullopt;
+  }
+  // What is reached from far away without crossing a segment is outside.
+  for (const auto face : plane.all_face_handles()) face->info() = false;
+  std::vector<Triangulation::Face_handle> waiting{plane.infinite_face()};
+  while (!waiting.empty()) {
+    const Triangulation::Face_handle face = waiting.back();
+    waiting.pop_back();
+    if (face->info()) continue;
+    face->info() = true;
+    for (int side = 0; side < 3; ++side)
+      if (!face->is_constrained(side)) waiting.push_back(face->neighbor(side));
+  }
+  std::vector<std::array<int, 3>> triangles;
+  for (const auto face : plane.finite_face_handles())
+    if (!face->info())
+      triangles.push_back(
+          {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+  return triangles;
 }
 
 geometry::Surface collapsed(const geometry::Surface& surface, double spacing) {

@@ -1,8 +1,11 @@
-// What CGAL does for surfaces: finds self-intersections, simplifies, remeshes.
+// What CGAL does for surfaces: finds self-intersections, simplifies, remeshes, triangulates planes.
 #pragma once
 
 #include <array>
 #include <optional>
+
+#include <span>
+#include <vector>
 
 #include "geometry/surface.h"
 
@@ -13,6 +16,11 @@ namespace palpate::meshing::cgal_library {
 // coordinates, without a tolerance. About 0.3 s for 1e5 triangles. The surface must be an
 // orientable manifold without flat triangles, open or closed: see surface_check.h.
 [[nodiscard]] std::optional<std::array<int, 2>> self_intersection(const geometry::Surface& surface);
+
+// Delaunay's triangles between points of a plane with these segments as edges, without what lies
+// outside all segments; nothing if two segments cross. No point is added.
+[[nodiscard]] std::optional<std::vector<std::array<int, 3>>> triangulated(
+    std::span<const Eigen::Vector2d> points, std::span<const std::array<int, 2>> segments);
 
 // The two functions below take a closed surface without self-intersections, and may crash on
 // others: call them in a child process only. The same arguments give the same bits.

@@ -22,16 +22,10 @@ namespace palpate::meshing {
 [[nodiscard]] geometry::TetMesh tetgen_surface(const geometry::Surface& surface,
                                                const std::string& switches, double time_limit);
 
-// A closed body in pieces: triangles with a number each, which may meet in any way along edges, and
-// plane faces between them, each given by segments of its border and of lines in it.
+// A closed body in pieces: triangles with a number each, which may meet in any way along edges.
 struct Pieces {
   geometry::Surface surface;
   std::vector<int> numbers;  // one per triangle, above 0
-  struct Plane {
-    std::vector<std::array<int, 2>> segments;  // of vertices of `surface`
-    int number = 0;                            // above 0
-  };
-  std::vector<Plane> planes;
 };
 // The mesh of pieces, with the faces that lie on them.
 struct PieceMesh {

@@ -33,32 +33,6 @@ void fill(tetgenio& io, const geometry::Surface& surface) {
   for (const auto& triangle : surface.triangles) fill(*facet++, triangle);
 }
 
-// The same of pieces, with their numbers.
-void fill(tetgenio& io, const Pieces& pieces) {
-  fill(io, pieces.surface);
-  const std::size_t triangles = pieces.surface.triangles.size();
-  const std::size_t all = triangles + pieces.planes.size();
-  auto* facets = new tetgenio::facet[all];
-  std::copy(io.facetlist, io.facetlist + triangles, facets);
-  delete[] io.facetlist;
-  io.facetlist = facets;
-  io.numberoffacets = static_cast<int>(all);
-  io.facetmarkerlist = new int[all];
-  std::copy(pieces.numbers.begin(), pieces.numbers.end(), io.facetmarkerlist);
-  for (std::size_t p = 0; p < pieces.planes.size(); ++p) {
-    const Pieces::Plane& plane = pieces.planes[p];
-    tetgenio::facet& facet = facets[triangles + p];
-    tetgenio::init(&facet);
-    facet.numberofpolygons = static_cast<int>(plane.segments.size());
-    facet.polygonlist = new tetgenio::polygon[plane.segments.size()];
-    for (std::size_t i = 0; i < plane.segments.size(); ++i) {
-      facet.polygonlist[i].numberofvertices = 2;
-      facet.polygonlist[i].vertexlist = new int[2]{plane.segments[i][0], plane.segments[i][1]};
-    }
-    io.facetmarkerlist[triangles + p] = plane.number;
-  }
-}
-
 geometry::TetMesh taken(const tetgenio& io) {
   geometry::TetMesh mesh;
   for (int n = 0; n < io.numberofpoints; ++n)
@@ -102,7 +76,9 @@ PieceMesh run(const Pieces& pieces, const std::function<double(const Vec3&)>& si
               const std::string& switches) {
   tetgenio in;
   tetgenio out;
-  fill(in, pieces);
+  fill(in, pieces.surface);
+  in.facetmarkerlist = new int[pieces.numbers.size()];
+  std::copy(pieces.numbers.begin(), pieces.numbers.end(), in.facetmarkerlist);
   wanted_size = &size;
   in.tetunsuitable = &too_large;
   std::string quiet = "Q" + switches;

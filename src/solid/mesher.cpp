@@ -10,6 +10,7 @@
 #include "geometry/body.h"
 #include "geometry/box_tree.h"
 #include "meshing/bisection.h"
+#include "meshing/cgal_library.h"
 #include "meshing/surface_remeshing.h"
 #include "meshing/tetgen.h"
 #include "meshing/true_boundary.h"
@@ -190,9 +191,46 @@ class Mesher {
     }
     made.surface = {net.vertices(), net.triangles()};
     for (std::size_t p = 0; p < planes.size(); ++p)
-      made.planes.push_back(
-          {{segments[p].begin(), segments[p].end()}, first_plane + static_cast<int>(p)});
+      fill_plane(planes[p], segments[p], first_plane + static_cast<int>(p), made);
     return made;
+  }
+
+  // Adds triangles between segments on a plane, where they are inside the body.
+  void fill_plane(const Plane& plane, const std::set<std::array<int, 2>>& segments, int number,
+                  meshing::Pieces& made) const {
+    const Eigen::Index across = (plane.axis + 1) % 3;
+    const Eigen::Index up = (plane.axis + 2) % 3;
+    std::map<int, int> local;  // by the numbers of vertices
+    std::vector<int> vertices;
+    std::vector<Eigen::Vector2d> points;
+    std::vector<std::array<int, 2>> edges;
+    for (const auto& segment : segments) {
+      std::array<int, 2> edge{};
+      for (std::size_t end = 0; end < 2; ++end) {
+        const auto [found, added] =
+            local.try_emplace(segment[end], static_cast<int>(vertices.size()));
+        edge[end] = found->second;
+        if (!added) continue;
+        const Vec3& place = made.surface.vertices[as_index(segment[end])];
+        vertices.push_back(segment[end]);
+        points.emplace_back(place[across], place[up]);
+      }
+      edges.push_back(edge);
+    }
+    const auto triangles = meshing::cgal_library::triangulated(points, edges);
+    if (!triangles)
+      throw MeshError("the border of a cut through the body crosses itself; mend the surface");
+    for (const auto& triangle : *triangles) {
+      std::array<int, 3> corners{};
+      Vec3 middle = Vec3::Zero();
+      for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] = vertices[as_index(triangle[i])];
+        middle += made.surface.vertices[as_index(corners[i])] / 3.0;
+      }
+      if (!inside(body_.parts.front().surface, middle)) continue;
+      made.surface.triangles.push_back(corners);
+      made.numbers.push_back(number);
+    }
   }
 
   // The tissue at a place inside.
