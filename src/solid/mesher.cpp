@@ -220,16 +220,51 @@ class Mesher {
     const auto triangles = meshing::cgal_library::triangulated(points, edges);
     if (!triangles)
       throw MeshError("the border of a cut through the body crosses itself; mend the surface");
-    for (const auto& triangle : *triangles) {
-      std::array<int, 3> corners{};
-      Vec3 middle = Vec3::Zero();
+    // Of triangles with no segment between them all or none are inside; the largest says which, as
+    // small ones may lie between the true surface and its first sample.
+    const std::set<std::array<int, 2>> borders(edges.begin(), edges.end());
+    std::map<std::array<int, 2>, std::vector<std::size_t>> at;
+    for (std::size_t t = 0; t < triangles->size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) {
-        corners[i] = vertices[as_index(triangle[i])];
-        middle += made.surface.vertices[as_index(corners[i])] / 3.0;
+        const int a = (*triangles)[t][i];
+        const int b = (*triangles)[t][(i + 1) % 3];
+        at[{std::min(a, b), std::max(a, b)}].push_back(t);
+      }
+    std::vector<char> seen(triangles->size(), 0);
+    for (std::size_t first = 0; first < triangles->size(); ++first) {
+      if (seen[first] != 0) continue;
+      seen[first] = 1;
+      std::vector<std::size_t> together{first};
+      double largest = 0.0;
+      Vec3 middle = Vec3::Zero();
+      for (std::size_t k = 0; k < together.size(); ++k) {
+        const auto& triangle = (*triangles)[together[k]];
+        const auto corner = [&](std::size_t i) -> const Vec3& {
+          return made.surface.vertices[as_index(vertices[as_index(triangle[i])])];
+        };
+        const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+        if (area > largest) {
+          largest = area;
+          middle = (corner(0) + corner(1) + corner(2)) / 3.0;
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+          const int a = triangle[i];
+          const int b = triangle[(i + 1) % 3];
+          const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+          if (borders.contains(edge)) continue;
+          for (const std::size_t other : at.at(edge)) {
+            if (seen[other] == 0) together.push_back(other);
+            seen[other] = 1;
+          }
+        }
       }
       if (!inside(body_.parts.front().surface, middle)) continue;
-      made.surface.triangles.push_back(corners);
-      made.numbers.push_back(number);
+      for (const std::size_t t : together) {
+        const auto& [a, b, c] = (*triangles)[t];
+        made.surface.triangles.push_back(
+            {vertices[as_index(a)], vertices[as_index(b)], vertices[as_index(c)]});
+        made.numbers.push_back(number);
+      }
     }
   }
 
