@@ -181,9 +181,9 @@ double remeshing_limit(const Surface& surface, double spacing) {
   return std::min(0.125 * spacing, 0.005 * (high - low).norm());
 }
 
-std::optional<Remeshed> remeshed(const Surface& surface, double spacing) {
+std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double looser) {
   if (has_sharp_edge(surface)) return std::nullopt;
-  const double limit = remeshing_limit(surface, spacing);
+  const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
   const bool uneven = count_needles(surface) > 0;
   const geometry::BoxTree original(surface);
@@ -193,7 +193,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing) {
     if (!tried || tried->triangles.empty()) continue;
     flatten_sides(surface, spacing, *tried);
     if (!uneven && tried->triangles.size() >= surface.triangles.size()) return std::nullopt;
-    if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) > most_volume) continue;
+    if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) > looser * most_volume) continue;
     if (count_needles(*tried) > 0) continue;
     const double distance =
         std::max(farthest(*tried, original), farthest(surface, geometry::BoxTree(*tried)));

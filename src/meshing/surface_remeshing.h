@@ -24,8 +24,10 @@ struct Remeshed {
 // `surface` is at most remeshing_limit(); where details do not allow that, its edges are shorter.
 // Empty if no such surface with fewer triangles, or without needles, is found, and where an edge of
 // the body is sharper than five degrees. `surface` has passed check_closed(). The same arguments
-// give the same bits.
-[[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing);
+// give the same bits. Distance and volume may differ `looser` times as much, for faces that are
+// curved afterwards.
+[[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing,
+                                               double looser = 1.0);
 
 // An eighth of the spacing, but at most 0.5 % of the diagonal of the bounding box, m. A chord of
 // the requested spacing on a round body with a radius of more than its length is nearer than that,

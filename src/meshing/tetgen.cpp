@@ -113,7 +113,7 @@ geometry::TetMesh tetgen_surface(const geometry::Surface& surface, const std::st
 PieceMesh tetgen_pieces(const Pieces& pieces, const std::function<double(const Vec3&)>& size,
                         double time_limit) {
   const std::string bytes = by_tetgen(
-      [&] { return packed(tetgen_library::run(pieces, size, "pAq1.5/8o/150O7")); }, time_limit);
+      [&] { return packed(tetgen_library::run(pieces, size, "pYAq1.5/8o/150O7")); }, time_limit);
   ChildBytes from(bytes, "TetGen");
   PieceMesh made;
   std::size_t faces = 0;

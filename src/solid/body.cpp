@@ -35,6 +35,7 @@ Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
   const double size = a / order.per_radius;
   const double height = extent.high.z() - extent.low.z();
   sizes.largest = std::max(size, std::min(height / 2.2, 12.0 * size));
+  sizes.calm = 2.5 * height;  // a thin body is at rest beyond
   double highest = -HUGE_VAL;
   for (const Vec3& at : order.touched) {
     sizes.spots.push_back({at, 1.25 * a, size});

@@ -62,11 +62,13 @@ class Mesher {
         std::none_of(levels_.begin(), levels_.end(),
                      [&](const Plane& level) { return level.at == order_.base_level; }))
       net.cut({2, order_.base_level});
-    net.refine([this](const Vec3& place) { return order_.sizes.at(place); });
+    fill_planes(net);
+    const auto size = [this](const Vec3& place) { return order_.sizes.at(place); };
+    net.refine(size);
     meshing::PieceMesh filled = meshing::tetgen_pieces(
-        pieces(net), [this](const Vec3& place) { return order_.sizes.at(place); }, time_limit);
+        {{net.vertices(), net.triangles()}, net.numbers()}, size, time_limit);
     name_regions(filled.mesh);
-    return curved(filled, net.vertices().size());
+    return curved(filled);
   }
 
  private:
@@ -88,7 +90,7 @@ class Mesher {
       for (const auto& triangle : faces_.triangles) numbers_.push_back(number_of(triangle));
     } else {
       const geometry::Surface& given = order_.surface->surface();
-      auto coarse = meshing::remeshed(given, spacing);
+      auto coarse = meshing::remeshed(given, spacing, 4.0);
       body_.parts.push_back({coarse ? std::move(coarse->surface) : given, 0});
       faces_ = body_.parts.front().surface;
       numbers_.assign(faces_.triangles.size(), of_file);
@@ -143,9 +145,8 @@ class Mesher {
     return point;
   }
 
-  [[nodiscard]] meshing::Pieces pieces(SurfaceNet& net) const {
-    meshing::Pieces made;
-    made.numbers = net.numbers();
+  // Triangles on mirrors and between slabs.
+  void fill_planes(SurfaceNet& net) const {
     std::vector<Plane> planes = order_.mirrors;
     planes.insert(planes.end(), levels_.begin(), levels_.end());
     std::vector<std::set<std::array<int, 2>>> segments(planes.size());
@@ -189,15 +190,13 @@ class Mesher {
         }
       }
     }
-    made.surface = {net.vertices(), net.triangles()};
     for (std::size_t p = 0; p < planes.size(); ++p)
-      fill_plane(planes[p], segments[p], first_plane + static_cast<int>(p), made);
-    return made;
+      fill_plane(planes[p], segments[p], first_plane + static_cast<int>(p), net);
   }
 
   // Adds triangles between segments on a plane, where they are inside the body.
   void fill_plane(const Plane& plane, const std::set<std::array<int, 2>>& segments, int number,
-                  meshing::Pieces& made) const {
+                  SurfaceNet& net) const {
     const Eigen::Index across = (plane.axis + 1) % 3;
     const Eigen::Index up = (plane.axis + 2) % 3;
     std::map<int, int> local;  // by the numbers of vertices
@@ -211,7 +210,7 @@ class Mesher {
             local.try_emplace(segment[end], static_cast<int>(vertices.size()));
         edge[end] = found->second;
         if (!added) continue;
-        const Vec3& place = made.surface.vertices[as_index(segment[end])];
+        const Vec3& place = net.vertices()[as_index(segment[end])];
         vertices.push_back(segment[end]);
         points.emplace_back(place[across], place[up]);
       }
@@ -240,7 +239,7 @@ class Mesher {
       for (std::size_t k = 0; k < together.size(); ++k) {
         const auto& triangle = (*triangles)[together[k]];
         const auto corner = [&](std::size_t i) -> const Vec3& {
-          return made.surface.vertices[as_index(vertices[as_index(triangle[i])])];
+          return net.vertices()[as_index(vertices[as_index(triangle[i])])];
         };
         const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
         if (area > largest) {
@@ -261,9 +260,7 @@ class Mesher {
       if (!inside(body_.parts.front().surface, middle)) continue;
       for (const std::size_t t : together) {
         const auto& [a, b, c] = (*triangles)[t];
-        made.surface.triangles.push_back(
-            {vertices[as_index(a)], vertices[as_index(b)], vertices[as_index(c)]});
-        made.numbers.push_back(number);
+        net.add({vertices[as_index(a)], vertices[as_index(b)], vertices[as_index(c)]}, number);
       }
     }
   }
@@ -298,54 +295,34 @@ class Mesher {
     for (int& region : mesh.regions) region = names[region];
   }
 
-  // Moves what TetGen added on round faces onto them, and the middles of edges there.
-  [[nodiscard]] Mesh curved(meshing::PieceMesh& filled, std::size_t given) const {
+  // With the middles of the edges of faces on the true boundary.
+  [[nodiscard]] Mesh curved(const meshing::PieceMesh& filled) const {
     std::vector<Plane> planes = order_.mirrors;
     planes.insert(planes.end(), levels_.begin(), levels_.end());
     planes.push_back({2, order_.base_level});
-    std::map<int, std::vector<int>> of_node;
     std::map<std::array<int, 2>, std::vector<int>> of_edge;
     for (std::size_t f = 0; f < filled.faces.size(); ++f)
       for (std::size_t i = 0; i < 3; ++i) {
         const int a = filled.faces[f][i];
         const int b = filled.faces[f][(i + 1) % 3];
         of_edge[{std::min(a, b), std::max(a, b)}].push_back(filled.numbers[f]);
-        if (as_index(a) >= given) of_node[a].push_back(filled.numbers[f]);
       }
-    std::vector<Vec3>& nodes = filled.mesh.nodes;
-    const auto placed = [&](Vec3 point, std::span<const int> numbers, const auto& on_plane) {
-      for (int i = 0; i < 3; ++i) {
-        point = onto(point, numbers);
-        for (const Plane& plane : planes)
-          if (on_plane(plane)) point[plane.axis] = plane.at;
-      }
-      return point;
-    };
+    const std::vector<Vec3>& nodes = filled.mesh.nodes;
     const double rounding = 1e-9 * (high_ - low_).norm();
-    std::vector<std::vector<int>> around(nodes.size());
-    for (int t = 0; t < static_cast<int>(filled.mesh.tetrahedra.size()); ++t)
-      for (const int node : filled.mesh.tetrahedra[as_index(t)])
-        around[as_index(node)].push_back(t);
-    for (const auto& [node, numbers] : of_node) {
-      Vec3& place = nodes[as_index(node)];
-      const Vec3 before = place;
-      std::vector<double> volumes;
-      for (const int t : around[as_index(node)])
-        volumes.push_back(geometry::signed_volume(filled.mesh, t));
-      place = placed(place, numbers,
-                     [&](const Plane& plane) { return std::abs(plane.beyond(before)) < rounding; });
-      for (std::size_t i = 0; i < volumes.size(); ++i)
-        if (geometry::signed_volume(filled.mesh, around[as_index(node)][i]) < 0.2 * volumes[i])
-          place = before;
-    }
     return quadratic(filled.mesh, [&](const std::array<int, 2>& edge) -> std::optional<Vec3> {
       const auto found = of_edge.find(edge);
       if (found == of_edge.end()) return std::nullopt;
       const Vec3& a = nodes[as_index(edge[0])];
       const Vec3& b = nodes[as_index(edge[1])];
-      return placed(0.5 * (a + b), found->second, [&](const Plane& plane) {
-        return std::abs(plane.beyond(a)) < rounding && std::abs(plane.beyond(b)) < rounding;
-      });
+      Vec3 point = 0.5 * (a + b);
+      constexpr int rounds = 3;  // a plane that is inclined to the surface moves it off again
+      for (int i = 0; i < rounds; ++i) {
+        point = onto(point, found->second);
+        for (const Plane& plane : planes)
+          if (std::abs(plane.beyond(a)) < rounding && std::abs(plane.beyond(b)) < rounding)
+            point[plane.axis] = plane.at;
+      }
+      return point;
     });
   }
 
@@ -392,11 +369,14 @@ Mesh refined(const MeshOrder& order) {
 }  // namespace
 
 double Sizes::at(const Vec3& place) const {
-  double size = largest;
-  for (const Spot& spot : spots)
-    size = std::min(size,
-                    spot.size + growth * std::max(0.0, (place - spot.centre).norm() - spot.radius));
-  return size;
+  double size = HUGE_VAL;
+  double nearest = HUGE_VAL;
+  for (const Spot& spot : spots) {
+    const double distance = (place - spot.centre).norm();
+    nearest = std::min(nearest, distance);
+    size = std::min(size, spot.size + growth * std::max(0.0, distance - spot.radius));
+  }
+  return std::min(size, largest + growth * std::max(0.0, nearest - calm));
 }
 
 Mesh mesh_for(const MeshOrder& order) {

@@ -1,6 +1,7 @@
 // Meshes for a press: small where the finger presses, growing with the distance.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
@@ -22,7 +23,8 @@ struct Spot {
 
 struct Sizes {
   std::vector<Spot> spots;
-  double largest = 0.0;  // m
+  double largest = 0.0;  // m, up to `calm` from the centres of spots
+  double calm = HUGE_VAL;  // m
 
   // m; 0.35 of the distance is added.                                    docs/theory.md (111)
   [[nodiscard]] double at(const Vec3& place) const;

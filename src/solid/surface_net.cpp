@@ -45,6 +45,12 @@ int SurfaceNet::add(const Vec3& point) {
   return static_cast<int>(vertices_.size()) - 1;
 }
 
+void SurfaceNet::add(const std::array<int, 3>& triangle, int number) {
+  triangles_.push_back(triangle);
+  numbers_.push_back(number);
+  connect(static_cast<int>(triangles_.size()) - 1);
+}
+
 // On the true surface, and on every plane on which both ends are.
 Vec3 SurfaceNet::placed(const Edge& edge, double share) const {
   const Vec3& a = vertices_[as_index(edge[0])];
@@ -197,7 +203,7 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size) {
       if (excess > longest) waiting.push({excess, edge});
     };
     for (const auto& [edge, around] : at_) look(edge);
-    if (waiting.empty()) return;
+    if (waiting.empty()) break;
     // Edges are turned after every halving of the longest ones.
     const double until = std::max(longest, 0.5 * waiting.top().excess);
     while (!waiting.empty() && waiting.top().excess > until) {
@@ -214,6 +220,67 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size) {
     }
     turn_edges();
   }
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    smooth();
+    turn_edges();
+  }
+}
+
+// Moves every vertex without a crease, and on no plane or inside one, to the mean of its
+// neighbours, where no triangle turns by more than 60 degrees or becomes a needle.
+void SurfaceNet::smooth() {
+  std::vector<std::set<int>> near(vertices_.size());
+  std::vector<std::set<int>> around(vertices_.size());  // triangles
+  std::vector<char> fixed(vertices_.size(), 0);
+  for (const auto& [edge, triangles] : at_) {
+    const bool border = crease(edge);
+    for (const std::size_t end : {0, 1}) {
+      const auto v = as_index(edge[end]);
+      near[v].insert(edge[1 - end]);
+      around[v].insert(triangles.begin(), triangles.end());
+      if (border) fixed[v] = 1;
+    }
+  }
+  const auto twice_area = [&](int t) {
+    const auto& [a, b, c] = triangles_[as_index(t)];
+    return Vec3((vertices_[as_index(b)] - vertices_[as_index(a)])
+                    .cross(vertices_[as_index(c)] - vertices_[as_index(a)]));
+  };
+  const auto needle = [&](int t) {
+    constexpr double least = 0.1;  // of the sum of the squared edges; 0.577 for equal ones
+    const auto& corners = triangles_[as_index(t)];
+    double squares = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+      squares += (vertices_[as_index(corners[i])] - vertices_[as_index(corners[(i + 1) % 3])])
+                     .squaredNorm();
+    return twice_area(t).norm() < least * squares;
+  };
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    if (fixed[v] != 0 || near[v].empty()) continue;
+    const Vec3 before = vertices_[v];
+    Vec3 middle = Vec3::Zero();
+    for (const int other : near[v])
+      middle += vertices_[as_index(other)] / static_cast<double>(near[v].size());
+    bool leaves = false;
+    for (const Plane& plane : planes_) {
+      if (plane.beyond(before) != 0.0) continue;
+      for (const int other : near[v])
+        leaves = leaves || plane.beyond(vertices_[as_index(other)]) != 0.0;
+      middle[plane.axis] = plane.at;
+    }
+    if (leaves) continue;
+    std::vector<Vec3> normals;
+    for (const int t : around[v]) normals.push_back(twice_area(t).normalized());
+    const int number = numbers_[as_index(*around[v].begin())];
+    vertices_[v] = onto_(middle, {&number, 1});
+    std::size_t i = 0;
+    for (const int t : around[v])
+      if (twice_area(t).normalized().dot(normals[i++]) < 0.5 || needle(t)) {
+        vertices_[v] = before;
+        break;
+      }
+  }
 }
 
 // Delaunay's criterion between two triangles: the opposite angles sum to at most pi.
@@ -228,15 +295,17 @@ void SurfaceNet::turn_edges() {
       if (found == at_.end() || crease(edge)) continue;
       const Vec3& a = vertices_[as_index(edge[0])];
       const Vec3& b = vertices_[as_index(edge[1])];
-      if (std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
-            return plane.beyond(a) == 0.0 && plane.beyond(b) == 0.0;
-          }))
-        continue;
       const std::array<int, 2> pair{found->second[0], found->second[1]};
       std::array<int, 2> tips{};
       for (std::size_t i = 0; i < 2; ++i)
         for (const int v : triangles_[as_index(pair[i])])
           if (v != edge[0] && v != edge[1]) tips[i] = v;
+      // An edge along a plane stays, but for those between triangles on it.
+      if (std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+            return plane.beyond(a) == 0.0 && plane.beyond(b) == 0.0 &&
+                   plane.beyond(vertices_[as_index(tips[0])]) != 0.0;
+          }))
+        continue;
       const auto angle = [&](int v) {
         const Vec3& tip = vertices_[as_index(v)];
         return angle_between(a - tip, b - tip);

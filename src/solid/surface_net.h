@@ -31,12 +31,14 @@ class SurfaceNet {
   void cut(const Plane& plane);
   // Removes the triangles of which a part lies below the plane, which has been cut.
   void drop_below(const Plane& plane);
-  // Splits edges that are longer than `size` says for their middles, the longest first, and turns
-  // edges between triangles of one number where that makes them rounder.
+  // Splits edges that are longer than `size` says for their middles, the longest first, turns edges
+  // between triangles of one number where that makes them rounder, and moves vertices between such
+  // triangles to the middle of their neighbours.
   void refine(const std::function<double(const Vec3&)>& size);
 
-  // Adds a vertex on no triangle.
+  // Adds a vertex on no triangle; returns its number.
   int add(const Vec3& point);
+  void add(const std::array<int, 3>& triangle, int number);
 
   [[nodiscard]] const std::vector<Vec3>& vertices() const { return vertices_; }
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
@@ -51,6 +53,7 @@ class SurfaceNet {
   void connect(int triangle);
   void disconnect(int triangle);
   void turn_edges();
+  void smooth();
   [[nodiscard]] bool crease(const Edge& edge) const;
 
   std::vector<Vec3> vertices_;
