@@ -161,6 +161,7 @@ void pack(const double* from, int height, int top, int begin, int end, std::vect
 }
 
 constexpr int block = 64;  // columns that are eliminated together
+constexpr int strip = 8;   // of which so many one by one
 
 // Subtracts A A^T of packed rows from the lower triangle of `to`, of `size` rows and `columns`
 // columns with distance `stride`; its first row is that of the first packed one.
@@ -274,12 +275,14 @@ void FrontCholesky::analyse(const SparseMatrix& lower, std::span<const int> firs
 
 bool FrontCholesky::factor(const SparseMatrix& lower) {
   std::fill(values_.begin(), values_.end(), 0.0);
-  // What a front leaves to its parent: a lower triangle by columns of full height.
-  std::vector<std::vector<double>> left(fronts_.size());
+  // What a front leaves to its parent is a lower triangle by columns of full height. The triangles
+  // wait in one stack: in postorder those of a front's children are on top of it.
+  std::vector<std::size_t> left(fronts_.size(), 0);  // where each begins
   std::vector<std::vector<int>> children(fronts_.size());
   std::vector<int> local(place_.size(), -1);
   std::vector<int> to;
   std::vector<double> packed;
+  std::size_t top = 0;
   const double* matrix = lower.valuePtr();
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     const Front& front = fronts_[f];
@@ -291,13 +294,17 @@ bool FrontCholesky::factor(const SparseMatrix& lower) {
     const std::size_t last = f + 1 < fronts_.size() ? fronts_[f + 1].entries : entries_.size();
     for (std::size_t e = front.entries; e < last; ++e)
       panel[entries_[e].at] += matrix[entries_[e].of_matrix];
-    std::vector<double>& rest = left[f];
-    rest.assign(as_index(below) * as_index(below), 0.0);
+    const std::size_t size = as_index(below) * as_index(below);
+    if (waiting_.size() < top + size) waiting_.resize(top + size);
+    double* rest = waiting_.data() + top;
+    for (int j = 0; j < below; ++j)
+      std::fill(rest + as_index(j) * as_index(below) + j, rest + as_index(j + 1) * as_index(below),
+                0.0);
     const int* rows = &rows_[front.rows];
     for (int r = 0; r < height; ++r) local[as_index(rows[r])] = r;
     for (const int child : children[f]) {
       const Front& from = fronts_[as_index(child)];
-      std::vector<double>& update = left[as_index(child)];
+      const double* update = waiting_.data() + left[as_index(child)];
       to.resize(as_index(from.below));
       for (int i = 0; i < from.below; ++i)
         to[as_index(i)] = local[as_index(rows_[from.rows + as_index(from.width + i)])];
@@ -305,38 +312,48 @@ bool FrontCholesky::factor(const SparseMatrix& lower) {
         const double* column = &update[as_index(j) * as_index(from.below)];
         const int c = to[as_index(j)];
         double* into = c < width ? panel + as_index(c) * high
-                                 : &rest[as_index(c - width) * as_index(below)] - width;
+                                 : rest + as_index(c - width) * as_index(below) - width;
         for (int i = j; i < from.below; ++i) into[to[as_index(i)]] += column[i];
       }
-      std::vector<double>().swap(update);
     }
     for (int begin = 0; begin < width; begin += block) {
       const int end = std::min(begin + block, width);
-      for (int c = begin; c < end; ++c) {
-        double* column = panel + as_index(c) * high;
-        for (int k = begin; k < c; ++k) {
-          const double* before = panel + as_index(k) * high;
-          const double factor = before[c];
-          for (int r = c; r < height; ++r) column[r] -= factor * before[r];
+      for (int low = begin; low < end; low += strip) {
+        const int next = std::min(low + strip, end);
+        for (int c = low; c < next; ++c) {
+          double* column = panel + as_index(c) * high;
+          for (int k = low; k < c; ++k) {
+            const double* before = panel + as_index(k) * high;
+            const double factor = before[c];
+            for (int r = c; r < height; ++r) column[r] -= factor * before[r];
+          }
+          const int own = diagonal_[as_index(front.first + c)];
+          if (!(column[c] > 1e-14 * std::abs(matrix[own])) || !std::isfinite(column[c]))
+            return false;
+          const double root = std::sqrt(column[c]);
+          const double inverse = 1.0 / root;
+          column[c] = root;
+          for (int r = c + 1; r < height; ++r) column[r] *= inverse;
         }
-        const int own = diagonal_[as_index(front.first + c)];
-        if (!(column[c] > 1e-14 * std::abs(matrix[own])) || !std::isfinite(column[c])) return false;
-        const double root = std::sqrt(column[c]);
-        const double inverse = 1.0 / root;
-        column[c] = root;
-        for (int r = c + 1; r < height; ++r) column[r] *= inverse;
+        if (next == end) break;
+        pack(panel, height, next, low, next, packed);
+        subtract(packed, next - low, height - next, end - next,
+                 panel + as_index(next) * high + as_index(next), high);
       }
-      if (end == height) break;
+      if (end == width) break;
       pack(panel, height, end, begin, end, packed);
-      if (end < width)
-        subtract(packed, end - begin, height - end, width - end,
-                 panel + as_index(end) * high + as_index(end), high);
+      subtract(packed, end - begin, height - end, width - end,
+               panel + as_index(end) * high + as_index(end), high);
     }
     for (int begin = 0; begin < width && below > 0; begin += 2 * block) {
       const int end = std::min(begin + 2 * block, width);
       pack(panel, height, width, begin, end, packed);
-      subtract(packed, end - begin, below, below, rest.data(), as_index(below));
+      subtract(packed, end - begin, below, below, rest, as_index(below));
     }
+    // The triangle takes the place of those of the children.
+    left[f] = children[f].empty() ? top : left[as_index(children[f].front())];
+    if (left[f] != top) std::copy(rest, rest + size, waiting_.data() + left[f]);
+    top = left[f] + size;
     if (front.parent >= 0) children[as_index(front.parent)].push_back(static_cast<int>(f));
   }
   return true;
