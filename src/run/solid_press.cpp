@@ -12,12 +12,13 @@
 namespace palpate::run {
 namespace {
 
-// Elements per contact radius of the one mesh, and of those that are extrapolated. The third is
-// taken where the second states more than half a percent.
-constexpr double of_one = 2.0;
-constexpr std::array<double, 2> of_two{2.0, 3.2};
-constexpr double of_third = 4.4;
-constexpr double agreed = 0.005;
+// Elements per contact radius of the meshes: as many as what they state asks for.
+constexpr std::array<double, 3> per_radius{2.0, 3.2, 4.4};
+
+std::size_t meshes_for(double tolerance) {
+  if (tolerance >= solid::error_of_one_mesh) return 1;
+  return tolerance >= solid::error_of_two_meshes ? 2 : 3;
+}
 
 // Where slides begin and end, m beside the first touch, from there on.
 std::vector<Vec3> corners_of(const scenario::Resolved& scenario) {
@@ -34,10 +35,10 @@ std::vector<Vec3> corners_of(const scenario::Resolved& scenario) {
 }  // namespace
 
 SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
-  if (scene.scenario.solver.tolerance < solid::error_of_one_mesh)
-    for (const double number : of_two) add_mesh(number);
-  else
-    add_mesh(of_one);
+  const std::size_t count = meshes_for(scene.scenario.solver.tolerance);
+  per_radius_.assign(per_radius.begin(), per_radius.begin() + static_cast<std::ptrdiff_t>(count));
+  for (const double number : per_radius_)
+    presses_.push_back(std::make_unique<solid::FingerPress>(order(number)));
 }
 
 solid::FingerOrder SolidPress::order(double per_radius) const {
@@ -81,11 +82,6 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   return order;
 }
 
-void SolidPress::add_mesh(double per_radius) {
-  presses_.push_back(std::make_unique<solid::FingerPress>(order(per_radius)));
-  per_radius_.push_back(per_radius);
-}
-
 std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& touch) {
   std::vector<double> forces;
   const auto take = [&](solid::FingerPress& press) -> std::optional<std::string> {
@@ -99,12 +95,7 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   };
   for (const auto& press : presses_)
     if (auto wrong = take(*press)) return wrong;
-  solid::Extrapolated best = solid::extrapolated(per_radius_, forces);
-  if (presses_.size() == of_two.size() && best.error > agreed * best.force) {
-    add_mesh(of_third);
-    if (auto wrong = take(*presses_.back())) return wrong;
-    best = solid::extrapolated(per_radius_, forces);
-  }
+  const solid::Extrapolated best = solid::extrapolated(per_radius_, forces);
   now_.force = best.force;
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
   touch.finger = scene_->solid->first_touch + way.start - touch.travel * Vec3::UnitZ();

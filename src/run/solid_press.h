@@ -13,8 +13,8 @@
 
 namespace palpate::run {
 
-// On one mesh; on two, extrapolated, where `solver.tolerance` is below what one mesh states, and on
-// three where these do not agree.                                        docs/theory.md (112)
+// On one mesh; where `solver.tolerance` is below what it states, on two or three, extrapolated.
+//                                                                        docs/theory.md (112)
 class SolidPress {
  public:
   // The scene must outlive this. Throws MeshError.
@@ -37,7 +37,6 @@ class SolidPress {
 
  private:
   [[nodiscard]] solid::FingerOrder order(double per_radius) const;
-  void add_mesh(double per_radius);
 
   const scene::Scene* scene_;
   std::vector<std::unique_ptr<solid::FingerPress>> presses_;  // coarsest mesh first

@@ -239,20 +239,34 @@ std::optional<Moment> FingerPress::at_slide(double travel, const Vec3& start, co
 }
 
 Extrapolated extrapolated(std::span<const double> per_radius, std::span<const double> forces) {
-  constexpr double least = 0.002;  // of the force: small contacts at the start, the penalty
   const std::size_t n = forces.size();
   if (n == 1) return {forces[0], error_of_one_mesh * std::abs(forces[0])};
-  const auto change = [&](std::size_t i) {
-    const double ratio = per_radius[i + 1] / per_radius[i];
-    return (forces[i + 1] - forces[i]) / (ratio * ratio - 1.0);
-  };
-  const double last = change(n - 2);
-  Extrapolated found{forces[n - 1] + last, 0.5 * std::abs(last)};
-  // Of three meshes the first two say it as well.
-  if (n > 2)
-    found.error =
-        std::max(found.error, 0.5 * std::abs(found.force - (forces[n - 2] + change(n - 3))));
-  found.error = std::max(found.error, least * std::abs(found.force));
+  // The line through the forces over the squared sizes x of elements; what scatters on a mesh
+  // shrinks with x as well, so that the weights are 1/x^2.
+  double weights = 0.0, mean_x = 0.0, mean_force = 0.0;
+  const auto square = [&](std::size_t i) { return 1.0 / (per_radius[i] * per_radius[i]); };
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = square(i);
+    weights += 1.0 / (x * x);
+    mean_x += 1.0 / x;
+    mean_force += forces[i] / (x * x);
+  }
+  mean_x /= weights;
+  mean_force /= weights;
+  double above = 0.0, below = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = square(i);
+    above += (x - mean_x) * (forces[i] - mean_force) / (x * x);
+    below += (x - mean_x) * (x - mean_x) / (x * x);
+  }
+  Extrapolated found{mean_force - above / below * mean_x, 0.0};
+  found.error = std::max((n == 2 ? error_of_two_meshes : error_of_three_meshes) *
+                             std::abs(found.force),
+                         0.5 * std::abs(found.force - forces[n - 1]));
+  if (n > 2)  // the last two alone say it as well
+    found.error = std::max(
+        found.error,
+        std::abs(found.force - extrapolated(per_radius.subspan(n - 2), forces.subspan(n - 2)).force));
   return found;
 }
 

@@ -90,9 +90,11 @@ class FingerPress {
   std::vector<std::pair<double, Moment>> slid_;
 };
 
-// What one mesh of BodyOrder's default size states, a fraction of the force.     docs/theory.md
-// (99)
+// What the meshes of SolidPress state at least, a fraction of the force: counted on the bodies of
+// docs/accuracy.md.                                                      docs/theory.md (112)
 inline constexpr double error_of_one_mesh = 0.03;
+inline constexpr double error_of_two_meshes = 0.01;
+inline constexpr double error_of_three_meshes = 0.005;
 
 // A force on finer and finer meshes: that of an infinitely fine one, with its error, N. Errors fall
 // with the square of the elements' size; `per_radius` are the numbers of elements in a contact
