@@ -3,10 +3,10 @@
 
 #include <csignal>
 
+#include "base/child_process.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "meshing/child_bytes.h"
-#include "meshing/child_process.h"
 #include "meshing/tetgen_library.h"
 
 namespace palpate::meshing {
@@ -62,38 +62,28 @@ std::string advice(int exit_code) {
   }
 }
 
-struct Outcome {
-  double time_limit;
-
-  geometry::TetMesh operator()(const ChildAnswer& answer) const {
-    geometry::TetMesh mesh = unpacked_mesh(answer.bytes);
-    if (mesh.tetrahedra.empty())
-      throw MeshError(
-          "TetGen found no inside; close the surface, so that every edge has two faces");
-    return mesh;
-  }
-  geometry::TetMesh operator()(const ChildExit& exit) const { throw MeshError(advice(exit.code)); }
-  geometry::TetMesh operator()(const ChildSignal& signal) const {
-    if (signal.number == SIGXCPU) return (*this)(ChildTimeout{});
-    throw MeshError("TetGen crashed (signal " + std::to_string(signal.number) +
-                    "); look for facets that cross or fold, or change the node count a little");
-  }
-  geometry::TetMesh operator()(const ChildTimeout&) const {
-    throw MeshError("TetGen did not finish within " + rounded_text(time_limit) +
-                    " s; ask for fewer nodes or allow more time");
-  }
-};
-
 }  // namespace
 
 geometry::TetMesh tetgen_surface(const geometry::Surface& surface, const std::string& switches,
                                  double time_limit) {
-  if (!(time_limit > 0.0)) return Outcome{time_limit}(ChildTimeout{});
+  using End = ChildResult::End;
   const auto work = [&] {
     tetgen_library::install_exit();
     return packed(tetgen_library::run(surface, switches));
   };
-  return std::visit(Outcome{time_limit}, run_in_child(work, {time_limit, most_memory}));
+  ChildResult ended{.end = End::timed_out};
+  if (time_limit > 0.0) ended = run_in_child(work, {time_limit, most_memory});
+  if (ended.end == End::timed_out || (ended.end == End::killed && ended.code == SIGXCPU))
+    throw MeshError("TetGen did not finish within " + rounded_text(time_limit) +
+                    " s; ask for fewer nodes or allow more time");
+  if (ended.end == End::killed)
+    throw MeshError("TetGen crashed (signal " + std::to_string(ended.code) +
+                    "); look for facets that cross or fold, or change the node count a little");
+  if (ended.code != 0) throw MeshError(advice(ended.code));
+  geometry::TetMesh mesh = unpacked_mesh(ended.output);
+  if (mesh.tetrahedra.empty())
+    throw MeshError("TetGen found no inside; close the surface, so that every edge has two faces");
+  return mesh;
 }
 
 }  // namespace palpate::meshing
