@@ -224,8 +224,7 @@ inline identify::Identification identified(const IdentifyScene& scene,
                                            const std::vector<std::string>& settings = {}) {
   const auto family = scenario::parse(scene.text, "test.toml", settings);
   const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
-  const std::atomic<bool> stop = false;
-  return identify::identify(curve, family, unknowns, stop, options);
+  return identify::identify(curve, family, unknowns, options);
 }
 
 // Of so many repeats with noise of 1 %: how often the truth of an unknown lies inside its interval,

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <string>
 #include <variant>
 
@@ -13,10 +12,7 @@
 
 namespace palpate::test {
 
-inline record::CaseRecord run_scene(const scene::Scene& scene) {
-  const std::atomic<bool> stop = false;
-  return run::run_case(scene, stop);
-}
+inline record::CaseRecord run_scene(const scene::Scene& scene) { return run::run_case(scene); }
 
 inline record::CaseRecord run_text(const std::string& text, const Settings& settings = {}) {
   const scenario::Family family = scenario::parse(text, "test.toml", settings);

@@ -5,16 +5,7 @@
 #include <cassert>
 #include <utility>
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // all functions that take vectors of four are inlined
-#endif
-
-#if defined(__x86_64__)
-#define PALPATE_WIDE __attribute__((target_clones("default", "avx2")))
-#else
-#define PALPATE_WIDE
-#endif
-#define PALPATE_ALWAYS [[gnu::always_inline]] inline
+#include "base/wide.h"
 
 namespace palpate {
 

@@ -2,13 +2,14 @@
 #include "chart/chart.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "chart/journal.h"
-#include "chart/watch.h"
 #include "integrate/modal.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
@@ -17,7 +18,7 @@
 namespace palpate::chart {
 namespace {
 
-using Clock = Watch::Clock;
+using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -35,12 +36,11 @@ double first_time(const record::CaseRecord& record) {
 }
 
 // Without findings; the times count the time of modes that are known already.
-Timing run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
-                record::CaseRecord& record) {
+Timing run_once(const scene::Scene& scene, record::CaseRecord& record) {
   record = {};
   const double saved = scene.known_modes->saved;
   const Clock::time_point start = Clock::now();
-  run::run_programme(scene, stop, record);
+  run::run_programme(scene, record);
   const Clock::time_point end = Clock::now();
   const auto until = [&](Clock::time_point moment) {
     return std::chrono::duration<double>(moment - start).count() + scene.known_modes->saved - saved;
@@ -49,14 +49,14 @@ Timing run_once(const scene::Scene& scene, const std::atomic<bool>& stop,
 }
 
 // The fastest of several runs, because disturbances only slow a run down; one if it is long.
-Timing timed(const scene::Scene& scene, const std::atomic<bool>& stop, record::CaseRecord& record) {
+Timing timed(const scene::Scene& scene, record::CaseRecord& record) {
   constexpr double enough = 5e-3;  // s, of all runs together
   constexpr int most = 1000;
-  Timing least = run_once(scene, stop, record);
+  Timing least = run_once(scene, record);
   double all = least.whole;
   for (int i = 1; i < most && all < enough; ++i) {
     if (record.outcome != record::Outcome::completed) break;
-    const Timing again = run_once(scene, stop, record);
+    const Timing again = run_once(scene, record);
     if (again.whole < least.whole) least = again;
     all += again.whole;
   }
@@ -71,31 +71,29 @@ std::string reason_of(const std::exception& error) {
 class Measurer {
  public:
   Measurer(const Asked& asked, const ChartOptions& options, Journal& journal,
-           const std::atomic<bool>& stop, const std::function<void(const ChartProgress&)>& told)
+           const std::function<void(const ChartProgress&)>& told)
       : asked_(asked),
         options_(options),
         longest_(options.longest * (asked.family.cases.size() > 1 ? 0.5 : 1.0)),
         journal_(journal),
-        stop_(stop),
         told_(told) {}
 
-  std::optional<std::vector<CaseChart>> all() {
-    for (std::size_t i = 0; i < asked_.family.cases.size(); ++i)
-      if (!begin(i)) return std::nullopt;
+  std::vector<CaseChart> all() {
+    for (std::size_t i = 0; i < asked_.family.cases.size(); ++i) begin(i);
     start_ = Clock::now();
     for (int round = 0; round < options_.repeats; ++round) {
       if (round == 1) first_end_ = Clock::now();
       for (CaseChart& chart : charts_)
         for (Measurement& one : chart.rows) {
           if (round > 0 && since(first_end_) > options_.again) return charts_;
-          if (!visit(chart, one, round)) return std::nullopt;
+          visit(chart, one, round);
         }
     }
     return charts_;
   }
 
  private:
-  bool begin(std::size_t i) {
+  void begin(std::size_t i) {
     const scenario::Case& one = asked_.family.cases[i];
     CaseChart chart{one.name, one.scenario.solver.tolerance, {}, 0.0, {}};
     told_({one.name + ": reference"});
@@ -104,39 +102,35 @@ class Measurer {
     if (known != journal_.references().end()) {
       chart.truth = truth_of(known->second);
     } else {
-      const auto found = find_truth(asked_, i, stop_, [&](const std::string& level) {
+      chart.truth = find_truth(asked_, i, [&](const std::string& level) {
         told_({one.name + ": reference, " + level});
       });
-      if (!found) return false;
-      chart.truth = *found;
       journal_.add_reference(name, history_table(chart.truth));
     }
     chart.reference_error = own_error(one.scenario, chart.truth.moments).greatest;
     for (const Variant& variant : design(asked_, i, shapes_)) {
-      if (stop_.load()) return false;
+      StopScope::end_if_stopped();
       Measurement fresh;
       fresh.variant = variant;
       chart.rows.push_back(journal_.find(variant).value_or(fresh));
     }
     all_ += static_cast<int>(chart.rows.size()) * options_.repeats;
     charts_.push_back(std::move(chart));
-    return true;
   }
 
-  // Measures one timing if it is wanted; false if `stop` was set.
-  bool visit(const CaseChart& chart, Measurement& one, int round) {
-    if (stop_.load()) return false;
+  // Measures one timing if it is wanted.
+  void visit(const CaseChart& chart, Measurement& one, int round) {
+    StopScope::end_if_stopped();
     ChartProgress progress{(charts_.size() > 1 ? chart.name + ": " : "") + one.variant.name, done_,
                            all_};
     if (made_ > 0 && since(start_) > 1.0) progress.left = left(round);
     ++done_;
-    if (!wanted(one, round)) return true;
+    if (!wanted(one, round)) return;
     told_(progress);
     const std::size_t timings = one.timings.size();
-    if (!take(chart, one)) return false;
+    take(chart, one);
     ++made_;
     if (timings == 0 || one.timings.size() > timings) journal_.add(one);
-    return true;
   }
 
   // s, estimated from the timings made; the rounds after the first take up to `again`.
@@ -157,13 +151,13 @@ class Measurer {
     return spent + spent / static_cast<double>(one.timings.size()) <= options_.budget;
   }
 
-  bool take(const CaseChart& chart, Measurement& one) {
+  void take(const CaseChart& chart, Measurement& one) {
     const bool first = one.timings.empty();
     try {
       const auto family = with_settings(asked_, one.variant.of_case, one.variant.settings);
       Timing timing;
       auto built = build(family, timing, one);
-      if (!built) return true;
+      if (!built) return;
       scene::Scene& scene = *built;
       scene.scenario.output.keep_rows_only();
       scene.known_modes = &known_modes_;
@@ -171,8 +165,8 @@ class Measurer {
       record::CaseRecord record;
       const auto cut = [&] { return record.outcome == record::Outcome::interrupted; };
       const auto time_within = [&](double limit) {
-        const Watch watch(stop_, limit);
-        const Timing run = timed(scene, watch.flag(), record);
+        const StopScope scope(limit);
+        const Timing run = timed(scene, record);
         timing.first_row = run.first_row;
         timing.whole = run.whole;
       };
@@ -188,13 +182,14 @@ class Measurer {
       if (first && a_step * steps_in_all > 1.5 * longest_)
         return not_run(one, a_step * steps_in_all);
       time_within((first ? 0.25 : 1.0) * longest_);  // shows what is far too long
-      if (first && cut() && !stop_.load() && predicted() < 2.0 * longest_) time_within(longest_);
+      if (first && cut() && !StopScope::stopped() && predicted() < 2.0 * longest_)
+        time_within(longest_);
       one.first_simulated = first_time(record);
       if (const double longer = end_time(record) - one.first_simulated; longer > 0.0)
         a_step = (timing.whole - timing.first_row) * one.substep / longer;
-      if (stop_.load()) return false;
+      StopScope::end_if_stopped();
       if (cut() && first) return not_run(one, predicted());
-      if (cut()) return true;  // the machine was slow
+      if (cut()) return;  // the machine was slow
       one.timings.push_back(timing);
       if (first) compare(chart, scene, record, one);
     } catch (const InputError& error) {
@@ -202,7 +197,6 @@ class Measurer {
     } catch (const MeshError& error) {
       one.note = reason_of(error);
     }
-    return true;
   }
 
   // Nothing if the set-up is predicted to take too long. Variants on one mesh share it, and the
@@ -233,10 +227,9 @@ class Measurer {
     return chart.truth.moments.empty() ? 0.0 : chart.truth.moments.back().time;
   }
 
-  static bool not_run(Measurement& one, double seconds) {
+  static void not_run(Measurement& one, double seconds) {
     one.status = Status::not_run;
     one.note = "not run: predicted " + number_text(*whole_number(rounded_text(seconds, 2))) + " s";
-    return true;
   }
 
   static void settle(const scene::Scene& scene, Measurement& one) {
@@ -284,9 +277,10 @@ class Measurer {
     } else {
       Variant rung = one.variant;
       rung.settings = {"solver.model=" + one.model};
-      if (const auto exact = exact_in_time(asked_, rung, known_modes_, stop_))
+      if (const auto exact = exact_in_time(asked_, rung, known_modes_))
         found = {"modal", "exact in time", *exact};
-      if (!stop_.load()) journal_.add_reference(name, history_table(found));
+      StopScope::end_if_stopped();
+      journal_.add_reference(name, history_table(found));
     }
     return in_time_[name] = found.moments;
   }
@@ -295,7 +289,6 @@ class Measurer {
   const ChartOptions& options_;
   double longest_;  // s
   Journal& journal_;
-  const std::atomic<bool>& stop_;
   const std::function<void(const ChartProgress&)>& told_;
   std::vector<CaseChart> charts_;
   std::map<std::string, History> in_time_;
@@ -342,10 +335,9 @@ std::vector<double> Measurement::totals() const {
   return each(*this, [](const Timing& timing) { return timing.build + timing.whole; });
 }
 
-std::optional<std::vector<CaseChart>> measure(
-    const Asked& asked, const ChartOptions& options, Journal& journal,
-    const std::atomic<bool>& stop, const std::function<void(const ChartProgress&)>& told) {
-  return Measurer(asked, options, journal, stop, told).all();
+std::vector<CaseChart> measure(const Asked& asked, const ChartOptions& options, Journal& journal,
+                               const std::function<void(const ChartProgress&)>& told) {
+  return Measurer(asked, options, journal, told).all();
 }
 
 }  // namespace palpate::chart

@@ -1,7 +1,6 @@
 // Speed against accuracy: measures every variant of a scenario in rounds and keeps each result.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -72,11 +71,11 @@ struct ChartProgress {
 class Journal;
 
 // Measures all cases in rounds of one timing per variant, so that a slow minute of the machine
-// affects all variants alike. Measurements in the journal are not repeated. Nothing if `stop` was
-// set before the end. Errors and their order do not depend on the clock, but whether a variant near
-// the limits of `options` is run does. Throws like find_truth().
-[[nodiscard]] std::optional<std::vector<CaseChart>> measure(
-    const Asked& asked, const ChartOptions& options, Journal& journal,
-    const std::atomic<bool>& stop, const std::function<void(const ChartProgress&)>& told);
+// affects all variants alike. Measurements in the journal are not repeated. Errors and their order
+// do not depend on the clock, but whether a variant near the limits of `options` is run does.
+// Throws Stopped, and like find_truth().
+[[nodiscard]] std::vector<CaseChart> measure(const Asked& asked, const ChartOptions& options,
+                                             Journal& journal,
+                                             const std::function<void(const ChartProgress&)>& told);
 
 }  // namespace palpate::chart

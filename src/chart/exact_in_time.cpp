@@ -12,7 +12,7 @@
 namespace palpate::chart {
 
 std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
-                                     integrate::KnownModes& known, const std::atomic<bool>& stop) {
+                                     integrate::KnownModes& known) {
   const double interval = coarsest_interval(asked.family.cases[variant.of_case].scenario);
   std::vector<History> finer;
   try {
@@ -31,7 +31,7 @@ std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
       scene.scenario.solver.modes = 3 * scene.specimen->network.nodes();  // all
       scene.known_modes = &known;
       scene.scenario.output.keep_rows_only();
-      const record::CaseRecord record = run::run_case(scene, stop);
+      const record::CaseRecord record = run::run_case(scene);
       if (record.outcome != record::Outcome::completed) return std::nullopt;
       finer.push_back(without_starts(scene.scenario, history(scene.scenario, record)));
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "chart/design.h"
@@ -290,7 +291,6 @@ void remark(const Refinement& refinement, Reference& reference) {
 }  // namespace
 
 Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
-                const std::atomic<bool>& stop,
                 const std::function<void(const std::string&)>& told) {
   using Direction = scenario::Contact::Direction;
   Refinement refinement(one, family, levels);
@@ -301,7 +301,8 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
     const scene::Scene scene = refinement.build(level, direction);
     told("level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
          std::to_string(scene.specimen->network.nodes()) + " nodes");
-    record::CaseRecord record = run::run_case(scene, stop);
+    record::CaseRecord record = run::run_case(scene);
+    StopScope::end_if_stopped();
     if (record.outcome != record::Outcome::completed)
       reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;
     return record;

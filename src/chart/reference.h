@@ -1,7 +1,6 @@
 // A reference solution of a press: the strongest model on refined meshes, extrapolated.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -40,10 +39,9 @@ struct Reference {
 // names an integrator with inertia or inertia reaches the tolerance; then by backward differences
 // whose steps shrink with the cells. `told` is called with a sentence before every level. Throws
 // InputError if there is nothing to refine (uniform tests, half-spaces, ready meshes that move,
-// steps to a force), and like scene::build().
+// steps to a force), Stopped, and like scene::build().
 //                                                                         docs/theory.md (77), (78)
 [[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
-                              const std::atomic<bool>& stop,
                               const std::function<void(const std::string&)>& told);
 
 // One row per moment: case, step, time_s, travel_mm, slide_mm, contact_force_N, error_N, order,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "chart/extrapolation.h"
 #include "chart/reference.h"
@@ -28,17 +29,16 @@ constexpr double most_moments_in_time = 50.0;  // of a press with viscosity or i
 
 class Finder {
  public:
-  Finder(const Asked& asked, std::size_t of_case, const std::atomic<bool>& stop,
+  Finder(const Asked& asked, std::size_t of_case,
          const std::function<void(const std::string&)>& told)
       : asked_(asked),
         case_(of_case),
         one_(asked.family.cases[of_case]),
         choice_(scene::choose(one_)),
         scenario_(choice_.chosen),
-        stop_(stop),
         told_(told) {}
 
-  std::optional<Truth> find() {
+  Truth find() {
     if (scenario_.uniform()) return uniform();
     const scene::Estimates& found = choice_.expected;
     if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
@@ -51,25 +51,24 @@ class Finder {
   }
 
  private:
-  // Runs the case with further settings; nothing if it was interrupted.
-  [[nodiscard]] std::optional<History> run(const Settings& settings) const {
+  // Runs the case with further settings.
+  [[nodiscard]] History run(const Settings& settings) const {
     const auto family = with_settings(asked_, case_, settings);
     scene::Scene scene = run::build_scene(family.cases.front(), family);
     nodes_ = scene.specimen ? scene.specimen->network.nodes() : 0;
     scene.scenario.output.keep_rows_only();
-    const record::CaseRecord record = run::run_case(scene, stop_);
-    if (record.outcome == record::Outcome::interrupted) return std::nullopt;
+    const record::CaseRecord record = run::run_case(scene);
+    StopScope::end_if_stopped();
     if (record.outcome == record::Outcome::diverged)
       throw MeshError("the reference of case " + one_.name + " diverged: " + record.reason);
     return history(scenario_, record);
   }
 
-  std::optional<Truth> vouched(const char* kind, const std::string& sentence,
-                               const Settings& settings, double error) const {
-    auto moments = run(settings);
-    if (!moments) return std::nullopt;
-    for (Moment& moment : *moments) moment.error = error * std::abs(moment.value);
-    return Truth{kind, sentence + "; its own error is about " + percent_text(error), *moments};
+  Truth vouched(const char* kind, const std::string& sentence, const Settings& settings,
+                double error) const {
+    History moments = run(settings);
+    for (Moment& moment : moments) moment.error = error * std::abs(moment.value);
+    return {kind, sentence + "; its own error is about " + percent_text(error), moments};
   }
 
   // What all variants have in common, so that no difference shows it.
@@ -82,12 +81,12 @@ class Finder {
            percent_text(std::abs(found.deep)) + ", is not included";
   }
 
-  std::optional<Truth> half_space(const scene::Estimates& found) const {
+  Truth half_space(const scene::Estimates& found) const {
     return vouched("closed form", "Hertz" + depth_text(found), {model_setting(Model::hertz)},
                    found.inertia);
   }
 
-  std::optional<Truth> layer(const scene::Estimates& found) const {
+  Truth layer(const scene::Estimates& found) const {
     return vouched("closed form",
                    "an infinite flat layer" + depth_text(found) +
                        "; the estimated effect of the sides is " + percent_text(found.sides) +
@@ -102,7 +101,7 @@ class Finder {
     return forecast != nullptr ? forecast->error : 1.0;
   }
 
-  std::optional<Truth> on_the_mesh() const {
+  Truth on_the_mesh() const {
     return vouched("own mesh",
                    "`coupled_springs` on the ready mesh, which cannot be refined, with the "
                    "estimated error of this model",
@@ -111,7 +110,7 @@ class Finder {
                    strongest_error());
   }
 
-  std::optional<Truth> refined(const scene::Estimates& found) const {
+  Truth refined(const scene::Estimates& found) const {
     // If the scenario's contact law is elastic, the mesh must be elastic too. This is decided with
     // `consistent`, because with `resolved` the viscosity belongs to the mesh.
     auto family = with_settings(asked_, case_, {"contact.coupling=consistent"});
@@ -123,8 +122,7 @@ class Finder {
     const double wanted =
         scenario::programme_time(scenario) / (in_time ? most_moments_in_time : most_moments);
     interval *= std::max(1.0, std::ceil(wanted / interval));
-    const chart::Reference reference = chart::refer(family.cases.front(), family, 3, stop_, told_);
-    if (stop_.load()) return std::nullopt;
+    const chart::Reference reference = chart::refer(family.cases.front(), family, 3, told_);
     if (reference.diverged) throw MeshError("the reference diverged: " + *reference.diverged);
     Truth truth{"refined", "", {}};
     double turned = 0.0;
@@ -135,7 +133,6 @@ class Finder {
         reference.moves || found.inertia <= 0.1 * scenario_.solver.tolerance ? 0.0 : found.inertia;
     std::optional<Inertia> added;
     if (waves > 0.0 && !flows) added = inertia_of_press(interval, reference.rows);
-    if (stop_.load()) return std::nullopt;
     for (std::size_t i = 0; i < reference.rows.size(); ++i) {
       const chart::ReferenceRow& row = reference.rows[i];
       const Moment more = added ? added->added[i] : Moment{.error = waves * std::abs(row.force)};
@@ -194,7 +191,7 @@ class Finder {
 
   // Coupled springs on a mesh of about `nodes` nodes, more where the shape cannot have so few, at
   // the moments of the variants with the longest interval.
-  [[nodiscard]] std::optional<History> run_coupled(double nodes, const char* integrator) const {
+  [[nodiscard]] History run_coupled(double nodes, const char* integrator) const {
     for (;; nodes = std::ceil(1.5 * nodes)) {
       try {
         Settings settings = coupled(nodes, integrator);
@@ -208,7 +205,7 @@ class Finder {
     }
   }
 
-  std::optional<Truth> uniform() const {
+  Truth uniform() const {
     if (scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag) return extrapolated("modal");
     return even() ? material() : extrapolated("quasi_static");
   }
@@ -223,13 +220,11 @@ class Finder {
     double greatest = 1.0;
   };
   template <class Run>
-  [[nodiscard]] std::optional<Inertia> inertia_of(const Run& run_with) const {
-    const auto moving = run_with("modal");
-    const auto quiet = moving ? run_with("quasi_static") : std::nullopt;
-    if (!quiet) return std::nullopt;
-    const History still = without_starts(scenario_, *quiet);
-    Inertia inertia{.added = without_starts(scenario_, *moving)};
-    if (const auto off = deviation(scenario_, *moving, still)) inertia.greatest = off->greatest;
+  [[nodiscard]] Inertia inertia_of(const Run& run_with) const {
+    const History moving = run_with("modal");
+    const History still = without_starts(scenario_, run_with("quasi_static"));
+    Inertia inertia{.added = without_starts(scenario_, moving)};
+    if (const auto off = deviation(scenario_, moving, still)) inertia.greatest = off->greatest;
     for (std::size_t i = 0; i < still.size(); ++i) inertia.added[i].value -= still[i].value;
     return inertia;
   }
@@ -249,11 +244,11 @@ class Finder {
       });
     };
     try {
-      const auto own = on(1.0);
-      auto finer = own ? on(4.0) : std::nullopt;
-      if (!finer || own->added.size() != rows.size()) return std::nullopt;
+      const Inertia own = on(1.0);
+      Inertia finer = on(4.0);
+      if (own.added.size() != rows.size()) return std::nullopt;
       for (std::size_t i = 0; i < rows.size(); ++i)
-        finer->added[i].error = std::abs(finer->added[i].value - own->added[i].value);
+        finer.added[i].error = std::abs(finer.added[i].value - own.added[i].value);
       return finer;
     } catch (const InputError&) {
     } catch (const MeshError&) {
@@ -278,18 +273,17 @@ class Finder {
   }
 
   // At the moments of the variants with the longest interval, which statics on few nodes give.
-  [[nodiscard]] std::optional<Truth> material() const {
-    const auto few = run_coupled(60.0, "quasi_static");
-    if (!few) return std::nullopt;
+  [[nodiscard]] Truth material() const {
+    const History few = run_coupled(60.0, "quasi_static");
     Truth truth{"closed form", "the material's law between frictionless platens",
-                without_starts(scenario_, *few)};
+                without_starts(scenario_, few)};
     for (Moment& at : truth.moments)
       at = {at.step, at.time,
             of_law(scenario_.steps[as_index(at.step - 1)], at.time - start_of(scenario_, at.step))};
     return truth;
   }
 
-  std::optional<Truth> extrapolated(const char* integrator) const {
+  Truth extrapolated(const char* integrator) const {
     const bool ready = std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh);
     if (ready) return vouched_uniform(integrator);
     std::vector<History> levels;
@@ -300,9 +294,7 @@ class Finder {
       if (4.0 * coarsest > most_modal_nodes && integrator == std::string("modal"))
         integrator = "tr_bdf2";
       told_("level " + std::to_string(levels.size() + 1) + " of 3");
-      auto level = run_coupled(times * coarsest, integrator);
-      if (!level) return std::nullopt;
-      levels.push_back(without_starts(scenario_, *level));
+      levels.push_back(without_starts(scenario_, run_coupled(times * coarsest, integrator)));
       spacings.push_back(spacing());
       coarsest = std::max(coarsest, nodes_ / times);
     }
@@ -320,10 +312,10 @@ class Finder {
     return truth;
   }
 
-  std::optional<Truth> vouched_uniform(const char* integrator) const {
+  Truth vouched_uniform(const char* integrator) const {
     auto truth = vouched("own mesh", "`coupled_springs` on the ready mesh",
                          coupled(0.0, integrator), strongest_error());
-    if (truth) truth->moments = without_starts(scenario_, truth->moments);
+    truth.moments = without_starts(scenario_, truth.moments);
     return truth;
   }
 
@@ -332,17 +324,15 @@ class Finder {
   const scenario::Case& one_;
   const scene::Choice choice_;
   const scenario::Resolved& scenario_;
-  const std::atomic<bool>& stop_;
   const std::function<void(const std::string&)>& told_;
   mutable int nodes_ = 0;  // of the last run
 };
 
 }  // namespace
 
-std::optional<Truth> find_truth(const Asked& asked, std::size_t of_case,
-                                const std::atomic<bool>& stop,
-                                const std::function<void(const std::string&)>& told) {
-  return Finder(asked, of_case, stop, told).find();
+Truth find_truth(const Asked& asked, std::size_t of_case,
+                 const std::function<void(const std::string&)>& told) {
+  return Finder(asked, of_case, told).find();
 }
 
 }  // namespace palpate::chart

@@ -1,7 +1,6 @@
 // The reference solution from which the errors of a chart are computed, with its own error.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -35,18 +34,16 @@ struct Truth {
 //                           what inertia adds to coupled springs if that is not little
 //   any other uniform test  coupled springs on three meshes, extrapolated, and what inertia adds
 //   a ready mesh            coupled springs on it; its error is the estimated error of the model
-// `told` is called with the stage. Nothing if `stop` was set before the end. Throws like
+// `told` is called with the stage. Throws Stopped, like
 // with_settings(), scene::build() and chart::refer(), and MeshError if a run diverges.
-[[nodiscard]] std::optional<Truth> find_truth(const Asked& asked, std::size_t of_case,
-                                              const std::atomic<bool>& stop,
-                                              const std::function<void(const std::string&)>& told);
+[[nodiscard]] Truth find_truth(const Asked& asked, std::size_t of_case,
+                               const std::function<void(const std::string&)>& told);
 
 // The reference for errors of time integration: the variant's scenario by `modal` with substeps of
 // 1/4 ms, in uniform tests of half a row, at the rows of coarsest_interval(); its error is the
 // difference from substeps of twice that length.
-// Nothing if `modal` cannot compute the scenario or `stop` was set. `known` keeps the modes.
+// Nothing if `modal` cannot compute the scenario or was stopped. `known` keeps the modes.
 [[nodiscard]] std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
-                                                   integrate::KnownModes& known,
-                                                   const std::atomic<bool>& stop);
+                                                   integrate::KnownModes& known);
 
 }  // namespace palpate::chart

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "base/whole_folder.h"
 #include "chart/journal.h"
@@ -130,24 +131,27 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   chart::Journal journal(place + ".partial", identity(family), replace);
   for (const std::string& warning : journal.warnings()) talk.warn(warning);
   if (journal.resumed()) talk.say("continues with the measurements in " + journal.folder());
-  const std::atomic<bool>& stop = listen_for_interrupts(exit_resumable);
-  const auto charts = chart::measure(
-      asked, {.repeats = command.repeats}, journal, stop,
-      [&](const chart::ChartProgress& progress) { talk.progress(progress_text(progress)); });
-  talk.progress("");
-  if (!charts) {
+  const StopScope scope(listen_for_interrupts(exit_resumable));
+  std::vector<chart::CaseChart> charts;
+  try {
+    charts = chart::measure(
+        asked, {.repeats = command.repeats}, journal,
+        [&](const chart::ChartProgress& progress) { talk.progress(progress_text(progress)); });
+    talk.progress("");
+  } catch (const Stopped&) {
+    talk.progress("");
     Talk::error("palpate: interrupted; " + journal.folder() +
                 " keeps the measurements, and the same call continues from there");
     return exit_resumable;
   }
-  const record::Table table = chart::chart_table(*charts);
-  const std::string text = "# " + family.title + "\n\n" + chart::chart_text(*charts);
+  const record::Table table = chart::chart_table(charts);
+  const std::string text = "# " + family.title + "\n\n" + chart::chart_text(charts);
   folder.open();
   folder.write("chart.csv", record::csv_text(table));
   folder.write("chart.md", text);
   for (const auto& [name, moments] : journal.references())
     folder.write(name + ".csv", record::csv_text(moments));
-  const std::vector<std::string> warnings = draw_all(*charts, family, folder);
+  const std::vector<std::string> warnings = draw_all(charts, family, folder);
   write_page(family, text, table, folder);
   for (const std::string& warning : folder.put(WholeFolder::State::complete, warnings))
     talk.warn(warning);

@@ -2,24 +2,134 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "cli/explain_json.h"
-#include "cli/explain_time.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "run/answer.h"
 #include "run/family.h"
 #include "scenario/family.h"
 #include "scenario/find.h"
+#include "scenario/integrators.h"
 #include "scenario/key_meaning.h"
+#include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 
 namespace palpate::cli {
 namespace {
+
+using Solver = scenario::Resolved::Solver;
+
+std::string milliseconds(double seconds) { return rounded_text(1e3 * seconds) + " ms"; }
+
+// For implicit methods, which have no limit, the line gives that of central differences.
+std::string limit_word(const Solver& solver) {
+  return solver.integrator == Solver::Integrator::semi_implicit_euler
+             ? "semi-implicit Euler is stable below "
+             : "central differences are stable below ";
+}
+
+std::string limit_formula(const Solver& solver) {
+  if (!about(solver.integrator).explicit_steps) return " (2 / omega_max)";
+  switch (scenario::damping_velocity(solver)) {
+    case integrate::DampingVelocity::centred: return " (2 / omega_max)";
+    case integrate::DampingVelocity::lagged:
+      return " (2 (sqrt(1 + zeta^2) - zeta) / omega_max: damping lags)";
+    case integrate::DampingVelocity::ahead: break;
+  }
+  return " (2 (sqrt(1 + zeta^2) + zeta) / omega_max)";
+}
+
+// The paper's time step, which it gives without a unit, read as s; 0 for other materials.
+double literal_step(const std::string& material) {
+  if (material == "skin" || material == "ligament") return 0.01;
+  if (material == "muscle" || material == "upper_leg") return 0.05;
+  return 0.0;
+}
+
+// The scene must have a specimen.
+std::vector<std::string> explain_time(const scene::Scene& scene) {
+  const scene::TimePlan& plan = scene.specimen->plan;
+  const Solver& solver = scene.scenario.solver;
+  const double limit = plan.limit
+                           ? *plan.limit
+                           : scene::stability_limit(scene.scenario, *scene.specimen, plan.contact);
+  std::vector<std::string> lines;
+  lines.push_back(std::string("  time         ") + about(solver.integrator).told);
+  lines.push_back("  stability    " + limit_word(solver) + milliseconds(limit) +
+                  limit_formula(solver));
+  lines.push_back("  steps        time step " + milliseconds(plan.time_step) + " in " +
+                  std::to_string(plan.substeps) +
+                  (plan.substeps == 1 ? " step of " : " substeps of ") +
+                  milliseconds(plan.substep) + ", " +
+                  rounded_text(scene.specimen->network.springs() / plan.substep, 2) +
+                  " spring updates a second of motion");
+  if (solver.allow_unstable && !plan.stable())
+    lines.emplace_back(
+        "  warning      the step is above the stability limit and will diverge; "
+        "`allow_unstable` permits it");
+  const double literal = literal_step(scene.scenario.tissue.material);
+  if (literal > limit)
+    lines.push_back("  the paper    its literal time step of " + milliseconds(literal) + " is " +
+                    rounded_text(literal / limit, 3) +
+                    " times the limit: central differences would have diverged");
+  return lines;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json model(const scene::Forecast& rung) {
+  Json object{{"model", scenario::rung(rung.model).word}};
+  if (rung.cannot.empty())
+    object.update({{"error", rung.error}, {"seconds", rung.seconds}});
+  else
+    object["cannot"] = rung.cannot;
+  return object;
+}
+
+// One JSON object without line feeds: the plain sentences, the criteria, the models with their
+// errors, and what is left out. Errors and changes are fractions; infinite numbers are null.
+std::string explain_json(const std::string& scenario, const scene::Scene& scene,
+                         const run::Expected& expected) {
+  Json object{{"event", "explanation"},
+              {"scenario", scenario},
+              {"case", scene.name},
+              {"model", scenario::rung(scene.scenario.solver.model).word},
+              {"named_by_scenario", scene.choice.given},
+              {"error", nullptr},
+              {"tolerance", scene.scenario.solver.tolerance},
+              {"sentences",
+               {{"model", expected.answer.model},
+                {"error", expected.answer.error},
+                {"left_out", expected.answer.left_out}}},
+              {"left_out", Json::array()},
+              {"criteria", Json::array()},
+              {"models", Json::array()}};
+  if (expected.answer.stated_error) object["error"] = *expected.answer.stated_error;
+  for (const run::LeftOut& one : expected.left_out)
+    object["left_out"].push_back(
+        {{"effect", one.what}, {"change", one.change}, {"text", one.when}, {"remedy", one.remedy}});
+  for (const scene::Question& one : scene.choice.questions)
+    object["criteria"].push_back({{"topic", one.asked},
+                                  {"measure", one.measure},
+                                  {"number", one.number},
+                                  {"limit", one.threshold},
+                                  {"answer", one.answer}});
+  for (const scene::Forecast& rung : scene.choice.rungs) object["models"].push_back(model(rung));
+  if (scene.specimen) {
+    object["mesh"] = {{"nodes", scene.specimen->network.nodes()},
+                      {"tetrahedra", scene.specimen->mesh.tetrahedra.size()},
+                      {"springs", scene.specimen->network.springs()}};
+    if (expected.mesh_error) object["mesh"]["error"] = *expected.mesh_error;
+  }
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 class Explanation {
  public:

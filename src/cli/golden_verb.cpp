@@ -3,30 +3,128 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
 
+#include "base/child_process.h"
 #include "base/document_writer.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "cli/checks.h"
-#include "cli/goldens.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
-#include "plot/process.h"
+#include "compare/compare_folders.h"
+#include "fit/case_fits.h"
 #include "record/csv.h"
 #include "report/machine.h"
+#include "report/results.h"
+#include "run/family.h"
 
 namespace palpate::cli {
 namespace {
+
+// A scenario with its kept results. Those of NAME.toml are in NAME.expected/ beside it, with their
+// tolerances in NAME.tolerances.toml; `scenario.toml`, which is called after its folder, has them
+// in expected/ and tolerances.toml.
+struct KeptResult {
+  std::string scenario;    // path
+  std::string expected;    // folder
+  std::string tolerances;  // path of a file that need not exist
+
+  [[nodiscard]] static KeptResult of(const std::string& scenario);
+  [[nodiscard]] bool is_kept() const;
+};
+
+namespace fs = std::filesystem;
+
+// The kept results at or below a folder.
+void find_below(const std::string& folder, std::vector<KeptResult>& found) {
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->path().extension() != ".toml") continue;
+    if (KeptResult kept = KeptResult::of(entry->path().string()); kept.is_kept())
+      found.push_back(std::move(kept));
+  }
+  if (error)
+    throw InputError({folder, 0, 0}, "cannot be read: " + error.message() +
+                                         "; give a folder of scenarios and their kept results");
+}
+
+KeptResult KeptResult::of(const std::string& scenario) {
+  const fs::path path = fs::path(scenario).lexically_normal();
+  const std::string stem = path.stem().string();
+  const std::string before = stem == "scenario" ? "" : stem + ".";
+  return {.scenario = path.string(),
+          .expected = (path.parent_path() / (before + "expected")).string(),
+          .tolerances = (path.parent_path() / (before + "tolerances.toml")).string()};
+}
+
+bool KeptResult::is_kept() const {
+  std::error_code ignored;
+  return fs::is_directory(expected, ignored);
+}
+
+// The kept results of scenarios, and of all scenarios at or below folders, sorted by path. Throws
+// InputError for a path that does not exist, a scenario without a kept result, and if there are
+// none at all.
+std::vector<KeptResult> kept_results(const std::vector<std::string>& subjects) {
+  std::vector<KeptResult> found;
+  for (const std::string& subject : subjects) {
+    if (fs::is_directory(subject)) {
+      find_below(subject, found);
+      continue;
+    }
+    found.push_back(KeptResult::of(subject));
+    if (!fs::exists(subject))
+      throw InputError({subject, 0, 0}, "is not there; give a scenario or a folder");
+    if (!found.back().is_kept())
+      throw InputError({subject, 0, 0},
+                       "has no kept result; write `palpate golden add " + subject + "`");
+  }
+  std::sort(found.begin(), found.end(),
+            [](const KeptResult& a, const KeptResult& b) { return a.scenario < b.scenario; });
+  if (found.empty())
+    throw InputError({subjects.front(), 0, 0},
+                     "has no scenario with a kept result; write `palpate golden add SCENARIO`");
+  return found;
+}
+
+// Runs a scenario and returns its CSV files. Throws InputError and MeshError.
+report::CsvFiles compute(const std::string& scenario, int workers) {
+  const scenario::Family family = scenario::read(scenario, {});
+  const auto scenes = run::build_all(family, workers);
+  const auto records = run::run_all(scenes, workers, [](std::size_t, const record::CaseRecord&) {});
+  std::vector<fit::NamedFit> fits;
+  for (std::size_t i = 0; i < records.size(); ++i)
+    for (fit::NamedFit& named : fit::case_fits(scenes[i].scenario, records[i]))
+      fits.push_back(std::move(named));
+  return report::csv_files(family, records, fits);
+}
+
+// Writes the files into the folder, and removes CSV files there that are no longer written. Throws
+// SystemError.
+void keep(const report::CsvFiles& files, const std::string& folder) {
+  make_folders(folder);
+  std::set<std::string> written;
+  for (const auto& [file, table] : files) {
+    write_atomically(folder + "/" + file, record::csv_text(table));
+    written.insert(folder + "/" + file);
+  }
+  for (const std::string& file : entries_of(folder))
+    if (file.ends_with(".csv") && !written.contains(file)) fs::remove(file);
+}
 
 namespace fs = std::filesystem;
 
 std::string git(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "git");
-  const plot::ProcessResult result = plot::run_process({.argv = arguments});
-  if (result.end != plot::ProcessResult::End::exited || result.code != 0)
-    refuse("blessing needs the project's git history; run it in a checkout");
+  const ChildResult result = run_process({.argv = arguments});
+  if (!result.good()) refuse("blessing needs the project's git history; run it in a checkout");
   return result.output;
 }
 

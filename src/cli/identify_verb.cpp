@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
@@ -66,15 +67,14 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   identify::IdentifyOptions options;
   if (command.noise == "relative") options.noise = identify::Noise::relative;
 
-  const std::atomic<bool>& stop = listen_for_interrupts(exit_interrupted);
+  const StopScope scope(listen_for_interrupts(exit_interrupted));
   identify::Identification found;
   try {
-    found = identify::identify(measured, family, unknowns, stop, options);
-    identify::carry_givens(found, measured, family, givens, stop);
+    found = identify::identify(measured, family, unknowns, options);
+    identify::carry_givens(found, measured, family, givens);
   } catch (const InputError&) {
-    if (!stop.load()) throw;
-    Talk::error("palpate: interrupted; nothing was written");
-    return exit_interrupted;
+    StopScope::end_if_stopped();
+    throw;
   }
   for (const std::string& note : found.notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);

@@ -2,11 +2,11 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/child_process.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
-#include "plot/process.h"
 
 namespace palpate::cli {
 namespace {
@@ -33,8 +33,7 @@ bool has_display() {
 int perform(const Open& command, const Arguments&, const Talk& talk) {
   const std::string page = fs::absolute(page_of(command.result)).string();
   const bool shown = has_display() && [&] {
-    const plot::ProcessResult ended = plot::run_process({.argv = {"xdg-open", page}});
-    return ended.end == plot::ProcessResult::End::exited && ended.code == 0;
+    return run_process({.argv = {"xdg-open", page}}).good();
   }();
   if (shown)
     talk.say(page + " is shown");

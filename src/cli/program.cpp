@@ -80,7 +80,7 @@ int program(const std::vector<std::string>& given) {
     Talk::error(error.what());
     return exit_device;
   } catch (const Stopped& stopped) {
-    Talk::error(std::string("palpate: ") + stopped.what());
+    Talk::error(std::string("palpate: ") + stopped.what() + "; nothing was written");
     return exit_interrupted;
   } catch (const std::bad_alloc&) {
     Talk::error(

@@ -17,12 +17,11 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
   const scenario::Family family = scenario::read(command.scenario, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   const fs::path file = fs::path(command.out) / (family.name + "_reference.csv");
-  const std::atomic<bool> stop = false;
   std::vector<std::pair<std::string, chart::Reference>> found;
   bool diverged = false;
   for (const scenario::Case& one : family.cases) {
     chart::Reference reference =
-        chart::refer(one, family, command.levels, stop,
+        chart::refer(one, family, command.levels,
                      [&](const std::string& level) { talk.progress(one.name + ", " + level); });
     talk.progress("");
     for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
@@ -62,8 +63,7 @@ struct Ran {
 
 // Runs all cases and writes the result folder, unless an interrupt came before the first case
 // ended.
-Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk,
-               const std::atomic<bool>& stop_requested) {
+Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk& talk) {
   const scenario::Family& family = *prepared.family;
   const std::vector<scene::Scene>& scenes = prepared.scenes;
   report::ResultFolder& folder = *prepared.folder;
@@ -82,10 +82,9 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
                         {"error", record.answer.error},
                         {"left_out", record.answer.left_out}});
   };
-  const std::vector<record::CaseRecord> records =
-      run::run_all(scenes, prepared.workers, stop_requested, finished);
+  const std::vector<record::CaseRecord> records = run::run_all(scenes, prepared.workers, finished);
   talk.progress("");
-  if (stop_requested && records.empty()) return {};
+  if (StopScope::stopped() && records.empty()) return {};
 
   std::vector<fit::NamedFit> fits;
   Ran ran{.kept = records.size()};
@@ -157,15 +156,15 @@ int perform(const Run& command, const Arguments& arguments, const Talk& talk) {
     for (const Prepared& prepared : all) say_plan(prepared, talk);
     return exit_good;
   }
-  const std::atomic<bool>& stop_requested = listen_for_interrupts(exit_interrupted);
+  const StopScope scope(listen_for_interrupts(exit_interrupted));
   Ran ran;
   for (const Prepared& prepared : all) {
-    if (stop_requested) break;
-    const auto [kept, diverged] = run_family(prepared, arguments, talk, stop_requested);
+    if (StopScope::stopped()) break;
+    const auto [kept, diverged] = run_family(prepared, arguments, talk);
     ran.kept += kept;
     ran.diverged = ran.diverged || diverged;
   }
-  if (stop_requested) {
+  if (StopScope::stopped()) {
     Talk::error(std::string("palpate: interrupted; ") +
                 (ran.kept > 0 ? "finished cases are kept" : "nothing was written"));
     return exit_interrupted;

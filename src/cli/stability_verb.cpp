@@ -1,6 +1,7 @@
 // `palpate stability`: measures limits of the time step and failures, and compares with theory.
 #include <filesystem>
 
+#include "base/stop_scope.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
@@ -22,17 +23,13 @@ int perform(const Stability& command, const Arguments&, const Talk& talk) {
   if (family.cases.size() > 1)
     talk.say("note: only the first of " + std::to_string(family.cases.size()) +
              " cases is mapped, " + one.name);
-  const std::atomic<bool>& stop = listen_for_interrupts(exit_interrupted);
+  const StopScope scope(listen_for_interrupts(exit_interrupted));
   const stability::StabilityMap map =
-      stability::map_stability(one, family, stop, [&](const std::string& what, double share) {
+      stability::map_stability(one, family, [&](const std::string& what, double share) {
         talk.progress(family.name + ": " + std::to_string(static_cast<int>(100.0 * share)) +
                       " %, " + what);
       });
   talk.progress("");
-  if (map.interrupted) {
-    Talk::error("palpate: interrupted; nothing was written");
-    return exit_interrupted;
-  }
   for (const std::string& warning : stability::write_map(map, family.name, folder))
     talk.warn(warning);
   if (talk.json()) {

@@ -101,8 +101,7 @@ void set_givens(scenario::Family& family, const std::vector<Given>& givens) {
 }
 
 void carry_givens(Identification& found, const Measurement& measured,
-                  const scenario::Family& family, const std::vector<Given>& givens,
-                  const std::atomic<bool>& stop) {
+                  const scenario::Family& family, const std::vector<Given>& givens) {
   std::vector<Unknown> unknowns;
   for (const Identified& one : found.unknowns) unknowns.push_back(one.unknown);
   const IdentifyOptions options{.searches = 1, .profiles = false};
@@ -112,7 +111,7 @@ void carry_givens(Identification& found, const Measurement& measured,
     for (const double sign : {-1.0, 1.0}) {
       scenario::Family moved = family;
       set(moved, given, given.value + sign * given.deviation);
-      const Identification end = identify(measured, moved, unknowns, stop, options);
+      const Identification end = identify(measured, moved, unknowns, options);
       ends.emplace_back();
       for (const Identified& one : end.unknowns) ends.back().push_back(one.estimate);
     }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/numerics.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "fit/residual_tests.h"
 #include "identify/box_errors.h"
@@ -40,13 +41,12 @@ double median_spacing(std::vector<double> x) {
 class Search {
  public:
   Search(const Measurement& measured, const scenario::Family& family,
-         const std::vector<Unknown>& unknowns, const std::atomic<bool>& stop,
-         const IdentifyOptions& options)
-      : measured_(measured), family_(family), unknowns_(unknowns), stop_(stop), options_(options) {}
+         const std::vector<Unknown>& unknowns, const IdentifyOptions& options)
+      : measured_(measured), family_(family), unknowns_(unknowns), options_(options) {}
 
   Identification all() {
     const scenario::Case& asked = family_.cases.front();
-    PreparedCurve prepared = prepare_curve(measured_, family_, unknowns_, stop_, options_.noise);
+    PreparedCurve prepared = prepare_curve(measured_, family_, unknowns_, options_.noise);
     found_.kind = prepared.curve->kind();
     found_.given = prepared.given;
     found_.rung = prepared.curve->fixed().solver.model;
@@ -73,7 +73,7 @@ class Search {
   void make_problem() {
     problem_.unknowns = unknowns_.size();
     problem_.curve = [this](std::span<const double> u, std::span<double> values) {
-      if (stop_.load()) return false;
+      if (StopScope::stopped()) return false;
       if (closed_) {
         closed::values(*closed_, u.data(), values.data());
         return true;
@@ -122,7 +122,8 @@ class Search {
   void find_best() {
     const SearchResult result = search_from_several(problem_, options_.searches);
     found_.evaluations += result.evaluations;
-    refuse_if_interrupted();
+    // After an interrupt the curve cannot be evaluated, and what was computed since is wrong.
+    StopScope::end_if_stopped();
     if (!result.best.found)
       refuse("the search found no fit: " + (curve_->failure().empty()
                                                 ? "the curve cannot be evaluated in the ranges"
@@ -130,12 +131,7 @@ class Search {
     best_ = result.best;
     found_.model.resize(found_.x.size());
     (void)values_at(best_.u, found_.model);
-    refuse_if_interrupted();
-  }
-
-  // After an interrupt the curve cannot be evaluated, and what was computed since is wrong.
-  void refuse_if_interrupted() const {
-    if (stop_.load()) refuse("interrupted");
+    StopScope::end_if_stopped();
   }
 
   void judge() {
@@ -253,7 +249,7 @@ class Search {
       Identified& one = found_.unknowns[i];
       const Profile got = one.tied ? profile_over_box(problem_, best_, i)
                                    : profile(problem_, best_, i, errors_.covariance, sigma_, t_);
-      refuse_if_interrupted();
+      StopScope::end_if_stopped();
       found_.evaluations += got.evaluations;
       for (const Profile::Point& point : got.points)
         found_.profile.push_back({i, unknowns_[i].value(point.u), point.squares,
@@ -306,7 +302,7 @@ class Search {
       else
         shift_points(shift);
       const BoxMinimum moved = minimise_in_box(problem_, start, held, Want::squares);
-      refuse_if_interrupted();
+      StopScope::end_if_stopped();
       if (contact == n) shift_points(0.0);
       found_.evaluations += moved.evaluations;
       if (!moved.found) continue;
@@ -371,7 +367,6 @@ class Search {
   const Measurement& measured_;
   const scenario::Family& family_;
   const std::vector<Unknown>& unknowns_;
-  const std::atomic<bool>& stop_;
   const IdentifyOptions& options_;
   std::unique_ptr<ScenarioCurve> curve_;
   std::optional<ClosedCurve> closed_;
@@ -388,9 +383,8 @@ class Search {
 }  // namespace
 
 Identification identify(const Measurement& measured, const scenario::Family& family,
-                        const std::vector<Unknown>& unknowns, const std::atomic<bool>& stop,
-                        const IdentifyOptions& options) {
-  return Search(measured, family, unknowns, stop, options).all();
+                        const std::vector<Unknown>& unknowns, const IdentifyOptions& options) {
+  return Search(measured, family, unknowns, options).all();
 }
 
 }  // namespace palpate::identify

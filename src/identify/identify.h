@@ -1,7 +1,6 @@
 // Tissue properties from a measured curve: estimates, intervals, and unknowns that are tied.
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -93,10 +92,9 @@ struct Identification {
 // Fits the family's first case to the measurement, on one thread and deterministically. Throws
 // InputError for fewer points than unknowns plus one, a constant curve, an unknown that changes
 // nothing in the chosen model, ranges in which the scenario cannot be run, a best fit at the edge
-// of all ranges, data that determine nothing, and `stop` set before the end.
+// of all ranges, and data that determine nothing; Stopped or InputError once stopped.
 [[nodiscard]] Identification identify(const Measurement& measured, const scenario::Family& family,
                                       const std::vector<Unknown>& unknowns,
-                                      const std::atomic<bool>& stop,
                                       const IdentifyOptions& options = {});
 
 }  // namespace palpate::identify

@@ -19,11 +19,11 @@ class Preparation {
               const std::vector<Unknown>& unknowns)
       : measured_(measured), family_(family), unknowns_(unknowns) {}
 
-  PreparedCurve all(const std::atomic<bool>& stop, Noise noise) {
+  PreparedCurve all(Noise noise) {
     const scenario::Case& asked = family_.cases.front();
     kind_ = curve_of(measured_, asked.scenario, unknowns_);
     check_pseudo_keys();
-    choose_rung(asked, stop);
+    choose_rung(asked);
     choose_points();
     weigh(noise);
     return std::move(found_);
@@ -47,7 +47,7 @@ class Preparation {
              std::string(words_of(kind_).sentence) + "; leave it out");
   }
 
-  void choose_rung(scenario::Case asked, const std::atomic<bool>& stop) {
+  void choose_rung(scenario::Case asked) {
     const Unknown* contact = unknown_of(Unknown::What::contact_point);
     double farthest = 0.0;
     for (const double x : measured_.x) farthest = std::max(farthest, x);
@@ -65,7 +65,7 @@ class Preparation {
     const FixedRung rung = fix_rung(asked, family_.document, unknowns_);
     found_.given = rung.given;
     found_.worst_error = rung.worst_error;
-    found_.curve = std::make_unique<ScenarioCurve>(kind_, rung, family_, unknowns_, stop);
+    found_.curve = std::make_unique<ScenarioCurve>(kind_, rung, family_, unknowns_);
     if (goes_on)
       found_.curve->set_farthest(*std::max_element(measured_.x.begin(), measured_.x.end()));
   }
@@ -197,9 +197,8 @@ class Preparation {
 }  // namespace
 
 PreparedCurve prepare_curve(const Measurement& measured, const scenario::Family& family,
-                            const std::vector<Unknown>& unknowns, const std::atomic<bool>& stop,
-                            Noise noise) {
-  return Preparation(measured, family, unknowns).all(stop, noise);
+                            const std::vector<Unknown>& unknowns, Noise noise) {
+  return Preparation(measured, family, unknowns).all(noise);
 }
 
 }  // namespace palpate::identify

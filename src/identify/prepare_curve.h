@@ -1,7 +1,6 @@
 // Prepares a measurement for the search: points, weights, and the curve of one model.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,10 +19,9 @@ struct PreparedCurve {
   std::vector<std::string> notes;
 };
 
-// Throws InputError like identify(). `family`, `unknowns` and `stop` must outlive the result.
+// Throws InputError like identify(). `family` and `unknowns` must outlive the result.
 [[nodiscard]] PreparedCurve prepare_curve(const Measurement& measured,
                                           const scenario::Family& family,
-                                          const std::vector<Unknown>& unknowns,
-                                          const std::atomic<bool>& stop, Noise noise);
+                                          const std::vector<Unknown>& unknowns, Noise noise);
 
 }  // namespace palpate::identify

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "identify/lengthen.h"
 #include "run/family.h"
@@ -101,13 +102,12 @@ scenario::Scenario part_for(CurveKind kind, const scenario::Scenario& scenario, 
 }
 
 ScenarioCurve::ScenarioCurve(CurveKind kind, FixedRung rung, const scenario::Family& family,
-                             std::span<const Unknown> unknowns, const std::atomic<bool>& stop)
+                             std::span<const Unknown> unknowns)
     : kind_(kind),
       rung_(std::move(rung)),
       fixed_(scenario::resolve(rung_.one, rung_.model)),
       family_(&family),
-      unknowns_(unknowns),
-      stop_(&stop) {
+      unknowns_(unknowns) {
   const auto shape_at = [&](const Unknown& one, double value) {
     return scene::shape_key(scenario::resolve(rung_.at({&one, 1}, std::array{value}), rung_.model));
   };
@@ -139,12 +139,14 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
     scene::SpecimenShapes& shapes = shape_varies_ ? fresh : shapes_;
     const scene::Scene scene =
         run::build_scene(one, *family_, shapes, scene::given_choice(one, rung_.model, shapes));
-    record = run::run_case(scene, *stop_);
+    record = run::run_case(scene);
   } catch (const InputError& error) {
     failure_ = error.problems().front().message;
     return std::nullopt;
   } catch (const MeshError& error) {
     failure_ = error.what();
+    return std::nullopt;
+  } catch (const Stopped&) {  // while the scene was built
     return std::nullopt;
   }
   if (record.outcome != record::Outcome::completed) {

@@ -1,7 +1,6 @@
 // The curve that a scenario computes, at the points of a measurement.
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,9 +51,9 @@ struct CurveWords {
 
 class ScenarioCurve {
  public:
-  // Keeps references to family, unknowns and stop.
+  // Keeps references to family and unknowns.
   ScenarioCurve(CurveKind kind, FixedRung rung, const scenario::Family& family,
-                std::span<const Unknown> unknowns, const std::atomic<bool>& stop);
+                std::span<const Unknown> unknowns);
 
   void set_points(std::vector<double> x) { x_ = std::move(x); }
   // From now on every run of the programme reaches this x of the measurement (SI).
@@ -92,7 +91,6 @@ class ScenarioCurve {
   scenario::Resolved fixed_;
   const scenario::Family* family_;
   std::span<const Unknown> unknowns_;
-  const std::atomic<bool>* stop_;
   std::vector<double> x_;
   scene::SpecimenShapes shapes_;
   double shift_ = 0.0;

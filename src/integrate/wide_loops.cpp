@@ -1,21 +1,17 @@
 // Sums entry by entry, so that any width gives the same bits; CMakeLists.txt has compiler options.
 #include "integrate/wide_loops.h"
 
-#if defined(__x86_64__)
-#define PALPATE_WIDE __attribute__((target_clones("default", "avx2", "avx512f")))
-#else
-#define PALPATE_WIDE
-#endif
+#include "base/wide.h"
 
 namespace palpate::integrate::wide {
 
-PALPATE_WIDE void add_scaled(std::size_t size, double factor, const double* __restrict row,
-                             double* __restrict sum) {
+PALPATE_WIDEST void add_scaled(std::size_t size, double factor, const double* __restrict row,
+                               double* __restrict sum) {
   for (std::size_t i = 0; i < size; ++i) sum[i] += factor * row[i];
 }
 
-PALPATE_WIDE void add_products(std::size_t size, const double* __restrict a,
-                               const double* __restrict b, double* __restrict sum) {
+PALPATE_WIDEST void add_products(std::size_t size, const double* __restrict a,
+                                 const double* __restrict b, double* __restrict sum) {
   for (std::size_t i = 0; i < size; ++i) sum[i] += a[i] * b[i];
 }
 
@@ -35,35 +31,35 @@ template <class Term>
 
 }  // namespace
 
-PALPATE_WIDE double product(std::size_t size, const double* a, const double* b) {
+PALPATE_WIDEST double product(std::size_t size, const double* a, const double* b) {
   return sum(
       size, [=](std::size_t i) __attribute__((always_inline)) { return a[i] * b[i]; });
 }
 
-PALPATE_WIDE double kinetic(std::size_t size, const double* mass, const double* velocity) {
+PALPATE_WIDEST double kinetic(std::size_t size, const double* mass, const double* velocity) {
   return sum(
       size, [=](std::size_t i) __attribute__((always_inline)) {
         return 0.5 * mass[i] * velocity[i] * velocity[i];
       });
 }
 
-PALPATE_WIDE double moved_squares(std::size_t size, const double* factor, const double* before,
-                                  const double* after) {
+PALPATE_WIDEST double moved_squares(std::size_t size, const double* factor, const double* before,
+                                    const double* after) {
   return sum(
       size, [=](std::size_t i) __attribute__((always_inline)) {
         return factor[i] * (after[i] - before[i]) * (after[i] - before[i]);
       });
 }
 
-PALPATE_WIDE double work(std::size_t size, const double* force_before, const double* force_after,
-                         const double* before, const double* after) {
+PALPATE_WIDEST double work(std::size_t size, const double* force_before, const double* force_after,
+                           const double* before, const double* after) {
   return sum(
       size, [=](std::size_t i) __attribute__((always_inline)) {
         return 0.5 * (force_before[i] + force_after[i]) * (after[i] - before[i]);
       });
 }
 
-PALPATE_WIDE void advance(std::size_t size, const Advance& step) {
+PALPATE_WIDEST void advance(std::size_t size, const Advance& step) {
   const double square = step.square;
   const double rate = step.rate;
   const double* __restrict inverse = step.inverse;
@@ -81,7 +77,7 @@ PALPATE_WIDE void advance(std::size_t size, const Advance& step) {
   }
 }
 
-PALPATE_WIDE void pass(std::size_t size, const Frame& frame) {
+PALPATE_WIDEST void pass(std::size_t size, const Frame& frame) {
   const double* __restrict k00 = frame.keep[0][0];
   const double* __restrict k01 = frame.keep[0][1];
   const double* __restrict k10 = frame.keep[1][0];

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/child_process.h"
 #include "base/error.h"
 #include "base/numerics.h"
 #include "geometry/box_tree.h"
 #include "meshing/cgal_library.h"
 #include "meshing/child_bytes.h"
-#include "meshing/child_process.h"
 #include "meshing/surface_check.h"
 
 namespace palpate::meshing {
@@ -128,9 +128,7 @@ std::optional<Surface> attempt(const Surface& surface, double spacing, bool unev
             spacing));
       },
       remeshing_limits);
-  const auto* answer = std::get_if<ChildAnswer>(&result);
-  if (answer == nullptr) return std::nullopt;
-  return unpacked_surface(answer->bytes);
+  return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
 }
 
 bool has_sharp_edge(const Surface& surface) {

@@ -3,10 +3,10 @@
 
 #include <csignal>
 
+#include "base/child_process.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "meshing/child_bytes.h"
-#include "meshing/child_process.h"
 #include "meshing/tetgen_library.h"
 
 namespace palpate::meshing {
@@ -72,32 +72,25 @@ std::string advice(int exit_code) {
   }
 }
 
-struct Outcome {
-  double time_limit;
-
-  std::string operator()(ChildAnswer& answer) const { return std::move(answer.bytes); }
-  std::string operator()(const ChildExit& exit) const { throw MeshError(advice(exit.code)); }
-  std::string operator()(const ChildSignal& signal) const {
-    if (signal.number == SIGXCPU) return (*this)(ChildTimeout{});
-    throw MeshError("TetGen crashed (signal " + std::to_string(signal.number) +
-                    "); look for facets that cross or fold, or change the node count a little");
-  }
-  std::string operator()(const ChildTimeout&) const {
-    throw MeshError("TetGen did not finish within " + rounded_text(time_limit) +
-                    " s; ask for fewer nodes or allow more time");
-  }
-};
-
 // The bytes that `work` gives after TetGen's call.
 std::string by_tetgen(const std::function<std::string()>& work, double time_limit) {
-  if (!(time_limit > 0.0)) return Outcome{time_limit}(ChildTimeout{});
-  ChildResult result = run_in_child(
-      [&] {
-        tetgen_library::install_exit();
-        return work();
-      },
-      {time_limit, most_memory});
-  return std::visit(Outcome{time_limit}, result);
+  using End = ChildResult::End;
+  ChildResult ended{.end = End::timed_out};
+  if (time_limit > 0.0)
+    ended = run_in_child(
+        [&] {
+          tetgen_library::install_exit();
+          return work();
+        },
+        {time_limit, most_memory});
+  if (ended.end == End::timed_out || (ended.end == End::killed && ended.code == SIGXCPU))
+    throw MeshError("TetGen did not finish within " + rounded_text(time_limit) +
+                    " s; ask for fewer nodes or allow more time");
+  if (ended.end == End::killed)
+    throw MeshError("TetGen crashed (signal " + std::to_string(ended.code) +
+                    "); look for facets that cross or fold, or change the node count a little");
+  if (ended.code != 0) throw MeshError(advice(ended.code));
+  return std::move(ended.output);
 }
 
 }  // namespace

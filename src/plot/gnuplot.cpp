@@ -7,10 +7,10 @@
 #include <optional>
 #include <system_error>
 
+#include "base/child_process.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
-#include "plot/process.h"
 
 namespace palpate::plot {
 namespace {
@@ -18,22 +18,22 @@ namespace {
 namespace fs = std::filesystem;
 
 // Why no picture was drawn, as the middle of a sentence; empty on success.
-std::string failure(const ProcessResult& result, const DrawOptions& options) {
+std::string failure(const ChildResult& result, const DrawOptions& options) {
   const std::string program = "`" + options.program + "` ";
   switch (result.end) {
-    case ProcessResult::End::not_found: return program + "is not installed";
-    case ProcessResult::End::timed_out:
+    case ChildResult::End::not_found: return program + "is not installed";
+    case ChildResult::End::timed_out:
       return program + "took longer than " + rounded_text(options.limit) + " s";
-    case ProcessResult::End::killed:
+    case ChildResult::End::killed:
       return program + "was ended by signal " + std::to_string(result.code);
-    case ProcessResult::End::exited: break;
+    case ChildResult::End::exited: break;
   }
   if (result.code == 0) return {};
   return program + "failed (" + trimmed(result.output) + ")";
 }
 
-std::string remedy(const ProcessResult& result, const std::string& script) {
-  if (result.end == ProcessResult::End::not_found)
+std::string remedy(const ChildResult& result, const std::string& script) {
+  if (result.end == ChildResult::End::not_found)
     return "; install gnuplot (Debian: gnuplot-nox) and run `gnuplot " + script + "` there";
   return "; run `gnuplot " + script + "` there to see why";
 }
@@ -60,7 +60,7 @@ Picture draw_picture(const Sheet& sheet, const std::string& format, const std::s
   if (const auto file = missing_file(sheet, folder))
     return {false, not_drawn + "`" + *file + "` is missing; run the scenario again"};
   // -d: without the user's gnuplot settings.
-  const ProcessResult result =
+  const ChildResult result =
       run_process({.argv = {options.program, "-d", "-e",
                             "format='" + format + "'; target='" + beside + "'", script},
                    .folder = folder,

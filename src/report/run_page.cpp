@@ -3,17 +3,330 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "base/text.h"
+#include "base/units.h"
+#include "fit/fit_table.h"
+#include "page/html.h"
 #include "page/page.h"
+#include "record/record.h"
+#include "record/scene_picture.h"
 #include "report/answer_lines.h"
 #include "report/finding_words.h"
 #include "report/map_picture.h"
-#include "report/paper_section.h"
-#include "report/scene_view.h"
+#include "report/scene_picture.h"
+#include "scenario/family.h"
 
 namespace palpate::report {
 namespace {
+
+using page::element;
+using page::Markup;
+
+constexpr std::size_t most_faces = 3000;
+
+// Millimetres, rounded to a hundredth.
+std::string mm(double metres) {
+  return number_text(std::round(100.0 * unit::mm.from_si(metres)) / 100.0 + 0.0);
+}
+
+std::string places(const Vec3& place) {
+  return mm(place.x()) + "," + mm(place.y()) + "," + mm(place.z());
+}
+
+// What the script draws: triangles with their region, spheres, and the colours of the regions.
+std::string data(const record::ScenePicture& picture) {
+  std::string faces, spheres, colours;
+  for (const auto& face : picture.faces) {
+    for (const Vec3& corner : face.corners) faces += places(corner) + ",";
+    faces += std::to_string(face.region) + "," + (face.within >= 0 ? "1" : "0") + ",";
+  }
+  for (const auto& sphere : picture.finger)
+    spheres += places(sphere.centre) + "," + mm(sphere.radius) + ",";
+  for (std::size_t i = 0; i < picture.materials.size(); ++i)
+    colours += "\"" + region_colour(static_cast<int>(i)) + "\",";
+  for (std::string* list : {&faces, &spheres, &colours})
+    if (!list->empty()) list->pop_back();
+  return "{\"faces\":[" + faces + "],\"spheres\":[" + spheres + "],\"colours\":[" + colours + "]}";
+}
+
+Markup slider(const std::string& id, const std::string& label, const std::string& low,
+              const std::string& high, const std::string& value) {
+  return element("label", page::text(label) + element("input", Markup(),
+                                                      {{"type", "range"},
+                                                       {"id", id},
+                                                       {"min", low},
+                                                       {"max", high},
+                                                       {"step", "5"},
+                                                       {"value", value}}));
+}
+
+// The still picture of scene_svg(). Up to 3000 triangles it comes with two sliders, which appear if
+// the browser runs scripts. The picture must have at least one face.
+Markup scene_view(const record::ScenePicture& picture, const std::string& title) {
+  std::string words = "Specimen";
+  for (const std::string& material : picture.materials)
+    words += (&material == picture.materials.data() ? " of " : ", ") + material;
+  words += picture.finger.empty()
+               ? std::string(" before anything moves.")
+               : " and finger at its first touch; the arrow is the deepest travel, " +
+                     mm(picture.travel) + " mm.";
+  Markup inner = element("div", page::inline_svg(scene_svg(picture, title), "scene", words),
+                         {{"class", "sheet white"}, {"id", "scene-still"}});
+  if (picture.faces.size() <= most_faces)
+    inner += element("canvas", Markup(),
+                     {{"id", "scene-canvas"},
+                      {"class", "white"},
+                      {"width", "800"},
+                      {"height", "640"},
+                      {"role", "img"},
+                      {"aria-label", words},
+                      {"hidden", "hidden"}}) +
+             element("div",
+                     slider("scene-around", "Turn", "-180", "180", "30") +
+                         slider("scene-tilt", "Tilt", "-90", "90", "30"),
+                     {{"class", "turn"}, {"id", "scene-turn"}, {"hidden", "hidden"}}) +
+             element("script", Markup::ready(data(picture)),
+                     {{"type", "application/json"}, {"id", "scene-data"}});
+  return element("figure", inner + element("figcaption", words));
+}
+
+// Parallel projection, painter's algorithm and flat shading, as in the still picture.
+// The script of the sliders, for Page::script().
+std::string scene_script() {
+  return R"js(
+(() => {
+  const at = id => document.getElementById(id);
+  if (!at("scene-data")) return;
+  const scene = JSON.parse(at("scene-data").textContent), pen = at("scene-canvas").getContext("2d");
+  const points = [];
+  for (let i = 0; i < scene.faces.length; i += 11)
+    for (let k = 0; k < 9; k += 3) points.push(scene.faces.slice(i + k, i + k + 3));
+  const ends = [0, 1, 2].map(k => [Math.min(...points.map(p => p[k])),
+                                   Math.max(...points.map(p => p[k]))]);
+  for (let i = 0; i < scene.spheres.length; i += 4)
+    ends[2][1] = Math.max(ends[2][1], scene.spheres[i + 2] + scene.spheres[i + 3]);
+  const middle = ends.map(e => (e[0] + e[1]) / 2);
+  const scale = 560 / Math.hypot(...ends.map(e => e[1] - e[0]));
+  const shade = (colour, light) => "#" + [1, 3, 5].map(i => Math.min(255, Math.max(0, Math.round(
+    light * parseInt(colour.slice(i, i + 2), 16)))).toString(16).padStart(2, "0")).join("");
+  const draw = () => {
+    const a = at("scene-around").value * Math.PI / 180, t = at("scene-tilt").value * Math.PI / 180;
+    const right = [Math.cos(a), Math.sin(a), 0];
+    const up = [-Math.sin(t) * Math.sin(a), Math.sin(t) * Math.cos(a), Math.cos(t)];
+    const eye = [right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2],
+                 right[0] * up[1] - right[1] * up[0]];
+    const dot = (p, q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    const flat = p => { const d = p.map((x, k) => x - middle[k]);
+      return [400 + scale * dot(d, right), 320 - scale * dot(d, up), dot(d, eye)]; };
+    const shapes = [];
+    for (let i = 0; i < scene.faces.length; i += 11) {
+      const [p, q, r] = [0, 3, 6].map(k => scene.faces.slice(i + k, i + k + 3));
+      const u = q.map((x, k) => x - p[k]), v = r.map((x, k) => x - p[k]);
+      const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+      const size = Math.hypot(...n) || 1;
+      if (dot(n, eye) <= 0) continue;
+      const corners = [p, q, r].map(flat), inside = scene.faces[i + 10];
+      const light = .74 + .3 * dot(n, [-.35, -.45, .82]) / size;
+      shapes.push({ depth: (corners[0][2] + corners[1][2] + corners[2][2]) / 3 - (inside ? 1e6 : 0),
+        colour: shade(scene.colours[scene.faces[i + 9]] || "#888888", light), corners,
+        alpha: scene.colours.length > 1 && !inside ? .5 : 1 });
+    }
+    for (let i = 0; i < scene.spheres.length; i += 4) {
+      const c = flat(scene.spheres.slice(i, i + 3));
+      shapes.push({ depth: c[2], centre: c, radius: scale * scene.spheres[i + 3], alpha: 1 });
+    }
+    shapes.sort((p, q) => p.depth - q.depth);
+    pen.clearRect(0, 0, 800, 640);
+    for (const s of shapes) {
+      pen.globalAlpha = s.alpha; pen.beginPath();
+      if (s.centre) { pen.arc(s.centre[0], s.centre[1], s.radius, 0, 7); pen.fillStyle = "#aebccd";
+        pen.strokeStyle = "#4a5666"; }
+      else { s.corners.forEach(c => pen.lineTo(c[0], c[1])); pen.closePath();
+        pen.fillStyle = pen.strokeStyle = s.colour; }
+      pen.fill(); pen.stroke();
+    }
+  };
+  at("scene-turn").hidden = false;
+  for (const id of ["scene-around", "scene-tilt"]) at(id).addEventListener("input", () => {
+    at("scene-still").hidden = true; at("scene-canvas").hidden = false; draw(); });
+})();
+)js";
+}
+
+using Records = std::vector<record::CaseRecord>;
+
+struct Rows {
+  record::Table table{{"the paper", "here", "do they agree?", "why"}, {}};
+  void add(const std::string& paper, const std::string& here, const std::string& verdict,
+           const std::string& why) {
+    table.rows.push_back({paper, here, verdict, why});
+  }
+};
+
+std::string agrees(bool yes) { return yes ? "yes" : "no"; }
+
+// Eq. (2) with Table 1, for the row of the largest force: the row's own indentation, and the radius
+// with the curvature of the surface there.
+struct Predicted {
+  double indentation = 0.0;  // m
+  double force = 0.0;        // N, of the run
+  double equation = 0.0;     // N, of eq. (2)
+};
+Predicted predicted(const scenario::Family& family, const record::CaseRecord& record) {
+  const auto most = std::max_element(
+      record.contact.begin(), record.contact.end(),
+      [](const auto& a, const auto& b) { return a.contact_force < b.contact_force; });
+  if (most == record.contact.end()) return {};
+  const double modulus = unit::kPa.to_si(finding_number(record, "effective_modulus_kPa"));
+  const double curvature = std::isfinite(most->tissue_radius) ? 1.0 / most->tissue_radius : 0.0;
+  const double radius =
+      1.0 / (1.0 / scenario::case_named(family, record.name).scenario.finger.radius + curvature);
+  const double depth = most->indentation;
+  // F = 4/3 E* sqrt(R) h^(3/2)                                              Chen 2007 eq. (2)
+  return {depth, most->contact_force,
+          4.0 / 3.0 * modulus * std::sqrt(radius) * depth * std::sqrt(depth)};
+}
+
+void add_forces(Rows& rows, const scenario::Family& family, const Records& records) {
+  for (const record::CaseRecord& record : records) {
+    const Predicted one = predicted(family, record);
+    if (!(one.equation > 0.0)) continue;
+    const double off = one.force / one.equation - 1.0;
+    constexpr double rounding = 1e-3;  // a thousandth is less than the digits of Table 1
+    rows.add("Eq. (2) with Table 1, " + record.name + " at " +
+                 rounded_text(unit::mm.from_si(one.indentation), 3) +
+                 " mm: " + rounded_text(one.equation, 4) + " N",
+             rounded_text(one.force, 4) + " N", agrees(std::abs(off) < rounding),
+             std::abs(off) < rounding
+                 ? "the run computes eq. (2)"
+                 : "another law than eq. (2) ran here: " + finding_word(record, "model"));
+  }
+}
+
+void add_order(Rows& rows, const Records& records) {
+  std::vector<std::pair<double, std::string>> forces;
+  for (const record::CaseRecord& record : records)
+    for (const char* tissue : {"skin", "ligament", "muscle", "upper_leg"})
+      if (record.name == tissue)
+        forces.emplace_back(finding_number(record, "peak_force_N"), tissue);
+  if (forces.size() < 4) return;
+  std::sort(forces.rbegin(), forces.rend());
+  std::string order;
+  for (const auto& [force, tissue] : forces) order += (order.empty() ? "" : " > ") + tissue;
+  const std::string wanted = "skin > ligament > muscle > upper_leg";
+  rows.add("Order of the forces: " + wanted, order, agrees(order == wanted),
+           "the order of the moduli of Table 1");
+}
+
+void add_fit(Rows& rows, const std::vector<fit::NamedFit>& fits) {
+  double least = INFINITY, most = -INFINITY, power_low = INFINITY, power_high = -INFINITY;
+  for (const fit::NamedFit& named : fits) {
+    if (named.curve != "force_indentation") continue;
+    if (named.fit.model == fit::Model::logarithmic) {
+      least = std::min(least, named.fit.r2);
+      most = std::max(most, named.fit.r2);
+    }
+    if (named.fit.model == fit::Model::power) {
+      power_low = std::min(power_low, named.fit.parameters.at(1).estimate);
+      power_high = std::max(power_high, named.fit.parameters.at(1).estimate);
+    }
+  }
+  if (!std::isfinite(least) || !std::isfinite(power_low)) return;
+  rows.add("The curves are drawn as F = a + b ln h",
+           "R² of " + rounded_text(least, 3) + " to " + rounded_text(most, 3), "cannot",
+           "eq. (2) gives a convex h^(3/2); a logarithm is concave and starts below zero");
+  rows.add("Eq. (2): the exponent of h is 1.5",
+           rounded_text(power_low, 5) + " to " + rounded_text(power_high, 5),
+           agrees(std::abs(power_low - 1.5) < 5e-3 && std::abs(power_high - 1.5) < 5e-3),
+           "the power law fitted to the rows");
+}
+
+// F / F_flat = (1 + R_1 kappa)^(-1/2)                     eq. (2) with 1/R = 1/R_1 + kappa
+void add_curvatures(Rows& rows, const scenario::Family& family, const Records& records) {
+  double worst = 0.0;
+  std::size_t count = 0;
+  for (const record::CaseRecord& flat : records) {
+    if (finding_number(flat, "local_curvature_per_m") != 0.0) continue;
+    for (const record::CaseRecord& bent : records) {
+      const double curvature = finding_number(bent, "local_curvature_per_m");
+      const std::string material = scenario::case_named(family, flat.name).scenario.tissue.material;
+      if (scenario::case_named(family, bent.name).scenario.tissue.material != material ||
+          curvature == 0.0)
+        continue;
+      const double ratio =
+          finding_number(bent, "peak_force_N") / finding_number(flat, "peak_force_N");
+      const double radius = scenario::case_named(family, bent.name).scenario.finger.radius;
+      worst = std::max(worst, std::abs(ratio * std::sqrt(1.0 + radius * curvature) - 1.0));
+      ++count;
+    }
+  }
+  if (count == 0) return;
+  constexpr double rounding = 1e-3;
+  rows.add("Eq. (2): the force over that on a flat is (1 + R κ)^(-1/2)",
+           "at most " + percent_text(worst) + " off in " + std::to_string(count) + " cases",
+           agrees(worst < rounding), "the same depth on every curvature");
+}
+
+void add_strains(Rows& rows, const scenario::Family& family, const Records& records) {
+  for (const record::CaseRecord& record : records) {
+    const scenario::Case& one = scenario::case_named(family, record.name);
+    const double modulus = one.materials.tissue.young_modulus.value;
+    for (const scenario::Step& step : one.scenario.steps) {
+      const auto* creep = std::get_if<scenario::Creep>(&step);
+      if (creep == nullptr) continue;
+      const double strain = creep->stress / modulus;
+      const double here = finding_number(record, "elastic_strain");
+      constexpr double rounding = 1e-3;
+      rows.add("Table 1, " + record.name +
+                   ": the strain goes to stress / E = " + rounded_text(strain, 4),
+               rounded_text(here, 4), agrees(std::abs(here / strain - 1.0) < rounding),
+               "the springs are scaled to the tissue's modulus");
+      rows.add("Stiffer tissues settle later",
+               "half of the final strain of " + record.name + " after " +
+                   rounded_text(finding_number(record, "creep_half_time_s"), 3) + " s",
+               "cannot",
+               "a dashpot along every spring settles with eta / E, sooner where E is larger; the "
+               "paper's curves show oscillation, or viscosities that it does not list");
+      const double limit = finding_number(record, "stable_time_step_ms");
+      if (std::isfinite(limit))
+        rows.add("A time step of " +
+                     rounded_text(unit::ms.from_si(family.base.output.interval), 3) + " ms",
+                 "stable up to " + rounded_text(limit, 3) +
+                     " ms; the interval of the rows is the "
+                     "paper's",
+                 "cannot", "a wave would cross many cells within the paper's step");
+      break;
+    }
+  }
+  rows.add("The right half is called relaxation", "it is recovery: strain after unloading",
+           "cannot", "relaxation is the stress at a constant strain");
+}
+
+// One row per statement of the paper's text about its Figure 6 or 7 (`output.paper` says which):
+// the statement, the value of this run, whether they agree, and why they cannot where they do not.
+// The paper's figures have no numbers that could be read. Empty without `output.paper`.
+page::Markup paper_section(const scenario::Family& family, const Records& records,
+                           const std::vector<fit::NamedFit>& fits) {
+  using Paper = scenario::Output::Paper;
+  Rows rows;
+  if (family.base.output.paper == Paper::figure_6) {
+    add_order(rows, records);
+    add_curvatures(rows, family, records);
+    constexpr std::size_t most_rows = 8;
+    if (records.size() <= most_rows) add_forces(rows, family, records);
+    add_fit(rows, fits);
+  } else if (family.base.output.paper == Paper::figure_7) {
+    add_strains(rows, family, records);
+  }
+  if (rows.table.rows.empty()) return {};
+  return page::element("p",
+                       "Chen, Wu, Sun and Heng (2007) print no numbers in this figure: what can be "
+                       "compared are the statements and equations of their text.") +
+         page::table("The paper beside this run", rows.table);
+}
 
 using page::element;
 using page::Markup;

@@ -51,9 +51,7 @@ record::CaseRecord begin_case(const scene::Scene& scene) {
   return record;
 }
 
-void run_programme(const scene::Scene& scene, const std::atomic<bool>& stop,
-                   record::CaseRecord& record) {
-  const StopScope scope(stop);
+void run_programme(const scene::Scene& scene, record::CaseRecord& record) {
   try {
     if (scene.scenario.uniform())
       load_uniformly(scene, record);
@@ -64,10 +62,10 @@ void run_programme(const scene::Scene& scene, const std::atomic<bool>& stop,
   }
 }
 
-record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop) {
+record::CaseRecord run_case(const scene::Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
   record::CaseRecord record = begin_case(scene);
-  run_programme(scene, stop, record);
+  run_programme(scene, record);
   add_findings(scene, record);
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;
@@ -75,22 +73,24 @@ record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& 
 
 void run_each(const std::vector<scene::Scene>& scenes, int workers, const Stop& stop,
               const std::function<void(std::size_t, record::CaseRecord&&)>& ended) {
+  const StopScope scope(stop.end_now);
   share_out(scenes.size(), workers, [&](std::size_t i) {
-    if (!stop.no_more()) ended(i, run_case(scenes[i], stop.end_now));
+    if (!stop.no_more()) ended(i, run_case(scenes[i]));
   });
 }
 
 std::vector<record::CaseRecord> run_all(
-    const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
+    const std::vector<scene::Scene>& scenes, int workers,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished) {
   std::vector<std::optional<record::CaseRecord>> slots(scenes.size());
   std::mutex one_at_a_time;
-  const auto keep = [&](std::size_t i, record::CaseRecord&& record) {
+  share_out(scenes.size(), workers, [&](std::size_t i) {
+    if (StopScope::stopped()) return;
+    record::CaseRecord record = run_case(scenes[i]);
     const std::lock_guard lock(one_at_a_time);
     finished(i, record);
     slots[i] = std::move(record);
-  };
-  run_each(scenes, workers, {stop, stop}, keep);
+  });
   std::vector<record::CaseRecord> records;
   for (auto& slot : slots)
     if (slot && slot->outcome != record::Outcome::interrupted) records.push_back(std::move(*slot));

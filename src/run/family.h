@@ -6,11 +6,18 @@
 #include <vector>
 
 #include "record/record.h"
-#include "run/stop.h"
 #include "scenario/family.h"
 #include "scene/scene.h"
 
 namespace palpate::run {
+
+// Flags that end running cases or prevent new ones.
+struct Stop {
+  const std::atomic<bool>& end_now;        // running cases end soon, as interrupted
+  const std::atomic<bool>& begin_no_more;  // no case is begun; running cases go on to their end
+
+  [[nodiscard]] bool no_more() const { return end_now.load() || begin_no_more.load(); }
+};
 
 // Builds every case. Throws the exception of the first case (by number) that has one.
 [[nodiscard]] std::vector<scene::Scene> build_all(const scenario::Family& family, int workers);
@@ -19,18 +26,17 @@ namespace palpate::run {
 [[nodiscard]] record::CaseRecord begin_case(const scene::Scene& scene);
 
 // Runs the steps of a scene's programme and adds rows, maps and frames to `record`. Of the findings
-// it adds only those that need the state of the mesh.
-void run_programme(const scene::Scene& scene, const std::atomic<bool>& stop,
-                   record::CaseRecord& record);
+// it adds only those that need the state of the mesh. A stopped StopScope ends it as interrupted.
+void run_programme(const scene::Scene& scene, record::CaseRecord& record);
 
 // Runs one scene to its end, with findings.
-[[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene, const std::atomic<bool>& stop);
+[[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene);
 
 // Runs the scenes and returns their records in the order of the scenes. `finished` is called after
-// each case, one call at a time, on the worker's thread. When `stop` is set, running cases end as
-// interrupted at their next row; these and the cases not begun are left out of the result.
+// each case, one call at a time, on the worker's thread. Where the thread's StopScope is stopped,
+// running cases end as interrupted; these and the cases not begun are left out of the result.
 [[nodiscard]] std::vector<record::CaseRecord> run_all(
-    const std::vector<scene::Scene>& scenes, int workers, const std::atomic<bool>& stop,
+    const std::vector<scene::Scene>& scenes, int workers,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished);
 
 // The same without collecting the records: `ended` receives each one when its case has ended, on

@@ -6,12 +6,15 @@
 #include <thread>
 #include <vector>
 
+#include "base/stop_scope.h"
+
 namespace palpate::run {
 
 void share_out(std::size_t count, int workers, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
   std::vector<std::exception_ptr> failures(count);
-  const auto take = [&] {
+  const auto take = [&, limits = StopScope::limits()] {
+    const StopScope scope(limits);
     for (std::size_t i = next++; i < count; i = next++) {
       try {
         work(i);

@@ -28,7 +28,7 @@ void along_modulus(Survey& survey) {
   const int points = survey.large() ? 3 : 9;
   for (int i = 0; i < points; ++i) {
     const double modulus = 100.0 * std::pow(1.7e8, static_cast<double>(i) / (points - 1));
-    if (!survey.go_on("Young's modulus")) return;
+    survey.go_on("Young's modulus");
     const auto probed = survey.make_body(
         survey.rung, [&](Scenario& scenario) { scenario.tissue.young_modulus = modulus; });
     for (const Method& method : explicit_methods())
@@ -40,7 +40,7 @@ void along_ratio(Survey& survey) {
   for (const Solver::Volume volume : {Solver::Volume::tetrahedron, Solver::Volume::nodal}) {
     for (const double ratio : {0.0, 0.2, 0.3, 0.4, 0.45, 0.49, 0.499, 0.4995, 0.4999}) {
       if (survey.large() && ratio != 0.3 && ratio != 0.45 && ratio != 0.499) continue;
-      if (!survey.go_on("Poisson's ratio")) return;
+      survey.go_on("Poisson's ratio");
       const auto probed =
           survey.make_body({scenario::strongest.of, volume},
                            [&](Scenario& scenario) { scenario.tissue.poisson_ratio = ratio; });
@@ -76,7 +76,7 @@ void along_size(Survey& survey) {
     if (survey.large() && factor < 1.0) break;
     scenario::Mesh mesh = survey.one->scenario.tissue.mesh;
     if (!resize(mesh, factor) && factor != 1.0) continue;
-    if (!survey.go_on("element size")) return;
+    survey.go_on("element size");
     std::unique_ptr<ProbedBody> probed;
     try {
       probed = survey.make_body(survey.rung, [&](Scenario& scenario) {
@@ -102,7 +102,7 @@ void along_damping(Survey& survey) {
     if (survey.large() && zeta != 0.1 && zeta != 10.0) continue;
     for (const Method& method : methods()) {
       if (!method.explicit_steps()) continue;
-      if (!survey.go_on("damping")) return;
+      survey.go_on("damping");
       tissue::ViscousLaw drag;
       drag.kind = Viscosity::nodal_drag;
       drag.drag = 2.0 * zeta * omega;
@@ -117,7 +117,7 @@ void along_damping(Survey& survey) {
   // A branch that relaxes more slowly than the time step stiffens the body, a faster one does not.
   const Damping own = damping_of(*survey.one, Viscosity::standard_linear_solid);
   for (const double times : {0.03, 0.3, 1.0, 3.0, 30.0}) {
-    if (!survey.go_on("damping")) return;
+    survey.go_on("damping");
     tissue::ViscousLaw law = own.law;
     law.branches.front().time = times * 2.0 / omega;
     add_limit(survey, *survey.own, Method{}, law,
@@ -132,7 +132,7 @@ void along_contact(Survey& survey) {
   for (const double times : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
     if (survey.large() && times != 1.0 && times != 100.0) continue;
     for (const Method& method : explicit_methods()) {
-      if (!survey.go_on("contact stiffness")) return;
+      survey.go_on("contact stiffness");
       spring->stiffness = times * stiffness;
       add_limit(survey, *survey.own, method, {},
                 {.axis = "contact_stiffness_N_per_m",
@@ -148,7 +148,7 @@ void along_device(Survey& survey) {
   const std::optional<ContactSpring> spring = contact_spring(*survey.own);
   if (!spring) return;
   for (const double damping : {0.01, 0.03, 0.1, 0.3, 1.0, 3.0}) {
-    if (!survey.go_on("device damping")) return;
+    survey.go_on("device damping");
     Device device;
     device.sampled.damping = damping;
     const auto still = [&](double frame) {
@@ -175,7 +175,7 @@ void along_device(Survey& survey) {
 void survey_axes(Survey& survey) {
   for (const auto& axis :
        {along_modulus, along_ratio, along_size, along_damping, along_contact, along_device})
-    if (!survey.map.interrupted) axis(survey);
+    axis(survey);
 }
 
 }  // namespace palpate::stability

@@ -57,7 +57,7 @@ double flat_at(const geometry::TetMesh& mesh, int node) {
 // No force turns an inverted tetrahedron of springs back: after such a displacement and release,
 // the network comes to rest in another state.
 void probe_inversion(Survey& survey) {
-  if (!survey.go_on("inversion")) return;
+  survey.go_on("inversion");
   const auto probed = survey.make_body({Solver::Model::mass_spring, Solver::Volume::none});
   const scene::Specimen& specimen = *probed->scene.specimen;
   const int node = top_node(*probed);
@@ -78,7 +78,7 @@ void probe_inversion(Survey& survey) {
   row.note = "the height of the flattest tetrahedron there: no travel of a press may come near it";
   survey.map.failures.push_back(row);
 
-  if (!survey.go_on("false equilibrium")) return;
+  survey.go_on("false equilibrium");
   const scene::SpringBody body(specimen.network, tissue::Kinematics::nonlinear, {}, specimen.held);
   probed->scene.scenario.solver.kinematics = Solver::Kinematics::nonlinear;
   probed->scene.scenario.solver.integrator = Solver::Integrator::backward_difference;
@@ -146,7 +146,7 @@ void probe_locking(Survey& survey) {
   for (const scenario::Rung& model : scenario::ladder) {
     if (!model.meshed() || model.solid) continue;
     for (const auto volume : {Solver::Volume::tetrahedron, Solver::Volume::nodal}) {
-      if (!survey.go_on("locking")) return;
+      survey.go_on("locking");
       std::array<double, 2> stiffness{};
       for (std::size_t i = 0; i < ratios.size(); ++i) {
         const auto probed = survey.make_body({model.of, volume}, [&](scenario::Scenario& scenario) {
@@ -173,8 +173,7 @@ void probe_locking(Survey& survey) {
 }  // namespace
 
 void probe_shape(Survey& survey) {
-  for (const auto& probe : {probe_inversion, probe_locking})
-    if (!survey.map.interrupted) probe(survey);
+  for (const auto& probe : {probe_inversion, probe_locking}) probe(survey);
 }
 
 }  // namespace palpate::stability

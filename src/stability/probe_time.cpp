@@ -22,7 +22,7 @@ void probe_divergence(Survey& survey) {
       .scene = &own.scene, .body = own.elastic.get(), .mode = own.highest, .steps = 4000};
   const double limit = 2.0 / own.highest.frequency;
   for (const double share : {0.95, 1.05}) {
-    if (!survey.go_on("divergence")) return;
+    survey.go_on("divergence");
     FailureRow row;
     row.failure = Failure::divergence;
     row.rung = rung_word(survey);
@@ -47,7 +47,7 @@ void probe_divergence(Survey& survey) {
 
 // Number of steps at twice the limit until the energy is not finite.
 void probe_overflow(Survey& survey) {
-  if (!survey.go_on("overflow")) return;
+  survey.go_on("overflow");
   ProbedBody& own = *survey.own;
   own.scene.scenario.solver.integrator = Solver::Integrator::central_difference;
   const FreeMotion motion{
@@ -99,7 +99,7 @@ void probe_drift(Survey& survey) {
     // Statics have no amplitude; `modal` propagates modes exactly, from rest.
     if (!about(method.integrator).inertia || method.integrator == Integrator::modal || method.lags)
       continue;
-    if (!survey.go_on("drift")) return;
+    survey.go_on("drift");
     const bool limited = method.explicit_steps();
     const double step = limited ? explicit_step : survey.one->scenario.output.interval;
     own.scene.scenario.solver.integrator = method.integrator;
@@ -121,8 +121,7 @@ void probe_drift(Survey& survey) {
 }  // namespace
 
 void probe_time(Survey& survey) {
-  for (const auto& probe : {probe_divergence, probe_overflow, probe_drift})
-    if (!survey.map.interrupted) probe(survey);
+  for (const auto& probe : {probe_divergence, probe_overflow, probe_drift}) probe(survey);
 }
 
 }  // namespace palpate::stability

@@ -27,7 +27,7 @@ double first_rate(const scenario::Scenario& scenario) {
 }
 
 void probe_tunnelling(Survey& survey, double depth) {
-  if (!survey.go_on("tunnelling")) return;
+  survey.go_on("tunnelling");
   const scenario::Scenario& scenario = survey.one->scenario;
   const double frame = scenario.output.interval;
   const double rate = first_rate(scenario);
@@ -51,7 +51,7 @@ void probe_tunnelling(Survey& survey, double depth) {
 // `share` times the bound of Colgate and Brown for frames of 1 ms.
 void probe_chatter(Survey& survey, double stiffness) {
   for (const double share : {2.0, 0.25}) {
-    if (!survey.go_on("chatter")) return;
+    survey.go_on("chatter");
     Device device;
     device.sampled.damping = share * contact::needed_damping(stiffness, device.sampled);
     FailureRow row;
@@ -73,10 +73,10 @@ void probe_chatter(Survey& survey, double stiffness) {
 
 void probe_touch(Survey& survey) {
   const auto spring = contact_spring(*survey.own);
-  if (!spring || survey.map.interrupted) return;
+  if (!spring) return;
   const scene::Scene& scene = survey.own->scene;
   probe_tunnelling(survey, scene::deepest_travel(scene.scenario, scene.law()));
-  if (!survey.map.interrupted) probe_chatter(survey, spring->stiffness);
+  probe_chatter(survey, spring->stiffness);
 }
 
 }  // namespace palpate::stability

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "scenario/words.h"
 #include "stability/survey.h"
@@ -14,13 +15,9 @@ namespace palpate::stability {
 using scenario::Solver;
 using tissue::Viscosity;
 
-bool Survey::go_on(const std::string& what) {
-  if (*stop) {
-    map.interrupted = true;
-    return false;
-  }
+void Survey::go_on(const std::string& what) {
+  StopScope::end_if_stopped();
   (*told)(what, std::min(1.0, static_cast<double>(done++) / planned));
-  return true;
 }
 
 std::unique_ptr<ProbedBody> Survey::make_body(
@@ -68,13 +65,13 @@ void survey_rungs(Survey& survey) {
       const bool own = rung == survey.rung;
       // Coupled springs without a volume term are refused in scenarios.
       if (model.coupled() && volume == Solver::Volume::none) continue;
-      if (*survey.stop) return;
+      StopScope::end_if_stopped();
       const auto probed = survey.make_body(rung);
       for (const Viscosity form : forms) {
         if (survey.large() && !own && form != Viscosity::none) continue;
         const Damping damping = damping_of(*survey.one, form);
         for (const Method& method : methods()) {
-          if (!survey.go_on(model.word + (", " + method.name()))) return;
+          survey.go_on(model.word + (", " + method.name()));
           if (method.integrator == Integrator::modal && survey.large() &&
               !(own && form == Viscosity::none))
             continue;
@@ -107,12 +104,11 @@ void refuse_large(const ProbedBody& own, const scenario::Family& family) {
 }  // namespace
 
 StabilityMap map_stability(const scenario::Case& one, const scenario::Family& family,
-                           const std::atomic<bool>& stop, const Told& told) {
+                           const Told& told) {
   refuse(one, family);
   Survey survey;
   survey.one = &one;
   survey.family = &family;
-  survey.stop = &stop;
   survey.told = &told;
   survey.rung = rung_of(one.scenario);
   told("mesh", 0.0);
@@ -126,7 +122,7 @@ StabilityMap map_stability(const scenario::Case& one, const scenario::Family& fa
   probe_time(survey);
   probe_shape(survey);
   probe_touch(survey);
-  if (!survey.map.interrupted) {
+  {
     std::vector<std::string> sentences = map_sentences(survey);
     survey.map.sentences.insert(survey.map.sentences.begin(), sentences.begin(), sentences.end());
   }

@@ -1,7 +1,6 @@
 // The stability map: measured and theoretical limits of the time step, and probes for failures.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -53,7 +52,6 @@ struct StabilityMap {
   std::vector<LimitRow> limits;
   std::vector<FailureRow> failures;
   std::vector<std::string> sentences;
-  bool interrupted = false;  // the map is incomplete
 };
 
 // Measures the map of a case with a mesh of at most `most_map_nodes` nodes:
@@ -67,12 +65,12 @@ struct StabilityMap {
 // Meshes of more than 200 nodes get fewer settings. Limits are measured on the free body
 // (stability/free_motion.h); methods without a limit are tried at up to 1000 times the explicit
 // limit. The result has the same bits in every call. `told` receives the name of each measurement
-// and the share done, 0 to 1; setting `stop` ends the map early. Throws InputError for a scenario
+// and the share done, 0 to 1. Throws Stopped, InputError for a scenario
 // without a mesh or with too many nodes, and like scene::build().
 inline constexpr int most_map_nodes = 1000;
 using Told = std::function<void(const std::string& what, double share)>;
 [[nodiscard]] StabilityMap map_stability(const scenario::Case& one, const scenario::Family& family,
-                                         const std::atomic<bool>& stop, const Told& told);
+                                         const Told& told);
 
 // stability.csv: rung, volume, integrator, damping, axis, value, limit_us, theory_us, ratio,
 // failure, note.

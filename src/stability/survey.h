@@ -9,7 +9,6 @@ namespace palpate::stability {
 struct Survey {
   const scenario::Case* one = nullptr;
   const scenario::Family* family = nullptr;
-  const std::atomic<bool>* stop = nullptr;
   const Told* told = nullptr;
   scene::SpecimenShapes shapes;     // of all bodies
   RungOf rung;                      // of the scenario
@@ -21,8 +20,8 @@ struct Survey {
   // For a large mesh other rungs are measured without damping only, and axes with fewer settings.
   [[nodiscard]] bool large() const { return own->nodes() > 200; }
 
-  // Call before every measurement: reports `what` to `told`; false if the map is to end.
-  [[nodiscard]] bool go_on(const std::string& what);
+  // Call before every measurement: reports `what` to `told`. Throws Stopped.
+  void go_on(const std::string& what);
 
   // The body of the scenario with the model and volume term `on`, after `change`.
   [[nodiscard]] std::unique_ptr<ProbedBody> make_body(
@@ -41,7 +40,7 @@ struct Setting {
 void add_limit(Survey& survey, ProbedBody& probed, const Method& method,
                const tissue::ViscousLaw& law, const Setting& setting);
 
-// The parts of the map; each ends early if go_on() returns false.
+// The parts of the map.
 void survey_rungs(Survey& survey);
 void survey_axes(Survey& survey);
 void probe_time(Survey& survey);   // divergence, non_finite, drift

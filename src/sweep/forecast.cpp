@@ -2,15 +2,12 @@
 #include "sweep/forecast.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
@@ -24,25 +21,6 @@
 
 namespace palpate::sweep {
 namespace {
-
-// Becomes true after a time.
-class Deadline {
- public:
-  explicit Deadline(double seconds)
-      : waiting_([this, seconds](const std::stop_token& end) {
-          std::unique_lock lock(mutex_);
-          woken_.wait_for(lock, end, std::chrono::duration<double>(seconds), [] { return false; });
-          over_ = true;
-        }) {}
-
-  [[nodiscard]] const std::atomic<bool>& over() const { return over_; }
-
- private:
-  std::atomic<bool> over_ = false;
-  std::mutex mutex_;
-  std::condition_variable_any woken_;
-  std::jthread waiting_;
-};
 
 // Cases that differ only in what a set-up does not depend on have equal texts.
 std::string set_up_key(const scenario::Family& family, std::size_t i, bool meshed) {
@@ -104,23 +82,21 @@ class Trial {
 
   // How long cases take, with what earlier calls have left; nothing after `longest`.
   std::optional<double> run(std::size_t first, std::size_t count) {
-    const Deadline deadline(longest);
     const Clock::time_point start = Clock::now();
     std::vector<scene::Scene> scenes;
-    for (std::size_t i = first; i < first + count && !deadline.over(); ++i) {
+    for (std::size_t i = first; i < first + count && seconds_since(start) < longest; ++i) {
       const scenario::Case one = scenario::make_case(family_, i);
       (void)case_id(one, files_);
       scenes.push_back(run::build_scene(one, family_, shapes_));
       scenes.back().sinkings = &sinkings_;
     }
-    std::size_t ended = 0;
-    run::run_each(scenes, 1, {deadline.over(), deadline.over()},
-                  [&](std::size_t i, const record::CaseRecord& record) {
-                    if (record.outcome == record::Outcome::interrupted) return;
-                    (void)row_of(scenes[i], record, keeps_curves_);
-                    ++ended;
-                  });
-    return ended == count ? std::optional(seconds_since(start)) : std::nullopt;
+    const StopScope deadline(longest - seconds_since(start));
+    for (const scene::Scene& scene : scenes) {
+      const record::CaseRecord record = run::run_case(scene);
+      if (record.outcome == record::Outcome::interrupted) return std::nullopt;
+      (void)row_of(scene, record, keeps_curves_);
+    }
+    return scenes.size() == count ? std::optional(seconds_since(start)) : std::nullopt;
   }
 
   // From one case, which may end early.
@@ -128,9 +104,9 @@ class Trial {
     const Clock::time_point start = Clock::now();
     scene::Scene scene = run::build_scene(one, family_, shapes_);
     const double set_up = std::max(seconds_since(start), shapes_.seconds(scene.scenario));
-    const Deadline deadline(longest);
+    const StopScope deadline(longest);
     const Clock::time_point begun = Clock::now();
-    const record::CaseRecord record = run::run_case(scene, deadline.over());
+    const record::CaseRecord record = run::run_case(scene);
     const double done = record.strain.empty()
                             ? record.contact.empty() ? 0.0 : record.contact.back().time
                             : record.strain.back().time;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
@@ -201,9 +202,10 @@ class Runner {
     } catch (const InputError&) {  // the loop below finds the case
     } catch (const MeshError&) {
     }
+    const StopScope scope(stop_.end_now);
     for (std::size_t i = 0; i < scenes.size(); ++i)
       if (ended[i] == 0 && !stop_.no_more())
-        attempt(*of_scene[i], [&] { keep_record(i, run::run_case(scenes[i], stop_.end_now)); });
+        attempt(*of_scene[i], [&] { keep_record(i, run::run_case(scenes[i])); });
     for (Made* made : part)
       if (made->tried) made->one.reset();
   }

@@ -1,7 +1,6 @@
 // Writes docs/accuracy.md to stdout: every rung's error on blocks, in uniform tests and on the
 // scenes of `auto`. No test: it takes minutes. `./dev accuracy` runs it.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -197,8 +196,7 @@ struct Reference {
 // The reference of `palpate chart`.
 Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
   const chart::Asked asked = chart::read_for_chart("scene.toml", scene.text, {});
-  const std::atomic<bool> stop = false;
-  const chart::Truth truth = chart::find_truth(asked, 0, stop, [](const std::string&) {}).value();
+  const chart::Truth truth = chart::find_truth(asked, 0, [](const std::string&) {});
   double most = 0.0;
   for (const chart::Moment& moment : truth.moments) most = std::max(most, moment.value);
   return {most, chart::own_error(chosen.scenario, truth.moments).greatest, truth.kind};

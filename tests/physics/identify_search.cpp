@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "identify/givens.h"
 #include "identify_scenes.h"
 #include "record/csv.h"
@@ -97,14 +98,13 @@ TEST(Identify, SlopesAgree) {
     const auto curve = test::clean_curve(scene);
     const auto family = scenario::parse(scene.text, "test.toml", {});
     const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
-    const std::atomic<bool> stop = false;
     identify::FixedRung fixed{.one = family.cases.front()};
     fixed.one.scenario.output.pressure_maps = false;
     fixed.one.scenario.contact.depth = scenario::Contact::Depth::hertz;
     fixed.one.scenario.solver.integrator = scenario::Solver::Integrator::quasi_static;
     fixed.model = scene.kind == identify::CurveKind::force_travel ? scenario::Model::hertz
                                                                   : scenario::Model::mass_spring;
-    identify::ScenarioCurve run(scene.kind, fixed, family, unknowns, stop);
+    identify::ScenarioCurve run(scene.kind, fixed, family, unknowns);
     std::vector<double> x;  // away from the first touch, where the slope has a corner
     for (const double at : curve.x)
       if (scene.kind != identify::CurveKind::force_travel || (at > 0.5e-3 && at < 1.8e-3))
@@ -267,14 +267,13 @@ TEST(Identify, AnUncertainRadiusWidensTheInterval) {
   for (double& x : curve.x) x -= scene.contact_point;
   auto family = scenario::parse(scene.text, "test.toml", {"contact.depth=hertz"});
   const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
-  const std::atomic<bool> stop = false;
   const auto givens = identify::read_givens({"finger.radius=11 mm +- 0.22 mm"},
                                             family.cases.front().scenario, unknowns);
   identify::set_givens(family, givens);
-  auto found = identify::identify(curve, family, unknowns, stop, {.profiles = false});
+  auto found = identify::identify(curve, family, unknowns, {.profiles = false});
   const double estimate = found.unknowns[0].estimate;
   const double before = *found.unknowns[0].std_error;
-  identify::carry_givens(found, curve, family, givens, stop);
+  identify::carry_givens(found, curve, family, givens);
   ASSERT_EQ(found.givens.size(), 1U);
   const double part = found.givens[0].deviations[0];
   EXPECT_NEAR(part / estimate, 0.01, 1e-5);  // half of 2 %, to second order in 2 %
@@ -296,7 +295,8 @@ TEST(Identify, AnInterruptLeavesTheWholeResultOrNone) {
   const auto family = scenario::parse(scene.text, "test.toml", {});
   const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
   const auto table = [&](const std::atomic<bool>& stop) {
-    const auto found = identify::identify(curve, family, unknowns, stop);
+    const StopScope scope(stop);
+    const auto found = identify::identify(curve, family, unknowns);
     return record::csv_text(identify::identified_table(found)) +
            record::csv_text(identify::profile_table(found));
   };
@@ -313,6 +313,8 @@ TEST(Identify, AnInterruptLeavesTheWholeResultOrNone) {
     try {
       EXPECT_EQ(table(stop), whole) << part << "/10 of the time";
     } catch (const InputError&) {
+      ++refused;
+    } catch (const Stopped&) {
       ++refused;
     }
     user.join();

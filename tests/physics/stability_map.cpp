@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/stop_scope.h"
 #include "stability/free_motion.h"
 #include "stability/limit_theory.h"
 #include "stability/probed_body.h"
@@ -24,7 +25,6 @@ const std::string block =
     "mesh = { kind = \"kuhn\", cells = [1, 1, 2] }\n";
 const std::string press = "kind = \"indent\"\nto = \"1 mm\"\n";
 
-const std::atomic<bool> never = false;
 const Told nobody = [](const std::string&, double) {};
 
 std::vector<const FailureRow*> of(const StabilityMap& map, Failure failure) {
@@ -100,8 +100,7 @@ TEST(StabilityMap, IsByTheory) {
     ++told;
     EXPECT_LE(share, 1.0);
   };
-  const StabilityMap map = map_stability(family.cases.front(), family, never, tell);
-  EXPECT_FALSE(map.interrupted);
+  const StabilityMap map = map_stability(family.cases.front(), family, tell);
   EXPECT_GT(told, 100);
   expect_limits_by_theory(map);
   expect_failures_by_theory(map);
@@ -111,9 +110,8 @@ TEST(StabilityMap, IsByTheory) {
 TEST(StabilityMap, EndsEarlyWhereItIsTold) {
   const scenario::Family family = family_of(block, press);
   const std::atomic<bool> now = true;
-  const StabilityMap map = map_stability(family.cases.front(), family, now, nobody);
-  EXPECT_TRUE(map.interrupted);
-  EXPECT_TRUE(map.sentences.empty());
+  const StopScope scope(now);
+  EXPECT_THROW((void)map_stability(family.cases.front(), family, nobody), Stopped);
 }
 
 // The surfaces of the limb alone have 203 vertices; elements twice as long would need 33 nodes.
@@ -125,11 +123,11 @@ TEST(StabilityMap, LeavesOutMeshesThatCannotBeMade) {
   Survey survey;
   survey.one = &family.cases.front();
   survey.family = &family;
-  survey.stop = &stop;
   survey.told = &tell;
   survey.rung = rung_of(survey.one->scenario);
   survey.own = survey.make_body(survey.rung);
-  survey_axes(survey);
+  const StopScope scope(stop);
+  EXPECT_THROW(survey_axes(survey), Stopped);
   ASSERT_FALSE(survey.map.sentences.empty());
   EXPECT_NE(
       survey.map.sentences.front().find("Elements 2 times as long were left out: no mesh near"),
@@ -144,7 +142,7 @@ TEST(StabilityMap, RefusesWhatHasNoMeshAndTooLargeOnes) {
   const auto refused = [](const std::string& shape) -> std::string {
     const scenario::Family family = family_of(shape, press);
     try {
-      (void)map_stability(family.cases.front(), family, never, nobody);
+      (void)map_stability(family.cases.front(), family, nobody);
     } catch (const InputError& error) {
       return error.what();
     }

@@ -18,7 +18,6 @@ struct Measured : testing::Test {
   ~Measured() override { std::filesystem::remove_all(folder_); }
 
   std::vector<Measurement> rows(const ChartOptions& options) {
-    const std::atomic<bool> never = false;
     const Asked asked =
         read_for_chart("creep.toml",
                        scenario::creep +
@@ -26,8 +25,7 @@ struct Measured : testing::Test {
                            "= \"mirrored\"\ncells = [2, 2, 2]\n",
                        {});
     Journal journal(folder_.string(), "me", Replace::any);
-    auto charts = measure(asked, options, journal, never, [](const ChartProgress&) {});
-    return charts.value().front().rows;
+    return measure(asked, options, journal, [](const ChartProgress&) {}).front().rows;
   }
 };
 

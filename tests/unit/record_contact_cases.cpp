@@ -6,7 +6,6 @@
 #include "cases.h"
 #include "contact/friction.h"
 #include "contact/hertz.h"
-#include "finger/sphere.h"
 #include "material/tissue_table.h"
 
 namespace palpate {
@@ -173,9 +172,6 @@ TEST(Friction, DragIsTheInverseOfStick) {
 }
 
 TEST(Friction, WeightCountsOnce) {
-  const finger::Sphere sphere{.radius = finger_radius, .density = 1370.0};
-  // 4/3 pi 0.011^3 1370 kg
-  EXPECT_NEAR(sphere.mass(), 7.6383e-3, 1e-6);
   EXPECT_DOUBLE_EQ(contact::friction::limit(0.3, 1.0, 0.0), 0.3);
   EXPECT_DOUBLE_EQ(contact::friction::limit(0.3, 1.0, 0.5), 0.45);
 }

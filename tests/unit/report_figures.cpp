@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/child_process.h"
 #include "base/files.h"
 #include "plot/gnuplot.h"
-#include "plot/process.h"
 #include "record/csv.h"
 
 namespace palpate::report {
@@ -154,8 +154,8 @@ TEST_F(Gnuplot, SameFigureSameBytes) {
 
 TEST_F(Gnuplot, ScriptRunsByItself) {
   write_atomically(folder_ + "/figure_force_indentation.gp", gnuplot_script(force_figure(folder_)));
-  const plot::ProcessResult result =
-      plot::run_process({.argv = {"gnuplot", "figure_force_indentation.gp"}, .folder = folder_});
+  const ChildResult result =
+      run_process({.argv = {"gnuplot", "figure_force_indentation.gp"}, .folder = folder_});
   EXPECT_EQ(result.output, "");
   EXPECT_TRUE(fs::exists(folder_ + "/figure_force_indentation.svg"));
 }

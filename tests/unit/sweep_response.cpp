@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/child_process.h"
 #include "plot/palette.h"
-#include "plot/process.h"
 #include "record/csv.h"
 #include "svg_text.h"
 #include "sweep/labels.h"
@@ -189,8 +189,8 @@ std::vector<std::string> drawn(const sweep::SweepColumns& columns) {
 }
 
 bool gnuplot_is_there() {
-  return plot::run_process({.argv = {"gnuplot", "--version"}, .folder = ".", .limit = 10.0}).end ==
-         plot::ProcessResult::End::exited;
+  return run_process({.argv = {"gnuplot", "--version"}, .folder = ".", .limit = 10.0}).end ==
+         ChildResult::End::exited;
 }
 
 TEST(Response, EveryDesignIsDrawnInSilence) {
