@@ -1,14 +1,17 @@
 // Finds, computes and keeps results of scenarios.
 #include "cli/goldens.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <filesystem>
-#include <set>
 #include <system_error>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/index.h"
 #include "fit/case_fits.h"
 #include "record/csv.h"
 #include "run/family.h"
@@ -84,14 +87,31 @@ report::CsvFiles compute(const std::string& scenario, int workers) {
 }
 
 void keep(const report::CsvFiles& files, const std::string& folder) {
-  make_folders(folder);
-  std::set<std::string> written;
-  for (const auto& [file, table] : files) {
-    write_atomically(folder + "/" + file, record::csv_text(table));
-    written.insert(folder + "/" + file);
+  for (const auto& [file, table] : files)
+    if (const int at = table.find("outcome"); at >= 0)
+      for (const auto& row : table.rows)
+        if (row[as_index(at)] == record::Cell(std::string("diverged")))
+          throw InputError({folder, 0, 0},
+                           "would keep a case that diverged; mend the scenario, so that it runs to "
+                           "its end");
+  // Beside it, and then in one exchange.
+  const std::string fresh = folder + ".partial";
+  fs::remove_all(fresh);
+  make_folders(fresh);
+  for (const auto& [file, table] : files)
+    write_atomically(fresh + "/" + file, record::csv_text(table));
+  if (fs::exists(folder)) {
+    for (const std::string& path : entries_of(folder))
+      if (!path.ends_with(".csv"))
+        fs::copy(path, fresh + "/" + fs::path(path).filename().string(),
+                 fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+    if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) {
+      fs::remove_all(fresh);
+      return;
+    }
+    fs::remove_all(folder);  // the file system cannot exchange two folders
   }
-  for (const std::string& file : entries_of(folder))
-    if (file.ends_with(".csv") && !written.contains(file)) fs::remove(file);
+  fs::rename(fresh, folder);
 }
 
 }  // namespace palpate::cli
