@@ -164,8 +164,40 @@ void HeldFile::release() {
   file_ = -1;
 }
 
+namespace {
+
+// Writes into what a path names already: a device or a pipe.
+void write_through(const std::string& path, std::string_view content) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  const auto check = [&](bool good) {
+    if (good) return;
+    const int error = errno;
+    if (file >= 0) ::close(file);
+    throw SystemError(path + " cannot be written: " + std::strerror(error));
+  };
+  check(file >= 0);
+  while (!content.empty()) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    check(written >= 0 || errno == EINTR);
+    content.remove_prefix(as_index(std::max<ssize_t>(written, 0)));
+  }
+  if (::close(file) != 0) throw SystemError(path + " cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
 void write_atomically(const std::string& path, std::string_view content) {
-  HeldFile().write(path, content);
+  struct stat there {};
+  const bool exists = ::stat(path.c_str(), &there) == 0;
+  if (exists && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode))
+    return write_through(path, content);
+  // What a link points to is replaced, not the link.
+  std::error_code error;
+  const bool link = exists && ::lstat(path.c_str(), &there) == 0 && S_ISLNK(there.st_mode);
+  const std::string target = link ? std::filesystem::canonical(path, error).string() : path;
+  if (error) throw SystemError(path + " cannot be written: " + error.message());
+  if (!exists) make_folders(std::filesystem::path(target).parent_path().string());
+  HeldFile().write(target, content);
 }
 
 void make_folders(const std::string& path) {

@@ -13,8 +13,8 @@ namespace palpate {
 // (as a pipe or a device, 256 MiB), and if reading fails before the end.
 [[nodiscard]] std::string read_text(const std::string& path);
 
-// Writes a temporary file beside `path`, flushes it to the disk and renames it to `path`. Throws
-// SystemError (a full disk, no permission) and then leaves `path` as it was.
+// Replaces a file whole, by a temporary one on the disk; makes its folder; writes into a device, a
+// pipe or a link's target. Throws SystemError (full disk, no permission), the file as it was.
 void write_atomically(const std::string& path, std::string_view content);
 
 // Creates a folder and the folders above it if they do not exist. Throws SystemError.

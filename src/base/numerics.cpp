@@ -5,6 +5,7 @@
 #define BOOST_MATH_PROMOTE_DOUBLE_POLICY false
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/special_functions/legendre.hpp>
@@ -94,7 +95,18 @@ const GaussRule& gauss_rule(int points) {
 }
 
 double student_t_quantile(double probability, double degrees) {
-  return boost::math::quantile(boost::math::students_t_distribution<double>(degrees), probability);
+  // The curves of a sweep have the same number of points: each asks for the same few values again.
+  struct Known {
+    double probability = 0.0, degrees = 0.0, value = 0.0;
+  };
+  thread_local std::array<Known, 4> known;
+  thread_local std::size_t oldest = 0;
+  for (const Known& one : known)
+    if (one.degrees == degrees && one.probability == probability && degrees > 0.0) return one.value;
+  const double value =
+      boost::math::quantile(boost::math::students_t_distribution<double>(degrees), probability);
+  known[oldest++ % known.size()] = {probability, degrees, value};
+  return value;
 }
 
 double bessel_j(int order, double x) { return boost::math::cyl_bessel_j(order, x); }

@@ -156,7 +156,7 @@ struct Stability {
 };
 struct Sweep {
   static constexpr Word word{"sweep", "Run many cases, on many workers and machines"};
-  enum class Act { plan, run, status, retry, merge, slurm };
+  enum class Act { plan, run, status, retry, merge, parts, slurm };
   Act act = Act::plan;
   std::string subject;  // of `plan` a scenario, else the folder of a plan
   std::vector<std::string> settings;
@@ -168,6 +168,12 @@ struct Sweep {
   int chunk = 50;                 // cases per task of the array
   std::string time;               // limit per task, as Slurm writes it; empty: the cluster's
   std::vector<std::string> show;  // columns that `merge` draws; empty: the usual ones
+  std::string reuse;              // folder of a plan; empty: none
+  bool accept_failed = false;     // failed cases are no failure of the run
+  std::string done;               // file that says that the part is whole; empty: none
+  int of = 1;                     // number of parts
+  std::string program;            // as a shell takes it; empty: this one
+  std::string prologue;           // file whose lines a task runs first; empty: none
   bool force = false;
 };
 struct Identify {

@@ -34,8 +34,10 @@ void report_checks(std::span<const compare::Check> checks, const CheckOptions& o
   const auto show = talk.quiet() ? compare::Show::differing : compare::Show::all;
   for (const compare::Check& check : checks) {
     if (!check.error.empty()) Talk::error(check.error);
-    print(talk.json() ? json_lines(table_of(check, options.headed))
-                      : text_of(check, options.headed, show));
+    if (talk.json())
+      print(json_lines(table_of(check, options.headed)));
+    else
+      print_text(text_of(check, options.headed, show));
   }
   if (!options.junit.empty()) write_atomically(options.junit, compare::junit_text(checks));
   // GitHub reads commands on both streams; stdout may be JSON.

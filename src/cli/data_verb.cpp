@@ -161,7 +161,7 @@ int perform(const Data& command, const Arguments&, const Talk&) {
   } catch (const InputError& error) {
     text += std::string("to be decided: ") + error.problems().front().message + "\n";
   }
-  print(text);
+  print_text(text);
   return exit_good;
 }
 

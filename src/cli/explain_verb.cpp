@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "scenario/key_meaning.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
+#include "sweep/forecast.h"
 
 namespace palpate::cli {
 namespace {
@@ -418,6 +420,22 @@ class Explanation {
   std::string text_;
 };
 
+// What the cases of a sweep cost.
+void tell_cost(const scenario::Family& family, const Talk& talk) {
+  const std::optional<sweep::SweepForecast> cost = sweep::forecast(family, false);
+  if (!cost) return;
+  const double of_a_case = cost->seconds / static_cast<double>(cost->cases);
+  if (talk.json())
+    talk.event("sweep", {{"cases", std::to_string(cost->cases)},
+                         {"seconds", rounded_text(cost->seconds, 3)},
+                         {"seconds_of_a_case", rounded_text(of_a_case, 3)},
+                         {"row_bytes", rounded_text(cost->bytes, 3)}});
+  else
+    print("\nby `palpate sweep`: " + std::to_string(cost->cases) + " cases, " + cost->text() +
+          ", " + rounded_text(1e3 * of_a_case, 2) +
+          " ms a case; it computes neither maps nor pictures\n");
+}
+
 }  // namespace
 
 int perform(const Explain& command, const Arguments&, const Talk& talk) {
@@ -442,8 +460,10 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
       continue;
     }
     if (&scene != &scenes.front()) print("\n");
-    print(Explanation(scene, expected).text(scenes.size() > 1 ? scene.name : "", family.title));
+    print_text(
+        Explanation(scene, expected).text(scenes.size() > 1 ? scene.name : "", family.title));
   }
+  if (!family.design.empty()) tell_cost(family, talk);
   return exit_good;
 }
 

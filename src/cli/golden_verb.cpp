@@ -1,9 +1,10 @@
 // `palpate golden`: keeps results of scenarios, compares with them, and blesses palpate's own.
+#include <fcntl.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -109,14 +110,31 @@ report::CsvFiles compute(const std::string& scenario, int workers) {
 // Writes the files into the folder, and removes CSV files there that are no longer written. Throws
 // SystemError.
 void keep(const report::CsvFiles& files, const std::string& folder) {
-  make_folders(folder);
-  std::set<std::string> written;
-  for (const auto& [file, table] : files) {
-    write_atomically(folder + "/" + file, record::csv_text(table));
-    written.insert(folder + "/" + file);
+  for (const auto& [file, table] : files)
+    if (const int at = table.find("outcome"); at >= 0)
+      for (const auto& row : table.rows)
+        if (row[as_index(at)] == record::Cell(std::string("diverged")))
+          throw InputError({folder, 0, 0},
+                           "would keep a case that diverged; mend the scenario, so that it runs to "
+                           "its end");
+  // Beside it, and then in one exchange.
+  const std::string fresh = folder + ".partial";
+  fs::remove_all(fresh);
+  make_folders(fresh);
+  for (const auto& [file, table] : files)
+    write_atomically(fresh + "/" + file, record::csv_text(table));
+  if (fs::exists(folder)) {
+    for (const std::string& path : entries_of(folder))
+      if (!path.ends_with(".csv"))
+        fs::copy(path, fresh + "/" + fs::path(path).filename().string(),
+                 fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+    if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) {
+      fs::remove_all(fresh);
+      return;
+    }
+    fs::remove_all(folder);  // the file system cannot exchange two folders
   }
-  for (const std::string& file : entries_of(folder))
-    if (file.ends_with(".csv") && !written.contains(file)) fs::remove(file);
+  fs::rename(fresh, folder);
 }
 
 namespace fs = std::filesystem;

@@ -38,7 +38,8 @@ struct Parser {
     app.add_flag("--json", arguments.manner.json, "JSON on stdout, one object per line");
     app.footer(
         "Exit codes: 0 good, 1 internal, 2 bad input, 3 comparison differs, 4 diverged, 5 mesh,\n"
-        "6 device link, 7 sweep incomplete, 75 interrupted, resumable, 130 interrupted.\n"
+        "6 device link, 7 sweep incomplete, 8 part run elsewhere, 75 interrupted, resumable, 130 "
+        "interrupted.\n"
         "Data go to stdout, messages to stderr.");
     // For its place in lists: parse() reads `help VERB` as `VERB --help`.
     app.add_subcommand("help", "Print the help of a verb")

@@ -55,6 +55,7 @@ int program(const std::vector<std::string>& given) {
   // A limit of file size must give an error message, like a full disk, and not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   say_why_at_abort();
+  ::unsetenv("GNUTERM");                // scripts of figures set the terminal themselves
   end_at_interrupts(exit_interrupted);  // until a verb that has something to keep listens to them
   try {
     const auto parsed = parse(given);

@@ -33,6 +33,22 @@ std::vector<std::string> reports_below(const fs::path& folder) {
   return found;
 }
 
+// A relative link to a path: no letter of it is read as a scheme, a query or a fragment.
+std::string link_of(const std::string& path) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string link = "./";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       std::string_view("/._-~").find(c) != std::string_view::npos;
+    if (plain)
+      link += c;
+    else
+      link += {'%', digits[byte >> 4], digits[byte & 15]};
+  }
+  return link;
+}
+
 }  // namespace
 
 int perform(const Index& command, const Arguments&, const Talk& talk) {
@@ -50,9 +66,9 @@ int perform(const Index& command, const Arguments&, const Talk& talk) {
   for (const std::string& report : reports) {
     const page::Summary summary = page::summary_of(read_text((folder / report).string()));
     items += page::element(
-        "section",
-        page::element("h3", page::link(report, summary.title.empty() ? report : summary.title)) +
-            page::element("p", summary.answer));
+        "section", page::element("h3", page::link(link_of(report),
+                                                  summary.title.empty() ? report : summary.title)) +
+                       page::element("p", summary.answer));
   }
   page.section("Reports", items);
   const std::string index = (folder / "index.html").string();

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
@@ -67,8 +68,13 @@ int sweep_run(const Sweep& command, const Talk& talk) {
   // From here a second signal ends the program at once, without losing a finished row.
   const std::atomic<bool>& stop = listen_for_interrupts(exit_resumable, {SIGUSR1});
   Ticker ticker(talk);
-  const sweep::SweepEnd end =
-      sweep::run_sweep(plan, task, stop, [&](const sweep::SweepProgress& now) { ticker(now); });
+  sweep::SweepEnd end;
+  try {
+    end = sweep::run_sweep(plan, task, stop, [&](const sweep::SweepProgress& now) { ticker(now); });
+  } catch (const sweep::PartIsRun& held) {
+    Talk::error(held.what());
+    return exit_held;
+  }
   talk.progress("");
   if (!std::filesystem::exists(command.subject + "/plan.json"))
     throw SystemError(command.subject +
@@ -86,8 +92,13 @@ int sweep_run(const Sweep& command, const Talk& talk) {
     Talk::error("palpate: interrupted; " + text + "; the same command continues from there");
     return exit_resumable;
   }
+  const bool good = end.missing == 0 && (end.failed == 0 || command.accept_failed);
+  if (good && !command.done.empty()) {
+    make_folders(std::filesystem::path(command.done).parent_path().string());
+    write_atomically(command.done, task.shard.text() + " of " + plan.hash + "\n");
+  }
   talk.say(text);
-  return end.completed == end.all ? exit_good : exit_partial;
+  return good ? exit_good : exit_partial;
 }
 
 }  // namespace palpate::cli

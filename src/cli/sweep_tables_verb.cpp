@@ -1,6 +1,7 @@
 // `palpate sweep status` and `merge`: count the results of a sweep, and write them as one table.
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -60,9 +61,18 @@ std::string status_text(const sweep::SweepTotals& totals, const sweep::SweepResu
        totals.missing > 0 ? "  (numbers " + totals.missing_numbers + ")" : "");
   line("corrupt", results.corrupt());
   line("files", results.files().size());
-  for (const record::JournalFile& file : results.files())
-    text += "  " + file.path + ": " + std::to_string(file.rows) +
-            (file.rows == 1 ? " row\n" : " rows\n");
+  // A part that was continued has several files: one line a part.
+  std::map<std::string, std::pair<std::size_t, std::size_t>> parts;  // files and rows by part
+  for (const record::JournalFile& file : results.files()) {
+    const std::string name = std::filesystem::path(file.path).filename().string();
+    auto& [files, rows] = parts[name.substr(0, name.find('_'))];
+    ++files;
+    rows += file.rows;
+  }
+  for (const auto& [part, count] : parts)
+    text += "  " + part + ": " + std::to_string(count.second) +
+            (count.second == 1 ? " row in " : " rows in ") + std::to_string(count.first) +
+            (count.first == 1 ? " file\n" : " files\n");
   return text;
 }
 
@@ -111,10 +121,13 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   const sweep::SweepTotals totals = sweep::count_results(plan, results);
   for (const std::string& warning : results.warnings()) talk.warn(warning);
   using State = WholeFolder::State;
+  // The same rows and columns give the same tables and figures.
+  std::string origin = plan.hash;
+  for (std::size_t i = 0; i < plan.count(); ++i)
+    if (results.at(i).known()) origin += sweep::id_text(results.at(i).head.seal);
+  for (const std::string& column : command.show) origin += "\n" + column;
   WholeFolder folder((std::filesystem::path(plan.folder) / "merged").string(), "merged sweep",
-                     command.force ? Replace::any : Replace::incomplete);
-  if (!command.force && folder.state() == State::complete)
-    throw InputError({folder.path(), 0, 0}, "is complete already; give `--force` to replace it");
+                     command.force ? Replace::any : Replace::incomplete, origin);
   folder.refuse_what_is_there();
   folder.open();
   sweep::merge_sweep(plan, results, totals, folder);

@@ -16,6 +16,7 @@ int perform(const Sweep& command, const Arguments&, const Talk& talk) {
     case Sweep::Act::retry: return sweep_run(command, talk);
     case Sweep::Act::status: return sweep_status(command, talk);
     case Sweep::Act::merge: return sweep_merge(command, talk);
+    case Sweep::Act::parts: return sweep_parts(command, talk);
     case Sweep::Act::slurm: return sweep_slurm(command, talk);
   }
   return exit_internal;

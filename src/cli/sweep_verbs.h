@@ -14,6 +14,7 @@ namespace palpate::cli {
 [[nodiscard]] int sweep_run(const Sweep& command, const Talk& talk);  // also `retry`
 [[nodiscard]] int sweep_status(const Sweep& command, const Talk& talk);
 [[nodiscard]] int sweep_merge(const Sweep& command, const Talk& talk);
+[[nodiscard]] int sweep_parts(const Sweep& command, const Talk& talk);
 [[nodiscard]] int sweep_slurm(const Sweep& command, const Talk& talk);
 
 // `1 case`, `2 cases`.

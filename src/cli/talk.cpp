@@ -83,4 +83,6 @@ void print(const std::string& text) {
     throw SystemError("stdout cannot be written");
 }
 
+void print_text(const std::string& text) { print(shown(text)); }
+
 }  // namespace palpate::cli

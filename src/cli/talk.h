@@ -41,4 +41,7 @@ class Talk {
 // Writes data to stdout. Throws SystemError if it cannot be written.
 void print(const std::string& data);
 
+// Writes sentences for people, with control characters of names in them shown as `\x1b`.
+void print_text(const std::string& text);
+
 }  // namespace palpate::cli

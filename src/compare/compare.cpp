@@ -12,6 +12,13 @@
 namespace palpate::compare {
 namespace {
 
+// A name from a file as part of a line: it ends none, and is no command for a build server.
+std::string one_line(const std::string& name) {
+  std::string line;
+  for (const char c : name) line += c == '\n' ? std::string("\\x0a") : std::string(1, c);
+  return line.starts_with("::") ? "\\x3a" + line.substr(1) : line;
+}
+
 using record::Cell;
 using record::Table;
 using State = ColumnComparison::State;
@@ -67,8 +74,8 @@ std::string cell_text(const Cell& cell) {
 
 std::string worst_text(const WorstRow& worst) {
   std::string text = "row " + std::to_string(worst.row) + ": ";
-  if (!worst.case_name.empty()) text += "case `" + worst.case_name + "`, ";
-  if (!worst.x_name.empty()) text += worst.x_name + " " + cell_text(worst.x) + ", ";
+  if (!worst.case_name.empty()) text += "case `" + one_line(worst.case_name) + "`, ";
+  if (!worst.x_name.empty()) text += one_line(worst.x_name) + " " + cell_text(worst.x) + ", ";
   text += "got " + cell_text(worst.got) + ", want " + cell_text(worst.want);
   if (std::isfinite(worst.relative))
     text += ", relative difference " + rounded_text(worst.relative, 3);
@@ -161,7 +168,7 @@ std::string comparison_text(const Comparison& comparison, Show show) {
   if (!comparison.rows_equal()) text += "rows: " + rows_text(comparison) + "\n";
   for (const ColumnComparison& column : comparison.columns)
     if (show == Show::all || !column.equal())
-      text += column.name + ": " + verdict_text(column) + "\n";
+      text += one_line(column.name) + ": " + verdict_text(column) + "\n";
   return text;
 }
 

@@ -65,6 +65,17 @@ void LineGauge::pass_time() {
 
 double LineGauge::reply_time() const { return std::max(least_answer, 2.0 * limits_.period); }
 
+// Polls keep the rate of the settings; one that is late is not made up for.
+bool LineGauge::due(double until) {
+  if (settings_.poll.empty() || asked_ || clock_.kind() == Clock::Kind::stepped) return true;
+  const double now = wire_time();
+  const double wait = std::min(next_poll_, until) - now;
+  if (wait > 0.0) clock_.sleep_until(clock_.now() + wait);
+  if (next_poll_ > until) return false;
+  next_poll_ = std::max(next_poll_, now) + limits_.period;
+  return true;
+}
+
 bool LineGauge::ask() {
   if (settings_.poll.empty() || asked_) return true;
   // What came since the last reply is not the reply to this request.
@@ -189,6 +200,7 @@ Sample LineGauge::sample(double wait) {
   if (restarted_) return finished(Arrival::lost, Fault::restarted);
   const double until = wire_time() + std::max(0.0, wait);
   while (true) {
+    if (!due(until)) return finished(Arrival::none, Fault::none);
     if (!ask()) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
     if (const auto line = lines_.next()) {
       // The beginning of the first line of a stream may be missing.

@@ -55,6 +55,8 @@ class LineGauge {
   void pass_time();
   [[nodiscard]] double reply_time() const;
   bool ask();
+  // Waits for the time of the next poll; false if it is after `until` (s, wire_time()).
+  bool due(double until);
   void receive(double until);
   void keep(std::string_view line);
   Sample read(std::string_view line);
@@ -78,6 +80,7 @@ class LineGauge {
   bool asked_ = false;          // a poll text was sent and no line has come
   bool heard_ = false;          // bytes have come since
   double asked_at_ = 0.0;       // s, wire_time()
+  double next_poll_ = 0.0;      // s, wire_time()
   bool cut_ = false;            // the next line may lack its beginning
   bool restarted_ = false;      // the gauge's time went back
   double unit_ = 0.0;           // N, of the first force

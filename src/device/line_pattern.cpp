@@ -222,11 +222,15 @@ std::string LinePattern::why_not(std::string_view line) const {
   return wanted + " was expected " + (rest.empty() ? "where the line ends" : "at `" + rest + "`");
 }
 
+// Displays also write units of force in capitals, `LB` or `KGF`; `MN` would be another unit.
 std::optional<double> unit_of(Measure measure, std::string_view word) {
   for (const UnitFactor& one : units_of(measure)) {
     const bool same = one.unit.size() == word.size() &&
-                      std::equal(word.begin(), word.end(), one.unit.begin(),
-                                 [](char a, char b) { return a == b || (b == 'F' && a == 'f'); });
+                      std::equal(word.begin(), word.end(), one.unit.begin(), [&](char a, char b) {
+                        const bool capital = measure == Measure::force && one.unit != "mN" &&
+                                             is_letter(b) && a == static_cast<char>(b & ~0x20);
+                        return a == b || capital || (b == 'F' && a == 'f');
+                      });
     if (same) return one.factor;
   }
   return std::nullopt;

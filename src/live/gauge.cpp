@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "device/safety.h"
 #include "live/guide.h"
 #include "live/loop.h"
@@ -22,6 +23,25 @@ using device::Sample;
 using device::Trip;
 
 constexpr double longest_wait = 0.1;  // s, after which a signal is noticed
+constexpr double told_tare = 0.1;     // of `start_force`
+
+// Mean and standard deviation of readings; those of a long time, about the last hundred.
+class Readings {
+ public:
+  double count = 0.0;
+  void add(double force) {
+    constexpr double most = 100.0;
+    count = std::min(count + 1.0, most);
+    const double change = force - mean_;
+    mean_ += change / count;
+    variance_ += (change * (force - mean_) - variance_) / count;
+  }
+  [[nodiscard]] double mean() const { return mean_; }
+  [[nodiscard]] double deviation() const { return std::sqrt(std::max(0.0, variance_)); }
+
+ private:
+  double mean_ = 0.0, variance_ = 0.0;
+};
 
 class GaugeLoop {
  public:
@@ -91,17 +111,28 @@ class GaugeLoop {
   // Without travel the time of the programme begins with the contact: where a line through
   // F^(2/3) of the first readings is 0, as for a sphere that is pressed at a constant speed. Three
   // readings make a line; with fewer, contact began after the last reading without force.
+  // Forces are those above the mean of the readings at rest, which is what a gauge shows that is
+  // not tared; a change within the noise of these readings is none.
   bool begins(const Sample& sample) {
     const double time = time_of(sample);
-    if (!(sample.force > *limits_.start_force / 8.0)) {
+    if (rest_.count == 0) rest_.add(sample.force);
+    const double least = *limits_.start_force;
+    const double noise = rest_.deviation();
+    const double change = sample.force - rest_.mean();
+    if (!(change > std::max(least / 8.0, 3.0 * noise))) {
+      for (const Sample& one : std::exchange(first_, {})) rest_.add(one.force);
+      rest_.add(sample.force);
       line_ = TouchLine();
-      first_.clear();
       last_free_ = time;
       return false;
     }
-    line_.add(-time, sample.force);
+    line_.add(-time, change);
     first_.push_back(sample);
-    if (sample.force < *limits_.start_force) return false;
+    if (change < std::max(least, 6.0 * noise)) return false;
+    tare_ = rest_.mean();
+    if (std::abs(tare_) > told_tare * least)
+      loop_.remarks.push_back("the gauge showed " + rounded_text(1e3 * tare_, 3) +
+                              " mN at rest, which is taken out of all forces; tare it");
     const auto contact = line_.surface();
     first_time_ =
         contact ? std::min(-*contact, time_of(first_.front())) : last_free_.value_or(time);
@@ -131,7 +162,7 @@ class GaugeLoop {
     row.contact.step = guide_.step();
     row.contact.time = time;
     row.measured.place = {0.0, 0.0, offset.z()};
-    row.measured.force = sample.force;
+    row.measured.force = sample.force - tare_;
     loop_.log.push(row);
     ++rows_;
     if (guide_.done()) ends({});
@@ -146,6 +177,8 @@ class GaugeLoop {
   bool begun_;               // the rows have begun
   double start_ = 0.0;       // s, of the clock
   double first_time_ = 0.0;  // s, of the first row or of the contact
+  Readings rest_;            // before the contact
+  double tare_ = 0.0;        // N
   TouchLine line_;
   std::vector<Sample> first_;        // in contact, before the rows
   std::optional<double> last_free_;  // s, of the last reading without force

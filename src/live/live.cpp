@@ -266,6 +266,7 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   }
   result.rows_are_written = log.rows_are_written();
   notes_.insert(notes_.end(), log.troubles().begin(), log.troubles().end());
+  result.warnings.insert(result.warnings.end(), loop.remarks.begin(), loop.remarks.end());
   if (loop.left_out > 0.0)
     result.warnings.push_back(rounded_text(loop.left_out, 3) +
                               " s of late frames are left out of the model's time: the tissue's "

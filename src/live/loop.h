@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/clock.h"
 #include "device/health.h"
@@ -58,7 +59,8 @@ struct LiveLoop {
   const std::atomic<bool>& stop;
   std::uint64_t softened = 0;  // arm: number of frames with a stiffness reduced for passivity
   FreeReadings free = {};      // stand
-  double left_out = 0.0;       // arm: s, time of late frames by which the model was not advanced
+  std::vector<std::string> remarks = {};  // about what the device showed
+  double left_out = 0.0;  // arm: s, time of late frames by which the model was not advanced
 };
 
 // How a loop ended.

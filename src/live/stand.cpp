@@ -29,7 +29,9 @@ constexpr double feel_way = 20e-3;     // m, largest way down from the first pos
 constexpr double feel_step = 0.2e-3;   // m: the stand goes no further if nobody can stop it
 constexpr double feel_from = 5e-3;     // N above the mean out of contact: the finger is in contact
 constexpr double feel_to = 40e-3;      // N above that mean: enough readings to find the surface
-constexpr int quiet_readings = 10;     // out of contact, for that mean
+constexpr int quiet_readings = 20;     // out of contact, for that mean and the noise
+constexpr double noise_from = 3.0;     // standard deviations of the noise, at least, for contact
+constexpr double noise_to = 12.0;      // and for the end of the search
 constexpr double rest_time = 1.0;      // s, for the tissue to recover from feeling
 constexpr double arrived = 0.65 * device::mark10::travel_step;  // m: half a step, in mm or inches
 constexpr double stuck_time = 1.0;  // s without a change of travel during a motion
@@ -192,7 +194,8 @@ class StandLoop {
   struct Until {
     double force = Limits::none;  // N
     double quiet = 0.0;           // N, from which it changes
-    TouchLine* line = nullptr;    // receives the readings in contact
+    double contact = 0.0;         // N, the least change in contact
+    TouchLine* line = nullptr;    // receives the readings of the last contact
   };
 
   // Moves to the height `target` (m), which is also set as the stand's limit.
@@ -218,7 +221,13 @@ class StandLoop {
     double before = last_.position.z();
     while (poll()) {
       const double change = last_.force - until.quiet;
-      if (until.line != nullptr && change > feel_from) until.line->add(last_.position.z(), change);
+      if (until.line != nullptr) {
+        // A reading without contact says that those before it were noise.
+        if (change > until.contact)
+          until.line->add(last_.position.z(), change);
+        else
+          *until.line = TouchLine();
+      }
       const bool felt = std::abs(change) >= until.force;
       // The stand is stopped even at its limit: while braking it would continue if the limit moved.
       if (felt || std::abs(last_.position.z() - target) <= arrived) {
@@ -257,14 +266,24 @@ class StandLoop {
     low_ = from - feel_way;
     high_ = from + free_way;
     if (!allow_range(low_, high_)) return false;
-    double quiet = 0.0;
+    double sum = 0.0;
+    double squares = 0.0;  // of differences from the first, which lose no digits
+    const double first = last_.force;
     for (int i = 0; i < quiet_readings; ++i) {
       if (!poll()) return false;
-      quiet += last_.force / quiet_readings;
+      sum += last_.force - first;
+      squares += (last_.force - first) * (last_.force - first);
     }
+    const double mean = sum / quiet_readings;
+    const double quiet = first + mean;
+    const double noise = std::sqrt(std::max(0.0, squares / quiet_readings - mean * mean) *
+                                   quiet_readings / (quiet_readings - 1));
     TouchLine line;
-    const Until until{.force = feel_to, .quiet = quiet, .line = &line};
-    while (last_.force - quiet < feel_to) {
+    const Until until{.force = std::max(feel_to, noise_to * noise),
+                      .quiet = quiet,
+                      .contact = std::max(feel_from, noise_from * noise),
+                      .line = &line};
+    while (last_.force - quiet < until.force) {
       const double z = last_.position.z();
       if (z <= low_ + arrived)
         return ends({LiveEnd::Why::link, "nothing was felt within " + rounded_text(1e3 * feel_way) +

@@ -69,7 +69,11 @@ double end_of_force(const Rows& rows, const std::vector<double>& force, std::siz
   const double spread = n * xx - x * x;
   const double slope = (n * xy - x * y) / spread;
   if (n < 3.0 || !(spread > 0.0) || !(slope > 0.0)) return Verdict::unknown;
-  return (x - y / slope) / n;
+  // A line that is almost level meets zero anywhere.
+  const double end = (x - y / slope) / n;
+  const auto [low, high] = std::minmax_element(rows.travel.begin(), rows.travel.end());
+  const double reach = *high - *low;
+  return end >= *low - reach && end <= *high + reach ? end : Verdict::unknown;
 }
 
 // Energy lost over energy put in. Nothing if the finger has not come back half of its way.
@@ -141,8 +145,9 @@ class Judgement {
   // Without readings from above the surface, the rows before contact must do.
   void look_before_contact() {
     std::vector<double> before = free_;
-    for (std::size_t i = 0; i <= rows_.begin && before.empty(); ++i)
-      if (!in_contact(i)) before.push_back(rows_.measured[i]);
+    if (before.empty())
+      for (std::size_t i = 0; i <= rows_.begin; ++i)
+        if (!in_contact(i)) before.push_back(rows_.measured[i]);
     if (before.empty()) return;
     found_.offset = median(before);
     std::vector<double> away;
@@ -226,16 +231,62 @@ class Judgement {
       found_.explained = true;
       return;
     }
+    if (explain_by_outliers(force) || explain_by_drift(force)) {
+      found_.explained = true;
+      return;
+    }
     const double scale = std::abs(found_.stiffness);
     std::vector<double> scaled;
     for (const double each : force) scaled.push_back(each / scale);
     const double by_stiffness = scale > 0.1 ? rest(scaled) * scale : Verdict::unknown;
     const double by_surface = find_surface(force);
-    const bool surface = !(by_surface > by_stiffness) && by_surface <= found_.allowed;
+    // Another surface shows in the press: where the press agrees as it is, the difference is
+    // elsewhere.
+    const bool surface = !(by_surface > by_stiffness) && by_surface <= found_.allowed &&
+                         press_rest(force) > found_.allowed;
     if (!surface) found_.surface = Verdict::unknown;
     if (surface) found_.causes.push_back(Cause::wrong_surface);
     if (!surface && by_stiffness <= found_.allowed) found_.causes.push_back(Cause::wrong_stiffness);
     found_.explained = surface || by_stiffness <= found_.allowed;
+  }
+
+  // A few readings alone are far off: without the farthest, one in fifty, the rest agrees.
+  bool explain_by_outliers(const std::vector<double>& force) {
+    std::vector<double> away;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      away.push_back(std::abs(force[i] - rows_.model[i]));
+    const std::size_t few = 1 + away.size() / 50;
+    if (away.size() < 10 * few) return false;
+    std::sort(away.begin(), away.end());
+    const double far = 3.0 * found_.allowed;
+    const auto off = as_index(away.end() - std::upper_bound(away.begin(), away.end(), far));
+    if (off == 0 || off > few) return false;
+    away.resize(away.size() - off);
+    if (root_mean_square(away) > found_.allowed) return false;
+    found_.causes.push_back(Cause::outliers);
+    found_.outliers = off;
+    return true;
+  }
+
+  // The gauge's zero moves evenly over the run: in the order of the rows, which are taken at a
+  // constant rate.
+  bool explain_by_drift(std::vector<double> force) {
+    if (!(std::abs(found_.drift) > found_.allowed)) return false;
+    const double sign = found_.stiffness < 0.0 ? -1.0 : 1.0;
+    const double last = static_cast<double>(rows_.size() - 1);
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] -= sign * found_.drift * static_cast<double>(i) / last;
+    if (rest(force) > found_.allowed) return false;
+    found_.causes.push_back(Cause::drift);
+    return true;
+  }
+
+  // N, rms of `force` minus the model in the press.
+  [[nodiscard]] double press_rest(const std::vector<double>& force) const {
+    std::vector<double> residual;
+    for (std::size_t i = rows_.begin; i <= rows_.top; ++i)
+      residual.push_back(force[i] - rows_.model[i]);
+    return root_mean_square(residual);
   }
 
   void add_tare() {

@@ -1,6 +1,7 @@
 // Whether the force that a live run measured agrees with the model, and what explains it if not.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -30,6 +31,8 @@ enum class Cause {
   wrong_tare,       // the gauge shows a force out of contact
   wrong_surface,    // the specimen begins at another travel
   wrong_stiffness,  // the specimen's force is a multiple of the model's
+  outliers,         // a few readings are far off, the others agree
+  drift,            // the gauge's zero moves during the run
 };
 
 struct Verdict {
@@ -38,6 +41,7 @@ struct Verdict {
   Outcome outcome = Outcome::not_judged;
   std::vector<Cause> causes = {};  // together they explain a difference
   bool explained = false;          // whether they do so within what is allowed
+  std::size_t outliers = 0;        // readings that are far off
 
   double peak = 0.0;            // N, largest force of the model
   double difference = unknown;  // N, root mean square of measured minus model, over all rows
@@ -59,8 +63,8 @@ struct Verdict {
 
 // Judges a run: measured and model agree if the root mean square of their difference is at most
 // `tolerance` times the model's largest force, or twice the noise of the gauge if that is more. A
-// difference is explained, if it can be, by a sign, a tare, and then a surface or a stiffness. A
-// value that the columns do not determine is NaN.
+// difference is explained, if it can be, by a sign, a tare, and then a few readings, a drift, a
+// surface or a stiffness. A value that the columns do not determine is NaN.
 [[nodiscard]] Verdict judge(const MeasuredCurve& curve, double tolerance);
 
 // One line for people, without a full stop.

@@ -36,6 +36,13 @@ std::string cause_clause(Cause cause, const Verdict& verdict) {
       return "another stiffness: the specimen's force is " +
              rounded_text(std::abs(verdict.stiffness), 3) +
              " times the model's; `palpate identify` estimates its properties";
+    case Cause::outliers:
+      return "outliers: " + std::to_string(verdict.outliers) +
+             (verdict.outliers == 1 ? " reading is" : " readings are") +
+             " far off, and all others agree; look for a loose cable";
+    case Cause::drift:
+      return "drift: the gauge's zero moves by " + millinewtons(verdict.drift) +
+             " during the run; let it warm up";
   }
   return {};
 }
@@ -68,7 +75,7 @@ std::string verdict_sentence(const Verdict& verdict) {
     text += ", release at " + beside_model(verdict.release, verdict.release_model, length_text);
   for (const Cause cause : verdict.causes) text += "; " + cause_clause(cause, verdict);
   if (verdict.outcome == Verdict::Outcome::differs && !verdict.explained)
-    text += "; neither sign, tare, surface nor stiffness explains it";
+    text += "; neither sign, tare, outliers, drift, surface nor stiffness explains it";
   return text;
 }
 
@@ -83,6 +90,8 @@ std::vector<record::Finding> verdict_findings(const Verdict& verdict) {
       case Cause::wrong_tare: return "wrong_tare";
       case Cause::wrong_surface: return "wrong_surface";
       case Cause::wrong_stiffness: return "wrong_stiffness";
+      case Cause::outliers: return "outliers";
+      case Cause::drift: return "drift";
     }
     return "";
   };

@@ -23,8 +23,12 @@ bool needs_quotes(const std::string& word) {
 std::string field_text(const std::string& word) {
   if (!needs_quotes(word)) return word;
   std::string text = "\"";
-  for (const char c : word) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + "\"";
+  for (const char c : word) {
+    if (c == '"') text += c;
+    text += c;
+  }
+  text += '"';
+  return text;
 }
 
 std::string cell_text(const Cell& cell) {

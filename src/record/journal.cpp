@@ -26,6 +26,7 @@ std::string header_of(std::string_view identity) { return greeting + std::string
 
 std::string escaped(std::string_view text) {
   std::string out;
+  out.reserve(text.size() + text.size() / 8);
   for (const char c : text) {
     if (c == '\\' || c == '\n') out += '\\';
     out += c == '\n' ? 'n' : c;

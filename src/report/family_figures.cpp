@@ -104,12 +104,19 @@ double display_scale(const scenario::Family& family, const record::CaseRecord& r
   return scale == scales.end() ? 1.0 : scale->second;
 }
 
-// One series per case, without fits; if there are many cases, coloured by a swept number.
+// More curves are a surface, and gnuplot reads the table once for every curve.
+constexpr std::size_t most_curves = 64;
+
+// One series per case, without fits; if there are many cases, coloured by a swept number. Of more
+// than most_curves cases, as many evenly chosen ones, which the title says.
 plot::Figure with_cases(plot::Figure (*figure)(std::vector<plot::Series>),
                         const scenario::Family& family, const Records& records) {
   const std::optional<CaseColours> colours = case_colours(family);
   std::vector<plot::Series> all;
-  for (const record::CaseRecord& record : records) {
+  const std::size_t drawn = std::min(records.size(), most_curves);
+  for (std::size_t i = 0; i < drawn; ++i) {
+    const record::CaseRecord& record =
+        records[drawn == 1 ? 0 : i * (records.size() - 1) / (drawn - 1)];
     plot::Series series{.case_name = record.name, .scale = display_scale(family, record)};
     if (colours) {
       const auto& [shade, label] = colours->cases.at(record.name);
@@ -339,7 +346,12 @@ std::vector<plot::Figure> family_figures(const scenario::Family& family, const R
   if (records.empty()) return {};
   std::vector<plot::Figure> figures = family.base.uniform() ? uniform_figures(family, records, fits)
                                                             : press_figures(family, records, fits);
-  for (plot::Figure& figure : figures) figure.title = family.title;
+  for (plot::Figure& figure : figures) {
+    figure.title = family.title;
+    if (records.size() > most_curves && figure.series.front().case_name == records.front().name)
+      figure.title +=
+          " (" + std::to_string(most_curves) + " of " + std::to_string(records.size()) + " cases)";
+  }
   return figures;
 }
 

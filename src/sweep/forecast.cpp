@@ -88,6 +88,7 @@ class Trial {
       const scenario::Case one = scenario::make_case(family_, i);
       (void)case_id(one, files_);
       scenes.push_back(run::build_scene(one, family_, shapes_));
+      scenes.back().scenario.output.keep_rows_only();
       scenes.back().sinkings = &sinkings_;
     }
     const StopScope deadline(longest - seconds_since(start));
@@ -104,6 +105,7 @@ class Trial {
     const Clock::time_point start = Clock::now();
     scene::Scene scene = run::build_scene(one, family_, shapes_);
     const double set_up = std::max(seconds_since(start), shapes_.seconds(scene.scenario));
+    scene.scenario.output.keep_rows_only();
     const StopScope deadline(longest);
     const Clock::time_point begun = Clock::now();
     const record::CaseRecord record = run::run_case(scene);
@@ -125,18 +127,25 @@ class Trial {
 
 }  // namespace
 
-std::string forecast(const scenario::Family& family, bool keeps_curves) {
-  constexpr double bytes = 2400.0;  // per row, about; docs/sweeps.md
+std::string SweepForecast::text() const {
+  return "about " + rounded_text(seconds, 2) + " s on one worker and " +
+         rounded_text(bytes / 1e6, 2) + " MB" + (curves ? " besides the curves" : "");
+}
+
+std::optional<SweepForecast> forecast(const scenario::Family& family, bool keeps_curves) {
+  constexpr double row = 2400.0;  // bytes, about; docs/sweeps.md
   std::optional<double> seconds;
   try {
     seconds = Trial(family, keeps_curves).seconds();
   } catch (const InputError&) {  // planning reports invalid cases
   } catch (const MeshError&) {
   }
-  if (!seconds) return {};
-  return "about " + rounded_text(*seconds, 2) + " s on one worker and " +
-         rounded_text(bytes * static_cast<double>(family.design.count()) / 1e6, 2) + " MB" +
-         (keeps_curves ? " besides the curves" : "");
+  if (!seconds) return std::nullopt;
+  const std::size_t cases = family.design.count();
+  return SweepForecast{.cases = cases,
+                       .seconds = *seconds,
+                       .bytes = row * static_cast<double>(cases),
+                       .curves = keeps_curves};
 }
 
 }  // namespace palpate::sweep

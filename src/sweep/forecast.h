@@ -1,15 +1,26 @@
 // What a sweep will take, from running a few of its cases.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "scenario/family.h"
 
 namespace palpate::sweep {
 
-// The time on one worker and the size of the results, as text. Runs some neighbouring cases for up
-// to about two seconds: once with all that cases share, and once without. Empty if a case is
-// invalid or fails.
-[[nodiscard]] std::string forecast(const scenario::Family& family, bool keeps_curves);
+struct SweepForecast {
+  std::size_t cases = 0;
+  double seconds = 0.0;  // of processor time, on one worker
+  double bytes = 0.0;    // of rows, without curves
+  bool curves = false;
+
+  [[nodiscard]] std::string text() const;  // about 12 s on one worker and 2.4 MB
+};
+
+// Runs some neighbouring cases for up to about two seconds: once with all that cases share, and
+// once without. Nothing if a case is invalid or fails.
+[[nodiscard]] std::optional<SweepForecast> forecast(const scenario::Family& family,
+                                                    bool keeps_curves);
 
 }  // namespace palpate::sweep

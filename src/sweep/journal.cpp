@@ -17,7 +17,8 @@ using Whose = record::JournalFile::Whose;
 
 // Whether a file name such as `3-of-16_...` names another part of the same division.
 bool is_of_another_part(const std::string& name, const Shard& shard) {
-  const std::string part = name.substr(0, name.find('_'));
+  std::string part = name.substr(0, name.find('_'));
+  if (part.starts_with("retry-")) part.erase(0, 6);
   return part.ends_with("-of-" + std::to_string(shard.of)) && part != shard.text();
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <numeric>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "base/document_writer.h"
@@ -16,9 +18,10 @@
 #include "run/share_out.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
-#include "sweep/forecast.h"
+#include "sweep/journal.h"
 #include "sweep/plan_file.h"
 #include "sweep/row.h"
+#include "sweep/shard.h"
 
 namespace palpate::sweep {
 namespace {
@@ -133,10 +136,10 @@ void write_cases(const std::string& path, const scenario::Family& original,
   refuse_twins(original, ids);
 }
 
-void refuse_many(const scenario::Family& family, const std::string& forecast) {
+void refuse_many(const scenario::Family& family, const std::optional<SweepForecast>& forecast) {
   throw InputError({family.document.place.file, 0, 0},
                    "`sweep` makes " + std::to_string(family.design.count()) + " cases" +
-                       (forecast.empty() ? "" : " (" + forecast + ")") +
+                       (forecast ? " (" + forecast->text() + ")" : "") +
                        "; give `--yes` to plan more than " + std::to_string(sweep_ceiling));
 }
 
@@ -164,6 +167,37 @@ void refuse_unread(const scenario::Family& family) {
                        "`" + setting.key + "` changes nothing: in all of " + std::to_string(tries) +
                            " cases tried, `model = \"auto\"` chooses a model that does not use it; "
                            "take it out of `[sweep]` or give `solver.model`");
+}
+
+// Adds the completed rows of `from` whose cases `to` has without a row. Returns how many.
+std::size_t take_over(const SweepPlan& from, const SweepPlan& to) {
+  if (to.curves && !from.curves)
+    throw InputError({from.folder, 0, 0},
+                     "keeps no curves, and the new plan does; plan without `--curves`, or without "
+                     "`--reuse`");
+  const FolderLock lock(to.folder, "reuse");
+  const SweepResults old(from);
+  const SweepResults known(to);
+  std::unordered_map<std::uint64_t, std::size_t> by_id;
+  for (std::size_t i = 0; i < from.count(); ++i)
+    if (old.at(i).known() && old.at(i).head.outcome == SweepOutcome::completed)
+      by_id.emplace(from.ids[i], i);
+  std::unique_ptr<record::Journal> journal;
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < to.count(); ++i) {
+    const auto found = by_id.find(to.ids[i]);
+    if (found == by_id.end() || known.at(i).known()) continue;
+    if (!journal)
+      journal = std::make_unique<record::Journal>(to.folder + "/results", "reuse", to.hash);
+    SweepRow row = old.row(found->second);
+    row.attempt = 1;
+    row.name = scenario::make_case(to.family, i).name;
+    if (!to.curves) row.curve = {};
+    journal->add(journal_row(row));
+    ++taken;
+  }
+  if (journal) journal->sync();
+  return taken;
 }
 
 }  // namespace
@@ -208,10 +242,13 @@ Planned plan_sweep(const SweepOrder& order) {
                            differences(read_plan_file(known, planned.folder), file) +
                            "; plans do not change: give another `--out`, or remove that folder");
     planned.there_already = true;
-    return planned;
+  } else {
+    for (const std::string& sentence : folder.put(WholeFolder::State::complete))
+      throw SystemError(sentence);  // another process wrote the folder in the meantime
   }
-  for (const std::string& sentence : folder.put(WholeFolder::State::complete))
-    throw SystemError(sentence);  // another process wrote the folder in the meantime
+  if (!order.reuse.empty())
+    planned.reused =
+        take_over(read_plan(order.reuse, order.program), read_plan(planned.folder, order.program));
   return planned;
 }
 

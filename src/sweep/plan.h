@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scenario/family.h"
+#include "sweep/forecast.h"
 
 namespace palpate::sweep {
 
@@ -34,6 +36,7 @@ struct SweepOrder {
   enum class Ceiling { holds, lifted } ceiling = Ceiling::holds;
   int workers = 1;
   std::string program = {};  // the version that plans; only this version runs the plan
+  std::string reuse = {};    // folder of a plan whose rows of equal cases are taken over
 };
 
 struct Planned {
@@ -41,7 +44,8 @@ struct Planned {
   std::size_t cases = 0;
   bool there_already = false;  // the folder already contained the same plan
   std::vector<Problem> notes = {};
-  std::string forecast = {};  // estimated time and size, as text; empty: no estimate
+  std::optional<SweepForecast> forecast = {};
+  std::size_t reused = 0;  // rows taken over from another plan
 };
 
 // The largest number of cases that is planned unless the ceiling is lifted.
@@ -50,7 +54,8 @@ inline constexpr std::size_t sweep_ceiling = 10000;
 // Makes every case once, to check it, and writes the plan. Throws InputError for the first invalid
 // case, for two equal cases, for too many cases, for a swept key that no chosen model reads, and if
 // the folder contains a different plan, naming the differences; SystemError if the folder cannot be
-// written.
+// written. With `reuse`, the completed rows of that plan's equal cases are added to the results of
+// the new one: a plan grows by a larger plan beside it.
 [[nodiscard]] Planned plan_sweep(const SweepOrder& order);
 
 // Reads a plan and checks it against its hashes. Throws InputError if a file has changed, if the

@@ -29,6 +29,11 @@ constexpr std::size_t block_cases = 16;  // of a worker; larger blocks spend tim
 constexpr double block_nodes = 50000.0;  // about the most in memory, of all scenes together
 constexpr std::size_t most_shapes = 32;  // kept meshes; if there are more, all are discarded
 
+// Of a lock and of files of rows: 3-of-16, or retry-3-of-16.
+std::string part_name(const SweepTask& task) {
+  return (task.which == SweepTask::Which::failed ? "retry-" : "") + task.shard.text();
+}
+
 class Runner {
  public:
   Runner(const SweepPlan& plan, const SweepTask& task, const std::atomic<bool>& no_more)
@@ -40,9 +45,8 @@ class Runner {
     if (numbers.empty()) return;
     attempt_ = attempt;
     all_ = numbers.size();
-    journal_ = std::make_unique<record::Journal>(
-        plan_.folder + "/results",
-        task_.which == SweepTask::Which::failed ? "retry" : task_.shard.text(), plan_.hash);
+    journal_ =
+        std::make_unique<record::Journal>(plan_.folder + "/results", part_name(task_), plan_.hash);
     {
       const std::jthread ticking([&](const std::stop_token& end) { beat(end, tick); });
       const std::size_t block = block_cases * as_index(task_.workers);
@@ -178,6 +182,7 @@ class Runner {
       made.tried = true;
       attempt(made, [&] {
         made.scene = run::build_scene(*made.one, plan_.family, *shapes_);
+        made.scene->scenario.output.keep_rows_only();
         made.scene->sinkings = &sinkings_;
       });
     });
@@ -232,10 +237,11 @@ class Runner {
 SweepEnd run_sweep(const SweepPlan& plan, const SweepTask& task, const std::atomic<bool>& no_more,
                    const std::function<void(const SweepProgress&)>& tick) {
   const bool again = task.which == SweepTask::Which::failed;
-  const FolderLock lock(plan.folder, again ? "retry" : task.shard.text());
+  const FolderLock lock(plan.folder, part_name(task));
   const SweepResults results(plan, task.shard);
   std::vector<std::uint32_t> numbers;
   SweepEnd end{.warnings = results.warnings()};
+  if (!lock.warning().empty()) end.warnings.push_back(lock.warning());
   for (std::size_t i = 0; i < plan.count(); ++i) {
     if (!task.shard.holds(i)) continue;
     ++end.all;

@@ -9,7 +9,6 @@
 #include <charconv>
 #include <cstring>
 
-#include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
 
@@ -46,12 +45,17 @@ FolderLock::FolderLock(const std::string& folder, const std::string& name) {
   if (file_ < 0) throw SystemError(path + " cannot be made: " + std::strerror(errno));
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
     const int reason = errno;
+    if (reason == ENOSYS || reason == ENOLCK || reason == EOPNOTSUPP) {
+      warning_ = folder + ": its file system has no locks, so that two processes may run part " +
+                 name + " at once, which costs time and does no harm";
+      return;
+    }
     ::close(file_);
     const std::string text = trimmed(read_text(path));
     const std::string who = text.empty() ? "another process" : text;
     if (reason == EWOULDBLOCK)
-      throw InputError({folder, 0, 0}, "part " + name + " is run already, by " + who +
-                                           "; wait for it, or run another `--shard`");
+      throw PartIsRun({folder, 0, 0}, "part " + name + " is run already, by " + who +
+                                          "; wait for it, or run another `--shard`");
     throw SystemError(path + " cannot be locked: " + std::strerror(reason));
   }
   const std::string who = "process " + std::to_string(::getpid()) + " on " + host_name() + "\n";

@@ -41,15 +41,15 @@ std::string number_ranges(const std::vector<std::size_t>& numbers, std::size_t m
   return text;
 }
 
-std::string unfinished_tasks(const SweepPlan& plan, const SweepResults& results,
-                             std::size_t tasks) {
-  std::vector<char> wanted(tasks, 0);
+std::vector<std::size_t> unfinished_parts(const SweepPlan& plan, const SweepResults& results,
+                                          std::size_t parts) {
+  std::vector<char> wanted(parts, 0);
   for (std::size_t i = 0; i < plan.count(); ++i)
-    if (!results.at(i).known()) wanted[i % tasks] = 1;
+    if (!results.at(i).known()) wanted[i % parts] = 1;
   std::vector<std::size_t> numbers;
-  for (std::size_t task = 0; task < tasks; ++task)
-    if (wanted[task] != 0) numbers.push_back(task + 1);
-  return number_ranges(numbers, 0);
+  for (std::size_t part = 0; part < parts; ++part)
+    if (wanted[part] != 0) numbers.push_back(part + 1);
+  return numbers;
 }
 
 std::string slurm_text(const SlurmJob& job) {
@@ -64,11 +64,12 @@ std::string slurm_text(const SlurmJob& job) {
   option("requeue");
   option("open-mode=append");
   option("output=\"" + batch_text(job.folder + "/logs/") + "%A_%a.log\"");
-  text += "\npalpate=" + shell_word(job.program) + "\nfolder=" + shell_word(job.folder) + "\n";
+  text += "\nfolder=" + shell_word(job.folder) + "\n";
+  if (!job.prologue.empty())
+    text += "\n" + job.prologue + (job.prologue.ends_with('\n') ? "" : "\n");
   text +=
-      "\n# The task's number determines its part, so that single tasks can be submitted again.\n"
-      "\"$palpate\" sweep run \"$folder\" --shard \"${SLURM_ARRAY_TASK_ID}/" +
-      tasks +
+      "\n# The task's number determines its part, so that single tasks can be submitted again.\n" +
+      job.program + " sweep run \"$folder\" --shard \"${SLURM_ARRAY_TASK_ID}/" + tasks +
       "\" \\\n  --jobs \"${SLURM_CPUS_PER_TASK:-1}\" &\n"
       "child=$!\n"
       "\n# The signal before the time limit reaches this shell; palpate then finishes the cases "

@@ -11,7 +11,8 @@ namespace palpate::sweep {
 
 struct SlurmJob {
   std::string name;
-  std::string program;    // path
+  std::string program;    // as a shell takes it
+  std::string prologue;   // lines that a task runs first
   std::string folder;     // of the plan, absolute
   std::size_t tasks = 1;  // of the array: the number of parts
   std::string time;       // limit per task, as Slurm writes it; empty: the cluster's default
@@ -23,9 +24,10 @@ inline constexpr std::size_t usual_array = 1000;
 // The text of the job file. The number of a task determines its part, even if sent again.
 [[nodiscard]] std::string slurm_text(const SlurmJob& job);
 
-// The numbers of the tasks whose part lacks rows, in Slurm's notation `1-3,7`; empty: none.
-[[nodiscard]] std::string unfinished_tasks(const SweepPlan& plan, const SweepResults& results,
-                                           std::size_t tasks);
+// The numbers, from 1, of the parts that lack rows.
+[[nodiscard]] std::vector<std::size_t> unfinished_parts(const SweepPlan& plan,
+                                                        const SweepResults& results,
+                                                        std::size_t parts);
 
 // The text in single quotes, as one word for a shell.
 [[nodiscard]] std::string shell_word(const std::string& text);

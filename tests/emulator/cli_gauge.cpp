@@ -158,6 +158,27 @@ TEST(GaugeRun, AgreesWithTheOfflineRunToItsResolution) {
   EXPECT_GT(largest, 0.15);
 }
 
+// A gauge that nobody tared: its zero is said and taken out, and the press is not cut off.
+TEST(GaugeRun, WithoutTareBeginsAtTheContactToo) {
+  const GaugeRun tared{Gauge{.style = "mark10", .settings = "mark10_gauge", .baud = "115200"}};
+  const TemporaryFolder folder;
+  const std::string fault =
+      folder.file("tare.toml", "[[fault]]\nat = \"0 s\"\nkind = \"spike\"\nvalue = \"20 mN\"\n");
+  const GaugeRun untared{Gauge{.style = "mark10",
+                               .settings = "mark10_gauge",
+                               .baud = "115200",
+                               .emulator = {"--fault", fault}}};
+  ASSERT_EQ(untared.ended.code, 0) << untared.ended.err;
+  EXPECT_TRUE(has(untared.ended.err, "the gauge showed 20")) << untared.ended.err;
+  EXPECT_FALSE(has(tared.ended.err, "at rest, which is taken out")) << tared.ended.err;
+  ASSERT_EQ(untared.rows.size(), tared.rows.size());
+  for (std::size_t row = 0; row < tared.rows.size(); ++row) {
+    EXPECT_NEAR(untared.rows.number(row, "time_s"), tared.rows.number(row, "time_s"), 0.05);
+    // The steps of the display.
+    EXPECT_NEAR(untared.rows.number(row, "force_N"), tared.rows.number(row, "force_N"), 4e-3);
+  }
+}
+
 // Without travel the forces begin with the contact, and the tissue is identified over time.
 TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
   const GaugeRun live{Gauge{.style = "mark10", .settings = "mark10_gauge", .baud = "115200"}};

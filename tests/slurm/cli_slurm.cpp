@@ -165,5 +165,53 @@ TEST_F(Slurm, AnArrayWithAKilledAndARequeuedTaskEndsLikeALocalRun) {
   EXPECT_EQ(read_file(folder_ / (plan_ + "/merged/results.csv")), whole);
 }
 
+// The other engines of docs/sweeps.md: what they run ends like a local run.
+class Engines : public SweepProgram {
+ protected:
+  void SetUp() override {
+    write_file(folder_ / "calm.txt", expected(quick_sweep));
+    plan(quick_sweep);
+  }
+  [[nodiscard]] Ended shell(const std::string& line) const {
+    return run_program({.arguments = {"-c", line},
+                        .folder = folder_.path(),
+                        .set = {{"HOME", folder_.path().string()}},
+                        .program = "bash"});
+  }
+  void expect_the_whole_table() const {
+    const Ended merge = sweep({"merge", "out/s_sweep"});
+    EXPECT_EQ(merge.code, 0) << merge.err;
+    EXPECT_EQ(read_file(folder_ / "out/s_sweep/merged/results.csv"),
+              read_file(folder_ / "calm.txt"));
+  }
+};
+
+TEST_F(Engines, GnuParallelRunsTheParts) {
+  if (!installed("parallel")) GTEST_SKIP() << "`parallel` is not installed";
+  const std::string program = PALPATE_PROGRAM;
+  const Ended ended = shell("'" + program + "' sweep parts out/s_sweep --of 3 | parallel --jobs 2");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  expect_the_whole_table();
+  EXPECT_EQ(names_in(folder_ / "out/s_sweep/results").size(), 3U);
+}
+
+TEST_F(Engines, SnakemakeRunsThePartsThatAreNotDone) {
+  if (!installed("snakemake")) GTEST_SKIP() << "`snakemake` is not installed";
+  write_file(folder_ / "Snakefile",
+             "rule all:\n    input: expand(\"done/{part}\", part=[1, 2, 3])\n"
+             "rule part:\n    output: \"done/{part}\"\n"
+             "    shell: \"'" +
+                 std::string(PALPATE_PROGRAM) +
+                 "' sweep run out/s_sweep --shard {wildcards.part}/3 --jobs 1 "
+                 "--accept-failed --done {output}\"\n");
+  const Ended ended = shell("/usr/bin/snakemake --cores 2 all");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  expect_the_whole_table();
+  fs::remove(folder_ / "done/2");
+  const Ended again = shell("/usr/bin/snakemake --cores 2 all");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(read_file(folder_ / "done/2").starts_with("2-of-3 of "));
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -1,11 +1,13 @@
 // Large files line by line, files that grow, hashes of parts.
 #include "base/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -155,6 +157,32 @@ TEST_F(Files, AHeldFileIsHeldUntilItIsReleased) {
   EXPECT_FALSE(held.take(path_));
   write_atomically(path_, "three");
   EXPECT_TRUE(held.take(path_)) << "it is another file by now";
+}
+
+// As root, a device would be replaced by a file otherwise.
+TEST_F(Files, APipeIsWrittenInto) {
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  const int end = ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(end, 0);
+  write_atomically(path_, "through it");
+  struct stat there {};
+  ASSERT_EQ(::lstat(path_.c_str(), &there), 0);
+  EXPECT_TRUE(S_ISFIFO(there.st_mode));
+  std::string got(64, ' ');
+  got.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(end, got.data(), got.size()))));
+  ::close(end);
+  EXPECT_EQ(got, "through it");
+}
+
+TEST_F(Files, ALinkStaysAndItsFolderIsMade) {
+  namespace fs = std::filesystem;
+  const std::string folder = path_ + "_folder";
+  write_atomically(folder + "/new/target", "one");
+  fs::create_symlink("new/target", folder + "/link");
+  write_atomically(folder + "/link", "two");
+  EXPECT_TRUE(fs::is_symlink(folder + "/link"));
+  EXPECT_EQ(read_text(folder + "/new/target"), "two");
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -38,6 +38,25 @@ TEST_F(CompareVerb, the_worst_row_is_named) {
          "allowed 4e-09\n");
 }
 
+// Names of somebody else's file command neither a terminal nor a build server.
+TEST_F(CompareVerb, names_from_files_are_only_words) {
+  const Ended ended =
+      compare("\"::error::x\",\"b\x1b[31m\"\n1,2\n", "\"::error::x\",\"b\x1b[31m\"\n1,2\n");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.out, "\\x3a:error::x: the same\nb\\x1b[31m: the same\n");
+}
+
+TEST_F(CompareVerb, a_report_for_a_build_server_goes_through_a_link) {
+  write_file(folder_ / "there/junit.xml", "old");
+  fs::create_symlink("there/junit.xml", folder_ / "junit.xml");
+  write_file(folder_ / "got.csv", base_);
+  const Ended ended =
+      palpate(folder_.path(), {"compare", "got.csv", "got.csv", "--junit", "junit.xml"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(fs::is_symlink(folder_ / "junit.xml"));
+  EXPECT_NE(read_file(folder_ / "there/junit.xml").find("<testsuite"), std::string::npos);
+}
+
 TEST_F(CompareVerb, within_a_tolerance) {
   const std::string tolerances = "[column.a_mm]\nrel = 0.01\nreason = \"a test\"\n";
   expect(compare("case,a_mm\nskin,1\nskin,2.01\nskin,4\n", base_, tolerances), 0,

@@ -141,6 +141,45 @@ TEST_F(GoldenCheck, kept_results_are_replaced_only_where_told_and_not_by_machine
   EXPECT_EQ(golden({"check", "mine"}).code, 0);
 }
 
+TEST_F(GoldenCheck, a_case_that_diverged_is_not_kept) {
+  write_file(folder_ / "mine/bad.toml",
+             "[tissue]\nviscosity = \"none\"\nmesh = { kind = \"mirrored\", cells = [2, 3, 2] }\n"
+             "[solver]\nmodel = \"mass_spring\"\nintegrator = \"central_difference\"\n"
+             "substeps = 4\nallow_unstable = true\n[output]\ninterval = \"12 ms\"\n"
+             "[[step]]\nkind = \"creep\"\nload_time = \"0.6 s\"\n"
+             "[sweep]\n\"tissue.young_modulus\" = [\"8 kPa\", \"30 kPa\"]\n");
+  const Ended added = golden({"add", "mine/bad.toml"});
+  EXPECT_EQ(added.code, 2) << added.err;
+  EXPECT_NE(added.err.find("would keep a case that diverged"), std::string::npos) << added.err;
+  EXPECT_FALSE(fs::exists(folder_ / "mine/bad.expected"));
+}
+
+// Killed at any moment, the kept results are the old ones or the new ones, all of them.
+TEST_F(GoldenCheck, kept_results_are_replaced_whole) {
+  add_all();
+  const auto contents = [&] {
+    std::string all;
+    for (const std::string& name : names_in(folder_ / "mine/press.expected"))
+      all += read_file(folder_ / ("mine/press.expected/" + name));
+    return all;
+  };
+  const std::string old_ones = contents();
+  change("mine/press.toml", "1 mm", "2 mm");
+  bool ended = false;
+  for (int call = 1; !ended && call < 200; ++call) {
+    Invocation add{.arguments = {"golden", "add", "mine/press.toml", "--force"},
+                   .folder = folder_.path()};
+    add.set = {{"LD_PRELOAD", PALPATE_FILE_FAULTS},
+               {"PALPATE_TEST_KILL_BEFORE", std::to_string(call)}};
+    ended = run_program(add).signal == 0;
+    const std::string now = contents();
+    if (now == old_ones) continue;
+    ASSERT_EQ(golden({"check", "mine/press.toml"}).code, 0) << "killed before call " << call;
+  }
+  EXPECT_TRUE(ended);
+  EXPECT_NE(contents(), old_ones);
+}
+
 TEST_F(GoldenCheck, what_is_not_there_is_said) {
   const Ended none = golden({"check", "mine"});
   EXPECT_EQ(none.code, 2);

@@ -82,6 +82,8 @@ TEST(LineUnits, AreExactByDefinition) {
   EXPECT_DOUBLE_EQ(*unit_of(Measure::force, "g"), 9.80665e-3);
   EXPECT_DOUBLE_EQ(*unit_of(Measure::force, "lbf"), 4.4482216152605);
   EXPECT_DOUBLE_EQ(*unit_of(Measure::force, "mN"), 1e-3);
+  EXPECT_EQ(unit_of(Measure::force, "LB"), unit_of(Measure::force, "lb"));
+  EXPECT_EQ(unit_of(Measure::force, "KGF"), unit_of(Measure::force, "kgf"));
   EXPECT_DOUBLE_EQ(*unit_of(Measure::travel, "in"), 25.4e-3);
   EXPECT_DOUBLE_EQ(*unit_of(Measure::time, "us"), 1e-6);
   for (const char* word : {"", "kp", "MN", "n", "mm"}) EXPECT_FALSE(unit_of(Measure::force, word));

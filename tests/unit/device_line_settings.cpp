@@ -1,12 +1,19 @@
 // Settings of a gauge: the examples, the defaults, and what is refused with its place.
 #include "device/line_settings.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/error.h"
+#include "device/line_gauge.h"
 #include "refusal.h"
 #include "temporary_folder.h"
 
@@ -50,6 +57,46 @@ TEST(LineSettings, AreRefusedAtTheirPlace) {
            {"pattern = \"{force} {force_unit} {travel} {travel_unit}\"\nstart_force = \"1 N\"\n",
             "the lines have a travel"}})
     EXPECT_NE(refusal(text).find(part), std::string::npos) << text << refusal(text);
+}
+
+// A gauge on a pseudo-terminal that answers at once is asked no more often than `rate` says;
+// however slow this machine is, it takes longer, never less.
+TEST(LineGauge, PollsKeepTheirRate) {
+  const test::TemporaryFolder folder;
+  const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  ASSERT_GE(master, 0);
+  ASSERT_EQ(::grantpt(master), 0);
+  ASSERT_EQ(::unlockpt(master), 0);
+  const std::string port = ::ptsname(master);
+  std::atomic<int> polls = 0;
+  std::atomic<bool> over = false;
+  std::thread answering([&] {
+    char byte = 0;
+    while (!over) {
+      pollfd waiting{master, POLLIN, 0};
+      if (::poll(&waiting, 1, 20) <= 0 || ::read(master, &byte, 1) != 1 || byte != '?') continue;
+      ++polls;
+      if (::write(master, "1.5\n", 4) != 4) return;
+    }
+  });
+  constexpr double rate = 50.0;
+  constexpr int readings = 10;
+  {
+    Clock clock(Clock::Kind::monotonic);
+    LineGauge gauge({port, folder.file("g.toml",
+                                       "pattern = \"{force}\"\nforce_unit = \"N\"\n"
+                                       "poll = \"?\"\nrate = 50\n")},
+                    clock);
+    const double start = wire_time();
+    for (int heard = 0; heard < readings && wire_time() < start + 20.0;)
+      heard += gauge.sample(1.0).arrival == Arrival::fresh ? 1 : 0;
+    // The first poll may be due at once.
+    EXPECT_GE(wire_time() - start, (readings - 1) / rate);
+    EXPECT_LE(polls, 2 + static_cast<int>((wire_time() - start + 1.0 / rate) * rate));
+  }
+  over = true;
+  answering.join();
+  ::close(master);
 }
 
 }  // namespace

@@ -128,6 +128,64 @@ TEST(Verdict, MeasuresHowFarTheSurfaceIsOff) {
   }
 }
 
+// What moves or falls out by itself is named as that, not as another surface.
+TEST(Verdict, NamesADriftAndAnOutlier) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    MeasuredCurve drifting = run_with(0.0, as_it_is, seed);
+    const auto last = static_cast<double>(drifting.measured.size() - 1);
+    for (std::size_t i = 0; i < drifting.measured.size(); ++i)
+      drifting.measured[i] += 0.1 * static_cast<double>(i) / last;
+    const Verdict drift = judge(drifting, tolerance);
+    EXPECT_EQ(drift.causes, std::vector<Cause>{Cause::drift}) << seed << verdict_sentence(drift);
+
+    MeasuredCurve spiked = run_with(0.0, as_it_is, seed);
+    spiked.measured[70] += 3.0;
+    const Verdict spike = judge(spiked, tolerance);
+    EXPECT_EQ(spike.outcome, Verdict::Outcome::differs);
+    EXPECT_EQ(spike.causes, std::vector<Cause>{Cause::outliers}) << verdict_sentence(spike);
+    EXPECT_EQ(spike.outliers, 1U);
+  }
+}
+
+// Dry friction in the stand adds to the force on the way in and takes from it on the way out; a
+// surface elsewhere would show in the press.
+TEST(Verdict, CallsNoOtherDifferenceASurface) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    MeasuredCurve curve = run_with(0.0, as_it_is, seed);
+    for (std::size_t i = 100; i < curve.measured.size(); ++i) curve.measured[i] -= 0.06;
+    const Verdict verdict = judge(curve, tolerance);
+    EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs);
+    EXPECT_FALSE(verdict.has(Cause::wrong_surface)) << verdict_sentence(verdict);
+  }
+}
+
+// Without readings of their own the rows before contact say what the noise is.
+TEST(Verdict, TakesTheNoiseFromAllRowsBeforeContact) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    MeasuredCurve curve = run_with(0.0, as_it_is, seed);
+    curve.free.clear();
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> scatter(0.0, 20e-3);
+    for (double& force : curve.measured) force += scatter(generator);
+    for (int i = 0; i < 40; ++i) {
+      curve.travel.insert(curve.travel.begin(), -1e-4 * i);
+      curve.model.insert(curve.model.begin(), 0.0);
+      curve.measured.insert(curve.measured.begin(), scatter(generator));
+    }
+    const Verdict verdict = judge(curve, tolerance);
+    EXPECT_EQ(verdict.outcome, Verdict::Outcome::agrees) << seed << verdict_sentence(verdict);
+    EXPECT_NEAR(verdict.noise, 20e-3, 0.8 * 20e-3) << seed;
+  }
+}
+
+TEST(Verdict, ALevelForceEndsNowhere) {
+  MeasuredCurve curve = run_with(0.0, as_it_is, 1);
+  for (std::size_t i = 101; i < curve.measured.size(); ++i)
+    curve.measured[i] = 0.05 + 1e-16 * static_cast<double>(i);
+  const std::string said = verdict_sentence(judge(curve, tolerance));
+  EXPECT_EQ(said.find("e+"), std::string::npos) << said;
+}
+
 // Another law is none of the causes, and is not made one.
 TEST(Verdict, SaysThatNothingExplainsAnotherLaw) {
   const Verdict verdict = judge(run_with(
@@ -135,8 +193,9 @@ TEST(Verdict, SaysThatNothingExplainsAnotherLaw) {
                                 tolerance);
   EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs);
   EXPECT_FALSE(verdict.explained);
-  EXPECT_NE(verdict_sentence(verdict).find("neither sign, tare, surface nor stiffness"),
-            std::string::npos);
+  EXPECT_NE(
+      verdict_sentence(verdict).find("neither sign, tare, outliers, drift, surface nor stiffness"),
+      std::string::npos);
 }
 
 TEST(Verdict, IsAsStrictAsItsTolerance) {

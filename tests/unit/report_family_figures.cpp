@@ -131,6 +131,21 @@ TEST(FamilyFigures, ManyCasesAreColouredByTheSweptNumber) {
   EXPECT_EQ(many.series.at(9).label, "muscle");
 }
 
+// The curves of hundreds of cases are a surface, and their drawing took minutes.
+TEST(FamilyFigures, OfHundredsOfCasesSomeAreDrawn) {
+  const auto family = scenario::parse("schema = 1\ntitle = \"T\"\n" + indent +
+                                          "[sweep]\n\"tissue.young_modulus\" = { from = \"1 kPa\", "
+                                          "to = \"9 kPa\", points = 300 }\n",
+                                      "test.toml", {});
+  std::vector<record::CaseRecord> records(family.cases.size());
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].name = family.cases[i].name;
+  const plot::Figure figure = report::family_figures(family, records, {}).at(0);
+  ASSERT_EQ(figure.series.size(), 64U);
+  EXPECT_EQ(figure.series.front().case_name, records.front().name);
+  EXPECT_EQ(figure.series.back().case_name, records.back().name);
+  EXPECT_EQ(figure.title, "T (64 of 300 cases)");
+}
+
 TEST(FamilyFigures, CurvaturesAreDrawnWhereThreeDiffer) {
   const auto family = scenario::parse(
       "schema = 1\n" + indent + "[sweep]\n\"tissue.material\" = [\"skin\", \"muscle\"]\n",

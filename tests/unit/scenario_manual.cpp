@@ -40,13 +40,14 @@ TEST(Manual, NamesEveryKeyOfAnEcho) {
 
 TEST(Manual, ShowsDefaultsRangesAndConditions) {
   const std::string text = manual();
-  for (const char* part : {"| `radius` | length > 0 mm | `11 mm` | Radius of the single sphere "
-                           "that has the finger's mass. |",
-                           "| `friction` | number >= 0 | `0` | Coulomb's coefficient mu. |",
-                           "| `schema` | whole number = 1 | `1` | Version of this format. |",
-                           "| `rings` | `\"all\"` or whole number >= 1 and <= 1000 | `all` |",
-                           "Used only with `viscosity = \"nodal_drag\"`.",
-                           "## `tissue.mesh`, `kind = \"mirrored\"` (default)", "## `[[step]]`"})
+  for (const char* part :
+       {"| `radius` | length >= 1e-09 m and <= 1e+06 mm | `11 mm` | Radius of the single sphere "
+        "that has the finger's mass. |",
+        "| `friction` | number >= 0 | `0` | Coulomb's coefficient mu. |",
+        "| `schema` | whole number = 1 | `1` | Version of this format. |",
+        "| `rings` | `\"all\"` or whole number >= 1 and <= 1000 | `all` |",
+        "Used only with `viscosity = \"nodal_drag\"`.",
+        "## `tissue.mesh`, `kind = \"mirrored\"` (default)", "## `[[step]]`"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 

@@ -153,7 +153,7 @@ TEST_F(Plans, the_time_of_a_mesh_that_does_not_change_the_force_is_estimated) {
   const std::string text =
       "[contact]\ncoupling = \"one_way\"\n[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = "
       "\"indent\"\nto = \"0.1 mm\"\n[sweep]\n\"tissue.young_modulus\" = [\"10 kPa\", \"20 kPa\"]\n";
-  const std::string said = plan_sweep(order(text)).forecast;
+  const std::string said = plan_sweep(order(text)).forecast.value().text();
   EXPECT_TRUE(said.starts_with("about ")) << said;
   EXPECT_TRUE(said.ends_with(" s on one worker and 0.0048 MB")) << said;
 }

@@ -65,21 +65,26 @@ TEST(SweepSlurm, words_are_safe_in_a_shell) {
 
 TEST(SweepSlurm, the_job_knows_its_parts_by_the_task_alone) {
   const std::string text = slurm_text({.name = "s",
-                                       .program = "/bin/it's",
+                                       .program = shell_word("/bin/it's"),
+                                       .prologue = {},
                                        .folder = "/a b/100%",
                                        .tasks = 16,
                                        .time = "00:10:00"});
   for (const char* line :
        {"#SBATCH --array=1-16\n", "#SBATCH --time=00:10:00\n", "#SBATCH --signal=B:TERM@60\n",
         "#SBATCH --requeue\n", "#SBATCH --output=\"/a b/100%%/logs/%A_%a.log\"\n",
-        "palpate='/bin/it'\\''s'\n", "--shard \"${SLURM_ARRAY_TASK_ID}/16\""})
+        "\n'/bin/it'\\''s' sweep run ", "--shard \"${SLURM_ARRAY_TASK_ID}/16\""})
     EXPECT_NE(text.find(line), std::string::npos) << line;
   EXPECT_EQ(text.find("TASK_COUNT"), std::string::npos);
 }
 
 TEST(SweepSlurm, a_name_cannot_end_its_line) {
-  const std::string text = slurm_text(
-      {.name = "s\nrm -rf \x1b[31m", .program = "p", .folder = "f", .tasks = 1, .time = ""});
+  const std::string text = slurm_text({.name = "s\nrm -rf \x1b[31m",
+                                       .program = "p",
+                                       .prologue = {},
+                                       .folder = "f",
+                                       .tasks = 1,
+                                       .time = ""});
   EXPECT_NE(text.find("--job-name=\"s_rm -rf _[31m\"\n"), std::string::npos) << text;
 }
 
