@@ -111,7 +111,8 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_flag("--force", fit.force, "Replace that folder");
   add_data(verb, fit.columns);
   verb.add_option("--model", fit.model, "Curve")->required()->type_name(any_of(models));
-  verb.add_option("--origin", fit.x_origin, "Subtracted from every x");
+  verb.add_option("--origin", fit.x_origin,
+                  "Subtracted from every x; of times, default: where the step is");
   verb.add_option("--radius", fit.radius, "hertz, layer: of the sphere or punch, as \"11 mm\"");
   verb.add_option("--tip", fit.tip, "hertz: default paraboloid")
       ->type_name("paraboloid|sphere|cone|pyramid3|pyramid4|punch");
@@ -128,6 +129,9 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_option("--area", fit.area, "the same: of the cross-section, as \"300 mm^2\"");
   verb.add_option("--platens", fit.platens, "the same: default slippery")
       ->type_name("slippery|bonded");
+  verb.add_option("--cycle", fit.cycle, "the same: which of several loadings, from 1")
+      ->check(CLI::Range(1, 100000));
+  verb.add_flag("--toe", fit.toe, "the same: count from where the line through the stress begins");
   verb.add_option("--loading", fit.loading, "the same: default by the signs")
       ->type_name("compression|tension");
   verb.add_option("--poisson", fit.poisson_ratio, "hertz, layer: Poisson's ratio")

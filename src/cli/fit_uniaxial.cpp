@@ -2,6 +2,7 @@
 #include "cli/fit_uniaxial.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -58,6 +59,13 @@ fit::UniaxialTest::Loading loading_of(const Fit& command, const measured::Measur
   return Loading::unknown;
 }
 
+// Whether a column named as a stretch holds strains, which begin near 0 and not near 1.
+bool is_strain_below(const std::vector<double>& stretch) {
+  for (const double each : stretch)
+    if (std::isfinite(each)) return each < 0.3;
+  return false;
+}
+
 }  // namespace
 
 fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) {
@@ -67,9 +75,14 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
                      "`" + axis.column + "` is " + known + ", and this model " + wanted);
   };
   fit::UniaxialTest test;
-  test.model = command.model == "modulus"       ? fit::UniaxialTest::Model::modulus
-               : command.model == "neo_hookean" ? fit::UniaxialTest::Model::neo_hookean
-                                                : fit::UniaxialTest::Model::ogden;
+  using Model = fit::UniaxialTest::Model;
+  test.model = command.model == "modulus"       ? Model::modulus
+               : command.model == "neo_hookean" ? Model::neo_hookean
+               : command.model == "ogden"       ? Model::ogden
+               : command.model == "yeoh"        ? Model::yeoh
+                                                : Model::ogden3;
+  test.cycle = command.cycle;
+  test.toe = command.toe;
   test.loading = loading_of(command, curve);
   test.residuals = fit::Residuals::correlated;
   test.from = strain_of("--from", command.from);
@@ -79,6 +92,11 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
 
   std::vector<double> strain = curve.x;
   std::vector<double> stress = curve.y;
+  if (const bool negative = is_strain_below(strain); curve.x_axis.stretch && !negative) {
+    for (double& each : strain) each -= 1.0;
+    if (test.loading == fit::UniaxialTest::Loading::unknown)
+      test.loading = fit::UniaxialTest::Loading::tension;  // of stretches the sign tells
+  }
   if (curve.x_axis.dimension == unit::mm.dimension) {
     if (command.height.empty())
       wrong(curve.x_axis,
