@@ -50,6 +50,11 @@ void add_data(CLI::App& verb, DataOptions& data) {
   verb.add_option("--rows", data.rows, "Only these rows of the table, as 100..2000");
   verb.add_option("--table", data.table, "Which of several tables in the file, from 1")
       ->check(CLI::Range(1, 1000));
+  CLI::Option* spring = verb.add_option("--spring-constant", data.spring_constant,
+                                        "x minus force over it is the depth, as \"0.1 N/m\"");
+  verb.add_option("--compliance", data.compliance,
+                  "x minus force times it is the depth, as \"0.2 um/N\"")
+      ->excludes(spring);
   verb.add_option("--case", data.case_name, "Only rows with this value in the column `case`");
 }
 
@@ -110,6 +115,7 @@ void add_options(CLI::App& verb, Fit& fit) {
       ->type_name("FOLDER");
   verb.add_flag("--force", fit.force, "Replace that folder");
   add_data(verb, fit.columns);
+  verb.add_flag("--csv", fit.csv, "CSV on a terminal too, where else a table stands");
   verb.add_option("--model", fit.model, "Curve")->required()->type_name(any_of(models));
   verb.add_option("--origin", fit.x_origin,
                   "Subtracted from every x; of times, default: where the step is");
@@ -290,6 +296,8 @@ void add_options(CLI::App& verb, Identify& identify) {
       ->required()
       ->type_name("SCENARIO");
   add_data(verb, identify.columns);
+  verb.add_option("--origin", identify.x_origin,
+                  "Subtracted from every x: where the programme begins");
   verb.add_option("--noise", identify.noise, "Noise of the measurement")
       ->capture_default_str()
       ->check(CLI::IsMember({"constant", "relative"}));

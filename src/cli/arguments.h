@@ -60,6 +60,7 @@ struct Fit {
   std::string out;                // folder of a population; empty: none
   bool force = false;
   DataOptions columns;
+  bool csv = false;  // CSV also on a terminal
   std::string model;
   std::optional<double> x_origin;  // of time: none: where the step is
   std::string radius;              // of the tip, such as `11 mm`, for hertz and layer

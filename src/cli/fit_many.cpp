@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "base/whole_folder.h"
 #include "cli/program.h"
+#include "cli/table_text.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
 #include "record/swept_column.h"
@@ -214,7 +215,7 @@ int fit_many(const Fit& command, const Talk& talk) {
   const std::vector<fit::Estimate> parameters = parameters_of(rows);
   const std::vector<Population> all = populations(rows, parameters);
   const record::Table table = row_table(rows, parameters);
-  print(record::csv_text(table));
+  print(talk.json() ? json_lines(table) : record::csv_text(table));
   say_population(all, rows, talk);
   if (!command.out.empty()) write_folder(command, table, population_table(all), talk);
   return all.empty() ? exit_input : exit_good;

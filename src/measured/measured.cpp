@@ -105,6 +105,44 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
   curve.notes.insert(curve.notes.end(), rows.notes.begin(), rows.notes.end());
 }
 
+// The depth of the tip from the travel of its holder, which bends by the force times a compliance.
+// A y that is a length is the deflection itself.
+void take_off_deflection(MeasuredCurve& curve, const DataLayout& layout) {
+  const bool spring = !layout.spring_constant.empty();
+  if (!spring && layout.compliance.empty()) return;
+  const std::string& text = spring ? layout.spring_constant : layout.compliance;
+  const std::string option = spring ? "--spring-constant" : "--compliance";
+  const auto number = leading_number(text);
+  const auto unit = number ? written_unit(number->rest) : std::nullopt;
+  const Dimension wanted = spring ? Dimension{0, 1, -2} : Dimension{0, -1, 2};
+  if (!unit || !(unit->factor.dimension == wanted) || !(number->value > 0.0))
+    throw InputError({}, "palpate: `" + option + " " + text + "` is no " +
+                             (spring ? "stiffness; write it as `0.1 N/m`"
+                                     : "compliance; write it as `0.2 um/N`"));
+  const double si = unit->factor.to_si(number->value);
+  const double compliance = spring ? 1.0 / si : si;
+  const bool deflection = spring && curve.y_axis.dimension == length;
+  if (!(curve.x_axis.dimension == length) || !(curve.y_axis.dimension == force || deflection))
+    throw InputError({curve.file, 0, 0},
+                     "`" + option + "` takes the bending off a travel under a force, and `" +
+                         curve.y_axis.column + "` over `" + curve.x_axis.column +
+                         "` is no force over a length; name other columns, or leave it out");
+  const double per_x = curve.x_axis.unit.empty() ? 1.0 : written_unit(curve.x_axis.unit)->factor.to_si(1.0);
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (deflection) curve.y[i] /= compliance;
+    curve.x[i] -= curve.y[i] * compliance;
+    curve.x_written[i] = curve.x[i] / per_x;
+    if (deflection) curve.y_written[i] = curve.y[i];
+  }
+  if (deflection) {
+    curve.y_axis.unit = "N";
+    curve.y_axis.dimension = force;
+  }
+  curve.notes.push_back("`" + curve.x_axis.column + "` minus the bending, " +
+                        (deflection ? "`" + curve.y_axis.column + "`" : "force times compliance") +
+                        ", is the depth");
+}
+
 }  // namespace
 
 MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
@@ -123,6 +161,7 @@ MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
                                        "` and in `" + curve.y_axis.column +
                                        "`; name columns that are filled");
   orient(curve, layout);
+  take_off_deflection(curve, layout);
   return curve;
 }
 

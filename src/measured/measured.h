@@ -25,6 +25,8 @@ struct DataLayout {
   Blanks blanks = Blanks::leave_out;    // `keep` keeps rows without a number, as NaN
   std::vector<std::string> where = {};  // COLUMN=VALUE: only rows with this value
   std::string rows = {};                // A..B: only these rows of the table, from 1
+  std::string spring_constant = {};     // of a cantilever: depth = x - force / it
+  std::string compliance = {};          // of a machine: depth = x - force times it
   int table = 0;                        // of several in the file, from 1; 0: the longest
 };
 
