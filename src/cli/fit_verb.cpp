@@ -39,11 +39,11 @@ std::string table_for_people(const fit::Fit& result) {
   for (const fit::Estimate& one : result.parameters) width = std::max(width, one.name.size());
   std::string text;
   for (const fit::Estimate& one : result.parameters) {
-    text += one.name + std::string(width - one.name.size() + 2, ' ') + rounded_text(one.estimate, 5) +
-            (one.unit.empty() ? "" : " " + one.unit);
+    text += one.name + std::string(width - one.name.size() + 2, ' ') +
+            rounded_text(one.estimate, 5) + (one.unit.empty() ? "" : " " + one.unit);
     if (std::isfinite(one.ci95_low))
-      text += "  (95 %: " + rounded_text(one.ci95_low, 5) + " to " + rounded_text(one.ci95_high, 5) +
-              ")";
+      text += "  (95 %: " + rounded_text(one.ci95_low, 5) + " to " +
+              rounded_text(one.ci95_high, 5) + ")";
     text += "\n";
   }
   const std::string law =

@@ -157,7 +157,7 @@ Line line_before(const PressRows& rows, double contact) {
 // rise, since rows that rise are in contact.
 bool determines(const PressRows& rows, const ContactGuess& guess, Baseline baseline) {
   if (baseline == Baseline::none) return true;
-  constexpr double clear = 3.0;    // standard errors
+  constexpr double clear = 3.0;      // standard errors
   constexpr double rounding = 1e-9;  // of the largest force
   const Line line = line_before(rows, guess.contact);
   if (baseline == Baseline::offset)

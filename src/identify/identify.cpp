@@ -395,6 +395,7 @@ class Search {
     const scenario::Case at = curve_->at(values);
     found_.predicted_error =
         found_.closed_form && asked.scenario.uniform() ? std::nullopt : predicted_error(at);
+    if (found_.predicted_error) widen_by_model(*found_.predicted_error);
     found_.deep_effect =
         found_.kind == CurveKind::force_travel || found_.kind == CurveKind::force_time
             ? deep_effect(at)
@@ -410,6 +411,29 @@ class Search {
         found_.scenario.contact.ambient_force += one.estimate;
     found_.warnings =
         warnings_of(found_, {weighted, noise_, model_word()}, scenario::resolve(at, found_.rung));
+  }
+
+  // The stated error of the model is a bound on a bias: a force that is wrong by so much everywhere
+  // moves u by (J^T J)^-1 J^T (error F w), which is added to each side of the intervals.
+  //                                                                          docs/theory.md (124)
+  void widen_by_model(double error) {
+    const std::size_t n = unknowns_.size();
+    std::vector<double> product(n, 0.0);
+    for (std::size_t row = 0; row < found_.x.size(); ++row)
+      for (std::size_t i = 0; i < n; ++i)
+        product[i] += best_.jacobian[row * n + i] * error * found_.model[row] * weights_[row];
+    for (std::size_t i = 0; i < n; ++i) {
+      Identified& one = found_.unknowns[i];
+      if (one.tied || one.at_bound || one.unknown.what == Unknown::What::force_offset) continue;
+      double moved = 0.0;
+      for (std::size_t j = 0; j < n; ++j)
+        moved += errors_.variance(i, j) / (sigma_ * sigma_) * product[j];
+      const auto move = [&](std::optional<double>& end, double sign) {
+        if (end) end = unknowns_[i].value(unknowns_[i].inverse(*end) + sign * std::abs(moved));
+      };
+      for (auto* low : {&one.ci95_low, &one.profile_low}) move(*low, -1.0);
+      for (auto* high : {&one.ci95_high, &one.profile_high}) move(*high, 1.0);
+    }
   }
 
   const Measurement& measured_;

@@ -127,7 +127,8 @@ void take_off_deflection(MeasuredCurve& curve, const DataLayout& layout) {
                      "`" + option + "` takes the bending off a travel under a force, and `" +
                          curve.y_axis.column + "` over `" + curve.x_axis.column +
                          "` is no force over a length; name other columns, or leave it out");
-  const double per_x = curve.x_axis.unit.empty() ? 1.0 : written_unit(curve.x_axis.unit)->factor.to_si(1.0);
+  const double per_x =
+      curve.x_axis.unit.empty() ? 1.0 : written_unit(curve.x_axis.unit)->factor.to_si(1.0);
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     if (deflection) curve.y[i] /= compliance;
     curve.x[i] -= curve.y[i] * compliance;

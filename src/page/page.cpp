@@ -35,15 +35,14 @@ Markup line() { return Markup::ready("\n"); }
 
 // `href="#gpPt0"` as `href="#PREFIX-gpPt0"`, and so for every way in which SVG names an element.
 std::string with_prefix(const std::string& svg, const std::string& prefix) {
-  static constexpr std::array<std::string_view, 6> words{"id=\"",    "id='",  "href=\"#",
+  static constexpr std::array<std::string_view, 6> words{"id=\"",   "id='",  "href=\"#",
                                                          "href='#", "url(#", "url('#"};
   std::string made;
   made.reserve(svg.size() + svg.size() / 8);
   for (std::size_t at = 0; at < svg.size();) {
-    const auto* const word =
-        std::find_if(words.begin(), words.end(), [&](std::string_view each) {
-          return svg[at] == each[0] && svg.compare(at, each.size(), each) == 0;
-        });
+    const auto* const word = std::find_if(words.begin(), words.end(), [&](std::string_view each) {
+      return svg[at] == each[0] && svg.compare(at, each.size(), each) == 0;
+    });
     if (word == words.end()) {
       made += svg[at++];
       continue;
