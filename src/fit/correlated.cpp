@@ -124,7 +124,7 @@ std::vector<std::complex<double>> padded(const Eigen::VectorXd& values, std::siz
 // power of the lowest frequencies, one for each unknown, which are therefore left out.
 struct Spectrum {
   double level = 0.0, corner = 0.0, power = 1.0;
-  bool better = false;  // than the spectrum of the first-order process, by two units of log L
+  bool better = false;  // than the spectrum of the first-order process
   [[nodiscard]] double at(double f) const { return level * (1.0 + std::pow(corner / f, power)); }
 };
 Spectrum spectrum_of(const Eigen::VectorXd& residuals, Eigen::Index p, std::size_t size,
@@ -179,7 +179,7 @@ Spectrum spectrum_of(const Eigen::VectorXd& residuals, Eigen::Index p, std::size
       least = value;
       best = {level, corner, power};
     }
-  best.better = least < first_order - 2.0;
+  best.better = least < first_order;
   return best;
 }
 

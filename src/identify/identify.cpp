@@ -395,7 +395,7 @@ class Search {
     const scenario::Case at = curve_->at(values);
     found_.predicted_error =
         found_.closed_form && asked.scenario.uniform() ? std::nullopt : predicted_error(at);
-    if (found_.predicted_error) widen_by_model(*found_.predicted_error);
+    if (found_.predicted_error && options_.model_error) widen_by_model(*found_.predicted_error);
     found_.deep_effect =
         found_.kind == CurveKind::force_travel || found_.kind == CurveKind::force_time
             ? deep_effect(at)
