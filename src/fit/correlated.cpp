@@ -259,6 +259,7 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
   found.degrees = std::max(4.0, degrees * (1.0 - rho) / (3.0 + rho));
   found.effective_size = static_cast<double>(n) * (1.0 - rho) / (1.0 + rho);
 
+  // Fewer than 100 rows do not tell such a spectrum from chance.
   // Var = 1/N sum_k S(f_k) W_k W_k^*, W the transform of the influence of each row.
   std::size_t size = 1;
   while (size < 2 * as_index(n)) size *= 2;
@@ -277,7 +278,7 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
   }
   flicker *= scale[p] * scale[p];
   const double wider = (flicker.diagonal().array() / sandwich.diagonal().array()).log().mean();
-  if (spectrum.better && wider > 0.0 && flicker.allFinite()) {
+  if (n >= 100 && spectrum.better && wider > 0.0 && flicker.allFinite()) {
     sandwich = flicker;
     found.effective_size = std::min(found.effective_size,
                                     static_cast<double>(n) * scatter / spectrum.at(2.0 * lowest));

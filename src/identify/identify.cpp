@@ -173,17 +173,19 @@ class Search {
     refuse_the_undetermined();
   }
 
-  // Two properties of the scenario that correlate by more than 0.95, or any two unknowns that do
+  // Two properties of the scenario that correlate by more than 0.95, or any two keys that do
   // where the points are worth fewer than ten independent ones, have no numbers of their own: what
   // tells them apart is as small as the model's own error. The weakest direction counts as not
   // determined.                                                               docs/theory.md (123)
   void tie_what_correlates() {
     const std::size_t n = unknowns_.size();
-    const bool few = found_.effective_size < 10.0 && noise_ > 1e-3;
+    const bool few = found_.effective_size < 10.0 && noise_ > 1e-3 && systematic_;
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const double product = errors_.variance(i, i) * errors_.variance(j, j);
-        if (!(product > 0.0)) continue;
+        const bool keys =
+            unknowns_[i].what == Unknown::What::key && unknowns_[j].what == Unknown::What::key;
+        if (!(product > 0.0) || !keys) continue;
         const double with = errors_.variance(i, j) / std::sqrt(product);
         const bool elastic = is_elastic(i) && is_elastic(j);
         if (std::abs(with) <= high_correlation || !(few || elastic)) continue;
@@ -218,6 +220,7 @@ class Search {
     std::vector<double> residuals;
     for (std::size_t i = 0; i < found_.x.size(); ++i)
       residuals.push_back((found_.model[i] - found_.measured[i]) * weights_[i]);
+    systematic_ = fit::systematic(residuals);  // not by chance
     found_.effective_size = static_cast<double>(found_.x.size());
     const auto widened = widening(residuals, best_.jacobian, unknowns_.size());
     if (!widened) return;
@@ -447,8 +450,9 @@ class Search {
   BoxProblem problem_;
   BoxMinimum best_;
   BoxErrors errors_;
-  double noise_ = 0.0;  // standard deviation of the weighted residuals
-  double sigma_ = 0.0;  // the same, widened where they are correlated
+  double noise_ = 0.0;       // standard deviation of the weighted residuals
+  double sigma_ = 0.0;       // the same, widened where they are correlated
+  bool systematic_ = false;  // the residuals are correlated by both tests
   double t_ = 0.0;
   Identification found_;
 };
