@@ -236,8 +236,8 @@ struct Covered {
 inline constexpr double noise_share = 0.01;
 
 inline std::vector<Covered> covered(const IdentifyScene& scene, int repeats,
-                                    const identify::IdentifyOptions& options = {.searches = 1,
-                                                                                .profiles = false},
+                                    const identify::IdentifyOptions& options =
+                                        {.searches = 1, .model_error = false, .profiles = false},
                                     double rho = 0.0) {
   const identify::Measurement clean = clean_curve(scene);
   std::vector<Covered> all(scene.unknowns.size());

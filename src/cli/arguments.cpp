@@ -50,6 +50,11 @@ void add_data(CLI::App& verb, DataOptions& data) {
   verb.add_option("--rows", data.rows, "Only these rows of the table, as 100..2000");
   verb.add_option("--table", data.table, "Which of several tables in the file, from 1")
       ->check(CLI::Range(1, 1000));
+  CLI::Option* spring = verb.add_option("--spring-constant", data.spring_constant,
+                                        "x minus force over it is the depth, as \"0.1 N/m\"");
+  verb.add_option("--compliance", data.compliance,
+                  "x minus force times it is the depth, as \"0.2 um/N\"")
+      ->excludes(spring);
   verb.add_option("--case", data.case_name, "Only rows with this value in the column `case`");
 }
 
@@ -110,8 +115,10 @@ void add_options(CLI::App& verb, Fit& fit) {
       ->type_name("FOLDER");
   verb.add_flag("--force", fit.force, "Replace that folder");
   add_data(verb, fit.columns);
+  verb.add_flag("--csv", fit.csv, "CSV on a terminal too, where else a table stands");
   verb.add_option("--model", fit.model, "Curve")->required()->type_name(any_of(models));
-  verb.add_option("--origin", fit.x_origin, "Subtracted from every x");
+  verb.add_option("--origin", fit.x_origin,
+                  "Subtracted from every x; of times, default: where the step is");
   verb.add_option("--radius", fit.radius, "hertz, layer: of the sphere or punch, as \"11 mm\"");
   verb.add_option("--tip", fit.tip, "hertz: default paraboloid")
       ->type_name("paraboloid|sphere|cone|pyramid3|pyramid4|punch");
@@ -128,6 +135,9 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_option("--area", fit.area, "the same: of the cross-section, as \"300 mm^2\"");
   verb.add_option("--platens", fit.platens, "the same: default slippery")
       ->type_name("slippery|bonded");
+  verb.add_option("--cycle", fit.cycle, "the same: which of several loadings, from 1")
+      ->check(CLI::Range(1, 100000));
+  verb.add_flag("--toe", fit.toe, "the same: count from where the line through the stress begins");
   verb.add_option("--loading", fit.loading, "the same: default by the signs")
       ->type_name("compression|tension");
   verb.add_option("--poisson", fit.poisson_ratio, "hertz, layer: Poisson's ratio")
@@ -304,6 +314,8 @@ void add_options(CLI::App& verb, Identify& identify) {
       ->required()
       ->type_name("SCENARIO");
   add_data(verb, identify.columns);
+  verb.add_option("--origin", identify.x_origin,
+                  "Subtracted from every x: where the programme begins");
   verb.add_option("--noise", identify.noise, "Noise of the measurement")
       ->capture_default_str()
       ->check(CLI::IsMember({"constant", "relative"}));

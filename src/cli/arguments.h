@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -50,8 +51,8 @@ struct Explain {
 using DataOptions = measured::DataLayout;
 
 // Models of `fit` that are not in the table of fit/model.h and have further options.
-inline constexpr std::array further_models{"hertz",   "layer",       "prony", "prony_creep",
-                                           "modulus", "neo_hookean", "ogden"};
+inline constexpr std::array further_models{
+    "hertz", "layer", "prony", "prony_creep", "modulus", "neo_hookean", "ogden", "yeoh", "ogden3"};
 
 struct Fit {
   static constexpr Word word{"fit", "Fit a curve to two columns of text tables"};
@@ -59,26 +60,29 @@ struct Fit {
   std::string out;                // folder of a population; empty: none
   bool force = false;
   DataOptions columns;
+  bool csv = false;  // CSV also on a terminal
   std::string model;
-  double x_origin = 0.0;
-  std::string radius;         // of the tip, such as `11 mm`, for hertz and layer
-  std::string tip;            // of hertz: paraboloid (also empty), sphere, cone, pyramid3, ...
-  std::string half_angle;     // of a cone or pyramid, in degrees
-  std::string baseline;       // of hertz and layer: none, offset, tilt; empty: from the rows
-  std::string from;           // a depth below contact, or a share of the largest; empty: all
-  std::string to;             // likewise
-  double poisson_ratio = -1;  // of the tissue; -1: not given
-  std::string thickness;      // of the layer
-  std::string base;           // of the layer: bonded or frictionless; empty: bonded
-  int terms = 0;              // of prony; 0: not given
-  double ramp = 0.0;          // of prony: duration of the ramp before the hold, in the unit of x
-  std::string history;        // of prony: column of the strain, or of the stress in creep
-  double history_power = 0;   // exponent of that column; 0: 1, or 3/2 of a depth under a force
-  std::string height;         // of a specimen between platens: strain is length / height
-  std::string diameter;       // of a round specimen: stress is force / area
-  std::string area;           // of its cross-section, otherwise
-  std::string platens;        // slippery (also empty) or bonded
-  std::string loading;        // compression or tension; empty: by the signs
+  std::optional<double> x_origin;  // of time: none: where the step is
+  std::string radius;              // of the tip, such as `11 mm`, for hertz and layer
+  std::string tip;                 // of hertz: paraboloid (also empty), sphere, cone, pyramid3, ...
+  std::string half_angle;          // of a cone or pyramid, in degrees
+  std::string baseline;            // of hertz and layer: none, offset, tilt; empty: from the rows
+  std::string from;                // a depth below contact, or a share of the largest; empty: all
+  std::string to;                  // likewise
+  double poisson_ratio = -1;       // of the tissue; -1: not given
+  std::string thickness;           // of the layer
+  std::string base;                // of the layer: bonded or frictionless; empty: bonded
+  int terms = 0;                   // of prony; 0: not given
+  double ramp = 0.0;         // of prony: duration of the ramp before the hold, in the unit of x
+  std::string history;       // of prony: column of the strain, or of the stress in creep
+  double history_power = 0;  // exponent of that column; 0: 1, or 3/2 of a depth under a force
+  std::string height;        // of a specimen between platens: strain is length / height
+  std::string diameter;      // of a round specimen: stress is force / area
+  std::string area;          // of its cross-section, otherwise
+  std::string platens;       // slippery (also empty) or bonded
+  int cycle = 0;             // of several loadings, from 1; 0: not given
+  bool toe = false;          // takes a toe off
+  std::string loading;       // compression or tension; empty: by the signs
 };
 struct Data {
   static constexpr Word word{"data", "Say what is understood of a measured file"};
@@ -184,6 +188,7 @@ struct Identify {
   std::vector<std::string> unknowns;  // KEY=LOW..HIGH
   std::vector<std::string> givens;    // KEY=VALUE +- SD
   std::string noise = "constant";     // or relative
+  std::optional<double> x_origin;     // where the programme begins, in the unit of x
   std::vector<std::string> settings;
   std::string out = "out";
   bool force = false;

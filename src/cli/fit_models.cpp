@@ -15,6 +15,7 @@
 #include "fit/contact_model.h"
 #include "fit/contact_warnings.h"
 #include "fit/prony.h"
+#include "fit/step_origin.h"
 #include "fit/uniaxial.h"
 #include "measured/measured.h"
 
@@ -68,6 +69,13 @@ fit::UniaxialTest::Loading loading_of(const Fit& command, const measured::Measur
 
 // Fits stress over strain, force over strain or force over length, where the sizes of the specimen
 // turn forces into stresses and lengths into strains. Throws InputError for missing sizes.
+// Whether a column named as a stretch holds strains, which begin near 0 and not near 1.
+bool is_strain_below(const std::vector<double>& stretch) {
+  for (const double each : stretch)
+    if (std::isfinite(each)) return each < 0.3;
+  return false;
+}
+
 fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) {
   const auto wrong = [&](const measured::MeasuredAxis& axis, const std::string& wanted) {
     const std::string known = axis.has_unit ? dimension_name(axis.dimension) : "without a unit";
@@ -75,9 +83,14 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
                      "`" + axis.column + "` is " + known + ", and this model " + wanted);
   };
   fit::UniaxialTest test;
-  test.model = command.model == "modulus"       ? fit::UniaxialTest::Model::modulus
-               : command.model == "neo_hookean" ? fit::UniaxialTest::Model::neo_hookean
-                                                : fit::UniaxialTest::Model::ogden;
+  using Model = fit::UniaxialTest::Model;
+  test.model = command.model == "modulus"       ? Model::modulus
+               : command.model == "neo_hookean" ? Model::neo_hookean
+               : command.model == "ogden"       ? Model::ogden
+               : command.model == "yeoh"        ? Model::yeoh
+                                                : Model::ogden3;
+  test.cycle = command.cycle;
+  test.toe = command.toe;
   test.loading = loading_of(command, curve);
   test.residuals = fit::Residuals::correlated;
   test.from = strain_of("--from", command.from);
@@ -87,6 +100,11 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
 
   std::vector<double> strain = curve.x;
   std::vector<double> stress = curve.y;
+  if (const bool negative = is_strain_below(strain); curve.x_axis.stretch && !negative) {
+    for (double& each : strain) each -= 1.0;
+    if (test.loading == fit::UniaxialTest::Loading::unknown)
+      test.loading = fit::UniaxialTest::Loading::tension;  // of stretches the sign tells
+  }
   if (curve.x_axis.dimension == unit::mm.dimension) {
     if (command.height.empty())
       wrong(curve.x_axis,
@@ -149,9 +167,10 @@ void check_options(const Fit& command) {
     bool required;
     const char* example;
   };
-  const std::initializer_list<std::string_view> uniaxial{"modulus", "neo_hookean", "ogden"};
+  const std::initializer_list<std::string_view> uniaxial{"modulus", "neo_hookean", "ogden", "yeoh",
+                                                         "ogden3"};
   const std::initializer_list<std::string_view> part{"hertz", "layer", "modulus", "neo_hookean",
-                                                     "ogden"};
+                                                     "ogden", "yeoh",  "ogden3"};
   for (const Option& option :
        {Option{"--radius", !command.radius.empty(), {"hertz", "layer"}, false, "\"11 mm\""},
         Option{"--tip", !command.tip.empty(), {"hertz", "layer"}, false, "sphere"},
@@ -164,6 +183,8 @@ void check_options(const Fit& command) {
         Option{"--area", !command.area.empty(), uniaxial, false, "\"300 mm^2\""},
         Option{"--platens", !command.platens.empty(), uniaxial, false, "bonded"},
         Option{"--loading", !command.loading.empty(), uniaxial, false, "compression"},
+        Option{"--cycle", command.cycle > 0, uniaxial, false, "1"},
+        Option{"--toe", command.toe, uniaxial, false, ""},
         Option{"--poisson", command.poisson_ratio >= 0, {"hertz", "layer"}, true, "0.45"},
         Option{"--thickness", !command.thickness.empty(), {"layer"}, true, "\"5 mm\""},
         Option{"--base", !command.base.empty(), {"layer"}, false, "bonded"},
@@ -179,16 +200,22 @@ void check_options(const Fit& command) {
       refuse("the model `" + command.model + "` wants `" + option.name + "`; write it as `" +
              option.name + " " + option.example + "`");
   }
-  if (command.x_origin != 0.0 && is_one_of(command.model, {"hertz", "layer"}))
+  if (command.x_origin && is_one_of(command.model, {"hertz", "layer"}))
     refuse("`--origin` is not used by the model `" + command.model +
            "`, which fits the contact point; leave it out");
-  if (command.x_origin != 0.0 && is_one_of(command.model, uniaxial))
+  if (command.x_origin && is_one_of(command.model, uniaxial))
     refuse("`--origin` is not used by the model `" + command.model + "`; leave it out");
 }
 
 void check_axis(const measured::MeasuredCurve& curve, const measured::MeasuredAxis& axis,
                 const Unit& wanted, const std::string& option) {
   if (axis.dimension == wanted.dimension) return;
+  if (axis.mass && wanted.dimension == unit::N.dimension)
+    throw InputError({curve.file, 0, 0}, "`" + axis.column + "` is a mass in " + axis.unit +
+                                             ", and this model wants a force; give `" + option +
+                                             "-unit " + axis.unit +
+                                             "f` if it is the weight that a load cell shows, or `" +
+                                             option + "-unit N` if the unit is wrong");
   const std::string known = axis.has_unit ? dimension_name(axis.dimension) : "without a unit";
   throw InputError({curve.file, 0, 0},
                    "`" + axis.column + "` is " + known + ", and this model wants a " +
@@ -241,17 +268,48 @@ void refuse_long_times(const fit::Fit& result) {
                                ", which cannot tell it; record longer, or fit fewer terms");
 }
 
-fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
+// Where time begins for the model: as asked, or at the step that the curve shows.
+fit::StepOrigin origin_of(const Fit& command, const measured::MeasuredCurve& curve) {
+  if (command.x_origin) return {*command.x_origin, {}};
+  if (!command.history.empty()) return {};  // only differences of the times count
+  using fit::AfterStep;
+  if (is_one_of(command.model, {"prony", "standard_linear_solid", "kelvin_voigt_recovery"}))
+    return fit::step_origin(curve.x_written, curve.y_written, AfterStep::falls, command.ramp);
+  if (command.model == "prony_creep")
+    return fit::step_origin(curve.x_written, curve.y_written, AfterStep::rises, command.ramp);
+  if (command.model == "kelvin_voigt")
+    return fit::step_origin(curve.x_written, curve.y_written, AfterStep::rises_from_zero, 0.0);
+  return {};
+}
+
+fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& whole) {
+  const fit::StepOrigin origin = origin_of(command, whole);
+  measured::MeasuredCurve curve = whole;
+  const bool stepped = !origin.sentence.empty();
+  std::size_t early = 0;
+  for (double& each : curve.x_written)
+    if (each < origin.first) {
+      each = std::nan("");  // left out, and counted
+      ++early;
+    }
   const fit::Options options{.x_unit = curve.x_axis.unit,
                              .y_unit = curve.y_axis.unit,
-                             .x_origin = command.x_origin,
+                             .x_origin = origin.time,
                              .residuals = fit::Residuals::correlated};
+  const auto said = [&](fit::Fit result) {
+    if (early > 0)
+      result.notes.insert(result.notes.begin(), std::to_string(early) +
+                                                    (early == 1 ? " point is" : " points are") +
+                                                    " left out: before the step");
+    if (stepped) result.notes.insert(result.notes.begin(), origin.sentence);
+    return result;
+  };
   if (is_one_of(command.model, {"hertz", "layer"})) return contact_fit(command, curve);
-  if (is_one_of(command.model, {"modulus", "neo_hookean", "ogden"}))
+  if (is_one_of(command.model, {"modulus", "neo_hookean", "ogden", "yeoh", "ogden3"}))
     return uniaxial_fit(command, curve);
   if (const auto model = fit::find_model(command.model))
-    return fit::regress(curve.x_written, curve.y_written, *model, options);
-  return fit::fit_prony(curve.x_written, curve.y_written, series_of(command, curve), options);
+    return said(fit::regress(curve.x_written, curve.y_written, *model, options));
+  return said(fit::fit_prony(curve.x_written, curve.y_written, series_of(command, curve), options));
 }
 
 std::string model_name(const fit::Fit& result) {
@@ -296,6 +354,10 @@ FittedCurve fit_curve(const Fit& command, const std::string& path) {
     throw InputError({path, 0, 0}, problem.message);
   }
   result.notes.insert(result.notes.begin(), curve.notes.begin(), curve.notes.end());
+  if (curve.guessed)
+    result.notes.insert(result.notes.begin(), "x is `" + curve.x_axis.column + "` and y is `" +
+                                                  curve.y_axis.column +
+                                                  "`; `--x` and `--y` name others");
   return {curve.y_axis.column + " over " + curve.x_axis.column, std::move(result)};
 }
 

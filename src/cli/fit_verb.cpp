@@ -1,4 +1,6 @@
 // `palpate fit`: fits curves of text tables.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +13,7 @@
 #include "cli/fit_models.h"
 #include "cli/program.h"
 #include "cli/talk.h"
+#include "cli/table_text.h"
 #include "cli/verbs.h"
 #include "fit/fit_table.h"
 #include "plot/gnuplot.h"
@@ -219,7 +222,7 @@ int fit_many(const Fit& command, const Talk& talk) {
   const std::vector<fit::Estimate> parameters = parameters_of(rows);
   const std::vector<Population> all = populations(rows, parameters);
   const record::Table table = row_table(rows, parameters);
-  print(record::csv_text(table));
+  print(talk.json() ? json_lines(table) : record::csv_text(table));
   say_population(all, rows, talk);
   if (!command.out.empty()) write_folder(command, table, population_table(all), talk);
   return all.empty() ? exit_input : exit_good;
@@ -242,6 +245,25 @@ void say_what_is_odd(const fit::Fit& result, const Talk& talk) {
                "` is below 0, which no passive tissue has; give fewer `--terms`");
 }
 
+// One line per parameter, then the formula and how well it fits.
+std::string table_for_people(const fit::Fit& result) {
+  std::size_t width = 0;
+  for (const fit::Estimate& one : result.parameters) width = std::max(width, one.name.size());
+  std::string text;
+  for (const fit::Estimate& one : result.parameters) {
+    text += one.name + std::string(width - one.name.size() + 2, ' ') +
+            rounded_text(one.estimate, 5) + (one.unit.empty() ? "" : " " + one.unit);
+    if (std::isfinite(one.ci95_low))
+      text += "  (95 %: " + rounded_text(one.ci95_low, 5) + " to " +
+              rounded_text(one.ci95_high, 5) + ")";
+    text += "\n";
+  }
+  const std::string law =
+      result.name.empty() ? std::string(fit::info(result.model).formula) : result.law;
+  return text + law + "\n" + std::to_string(result.n) + " points, R^2 " +
+         rounded_text(result.r2, 6) + "\n";
+}
+
 }  // namespace
 
 int perform(const Fit& command, const Arguments&, const Talk& talk) {
@@ -249,7 +271,12 @@ int perform(const Fit& command, const Arguments&, const Talk& talk) {
   if (command.data.size() > 1 || !command.out.empty()) return fit_many(command, talk);
   const FittedCurve fitted = fit_curve(command, command.data.front());
   const std::vector<fit::NamedFit> named{{command.columns.case_name, fitted.name, fitted.fit}};
-  print(record::csv_text(fit::measured_fit_table(named)));
+  if (talk.json())
+    print(json_lines(fit::measured_fit_table(named)));
+  else if (command.csv || ::isatty(STDOUT_FILENO) == 0)
+    print(record::csv_text(fit::measured_fit_table(named)));
+  else
+    print(table_for_people(fitted.fit));
   say_what_is_odd(fitted.fit, talk);
   return exit_good;
 }

@@ -3,9 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/stop_scope.h"
 #include "base/text.h"
-#include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
@@ -20,9 +18,38 @@
 namespace palpate::cli {
 namespace {
 
+// The programme begins at time 0. A record whose clock begins later either leaves its beginning out
+// or counts from elsewhere, and only the user knows.
+void begin_with_programme(const Identify& command, measured::MeasuredCurve& curve) {
+  const bool time = curve.x_axis.dimension == Dimension{0, 0, 1};
+  if (command.x_origin) {
+    const double by = curve.x.front() == curve.x_written.front()
+                          ? *command.x_origin
+                          : *command.x_origin * (curve.x.back() - curve.x.front()) /
+                                (curve.x_written.back() - curve.x_written.front());
+    for (double& each : curve.x) each -= by;
+    return;
+  }
+  if (!time || curve.x.size() < 2) return;
+  const double first = curve.x.front();
+  const double gap = curve.x[1] - curve.x[0];
+  if (first <= gap * (1.0 + 1e-9)) return;
+  const std::string begins = rounded_text(curve.x_written.front());
+  throw InputError({command.data, 0, 0},
+                   "its first row is at " + begins + " " + curve.x_axis.unit +
+                       ", and the programme of the scenario begins at 0; give `--origin " + begins +
+                       "` if it begins with that row, or `--origin 0` if the clock is that of the "
+                       "programme and the rows before are missing");
+}
+
 identify::Measurement read_measurement(const Identify& command, const Talk& talk) {
   measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
   for (const std::string& note : curve.notes) talk.say("note: " + note);
+  if (curve.guessed)
+    talk.say("note: x is `" + curve.x_axis.column + "` and y is `" + curve.y_axis.column + "`");
+  if (curve.x_axis.stretch)
+    for (double& each : curve.x) each -= 1.0;
+  begin_with_programme(command, curve);
   return {.x = std::move(curve.x),
           .y = std::move(curve.y),
           .x_name = curve.x_axis.column,
@@ -67,15 +94,9 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   identify::IdentifyOptions options;
   if (command.noise == "relative") options.noise = identify::Noise::relative;
 
-  const StopScope scope(listen_for_interrupts(exit_interrupted));
-  identify::Identification found;
-  try {
-    found = identify::identify(measured, family, unknowns, options);
-    identify::carry_givens(found, measured, family, givens);
-  } catch (const InputError&) {
-    StopScope::end_if_stopped();
-    throw;
-  }
+  // Nothing is kept until the search has ended, so that an interrupt may end the program at once.
+  identify::Identification found = identify::identify(measured, family, unknowns, options);
+  identify::carry_givens(found, measured, family, givens);
   for (const std::string& note : found.notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);
   for (const std::string& warning : identify::write_identification(

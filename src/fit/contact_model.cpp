@@ -349,6 +349,21 @@ class ContactFit {
                          std::to_string(result.beyond) + " beyond, up to a depth of " +
                          rounded_text(unit::mm.from_si(result.deepest)) +
                          " mm below the contact point");
+    static constexpr std::array<const char*, 3> short_words{"none", "offset", "tilt"};
+    for (const auto& [other, factor] : choice.others) {
+      const double change = factor / choice.guess.factor - 1.0;
+      if (std::abs(change) > 0.02 &&
+          (other == Baseline::offset || choice.baseline != Baseline::tilt))
+        fit_.notes.push_back("`--baseline " + std::string(short_words[as_index(other)]) +
+                             "` would change E by " + (change > 0.0 ? "+" : "-") +
+                             percent_text(std::abs(change)));
+    }
+    if (choice.baseline != Baseline::none) {
+      const double length = contact - rows_.low;
+      fit_.notes.push_back("the baseline follows from " + std::to_string(result.before) +
+                           " rows over " + rounded_text(unit::mm.from_si(length)) +
+                           " mm before contact");
+    }
     warn_of_contact(fit_, result);
   }
 

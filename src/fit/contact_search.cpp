@@ -127,6 +127,48 @@ std::optional<ContactGuess> search_contact(const UnitLaw& law, const PressRows& 
   return best;
 }
 
+namespace {
+
+// The straight line through the rows before a contact point: its slope and that slope's error.
+struct Line {
+  double slope = 0.0, error = 0.0;
+};
+Line line_before(const PressRows& rows, double contact) {
+  double n = 0.0, sx = 0.0, sxx = 0.0, sy = 0.0, sxy = 0.0, syy = 0.0;
+  for (std::size_t i = 0; i < rows.depth.size(); ++i) {
+    if (rows.depth[i] > contact) continue;
+    const double x = (rows.depth[i] - rows.low) / rows.range();
+    n += 1.0;
+    sx += x;
+    sxx += x * x;
+    sy += rows.force[i];
+    sxy += x * rows.force[i];
+    syy += rows.force[i] * rows.force[i];
+  }
+  const double spread = sxx - sx * sx / n;
+  if (n < 3.0 || !(spread > 0.0)) return {};
+  const double slope = (sxy - sx * sy / n) / spread;
+  const double squares = std::max(syy - sy * sy / n - slope * slope * spread, 0.0);
+  return {slope, std::sqrt(squares / (n - 2.0) / spread)};
+}
+
+// Whether the rows before contact determine this baseline by themselves: a tilt ten rows over a
+// fifth of the depth in contact, whose own slope agrees with it; an offset three rows that do not
+// rise, since rows that rise are in contact.
+bool determines(const PressRows& rows, const ContactGuess& guess, Baseline baseline) {
+  if (baseline == Baseline::none) return true;
+  constexpr double clear = 3.0;      // standard errors
+  constexpr double rounding = 1e-9;  // of the largest force
+  const Line line = line_before(rows, guess.contact);
+  if (baseline == Baseline::offset)
+    return guess.before >= 3 && line.slope <= clear * line.error + rounding;
+  const double length = guess.contact - rows.low;
+  return guess.before >= 10 && length >= 0.2 * (rows.high - guess.contact) &&
+         std::abs(line.slope - guess.tilt) <= clear * line.error + rounding;
+}
+
+}  // namespace
+
 std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows& rows,
                                             double deepest) {
   constexpr std::size_t for_offset = 3;
@@ -157,17 +199,16 @@ std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows&
     }
   }
   if (!best) return std::nullopt;
-  if (best->baseline == Baseline::none && best->guess.before < for_offset) {
-    const auto offset = search_contact(law, rows, Baseline::offset, {deepest, false});
-    if (offset && offset->factor > 0.0 && score(*offset, Baseline::offset) < least - 10.0)
-      return ContactChoice{Baseline::offset, *offset};
-  }
-  const std::size_t before = best->guess.before;
-  for (const Baseline richer : {Baseline::tilt, Baseline::offset}) {
+  for (const Baseline richer : {Baseline::tilt, Baseline::offset, Baseline::none}) {
     const auto& guess = guesses[as_index(richer)];
-    if (richer <= best->baseline) break;
-    if (before < rows_for(richer) || !guess || !(guess->factor > 0.0)) continue;
-    return ContactChoice{richer, *guess};
+    if (!guess || !(guess->factor > 0.0) || !determines(rows, *guess, richer)) continue;
+    best = ContactChoice{richer, *guess};
+    break;
+  }
+  for (const Baseline other : {Baseline::offset, Baseline::tilt}) {
+    if (other == best->baseline) continue;
+    const auto guess = search_contact(law, rows, other, {deepest, false});
+    if (guess && guess->factor > 0.0) best->others.emplace_back(other, guess->factor);
   }
   return best;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace palpate::fit {
@@ -54,12 +55,13 @@ struct SearchLimits {
 
 // The contact point and the baseline that the rows support. The hypotheses of no baseline, an
 // offset and a tilt are compared by n ln(SSE / n) + k ln n (Schwarz 1978, Ann. Stat. 6). Where the
-// best has ten rows before contact, offset and tilt are fitted, where it has three, an offset.
-// Where no row lies before contact, an offset is fitted only if the curve speaks for it by ten
-// units.
+// rows before contact determine a tilt (ten over a fifth of the depth in contact, whose own slope
+// agrees with it), offset and tilt are fitted; where three of them do not rise, an offset; else
+// neither.                                                                    docs/theory.md (122)
 struct ContactChoice {
   Baseline baseline = Baseline::none;
   ContactGuess guess;
+  std::vector<std::pair<Baseline, double>> others = {};  // the factors with other baselines
 };
 [[nodiscard]] std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows& rows,
                                                           double deepest);

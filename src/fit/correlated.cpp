@@ -2,7 +2,9 @@
 #include "fit/correlated.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -87,7 +89,136 @@ Matrix correlated_product(const Rows& rows, Eigen::Index p, double rho) {
   return product;
 }
 
+// sum_j x_j e^(-2 pi i jk/N), in place; N is a power of two.      Cooley and Tukey 1965
+void transform(std::vector<std::complex<double>>& x) {
+  const std::size_t n = x.size();
+  for (std::size_t i = 1, j = 0; i < n; ++i) {
+    std::size_t bit = n >> 1U;
+    for (; (j & bit) != 0; bit >>= 1U) j ^= bit;
+    j ^= bit;
+    if (i < j) std::swap(x[i], x[j]);
+  }
+  for (std::size_t length = 2; length <= n; length *= 2) {
+    const std::complex<double> turn =
+        std::polar(1.0, -2.0 * std::numbers::pi / static_cast<double>(length));
+    for (std::size_t i = 0; i < n; i += length) {
+      std::complex<double> at = 1.0;
+      for (std::size_t k = 0; k < length / 2; ++k, at *= turn) {
+        const auto even = x[i + k];
+        const auto odd = at * x[i + k + length / 2];
+        x[i + k] = even + odd;
+        x[i + k + length / 2] = even - odd;
+      }
+    }
+  }
+}
+
+std::vector<std::complex<double>> padded(const Eigen::VectorXd& values, std::size_t size) {
+  std::vector<std::complex<double>> all(size);
+  for (Eigen::Index i = 0; i < values.size(); ++i) all[as_index(i)] = values[i];
+  transform(all);
+  return all;
+}
+
+// S(f) = s (1 + (c/f)^a), fitted to the periodogram by Whittle's likelihood. The fit has taken the
+// power of the lowest frequencies, one for each unknown, which are therefore left out.
+struct Spectrum {
+  double level = 0.0, corner = 0.0, power = 1.0;
+  bool better = false;  // than the spectrum of the first-order process
+  [[nodiscard]] double at(double f) const { return level * (1.0 + std::pow(corner / f, power)); }
+};
+Spectrum spectrum_of(const Eigen::VectorXd& residuals, Eigen::Index p, std::size_t size,
+                     double rho) {
+  const auto n = static_cast<double>(residuals.size());
+  const auto transformed = padded(residuals, size);
+  // Means over bands that grow by a twentieth, of frequencies a band of 1/n apart.
+  std::vector<double> f, height, weight;
+  double next = 0.0;
+  for (auto k = static_cast<double>(p + 1); k < 0.5 * n; k += 1.0) {
+    const auto at = static_cast<std::size_t>(std::lround(k / n * static_cast<double>(size)));
+    const double value = std::norm(transformed[at]) / n;
+    if (f.empty() || k >= next) {
+      f.push_back(0.0);
+      height.push_back(0.0);
+      weight.push_back(0.0);
+      next = std::max(k + 1.0, 1.05 * k);
+    }
+    f.back() += k / n;
+    height.back() += value;
+    weight.back() += 1.0;
+  }
+  for (std::size_t b = 0; b < f.size(); ++b) {
+    f[b] /= weight[b];
+    height[b] /= weight[b];
+  }
+  double total = 0.0;
+  for (const double each : weight) total += each;
+  // -log L of a shape, with its level.
+  const auto fitted = [&](const auto& shape_at) {
+    double level = 0.0;
+    double logs = 0.0;
+    for (std::size_t b = 0; b < f.size(); ++b) {
+      const double shape = shape_at(f[b]);
+      level += weight[b] * height[b] / shape;
+      logs += weight[b] * std::log(shape);
+    }
+    return std::pair{total * std::log(level / total) + logs, level / total};
+  };
+  const double first_order =
+      fitted([&](double at) {
+        return 1.0 / (1.0 - 2.0 * rho * std::cos(2.0 * std::numbers::pi * at) + rho * rho);
+      }).first;
+  Spectrum best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double power : {0.5, 0.75, 1.0, 1.25, 1.5, 2.0})
+    for (int k = -1; k <= 30; ++k) {
+      const double corner = k < 0 ? 0.0 : std::pow(10.0, -4.0 + 0.2 * k);
+      const auto [value, level] =
+          fitted([&](double at) { return 1.0 + std::pow(corner / at, power); });
+      if (!(value < least)) continue;
+      least = value;
+      best = {level, corner, power};
+    }
+  best.better = least < first_order;
+  return best;
+}
+
 }  // namespace
+
+std::vector<double> quantised_covariance(std::span<const double> values,
+                                         std::span<const double> jacobian,
+                                         std::span<const double> inverse) {
+  const std::size_t n = values.size();
+  const std::size_t p = n == 0 ? 0 : jacobian.size() / n;
+  if (n < 20 || inverse.size() != p * p) return {};
+  std::vector<double> levels(values.begin(), values.end());
+  std::sort(levels.begin(), levels.end());
+  const double slack = 1e-9 * std::max(std::abs(levels.front()), std::abs(levels.back()));
+  double step = std::numeric_limits<double>::infinity();
+  std::size_t count = 1;
+  for (std::size_t i = 1; i < n; ++i)
+    if (const double gap = levels[i] - levels[i - 1]; gap > slack) {
+      step = std::min(step, gap);
+      ++count;
+    }
+  if (count < 2 || 2 * count > n) return {};
+  for (std::size_t i = 1; i < n; ++i) {
+    const double steps = (levels[i] - levels[i - 1]) / step;
+    if (std::abs(steps - std::round(steps)) > 0.05 * std::max(1.0, steps)) return {};
+  }
+  const Eigen::Map<const Rows> normal(inverse.data(), static_cast<Eigen::Index>(p),
+                                      static_cast<Eigen::Index>(p));
+  Matrix sum = Matrix::Zero(normal.rows(), normal.cols());
+  for (std::size_t i = 0; i < n;) {
+    Eigen::VectorXd run = Eigen::VectorXd::Zero(normal.rows());
+    const std::size_t first = i;
+    for (; i < n && std::abs(values[i] - values[first]) <= slack; ++i)
+      for (std::size_t k = 0; k < p; ++k) run[static_cast<Eigen::Index>(k)] += jacobian[i * p + k];
+    sum += run * run.transpose();
+  }
+  const Rows covariance = step * step / 12.0 * normal * sum * normal;
+  return {covariance.data(), covariance.data() + covariance.size()};
+}
 
 std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals,
                                                std::span<const double> jacobian,
@@ -122,11 +253,37 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
   const double scatter = rows.col(p).squaredNorm() / degrees;
   const double variance =
       std::min(at.variance / (1.0 - rho * rho), 2.0 * scatter) * scale[p] * scale[p];
-  const Matrix sandwich = variance * (inverse * correlated_product(rows, p, rho) * inverse);
+  Matrix sandwich = variance * (inverse * correlated_product(rows, p, rho) * inverse);
   // The variance of a mean depends on s^2 / (1-rho)^2, whose relative variance is
   // 2/n + 4 var(rho) / (1-rho)^2 with var(rho) = (1-rho^2) / n.
   found.degrees = std::max(4.0, degrees * (1.0 - rho) / (3.0 + rho));
   found.effective_size = static_cast<double>(n) * (1.0 - rho) / (1.0 + rho);
+
+  // Fewer than 100 rows do not tell such a spectrum from chance.
+  // Var = 1/N sum_k S(f_k) W_k W_k^*, W the transform of the influence of each row.
+  std::size_t size = 1;
+  while (size < 2 * as_index(n)) size *= 2;
+  const Spectrum spectrum = spectrum_of(rows.col(p), p, size, rho);
+  const double lowest = 0.5 / static_cast<double>(n);
+  const Matrix influence = rows.leftCols(p) * inverse;
+  std::vector<std::vector<std::complex<double>>> waves;
+  for (Eigen::Index k = 0; k < p; ++k) waves.push_back(padded(influence.col(k), size));
+  Matrix flicker = Matrix::Zero(p, p);
+  for (std::size_t k = 0; k < size; ++k) {
+    const double f = static_cast<double>(std::min(k, size - k)) / static_cast<double>(size);
+    const double power = spectrum.at(std::max(f, lowest)) / static_cast<double>(size);
+    for (Eigen::Index i = 0; i < p; ++i)
+      for (Eigen::Index j = 0; j < p; ++j)
+        flicker(i, j) += power * (waves[as_index(i)][k] * std::conj(waves[as_index(j)][k])).real();
+  }
+  flicker *= scale[p] * scale[p];
+  const double wider = (flicker.diagonal().array() / sandwich.diagonal().array()).log().mean();
+  if (n >= 100 && spectrum.better && wider > 0.0 && flicker.allFinite()) {
+    sandwich = flicker;
+    found.effective_size = std::min(found.effective_size,
+                                    static_cast<double>(n) * scatter / spectrum.at(2.0 * lowest));
+    found.degrees = std::min(found.degrees, std::max(4.0, 0.5 * found.effective_size));
+  }
   found.covariance.resize(unknowns * unknowns);
   for (Eigen::Index i = 0; i < p; ++i)
     for (Eigen::Index k = 0; k < p; ++k)

@@ -84,6 +84,11 @@ void set_errors(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
       fit.covariance = found->covariance;
       degrees = found->degrees;
     }
+  if (scaling.residuals == Residuals::correlated)
+    if (const auto rounded =
+            quantised_covariance(scaling.y, minimum.jacobian, minimum.inverse_normal);
+        !rounded.empty())
+      for (std::size_t i = 0; i < count * count; ++i) fit.covariance[i] += rounded[i];
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) fit.covariance[i * count + j] *= scale[i] * scale[j];
   const double t = numerics::student_t_quantile(0.975, degrees);

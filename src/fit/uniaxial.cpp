@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/index.h"
@@ -14,6 +15,7 @@
 #include "base/units.h"
 #include "fit/ceres_fit.h"
 #include "fit/contact_warnings.h"
+#include "fit/loading_part.h"
 #include "fit/settle.h"
 
 namespace palpate::fit {
@@ -40,17 +42,54 @@ UnitStress ogden(double stretch, double alpha) {
   return {value, 2.0 / (3.0 * alpha) * (long_part * log + 0.5 * wide_part * log) - value / alpha};
 }
 
+// phi_k of a sum of terms, and its derivative with respect to alpha_k.
+//   yeoh    P = 2 (L - L^-2) (C1 + 2 C2 (I1-3) + 3 C3 (I1-3)^2), I1 = L^2 + 2/L, E = 6 C1
+//   ogden3  P = sum mu_k (L^(alpha_k-1) - L^(-alpha_k/2-1))
+UnitStress term(UniaxialTest::Model model, double stretch, std::size_t k, double alpha) {
+  using Model = UniaxialTest::Model;
+  if (model == Model::ogden) return ogden(stretch, alpha);
+  if (model == Model::ogden3) {
+    const double log = std::log(stretch);
+    const double long_part = std::pow(stretch, alpha - 1.0);
+    const double wide_part = std::pow(stretch, -0.5 * alpha - 1.0);
+    return {long_part - wide_part, long_part * log + 0.5 * wide_part * log};
+  }
+  const double base = neo_hookean(stretch).value;
+  if (k == 0) return {base, 0.0};
+  const double over = stretch * stretch + 2.0 / stretch - 3.0;
+  return {k == 1 ? 12.0 * base * over : 18.0 * base * over * over, 0.0};
+}
+
+const char* word(UniaxialTest::Model model) {
+  static constexpr std::array words{"modulus", "neo_hookean", "ogden", "yeoh", "ogden3"};
+  return words[as_index(model)];
+}
+
+const char* law(UniaxialTest::Model model) {
+  static constexpr std::array laws{
+      "", "P = E/3 (L - L^-2), neo-Hookean, incompressible",
+      "P = 2 E/(3 alpha) (L^(alpha-1) - L^(-alpha/2-1)), Ogden 1972, incompressible",
+      "P = (L - L^-2) (E/3 + 4 C2 (I1-3) + 6 C3 (I1-3)^2), Yeoh 1993, incompressible",
+      "P = sum mu_k (L^(alpha_k-1) - L^(-alpha_k/2-1)), E = 3/2 sum mu_k alpha_k, Ogden 1972, "
+      "incompressible"};
+  return laws[as_index(model)];
+}
+
+constexpr double fall_share = 0.1;  // of the rise of the stress: the end of the loading part
+
 class UniaxialFit {
  public:
   UniaxialFit(std::span<const double> strain, std::span<const double> stress,
               const UniaxialTest& test)
       : test_(test), loading_(test.loading) {
-    using Model = UniaxialTest::Model;
-    fit_.name = test.model == Model::modulus       ? "modulus"
-                : test.model == Model::neo_hookean ? "neo_hookean"
-                                                   : "ogden";
+    fit_.name = word(test.model);
     take(strain, stress);
     turn();
+    cut();
+    take_loading();
+    end_at_fall();
+    before_toe_ = toe();
+    if (test_.toe) take_off_toe();
     keep_range();
   }
 
@@ -67,6 +106,7 @@ class UniaxialFit {
       throw InputError({},
                        "the stress does not grow with the strain in this range; name other "
                        "columns, or give another `--from` and `--to`");
+    warn_of_toe();
     platens();
     warn_of_residuals(fit_);
     return std::move(fit_);
@@ -98,55 +138,241 @@ class UniaxialFit {
     refuse_few();
   }
 
-  // The sign of the strain is that of its largest change from the first row.
+  // The sign of the strain is that of its largest change from the first row, unless the rows lie on
+  // both sides of zero: compression and tension are one law.
   void turn() {
+    const auto [least, most] = std::minmax_element(strain_.begin(), strain_.end());
+    if (*least == *most)
+      throw InputError({}, "all points have the same strain; give a curve over strain");
+    both_ = std::min(-*least, *most) > 0.1 * std::max(-*least, *most) && grows_through_zero();
+    if (both_) {
+      if (test_.model == UniaxialTest::Model::modulus) {
+        both_ = false;
+        const std::size_t size = strain_.size();
+        const bool tension = loading_ != UniaxialTest::Loading::compression;
+        keep([&](std::size_t i) { return tension ? strain_[i] >= 0.0 : strain_[i] <= 0.0; });
+        leave_out(size - strain_.size(),
+                  tension ? "in compression; `--loading compression` fits it" : "in tension");
+        refuse_few();
+        return turn_to_positive();
+      }
+      if (loading_ == UniaxialTest::Loading::unknown) loading_ = UniaxialTest::Loading::tension;
+      fit_.notes.emplace_back(
+          std::string("the curve has tension and compression, which are fitted together; positive "
+                      "strains are ") +
+          (loading_ == UniaxialTest::Loading::tension
+               ? "tension; `--loading compression` turns them"
+               : "compression"));
+      return;
+    }
+    turn_to_positive();
+  }
+
+  // Whether the stress has the sign of the strain on both sides, as that of one law through zero.
+  [[nodiscard]] bool grows_through_zero() const {
+    double above = 0.0;
+    double below = 0.0;
+    for (std::size_t i = 0; i < strain_.size(); ++i)
+      (strain_[i] > 0.0 ? above : below) += strain_[i] * stress_[i];
+    return above > 0.0 && below > 0.0;
+  }
+
+  void turn_to_positive() {
     std::size_t far = 0;
     for (std::size_t i = 0; i < strain_.size(); ++i)
       if (std::abs(strain_[i] - strain_[0]) > std::abs(strain_[far] - strain_[0])) far = i;
-    if (far == 0) throw InputError({}, "all points have the same strain; give a curve over strain");
-    if (strain_[far] < strain_[0]) {
-      for (double& each : strain_) each = 0.0 - each;
-      for (double& each : stress_) each = 0.0 - each;
-      fit_.notes.emplace_back("strain and stress are negative in compression; both signs changed");
-      if (loading_ == UniaxialTest::Loading::tension)
-        throw InputError({},
-                         "the strain is negative, as in compression; leave `--loading tension` "
-                         "out, or name another `--x`");
-      loading_ = UniaxialTest::Loading::compression;
+    if (strain_[far] > strain_[0]) return;
+    for (double& each : strain_) each = 0.0 - each;
+    for (double& each : stress_) each = 0.0 - each;
+    fit_.notes.emplace_back("strain and stress are negative in compression; both signs changed");
+    if (loading_ == UniaxialTest::Loading::tension)
+      throw InputError({},
+                       "the strain is negative, as in compression; leave `--loading tension` "
+                       "out, or name another `--x`");
+    loading_ = UniaxialTest::Loading::compression;
+  }
+
+  template <class Wanted>
+  void keep(const Wanted& wanted) {
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < strain_.size(); ++i) {
+      if (!wanted(i)) continue;
+      x.push_back(strain_[i]);
+      y.push_back(stress_[i]);
     }
-    if (stress_[far] < stress_[0])
+    strain_ = std::move(x);
+    stress_ = std::move(y);
+  }
+
+  // Rows beyond `to` are cut before anything is judged: what follows there is no part of the test.
+  void cut() {
+    const double high = test_.to.value_or(std::numeric_limits<double>::infinity()) + 1e-12;
+    const std::size_t size = strain_.size();
+    keep([&](std::size_t i) { return std::abs(strain_[i]) <= high; });
+    outside_ += size - strain_.size();
+    refuse_few();
+  }
+
+  // The loading of one cycle; of a curve through zero, the branches that lead away from it.
+  void take_loading() {
+    const std::vector<Branch> branches = branches_of(strain_);
+    if (both_) return take_both(branches);
+    std::vector<Branch> loadings;
+    for (const Branch& branch : branches)
+      if (branch.up) loadings.push_back(branch);
+    const std::size_t size = strain_.size();
+    const auto cycles = static_cast<int>(loadings.size());
+    if (cycles > 1 && test_.cycle == 0) {
+      std::string ends;
+      for (int k = 0; k < std::min(cycles, 5); ++k)
+        ends += (k > 0 ? ", " : "") + rounded_text(strain_[loadings[as_index(k)].to - 1]);
+      throw InputError({}, "the curve has " + std::to_string(cycles) +
+                               " loadings, up to strains of " + ends + (cycles > 5 ? ", ..." : "") +
+                               ", which differ by what the ones before did to the specimen; choose "
+                               "one by `--cycle 1` to `--cycle " +
+                               std::to_string(cycles) + "`");
+    }
+    if (test_.cycle > cycles)
+      throw InputError({}, "the curve has " + std::to_string(cycles) +
+                               (cycles == 1 ? " loading" : " loadings") + ", and `--cycle " +
+                               std::to_string(test_.cycle) + "` is not among them");
+    if (cycles == 0) return;
+    const Branch part = loadings[as_index(std::max(test_.cycle, 1) - 1)];
+    if (part.from == 0 && part.to == size) return;
+    keep([&](std::size_t i) { return i >= part.from && i < part.to; });
+    if (cycles > 1)
+      fit_.notes.push_back("loading " + std::to_string(std::max(test_.cycle, 1)) + " of " +
+                           std::to_string(cycles) + " is fitted");
+    leave_out(size - strain_.size(), cycles > 1 ? "in other loadings and on the way back"
+                                                : "the way back from the largest strain");
+    refuse_few();
+  }
+
+  void take_both(const std::vector<Branch>& branches) {
+    // A side is left out on its way back to zero where it has a way out.
+    std::vector<char> away(strain_.size(), 0);
+    std::array<bool, 2> out{};  // below and above zero
+    for (const Branch& branch : branches)
+      for (std::size_t i = branch.from; i < branch.to; ++i)
+        if ((strain_[i] > 0.0) == branch.up) {
+          away[i] = 1;
+          if (i > branch.from) out[strain_[i] > 0.0 ? 1 : 0] = true;
+        }
+    const std::size_t size = strain_.size();
+    keep([&](std::size_t i) { return away[i] != 0 || !out[strain_[i] > 0.0 ? 1 : 0]; });
+    leave_out(size - strain_.size(), "on the way back to zero strain");
+    refuse_few();
+  }
+
+  // Up to the largest stress before the specimen gives way.
+  void end_at_fall() {
+    if (both_) return;
+    double up = 0.0;
+    double down = 0.0;
+    for (const double each : stress_) {
+      up = std::max(up, each - stress_[0]);
+      down = std::max(down, stress_[0] - each);
+    }
+    const std::size_t rows = rows_before_fall(stress_, fall_share);
+    const bool falls = rows == stress_.size() ? stress_.back() < stress_.front() : down > 3.0 * up;
+    if (falls)
       throw InputError({},
                        "the stress falls as the strain grows; give `--compression auto`, which "
                        "turns the sign of a load, or name other columns");
-    const auto size = strain_.size();
-    const double back = strain_[far] - 0.1 * (strain_[far] - strain_[0]);
-    const auto rest = strain_.begin() + static_cast<std::ptrdiff_t>(far);
-    if (std::none_of(rest, strain_.end(), [&](double each) { return each < back; })) return;
-    strain_.resize(far + 1);
-    stress_.resize(far + 1);
-    leave_out(size - strain_.size(), "the way back from the largest strain");
+    if (rows == stress_.size()) return;
+    fit_.notes.push_back("the loading part ends at the largest stress, at a strain of " +
+                         rounded_text(strain_[rows - 1]) + ", before the first fall by more than " +
+                         percent_text(fall_share));
+    const std::size_t size = strain_.size();
+    keep([&](std::size_t i) { return i < rows; });
+    leave_out(size - strain_.size(), "after the largest stress");
     refuse_few();
   }
 
   void keep_range() {
     const double low = test_.from.value_or(-std::numeric_limits<double>::infinity());
-    const double high = test_.to.value_or(std::numeric_limits<double>::infinity());
-    std::vector<double> x, y;
     first_strain_ = strain_.front();
     first_stress_ = stress_.front();
-    for (std::size_t i = 0; i < strain_.size(); ++i) {
-      if (strain_[i] < low - 1e-12 || strain_[i] > high + 1e-12) continue;
-      x.push_back(strain_[i]);
-      y.push_back(stress_[i]);
-    }
-    leave_out(strain_.size() - x.size(), "outside `--from` and `--to`");
-    strain_ = std::move(x);
-    stress_ = std::move(y);
+    const std::size_t size = strain_.size();
+    keep([&](std::size_t i) { return (both_ ? std::abs(strain_[i]) : strain_[i]) >= low - 1e-12; });
+    leave_out(outside_ + size - strain_.size(), "outside `--from` and `--to`");
     refuse_few();
     for (const double each : stress_) scale_ = std::max(scale_, std::abs(each));
     if (!(scale_ > 0.0))
       throw InputError({}, "the stress is 0 at every point; name another column by `--y`");
     for (double& each : stress_) each /= scale_;
+  }
+
+  // The toe of a specimen that settles between the platens: no stress up to a strain, then a line.
+  struct Toe {
+    double strain, stress, slope;  // Pa
+  };
+  [[nodiscard]] std::optional<Toe> toe() const {
+    if (both_ || strain_.size() < 20) return std::nullopt;
+    const double width = strain_.back() - strain_.front();
+    const double mean =
+        std::accumulate(stress_.begin(), stress_.end(), 0.0) / static_cast<double>(stress_.size());
+    double total = 0.0;
+    for (const double each : stress_) total += (each - mean) * (each - mean);
+    Toe best{};
+    std::array<double, 2> least{std::numeric_limits<double>::infinity(), 0.0};
+    const auto n = static_cast<double>(strain_.size());
+    for (int k = 0; k <= 100; ++k) {
+      const double knee = strain_.front() + 0.006 * k * width;
+      double sx = 0.0, sxx = 0.0, sy = 0.0, sxy = 0.0, syy = 0.0;
+      for (std::size_t i = 0; i < strain_.size(); ++i) {
+        const double x = std::max(strain_[i] - knee, 0.0);
+        sx += x;
+        sxx += x * x;
+        sy += stress_[i];
+        sxy += x * stress_[i];
+        syy += stress_[i] * stress_[i];
+      }
+      const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+      const double offset = (sy - slope * sx) / n;
+      const double squares = syy - offset * sy - slope * sxy;
+      if (k == 0) least[1] = squares;
+      if (!(squares < least[0])) continue;
+      least[0] = squares;
+      best = {knee, offset, slope};
+    }
+    const auto before =
+        std::count_if(strain_.begin(), strain_.end(), [&](double x) { return x < best.strain; });
+    const bool line = least[0] < 0.005 * total;
+    const bool better = n * std::log(least[1] / std::max(least[0], 1e-300)) > 20.0;
+    if (before < 5 || !line || !better) return std::nullopt;
+    return best;
+  }
+
+  // Counts strain and stress from the end of the toe: a specimen is as high as it is there.
+  void take_off_toe() {
+    const auto found = toe();
+    if (!found) {
+      fit_.notes.emplace_back("the curve shows no toe, so that none is taken off");
+      return;
+    }
+    const std::size_t size = strain_.size();
+    keep([&](std::size_t i) { return strain_[i] >= found->strain; });
+    const double sign = loading_ == UniaxialTest::Loading::tension ? 1.0 : -1.0;
+    for (double& each : strain_) each = (each - found->strain) / (1.0 + sign * found->strain);
+    for (double& each : stress_) each -= found->stress;
+    fit_.notes.push_back("a toe up to a strain of " + rounded_text(found->strain) +
+                         " is taken off: strain and stress count from there");
+    leave_out(size - strain_.size(), "in the toe");
+    refuse_few();
+  }
+
+  void warn_of_toe() {
+    if (test_.toe || !before_toe_) return;
+    const double young = unit::kPa.from_si(before_toe_->slope);
+    const double now = fit_.parameters[0].estimate;
+    const double change = young * (1.0 - before_toe_->strain) / now - 1.0;
+    if (std::abs(change) < 0.02) return;
+    fit_.warnings.push_back("the curve has a toe up to a strain of " +
+                            rounded_text(before_toe_->strain) +
+                            "; to take it off, by `--toe`, "
+                            "would change the modulus by about " +
+                            percent_text(change));
   }
 
   // sigma = sigma_0 + E_tangent epsilon
@@ -194,7 +420,9 @@ class UniaxialFit {
     return powers.colPivHouseholderQr().solve(stress)[0];
   }
 
+  // A sum of terms c_k phi_k(L, alpha_k). Parameters of the search: c_k, then alpha_k.
   void large_strain() {
+    using Model = UniaxialTest::Model;
     if (loading_ == UniaxialTest::Loading::unknown)
       throw InputError({}, "the model `" + fit_.name +
                                "` differs between compression and tension, and both columns are "
@@ -207,62 +435,116 @@ class UniaxialFit {
                                  " leaves no height in compression; give engineering strain, with "
                                  "`--x-unit %` where it is written in percent");
     }
-    const bool neo = test_.model == UniaxialTest::Model::neo_hookean;
-    fit_.law = neo ? "P = E/3 (L - L^-2), neo-Hookean, incompressible"
-                   : "P = 2 E/(3 alpha) (L^(alpha-1) - L^(-alpha/2-1)), Ogden 1972, incompressible";
-    fit_.law += sign < 0.0 ? ", compression" : ", tension";
-    fit_.parameters = {{.name = "E", .unit = "kPa"}};
-    if (!neo) fit_.parameters.push_back({.name = "alpha", .unit = ""});
-    const auto unit = [&](std::size_t i, double alpha) {
-      UnitStress at = neo ? neo_hookean(stretch_[i]) : ogden(stretch_[i], alpha);
+    fit_.law = std::string(law(test_.model)) + (both_        ? ", compression and tension"
+                                                : sign < 0.0 ? ", compression"
+                                                             : ", tension");
+    const bool three = test_.model == Model::yeoh || test_.model == Model::ogden3;
+    const bool powers = test_.model == Model::ogden || test_.model == Model::ogden3;
+    const std::size_t terms = three ? 3 : 1;
+    const std::size_t count = powers ? 2 * terms : terms;
+    if (strain_.size() < count + 2)
+      throw InputError({}, "the model `" + fit_.name + "` needs at least " +
+                               std::to_string(count + 2) + " points, and " +
+                               std::to_string(strain_.size()) + " are usable; record more points");
+    const auto unit = [&](std::size_t i, std::size_t k, double alpha) {
+      UnitStress at = term(test_.model, stretch_[i], k, alpha);
       return UnitStress{sign * at.value, sign * at.slope};
     };
-    const auto [guess, alpha] = start(unit, neo);
-    const std::size_t count = fit_.parameters.size();
-    const double first = guess;
+    const std::vector<double> guess = start(unit, terms, powers);
     const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
                               std::span<double> slopes) {
       for (std::size_t i = 0; i < values.size(); ++i) {
-        const UnitStress at = unit(i, count > 1 ? p[1] : 0.0);
-        values[i] = p[0] * first * at.value;
-        if (slopes.empty()) continue;
-        slopes[i * count] = first * at.value;
-        if (count > 1) slopes[i * count + 1] = p[0] * first * at.slope;
+        values[i] = 0.0;
+        for (std::size_t k = 0; k < terms; ++k) {
+          const UnitStress at = unit(i, k, powers ? p[terms + k] : 0.0);
+          values[i] += p[k] * at.value;
+          if (slopes.empty()) continue;
+          slopes[i * count + k] = at.value;
+          if (powers) slopes[i * count + terms + k] = p[k] * at.slope;
+        }
       }
       return true;
     };
-    std::vector<double> unknowns{1.0, alpha};
-    std::vector<double> scale{unit::kPa.from_si(first * scale_), 1.0};
-    unknowns.resize(count);
-    scale.resize(count);
-    const Minimum minimum = minimise(stress_, curve, unknowns, 400);
+    const char* first = test_.model == Model::ogden3 ? "mu_1" : "E";
+    fit_.parameters = {{.name = first, .unit = "kPa"}};
+    if (test_.model == Model::yeoh)
+      for (const char* name : {"C2", "C3"})
+        fit_.parameters.push_back({.name = name, .unit = "kPa"});
+    if (test_.model == Model::ogden3)
+      for (const char* name : {"mu_2", "mu_3"})
+        fit_.parameters.push_back({.name = name, .unit = "kPa"});
+    if (powers && !three) fit_.parameters.push_back({.name = "alpha", .unit = ""});
+    if (powers && three)
+      for (const char* name : {"alpha_1", "alpha_2", "alpha_3"})
+        fit_.parameters.push_back({.name = name, .unit = ""});
+    std::vector<double> scale(count, 1.0);
+    for (std::size_t k = 0; k < terms; ++k) scale[k] = unit::kPa.from_si(scale_);
+    const Minimum minimum = minimise(stress_, curve, guess, 1000);
     settle(fit_, minimum, {stress_, scale_, scale, test_.residuals});
     fit_.rmse = unit::kPa.from_si(fit_.rmse);
+    if (test_.model == Model::ogden3 && fit_.termination == Termination::converged) add_modulus();
   }
 
-  struct Start {
-    double factor, alpha;
-  };
-  template <class Unit>
-  Start start(const Unit& unit, bool neo) const {
-    Start best{1.0, 2.0};
-    double least = std::numeric_limits<double>::infinity();
-    for (double alpha = -40.25; alpha <= 40.5; alpha += 0.5) {
-      double product = 0.0;
-      double norm = 0.0;
-      double total = 0.0;
-      for (std::size_t i = 0; i < stress_.size(); ++i) {
-        const double value = unit(i, alpha).value;
-        product += value * stress_[i];
-        norm += value * value;
-        total += stress_[i] * stress_[i];
-      }
-      const double squares = total - product * product / norm;
-      if (!std::isfinite(squares) || !(squares < least)) continue;
-      least = squares;
-      best = {product / norm, alpha};
-      if (neo) break;
+  // E = 3/2 sum mu_k alpha_k, before the terms, which determine it better than each other.
+  void add_modulus() {
+    Estimate young{.name = "E", .unit = "kPa", .estimate = 0.0};
+    const auto value = [&](std::size_t i) { return fit_.parameters[i].estimate; };
+    std::array<double, 6> slope{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      young.estimate += 1.5 * value(k) * value(3 + k);
+      slope[k] = 1.5 * value(3 + k);
+      slope[3 + k] = 1.5 * value(k);
     }
+    double variance = 0.0;
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j)
+        variance += slope[i] * slope[j] * fit_.covariance[6 * i + j];
+    const Estimate& one = fit_.parameters[0];
+    const double t = (one.ci95_high - one.estimate) / one.std_error;
+    young.std_error = std::sqrt(std::max(variance, 0.0));
+    young.ci95_low = young.estimate - t * young.std_error;
+    young.ci95_high = young.estimate + t * young.std_error;
+    fit_.parameters.insert(fit_.parameters.begin(), young);
+    fit_.covariance.clear();
+  }
+
+  // The best factors for exponents of a grid, by linear least squares.
+  template <class Unit>
+  [[nodiscard]] std::vector<double> start(const Unit& unit, std::size_t terms, bool powers) const {
+    std::vector<double> grid;
+    if (terms == 1)
+      for (double alpha = -40.25; alpha <= 40.5; alpha += 0.5) grid.push_back(alpha);
+    else
+      grid = {-9.0, -5.0, -2.0, 1.3, 2.5, 4.0, 6.0, 9.0, 14.0};
+    if (!powers) grid = {0.0, 0.0, 0.0};
+    std::vector<double> best;
+    double least = std::numeric_limits<double>::infinity();
+    const auto rows = static_cast<Eigen::Index>(stress_.size());
+    const Eigen::Map<const Eigen::VectorXd> target(stress_.data(), rows);
+    const auto columns = static_cast<Eigen::Index>(terms);
+    const auto try_one = [&](const std::vector<double>& alpha) {
+      Eigen::MatrixXd matrix(rows, columns);
+      for (Eigen::Index i = 0; i < rows; ++i)
+        for (Eigen::Index k = 0; k < columns; ++k)
+          matrix(i, k) = unit(as_index(i), as_index(k), alpha[as_index(k)]).value;
+      if (!matrix.allFinite()) return;
+      const Eigen::VectorXd factors = matrix.colPivHouseholderQr().solve(target);
+      const double squares = (matrix * factors - target).squaredNorm();
+      if (!(squares < least) || !factors.allFinite()) return;
+      least = squares;
+      best.assign(factors.begin(), factors.end());
+      if (powers) best.insert(best.end(), alpha.begin(), alpha.end());
+    };
+    if (!powers) {
+      try_one(grid);
+    } else if (terms == 1) {
+      for (const double alpha : grid) try_one({alpha});
+    } else {
+      for (std::size_t i = 0; i < grid.size(); ++i)
+        for (std::size_t j = i + 1; j < grid.size(); ++j)
+          for (std::size_t k = j + 1; k < grid.size(); ++k) try_one({grid[i], grid[j], grid[k]});
+    }
+    if (best.empty()) best.assign(powers ? 2 * terms : terms, 1.0);
     return best;
   }
 
@@ -271,7 +553,7 @@ class UniaxialFit {
     if (!test_.shape_factor) return;
     const double factor = gent_lindley(*test_.shape_factor);
     for (Estimate& one : fit_.parameters) {
-      if (one.name == "alpha" || one.name == "sigma_0") continue;
+      if (one.name.starts_with("alpha") || one.name == "sigma_0") continue;
       for (double* value : {&one.estimate, &one.std_error, &one.ci95_low, &one.ci95_high})
         *value /= factor;
     }
@@ -290,6 +572,9 @@ class UniaxialFit {
   std::vector<double> strain_;
   std::vector<double> stress_;  // divided by scale_ once the range is chosen
   std::vector<double> stretch_;
+  bool both_ = false;        // compression and tension in one curve
+  std::size_t outside_ = 0;  // rows beyond `to`
+  std::optional<Toe> before_toe_;
   double first_strain_ = 0.0;
   double first_stress_ = 0.0;  // Pa
   double scale_ = 0.0;         // Pa

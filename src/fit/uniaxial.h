@@ -13,6 +13,8 @@ struct UniaxialTest {
     modulus,      // tangent and secant modulus over a range of strain
     neo_hookean,  // P = E/3 (lambda - lambda^-2), incompressible
     ogden,        // P = 2 E/(3 alpha) (lambda^(alpha-1) - lambda^(-alpha/2-1)), incompressible
+    yeoh,         // three powers of I1 - 3, incompressible; E = 6 C1, C2, C3
+    ogden3,       // three terms; E, mu_k and alpha_k
   };
   enum class Loading { unknown, compression, tension };
 
@@ -22,6 +24,8 @@ struct UniaxialTest {
   std::optional<double> to = {};
   // Of bonded platens: diameter over 4 heights, the loaded area over the free area of a cylinder.
   std::optional<double> shape_factor = {};
+  int cycle = 0;     // of several loadings, from 1; 0: there is one only
+  bool toe = false;  // strain counts from where the line through the stress begins
   Residuals residuals = Residuals::independent;
 };
 
@@ -32,11 +36,12 @@ struct UniaxialTest {
 // Fits engineering strain and nominal stress (Pa), of equal size. Where strain and stress are both
 // negative, both are turned, and the loading is compression. Parameters: `modulus`: E_tangent, the
 // slope of the least-squares line, sigma_0, its stress at strain 0, and E_secant from the first row
-// to the end of the range; `neo_hookean`: E = 3 mu; `ogden`: E = 3 mu and alpha; all in kPa. Of
-// strains that return, the rows up to the largest are used. Throws InputError for fewer than 4
-// rows, strain and stress of different signs, stretches of 0 or less, a loading that is not known
-// and matters, and a stress that falls.                                      docs/theory.md (103),
-// (104)
+// to the end of the range; `neo_hookean`: E = 3 mu; `ogden`: E = 3 mu and alpha; all in kPa. Rows
+// beyond `to` are cut first; then the loading of a cycle is taken, up to the largest stress before
+// its first fall by 10 %. Rows on both sides of strain 0 are tension and compression of one law and
+// are fitted together. Throws InputError for fewer than 4 rows, stretches of 0 or less, a loading
+// that is not known and matters, several loadings of which none is chosen, and a stress that falls.
+//                                                             docs/theory.md (103), (104), (121)
 [[nodiscard]] Fit fit_uniaxial(std::span<const double> strain, std::span<const double> stress,
                                const UniaxialTest& test);
 

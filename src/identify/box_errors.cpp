@@ -29,8 +29,8 @@ std::string with_exponent(const std::string& text, double exponent) {
 
 }  // namespace
 
-BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns, double sigma,
-                     double t) {
+BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns, double sigma, double t,
+                     int weakest) {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto n = static_cast<Eigen::Index>(unknowns);
   const Eigen::Map<const Matrix> slopes(jacobian.data(),
@@ -45,7 +45,8 @@ BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns, dou
     const double slope = svd.singularValues()[k];
     const Eigen::VectorXd direction = svd.matrixV().col(k);
     // Var of u along the direction: (sigma / slope)^2.
-    if (slope <= least_slope * svd.singularValues()[0] || t * noise > loose_half_width * slope) {
+    if (k >= n - weakest || slope <= least_slope * svd.singularValues()[0] ||
+        t * noise > loose_half_width * slope) {
       loose.push_back(direction);
       continue;
     }

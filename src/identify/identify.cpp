@@ -99,7 +99,9 @@ class Search {
   void refuse_what_changes_nothing() {
     std::vector<double> low, high;
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-      for (const double from : {0.5, 0.25, 0.75}) {
+      bool tried = false;
+      bool changes = false;
+      for (const double from : {0.5, 0.25, 0.75, 0.05}) {
         std::vector<double> u(unknowns_.size(), from);
         u[i] = 0.1;
         if (!values_at(u, low)) continue;
@@ -108,12 +110,15 @@ class Search {
         double most = 0.0;
         for (std::size_t k = 0; k < low.size(); ++k)
           most = std::max(most, std::abs(high[k] - low[k]) * weights_[k]);
-        if (most > 1e-9) break;
+        tried = true;
+        changes = most > 1e-9;  // in contact, at this place of the box
+        if (changes) break;
+      }
+      if (tried && !changes)
         refuse("`--unknown " + unknowns_[i].key + "` changes nothing in what `" + model_word() +
                "` computes of " + words_of(found_.kind).sentence +
                "; leave it out, or set what makes it count (`palpate explain " + unknowns_[i].key +
                "`)");
-      }
     }
   }
 
@@ -157,10 +162,51 @@ class Search {
     // Unknowns at a bound are held there for the errors of the others.
     if (std::count(moving.begin(), moving.end(), 0) > 0) errors_ = errors_of(moving);
     for (std::size_t i = 0; i < n; ++i) set_interval(i);
+    tie_what_correlates();
     if (const auto combined = combination(errors_, unknowns_, best_.u, t_))
       found_.combinations.push_back(*combined);
     set_correlation();
     refuse_the_undetermined();
+  }
+
+  // Two properties of the scenario that correlate by more than 0.95, or any two keys that do
+  // where the points are worth fewer than ten independent ones, have no numbers of their own: what
+  // tells them apart is as small as the model's own error. The weakest direction counts as not
+  // determined.                                                               docs/theory.md (123)
+  void tie_what_correlates() {
+    const std::size_t n = unknowns_.size();
+    const bool few = found_.effective_size < 10.0 && noise_ > 1e-3 && systematic_;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const double product = errors_.variance(i, i) * errors_.variance(j, j);
+        const bool keys =
+            unknowns_[i].what == Unknown::What::key && unknowns_[j].what == Unknown::What::key;
+        if (!(product > 0.0) || !keys) continue;
+        const double with = errors_.variance(i, j) / std::sqrt(product);
+        const bool elastic = is_elastic(i) && is_elastic(j);
+        if (std::abs(with) <= high_correlation || !(few || elastic)) continue;
+        found_.notes.push_back("`" + unknowns_[j].key + "` and `" + unknowns_[i].key +
+                               "` correlate by " + rounded_text(with, 4) +
+                               (few ? ", and the points are worth " +
+                                          rounded_text(std::max(1.0, found_.effective_size), 3) +
+                                          " independent ones"
+                                    : std::string()) +
+                               ": they have no numbers of their own");
+        errors_ = box_errors(best_.jacobian, n, sigma_, t_, 1);
+        for (std::size_t k = 0; k < n; ++k) {
+          Identified& one = found_.unknowns[k];
+          one.tied = errors_.tied[k] != 0;
+          one.std_error = one.ci95_low = one.ci95_high = std::nullopt;
+          set_interval(k);
+        }
+        return;
+      }
+  }
+
+  // A property of an elastic body, which a single press knows through one stiffness.
+  [[nodiscard]] bool is_elastic(std::size_t i) const {
+    const std::string& key = unknowns_[i].key;
+    return key.ends_with(".young_modulus") || key.ends_with(".poisson_ratio");
   }
 
   // Correlated residuals: the variance of the residuals is multiplied by the mean ratio of the
@@ -170,6 +216,7 @@ class Search {
     std::vector<double> residuals;
     for (std::size_t i = 0; i < found_.x.size(); ++i)
       residuals.push_back((found_.model[i] - found_.measured[i]) * weights_[i]);
+    systematic_ = fit::systematic(residuals);  // not by chance
     found_.effective_size = static_cast<double>(found_.x.size());
     const auto widened = widening(residuals, best_.jacobian, unknowns_.size());
     if (!widened) return;
@@ -347,6 +394,7 @@ class Search {
     const scenario::Case at = curve_->at(values);
     found_.predicted_error =
         found_.closed_form && asked.scenario.uniform() ? std::nullopt : predicted_error(at);
+    if (found_.predicted_error && options_.model_error) widen_by_model(*found_.predicted_error);
     found_.deep_effect =
         found_.kind == CurveKind::force_travel || found_.kind == CurveKind::force_time
             ? deep_effect(at)
@@ -364,6 +412,29 @@ class Search {
         warnings_of(found_, {weighted, noise_, model_word()}, scenario::resolve(at, found_.rung));
   }
 
+  // The stated error of the model is a bound on a bias: a force that is wrong by so much everywhere
+  // moves u by (J^T J)^-1 J^T (error F w), which is added to each side of the intervals.
+  //                                                                          docs/theory.md (124)
+  void widen_by_model(double error) {
+    const std::size_t n = unknowns_.size();
+    std::vector<double> product(n, 0.0);
+    for (std::size_t row = 0; row < found_.x.size(); ++row)
+      for (std::size_t i = 0; i < n; ++i)
+        product[i] += best_.jacobian[row * n + i] * error * found_.model[row] * weights_[row];
+    for (std::size_t i = 0; i < n; ++i) {
+      Identified& one = found_.unknowns[i];
+      if (one.tied || one.at_bound || one.unknown.what == Unknown::What::force_offset) continue;
+      double moved = 0.0;
+      for (std::size_t j = 0; j < n; ++j)
+        moved += errors_.variance(i, j) / (sigma_ * sigma_) * product[j];
+      const auto move = [&](std::optional<double>& end, double sign) {
+        if (end) end = unknowns_[i].value(unknowns_[i].inverse(*end) + sign * std::abs(moved));
+      };
+      for (auto* low : {&one.ci95_low, &one.profile_low}) move(*low, -1.0);
+      for (auto* high : {&one.ci95_high, &one.profile_high}) move(*high, 1.0);
+    }
+  }
+
   const Measurement& measured_;
   const scenario::Family& family_;
   const std::vector<Unknown>& unknowns_;
@@ -374,8 +445,9 @@ class Search {
   BoxProblem problem_;
   BoxMinimum best_;
   BoxErrors errors_;
-  double noise_ = 0.0;  // standard deviation of the weighted residuals
-  double sigma_ = 0.0;  // the same, widened where they are correlated
+  double noise_ = 0.0;       // standard deviation of the weighted residuals
+  double sigma_ = 0.0;       // the same, widened where they are correlated
+  bool systematic_ = false;  // the residuals are correlated by both tests
   double t_ = 0.0;
   Identification found_;
 };

@@ -18,8 +18,9 @@ enum class Noise {
 struct IdentifyOptions {
   Noise noise = Noise::constant;
   Slopes slopes = Slopes::automatic;
-  int searches = 3;      // from different starts
-  bool profiles = true;  // computes profile likelihoods and the sensitivity to the contact point
+  int searches = 3;         // from different starts
+  bool model_error = true;  // the intervals contain the stated error of the model
+  bool profiles = true;     // computes profile likelihoods and the sensitivity to the contact point
 };
 
 // The result for one unknown, SI. An empty optional means that the value was not determined.

@@ -57,7 +57,8 @@ std::string model_sentence(const Identification& found) {
   if (found.closed_form && found.scenario.uniform())
     text = std::string(words.sentence) + ", by the formula of a uniform specimen";
   else if (found.predicted_error)
-    text += ", predicted to be within " + percent_text(*found.predicted_error);
+    text += ", predicted to be within " + percent_text(*found.predicted_error) +
+            ", which the intervals contain";
   if (found.deep_effect)
     text += "; large strain changes the force at the deepest by " +
             std::string(*found.deep_effect > 0.0 ? "+" : "-") +

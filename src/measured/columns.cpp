@@ -47,8 +47,10 @@ std::optional<WrittenUnit> file_unit(const RawTable& table, std::size_t index) {
     if (name == "time") return written_unit("s");
     if (name == "tip position" || name.starts_with("height (")) return written_unit("m");
   }
-  if (index < table.units.size() && !table.units[index].empty())
-    return written_unit(table.units[index]);
+  if (index < table.units.size() && !table.units[index].empty()) {
+    const auto unit = written_unit(table.units[index]);
+    return unit ? std::optional(unit_under(name, *unit)) : std::nullopt;
+  }
   return named_column(name).unit;
 }
 
@@ -75,6 +77,7 @@ Column column_at(const RawTable& table, std::size_t index, const std::string& un
   if (!column.unit)
     throw InputError({}, "palpate: `" + option(role) + "-unit " + unit +
                              "` is no unit; write it as `mm`, `uN`, `kPa` or `1`");
+  column.unit = unit_under(column.name, *column.unit);
   return column;
 }
 
@@ -100,12 +103,24 @@ std::vector<std::string> usual_names(const RawTable& table, Role role) {
 // Whether the bare name of a column is one that testing machines give to depth or force.
 bool is_usual(const std::string& name, Role role) {
   const std::string bare = lower_case(named_column(name).bare);
-  for (const char* word : {"displacement", "extension", "compressive extension", "indentation",
-                           "depth", "crosshead", "compression", "travel"})
+  for (const char* word :
+       {"displacement", "extension", "compressive extension", "indentation", "depth", "crosshead",
+        "compression", "travel", "pd", "penetration depth", "tip depth", "distance", "stroke"})
     if (role == Role::x && bare == word) return true;
-  for (const char* word : {"load", "force", "compressive load", "normal force"})
+  for (const char* word :
+       {"load", "force", "compressive load", "normal force", "fn", "standard force"})
     if (role == Role::y && bare == word) return true;
   return false;
+}
+
+// Whether a column is an x by its nature: a time, a length, a strain or a stretch.
+bool is_abscissa(const RawTable& table, std::size_t index) {
+  const std::string name = index < table.names.size() ? table.names[index] : std::string();
+  if (is_stretch(name) || lower_case(name).find("strain") != std::string::npos) return true;
+  const auto unit = file_unit(table, index);
+  if (!unit) return false;
+  const Dimension& dimension = unit->factor.dimension;
+  return dimension == length || dimension == Dimension{0, 0, 1};
 }
 
 // The column for a role without a given name: the format's usual one, the first (x) or second (y)
@@ -115,7 +130,15 @@ std::size_t only_column(const RawTable& table, Role role) {
   for (const std::string& usual : usual_names(table, role))
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i] == usual) return i;
-  if (names.size() == 2) return role == Role::x ? 0 : 1;
+  std::vector<std::size_t> numeric;  // columns of words are no curve
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (measured_number(table.rows.front().fields[i].text, table.decimal) ||
+        measured_number(table.rows.back().fields[i].text, table.decimal))
+      numeric.push_back(i);
+  if (numeric.size() == 2) {
+    const bool turned = is_abscissa(table, numeric[1]) && !is_abscissa(table, numeric[0]);
+    return numeric[(role == Role::x) == turned ? 1 : 0];
+  }
   std::vector<std::size_t> fitting;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (const auto unit = file_unit(table, i);

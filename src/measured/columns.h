@@ -46,6 +46,12 @@ struct Rows {
 // segment's name stands for several parts of the curve (`NAME:2` is the second of them), and if the
 // file has several tables of the same columns of which none is chosen. Without a column of segments
 // the approach ends at the largest change of load (as afmformats divides Chiaro's curves).
-[[nodiscard]] Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Column& y);
+// Without a choice, a force over a length has the rows of its approach alone where a column of
+// words such as `extend` and `retract` divides it.
+struct Axes {
+  const Column& x;
+  const Column& y;
+};
+[[nodiscard]] Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Axes& axes);
 
 }  // namespace palpate::measured

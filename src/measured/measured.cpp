@@ -16,13 +16,33 @@
 namespace palpate::measured {
 namespace {
 
+// Why a word is no number, with the remedy.
+std::string reason_of(const std::string& text) {
+  const std::string word = lower_case(text);
+  const bool digits = text.find_first_of("0123456789") != std::string::npos;
+  const bool only =
+      digits && text.find_first_not_of("0123456789:.,' \u00a0-+/") == std::string::npos;
+  if (only && text.find(':') != std::string::npos)
+    return "which is a time of day or minutes and seconds; write the column in seconds, or name a "
+           "column of numbers";
+  if (only && text.find_first_of(",' ") != std::string::npos)
+    return "whose marks between thousands are no part of a number; save the numbers without them, "
+           "as `1234.5`";
+  for (const char* range :
+       {"over", "ovl", "ovf", "sat", "out of range", "off scale", "under", "o.l", "****", "----"})
+    if (word.find(range) != std::string::npos)
+      return "which says that the instrument was out of its range there; leave such rows out by "
+             "`--rows` or `--where`, or delete them";
+  return "which is no number; name a column of numbers";
+}
+
 double number_of(const RawTable& table, const RawRow& row, const Column& column) {
   const Piece& field = row.fields[column.index];
   const auto number = measured_number(field.text, table.decimal);
   const Place place{table.file, row.line, field.column};
   if (!number)
-    throw InputError(place, "`" + column.name + "` holds `" + field.text +
-                                "`, which is no number; name a column of numbers");
+    throw InputError(place,
+                     "`" + column.name + "` holds `" + field.text + "`, " + reason_of(field.text));
   // The words `inf` and `nan` mean a row without a number; digits beyond all doubles are an error.
   if (std::isinf(*number) && field.text.find_first_of("0123456789") != std::string::npos)
     throw InputError(place, out_of_range_text(field.text));
@@ -33,10 +53,26 @@ MeasuredAxis axis_of(const Column& column) {
   MeasuredAxis axis;
   axis.column = column.name;
   axis.has_unit = column.unit.has_value();
+  axis.stretch = is_stretch(column.name) && (!column.unit || column.unit->text.empty());
+  if (axis.stretch) axis.has_unit = true;
+  axis.mass = column.unit && is_mass(*column.unit);
   if (!column.unit) return axis;
   axis.unit = column.unit->text;
   axis.dimension = column.unit->factor.dimension;
   return axis;
+}
+
+// What is said of a force that the file gives in grams.
+std::string weight_note(const RawTable& table, const Column& column) {
+  if (!column.unit || !(column.unit->factor.dimension == force)) return {};
+  const std::string& unit = column.unit->text;
+  const std::string written =
+      column.index < table.units.size() ? table.units[column.index] : column.name;
+  if (!unit.ends_with("gf") || lower_case(written).find("gf") != std::string::npos ||
+      lower_case(written).find("kp") != std::string::npos)
+    return {};
+  return "`" + column.name + "` is in " + unit.substr(0, unit.size() - 1) + ", taken as " + unit +
+         ", the weight under 9.80665 m/s^2; `--y-unit` decides otherwise";
 }
 
 void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout) {
@@ -44,7 +80,11 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
   const Column y = find_column(table, layout.y, layout.y_unit, Role::y);
   curve.x_axis = axis_of(x);
   curve.y_axis = axis_of(y);
-  const Rows rows = chosen_rows(table, layout, y);
+  curve.guessed = (layout.x.empty() || layout.y.empty()) && table.width() > 2;
+  for (const Column* column : {&x, &y})
+    if (const std::string weight = weight_note(table, *column); !weight.empty())
+      curve.notes.push_back(weight);
+  const Rows rows = chosen_rows(table, layout, {x, y});
   for (const std::size_t i : rows.kept) {
     const RawRow& row = table.rows[i];
     double x_value = number_of(table, row, x);
@@ -65,6 +105,45 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
   curve.notes.insert(curve.notes.end(), rows.notes.begin(), rows.notes.end());
 }
 
+// The depth of the tip from the travel of its holder, which bends by the force times a compliance.
+// A y that is a length is the deflection itself.
+void take_off_deflection(MeasuredCurve& curve, const DataLayout& layout) {
+  const bool spring = !layout.spring_constant.empty();
+  if (!spring && layout.compliance.empty()) return;
+  const std::string& text = spring ? layout.spring_constant : layout.compliance;
+  const std::string option = spring ? "--spring-constant" : "--compliance";
+  const auto number = leading_number(text);
+  const auto unit = number ? written_unit(number->rest) : std::nullopt;
+  const Dimension wanted = spring ? Dimension{0, 1, -2} : Dimension{0, -1, 2};
+  if (!unit || !(unit->factor.dimension == wanted) || !(number->value > 0.0))
+    throw InputError({}, "palpate: `" + option + " " + text + "` is no " +
+                             (spring ? "stiffness; write it as `0.1 N/m`"
+                                     : "compliance; write it as `0.2 um/N`"));
+  const double si = unit->factor.to_si(number->value);
+  const double compliance = spring ? 1.0 / si : si;
+  const bool deflection = spring && curve.y_axis.dimension == length;
+  if (!(curve.x_axis.dimension == length) || !(curve.y_axis.dimension == force || deflection))
+    throw InputError({curve.file, 0, 0},
+                     "`" + option + "` takes the bending off a travel under a force, and `" +
+                         curve.y_axis.column + "` over `" + curve.x_axis.column +
+                         "` is no force over a length; name other columns, or leave it out");
+  const double per_x =
+      curve.x_axis.unit.empty() ? 1.0 : written_unit(curve.x_axis.unit)->factor.to_si(1.0);
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (deflection) curve.y[i] /= compliance;
+    curve.x[i] -= curve.y[i] * compliance;
+    curve.x_written[i] = curve.x[i] / per_x;
+    if (deflection) curve.y_written[i] = curve.y[i];
+  }
+  if (deflection) {
+    curve.y_axis.unit = "N";
+    curve.y_axis.dimension = force;
+  }
+  curve.notes.push_back("`" + curve.x_axis.column + "` minus the bending, " +
+                        (deflection ? "`" + curve.y_axis.column + "`" : "force times compliance") +
+                        ", is the depth");
+}
+
 }  // namespace
 
 MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
@@ -83,6 +162,7 @@ MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
                                        "` and in `" + curve.y_axis.column +
                                        "`; name columns that are filled");
   orient(curve, layout);
+  take_off_deflection(curve, layout);
   return curve;
 }
 

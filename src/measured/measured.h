@@ -25,6 +25,8 @@ struct DataLayout {
   Blanks blanks = Blanks::leave_out;    // `keep` keeps rows without a number, as NaN
   std::vector<std::string> where = {};  // COLUMN=VALUE: only rows with this value
   std::string rows = {};                // A..B: only these rows of the table, from 1
+  std::string spring_constant = {};     // of a cantilever: depth = x - force / it
+  std::string compliance = {};          // of a machine: depth = x - force times it
   int table = 0;                        // of several in the file, from 1; 0: the longest
 };
 
@@ -33,6 +35,8 @@ struct MeasuredAxis {
   std::string unit;       // such as `um`; empty if dimensionless or unknown
   bool has_unit = false;  // whether the file or the layout gives a unit
   Dimension dimension;
+  bool stretch = false;  // a ratio of lengths by its name: strain + 1
+  bool mass = false;     // a unit of mass, which is no force until its weight is meant
 };
 
 struct MeasuredCurve {
@@ -44,6 +48,7 @@ struct MeasuredCurve {
   std::vector<double> x_written;  // the same in the unit of the axis
   std::vector<double> y_written;
   std::vector<int> lines;          // line numbers of the points in the file
+  bool guessed = false;            // a column was not named, and the table has more than two
   int left_out = 0;                // number of rows without two finite numbers
   std::vector<std::string> notes;  // sentences on what was decided or left out
 };

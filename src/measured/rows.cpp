@@ -10,16 +10,32 @@
 namespace palpate::measured {
 namespace {
 
+// The words of instruments for the parts of a curve.
+enum class Part { approach, retract, pause, other };
+Part part_of(const std::string& cell) {
+  const std::string held = lower_case(cell);
+  const auto one_of = [&](std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&](const char* word) { return held == word; });
+  };
+  if (one_of({"approach", "extend", "extension", "loading", "load", "forward", "trace", "advance",
+              "indent", "indentation", "compress", "compression", "down", "in", "approaching"}))
+    return Part::approach;
+  if (one_of({"retract", "retraction", "unloading", "unload", "backward", "retrace", "withdraw",
+              "withdrawal", "return", "release", "up", "out", "retracting"}))
+    return Part::retract;
+  if (one_of({"pause", "hold", "holding", "dwell", "contact", "creep", "relax", "relaxation",
+              "wait", "intermediate", "idle"}))
+    return Part::pause;
+  return Part::other;
+}
+
 // Whether a cell names the segment: the same word or number, or an instrument's word for it.
 bool is_segment(const std::string& cell, const std::string& wanted) {
   const std::string held = lower_case(cell);
   const std::string asked = lower_case(wanted);
   if (held == asked) return true;
-  const auto one_of = [&](std::initializer_list<const char*> words) {
-    return std::any_of(words.begin(), words.end(), [&](const char* word) { return held == word; });
-  };
-  if (asked == "approach") return one_of({"0", "false", "extend", "loading", "load"});
-  if (asked == "retract") return one_of({"1", "true", "unloading", "unload"});
+  if (asked == "approach") return held == "0" || held == "false" || part_of(cell) == Part::approach;
+  if (asked == "retract") return held == "1" || held == "true" || part_of(cell) == Part::retract;
   const auto a = whole_number(held);
   const auto b = whole_number(asked);
   return a && b && *a == *b;
@@ -140,6 +156,47 @@ void keep_segment(const RawTable& table, const DataLayout& layout, std::size_t c
   rows.kept = parts[number - 1];
 }
 
+// The column that divides the table into segments: one of that name, or the only one in which every
+// cell is an instrument's word for a part of the curve.
+std::optional<std::size_t> segment_column(const RawTable& table) {
+  for (const char* name : {"segment", "step"})
+    if (const auto found = columns_named(table, name); found.size() == 1) return found.front();
+  std::optional<std::size_t> only;
+  for (std::size_t i = 0; i < table.width(); ++i) {
+    const bool words = std::all_of(table.rows.begin(), table.rows.end(), [&](const RawRow& row) {
+      return part_of(row.fields[i].text) != Part::other;
+    });
+    if (words && only) return std::nullopt;
+    if (words) only = i;
+  }
+  return only;
+}
+
+// The approach of a force over a length, where a column of words tells it from other parts.
+void keep_approach(const RawTable& table, const Axes& axes, Rows& rows) {
+  const auto is = [](const Column& column, const Dimension& dimension) {
+    return column.unit && column.unit->factor.dimension == dimension;
+  };
+  if (!is(axes.x, length) || !is(axes.y, force)) return;
+  const auto column = segment_column(table);
+  if (!column) return;
+  const bool flags = table.kind == RawTable::Kind::afm_tab;  // of which 0 and False are approaches
+  const auto approaches = [&](std::size_t i) {
+    const std::string& cell = table.rows[i].fields[*column].text;
+    return flags ? is_segment(cell, "approach") : part_of(cell) == Part::approach;
+  };
+  const auto taken = std::count_if(rows.kept.begin(), rows.kept.end(), approaches);
+  const std::size_t all = rows.kept.size();
+  if (taken == 0 || as_index(taken) == all) return;
+  DataLayout layout;
+  layout.segment = "approach";
+  keep_segment(table, layout, *column, rows);
+  rows.notes.push_back("the column `" + table.names[*column] + "` divides the curve: its " +
+                       std::to_string(rows.kept.size()) + " rows of the approach are taken, of " +
+                       std::to_string(all) +
+                       "; `--segment retract` or `--segment all` takes others");
+}
+
 void keep_where(const RawTable& table, const std::string& condition, Rows& rows) {
   const std::size_t equals = condition.find('=');
   if (equals == std::string::npos || equals == 0)
@@ -176,7 +233,7 @@ void keep_range(const RawTable& table, const std::string& range, Rows& rows) {
 
 }  // namespace
 
-Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Column& y) {
+Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Axes& axes) {
   Rows rows;
   for (std::size_t i = 0; i < table.rows.size(); ++i) rows.kept.push_back(i);
   const bool febio = table.kind == RawTable::Kind::febio_log;
@@ -196,14 +253,14 @@ Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Column& 
                        "contains " + std::to_string(table.tables) +
                            " tables with the same columns; choose one, as `--segment 1`, or take "
                            "the rows of all by `--segment all`");
+    if (layout.segment.empty()) keep_approach(table, axes, rows);
     return rows;
   }
-  for (const char* name : {"segment", "step"})
-    if (const auto found = columns_named(table, name); found.size() == 1) {
-      keep_segment(table, layout, found.front(), rows);
-      return rows;
-    }
-  split_at_peak(table, layout, y, rows);
+  if (const auto column = segment_column(table)) {
+    keep_segment(table, layout, *column, rows);
+    return rows;
+  }
+  split_at_peak(table, layout, axes.y, rows);
   return rows;
 }
 

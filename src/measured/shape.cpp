@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "base/error.h"
@@ -29,25 +30,34 @@ char decimal_of(const std::string& word) {
 }
 
 // The numbers of lines with only numbers (at least two), of lines with at least two numbers, and of
-// lines of several fields with at least one number, which count only where no line has two.
+// lines of several fields with at least one number, which count only where no line has two. Lines
+// count that have as many fields as most such lines: `Creep - 1` is a title.
 using Score = std::tuple<int, int, int>;
 
 Score score(std::span<const Line> lines, const Shape& shape, const std::string& file) {
-  int whole = 0;
-  int some = 0;
-  int any = 0;
+  struct Counts {
+    int whole = 0, some = 0, any = 0;
+  };
+  std::map<std::size_t, Counts> by_width;
   for (const Line& line : lines) {
     if (is_comment(line) || is_blank(line)) continue;
     try {
       const std::vector<Piece> fields = pieces_of(line, shape.separator, file);
       const Numbers numbers = numbers_in(fields, shape.decimal);
-      if (numbers.count >= 1 && fields.size() >= 2) ++any;
-      if (numbers.count >= 2) ++some;
-      if (numbers.count >= 2 && numbers.all) ++whole;
+      std::size_t width = fields.size();
+      while (width > 0 && fields[width - 1].text.empty()) --width;
+      Counts& counts = by_width[width];
+      if (numbers.count >= 1 && fields.size() >= 2) ++counts.any;
+      if (numbers.count >= 2) ++counts.some;
+      if (numbers.count >= 2 && numbers.all) ++counts.whole;
     } catch (const InputError&) {  // a quote that is open with this separator only
     }
   }
-  return {whole, some, some > 0 ? 0 : any};
+  Counts most;
+  const auto rank = [](const Counts& one) { return std::tuple(one.some, one.whole, one.any); };
+  for (const auto& [width, counts] : by_width)
+    if (rank(counts) > rank(most)) most = counts;
+  return {most.whole, most.some, most.some > 0 ? 0 : most.any};
 }
 
 // Whether the commas may separate thousands, as in `1,234`. They do not if the number begins with 0

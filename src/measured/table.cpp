@@ -139,10 +139,11 @@ class Reader {
   }
 
   // The fields of a line above the numbers if it has one per column; otherwise nothing.
-  std::optional<std::vector<Piece>> heading(const Line& line, const std::string& text) const {
+  std::optional<std::vector<Piece>> heading(const Line& line, const std::string& text,
+                                            bool units = false) const {
     std::vector<Piece> fields = pieces_of({line.number, text}, shape_.separator, table_.file);
     drop_empty_ends(fields, width_);
-    while (is_units_row(fields) && fields.size() < width_) fields.push_back({});
+    while ((units || is_units_row(fields)) && fields.size() < width_) fields.push_back({});
     if (fields.size() == width_) return fields;
     if (shape_.separator != ' ') return std::nullopt;
     return aligned_heading(text);
@@ -175,9 +176,9 @@ class Reader {
   void find_header() {
     if (start_ > 0) {
       const TableRow& above = rows_[start_ - 1];
-      const auto names = heading(*above.line, above.line->text);
+      const auto names = heading(*above.line, above.line->text, above.units);
       if (names && above.numbers.count == 0) {
-        const auto higher = start_ > 1 && is_units_row(*names)
+        const auto higher = start_ > 1 && (above.units || is_units_row(*names))
                                 ? heading(*rows_[start_ - 2].line, rows_[start_ - 2].line->text)
                                 : std::nullopt;
         if (higher && numbers_in(*higher, shape_.decimal).count == 0) {

@@ -15,6 +15,8 @@ struct Alias {
 
 constexpr Dimension time{0, 0, 1};
 constexpr Dimension stress{-1, 1, -2};
+constexpr Dimension rate{0, 0, -1};
+constexpr Dimension mass{0, 1, 0};
 
 // The pound-force and the kilogram-force are exact by definition (standard gravity 9.80665 m/s^2,
 // the pound 0.45359237 kg); the inch is 25.4 mm. The psi is lbf / in^2; the conventional millimetre
@@ -34,6 +36,13 @@ const std::vector<Alias>& aliases() {
       {"newton", {"N", {1, 1, force}}},
       {"newtons", {"N", {1, 1, force}}},
       {"gf", {"gf", {9.80665, 1e3, force}}},
+      {"kp", {"kgf", {9.80665, 1, force}}},
+      {"dyn", {"dyn", {1, 1e5, force}}},
+      {"dyne", {"dyn", {1, 1e5, force}}},
+      {"ozf", {"ozf", {0.27801385095378125, 1, force}}},
+      {"hr", {"h", {3600, 1, time}}},
+      {"hrs", {"h", {3600, 1, time}}},
+      {"rad/s", {"1/s", {1, 1, rate}}},
       {"kgf", {"kgf", {9.80665, 1, force}}},
       {"lbf", {"lbf", {4.4482216152605, 1, force}}},
       {"in", {"in", {25.4, 1e3, length}}},
@@ -94,17 +103,74 @@ std::string plain_micro(std::string text) {
   return text;
 }
 
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// `Pa.s` and `s-1`, also with a raised dot or exponent, as `Pa*s` and `s^-1`.
+std::string plain_product(std::string text) {
+  replace_all(text, "\u00b7", "*");
+  replace_all(text, "\u22c5", "*");
+  replace_all(text, "\u207b\u00b9", "^-1");
+  replace_all(text, "\u00b2", "^2");
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    if (!is_letter(text[i - 1])) continue;
+    if (text[i] == '.' && is_letter(text[i + 1])) text[i] = '*';
+    if (text[i] == '-' && is_digit(text[i + 1])) text.insert(i, "^");
+  }
+  return text;
+}
+
+// Whether a column's name says that its values are forces.
+bool is_force_name(const std::string& bare) {
+  const std::string name = lower_case(bare);
+  for (const char* word : {"force", "load", "kraft", "kracht", "fuerza", "firmness", "hardness"})
+    if (name.find(word) != std::string::npos) return true;
+  return name == "f" || name == "fn" || name == "fz";
+}
+
+// A unit of time below a rate is its reciprocal (`Shear rate / s`), and a unit of mass below a
+// force is the weight of it under standard gravity (the grams of texture analysers).
+WrittenUnit as_named(const std::string& bare, const WrittenUnit& unit) {
+  const std::string name = lower_case(bare);
+  const UnitFactor& factor = unit.factor;
+  if (factor.dimension == time && name.find("rate") != std::string::npos)
+    return {"1/" + unit.text, {factor.per, factor.times, rate}};
+  if (factor.dimension == mass && is_force_name(bare))
+    return {unit.text + "f", {factor.times * 9.80665, factor.per, force}};
+  return unit;
+}
+
 }  // namespace
+
+bool is_mass(const WrittenUnit& unit) { return unit.factor.dimension == mass; }
+
+WrittenUnit unit_under(const std::string& name, const WrittenUnit& unit) {
+  return as_named(named_column(name).bare, unit);
+}
 
 std::optional<WrittenUnit> written_unit(std::string_view given) {
   const std::string text = plain_micro(without_brackets(given));
   if (text.empty()) return std::nullopt;
   if (text == "-" || text == "1") return WrittenUnit{"", {}};
   if (const auto factor = unit_factor(text)) return WrittenUnit{text, *factor};
+  const std::string plain = plain_product(text);
+  if (const auto factor = unit_factor(plain)) return WrittenUnit{plain, *factor};
   if (text == "S") return WrittenUnit{"s", {1, 1, time}};  // a time, not a conductance
   for (const Alias& alias : aliases())
     if (lower_case(text) == alias.word) return alias.unit;
   return std::nullopt;
+}
+
+bool is_stretch(std::string_view name) {
+  const std::string bare = lower_case(named_column(name).bare);
+  for (const char* word : {"stretch", "stretch ratio", "stretch_ratio", "extension ratio", "lambda",
+                           "\u03bb", "principal stretch", "axial stretch", "elongation ratio"})
+    if (bare == word) return true;
+  return false;
 }
 
 bool is_unit_word(std::string_view given) {
@@ -124,7 +190,9 @@ NamedColumn named_column(std::string_view given) {
     if (at == std::string::npos || at == 0) return std::nullopt;
     const auto unit = written_unit(std::string_view(name).substr(at + skipped));
     if (!unit) return std::nullopt;
-    return NamedColumn{trimmed(std::string_view(name).substr(0, at)), unit};
+    const std::string bare = trimmed(std::string_view(name).substr(0, at));
+    if (whole_number(bare)) return std::nullopt;  // `1/s` names nothing
+    return NamedColumn{bare, as_named(bare, *unit)};
   };
   if (name.ends_with(')') || name.ends_with(']') || name.ends_with('}') || name.ends_with('>')) {
     const std::size_t open = name.find_last_of("([{<");

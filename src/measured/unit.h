@@ -22,6 +22,14 @@ struct WrittenUnit {
 // kind. Nothing if the text is not a unit.
 [[nodiscard]] std::optional<WrittenUnit> written_unit(std::string_view text);
 
+// The unit of a column of that name: grams below a force are gram-force, and seconds below a rate
+// 1/s.
+[[nodiscard]] WrittenUnit unit_under(const std::string& name, const WrittenUnit& unit);
+[[nodiscard]] bool is_mass(const WrittenUnit& unit);
+
+// Whether a name stands for a stretch, length over initial length: `stretch`, `lambda`.
+[[nodiscard]] bool is_stretch(std::string_view name);
+
 // Whether a cell of a row of units names a unit, of any quantity: also `degC`, `V`, `rad`.
 [[nodiscard]] bool is_unit_word(std::string_view text);
 

@@ -1,9 +1,11 @@
 // Puts a page together.
 #include "page/page.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <string_view>
 
 #include "base/text.h"
 #include "page/style.h"
@@ -32,15 +34,24 @@ std::string id_of(const std::string& heading) {
 Markup line() { return Markup::ready("\n"); }
 
 // `href="#gpPt0"` as `href="#PREFIX-gpPt0"`, and so for every way in which SVG names an element.
-std::string with_prefix(std::string svg, const std::string& prefix) {
-  for (const char* before : {"id=\"", "id='", "href=\"#", "href='#", "url(#", "url('#"}) {
-    const std::string word = before;
-    for (std::size_t at = svg.find(word); at != std::string::npos; at = svg.find(word, at)) {
-      at += word.size();
-      svg.insert(at, prefix + "-");
+std::string with_prefix(const std::string& svg, const std::string& prefix) {
+  static constexpr std::array<std::string_view, 6> words{"id=\"",   "id='",  "href=\"#",
+                                                         "href='#", "url(#", "url('#"};
+  std::string made;
+  made.reserve(svg.size() + svg.size() / 8);
+  for (std::size_t at = 0; at < svg.size();) {
+    const auto* const word = std::find_if(words.begin(), words.end(), [&](std::string_view each) {
+      return svg[at] == each[0] && svg.compare(at, each.size(), each) == 0;
+    });
+    if (word == words.end()) {
+      made += svg[at++];
+      continue;
     }
+    made += *word;
+    made += prefix + "-";
+    at += word->size();
   }
-  return svg;
+  return made;
 }
 
 }  // namespace

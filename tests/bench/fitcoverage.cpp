@@ -1,4 +1,5 @@
-// How often the intervals of `palpate fit` contain the truth under AR(1) noise. No test: it prints
+// How often the intervals of `palpate fit` contain the truth: AR(1) noise, 1/f noise (rho = -1) and
+// forces rounded to steps of 2 % of the largest (rho = -2). No test: it prints
 // the table of docs/identify.md. `palpate-fit-coverage [REPEATS]`
 #include <cmath>
 #include <cstdio>
@@ -15,13 +16,20 @@ int main(int count, char** words) {
   std::printf("| curve | points | rho | contained, first | second |\n|---|---|---|---|---|\n");
   for (const bool press : {true, false})
     for (const int points : {100, 400, 1600})
-      for (const double rho : {0.0, 0.5, 0.9}) {
+      for (const double rho : {0.0, 0.5, 0.9, -1.0, -2.0}) {
         std::mt19937_64 random(23);
         std::normal_distribution<double> normal(0.0, 1.0);
         int first = 0, second = 0;
         for (int k = 0; k < repeats; ++k) {
           std::vector<double> x, y;
           double error = normal(random);
+          // 1/f noise: a sum of first-order processes whose corners are spaced by a factor of four.
+          std::vector<double> parts;
+          std::vector<double> keep;
+          for (double corner = 0.5; corner > 0.05 / points; corner /= 4.0) {
+            keep.push_back(std::exp(-corner));
+            parts.push_back(normal(random));
+          }
           for (int i = 0; i < points; ++i) {
             const double t = static_cast<double>(i) / (points - 1);
             const double h = 4e-3 * t - 1e-3;
@@ -29,8 +37,18 @@ int main(int count, char** words) {
             y.push_back(press ? 4.0 / 3.0 * 60e3 / 0.75 * std::sqrt(0.011) *
                                     std::pow(std::max(h, 0.0), 1.5)
                               : 1.0 + std::exp(-10.0 * t / 2.0));
-            y.back() += (press ? 0.015 : 0.02) * error;
-            error = rho * error + std::sqrt(1.0 - rho * rho) * normal(random);
+            if (rho == -1.0) {
+              error = 0.0;
+              for (std::size_t m = 0; m < parts.size(); ++m) {
+                error += parts[m] / std::sqrt(static_cast<double>(parts.size()));
+                parts[m] = keep[m] * parts[m] + std::sqrt(1.0 - keep[m] * keep[m]) * normal(random);
+              }
+            }
+            const double most = press ? 1.5 : 2.0;
+            y.back() += (rho == -2.0 ? 0.002 : 0.01) * most * error;
+            if (rho == -2.0) y.back() = 0.02 * most * std::round(y.back() / (0.02 * most));
+            const double next = std::max(rho, 0.0);
+            error = next * error + std::sqrt(1.0 - next * next) * normal(random);
           }
           fit::ContactTest test{0.011, 0.5};
           test.residuals = fit::Residuals::correlated;

@@ -38,7 +38,10 @@ bool warns_of_the_model(const identify::Identification& found) {
 TEST(Identify, HertzOnALayerIsBiasedAndTheLayerCuresIt) {
   const IdentifyScene& scene = test::identify_scene("layer");
   const auto curve = test::noisy(test::clean_curve(scene), 0.01, 1);
-  const auto wrong = test::identified(scene, curve, {}, {"solver.model=hertz"});
+  const auto wrong = test::identified(scene, curve, {.model_error = false}, {"solver.model=hertz"});
+  // The model states its error, and with it the interval contains the truth.
+  const auto honest = test::identified(scene, curve, {}, {"solver.model=hertz"});
+  EXPECT_LT(*honest.unknowns[0].ci95_low, 60e3);
   const auto right = test::identified(scene, curve);
   // Force over Hertz's at 1 mm on 10 mm of skin, nu 0.33: 1.423 (PHYSICS 3.4); less on the way.
   EXPECT_GT(wrong.unknowns[0].estimate, 1.30 * 60e3);

@@ -241,9 +241,10 @@ TEST(Measured, RefusalsHavePlaces) {
             "`--separator`, `--decimal` or `--skip` if its form is unusual");
   EXPECT_EQ(refusal("depth_mm,force_N\n1.5,3\n2, x7\n"),
             "data.csv:3:4: `force_N` holds `x7`, which is no number; name a column of numbers");
-  EXPECT_EQ(
-      refusal("depth_mm;force_N\n1.5;1.234,5\n2;7\n"),
-      "data.csv:2:5: `force_N` holds `1.234,5`, which is no number; name a column of numbers");
+  EXPECT_EQ(refusal("depth_mm;force_N\n1.5;1.234,5\n2;7\n"),
+            "data.csv:2:5: `force_N` holds `1.234,5`, whose marks between thousands are no part of "
+            "a number; "
+            "save the numbers without them, as `1234.5`");
   EXPECT_EQ(refusal("depth_mm,force_N\n1.5,3\n2,1e400\n"),
             "data.csv:3:3: `1e400` is too large or too small; write a number between 1e-300 and "
             "1e300 in size");

@@ -1,0 +1,25 @@
+// The loading part of a test between platens or grips: its cycles, and where the specimen fails.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace palpate::fit {
+
+// Neighbouring rows [from, to) over which x goes one way, up or down, by more than its scatter.
+struct Branch {
+  std::size_t from = 0, to = 0;
+  bool up = true;
+};
+
+// The branches between the turns of x. A turn counts if x goes back by more than `share` of its
+// range.
+[[nodiscard]] std::vector<Branch> branches_of(std::span<const double> x, double share = 0.1);
+
+// The number of rows up to the largest stress before its first fall by more than `share` of its
+// rise until then and more than six deviations of its noise; all rows where it does not fall. A
+// fall that is followed by no rise beyond it is a rupture, any other one a partial failure.
+[[nodiscard]] std::size_t rows_before_fall(std::span<const double> stress, double share = 0.1);
+
+}  // namespace palpate::fit

@@ -1,0 +1,124 @@
+// Steps, cycles, ruptures and laws of two directions in curves whose truth is known.
+#include "fit/loading_part.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "fit/step_origin.h"
+#include "fit/uniaxial.h"
+#include "refusal.h"
+
+namespace palpate::fit {
+namespace {
+
+struct Rows {
+  std::vector<double> x, y;
+};
+// A relaxation 1 + e^(-t/2) after a step at `step`, with rows every 0.1 from `first`.
+Rows relaxation(double first, double step) {
+  Rows rows;
+  for (int i = 0; i < 100; ++i) {
+    const double t = first + 0.1 * i;
+    rows.x.push_back(t);
+    rows.y.push_back(t < step - 1e-9 ? 0.0 : 1.0 + std::exp(-(t - step) / 2.0));
+  }
+  return rows;
+}
+
+TEST(StepOrigin, OfARelaxation) {
+  const auto at = [](double first, double step) {
+    const Rows rows = relaxation(first, step);
+    return step_origin(rows.x, rows.y, AfterStep::falls, 0.0);
+  };
+  EXPECT_EQ(at(0.0, 0.0).sentence, "");  // the clock's zero
+  EXPECT_EQ(at(0.1, 0.0).sentence, "");  // one row before the first
+  EXPECT_NEAR(at(30.0, 30.0).time, 30.0, 1e-9);
+  EXPECT_NEAR(at(0.0, 2.0).time, 2.0, 1e-9);
+  EXPECT_NEAR(at(0.0, 2.0).first, 2.0, 1e-9);
+}
+
+TEST(StepOrigin, ACreepThatBeganBeforeTheRecordIsRefused) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 50; ++i) {
+    x.push_back(30.0 + i);
+    y.push_back(1.0 - std::exp(-(10.0 + i) / 20.0));
+  }
+  EXPECT_TRUE(
+      test::refusal([&] {
+        return step_origin(x, y, AfterStep::rises_from_zero, 0.0);
+      }).starts_with("the first row, at 30, is not near zero, so that the creep began before"));
+}
+
+TEST(LoadingPart, BranchesTurnWhereTheStrainDoes) {
+  std::vector<double> x;
+  for (int i = 0; i < 400; ++i) x.push_back(std::abs(std::fmod(i / 100.0, 2.0) - 1.0));  // down, up
+  const std::vector<Branch> branches = branches_of(x);
+  ASSERT_EQ(branches.size(), 4U);
+  EXPECT_FALSE(branches[0].up);
+  EXPECT_EQ(branches[1].from, 100U);
+  EXPECT_EQ(branches[1].to, 201U);
+}
+
+TEST(LoadingPart, SeveralLoadingsAskForOne) {
+  Rows rows;
+  for (int cycle = 1; cycle <= 3; ++cycle)
+    for (int i = 0; i < 100; ++i) {
+      const double strain = 0.002 * (i < 50 ? i : 100 - i);
+      rows.x.push_back(strain);
+      rows.y.push_back(1e3 * cycle * strain);
+    }
+  EXPECT_TRUE(test::refusal([&] {
+                return fit_uniaxial(rows.x, rows.y, {});
+              }).starts_with("the curve has 3 loadings, up to strains of 0.1, 0.1, 0.1"));
+  const Fit second = fit_uniaxial(rows.x, rows.y, {.cycle = 2});
+  EXPECT_NEAR(second.parameters[0].estimate, 2.0, 1e-9);  // kPa, exact data
+}
+
+// Yeoh 1993 and Ogden 1972 by their own formulas, in tension and compression at once.
+TEST(LoadingPart, TensionAndCompressionAreOneLaw) {
+  Rows yeoh, ogden;
+  for (int i = -40; i <= 40; ++i) {
+    const double strain = 0.01 * i;
+    const double l = 1.0 + strain;
+    const double over = l * l + 2.0 / l - 3.0;
+    yeoh.x.push_back(strain);
+    yeoh.y.push_back(2.0 * (l - 1.0 / (l * l)) *
+                     (500.0 + 2.0 * 80.0 * over + 3.0 * 20.0 * over * over));
+    ogden.x.push_back(strain);
+    double sum = 0.0;
+    for (const auto& [mu, alpha] :
+         {std::pair{630.0, 1.3}, {1.2, 5.0}, {-10.0, -2.0}})  // Ogden 1972
+      sum += mu * (std::pow(l, alpha - 1.0) - std::pow(l, -0.5 * alpha - 1.0));
+    ogden.y.push_back(sum);
+  }
+  const Fit one = fit_uniaxial(yeoh.x, yeoh.y, {.model = UniaxialTest::Model::yeoh});
+  EXPECT_NEAR(one.parameters[0].estimate, 3.0, 1e-9);   // 6 C1, kPa, exact data
+  EXPECT_NEAR(one.parameters[1].estimate, 0.08, 1e-9);  // likewise
+  EXPECT_NEAR(one.parameters[2].estimate, 0.02, 1e-9);  // likewise
+  const Fit three = fit_uniaxial(ogden.x, ogden.y, {.model = UniaxialTest::Model::ogden3});
+  if (three.termination == Termination::converged) {
+    // 3/2 sum mu alpha; the terms themselves are nearly dependent over these stretches.
+    EXPECT_NEAR(three.parameters[0].estimate, 1.5 * (630.0 * 1.3 + 6.0 + 20.0) / 1e3, 1e-3);
+  }
+  EXPECT_GT(three.r2, 1.0 - 1e-9);
+}
+
+TEST(LoadingPart, AToeIsNamedAndTakenOffOnRequest) {
+  Rows rows;
+  for (int i = 0; i <= 100; ++i) {
+    rows.x.push_back(0.002 * i);
+    rows.y.push_back(2e4 * std::max(0.0, 0.002 * i - 0.04));  // per strain of the whole height
+  }
+  const Fit named = fit_uniaxial(rows.x, rows.y, {.loading = UniaxialTest::Loading::compression});
+  ASSERT_FALSE(named.warnings.empty());
+  EXPECT_NE(named.warnings[0].find("the curve has a toe up to a strain of 0.0396"), std::string::npos)
+      << named.warnings[0];
+  const Fit off =
+      fit_uniaxial(rows.x, rows.y, {.loading = UniaxialTest::Loading::compression, .toe = true});
+  EXPECT_NEAR(off.parameters[0].estimate, 20.0 * 0.96, 0.02);  // the knee is found on a grid
+}
+
+}  // namespace
+}  // namespace palpate::fit
