@@ -27,12 +27,7 @@ using scenario::Scenario;
 
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
 constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
-// Without inertia the meshes follow the error, which each level states three times smaller. Several
-// contacts and slides need many more solutions per mesh, and end at a larger error.
-constexpr double error_of_one_place = 0.001;
-constexpr double error_of_many_places = 0.003;
-constexpr double finer_error = 3.0;
-constexpr int most_nodes = 12000;
+constexpr double tolerance_of_solid = 0.005;  // asks for all of its meshes
 constexpr double most_rows = 40.0;  // of a programme without memory
 
 // The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
@@ -56,32 +51,25 @@ Part part_of(const Scenario& scenario, const scenario::Cuboid& box) {
   return slides || !in_the_middle(scenario.finger.x, box.size[0]) ? Part::half : Part::quarter;
 }
 
-bool in_one_place(const Scenario& scenario) {
-  return scenario.finger.spheres == 1 &&
-         std::none_of(scenario.steps.begin(), scenario.steps.end(), [](const scenario::Step& step) {
-           return std::holds_alternative<scenario::Slide>(step);
-         });
+[[noreturn]] void refuse_at(const scenario::Family& family, const std::string& key,
+                            const std::string& sentence) {
+  throw InputError(place_of(family.document, key), sentence);
 }
 
+// A press that moves, on meshes of coupled springs.
 class Refinement {
  public:
-  Refinement(const scenario::Case& one, const scenario::Family& family, int levels)
-      : family_(family),
-        levels_(levels),
-        case_(one),
-        choice_(scene::choose(one)),
-        given_(choice_.chosen),
-        found_(choice_.expected) {
-    dynamic_ = moves();
-    refuse();
+  Refinement(const scenario::Case& one, const scenario::Family& family, const scene::Choice& choice)
+      : family_(family), case_(one), given_(choice.chosen), found_(choice.expected) {
+    if (std::holds_alternative<scenario::MeshFile>(case_.scenario.tissue.mesh))
+      refuse_at(family, "tissue.mesh",
+                "a ready mesh is not refined where inertia matters; give the shape, and let "
+                "`palpate` mesh it");
+    refuse_forces(family, case_.scenario.steps,
+                  "a step to a force ends elsewhere on every mesh; give a travel");
     const auto* box = std::get_if<scenario::Cuboid>(&case_.scenario.tissue.shape);
-    resolved_ = box != nullptr && case_.scenario.regions.empty() &&
-                case_.scenario.finger.spheres == 1 &&
-                (dynamic_ || case_.scenario.contact.coupling == Coupling::resolved);
-    if (solid() && !resolved_)
-      refuse_at("solver.model",
-                "of `neo_hookean` only a cuboid of one tissue under one sphere is refined; give "
-                "another model");
+    resolved_ =
+        box != nullptr && case_.scenario.regions.empty() && case_.scenario.finger.spheres == 1;
     strengthen();
     if (resolved_) cut(std::get<scenario::Cuboid>(case_.scenario.tissue.shape));
   }
@@ -91,7 +79,7 @@ class Refinement {
     scenario::Case one = case_;
     one.scenario.contact.direction = direction;
     mesh(one.scenario, level);
-    if (dynamic_) shorten_steps(one.scenario, level);
+    shorten_steps(one.scenario, level);
     scene::Scene scene = run::build_scene(one, family_);
     if (part_ != Part::whole) hold_mirrors(*scene.specimen);
     return scene;
@@ -103,41 +91,11 @@ class Refinement {
                      : static_cast<double>(coarsest) / (coarsest + level);
   }
   [[nodiscard]] bool resolved() const { return resolved_; }
-  // Whether the meshes follow the error that they state.
-  [[nodiscard]] bool follows_error() const { return !resolved_ && !dynamic_; }
   [[nodiscard]] Part part() const { return part_; }
-  [[nodiscard]] bool dynamic() const { return dynamic_; }
-  [[nodiscard]] bool solid() const { return scenario::rung(given_.solver.model).solid; }
   [[nodiscard]] const Scenario& scenario() const { return case_.scenario; }
   [[nodiscard]] const scene::Estimates& estimates() const { return found_; }
 
  private:
-  [[noreturn]] void refuse_at(const std::string& key, const std::string& sentence) const {
-    throw InputError(place_of(family_.document, key), sentence);
-  }
-
-  void refuse() const {
-    const Scenario& scenario = case_.scenario;
-    if (scenario.uniform())
-      refuse_at("step", "`palpate reference` refines a press; uniform tests have closed forms");
-    if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
-      refuse_at("tissue.shape",
-                "a `half_space` has no mesh to refine; on it `hertz` is exact for small depths");
-    if (dynamic_ && std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh))
-      refuse_at("tissue.mesh",
-                "a ready mesh is not refined where inertia matters; give the shape, and let "
-                "`palpate` mesh it");
-    refuse_forces(family_, scenario.steps,
-                  "a step to a force ends elsewhere on every mesh; give a travel");
-  }
-
-  [[nodiscard]] bool moves() const {
-    const scenario::Solver& solver = case_.scenario.solver;
-    if (solid()) return false;
-    return solver.integrator ? about(*solver.integrator).inertia
-                             : found_.inertia >= solver.tolerance;
-  }
-
   void strengthen() {
     Scenario& scenario = case_.scenario;
     scenario::Solver& solver = scenario.solver;
@@ -146,9 +104,9 @@ class Refinement {
     if (scenario.contact.viscosity == scenario::Contact::Viscosity::none &&
         !contact::mesh_is_tissue(scenario.contact.coupling))
       scenario.tissue.viscosity = tissue::Viscosity::none;
-    if (!solid()) solver.model = scenario::strongest.of;
+    solver.model = scenario::strongest.of;
     solver.volume = scenario::Solver::Volume::nodal;
-    solver.integrator = dynamic_ ? Integrator::backward_difference : Integrator::quasi_static;
+    solver.integrator = Integrator::backward_difference;
     solver.time_step.reset();
     solver.substeps.reset();
     solver.rings.reset();
@@ -159,14 +117,6 @@ class Refinement {
       scenario.contact.depth = scenario::Contact::Depth::hertz;
     }
     scenario.output.keep_rows_only();
-    if (!dynamic_ && scenario.tissue.viscosity == tissue::Viscosity::none) thin_out();
-  }
-
-  // The rows of an elastic, quasi-static run do not depend on the rows between them.
-  void thin_out() {
-    const double total = scenario::programme_time(case_.scenario);
-    double& interval = case_.scenario.output.interval;
-    interval *= std::max(1.0, std::ceil(total / (most_rows * interval)));
   }
 
   void cut(scenario::Cuboid& box) {
@@ -185,12 +135,6 @@ class Refinement {
     const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
     if (resolved_) {
       scenario.tissue.mesh = graded(*box, level);
-    } else if (!dynamic_) {
-      scenario::Refinement& refinement = scenario::refinement(scenario.tissue.mesh);
-      refinement = {.refine = true, .most_nodes = most_nodes};
-      // A mesh is refined until its error is below half of the tolerance.
-      const double last = in_one_place(scenario) ? error_of_one_place : error_of_many_places;
-      scenario.solver.tolerance = 2.0 * last * std::pow(finer_error, levels_ - 1 - level);
     } else if (box != nullptr && scenario.regions.empty()) {
       const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / first_nodes);
       scenario::Mirrored cells;
@@ -245,38 +189,34 @@ class Refinement {
   }
 
   const scenario::Family& family_;
-  int levels_;
-  scenario::Case case_;  // changed for the refinement
-  scene::Choice choice_;
-  const scenario::Resolved& given_;  // the original scenario
+  scenario::Case case_;       // changed for the refinement
+  scenario::Resolved given_;  // the original scenario
   scene::Estimates found_;
   bool resolved_ = false;
-  bool dynamic_ = false;
   Part part_ = Part::whole;
 };
 
+void remark_on_error(Reference& reference) {
+  if (reference.rows.empty()) return;
+  const auto worst = std::max_element(
+      reference.rows.begin(), reference.rows.end(),
+      [](const ReferenceRow& a, const ReferenceRow& b) { return a.force < b.force; });
+  reference.remarks.push_back("further refinement may change the greatest force, " +
+                              rounded_text(worst->force) + " N, by " +
+                              percent_text(worst->error / worst->force));
+}
+
 void remark(const Refinement& refinement, Reference& reference) {
-  const Scenario& scenario = refinement.scenario();
-  std::string how = refinement.solid() ? "neo-Hookean tetrahedra, contact resolved node by node"
-                    : refinement.resolved() ? "coupled springs, contact resolved node by node"
-                                            : "coupled springs with `consistent` contact";
-  if (refinement.follows_error()) how += ", on meshes refined where their own error comes from";
+  std::string how = refinement.resolved() ? "coupled springs, contact resolved node by node"
+                                          : "coupled springs with `consistent` contact";
   if (refinement.part() != Part::whole)
     how += refinement.part() == Part::quarter ? ", on a quarter of the body, by symmetry"
                                               : ", on half of the body, by symmetry";
-  how += refinement.dynamic() ? ", backward differences with steps proportional to the cells"
-                              : ", without inertia";
+  how += ", backward differences with steps proportional to the cells";
   reference.remarks.push_back(how);
-  if (!reference.rows.empty()) {
-    const auto worst = std::max_element(
-        reference.rows.begin(), reference.rows.end(),
-        [](const ReferenceRow& a, const ReferenceRow& b) { return a.force < b.force; });
-    reference.remarks.push_back("further refinement may change the greatest force, " +
-                                rounded_text(worst->force) + " N, by " +
-                                percent_text(worst->error / worst->force));
-  }
-  const double depth = refinement.estimates().travel / scenario.finger.radius;
-  if (!refinement.resolved() || refinement.solid()) return;
+  remark_on_error(reference);
+  if (!refinement.resolved()) return;
+  const double depth = refinement.estimates().travel / refinement.scenario().finger.radius;
   double turned = 0.0;
   for (const ReferenceRow& row : reference.rows)
     turned = std::max(turned, std::abs(row.by_sphere - 1.0));
@@ -288,21 +228,75 @@ void remark(const Refinement& refinement, Reference& reference) {
       " (column sphere_over_skin; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");
 }
 
+// A press without inertia: `solid` on all of its meshes.
+Reference at_rest(scenario::Case one, const scenario::Family& family,
+                  const std::function<void(const std::string&)>& told) {
+  Scenario& scenario = one.scenario;
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i)
+    if (const auto* slide = std::get_if<scenario::Slide>(&scenario.steps[i]);
+        slide != nullptr && slide->keep == scenario::Slide::Keep::force)
+      refuse_at(family, "step." + std::to_string(i + 1) + ".keep",
+                "the reference slides at a depth; write `keep = \"travel\"`");
+  const bool flows = scenario::viscous_contact(scenario);
+  scenario.solver = {};
+  scenario.solver.model = scenario::Model::solid;
+  scenario.solver.tolerance = tolerance_of_solid;
+  scenario.contact.coupling = Coupling::consistent;
+  scenario.contact.depth.reset();
+  scenario.contact.size.reset();
+  if (!flows) {
+    scenario.contact.viscosity = scenario::Contact::Viscosity::none;
+    // The rows of an elastic press do not depend on the rows between them.
+    const double total = scenario::programme_time(scenario);
+    double& interval = scenario.output.interval;
+    interval *= std::max(1.0, std::ceil(total / (most_rows * interval)));
+  }
+  scenario.output.keep_rows_only();
+  told("the solid on three meshes");
+  const scene::Scene scene = run::build_scene(one, family);
+  const record::CaseRecord record = run::run_case(scene);
+  Reference reference;
+  if (record.outcome != record::Outcome::completed) reference.diverged = record.reason;
+  for (const record::ContactRow& row : record.contact)
+    reference.rows.push_back({.step = row.step,
+                              .time = row.time,
+                              .travel = row.travel,
+                              .slide = row.slide,
+                              .force = row.contact_force,
+                              .error = row.mesh_error * row.contact_force});
+  reference.remarks.push_back(
+      std::string("`solid` on three meshes, extrapolated, without inertia; ") +
+      (flows ? "viscosity by the contact's law of time" : "the force of the relaxed tissue"));
+  remark_on_error(reference);
+  return reference;
+}
+
 }  // namespace
 
 Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
                 const std::function<void(const std::string&)>& told) {
   using Direction = scenario::Contact::Direction;
-  Refinement refinement(one, family, levels);
+  if (one.scenario.uniform())
+    refuse_at(family, "step",
+              "`palpate reference` refines a press; uniform tests have closed forms");
+  if (std::holds_alternative<scenario::HalfSpace>(one.scenario.tissue.shape))
+    refuse_at(family, "tissue.shape",
+              "a `half_space` has no mesh to refine; on it `hertz` is exact for small depths");
+  const scene::Choice choice = scene::choose(one);
+  const scenario::Solver& solver = one.scenario.solver;
+  const bool moves = solver.integrator ? about(*solver.integrator).inertia
+                                       : choice.expected.inertia >= solver.tolerance;
+  if (!moves) return at_rest(one, family, told);
+
+  Refinement refinement(one, family, choice);
   Reference reference;
-  reference.moves = refinement.dynamic();
+  reference.moves = true;
   std::vector<double> spacings;
   const auto run_level = [&](int level, Direction direction) {
     const scene::Scene scene = refinement.build(level, direction);
     told("level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
          std::to_string(scene.specimen->network.nodes()) + " nodes");
     record::CaseRecord record = run::run_case(scene);
-    StopScope::end_if_stopped();
     if (record.outcome != record::Outcome::completed)
       reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;
     return record;
@@ -316,28 +310,17 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
       for (const record::ContactRow& row : record.contact)
         reference.rows.push_back(
             {.step = row.step, .time = row.time, .travel = row.travel, .slide = row.slide});
-    for (std::size_t i = 0; i < std::min(record.contact.size(), reference.rows.size()); ++i) {
-      ReferenceRow& row = reference.rows[i];
-      row.forces.push_back(factor * record.contact[i].contact_force);
-      row.error = record.contact[i].mesh_error * row.forces.back();
-    }
+    for (std::size_t i = 0; i < std::min(record.contact.size(), reference.rows.size()); ++i)
+      reference.rows[i].forces.push_back(factor * record.contact[i].contact_force);
   }
   if (reference.diverged) return reference;
   for (ReferenceRow& row : reference.rows) {
-    if (refinement.follows_error()) {
-      // The last mesh states its error, which is not less than what the last refinement leaves if
-      // the true errors fall as the stated ones.
-      row.force = row.forces.back();
-      const double change = std::abs(row.force - row.forces[row.forces.size() - 2]);
-      row.error = std::max(row.error, change / (finer_error - 1.0));
-      continue;
-    }
     const Extrapolated found = extrapolate(spacings, row.forces);
     row.force = found.value;
     row.error = found.error;
     row.order = found.order;
   }
-  if (refinement.resolved() && !refinement.solid()) {
+  if (refinement.resolved()) {
     const record::CaseRecord turned =
         run_level(0, direction == Direction::skin ? Direction::sphere : Direction::skin);
     for (std::size_t i = 0; i < std::min(turned.contact.size(), reference.rows.size()); ++i) {

@@ -1,4 +1,4 @@
-// A reference solution of a press: the strongest model on refined meshes, extrapolated.
+// A reference solution of a press: the strongest model on several meshes, extrapolated.
 #pragma once
 
 #include <functional>
@@ -30,17 +30,16 @@ struct Reference {
   std::optional<std::string> diverged;  // the reason why a level could not be completed
 };
 
-// Computes the reference with coupled springs and volumes averaged at nodes, on `levels` (2 or
-// more) meshes. Without inertia, with `consistent` contact on meshes that are refined where their
-// error comes from, each level to a third of the stated error of the one before; the error of the
-// last, or the change by it, is the reference's. With `resolved` contact, if the scenario asks for
-// it or inertia matters, on graded cells if one sphere presses a cuboid of one tissue (only a half
-// or a quarter of it if the scene is symmetric), extrapolated. Quasi-static, unless the scenario
-// names an integrator with inertia or inertia reaches the tolerance; then by backward differences
-// whose steps shrink with the cells. `told` is called with a sentence before every level. Throws
-// InputError if there is nothing to refine (uniform tests, half-spaces, ready meshes that move,
-// steps to a force), Stopped, and like scene::build().
-//                                                                         docs/theory.md (77), (78)
+// Computes the reference of a press. Without inertia it is `solid` on three meshes, extrapolated,
+// with its own error; a viscous contact follows its law of time. Where the scenario names an
+// integrator with inertia, or inertia reaches the tolerance: coupled springs with volumes averaged
+// at nodes on `levels` (2 or more) meshes, by backward differences whose steps shrink with the
+// cells, extrapolated; with `resolved` contact on graded cells if one sphere presses a cuboid of
+// one tissue (only a half or a quarter of it if the scene is symmetric). `told` is called with a
+// sentence before every level. Throws InputError if there is nothing to refine (uniform tests,
+// half-spaces, slides at a constant force; with inertia ready meshes and steps to a force),
+// Stopped, and like scene::build().
+//                                                                        docs/theory.md (78), (112)
 [[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
                               const std::function<void(const std::string&)>& told);
 

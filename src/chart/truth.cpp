@@ -22,8 +22,8 @@ namespace {
 using Settings = std::vector<std::string>;
 using scenario::Model;
 
-// Meshes that follow their error state about this.
-constexpr double refined_error = 0.004;
+// What `solid` states on its meshes.
+constexpr double refined_error = 0.005;
 constexpr double most_moments = 20.0;          // of a press without memory
 constexpr double most_moments_in_time = 50.0;  // of a press with viscosity or inertia
 
@@ -44,10 +44,11 @@ class Finder {
     if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
       return half_space(found);
     const double left_out = found.sides + found.inertia;
-    if (!scene::beyond(Model::layer, scenario_, choice_.touch) && left_out <= refined_error)
+    if (!scene::beyond(Model::layer, scenario_, choice_.touch) && left_out <= refined_error &&
+        std::abs(found.deep) <= refined_error)
       return layer(found);
-    if (!std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh)) return refined(found);
-    return on_the_mesh();
+    const bool ready = std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh);
+    return ready && found.inertia >= scenario_.solver.tolerance ? on_the_mesh() : refined(found);
   }
 
  private:
@@ -143,12 +144,11 @@ class Finder {
     const std::string inertia =
         added ? "and what inertia adds to coupled springs, " + percent_text(added->greatest)
               : "without inertia, whose estimated effect is " + percent_text(found.inertia);
-    truth.sentence = reference.moves
-                         ? "coupled springs on three meshes, extrapolated (`palpate reference`)"
-                         : "coupled springs on meshes that follow their error (`palpate "
-                           "reference`), " +
-                               inertia;
-    truth.sentence += "; forces" + depth_text(found);
+    truth.sentence =
+        reference.moves
+            ? "coupled springs on three meshes, extrapolated (`palpate reference`); forces" +
+                  depth_text(found)
+            : "`solid` on three meshes, extrapolated (`palpate reference`), " + inertia;
     const double own = own_error(scenario_, truth.moments).greatest;
     truth.sentence += "; its own error is about " + percent_text(own);
     if (turned > 0.0 && peak > 0.0)

@@ -25,15 +25,15 @@ struct Truth {
 // Computes the best reference available for a case:
 //   a half-space            `hertz`, with the factor of deep presses if that matters
 //   a flat whose sides and  `layer`; its error is the estimated effect of sides and inertia
-//   inertia change less     (refined meshes are not more accurate)
-//   than 0.4 % of the force
+//   inertia change less     (refined meshes are not more accurate), if it is not deep
+//   than 0.5 % of the force
 //   a uniform test between  the material's creep or relaxation; its error is the effect of inertia,
 //   slippery platens        computed by `modal` on a mesh of about 60 nodes
 //   any other press         chart::refer() with at most 20 moments (50 if viscosity or inertia
 //                           matters), on elastic tissue if the scenario's contact is elastic, and
 //                           what inertia adds to coupled springs if that is not little
 //   any other uniform test  coupled springs on three meshes, extrapolated, and what inertia adds
-//   a ready mesh            coupled springs on it; its error is the estimated error of the model
+//   a ready mesh that moves coupled springs on it; its error is the estimated error of the model
 // `told` is called with the stage. Throws Stopped, like
 // with_settings(), scene::build() and chart::refer(), and MeshError if a run diverges.
 [[nodiscard]] Truth find_truth(const Asked& asked, std::size_t of_case,

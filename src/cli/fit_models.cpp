@@ -67,8 +67,6 @@ fit::UniaxialTest::Loading loading_of(const Fit& command, const measured::Measur
   return Loading::unknown;
 }
 
-// Fits stress over strain, force over strain or force over length, where the sizes of the specimen
-// turn forces into stresses and lengths into strains. Throws InputError for missing sizes.
 // Whether a column named as a stretch holds strains, which begin near 0 and not near 1.
 bool is_strain_below(const std::vector<double>& stretch) {
   for (const double each : stretch)
@@ -76,6 +74,8 @@ bool is_strain_below(const std::vector<double>& stretch) {
   return false;
 }
 
+// Fits stress over strain, force over strain or force over length, where the sizes of the specimen
+// turn forces into stresses and lengths into strains. Throws InputError for missing sizes.
 fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) {
   const auto wrong = [&](const measured::MeasuredAxis& axis, const std::string& wanted) {
     const std::string known = axis.has_unit ? dimension_name(axis.dimension) : "without a unit";

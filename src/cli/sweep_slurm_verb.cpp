@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/child_process.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/index.h"
 #include "base/text.h"
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
-#include "plot/process.h"
 #include "sweep/slurm.h"
 
 namespace palpate::cli {
@@ -31,10 +31,8 @@ std::string program_word(const Sweep& command) {
 
 // What a program of the cluster prints; nothing where there is none, or where it fails.
 std::string asked(std::vector<std::string> words) {
-  const plot::ProcessResult result =
-      plot::run_process({.argv = std::move(words), .folder = {}, .limit = 5.0});
-  const bool good = result.end == plot::ProcessResult::End::exited && result.code == 0;
-  return good ? result.output : std::string();
+  const ChildResult result = run_process({.argv = std::move(words), .folder = {}, .limit = 5.0});
+  return result.good() ? result.output : std::string();
 }
 
 // Seconds of a limit as Slurm writes it: M, M:S, H:M:S, D-H, D-H:M, D-H:M:S; nothing otherwise.
