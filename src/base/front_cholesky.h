@@ -51,7 +51,7 @@ class FrontCholesky {
   std::vector<int> rows_;
   std::vector<Entry> entries_;
   std::vector<double> values_;
-  std::vector<int> diagonal_;  // index of each diagonal entry in the matrix, in elimination order
+  std::vector<int> diagonal_;    // index of each diagonal entry in the matrix, in elimination order
   std::vector<double> waiting_;  // what fronts leave to their parents
   mutable std::vector<double> x_;
 };

@@ -356,8 +356,7 @@ class LeftOuts {
   }
 
   void viscosity() {
-    if (!scene_.relaxation.elastic() || mesh_is_tissue() || e_.viscous <= 0.2 * tolerance())
-      return;
+    if (!scene_.relaxation.elastic() || mesh_is_tissue() || e_.viscous <= 0.2 * tolerance()) return;
     std::string remedy = "add `contact.viscosity = \"tissue\"`";
     if (one_way()) remedy += " and leave out `contact.coupling`";
     omit("viscosity", e_.viscous, would(e_.viscous) + " while pressing", remedy, "viscosity");
@@ -394,8 +393,8 @@ std::vector<LeftOut> left_out(const scene::Scene& scene) { return LeftOuts(scene
 
 bool states_mesh_error(const scene::Scene& scene) {
   return !scene.scenario.uniform() &&
-         (scene.solid || (scene.specimen && scene.scenario.contact.coupling ==
-                                                contact::Coupling::consistent));
+         (scene.solid ||
+          (scene.specimen && scene.scenario.contact.coupling == contact::Coupling::consistent));
 }
 
 std::optional<double> mesh_error(const scene::Scene& scene) {

@@ -175,6 +175,9 @@ class Press {
           "`" + std::string(scenario::rung(scene_.scenario.solver.model).word) +
           "` has no mesh to show; set `solver.model = \"coupled_springs\"` for `output.tissue` and "
           "`output.picture`");
+    if (solid_ && scene_.scenario.output.pressure_maps)
+      record_.remarks.push_back(
+          "`solid` writes no pressure maps yet; set `solver.model = \"coupled_springs\"` for them");
     if (on_crease_)
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "

@@ -26,8 +26,7 @@ std::vector<Vec3> corners_of(const scenario::Resolved& scenario) {
   for (const scenario::Step& step : scenario.steps)
     if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
       const double angle = slide->direction * std::numbers::pi / 180.0;
-      corners.push_back(corners.back() +
-                        slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0));
+      corners.push_back(corners.back() + slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0));
     }
   return corners;
 }

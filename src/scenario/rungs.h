@@ -28,8 +28,8 @@ struct Rung {
   };
 
   struct Cost {
-    double once = 0.0;            // s, setup
-    double layered = 0.0;         // s, additional setup with several layers
+    double once = 0.0;     // s, setup
+    double layered = 0.0;  // s, additional setup with several layers
     double set_ups = 0.0;  // of a mesh of linear finite elements
   };
 
@@ -49,8 +49,8 @@ struct Rung {
   bool uniform = false;    // creep and relaxation between platens
   bool own_ratio = false;  // the tissue's Poisson's ratio, away from the contact too
   bool eq_2 = false;       // its elastic force on a flat is exactly eq. (2)
-  // Finite strain on a mesh of its own, made for the press. It takes seconds, so that it is computed
-  // only where it is named.
+  // Finite strain on a mesh of its own, made for the press. It takes seconds, so that it is
+  // computed only where it is named.
   bool solid = false;
 
   MeshError error = {};  // of a mesh; for closed forms see scene::choose()

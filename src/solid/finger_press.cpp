@@ -12,7 +12,8 @@
 namespace palpate::solid {
 namespace {
 
-using Pairs = std::vector<std::pair<double, double>>;  // of a travel and another quantity, ascending
+using Pairs =
+    std::vector<std::pair<double, double>>;  // of a travel and another quantity, ascending
 
 // The parabola through the three points nearest to x in logarithms; a power below the first.
 double between(const Pairs& points, double x) {
@@ -125,9 +126,9 @@ std::optional<Answer> FingerPress::go(const Vec3& place, double travel) {
   return found;
 }
 
-// The curve at a place, with points at a quarter and half of the order's travel and there, and beyond
-// it by up to half more at a time: a curve does not depend on what was asked first. Null where no
-// equilibrium was found.
+// The curve at a place, with points at a quarter and half of the order's travel and there, and
+// beyond it by up to half more at a time: a curve does not depend on what was asked first. Null
+// where no equilibrium was found.
 FingerPress::Curve* FingerPress::curve_at(const Vec3& place, double travel) {
   if (!reason_.empty()) return nullptr;
   auto found = std::find_if(curves_.begin(), curves_.end(),
@@ -260,13 +261,14 @@ Extrapolated extrapolated(std::span<const double> per_radius, std::span<const do
     below += (x - mean_x) * (x - mean_x) / (x * x);
   }
   Extrapolated found{mean_force - above / below * mean_x, 0.0};
-  found.error = std::max((n == 2 ? error_of_two_meshes : error_of_three_meshes) *
-                             std::abs(found.force),
-                         0.5 * std::abs(found.force - forces[n - 1]));
+  found.error =
+      std::max((n == 2 ? error_of_two_meshes : error_of_three_meshes) * std::abs(found.force),
+               0.5 * std::abs(found.force - forces[n - 1]));
   if (n > 2)  // the last two alone say it as well
-    found.error = std::max(
-        found.error,
-        std::abs(found.force - extrapolated(per_radius.subspan(n - 2), forces.subspan(n - 2)).force));
+    found.error =
+        std::max(found.error,
+                 std::abs(found.force -
+                          extrapolated(per_radius.subspan(n - 2), forces.subspan(n - 2)).force));
   return found;
 }
 

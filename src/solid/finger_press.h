@@ -50,8 +50,8 @@ class FingerPress {
   // At a place beside the first touch (m). Nothing where no equilibrium was found; reason() then
   // says why. Throws Stopped.
   [[nodiscard]] std::optional<Moment> at_travel(double travel, const Vec3& place = Vec3::Zero());
-  // At one travel after `slid` m of a slide from `start` to `end`, which are places beside the first
-  // touch (m). The points of the slide are found with the first call for it.
+  // At one travel after `slid` m of a slide from `start` to `end`, which are places beside the
+  // first touch (m). The points of the slide are found with the first call for it.
   [[nodiscard]] std::optional<Moment> at_slide(double travel, const Vec3& start, const Vec3& end,
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
@@ -82,7 +82,7 @@ class FingerPress {
   Told told_;
   std::unique_ptr<Press> press_;
   std::vector<Curve> curves_;
-  std::vector<Point> ball_;    // of an elastic finger
+  std::vector<Point> ball_;  // of an elastic finger
   std::string reason_;
   // The slide at hand.
   Vec3 slide_start_ = Vec3::Zero(), slide_end_ = Vec3::Zero();

@@ -125,16 +125,21 @@ Mesh quadratic(const geometry::TetMesh& from, const Middle& middle) {
     all_stand = true;
     for (const Element& element : mesh.elements) {
       if (stands(mesh, element)) continue;
-      bool moved = false;
-      for (std::size_t a = 4; a < 10; ++a)
-        if (const auto was = straight.find(element[a]); was != straight.end()) {
-          mesh.nodes[as_index(element[a])] = was->second;
-          straight.erase(was);
-          moved = true;
-        }
-      if (!moved)
+      // The one that moved farthest goes back.
+      auto farthest = straight.end();
+      for (std::size_t a = 4; a < 10; ++a) {
+        const auto was = straight.find(element[a]);
+        if (was == straight.end()) continue;
+        const auto moved = [&](const auto& one) {
+          return (mesh.nodes[as_index(one->first)] - one->second).squaredNorm();
+        };
+        if (farthest == straight.end() || moved(was) > moved(farthest)) farthest = was;
+      }
+      if (farthest == straight.end())
         throw MeshError(
             "a tetrahedron of the mesh is flat; change the size or the surface a little");
+      mesh.nodes[as_index(farthest->first)] = farthest->second;
+      straight.erase(farthest);
       all_stand = false;
     }
   }

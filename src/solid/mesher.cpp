@@ -314,15 +314,12 @@ class Mesher {
       if (found == of_edge.end()) return std::nullopt;
       const Vec3& a = nodes[as_index(edge[0])];
       const Vec3& b = nodes[as_index(edge[1])];
-      Vec3 point = 0.5 * (a + b);
-      constexpr int rounds = 3;  // a plane that is inclined to the surface moves it off again
-      for (int i = 0; i < rounds; ++i) {
-        point = onto(point, found->second);
-        for (const Plane& plane : planes)
-          if (std::abs(plane.beyond(a)) < rounding && std::abs(plane.beyond(b)) < rounding)
-            point[plane.axis] = plane.at;
-      }
-      return point;
+      std::vector<Plane> on;
+      for (const Plane& plane : planes)
+        if (std::abs(plane.beyond(a)) < rounding && std::abs(plane.beyond(b)) < rounding)
+          on.push_back(plane);
+      return placed_onto(
+          0.5 * (a + b), [&](const Vec3& point) { return onto(point, found->second); }, on);
     });
   }
 

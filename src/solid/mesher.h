@@ -23,7 +23,7 @@ struct Spot {
 
 struct Sizes {
   std::vector<Spot> spots;
-  double largest = 0.0;  // m, up to `calm` from the centres of spots
+  double largest = 0.0;    // m, up to `calm` from the centres of spots
   double calm = HUGE_VAL;  // m
 
   // m; 0.35 of the distance is added.                                    docs/theory.md (111)

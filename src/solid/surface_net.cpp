@@ -19,6 +19,21 @@ std::array<int, 2> edge_of(const std::array<int, 3>& triangle, std::size_t side)
 
 }  // namespace
 
+Vec3 placed_onto(Vec3 point, const std::function<Vec3(const Vec3&)>& onto,
+                 std::span<const Plane> planes) {
+  point = onto(point);
+  // A plane that is inclined to the surface moves the point off again.
+  constexpr int most_rounds = 30;
+  for (int i = 0; i < most_rounds && !planes.empty(); ++i) {
+    const Vec3 before = point;
+    for (const Plane& plane : planes) point[plane.axis] = plane.at;
+    if ((point - before).norm() <= 1e-12 * point.norm()) break;
+    point = onto(point);
+  }
+  for (const Plane& plane : planes) point[plane.axis] = plane.at;
+  return point;
+}
+
 SurfaceNet::SurfaceNet(geometry::Surface surface, std::vector<int> numbers, Onto onto)
     : vertices_(std::move(surface.vertices)),
       triangles_(std::move(surface.triangles)),
@@ -51,20 +66,18 @@ void SurfaceNet::add(const std::array<int, 3>& triangle, int number) {
   connect(static_cast<int>(triangles_.size()) - 1);
 }
 
-// On the true surface, and on every plane on which both ends are.
-Vec3 SurfaceNet::placed(const Edge& edge, double share) const {
+// On the true surface, on every plane on which both ends are, and on `also`.
+Vec3 SurfaceNet::placed(const Edge& edge, double share, const Plane* also) const {
   const Vec3& a = vertices_[as_index(edge[0])];
   const Vec3& b = vertices_[as_index(edge[1])];
   std::vector<int> numbers;
   for (const int t : at_.at(edge)) numbers.push_back(numbers_[as_index(t)]);
-  Vec3 point = a + share * (b - a);
-  constexpr int rounds = 3;  // a plane that is inclined to the surface moves it off again
-  for (int i = 0; i < rounds; ++i) {
-    point = onto_(point, numbers);
-    for (const Plane& plane : planes_)
-      if (plane.beyond(a) == 0.0 && plane.beyond(b) == 0.0) point[plane.axis] = plane.at;
-  }
-  return point;
+  std::vector<Plane> on;
+  if (also != nullptr) on.push_back(*also);
+  for (const Plane& plane : planes_)
+    if (plane.beyond(a) == 0.0 && plane.beyond(b) == 0.0) on.push_back(plane);
+  return placed_onto(
+      a + share * (b - a), [&](const Vec3& point) { return onto_(point, numbers); }, on);
 }
 
 int SurfaceNet::split(const Edge& edge, const Vec3& at) {
@@ -134,9 +147,8 @@ void SurfaceNet::cut(const Plane& plane) {
   std::vector<std::pair<int, Vec3>> places;
   for (const auto& [v, move] : moves) {
     if (move.from < 0) continue;
-    Vec3 to = placed(move.along, move.from == 0 ? move.share : 1.0 - move.share);
-    to[plane.axis] = plane.at;
-    places.emplace_back(v, to);
+    places.emplace_back(v,
+                        placed(move.along, move.from == 0 ? move.share : 1.0 - move.share, &plane));
   }
   for (const auto& [v, to] : places) vertices_[as_index(v)] = to;
   std::vector<Edge> crossing;
@@ -150,9 +162,7 @@ void SurfaceNet::cut(const Plane& plane) {
   for (const Edge& edge : crossing) {
     const double a = std::abs(plane.beyond(vertices_[as_index(edge[0])]));
     const double b = std::abs(plane.beyond(vertices_[as_index(edge[1])]));
-    Vec3 at = placed(edge, a / (a + b));
-    at[plane.axis] = plane.at;
-    split(edge, at);
+    split(edge, placed(edge, a / (a + b), &plane));
   }
 }
 

@@ -18,6 +18,10 @@ struct Plane {
   [[nodiscard]] double beyond(const Vec3& point) const { return point[axis] - at; }
 };
 
+// A point near `point` on a surface, given by its projection, and on planes.
+[[nodiscard]] Vec3 placed_onto(Vec3 point, const std::function<Vec3(const Vec3&)>& onto,
+                               std::span<const Plane> planes);
+
 // Any number of triangles may meet at an edge. Every triangle has a number, which its parts keep.
 class SurfaceNet {
  public:
@@ -48,7 +52,7 @@ class SurfaceNet {
 
  private:
   using Edge = std::array<int, 2>;  // ascending
-  [[nodiscard]] Vec3 placed(const Edge& edge, double share) const;
+  [[nodiscard]] Vec3 placed(const Edge& edge, double share, const Plane* also = nullptr) const;
   int split(const Edge& edge, const Vec3& at);
   void connect(int triangle);
   void disconnect(int triangle);

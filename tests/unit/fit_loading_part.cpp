@@ -113,7 +113,8 @@ TEST(LoadingPart, AToeIsNamedAndTakenOffOnRequest) {
   }
   const Fit named = fit_uniaxial(rows.x, rows.y, {.loading = UniaxialTest::Loading::compression});
   ASSERT_FALSE(named.warnings.empty());
-  EXPECT_NE(named.warnings[0].find("the curve has a toe up to a strain of 0.0396"), std::string::npos)
+  EXPECT_NE(named.warnings[0].find("the curve has a toe up to a strain of 0.0396"),
+            std::string::npos)
       << named.warnings[0];
   const Fit off =
       fit_uniaxial(rows.x, rows.y, {.loading = UniaxialTest::Loading::compression, .toe = true});

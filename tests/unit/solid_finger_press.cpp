@@ -1,4 +1,5 @@
-// Presses of cases that an independent program computed (cases lump_none and lump_a), curves and slides.
+// Presses of cases that an independent program computed (cases lump_none and lump_a), curves and
+// slides.
 #include "solid/finger_press.h"
 
 #include <gtest/gtest.h>

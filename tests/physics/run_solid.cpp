@@ -1,0 +1,140 @@
+// The solid against an independent program: tests/cases/solid.csv. docs/accuracy.md has the table.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "run_text.h"
+
+namespace palpate {
+namespace {
+
+// Forces (N) of the rows that are presses at rest, by id.
+const std::map<std::string, double>& witnesses() {
+  static const std::map<std::string, double> all = [] {
+    std::ifstream file(PALPATE_SOURCE_DIR "/tests/cases/solid.csv");
+    std::map<std::string, double> found;
+    std::string line;
+    std::getline(file, line);
+    while (std::getline(file, line)) {
+      std::istringstream cells(line);
+      std::string id, scene, force;
+      std::getline(cells, id, ',');
+      std::getline(cells, scene, ',');
+      std::getline(cells, force, ',');
+      found[id] = 1e-3 * std::stod(force);
+    }
+    return found;
+  }();
+  return all;
+}
+
+record::CaseRecord run_case(const std::string& id, const test::Settings& more = {}) {
+  test::Settings settings{"solver.model=solid"};
+  settings.insert(settings.end(), more.begin(), more.end());
+  const scenario::Family family =
+      scenario::read(PALPATE_SOURCE_DIR "/tests/cases/scenes/" + id + ".toml", settings);
+  return test::run_scene(run::build_scene(family.cases.front(), family));
+}
+
+double force_of(const std::string& id, const test::Settings& more = {}) {
+  const record::CaseRecord record = run_case(id, more);
+  EXPECT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+  return record.contact.empty() ? 0.0 : record.contact.back().contact_force;
+}
+
+class SolidCases : public testing::TestWithParam<const char*> {};
+// Blocks, edges, ends, corners, saddles, wedges, grooves, lumps, layers, slides; skin_lump, a fine
+// mesh of its own, takes a minute and is left to the table.
+INSTANTIATE_TEST_SUITE_P(Of, SolidCases,
+                         testing::Values("edge12", "corner13", "ellipsoid_off", "cyl_end", "saddle",
+                                         "lump_none", "lump_soft", "wedge", "groove", "deep_side",
+                                         "thin_nu10", "halfell_bond", "strip", "slide_base",
+                                         "slide_1", "deep_skin", "deep_lump", "soft_on_stiff",
+                                         "deep_nu10", "lump_a", "stack_soft0", "stack_soft1",
+                                         "stack_soft4", "stack_soft8", "stack_skin0", "stack_skin2",
+                                         "finger_2050_061"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_P(SolidCases, AreWithinWhatOneMeshStates) {
+  const double wanted = witnesses().at(GetParam());
+  const record::CaseRecord record = run_case(GetParam());
+  ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+  EXPECT_NEAR(record.contact.back().contact_force, wanted, 0.03 * wanted);
+  EXPECT_DOUBLE_EQ(test::found(record, "stated_error"), 0.03);
+}
+
+// The witness is good to 0.2 %, and three meshes state at least 0.5 %.
+TEST(Solid, IsWithinOnePercentOnThreeMeshes) {
+  for (const char* id : {"strip", "deep_nu10"}) {
+    const double wanted = witnesses().at(id);
+    const record::CaseRecord record = run_case(id, {"solver.tolerance=0.005"});
+    ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+    EXPECT_EQ(test::found(record, "meshes"), 3.0);
+    EXPECT_NEAR(record.contact.back().contact_force, wanted, 0.01 * wanted) << id;
+    EXPECT_LE(std::abs(record.contact.back().contact_force / wanted - 1.0),
+              test::found(record, "stated_error") + 0.002)
+        << id;
+  }
+}
+
+// What palpation looks for: how much a lump changes the force.
+TEST(Solid, KeepsTheContrastOfALump) {
+  const double contrast = witnesses().at("lump_a") / witnesses().at("lump_none") - 1.0;
+  EXPECT_NEAR(force_of("lump_a") / force_of("lump_none") - 1.0, contrast, 0.015);
+}
+
+// The force scales with Young's modulus under a rigid finger, whatever the mesh.
+TEST(Solid, ScalesWithTheModulus) {
+  const double once = force_of("lump_none");
+  EXPECT_NEAR(force_of("lump_none", {"tissue.young_modulus=149 kPa"}) / once, 10.0, 1e-6);
+}
+
+// Slabs and lumps are laid in the order of the file.
+TEST(Solid, KnowsSkinOverFatWithALump) {
+  const auto text = [](bool lump) {
+    return std::string(R"(schema = 1
+[tissue]
+material = "skin"
+young_modulus = "60 kPa"
+poisson_ratio = 0.45
+viscosity = "none"
+shape = { size = ["50 mm", "40 mm", "22 mm"] }
+[[region]]
+kind = "slab"
+bottom = "0 mm"
+top = "19 mm"
+material = "skin"
+young_modulus = "12 kPa"
+)") +
+           (lump ? R"([[region]]
+kind = "sphere"
+centre = ["25 mm", "20 mm", "12 mm"]
+radius = "5 mm"
+material = "skin"
+young_modulus = "300 kPa"
+)"
+                 : "") +
+           R"([finger]
+material = "rigid"
+radius = "10 mm"
+[solver]
+model = "solid"
+[[step]]
+kind = "indent"
+to = "1.5 mm"
+rate = "1 mm/s"
+[output]
+pressure_maps = false
+)";
+  };
+  const double without = test::run_text(text(false)).contact.back().contact_force;
+  const double with = test::run_text(text(true)).contact.back().contact_force;
+  EXPECT_GT(with, 1.1 * without);  // a lump that is 25 times as stiff
+  EXPECT_LT(with, 2.0 * without);
+}
+
+}  // namespace
+}  // namespace palpate
