@@ -57,6 +57,7 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
   body->base_level =
       low.z() + scenario.tissue.base_height.value_or(flat ? 0.0 : 0.1 * (high.z() - low.z()));
 
+  refuse_covered_lumps(scenario);
   const SurfaceTouch& touch = scene.choice.touch;
   if (body->shape && touch.known() && scene.finger.centres.size() == 1) {
     body->first_touch = touch.lowest + scene.finger.sphere_radius * Vec3::UnitZ();

@@ -30,17 +30,19 @@ constexpr double meshing_time = 120.0;  // s, time limit for TetGen
 // Lumps and slabs have region numbers from here on, which no shape or file uses.
 constexpr int first_own = 1'000'000'000;
 
-// Assigns tetrahedra to slabs by their centres; none crosses the face of a slab.
+// Assigns tetrahedra to slabs by their centres; none crosses the face of a slab. Later regions lie
+// over earlier ones, so that a slab leaves a later lump as it is.
 void number_slabs(geometry::TetMesh& mesh, const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
     const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part);
     if (slab == nullptr) continue;
+    const int own = first_own + static_cast<int>(i);
     mesh.regions.resize(mesh.tetrahedra.size(), 0);
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
       double height = 0.0;
       for (const int node : mesh.tetrahedra[t]) height += 0.25 * mesh.nodes[as_index(node)].z();
-      if (slab->bottom < height && height < slab->top)
-        mesh.regions[t] = first_own + static_cast<int>(i);
+      if (mesh.regions[t] < own && slab->bottom < height && height < slab->top)
+        mesh.regions[t] = own;
     }
   }
 }
@@ -101,6 +103,7 @@ void refuse_huge(const scenario::Mesh& mesh) {
 
 SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder) {
   refuse_huge(scenario.tissue.mesh);
+  refuse_covered_lumps(scenario);
   SpecimenMesh made;
   geometry::TetMesh& mesh = made.mesh;
   std::string name;
@@ -213,6 +216,27 @@ std::vector<double> slab_levels(const Scenario& scenario) {
       heights.insert({slab->bottom, slab->top});
   heights.erase(0.0);
   return {heights.begin(), heights.end()};
+}
+
+void refuse_covered_lumps(const Scenario& scenario) {
+  // The part of a ball below a level: a cap of the height h has the volume pi h^2 (3 r - h) / 3.
+  const auto below = [](const scenario::Lump& lump, double level) {
+    const double r = lump.radius;
+    const double h = std::clamp(level - (lump.centre[2] - r), 0.0, 2.0 * r);
+    return h * h * (3.0 * r - h) / (4.0 * r * r * r);
+  };
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i)
+    for (std::size_t j = i + 1; j < scenario.regions.size(); ++j) {
+      const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part);
+      const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[j].part);
+      if (lump == nullptr || slab == nullptr) continue;
+      const double taken = below(*lump, slab->top) - below(*lump, slab->bottom);
+      if (taken > 0.01)
+        throw MeshError("`[[region]]` " + std::to_string(j + 1) + ", a slab, covers " +
+                        percent_text(taken) + " of the lump of `[[region]]` " +
+                        std::to_string(i + 1) +
+                        "; write the lump after the slab, so that it lies over it");
+    }
 }
 
 std::vector<geometry::Lump> lumps_of(const Scenario& scenario) {

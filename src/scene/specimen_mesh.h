@@ -21,6 +21,10 @@ namespace palpate::scene {
 // The scenario's lumps; their regions' numbers are those of specimen_mesh().
 [[nodiscard]] std::vector<geometry::Lump> lumps_of(const scenario::Resolved& scenario);
 
+// Regions are laid in their order, later over earlier. Throws MeshError if a slab takes more than a
+// hundredth of a lump before it.
+void refuse_covered_lumps(const scenario::Resolved& scenario);
+
 // The surface from a file. Throws InputError if it cannot be read, MeshError if it bounds no body.
 [[nodiscard]] geometry::Surface surface_of(const scenario::SurfaceFile& file,
                                            const std::string& folder);
