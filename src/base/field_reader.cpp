@@ -2,6 +2,7 @@
 #include "base/field_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -12,6 +13,9 @@
 
 namespace palpate {
 namespace {
+
+// Words of earlier versions, and those that took their place.
+constexpr std::array renamed{std::pair<const char*, const char*>{"neo_hookean", "solid"}};
 
 class Reader final : public FieldVisitor {
  public:
@@ -350,6 +354,12 @@ class Reader final : public FieldVisitor {
     }
     for (std::size_t i = 0; i < words.size(); ++i)
       if (node.text == words[i].word) return static_cast<int>(i);
+    for (const auto& [old, now] : renamed)
+      if (node.text == old && std::find(known.begin(), known.end(), now) != known.end()) {
+        problem(node.place, ticked(name) + " calls " + ticked(old) + " " + ticked(now) +
+                                " now; write `" + name + " = \"" + now + "\"`");
+        return std::nullopt;
+      }
     const auto near = nearest(node.text, known);
     problem(node.place, ticked(name) + " does not know " + ticked(node.text) +
                             (near ? "; did you mean " + ticked(*near) + "? It" : "; it") +

@@ -24,6 +24,7 @@ const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance) {
   const Forecast* best = nullptr;
   for (const Forecast& rung : choice.rungs) {
     if (!rung.cannot.empty()) continue;
+    if (scenario::rung(rung.model).solid) continue;  // only where it is named
     // The force of a press is that of finite elements on either kind of springs, but motion and
     // pictures of independent springs do not have the tissue's Poisson's ratio.
     if (!uniform && scenario::rung(rung.model).independent()) continue;

@@ -28,7 +28,7 @@ const std::vector<Lines> choices{
     {"", "coupling = \"one_way\"\n", "coupling = \"series\"\n", "coupling = \"consistent\"\n",
      "coupling = \"resolved\"\n"},
     {"", "model = \"hertz\"\n", "model = \"layer\"\n", "model = \"mass_spring\"\n",
-     "model = \"coupled_springs\"\n", "model = \"neo_hookean\"\n"},
+     "model = \"coupled_springs\"\n", "model = \"solid\"\n"},
     {"", "integrator = \"central_difference\"\n", "integrator = \"semi_implicit_euler\"\n",
      "integrator = \"quasi_static\"\n", "integrator = \"backward_difference\"\n",
      "integrator = \"tr_bdf2\"\n", "integrator = \"modal\"\n"},

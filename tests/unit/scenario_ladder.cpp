@@ -74,9 +74,9 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "press.toml:5:9: with this `coupling` the mesh is the tissue, and the factor is that of a "
        "contact law; write `coupling = \"consistent\"`, or `depth = \"hertz\"`"},
       {"[solver]\nmodel = \"neo_hookean\"\n",
-       "press.toml:1:1: `neo_hookean` meets the finger node by node; write `coupling = "
-       "\"resolved\"`\npress.toml:1:1: `neo_hookean` knows a rigid finger only; write `material = "
-       "\"rigid\"`"},
+       "press.toml:5:9: `model` calls `neo_hookean` `solid` now; write `model = \"solid\"`"},
+      {"[contact]\ncoupling = \"resolved\"\n[solver]\nmodel = \"solid\"\n",
+       "press.toml:5:12: `solid` carries contact and tissue in one mesh; leave `coupling` out"},
       {"[solver]\nmodel = \"coupled_springs\"\nvolume = \"none\"\n",
        "press.toml:6:10: `coupled_springs` always resist a change of volume; set `solver.volume = "
        "\"nodal\"`, or `solver.model = \"mass_spring\"`"},

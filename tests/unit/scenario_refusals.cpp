@@ -35,13 +35,13 @@ TEST(Refusals, UnknownWords) {
   expect_refused({
       {"[solver]\nmodel = \"hertzz\"\n",
        "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, "
-       "hertz, layer, mass_spring, coupled_springs, neo_hookean"},
+       "hertz, layer, mass_spring, coupled_springs, solid"},
       {"[solver]\nmodel = \"granite\"\n",
        "press.toml:5:9: `model` does not know `granite`; it is one of auto, hertz, layer, "
-       "mass_spring, coupled_springs, neo_hookean"},
+       "mass_spring, coupled_springs, solid"},
       {"[solver]\nmodel = 5\n",
        "press.toml:5:9: `model` wants one of auto, hertz, layer, mass_spring, coupled_springs, "
-       "neo_hookean, got "
+       "solid, got "
        "an integer; write it as "
        "`model = \"auto\"`"},
       {"[tissue]\nmesh = { kind = \"kun\" }\n",
@@ -288,7 +288,7 @@ TEST(Refusals, OneMistakeIsOneMessage) {
       refusal(press + "[solver]\nmodel = \"hertzz\"\n[tissue]\nviscosity = \"nodal_drag\"\n"
                       "drag = \"1 1/s\"\n"),
       "press.toml:5:9: `model` does not know `hertzz`; did you mean `hertz`? It is one of auto, "
-      "hertz, layer, mass_spring, coupled_springs, neo_hookean");
+      "hertz, layer, mass_spring, coupled_springs, solid");
   // The wrong depth must not make the next step look shallow, nor the rows too many.
   EXPECT_EQ(
       refusal("[[step]]\nkind = \"indent\"\nto = \"1e9 mm\"\n[[step]]\nkind = \"hold\"\n"),
