@@ -76,7 +76,10 @@ std::string refused(const std::string& path) {
 
 // A disk that fails, here in the middle of the file, must not look like a shorter file.
 TEST_F(Files, AReadErrorIsNoEnd) {
-  GrowingFile(path_).append(std::string(1 << 20, 'a') + "\n" + std::string(1 << 20, 'b') + "\n");
+  std::string text(2 * (1 << 20) + 2, '\n');
+  text.replace(0, 1 << 20, 1 << 20, 'a');
+  text.replace((1 << 20) + 1, 1 << 20, 1 << 20, 'b');
+  GrowingFile(path_).append(text);
   EXPECT_EQ(read_text(path_).size(), (2U << 20) + 2);
   failing_read = 4;
   EXPECT_EQ(refused(path_), path_ +
