@@ -57,7 +57,7 @@ struct SearchLimits {
 // offset and a tilt are compared by n ln(SSE / n) + k ln n (Schwarz 1978, Ann. Stat. 6). Where the
 // rows before contact determine a tilt (ten over a fifth of the depth in contact, whose own slope
 // agrees with it), offset and tilt are fitted; where three of them do not rise, an offset; else
-// neither.                                                                    docs/theory.md (122)
+// neither.                                                                    docs/theory.md (115)
 struct ContactChoice {
   Baseline baseline = Baseline::none;
   ContactGuess guess;

@@ -22,14 +22,14 @@ struct Autocorrelation {
 // than 20 residuals, and if the jacobian lacks full rank.
 // A spectrum that rises towards
 // low frequencies as a power, as 1/f noise does, gives the covariance instead where it is wider.
-//                        docs/theory.md (100), (101), (125); Harville 1977, J. Am. Stat. Assoc. 72
+//                        docs/theory.md (100), (101), (118); Harville 1977, J. Am. Stat. Assoc. 72
 [[nodiscard]] std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals,
                                                              std::span<const double> jacobian,
                                                              std::size_t unknowns);
 
 // The covariance that rounding to steps adds: rows of one step in a row share one error, uniform
 // over the step. `values` are those that were fitted, `inverse` is (J^T J)^-1. Empty where they are
-// not multiples of a step, or differ from row to row.                        docs/theory.md (126)
+// not multiples of a step, or differ from row to row.                        docs/theory.md (119)
 [[nodiscard]] std::vector<double> quantised_covariance(std::span<const double> values,
                                                        std::span<const double> jacobian,
                                                        std::span<const double> inverse);

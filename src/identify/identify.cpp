@@ -172,7 +172,7 @@ class Search {
   // Two properties of the scenario that correlate by more than 0.95, or any two keys that do
   // where the points are worth fewer than ten independent ones, have no numbers of their own: what
   // tells them apart is as small as the model's own error. The weakest direction counts as not
-  // determined.                                                               docs/theory.md (123)
+  // determined.                                                               docs/theory.md (116)
   void tie_what_correlates() {
     const std::size_t n = unknowns_.size();
     const bool few = found_.effective_size < 10.0 && noise_ > 1e-3 && systematic_;
@@ -414,7 +414,7 @@ class Search {
 
   // The stated error of the model is a bound on a bias: a force that is wrong by so much everywhere
   // moves u by (J^T J)^-1 J^T (error F w), which is added to each side of the intervals.
-  //                                                                          docs/theory.md (124)
+  //                                                                          docs/theory.md (117)
   void widen_by_model(double error) {
     const std::size_t n = unknowns_.size();
     std::vector<double> product(n, 0.0);

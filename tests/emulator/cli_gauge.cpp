@@ -187,10 +187,11 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
       << live.ended.err;
   ASSERT_GT(live.rows.size(), 40u);
   EXPECT_NEAR(live.rows.number(0, "time_s"), 0.2, 0.1);  // an eighth of 100 mN, at 2 mm/s
-  const Ended identified = palpate(
-      live.folder(), {"identify", "out/device_stand/force_time.csv",
-                      project_file("scenarios/device_stand.toml"), "--x", "time_s", "--y",
-                      "force_N", "--json", "--unknown", "tissue.young_modulus=2 kPa..60 kPa"});
+  const Ended identified =
+      palpate(live.folder(),
+              {"identify", "out/device_stand/force_time.csv",
+               project_file("scenarios/device_stand.toml"), "--x", "time_s", "--y", "force_N",
+               "--json", "--origin", "0", "--unknown", "tissue.young_modulus=2 kPa..60 kPa"});
   ASSERT_EQ(identified.code, 0) << identified.err;
   const std::string name = "\"estimate\":";
   const auto at = identified.out.find(name);

@@ -104,10 +104,11 @@ TEST(FingerPress, ExtrapolatesWithTheSquareOfTheSize) {
   EXPECT_EQ(one.error, error_of_one_mesh * forces[0]);
   const Extrapolated two = extrapolated({sizes.data(), 2}, {forces.data(), 2});
   EXPECT_NEAR(two.force, 1.0, 1e-12);
-  EXPECT_NEAR(two.error, 0.5 * 0.4 / 16.0, 1e-12);
-  EXPECT_NEAR(extrapolated(sizes, forces).error, 0.5 * 0.4 / 64.0, 1e-12);
-  forces[0] += 0.1;  // what the first two say is another thing
-  EXPECT_GT(extrapolated(sizes, forces).error, 0.01);
+  EXPECT_NEAR(two.error, 0.5 * 0.4 / 16.0, 1e-12);  // more than its least, 1 %
+  EXPECT_NEAR(extrapolated(sizes, forces).force, 1.0, 1e-12);
+  EXPECT_NEAR(extrapolated(sizes, forces).error, error_of_three_meshes, 1e-12);
+  forces[1] += 0.1;  // the last two alone say another thing
+  EXPECT_GT(extrapolated(sizes, forces).error, 0.02);
 }
 
 }  // namespace
