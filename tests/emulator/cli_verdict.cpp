@@ -139,7 +139,7 @@ TEST(LiveVerdict, ALateStandIsIdentifiedByTheProgrammeThatItCarriedOut) {
                                   "tissue.instantaneous_ratio=1.1..6"};
     call.insert(call.end(), more.begin(), more.end());
     const test::Ended ended = test::palpate(live.folder(), call);
-    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(ended.code, 0) << scenario << ": " << ended.err;
     const std::string name = test::fs::path(scenario).stem().string() + "_identified";
     return test::Rows(record::read_csv((live.folder() / "out" / name / "identified.csv").string()));
   };

@@ -36,7 +36,8 @@ TEST(ChartReference, AHalfSpaceHasHertz) {
 TEST(ChartReference, AWideFlatHasTheLayer) {
   // At 2 mm large strains would change more than the reference states.
   const std::string text =
-      "[[step]]\nkind = \"indent\"\nto = \"0.1 mm\"\n[tissue]\nshape = { kind = \"cuboid\", size = "
+      "[[step]]\nkind = \"indent\"\nto = \"0.05 mm\"\nrate = \"0.1 mm/s\"\n[tissue]\nshape = { "
+      "kind = \"cuboid\", size = "
       "[\"200 mm\", \"200 mm\", \"30 mm\"] }\n";
   const Truth found = truth(text);
   EXPECT_EQ(found.kind, "closed form");

@@ -115,8 +115,8 @@ TEST_F(MeshFiles, missing_files_are_named) {
   }
 }
 
-TEST_F(MeshFiles, a_file_in_place_of_a_folder_is_the_systems_fault) {
-  EXPECT_THROW(write_node_ele("/dev/null/paw.node", {}), SystemError);
+TEST_F(MeshFiles, a_file_in_place_of_a_folder_is_refused) {
+  EXPECT_THROW(write_node_ele("/dev/null/paw.node", {}), InputError);
 }
 
 TEST_F(MeshFiles, bad_nodes_have_a_place_and_a_remedy) {
