@@ -116,8 +116,8 @@ TEST(LiveVerdict, MeasuredPointsAreInTheFigure) {
             std::vector<std::string>{});
 }
 
-// Readings that are older than their replies: the programme as it was planned gives a soft, slow
-// tissue; as the stand carried it out, the tissue.
+// Readings that are older than their replies: the programme as it was planned tells nothing of the
+// tissue; as the stand carried it out, it is found.
 TEST(LiveVerdict, ALateStandIsIdentifiedByTheProgrammeThatItCarriedOut) {
   const Played live(Session{.emulator = {"--latency", "4 ms", "--jitter", "4 ms", "--seed", "5"}});
   ASSERT_EQ(live.ended.code, 0) << live.ended.err;
@@ -138,14 +138,17 @@ TEST(LiveVerdict, ALateStandIsIdentifiedByTheProgrammeThatItCarriedOut) {
                                   "--unknown",
                                   "tissue.instantaneous_ratio=1.1..6"};
     call.insert(call.end(), more.begin(), more.end());
-    const test::Ended ended = test::palpate(live.folder(), call);
-    EXPECT_EQ(ended.code, 0) << scenario << ": " << ended.err;
-    const std::string name = test::fs::path(scenario).stem().string() + "_identified";
-    return test::Rows(record::read_csv((live.folder() / "out" / name / "identified.csv").string()));
+    return test::palpate(live.folder(), call);
   };
-  const test::Rows planned = identified(test::project_file("scenarios/device_stand.toml"), {});
-  const test::Rows moved =
+  // As planned, the lateness is in the residuals, which are no noise: no number is claimed.
+  const test::Ended planned = identified(test::project_file("scenarios/device_stand.toml"), {});
+  EXPECT_EQ(planned.code, 2);
+  EXPECT_TRUE(has(planned.err, "cannot tell any of the unknowns")) << planned.err;
+  const test::Ended ended =
       identified("out/device_stand/as_moved.toml", {"--unknown", "step.1.time=0.1 ms..100 ms"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const test::Rows moved(
+      record::read_csv((live.folder() / "out/as_moved_identified/identified.csv").string()));
   const auto off = [](const test::Rows& found, const std::string& unknown, double truth) {
     for (std::size_t i = 0; i < found.size(); ++i)
       if (found.word(i, "unknown") == unknown) return found.number(i, "estimate") / truth - 1.0;
@@ -154,8 +157,6 @@ TEST(LiveVerdict, ALateStandIsIdentifiedByTheProgrammeThatItCarriedOut) {
   };
   // Of scenarios/emulator/stand_tissue.toml. Three standard deviations of the sessions of
   // tests/bench/live_identify.py.
-  EXPECT_LT(off(planned, "tissue.young_modulus", 12.0), -0.03) << "soft";
-  EXPECT_GT(off(planned, "tissue.relaxation_time", 0.5), 0.1) << "and slow";
   EXPECT_NEAR(off(moved, "tissue.young_modulus", 12.0), 0.0, 0.03);
   EXPECT_NEAR(off(moved, "tissue.relaxation_time", 0.5), 0.0, 0.08);
   EXPECT_NEAR(off(moved, "tissue.instantaneous_ratio", 2.5), 0.0, 0.02);
