@@ -34,7 +34,7 @@ Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
   const double a = std::sqrt(order.radius * order.travel);
   const double size = a / order.per_radius;
   const double height = extent.high.z() - extent.low.z();
-  sizes.largest = std::max(size, std::min(height / 2.2, 12.0 * size));
+  sizes.largest = std::max(size, std::min(height / 2.2, 40.0 * size));
   sizes.calm = 2.5 * height;  // a thin body is at rest beyond
   double highest = -HUGE_VAL;
   for (const Vec3& at : order.touched) {
