@@ -133,7 +133,6 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("mirrored_copies", static_cast<double>(finest.body().copies));
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
-  if (!finest.body().remark.empty()) record.remarks.push_back(finest.body().remark);
 }
 
 }  // namespace palpate::run

@@ -48,8 +48,7 @@ bool mirrored(std::span<const Vec3> points, int axis, double near) {
 
 }  // namespace
 
-FingerPress::FingerPress(FingerOrder order, const Told& told)
-    : order_(std::move(order)), told_(told) {
+FingerPress::FingerPress(FingerOrder order) : order_(std::move(order)) {
   BodyOrder body = order_.body;
   body.radius = order_.radius / order_.share;
   body.travel = order_.deepest * order_.share;
@@ -79,7 +78,6 @@ FingerPress::FingerPress(FingerOrder order, const Told& told)
         body.mirrored[as_index(axis)] && mirrored(order_.centres, axis, near) &&
         std::all_of(corners.begin(), corners.end(),
                     [&](const Vec3& at) { return std::abs(at[axis]) < near; });
-  if (told_) told_("meshing");
   press_ = std::make_unique<Press>(make_body(body));
   std::vector<Ball> balls;
   for (const Vec3& centre : order_.centres)
@@ -91,7 +89,6 @@ FingerPress::FingerPress(FingerOrder order, const Told& told)
 
 // The ball under a cup whose curvature is the tissue's share of 1/R.
 void FingerPress::find_ball() {
-  if (told_) told_("pressing the finger's ball");
   const double part = (1.0 - order_.share) * order_.deepest;
   Press press(make_ball(order_.radius, order_.deepest, *order_.ball, order_.body.per_radius));
   const double cup = order_.radius / std::max(order_.share, 1e-4);
@@ -114,9 +111,6 @@ Moment FingerPress::moment_of(const Answer& answer, double force) {
 }
 
 std::optional<Answer> FingerPress::go(const Vec3& place, double travel) {
-  if (told_)
-    told_("travel " + quantity_text(travel / order_.share, unit::mm) + ", " +
-          std::to_string(press_->unknowns()) + " unknowns");
   auto found = press_->go(order_.first_touch + place - travel * Vec3::UnitZ());
   if (!found) {
     const double reached = (order_.first_touch.z() - press_->reached().z()) / order_.share;

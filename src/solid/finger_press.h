@@ -1,7 +1,6 @@
 // A finger on a solid: the force at any travel and on the way of slides.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,11 +40,8 @@ struct Moment {
 // by that sphere alone, and their travels at equal forces add.           docs/theory.md (112)
 class FingerPress {
  public:
-  // Called with a sentence on what is computed now.
-  using Told = std::function<void(const std::string&)>;
-
   // What the order points to must outlive the call. Throws MeshError.
-  explicit FingerPress(FingerOrder order, const Told& told = {});
+  explicit FingerPress(FingerOrder order);
 
   // At a place beside the first touch (m). Nothing where no equilibrium was found; reason() then
   // says why. Throws Stopped.
@@ -57,8 +53,6 @@ class FingerPress {
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
   [[nodiscard]] const Press& press() const { return *press_; }
-  // The finger's point at first touch, m.
-  [[nodiscard]] const Vec3& first() const { return order_.first_touch; }
 
  private:
   struct Point {
@@ -79,7 +73,6 @@ class FingerPress {
   [[nodiscard]] double tissue_travel(const Curve& tissue, double travel) const;
 
   FingerOrder order_;
-  Told told_;
   std::unique_ptr<Press> press_;
   std::vector<Curve> curves_;
   std::vector<Point> ball_;  // of an elastic finger

@@ -141,7 +141,6 @@ std::optional<Answer> Press::go(const Vec3& finger) {
       continue;
     }
     if (++halved > most_halvings) return std::nullopt;
-    ++halvings_;
     wanted = 0.5 * (now_.finger + wanted);
   }
 }

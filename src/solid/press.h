@@ -22,7 +22,6 @@ struct Body {
   double travel = 0.0;                     // m, the deepest
   int copies = 1;                          // how often the mesh makes the body, by its mirrors
   std::array<bool, 2> mirrored{};          // across x, across y
-  std::string remark;                      // a sentence on the mesh, or empty
 };
 
 // The force on the finger at one place, of all copies.
@@ -59,8 +58,6 @@ class Press {
   [[nodiscard]] std::vector<Contact::Pressed> pressed() const;
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] int factorisations() const { return factorisations_; }
-  [[nodiscard]] int halvings() const { return halvings_; }
-  [[nodiscard]] std::size_t unknowns() const { return as_index(elements_.unknowns()); }
 
  private:
   struct State {
@@ -81,7 +78,6 @@ class Press {
   State now_, before_;
   bool has_before_ = false;
   int factorisations_ = 0;
-  int halvings_ = 0;
 };
 
 }  // namespace palpate::solid

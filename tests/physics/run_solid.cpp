@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "base/error.h"
 #include "run_text.h"
 
 namespace palpate {
@@ -92,36 +93,38 @@ TEST(Solid, ScalesWithTheModulus) {
   EXPECT_NEAR(force_of("lump_none", {"tissue.young_modulus=163 kPa"}) / once, 10.0, 1e-6);
 }
 
-// Slabs and lumps are laid in the order of the file.
-TEST(Solid, KnowsSkinOverFatWithALump) {
-  const auto text = [](bool lump) {
-    return std::string(R"(schema = 1
+// Fat under 3 mm of skin, with a lump before or after it in the file, or none.
+enum class LumpIs { absent, after, before };
+
+std::string skin_over_fat(LumpIs lump, const std::string& model) {
+  const std::string fat = R"([[region]]
+kind = "slab"
+bottom = "0 mm"
+top = "19 mm"
+material = "skin"
+young_modulus = "12 kPa"
+)";
+  const std::string ball = R"([[region]]
+kind = "sphere"
+centre = ["25 mm", "20 mm", "12 mm"]
+radius = "5 mm"
+material = "skin"
+young_modulus = "300 kPa"
+)";
+  return R"(schema = 1
 [tissue]
 material = "skin"
 young_modulus = "60 kPa"
 poisson_ratio = 0.45
 viscosity = "none"
 shape = { size = ["50 mm", "40 mm", "22 mm"] }
-[[region]]
-kind = "slab"
-bottom = "0 mm"
-top = "19 mm"
-material = "skin"
-young_modulus = "12 kPa"
-)") +
-           (lump ? R"([[region]]
-kind = "sphere"
-centre = ["25 mm", "20 mm", "12 mm"]
-radius = "5 mm"
-material = "skin"
-young_modulus = "300 kPa"
-)"
-                 : "") +
-           R"([finger]
+)" + (lump == LumpIs::before ? ball : "") +
+         fat + (lump == LumpIs::after ? ball : "") + R"([finger]
 material = "rigid"
 radius = "10 mm"
 [solver]
-model = "solid"
+model = ")" +
+         model + R"("
 [[step]]
 kind = "indent"
 to = "1.5 mm"
@@ -129,11 +132,20 @@ rate = "1 mm/s"
 [output]
 pressure_maps = false
 )";
-  };
-  const double without = test::run_text(text(false)).contact.back().contact_force;
-  const double with = test::run_text(text(true)).contact.back().contact_force;
-  EXPECT_GT(with, 1.1 * without);  // a lump that is 25 times as stiff
-  EXPECT_LT(with, 2.0 * without);
+}
+
+// Regions are laid in the order of the file.
+TEST(Solid, LaysRegionsInTheirOrderAsSpringsDo) {
+  for (const char* model : {"solid", "coupled_springs"}) {
+    const auto force = [&](LumpIs lump) {
+      return test::run_text(skin_over_fat(lump, model)).contact.back().contact_force;
+    };
+    const double without = force(LumpIs::absent);
+    const double with = force(LumpIs::after);
+    EXPECT_GT(with, 1.1 * without) << model;  // a lump that is 25 times as stiff
+    EXPECT_LT(with, 2.0 * without) << model;
+    EXPECT_THROW((void)force(LumpIs::before), MeshError) << model;
+  }
 }
 
 }  // namespace
