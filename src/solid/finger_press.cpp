@@ -15,25 +15,31 @@ namespace {
 using Pairs =
     std::vector<std::pair<double, double>>;  // of a travel and another quantity, ascending
 
-// The parabola through the three points nearest to x in logarithms; a power below the first.
-double between(const Pairs& points, double x) {
+// The parabola through the three points nearest to x in logarithms. Below the first its slope there
+// goes over to `power`, that of the smallest contacts.
+double between(const Pairs& points, double x, double power) {
   if (!(x > 0.0)) return 0.0;
-  if (points.size() == 1 || x < points.front().first) {
-    const auto& [d, f] = points.front();
-    return f * std::pow(x / d, 1.5);
-  }
-  std::size_t first = 0;
-  while (first + 3 < points.size() && x > points[first + 1].first) ++first;
-  const std::size_t count = std::min<std::size_t>(3, points.size() - first);
-  double sum = 0.0;
-  for (std::size_t i = first; i < first + count; ++i) {
-    double weight = 1.0;
-    for (std::size_t j = first; j < first + count; ++j)
-      if (j != i)
-        weight *= std::log(x / points[j].first) / std::log(points[i].first / points[j].first);
-    sum += weight * std::log(points[i].second);
-  }
-  return std::exp(sum);
+  const auto parabola = [&](double at) {
+    std::size_t first = 0;
+    while (first + 3 < points.size() && at > points[first + 1].first) ++first;
+    const std::size_t count = std::min<std::size_t>(3, points.size() - first);
+    double sum = 0.0;
+    for (std::size_t i = first; i < first + count; ++i) {
+      double weight = 1.0;
+      for (std::size_t j = first; j < first + count; ++j)
+        if (j != i)
+          weight *= std::log(at / points[j].first) / std::log(points[i].first / points[j].first);
+      sum += weight * std::log(points[i].second);
+    }
+    return sum;
+  };
+  const auto& [begin, value] = points.front();
+  if (points.size() > 1 && x >= begin) return std::exp(parabola(x));
+  constexpr double aside = 1e-3;
+  const double slope = points.size() > 1 ? (parabola(begin * (1.0 + aside)) - std::log(value)) /
+                                               std::log(1.0 + aside)
+                                         : power;
+  return value * std::pow(x / begin, power) * std::exp((slope - power) * (x / begin - 1.0));
 }
 
 // Whether points are their own images across the plane through 0 normal to an axis.
@@ -156,7 +162,8 @@ double FingerPress::tissue_travel(const Curve& tissue, double travel) const {
   constexpr int halvings = 60;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
-    (between(of_tissue, middle) < between(of_ball, travel - middle) ? low : high) = middle;
+    (between(of_tissue, middle, 1.5) < between(of_ball, travel - middle, 1.5) ? low : high) =
+        middle;
   }
   return 0.5 * (low + high);
 }
@@ -175,16 +182,11 @@ std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
     radius.emplace_back(point.travel, point.moment.contact_radius);
     pressure.emplace_back(point.travel, point.moment.peak_pressure);
   }
-  const auto root = [&](const Pairs& points) {
-    // Contact radius and pressure begin with the root of the travel.
-    return own < points.front().first
-               ? points.front().second * std::sqrt(own / points.front().first)
-               : between(points, own);
-  };
   const auto nearest = std::find_if(curve->points.begin(), curve->points.end(),
                                     [&](const Point& point) { return point.travel >= own; });
   const Point& at = nearest == curve->points.end() ? curve->points.back() : *nearest;
-  return Moment{between(force, own), root(radius), root(pressure), at.moment.touching};
+  return Moment{between(force, own, 1.5), between(radius, own, 0.5), between(pressure, own, 0.5),
+                at.moment.touching};
 }
 
 std::optional<Moment> FingerPress::at_slide(double travel, const Vec3& start, const Vec3& end,
