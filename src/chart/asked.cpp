@@ -2,6 +2,7 @@
 #include "chart/asked.h"
 
 #include "base/files.h"
+#include "run/choose.h"
 #include "scenario/find.h"
 #include "scenario/integrators.h"
 #include "scene/scene.h"
@@ -88,10 +89,10 @@ Asked read_for_chart(const std::string& path, const std::string& text, const Set
       "a step to a force ends elsewhere in every variant, and `palpate chart` compares forces at "
       "equal travels; give a travel");
   for (std::size_t i = 0; i < family.cases.size(); ++i) {
-    const scene::Choice choice = scene::choose(family.cases[i]);
+    const scene::Choice choice = run::choose(family.cases[i]);
     // The reference of a press with inertia is linear elasticity on a mesh.
     const bool still = !choice.chosen.meshed() || !about(choice.chosen.solver.integrator).inertia;
-    asked.depths.push_back(still ? scene::choose(opened(asked, i)).chosen.contact.depth
+    asked.depths.push_back(still ? run::choose(opened(asked, i)).chosen.contact.depth
                                  : scenario::Contact::Depth::hertz);
   }
   return asked;

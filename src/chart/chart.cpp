@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "chart/journal.h"
 #include "integrate/modal.h"
+#include "run/choose.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 #include "scene/specimen_shape.h"
@@ -205,7 +206,7 @@ class Measurer {
                                     Measurement& one) {
     const scenario::Case& asked = family.cases.front();
     const Clock::time_point start = Clock::now();
-    scene::Choice choice = scene::choose(asked);
+    scene::Choice choice = run::choose(asked);
     const double setup = choice.taken() != nullptr ? choice.taken()->seconds : 0.0;
     if (setup > longest_) {
       not_run(one, setup);

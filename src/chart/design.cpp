@@ -8,6 +8,7 @@
 
 #include "base/field_writer.h"
 #include "base/text.h"
+#include "run/choose.h"
 #include "run/refined_mesh.h"
 #include "scenario/programme.h"
 #include "scenario/words.h"
@@ -98,7 +99,7 @@ class Designer {
         one_(asked.family.cases[of_case]),
         base_(one_.scenario),
         shapes_(shapes) {
-    rung_ = scene::choose(opened(asked, of_case)).chosen.solver.model;
+    rung_ = run::choose(opened(asked, of_case)).chosen.solver.model;
     if (!scenario::rung(rung_).meshed())
       rung_ = std::find_if(scenario::ladder.begin(), scenario::ladder.end(),
                            std::mem_fn(&scenario::Rung::meshed))
@@ -150,7 +151,7 @@ class Designer {
     try {
       const auto family = with_settings(asked_, case_, settings);
       const scenario::Case& one = family.cases.front();
-      Scenario chosen = scenario::answered(one, scene::choose(one, shapes_).chosen);
+      Scenario chosen = scenario::answered(one, run::choose(one, shapes_).chosen);
       return fields_as_toml([&](FieldVisitor& visitor) { fields(visitor, chosen); });
     } catch (const InputError&) {
       return joined(settings, "\n");
@@ -161,14 +162,7 @@ class Designer {
     if (seen_.insert(settled(settings)).second) variants_.push_back({case_, group, name, settings});
   }
 
-  void formulas(Model model) {
-    add("rung x mesh", word_of(model), given(model));
-    if (base_.uniform() || base_.contact.size) return;
-    const scene::Choice choice = scene::choose(one_, shapes_);
-    if (scene::size_ratio(model, choice.chosen, choice.touch, choice.expected))
-      add("rung x mesh", word_of(model) + ", the body's size",
-          joined_to(given(model), {"contact.size=body"}));
-  }
+  void formulas(Model model) { add("rung x mesh", word_of(model), given(model)); }
 
   void meshes(Model model) {
     add("rung x mesh", word_of(model), rung(model));
@@ -187,7 +181,7 @@ class Designer {
     for (const Coupling coupling :
          {Coupling::one_way, Coupling::series, Coupling::consistent, Coupling::resolved})
       add("rung x coupling", word_of(model) + ", " + word_of(coupling), coupled(coupling));
-    const std::string mesh = graded(base_, scene::choose(one_).expected);
+    const std::string mesh = graded(base_, run::choose(one_).expected);
     if (!mesh.empty())
       add("rung x coupling", word_of(model) + ", resolved on graded cells",
           joined_to(coupled(Coupling::resolved), {mesh}));
@@ -199,7 +193,7 @@ class Designer {
     try {
       const auto family = with_settings(
           asked_, case_, {model_setting(rung_), "solver.integrator=" + word_of(moving)});
-      return scene::inertia_reaches_force(scene::choose(family.cases.front(), shapes_).chosen);
+      return scene::inertia_reaches_force(run::choose(family.cases.front(), shapes_).chosen);
     } catch (const InputError&) {
       return true;  // the variants say why there is no mesh
     }
@@ -301,8 +295,8 @@ Integrator base_integrator(const scenario::Case& one) {
   const bool drag = scenario.tissue.viscosity == tissue::Viscosity::nodal_drag;
   if (drag) return Integrator::central_difference;
   if (scenario.uniform()) return Integrator::quasi_static;
-  return scene::choose(one).expected.inertia < solver.tolerance ? Integrator::quasi_static
-                                                                : Integrator::central_difference;
+  return run::choose(one).expected.inertia < solver.tolerance ? Integrator::quasi_static
+                                                              : Integrator::central_difference;
 }
 
 }  // namespace palpate::chart

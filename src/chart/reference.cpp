@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "chart/design.h"
 #include "chart/extrapolation.h"
+#include "run/choose.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 #include "scenario/integrators.h"
@@ -243,7 +244,6 @@ Reference at_rest(scenario::Case one, const scenario::Family& family,
   scenario.solver.tolerance = tolerance_of_solid;
   scenario.contact.coupling = Coupling::consistent;
   scenario.contact.depth.reset();
-  scenario.contact.size.reset();
   if (!flows) {
     scenario.contact.viscosity = scenario::Contact::Viscosity::none;
     // The rows of an elastic press do not depend on the rows between them.
@@ -282,7 +282,7 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
   if (std::holds_alternative<scenario::HalfSpace>(one.scenario.tissue.shape))
     refuse_at(family, "tissue.shape",
               "a `half_space` has no mesh to refine; on it `hertz` is exact for small depths");
-  const scene::Choice choice = scene::choose(one);
+  const scene::Choice choice = run::choose(one);
   const scenario::Solver& solver = one.scenario.solver;
   const bool moves = solver.integrator ? about(*solver.integrator).inertia
                                        : choice.expected.inertia >= solver.tolerance;

@@ -10,6 +10,7 @@
 #include "chart/extrapolation.h"
 #include "chart/reference.h"
 #include "contact/relaxation.h"
+#include "run/choose.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 #include "scenario/programme.h"
@@ -34,7 +35,7 @@ class Finder {
       : asked_(asked),
         case_(of_case),
         one_(asked.family.cases[of_case]),
-        choice_(scene::choose(one_)),
+        choice_(run::choose(one_)),
         scenario_(choice_.chosen),
         told_(told) {}
 
@@ -43,9 +44,9 @@ class Finder {
     const scene::Estimates& found = choice_.expected;
     if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
       return half_space(found);
-    const double left_out = found.sides + found.inertia;
-    if (!scene::beyond(Model::layer, scenario_, choice_.touch) && left_out <= refined_error &&
-        std::abs(found.deep) <= refined_error)
+    const double left_out = std::abs(found.sides) + found.size_error + found.inertia;
+    if (!scene::beyond(Model::layer, scenario_, choice_.touch) && found.measured &&
+        left_out <= refined_error && std::abs(found.deep) + found.deep_error <= refined_error)
       return layer(found);
     const bool ready = std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh);
     return ready && found.inertia >= scenario_.solver.tolerance ? on_the_mesh() : refined(found);
@@ -88,16 +89,17 @@ class Finder {
   }
 
   Truth layer(const scene::Estimates& found) const {
-    return vouched("closed form",
-                   "an infinite flat layer" + depth_text(found) +
-                       "; the estimated effect of the sides is " + percent_text(found.sides) +
-                       ", that of inertia " + percent_text(found.inertia),
-                   {model_setting(Model::layer)}, found.sides + found.inertia);
+    return vouched(
+        "closed form",
+        "an infinite flat layer" + depth_text(found) + "; the estimated effect of the sides is " +
+            percent_text(std::abs(found.sides)) + ", that of inertia " +
+            percent_text(found.inertia),
+        {model_setting(Model::layer)}, std::abs(found.sides) + found.size_error + found.inertia);
   }
 
   // The estimated error of the strongest model, relative.
   [[nodiscard]] double strongest_error() const {
-    const scene::Choice choice = scene::choose(one_);
+    const scene::Choice choice = run::choose(one_);
     const scene::Forecast* forecast = choice.forecast(scenario::strongest.of);
     return forecast != nullptr ? forecast->error : 1.0;
   }

@@ -48,133 +48,56 @@ constexpr Terms frictionless{{
     {.root = 1, .share = 4, .by_ratio = {-4.631, 25.24, -87.324, 63.065, -2.7337}},
 }};
 
-// K y (d_1 y + d_2 q) on convex bodies and K y^2 (d_3 + d_4 y) on hollow ones, fitted to every
-// second dome and hollow disc of tests/elasticity/random_bodies.csv.
-constexpr double convex_square = 2.14, convex_ratio = -1.46;
-constexpr double hollow_square = 5.6, hollow_cube = -9.12;
-
-// (a/W)^2 h/W (d_6 + d_7 q) of the sides of flat bodies, fitted to every second disc.
-constexpr double sides_plain = 1.07, sides_ratio = -1.63;
-constexpr double most_flat = 0.01;        // |K|
-constexpr double nearest_side = 1.8;      // W / R of the narrowest disc
-constexpr double near_side_error = 0.25;  // for what is nearer
-
-// The stated error, chosen on one half of those bodies; the least is that of the terms above and of
-// the finite elements, 0.2 % each.
-constexpr double least_error = 0.004, side_error = 0.15, curved_error = 0.056;
-constexpr double layers_error = 0.21, inclusion_error = 0.073, hollow_error = 2.5;
-
-// g (d_5 y + d_8 q sqrt(x) + d_9 ((h / (h + t_1))^2 - (h / (h + L))^2)) of a stiff skin, which is
-// stretched and bent as the press grows deep. Fitted to every second stack of layers, and the error
-// for g sqrt(x).
-constexpr double skin_share = 0.494, skin_ratio = -0.491, skin_stretched = 0.553,
-                 skin_error = 0.056;
+constexpr double least_error = 0.004;  // of the terms above and of the finite elements, 0.2 % each
+constexpr double side_error = 2.0;     // the largest of the discs, times (a/W)^2 h/W
 
 }  // namespace
 
 std::optional<DepthRatio> depth_ratio(const DeepPress& press) {
   const double nu = press.poisson_ratio;
-  const double round = press.effective_radius / press.radius;
-  const double curved = 1.0 / round - 1.0;  // K
   const double thin = press.radius / press.thickness;
-  if (!(nu >= 0.0 && nu <= 0.5) || !(thin >= 0.0 && thin <= 1.0 / DepthRatio::thinnest) ||
-      !(curved >= DepthRatio::least_curved && curved <= DepthRatio::most_curved) ||
-      !(press.half_width > 0.0))
+  if (!(nu >= 0.0 && nu <= 0.5) || !(thin >= 0.0 && thin <= 1.0 / DepthRatio::thinnest))
     return std::nullopt;
   const double q = (1.0 - 2.0 * nu) / (1.0 - nu);
-  const double soft = std::max(0.0, 1.0 - press.force_over_hertz);  // g
 
-  // With s = sqrt(h/R): sqrt(x) = sqrt(R_e/R) s and y = (R/t) s^2.
+  // With s = sqrt(h/R): sqrt(x) = s and y = (R/t) s^2.
   DepthRatio ratio;
-  const auto add = [&](std::size_t power, double value) {
-    ratio.coefficients_[power - 1] += value;
-  };
   for (const Term& term : press.base == LayerBase::bonded ? bonded : frictionless) {
     double value = 0.0;
     for (std::size_t m = term.by_ratio.size(); m > 0; --m) value = value * q + term.by_ratio[m - 1];
-    for (std::size_t i = 0; i < term.root; ++i) value *= std::sqrt(round);
     for (std::size_t j = 0; j < term.share; ++j) value *= thin;
-    add(term.root + 2 * term.share, value);
+    ratio.coefficients_[term.root + 2 * term.share - 1] += value;
   }
-  if (curved > 0.0) {
-    add(2, curved * convex_ratio * q * thin);
-    add(4, curved * convex_square * thin * thin);
-  } else {
-    add(4, curved * hollow_square * thin * thin);
-    add(6, curved * hollow_cube * thin * thin * thin);
-  }
-
-  if (std::abs(curved) < most_flat) {
-    const double near = std::min(press.radius / press.side_distance, 1.0 / nearest_side);
-    add(4, round * near * near * near * (sides_plain + sides_ratio * q));
-  }
-  add(1, soft * skin_ratio * q * std::sqrt(round));
-  add(2, soft * skin_share * thin);
-
   ratio.radius_ = press.radius;
   ratio.tissue_share_ = press.tissue_share;
-  ratio.soft_ = soft;
-  ratio.skin_ = press.skin;
-  ratio.bending_length_ = press.bending_length;
-  ratio.last_depth_ = std::min(DepthRatio::deepest_x * press.radius / round,
-                               DepthRatio::deepest_y * press.thickness) /
-                      press.tissue_share;
-  const double by_x = round / press.radius, by_y = 1.0 / press.thickness;
-  ratio.least_error_ = least_error + curved_error * std::abs(curved);
-  ratio.error_by_depth_ =
-      (press.half_width < nearest_side * press.radius ? near_side_error : side_error) *
-      press.effective_radius / (press.half_width * press.half_width);
-  if (press.tissues == Tissues::layers) {
-    ratio.error_by_depth_ += layers_error * by_y;
-    ratio.error_of_skin_ = skin_error * soft * std::sqrt(by_x);
-  }
-  if (press.tissues == Tissues::inclusion) ratio.error_by_depth_ += inclusion_error * by_x;
-  if (curved < 0.0) ratio.error_of_hollow_ = hollow_error * -curved * by_y * std::sqrt(by_y);
+  ratio.last_depth_ =
+      std::min(DepthRatio::deepest_x * press.radius, DepthRatio::deepest_y * press.thickness) /
+      press.tissue_share;
+  ratio.of_side_ =
+      side_error * press.radius / (press.half_width * press.half_width * press.half_width);
   return ratio;
 }
 
 double DepthRatio::value(double depth) const {
   if (!(depth > 0.0)) return 1.0;
-  const double yielded = tissue_share_ * std::min(depth, last_depth_);
-  const double s = std::sqrt(yielded / radius_);
+  const double s = std::sqrt(tissue_share_ * std::min(depth, last_depth_) / radius_);
   double sum = 0.0;
   for (std::size_t n = highest; n > 0; --n) sum = (sum + coefficients_[n - 1]) * s;
-  const double stretched = yielded / (yielded + skin_);
-  const double bent = yielded / (yielded + bending_length_);
-  return 1.0 + sum + skin_stretched * soft_ * (stretched * stretched - bent * bent);
+  return 1.0 + sum;
 }
 
 double DepthRatio::error(double depth) const {
   if (!(depth > 0.0)) return 0.0;
   const double known = std::min(depth, last_depth_);
   const double yielded = tissue_share_ * known;
-  const double root = std::sqrt(yielded);
-  return least_error_ +
-         (error_of_skin_ + (error_by_depth_ + error_of_hollow_ * root) * root) * root +
+  return least_error + of_side_ * yielded * yielded +
          std::abs(value(known) - 1.0) * (depth - known) / known;
 }
 
-double effective_thickness(std::span<const Stratum> strata) {
-  const auto weight = [](const Stratum& one) {
-    const double nu = one.poisson_ratio;
-    const double modulus = one.young_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    return one.thickness / std::pow(modulus, 0.7);
-  };
-  double whole = 0.0;
-  for (const Stratum& one : strata) whole += weight(one);
-  double inverse = 0.0;
-  for (const Stratum& one : strata) {
-    const double share = weight(one) / whole;
-    inverse += share * share / one.thickness;
-  }
-  return 1.0 / inverse;
-}
-
-double bending_length(std::span<const Stratum> strata) {
-  const auto modulus = [](const Stratum& one) {
-    return one.young_modulus / (1.0 - one.poisson_ratio * one.poisson_ratio);
-  };
-  return strata[0].thickness * std::cbrt(modulus(strata[0]) / modulus(strata[1]));
+double depth_bound(double depth, double effective_radius, double thickness, double poisson_ratio) {
+  if (!(depth > 0.0)) return 0.0;
+  const double q = (1.0 - 2.0 * poisson_ratio) / (1.0 - poisson_ratio);
+  return 0.5 * ((0.1 + 0.3 * q) * std::sqrt(depth / effective_radius) + depth / thickness);
 }
 
 }  // namespace palpate::contact

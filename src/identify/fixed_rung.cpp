@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "scene/scene.h"
+#include "run/choose.h"
 #include "scene/specimen_shape.h"
 
 namespace palpate::identify {
@@ -37,6 +37,11 @@ double error_of(const scene::Choice& choice, scenario::Model model) {
   return forecast != nullptr ? forecast->error : std::numeric_limits<double>::infinity();
 }
 
+scene::Choice quick_choice(const scenario::Case& one) {
+  scene::SpecimenShapes shapes;
+  return run::choose(one, shapes, run::Models::quick);
+}
+
 }  // namespace
 
 scenario::Case FixedRung::at(std::span<const Unknown> unknowns,
@@ -61,7 +66,7 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
     std::vector<Problem> problems;
     scenario::check(at, document, problems);
     if (problems.empty()) {
-      choices.push_back(scene::choose(at, shapes));
+      choices.push_back(run::choose(at, shapes, run::Models::quick));
       deep_known = deep_known && choices.back().expected.depth_ratio.has_value();
     } else if (wrong.empty()) {
       wrong = problems;
@@ -69,16 +74,7 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
   }
   if (choices.empty()) throw InputError(wrong);
 
-  // The factor of the body's size is for all values or for none.
-  const auto with_factor = [](const scene::Choice& choice) { return choice.found.size_matters; };
   scenario::Found found{.viscosity_matters = false, .inertia_matters = false};
-  found.size_matters = std::all_of(choices.begin(), choices.end(), with_factor);
-  if (!found.size_matters && std::any_of(choices.begin(), choices.end(), with_factor)) {
-    scenario::Case without = one;
-    without.scenario.contact.size = scenario::Contact::Size::half_space;
-    return fix_rung(without, document, unknowns);
-  }
-
   fixed.given = choices.front().given;
   fixed.model = choices.front().chosen.solver.model;
   double best = std::numeric_limits<double>::infinity();
@@ -117,13 +113,13 @@ std::optional<double> inertia_of_flow(const scenario::Resolved& scenario) {
 }
 
 std::optional<double> predicted_error(const scenario::Case& fixed) {
-  const scene::Choice choice = scene::choose(fixed);
+  const scene::Choice choice = quick_choice(fixed);
   const scene::Forecast* rung = choice.taken();
   return rung == nullptr ? std::nullopt : std::optional(rung->error);
 }
 
 std::optional<double> deep_effect(const scenario::Case& fixed) {
-  const scene::Choice choice = scene::choose(fixed);
+  const scene::Choice choice = quick_choice(fixed);
   if (choice.chosen.contact.depth != scenario::Contact::Depth::neo_hookean) return std::nullopt;
   return choice.expected.deep;
 }

@@ -245,8 +245,7 @@ std::optional<ClosedCurve> ScenarioCurve::closed() const {
     const auto* indent = std::get_if<scenario::Indent>(&fixed_.steps.front());
     if (!scenario::rung(rung_.model).eq_2 || !flat || indent == nullptr ||
         fixed_.finger.spheres != 1 || scenario::viscous_contact(fixed_) ||
-        fixed_.contact.depth != scenario::Contact::Depth::hertz ||
-        fixed_.contact.size != scenario::Contact::Size::half_space)
+        fixed_.contact.depth != scenario::Contact::Depth::hertz)
       return std::nullopt;
     const scene::Finger finger = scene::make_finger(fixed_);
     curve.form = ClosedCurve::Form::hertz_press;

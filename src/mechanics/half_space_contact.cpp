@@ -21,7 +21,6 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
            "less "
            "deep, or set `solver.model = \"coupled_springs\"`";
   if (scene.depth_ratio) law->point.part = scene.depth_ratio->value(depth);
-  if (scene.size_ratio) law->point.part *= scene.size_ratio->value(depth);
   const Vec3 before = touch.finger;
   touch.finger = top + (radius - touch.travel) * Vec3::UnitZ();
   const Vec3 move = touch.finger - before;

@@ -43,7 +43,6 @@ class Words {
     std::vector<std::string> with;
     if (!scene_.scenario.uniform() && !scene_.relaxation.elastic()) with.emplace_back("viscosity");
     if (scene_.depth_ratio) with.emplace_back("large strains");
-    if (scene_.size_ratio) with.emplace_back("the body's size");
     if (!with.empty()) text += ", with " + joined(with, " and ");
     return text + ". " + why();
   }
@@ -92,12 +91,13 @@ class Words {
     if (choice.given) {
       if (choice.rungs.empty()) return "No other was considered.";
       const scene::Forecast& other = choice.otherwise;
-      if (other.model == rung_.of && factors(choice.otherwise_found) == factors())
+      const auto deep = [](bool used) { return used ? " with large strains" : ""; };
+      if (other.model == rung_.of &&
+          choice.otherwise_found.depth_matters == scene_.depth_ratio.has_value())
         return "It would be chosen anyway.";
-      const bool corrected = !rung_.formula() || scene_.size_ratio;
-      const std::string reason = corrected ? "" : " " + against(rung_.of, " is ");
+      const std::string reason = rung_.formula() ? " " + against(rung_.of, " is ") : "";
       return "Without `solver.model` it would be " + word(other.model) +
-             (other.model == rung_.of ? factors(choice.otherwise_found) : "") + ", " +
+             (other.model == rung_.of ? deep(choice.otherwise_found.depth_matters) : "") + ", " +
              error_text(other.known(mesh_error_)) + " from the true force." + reason;
     }
     if (uniform) {
@@ -107,12 +107,9 @@ class Words {
       return "mass_spring would be " + error_text(springs->error) +
              " off, because its springs do not have the tissue's Poisson's ratio.";
     }
-    if (scene_.size_ratio)
-      return "A factor for the " + size_words() + ", which change the force by about " +
-             percent_text(std::abs(scene_.size_ratio->change)) + ", makes a mesh unnecessary.";
     if (rung_.of == Model::hertz) return enough();
     std::string text = against(Model::hertz);
-    if (rung_.meshed() && std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape))
+    if (!rung_.formula() && std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape))
       if (const std::string layer = against(Model::layer); !layer.ends_with(tail(text)))
         text += " " + layer;
     return text;
@@ -123,32 +120,12 @@ class Words {
     return sentence.substr(std::min(sentence.size(), sentence.find(' ')));
   }
 
-  // The factors on the force: of this scene, or what was found for another model.
-  [[nodiscard]] static std::string factors(bool deep, bool size) {
-    return std::string(deep ? " with large strains" : "") + (!size  ? ""
-                                                             : deep ? " and the body's size"
-                                                                    : " with the body's size");
-  }
-  [[nodiscard]] std::string factors() const {
-    return factors(scene_.depth_ratio.has_value(), scene_.size_ratio.has_value());
-  }
-  [[nodiscard]] static std::string factors(const scenario::Found& found) {
-    return factors(found.depth_matters, found.size_matters);
-  }
-
-  // What the factor of `contact.size` stands for.
-  [[nodiscard]] std::string size_words() const {
-    return rung_.thickness ? "sides" : "thickness, width and base";
-  }
-
   // Why hertz is enough.
   [[nodiscard]] std::string enough() const {
     if (!scene_.choice.touch.size.allFinite())
       return "The tissue has neither an underside nor sides.";
-    const bool box = std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape);
-    return std::string("Thickness") + (box ? " and sides" : ", width and base") +
-           " of the body change the force by about " + percent_text(std::abs(e_.by_size)) +
-           " only.";
+    return "Size, base and sides of the body change the force by about " +
+           percent_text(std::abs(e_.size)) + " only.";
   }
 
   // What a formula would do in this scene: "hertz would be 14 % low: ..."
@@ -159,36 +136,26 @@ class Words {
     if (found == rungs.end()) return "";
     if (!found->cannot.empty()) return word(model) + " does not apply: " + found->cannot + ".";
     const bool thickness = model == Model::layer;  // is represented
-    const double size =
-        thickness ? 1.0 / (1.0 - std::min(e_.sides, 0.99)) - 1.0 : 1.0 / (1.0 + e_.by_size) - 1.0;
-    const double uncertain = thickness ? scene::doubt_of_sides * e_.sides : e_.by_size_error;
-    const double waves = scene_.choice.found.inertia_matters ? e_.inertia : 0.0;
-    const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep);
     const std::string would = word(model) + verb;
     const std::string off = would + error_text(found->error) + " off";
-    if (waves > std::max({std::abs(size), uncertain, deep}))
-      return off + ": waves in the tissue add " + percent_text(waves) + " of force at this speed.";
-    if (deep > std::max(std::abs(size), uncertain))
-      return off + ": large strains change the force by " + percent_text(deep) + ".";
     if (!std::isfinite(e_.thickness) && !thickness)
       return would + "far too low: the tissue is too thin for it.";
-    const std::string by = effects(thickness);
-    if (by.empty()) return off + ".";
-    // Effects that cancel in the estimate leave an error without a sign.
-    if (std::abs(size) < uncertain) return off + ": " + by + ".";
-    return would + percent_text(std::abs(size)) + (size < 0.0 ? " low: " : " high: ") + by + ".";
-  }
-
-  [[nodiscard]] std::string effects(bool thickness_is_known) const {
-    const bool box = std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape);
-    std::string text;
-    if (!thickness_is_known && e_.thickness > 0.005)
-      text = rounded_text(unit::mm.from_si(scene_.choice.touch.thickness), 3) +
-             " mm of tissue on a hard support add " + percent_text(e_.thickness) + " of force";
-    if (e_.narrow <= 0.005 || (!text.empty() && e_.narrow < 0.2 * e_.thickness)) return text;
-    return text + (text.empty() ? "" : ", ") +
-           (box ? "the sides take " : "the width of the body and of its base takes about ") +
-           percent_text(e_.narrow) + (text.empty() ? " of force" : " away");
+    // The largest of what it leaves out.
+    const double size = 1.0 / (1.0 + (thickness ? e_.sides : e_.size)) - 1.0;
+    const double waves = scene_.choice.found.inertia_matters ? e_.inertia : 0.0;
+    const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep) + e_.deep_error;
+    const double most = std::max({std::abs(size), waves, deep, e_.edge});
+    if (most == waves && waves > 0.0)
+      return off + ": waves in the tissue add " + percent_text(waves) + " of force at this speed.";
+    if (most == e_.edge && most > 0.0)
+      return off + ": an edge is " +
+             rounded_text(scene_.choice.touch.to_edge / e_.contact_radius, 2) +
+             " contact radii away.";
+    if (most == deep && deep > 0.0)
+      return off + ": large strains change the force by " + (e_.depth_ratio ? "" : "up to ") +
+             percent_text(deep) + ".";
+    return would + percent_text(std::abs(size)) + (size < 0.0 ? " low" : " high") + ": " +
+           (thickness ? "the sides" : "size, base and sides of the body") + " change the force.";
   }
 
   const scene::Scene& scene_;
@@ -234,8 +201,8 @@ std::optional<double> stated_error(const scene::Scene& scene, std::optional<doub
   if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::one_way)
     return std::nullopt;
   const scene::Estimates& e = scene.choice.expected;
-  return scene::half_space_error(e) + e.inertia + e.deep_error +
-         (scene.depth_ratio ? 0.0 : std::abs(e.deep));
+  return std::abs(1.0 / (1.0 + e.size) - 1.0) + e.size_error + e.edge + e.ball + e.inertia +
+         e.deep_error + (scene.depth_ratio ? 0.0 : std::abs(e.deep));
 }
 
 Expected expect(const scene::Scene& scene) {
@@ -290,7 +257,8 @@ class LeftOuts {
   std::vector<LeftOut> all() {
     if (!scene_.scenario.uniform()) {
       size();
-      overhang();
+      edge();
+      ball();
       double_counting();
       large_strains();
       viscosity();
@@ -316,25 +284,26 @@ class LeftOuts {
   }
 
   void size() {
-    if (scene_.size_ratio) return;
     const std::string free = one_way()             ? "leave out `contact.coupling`"
                              : scene_.choice.given ? "leave out `solver.model`"
                                                    : "";
-    const bool none = !rung_.thickness || one_way();
-    if (none && e_.thickness * e_.tissue_share > tolerance())
-      omit("the thickness of the tissue", e_.thickness, would(e_.thickness), free);
-    if ((none || !rung_.sides) && e_.sides > tolerance())
-      omit("the sides of the body", -e_.sides, would(-e_.sides), free);
-    if (none && e_.curved_body > 0.0 && e_.narrow > tolerance())
-      omit("the width of the body and of its base", -e_.narrow, would(-e_.narrow), free);
+    if ((rung_.of == Model::hertz || one_way()) && std::abs(e_.size) > tolerance())
+      omit("the size of the body", e_.size, would(e_.size), free);
+    else if (rung_.of == Model::layer && std::abs(e_.sides) > tolerance())
+      omit("the sides of the body", e_.sides, would(e_.sides), free);
   }
 
-  void overhang() {
-    const double most = e_.overhang * (2.0 - e_.overhang);  // as ModelErrors counts it
-    if (!rung_.solid && !mesh_is_tissue() && most > 0.2 * tolerance())
-      omit("that the contact reaches beyond an edge of the body", -most,
-           "which may take up to " + percent_text(most) + " off the force",
-           "press farther from the edge");
+  void edge() {
+    if (rung_.solid || mesh_is_tissue() || e_.edge <= 0.2 * tolerance()) return;
+    omit("an edge of the body near the contact", e_.edge,
+         "which may change the force by up to " + percent_text(e_.edge),
+         "set `solver.model = \"solid\"`, or press farther from it");
+  }
+
+  void ball() {
+    if (rung_.solid || e_.ball <= 0.2 * tolerance()) return;
+    omit("that the finger is a ball and no half-space", -e_.ball, would(-e_.ball),
+         "set `solver.model = \"solid\"`");
   }
 
   // By how much a half-space under `series` is too soft.                    docs/theory.md (10)
@@ -346,13 +315,17 @@ class LeftOuts {
   }
 
   void large_strains() {
-    if (rung_.solid || scene_.depth_ratio || std::abs(e_.deep) < 0.2 * tolerance()) return;
-    std::string remedy;
-    if (mesh_is_tissue())
-      remedy = "set `solver.model = \"solid\"` and leave out `contact.coupling`";
-    else if (e_.depth_ratio)
-      remedy = "add `contact.depth = \"neo_hookean\"`";
-    omit("large strains", e_.deep, would(e_.deep) + " where it is deepest", remedy);
+    const double most = std::abs(e_.deep) + (e_.depth_ratio ? 0.0 : e_.deep_error);
+    if (rung_.solid || scene_.depth_ratio || most < 0.2 * tolerance()) return;
+    if (!e_.depth_ratio)
+      return omit(
+          "large strains", most,
+          "which may change the force by up to " + percent_text(most) + " where it is deepest",
+          mesh_is_tissue() ? "set `solver.model = \"solid\"` and leave out `contact.coupling`"
+                           : "set `solver.model = \"solid\"`");
+    omit("large strains", e_.deep, would(e_.deep) + " where it is deepest",
+         mesh_is_tissue() ? "set `solver.model = \"solid\"` and leave out `contact.coupling`"
+                          : "add `contact.depth = \"neo_hookean\"`");
   }
 
   void viscosity() {

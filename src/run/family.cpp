@@ -29,8 +29,6 @@ std::string chosen(const scenario::Resolved& scenario) {
     text += std::string(", contact.viscosity = ") +
             words::word(words::contact_viscosities, scenario.contact.viscosity) +
             ", contact.depth = " + words::word(words::depths, scenario.contact.depth);
-  if (scenario.contact.size == scenario::Contact::Size::body)
-    text += std::string(", contact.size = ") + words::word(words::sizes, scenario.contact.size);
   return text;
 }
 

@@ -199,7 +199,8 @@ class Findings {
   void predictions(const record::ContactRow& peak) {
     add("thickness_effect", expected_.thickness);
     add("side_effect", expected_.sides);
-    add("body_effect", expected_.curved_body);
+    add("body_effect", expected_.size);
+    add("edge_effect", expected_.edge);
     add("deep_effect", expected_.deep);
     add("viscous_effect", expected_.viscous);
     add("inertia_effect", expected_.inertia);
@@ -216,8 +217,7 @@ class Findings {
                                           touch.curvature);
     if (!law) return;
     const auto [depth, normal] = touch.pressed(scene_.finger.whole.radius, peak.travel);
-    if (std::isfinite(expected_.thickness))
-      add("predicted_force_over_hertz", (1.0 + expected_.thickness) * (1.0 - expected_.sides));
+    if (expected_.measured) add("predicted_force_over_hertz", 1.0 + expected_.size);
     add("force_over_hertz", peak.contact_force / (normal.z() * law->point.force(depth)));
   }
 
@@ -247,7 +247,7 @@ class Findings {
              rounded_text(scene_.specimen->measured.poisson_ratio, 2) + ", the tissue " +
              number_text(scene_.scenario.tissue.poisson_ratio) +
              ": the effect of sides and other tissues may be wrong by about " +
-             percent_text(ratio_error * (e.sides + e.curved_body + 0.05)) +
+             percent_text(ratio_error * (std::abs(e.size) + 0.05)) +
              " of the force; `coupled_springs` has the tissue's ratio");
   }
 

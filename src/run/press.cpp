@@ -49,17 +49,17 @@ std::vector<Face> faces(const geometry::TetMesh& mesh) {
 }
 
 // The specimen's skin, the surfaces of the regions inside it (counter-clockwise from outside the
-// region), and the finger at its first touch. The scene must have a specimen and a finger.
-record::ScenePicture make_picture(const scene::Scene& scene) {
+// region), and the finger at its first touch (m), where it touches the skin at `touched` (m).
+record::ScenePicture make_picture(const scene::Scene& scene, std::vector<Face> faces,
+                                  const Vec3& finger, const Vec3& touched) {
   record::ScenePicture picture;
-  picture.faces = faces(scene.specimen->mesh);
+  picture.faces = std::move(faces);
   picture.materials = {scene.scenario.tissue.material};
   for (const auto& region : scene.scenario.regions) picture.materials.push_back(region.material);
-  const scene::FirstTouch first = scene::first_touch(scene);
   for (const Vec3& centre : scene.finger.centres)
-    picture.finger.push_back({first.finger + centre, scene.finger.sphere_radius});
+    picture.finger.push_back({finger + centre, scene.finger.sphere_radius});
   picture.travel = scene::deepest_travel(scene.scenario, scene.law());
-  picture.touch = scene.specimen->surface->position(first.at);
+  picture.touch = touched;
   for (const scenario::Step& step : scene.scenario.steps)
     if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
       const double angle = slide->direction * std::numbers::pi / 180.0;
@@ -119,6 +119,8 @@ class Press {
     if (scene.solid) {
       solid_.emplace(scene);
       first_ = touch_.finger = scene.solid->first_touch;
+      if (pictured())
+        record_.picture = make_picture(scene, solid_->faces(), first_, scene.solid->touched);
       return;
     }
     if (!scene.specimen) {
@@ -127,11 +129,12 @@ class Press {
       return;
     }
     mesh_.emplace(scene);
-    first_ = scene::first_touch(scene).finger;
-    touch_.finger = first_;
+    const scene::FirstTouch first = scene::first_touch(scene);
+    first_ = touch_.finger = first.finger;
     if (scene.scenario.output.tissue) record_.mesh = scene.specimen->mesh;
-    if (scene.scenario.output.picture || scene.scenario.output.report)
-      record_.picture = make_picture(scene);
+    if (pictured())
+      record_.picture = make_picture(scene, faces(scene.specimen->mesh), first_,
+                                     scene.specimen->surface->position(first.at));
   }
 
   void run() {
@@ -152,7 +155,7 @@ class Press {
         if (kept && (!kept_modes_ || kept->dropped_share > kept_modes_->dropped_share))
           kept_modes_ = kept;
       }
-      if (scene_.scenario.output.pressure_maps && !solid_) add_map();
+      if (scene_.scenario.output.pressure_maps) add_map();
       if (wants_meshes_at(scenario::Output::Meshes::steps)) add_frame();
     }
     if (mesh_) {
@@ -170,14 +173,11 @@ class Press {
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
     if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
       record_.findings.push_back({"sinking_mm", unit::mm.from_si(deepest_sinking_)});
-    if (!mesh_ && (scene_.scenario.output.tissue || scene_.scenario.output.picture))
+    if (!mesh_ && (scene_.scenario.output.tissue || (scene_.scenario.output.picture && !solid_)))
       record_.remarks.push_back(
           "`" + std::string(scenario::rung(scene_.scenario.solver.model).word) +
-          "` has no mesh to show; set `solver.model = \"coupled_springs\"` for `output.tissue` and "
-          "`output.picture`");
-    if (solid_ && scene_.scenario.output.pressure_maps)
-      record_.remarks.push_back(
-          "`solid` writes no pressure maps yet; set `solver.model = \"coupled_springs\"` for them");
+          "` writes no displacements of a mesh; set `solver.model = \"coupled_springs\"` for "
+          "`output.tissue` and `output.picture`");
     if (on_crease_)
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "
@@ -199,6 +199,10 @@ class Press {
   }
 
  private:
+  [[nodiscard]] bool pictured() const {
+    return scene_.scenario.output.picture || scene_.scenario.output.report;
+  }
+
   Pace begin(const Motion& motion) {
     const Pace pace = std::isfinite(motion.force) ? make_open_pace(scene_, motion.duration)
                                                   : make_pace(scene_, motion.duration);
@@ -353,7 +357,7 @@ class Press {
   }
 
   void add_map() {
-    record::PressureMap map = draw_map(scene_, touch_);
+    record::PressureMap map = solid_ ? solid_->map(touch_) : draw_map(scene_, touch_);
     map.time = time_;
     map.scenario_case = scene_.name;
     map.step = step_;

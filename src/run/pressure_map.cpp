@@ -258,6 +258,30 @@ std::optional<contact::LayerSinking> sinking_of_layer(const std::vector<View>& v
   return contact::LayerSinking(layer, farthest / scene.layer->thickness);
 }
 
+constexpr int longest = 128;  // pixels of a map
+constexpr double margin = 1.25;
+
+record::PressureMap empty_map(const Vec3& finger) {
+  record::PressureMap map;
+  map.width = map.height = 1;
+  map.pitch = 1e-3;
+  map.pressure = {0.0F};
+  map.traction_x = map.traction_y = map.traction_z = map.gap = map.pressure;
+  map.origin = finger;
+  return map;
+}
+
+// Sets size, pitch and origin of a map over a rectangle, at the height `z` (m).
+void lay_out(const Vec3& low, const Vec3& high, double z, record::PressureMap& map) {
+  const Vec3 size = high - low;
+  map.pitch = std::max(size.x(), size.y()) / longest;
+  map.width = std::min(longest, static_cast<int>(std::ceil(size.x() / map.pitch - 1e-9)));
+  map.height = std::min(longest, static_cast<int>(std::ceil(size.y() / map.pitch - 1e-9)));
+  const Vec3 middle = 0.5 * (low + high);
+  map.origin = Vec3(middle.x() - 0.5 * (map.width - 1) * map.pitch,
+                    middle.y() - 0.5 * (map.height - 1) * map.pitch, z);
+}
+
 }  // namespace
 
 record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& touch) {
@@ -267,15 +291,11 @@ record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& 
   for (const mechanics::SphereContact& contact : touch.contacts)
     if (contact.patch.normal.z() > 0.1) views.emplace_back(contact);
   if (views.empty()) {
-    map.width = map.height = 1;
-    map.pitch = 1e-3;
-    map.pressure = {0.0F};
-    map.traction_x = map.traction_y = map.traction_z = map.gap = map.pressure;
-    map.origin = touch.finger;
+    const double force = map.contact_force;
+    map = empty_map(touch.finger);
+    map.contact_force = force;
     return map;
   }
-  constexpr int longest = 128;  // pixels
-  constexpr double margin = 1.25;
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = -low;
   for (const View& view : views) {
@@ -285,14 +305,7 @@ record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& 
     low = low.cwiseMin(patch.position - reach);
     high = high.cwiseMax(patch.position + reach);
   }
-  const Vec3 size = high - low;
-  map.pitch = std::max(size.x(), size.y()) / longest;
-  map.width = std::min(longest, static_cast<int>(std::ceil(size.x() / map.pitch - 1e-9)));
-  map.height = std::min(longest, static_cast<int>(std::ceil(size.y() / map.pitch - 1e-9)));
-  const Vec3 middle = 0.5 * (low + high);
-  map.origin =
-      Vec3(middle.x() - 0.5 * (map.width - 1) * map.pitch,
-           middle.y() - 0.5 * (map.height - 1) * map.pitch, touch.deepest()->patch.position.z());
+  lay_out(low, high, touch.deepest()->patch.position.z(), map);
   if (!views.front().contact->nodal.push.empty()) {
     draw_nodes(scene, touch, map);
     return map;
@@ -318,6 +331,61 @@ record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& 
       map.traction_z.push_back(static_cast<float>(traction.z()));
       map.gap.push_back(pressure > 0.0 ? 0.0F : static_cast<float>(gap(views, scene, layer, x, y)));
     }
+  }
+  return map;
+}
+
+record::PressureMap draw_map(const solid::FingerPress::Skin& skin, double reach, double force,
+                             const Vec3& finger) {
+  record::PressureMap map;
+  if (skin.triangles.empty() || !(reach > 0.0)) map = empty_map(finger);
+  map.contact_force = force;
+  if (skin.triangles.empty() || !(reach > 0.0)) return map;
+  Vec3 low = Vec3::Constant(outside);
+  Vec3 high = -low;
+  for (const solid::Ball& ball : skin.balls) {
+    low = low.cwiseMin(ball.centre - Vec3::Constant(margin * reach));
+    high = high.cwiseMax(ball.centre + Vec3::Constant(margin * reach));
+  }
+  lay_out(low, high, skin.balls.front().centre.z() - skin.balls.front().radius, map);
+  const auto pixels = as_index(map.width * map.height);
+  const int across = map.width * samples;
+  std::vector<char> taken(as_index(across * map.height * samples), 0);
+  std::vector<double> sums(pixels, 0.0);
+  std::vector<Vec3> tractions(pixels, Vec3::Zero());
+  map.gap.assign(pixels, std::numeric_limits<float>::infinity());
+  for (const std::array<Vec3, 3>& triangle : skin.triangles) {
+    const Vec3 twice = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+    if (twice.z() <= 0.0) continue;
+    raster(triangle, map, [&](int i, int j, const std::array<double, 3>& weights) {
+      char& mark = taken[as_index(j * across + i)];
+      if (mark != 0) return;
+      mark = 1;
+      const auto pixel = as_index(j / samples * map.width + i / samples);
+      const Vec3 place =
+          weights[0] * triangle[0] + weights[1] * triangle[1] + weights[2] * triangle[2];
+      for (const solid::Ball& ball : skin.balls) {
+        const Vec3 from = place - ball.centre;
+        const double overlap = ball.radius - from.norm();
+        const double wide = ball.radius * ball.radius - from.head<2>().squaredNorm();
+        if (from.z() >= 0.0 || wide <= 0.0) continue;
+        const double gap = std::max(0.0, -std::sqrt(wide) - from.z());
+        map.gap[pixel] = std::min(map.gap[pixel], static_cast<float>(gap));
+        if (overlap <= 0.0) continue;
+        sums[pixel] += overlap;
+        tractions[pixel] += overlap / -from.z() * from;
+      }
+    });
+  }
+  double integral = 0.0;
+  for (const double sum : sums) integral += sum * map.pitch * map.pitch;
+  const double scale = integral > 0.0 ? force / integral : 0.0;
+  for (std::size_t p = 0; p < pixels; ++p) {
+    map.pressure.push_back(static_cast<float>(scale * sums[p]));
+    map.traction_x.push_back(static_cast<float>(scale * tractions[p].x()));
+    map.traction_y.push_back(static_cast<float>(scale * tractions[p].y()));
+    map.traction_z.push_back(static_cast<float>(scale * tractions[p].z()));
+    if (sums[p] > 0.0) map.gap[p] = 0.0F;
   }
   return map;
 }

@@ -3,6 +3,7 @@
 
 #include "mechanics/contacts.h"
 #include "record/pressure_map.h"
+#include "solid/finger_press.h"
 
 namespace palpate::run {
 
@@ -10,5 +11,10 @@ namespace palpate::run {
 // integral of the pressure is Touch::normal_force().               docs/theory.md, below (5)
 [[nodiscard]] record::PressureMap draw_map(const scene::Scene& scene,
                                            const mechanics::Touch& touch);
+
+// The same of a solid. The pressure goes with the overlap of the balls and the displaced skin, as
+// the solid's own does, and integrates to `force` (N); `reach` (m) is the radius of the contact.
+[[nodiscard]] record::PressureMap draw_map(const solid::FingerPress::Skin& skin, double reach,
+                                           double force, const Vec3& finger);
 
 }  // namespace palpate::run

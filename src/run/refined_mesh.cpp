@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "mechanics/pressed_mesh.h"
 #include "meshing/mesh_check.h"
 #include "meshing/true_boundary.h"
+#include "run/choose.h"
+#include "run/size_effect.h"
 #include "scenario/integrators.h"
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
@@ -28,20 +29,6 @@ struct Estimate {
   std::vector<double> parts;
 };
 
-// The places of the finger beside the first touch: start, middle and end of every slide, m.
-std::vector<Vec3> places(const scenario::Resolved& press) {
-  std::vector<Vec3> found{Vec3::Zero()};
-  for (const scenario::Step& step : press.steps)
-    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-      const double angle = slide->direction * std::numbers::pi / 180.0;
-      const Vec3 way = slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0);
-      const Vec3 start = found.back();
-      found.emplace_back(start + 0.5 * way);
-      found.emplace_back(start + way);
-    }
-  return found;
-}
-
 Estimate estimate(const scene::Scene& scene) {
   mechanics::PressedMesh mesh(scene);
   mechanics::Touch touch;
@@ -49,7 +36,7 @@ Estimate estimate(const scene::Scene& scene) {
   const double deepest = scene::deepest_travel(scene.scenario, scene.law());
   Estimate sum;
   sum.parts.assign(scene.specimen->mesh.tetrahedra.size(), 0.0);
-  for (const Vec3& place : places(scene.scenario)) {
+  for (const Vec3& place : finger_way(scene.scenario)) {
     // On a coarse mesh the contact may have no solution at the full depth.
     const mechanics::SphereContact* contact = nullptr;
     for (double depth = deepest; contact == nullptr && depth > 0.1 * deepest; depth *= 0.5)
@@ -172,7 +159,7 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
                          scene::SpecimenShapes& shapes) {
-  return build_scene(one, family, shapes, scene::choose(one));
+  return build_scene(one, family, shapes, choose(one, shapes));
 }
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,

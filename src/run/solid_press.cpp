@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "run/pressure_map.h"
 
 namespace palpate::run {
 namespace {
@@ -133,6 +134,22 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("mirrored_copies", static_cast<double>(finest.body().copies));
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
+}
+
+record::PressureMap SolidPress::map(const mechanics::Touch& touch) {
+  Vec3 place = touch.finger - scene_->solid->first_touch;
+  place.z() = 0.0;
+  solid::FingerPress::Skin skin;
+  if (!touch.contacts.empty()) skin = presses_.back()->skin_at(touch.travel, place);
+  const double force = touch.contacts.empty() ? 0.0 : touch.normal_force();
+  return draw_map(skin, now_.contact_radius, force, touch.finger);
+}
+
+std::vector<record::ScenePicture::Face> SolidPress::faces() const {
+  std::vector<record::ScenePicture::Face> found;
+  for (const solid::FingerPress::Face& face : presses_.back()->faces())
+    found.push_back({face.corners, face.region, face.beyond});
+  return found;
 }
 
 }  // namespace palpate::run

@@ -8,6 +8,7 @@
 
 #include "mechanics/contacts.h"
 #include "record/record.h"
+#include "record/scene_picture.h"
 #include "scene/scene.h"
 #include "solid/finger_press.h"
 
@@ -34,6 +35,10 @@ class SolidPress {
   void complete(record::ContactRow& row) const;
 
   void add_findings(record::CaseRecord& record) const;
+
+  // On the finest mesh.
+  [[nodiscard]] record::PressureMap map(const mechanics::Touch& touch);
+  [[nodiscard]] std::vector<record::ScenePicture::Face> faces() const;
 
  private:
   [[nodiscard]] solid::FingerOrder order(double per_radius) const;

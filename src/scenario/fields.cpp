@@ -86,9 +86,6 @@ void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& u
                     contact.viscosity, contact_viscosities);
   visitor.choice_or(auto_depths, {"depth", "How the force grows in a deep press."}, contact.depth,
                     depths);
-  visitor.choice_or(auto_sizes,
-                    {"size", "How much of the body the force of a formula knows.", use.formula},
-                    contact.size, sizes);
   visitor.choice_or(auto_directions,
                     {"direction",
                      "The direction in which `resolved` measures gaps and applies forces.",

@@ -48,7 +48,6 @@ Resolved::Contact resolve_contact(const Scenario& asked, const Found& found) {
       found.viscosity_matters ? contact.viscosity.value_or(Viscosity::none) : Viscosity::none,
       contact.depth.value_or(found.depth_matters ? Contact::Depth::neo_hookean
                                                  : Contact::Depth::hertz),
-      contact.size.value_or(found.size_matters ? Contact::Size::body : Contact::Size::half_space),
       contact.direction.value_or(linear ? Contact::Direction::skin : Contact::Direction::sphere)};
 }
 
@@ -139,7 +138,6 @@ Scenario answered(const Case& one, const Resolved& resolved) {
   all.solver.integrator = resolved.solver.integrator;
   all.contact.viscosity = resolved.contact.viscosity;
   all.contact.depth = resolved.contact.depth;
-  if (!resolved.meshed()) all.contact.size = resolved.contact.size;
   return all;
 }
 

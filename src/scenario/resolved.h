@@ -25,7 +25,6 @@ struct Resolved : PlainScenario {
   struct Contact : PlainContact {
     Viscosity viscosity = Viscosity::none;
     Depth depth = Depth::hertz;
-    Size size = Size::half_space;
     Direction direction = Direction::skin;
   };
   struct Solver : PlainSolver {
@@ -47,7 +46,6 @@ struct Found {
   bool viscosity_matters = true;
   bool inertia_matters = true;
   bool depth_matters = false;
-  bool size_matters = false;  // to a formula
 
   friend bool operator==(const Found&, const Found&) = default;
 };
@@ -62,7 +60,7 @@ struct Found {
 // The scenario with the materials' values for all properties that it leaves open.
 [[nodiscard]] Scenario filled(const Case& one);
 
-// The same, with model, integrator, and viscosity, depth and size of the contact as resolved.
+// The same, with model, integrator, and viscosity and depth of the contact as resolved.
 [[nodiscard]] Scenario answered(const Case& one, const Resolved& resolved);
 
 }  // namespace palpate::scenario

@@ -15,18 +15,6 @@ enum class Model { hertz, layer, mass_spring, coupled_springs, solid };
 struct Rung {
   enum class Springs { none, independent, coupled };
 
-  // The shares of the effects on the force that a mesh misses, measured against converged
-  // elasticity (docs/accuracy.md). docs/theory.md (69)
-  struct MeshError {
-    double flat = 0.0;    // error of the force on a flat cuboid
-    double sides = 0.0;   // share of the effect of the sides
-    double curved = 0.0;  // additional error of the force on a curved body
-    double size = 0.0;    // share of the effect of the size of a curved body
-    double waves = 0.0;   // share of the effect of inertia
-    double mixed = 0.0;   // additional error of the force with lumps of other tissues
-    double uneven = 0.0;  // error of the strain in a uniform test that is not uniform
-  };
-
   struct Cost {
     double once = 0.0;     // s, setup
     double layered = 0.0;  // s, additional setup with several layers
@@ -49,11 +37,11 @@ struct Rung {
   bool uniform = false;    // creep and relaxation between platens
   bool own_ratio = false;  // the tissue's Poisson's ratio, away from the contact too
   bool eq_2 = false;       // its elastic force on a flat is exactly eq. (2)
-  // Finite strain on a mesh of its own, made for the press. It takes seconds, so that it is
-  // computed only where it is named.
-  bool solid = false;
+  bool solid = false;      // finite strain on a mesh of its own, made for the press
 
-  MeshError error = {};  // of a mesh; for closed forms see scene::choose()
+  // Measured against converged elasticity (docs/accuracy.md).               docs/theory.md (69)
+  double waves = 0.0;   // share of the effect of inertia that a mesh misses
+  double uneven = 0.0;  // error of the strain in a uniform test that is not uniform
   Cost cost = {};
 
   [[nodiscard]] constexpr bool meshed() const { return springs != Springs::none; }
@@ -85,8 +73,7 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .sides = true,
      .inertia = true,
      .uniform = true,
-     .error =
-         {.flat = 0.01, .sides = 0.05, .curved = 0.01, .size = 0.05, .waves = 0.15, .mixed = 0.04},
+     .waves = 0.15,
      .cost = {.set_ups = 2.5}},  // the springs' fit and test besides the finite elements
     {.of = Model::coupled_springs,
      .word = "coupled_springs",
@@ -98,13 +85,8 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .inertia = true,
      .uniform = true,
      .own_ratio = true,
-     .error = {.flat = 0.01,
-               .sides = 0.05,
-               .curved = 0.01,
-               .size = 0.05,
-               .waves = 0.06,
-               .mixed = 0.04,
-               .uneven = 0.02},
+     .waves = 0.06,
+     .uneven = 0.02,
      .cost = {.set_ups = 1.0}},
     {.of = Model::solid,
      .word = "solid",
@@ -115,7 +97,6 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .sides = true,
      .own_ratio = true,
      .solid = true,
-     .error = {.flat = 0.03},
      .cost = {.once = 3.0}},
 });
 static_assert(is_complete<Model>(ladder), "the ladder has a row for every model, in their order");

@@ -177,7 +177,6 @@ struct PlainContact {
   enum class CurvatureOn { rest, deformed };
   enum class Viscosity { none, tissue };
   enum class Depth { hertz, neo_hookean };
-  enum class Size { half_space, body };
   enum class Direction { skin, sphere };
   enum class Spread { pressure, nearest_node };
   enum class Slip { mindlin, coulomb };
@@ -194,7 +193,6 @@ struct PlainContact {
 struct Contact : PlainContact {
   std::optional<Viscosity> viscosity;
   std::optional<Depth> depth;
-  std::optional<Size> size;
   std::optional<Direction> direction;
 };
 

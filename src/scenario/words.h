@@ -68,10 +68,6 @@ inline constexpr Word auto_depths{"auto",
 inline constexpr auto depths = words_of<Contact::Depth>(
     {{"hertz", "h^(3/2), however deep"},
      {"neo_hookean", "the force times the factor of a deep press into neo-Hookean tissue"}});
-inline constexpr Word auto_sizes{"auto", "`body` where `model = \"auto\"` needs no mesh with it"};
-inline constexpr auto sizes = words_of<Contact::Size>(
-    {{"half_space", "what `hertz` and `layer` represent"},
-     {"body", "the force times the estimated factor of what they do not: width, base and sides"}});
 inline constexpr Word auto_directions{
     "auto", "`skin` with linear kinematics, `sphere` with nonlinear ones"};
 inline constexpr auto directions = words_of<Contact::Direction>(

@@ -291,26 +291,10 @@ void set_depth_ratio(Scene& scene, const scenario::Family& family) {
   if (!scene.depth_ratio)
     throw InputError(
         place_of(family.document, "contact.depth"),
-        "`neo_hookean` is known for tissue at least " + rounded_text(DepthRatio::thinnest) +
-            " finger radii thick, with curvatures from " + rounded_text(DepthRatio::least_curved) +
-            " to " + rounded_text(DepthRatio::most_curved) +
-            " over the finger's radius, beside no edge; write `depth = \"hertz\"`");
-}
-
-void set_size_ratio(Scene& scene, const scenario::Family& family) {
-  const scenario::Resolved& scenario = scene.scenario;
-  const bool formula = scenario::rung(scenario.solver.model).formula() && !scenario.uniform();
-  if (!formula || scenario.contact.size != scenario::Contact::Size::body) return;
-  const Choice& choice = scene.choice;
-  scene.size_ratio = size_ratio(scenario.solver.model, scenario, choice.touch, choice.expected);
-  if (!scene.size_ratio)
-    throw InputError(place_of(family.document, "contact.size"),
-                     "`body` is known for `hertz` on a curved body and for `layer` on a cuboid, "
-                     "under a finger that does not move sideways, where it changes the force by "
-                     "at most " +
-                         percent_text(SizeRatio::most) +
-                         "; write `size = \"half_space\"`, or set `solver.model = \"" +
-                         scenario::strongest.word + "\"`");
+        "`neo_hookean` is known for flat tissue of one kind, at least " +
+            rounded_text(DepthRatio::thinnest) +
+            " finger radii thick and two contact radii from every edge; write `depth = \"hertz\"`, "
+            "or set `solver.model = \"solid\"`");
 }
 
 void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
@@ -364,15 +348,6 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family) {
 
 }  // namespace
 
-Scene build(const scenario::Case& one, const scenario::Family& family) {
-  SpecimenShapes shapes;
-  return build(one, family, shapes);
-}
-
-Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes) {
-  return build(one, family, shapes, choose(one, shapes));
-}
-
 Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes,
             Choice choice) {
   using scenario::Model;
@@ -386,7 +361,6 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   refuse_beyond(scene, family);
   refuse_sliding(scene, family);
   if (!scenario.uniform()) set_depth_ratio(scene, family);
-  set_size_ratio(scene, family);
   switch (scenario.solver.model) {
     case Model::hertz: break;
     case Model::layer: set_layer(scene, shapes); break;

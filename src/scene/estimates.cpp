@@ -19,26 +19,6 @@ using scenario::Model;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// The smallest distances of the finger from the four sides of a cuboid on its path, m.
-std::array<double, 4> sides(const scenario::Resolved& scenario, const scenario::Cuboid& box) {
-  std::array<double, 4> least{infinite, infinite, infinite, infinite};
-  for (const auto& [x, y] : scenario::finger_places(scenario, box)) {
-    const std::array<double, 4> now{x, box.size[0] - x, y, box.size[1] - y};
-    for (std::size_t i = 0; i < 4; ++i) least[i] = std::min(least[i], now[i]);
-  }
-  return least;
-}
-
-// A free side at the distance b reduces the force by the fraction 0.4 a/b exp(-k b/H), with
-// k = 2.4 - 3.4 (nu - 0.33): fitted to coupled springs on blocks, b/H 0.25 to 3, nu 0.33 and 0.49.
-double side_effect(const scenario::Resolved& scenario, const scenario::Cuboid& box, double a) {
-  const double k = 2.4 - 3.4 * (scenario.tissue.poisson_ratio - 0.33);
-  double sum = 0.0;
-  for (const double b : sides(scenario, box))
-    sum += b <= a ? 1.0 : 0.4 * a / b * std::exp(-k * b / box.size[2]);
-  return std::min(sum, 1.0);
-}
-
 double fastest_rate(const scenario::Resolved& scenario) {
   double rate = 0.0;
   for (const scenario::Step& step : scenario.steps) {
@@ -48,46 +28,6 @@ double fastest_rate(const scenario::Resolved& scenario) {
       rate = std::max(rate, retract->rate);
   }
   return rate;
-}
-
-// The change by thickness and sides together, or by the thickness and the base of a curved body,
-// which yields like a spring behind Hertz's contact: F / F_Hertz = rho with
-// rho^(2/3) + 2/3 x rho = 1, x the base's tangent compliance over Hertz's. docs/theory.md (68)
-void change_by_size(const SurfaceTouch& touch, Estimates& found) {
-  found.narrow = std::min(0.99, found.sides);
-  found.by_size_error = doubt_of_sides * found.sides;
-  if (touch.footing && touch.known()) {
-    const Footing::Compliance base = touch.footing->under(touch.position, touch.curvature.normal);
-    const double a = found.tissue_share * found.contact_radius;
-    const double x = std::min(1e3, a * (base.sinking + base.rocking));
-    const double root = numerics::root(1.0, {0.0, 1.0}, [&](double r) {  // of rho, the third
-      return numerics::Tangent{r * r + 2.0 / 3.0 * x * r * r * r - 1.0, 2.0 * r + 2.0 * x * r * r};
-    });
-    found.narrow = 1.0 - root * root * root;
-    // Chosen so that they cover.                        tests/accuracy/standing_bodies.py
-    found.by_size_error =
-        0.004 +
-        a * (base.sinking + 0.7 * base.rocking / ((1.0 + found.thickness) * (1.0 - found.narrow)));
-  }
-  found.by_size = (1.0 + found.thickness) * (1.0 - found.narrow) - 1.0;
-}
-
-// The change of the half-space's force where size_is_fitted(), docs/theory.md (68). Fitted to
-// coupled springs on random bodies.                      tests/accuracy/curved_bodies.py
-void fit_size(const scenario::Resolved& scenario, const SurfaceTouch& touch, Estimates& found) {
-  if (!size_is_fitted(scenario, touch)) return;
-  const bool ellipsoid = std::holds_alternative<scenario::Ellipsoid>(scenario.tissue.shape);
-  const double nu = scenario.tissue.poisson_ratio;
-  const double q = (1.0 - 2.0 * nu) / (1.0 - nu);
-  const Vec3& size = touch.size;
-  const double along_x = size.z() / size.x(), along_y = size.z() / size.y();
-  const double share = found.tissue_share * found.contact_radius / size.z();
-  const double change = ellipsoid ? 2.09 - 0.17 * q - 1.40 * (along_x + along_y)
-                                  : 0.39 - 0.05 * q - 0.48 * along_y * along_y;
-  found.by_size = std::max(-0.99, share * change);
-  const double open = ellipsoid ? 0.15 * (along_x + along_y) : 0.1 * (1.0 + along_y * along_y);
-  found.by_size_error = 0.004 + share * open;
-  found.narrow = std::max(0.0, 1.0 - (1.0 + found.by_size) / (1.0 + found.thickness));
 }
 
 // In a ramp of duration T, Kelvin-Voigt increases the force by tau F'/F = 3/2 tau/T, and a branch
@@ -123,75 +63,62 @@ contact::LayerResolution resolution(const contact::Layer& layer, double greatest
           .waves = 24 + static_cast<int>(std::ceil(10.0 * greatest_ratio))};
 }
 
-// The layers under the finger, from the top.
-std::vector<contact::Stratum> strata(const scenario::Resolved::Tissue& tissue,
-                                     const contact::Layer& layer, double thickness) {
-  const double shear = tissue.young_modulus / (1.0 + layer.poisson_ratio);
-  std::vector<contact::Stratum> all{
-      {layer.top() * thickness, tissue.young_modulus, tissue.poisson_ratio}};
+// The thickness of the softest of the layers under the finger, m.
+double softest_thickness(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+  const contact::Layer layer = layers_of(scenario, 1.0);
+  double softest = 1.0 / (1.0 + layer.poisson_ratio);  // shear moduli over E of the tissue
+  double thickness = layer.top() * touch.thickness;
+  const double own = softest;
   for (const contact::Sublayer& below : layer.below)
-    all.push_back({below.thickness * thickness,
-                   below.stiffness * shear * (1.0 + below.poisson_ratio), below.poisson_ratio});
-  return all;
+    if (below.stiffness * own < softest) {
+      softest = below.stiffness * own;
+      thickness = below.thickness * touch.thickness;
+    }
+  return thickness;
 }
 
-// Sets the effect of the depth, from the other estimates.
+// Sets the effect of the depth: by the table on flat tissue of one kind whose edges are not near,
+// else bounded.
 void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                 const contact::SphereLaw& law, Estimates& found) {
   const scenario::Resolved::Tissue& tissue = scenario.tissue;
-  const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
-  contact::DeepPress press{.radius = scenario.finger.radius,
-                           .effective_radius = law.radius,
-                           .thickness = touch.thickness,
-                           .poisson_ratio = tissue.poisson_ratio,
-                           .tissue_share = found.tissue_share};
-  const contact::Layer layer = layers_of(scenario, found.tissue_share);
-  press.base = layer.base;
-  if (box != nullptr) {
-    const std::array<double, 4> all = sides(scenario, *box);
-    press.half_width = *std::min_element(all.begin(), all.end());
-    // A side at the distance w has w / cos t in the direction t, up to 45 degrees.
-    constexpr double over_directions = 0.750;  // mean of cos^3 t
-    double cubes = 0.0;
-    for (const double side : all) cubes += 0.25 * over_directions / (side * side * side);
-    press.side_distance = 1.0 / std::cbrt(cubes);
-  } else if (touch.size.allFinite()) {
-    press.half_width = press.side_distance = 0.5 * touch.size.head<2>().minCoeff();
+  const bool flat = touch.known() && !touch.curved() && !touch.tilted() &&
+                    (std::holds_alternative<scenario::Cuboid>(tissue.shape) ||
+                     std::holds_alternative<scenario::HalfSpace>(tissue.shape));
+  if (flat && !several_tissues(scenario) && found.edge == 0.0) {
+    const contact::Layer layer = layers_of(scenario, found.tissue_share);
+    found.depth_ratio = contact::depth_ratio({.radius = scenario.finger.radius,
+                                              .thickness = touch.thickness,
+                                              .poisson_ratio = tissue.poisson_ratio,
+                                              .base = layer.base,
+                                              .tissue_share = found.tissue_share,
+                                              .half_width = touch.to_edge});
+    if (found.depth_ratio) {
+      found.deep = found.depth_ratio->value(found.travel) - 1.0;
+      found.deep_error = found.depth_ratio->error(found.travel);
+      return;
+    }
   }
-  if (!layer.below.empty()) {
-    press.tissues = contact::Tissues::layers;
-    const std::vector<contact::Stratum> all = strata(tissue, layer, touch.thickness);
-    press.thickness = contact::effective_thickness(all);
-    press.skin = all.front().thickness;
-    press.bending_length = contact::bending_length(all);
-    press.force_over_hertz = 1.0 + found.thickness;
-  } else if (several_tissues(scenario)) {
-    press.tissues = contact::Tissues::inclusion;
-  }
-  found.depth_ratio = contact::depth_ratio(press);
-  std::optional<contact::DepthRatio> near = found.depth_ratio;
-  if (!near) {
-    const double least = 1.0 / (1.0 + contact::DepthRatio::most_curved);
-    const double most = 1.0 / (1.0 + contact::DepthRatio::least_curved);
-    press.effective_radius = press.radius * std::clamp(law.radius / press.radius, least, most);
-    press.thickness = std::max(press.thickness, contact::DepthRatio::thinnest * press.radius);
-    press.half_width = std::max(press.half_width, found.contact_radius);
-    near = contact::depth_ratio(press);
-  }
-  if (!near) return;
-  found.deep = near->value(found.travel) - 1.0;
-  found.deep_error = near->error(found.travel);
+  double ratio = tissue.poisson_ratio;
+  for (const auto& region : scenario.regions) ratio = std::min(ratio, region.poisson_ratio);
+  found.deep_error = contact::depth_bound(found.tissue_share * found.travel, law.radius,
+                                          softest_thickness(scenario, touch), ratio);
+}
+
+// The share of Hertz's pressure beyond an edge at x contact radii from the centre is
+// (1 - x)^2 (2 + x) / 4; the force, which has none there, is lower by about its square. Up to two
+// radii a free end changes the force of a body by up to 31 % more than a coarse mesh sees: counted
+// on bars and blocks.                                                    docs/theory.md (69a)
+double edge_bound(double x) {
+  constexpr double counted = 0.35;
+  if (x >= 2.0) return 0.0;
+  const double near = counted * (2.0 - std::max(1.0, x));
+  if (x >= 1.0) return near;
+  const double left = 1.0 - 0.25 * (1.0 - x) * (1.0 - x) * (2.0 + x);
+  return near + 1.0 / (left * left) - 1.0;
 }
 
 }  // namespace
-
-bool size_is_fitted(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
-  constexpr double level = 3.0;  // degrees
-  return (std::holds_alternative<scenario::Ellipsoid>(scenario.tissue.shape) ||
-          std::holds_alternative<scenario::Cylinder>(scenario.tissue.shape)) &&
-         scenario.tissue.base == tissue::Base::bonded && !scenario.tissue.base_height &&
-         !several_tissues(scenario) && touch.known() && touch.inclination() <= level;
-}
 
 Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
   Estimates found;
@@ -214,9 +141,7 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
   found.rate = fastest_rate(scenario);
   found.contact_radius = contact::hertz::contact_radius(found.travel, law.radius);
 
-  const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
-  const bool sized = touch.size.allFinite();
-  if (sized) {
+  if (std::holds_alternative<scenario::Cuboid>(tissue.shape)) {
     const contact::Layer layer = layers_of(scenario, found.tissue_share);
     constexpr double last_chi = 3.0;
     found.chi = found.contact_radius / touch.thickness;
@@ -227,55 +152,18 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
           1.0;
     else
       found.thickness = infinite;
+    found.size = found.thickness;
   }
-  if (box != nullptr) {
-    // The effect of the sides comes from the depth, that is from the softest layer.
-    double softest = tissue.young_modulus;
-    for (const auto& region : scenario.regions) softest = std::min(softest, region.young_modulus);
-    found.sides = found.tissue_share * tissue.young_modulus / softest *
-                  side_effect(scenario, *box, found.contact_radius);
-  } else if (sized) {
-    // A curved body of width w is compressed as a whole, with an effect of the order a / (w/2).
-    // An inclined force also shears it on its base: on an ellipsoid the effect grew as 1 / cos^2.
-    const double cosine = touch.known() ? std::max(0.1, touch.curvature.normal.z()) : 1.0;
-    found.curved_body =
-        found.tissue_share * found.contact_radius / (0.5 * touch.size.minCoeff() * cosine * cosine);
-  }
-  if (const double x = touch.to_edge / found.contact_radius; x == 0.0)
-    found.overhang = 0.75;  // as at a corner; which of them is touched is not known
-  else if (x < 1.0)
-    found.overhang = 0.25 * (1.0 - x) * (1.0 - x) * (2.0 + x);
-  change_by_size(touch, found);
-  fit_size(scenario, touch, found);
+  if (found.contact_radius > 0.0) found.edge = edge_bound(touch.to_edge / found.contact_radius);
+  // A ball that is held at its equator yields 1/4 a/R of the depth more than a half-space of its
+  // rubber, and the force goes with the power 3/2 of the depth.
+  found.ball =
+      1.5 * 0.25 * (1.0 - found.tissue_share) * found.contact_radius / scenario.finger.radius;
   press_deep(scenario, touch, law, found);
   found.viscous = found.tissue_share *
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
   found.inertia = found.tissue_share * inertia_effect(tissue, law, found.travel, found.rate);
   return found;
-}
-
-double SizeRatio::value(double depth) const {
-  return 1.0 + change * std::sqrt(std::clamp(depth / deepest, 0.0, 1.0));
-}
-
-std::optional<SizeRatio> size_ratio(scenario::Model model, const scenario::Resolved& scenario,
-                                    const SurfaceTouch& touch, const Estimates& estimates) {
-  const bool box = std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
-  const bool slides = std::any_of(
-      scenario.steps.begin(), scenario.steps.end(),
-      [](const scenario::Step& step) { return std::holds_alternative<scenario::Slide>(step); });
-  const bool applies = box ? model == Model::layer : model == Model::hertz;
-  if (!applies || slides || !touch.size.allFinite() || !(estimates.travel > 0.0)) return {};
-  const double change = box ? -estimates.sides : estimates.by_size;
-  if (!(std::abs(change) <= SizeRatio::most)) return {};
-  // Chosen so that it covers.                                 tests/accuracy/size_ratio.py
-  const double error =
-      box ? doubt_of_sides * estimates.sides : estimates.by_size_error + 0.1 * std::abs(change);
-  return SizeRatio{change, touch.pressed(scenario.finger.radius, estimates.travel).depth, error};
-}
-
-double half_space_error(const Estimates& estimates) {
-  return std::abs(1.0 / (1.0 + estimates.by_size) - 1.0) + estimates.by_size_error;
 }
 
 double uniform_ringing(const scenario::Resolved& scenario) {

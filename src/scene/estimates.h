@@ -12,60 +12,29 @@ namespace palpate::scene {
 // All effects are relative to the force at the programme's deepest travel and fastest rate. See
 // docs/theory.md (68) for their equations and docs/accuracy.md for measurements.
 struct Estimates {
-  double travel = 0.0;           // m, the deepest
-  double rate = 0.0;             // m/s, the fastest
-  double contact_radius = 0.0;   // m, that of Hertz's contact at this travel
-  double tissue_share = 1.0;     // lambda_2 / (lambda_1 + lambda_2)
-  double chi = 0.0;              // sqrt(R h) / H, H down to the base
-  double thickness = 0.0;        // increase by the finite thickness
-  double sides = 0.0;            // decrease by free sides near the contact
-  double curved_body = 0.0;      // bound for the effect of the finite size of a curved body
-  double narrow = 0.0;           // decrease by the sides, or by the width of a curved body
-  double overhang = 0.0;         // share of Hertz's pressure beyond an edge of a curved body
-  double by_size = 0.0;          // change by thickness, sides and width together, of either sign
-  double by_size_error = 0.0;    // of 1 + `by_size`, relative
-  double deep = 0.0;             // change in neo-Hookean tissue, of either sign; (62)
-  double deep_error = 0.0;       // of 1 + `deep`, relative
+  double travel = 0.0;          // m, the deepest
+  double rate = 0.0;            // m/s, the fastest
+  double contact_radius = 0.0;  // m, that of Hertz's contact at this travel
+  double tissue_share = 1.0;    // lambda_2 / (lambda_1 + lambda_2)
+  double chi = 0.0;             // sqrt(R h) / H, H down to the base
+  double thickness = 0.0;       // change by the thickness of flat layers, exact for wide ones
+  // Of a coarse mesh of the body; run::choose() measures them.
+  double sides = 0.0;            // change of a flat layer's force by its sides
+  double size = 0.0;             // change of a half-space's force by the whole body
+  double size_error = 0.0;       // the mesh's own, a fraction of the body's force
+  bool measured = false;         // whether there was a mesh, and a solution on it
+  double edge = 0.0;             // bound where an edge is nearer than two contact radii; (69a)
+  double ball = 0.0;             // what a ball in place of a half-space yields more; (69b)
+  double deep = 0.0;             // change in neo-Hookean tissue by `depth_ratio`; (62)
+  double deep_error = 0.0;       // of that, or a bound where there is none
   double viscous = 0.0;          // increase by the tissue's viscosity
   double inertia = 0.0;          // increase by the waves that the contact radiates
   double curvature_ratio = 1.0;  // (1/R + kappa_1) / (1/R + kappa_2)
-  // Empty where it is not known: `deep` is then that of the nearest place where it is.
-  std::optional<contact::DepthRatio> depth_ratio;
+  std::optional<contact::DepthRatio> depth_ratio;  // of wide flat tissue of one kind
 };
 
-// The estimates for a scenario with a finger, from what is known of the surface. Thickness and
-// width of a body from a file are those of its bounding box.
+// The estimates for a scenario with a finger, from what is known of the surface.
 [[nodiscard]] Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch);
-
-// Whether the change by the size of the body is that of a fit, (68): on the top of ellipsoids and
-// of lying cylinders of one tissue that are held by their lowest tenth.
-[[nodiscard]] bool size_is_fitted(const scenario::Resolved& scenario, const SurfaceTouch& touch);
-
-// The factor of a formula's force with `contact.size = "body"`, and its error. docs/theory.md (68a)
-//   1 + change sqrt(h / deepest), because the effects of size grow with the radius of the contact
-struct SizeRatio {
-  static constexpr double most = 0.5;  // of |change|
-  double change = 0.0;                 // of the force at the deepest indentation, relative
-  double deepest = 0.0;                // m
-  double error = 0.0;                  // of the factor, relative
-
-  // At the indentation h (m); beyond `deepest` that of `deepest`.
-  [[nodiscard]] double value(double depth) const;
-};
-
-// What the width and the base of a curved body change of the force of `hertz`, or the sides of a
-// cuboid of that of `layer`. Empty for other models, where the finger moves sideways, without an
-// estimate, and beyond `most`.
-[[nodiscard]] std::optional<SizeRatio> size_ratio(scenario::Model model,
-                                                  const scenario::Resolved& scenario,
-                                                  const SurfaceTouch& touch,
-                                                  const Estimates& estimates);
-
-inline constexpr double doubt_of_sides = 0.4;  // relative, of `sides`, which is a fit
-
-// The error of a half-space's force by the body's size, as a fraction of the body's force. Effects
-// that cancel in `by_size` are still uncertain.
-[[nodiscard]] double half_space_error(const Estimates& estimates);
 
 // By how much of the final strain a specimen rings about its law of time in steps with inertia: by
 // what it strains at once under a load that jumps. Relaxation starts in its static shape and does

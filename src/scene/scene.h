@@ -34,6 +34,7 @@ enum class Asked {
   rigid_tissue,
   half_space,
   layer,
+  edge,
   deep,
   curved,
   time_dependent,
@@ -86,11 +87,7 @@ struct Choice {
   // costs; otherwise empty.
   [[nodiscard]] std::string shortfall(std::optional<double> mesh_error = {}) const;
 };
-[[nodiscard]] Choice choose(const scenario::Case& one);
-
-// The same; reuses the surface files that `shapes` contains, and adds those that it reads.
 class SpecimenShapes;
-[[nodiscard]] Choice choose(const scenario::Case& one, SpecimenShapes& shapes);
 
 // The given model as the choice, with no questions and no forecasts.
 [[nodiscard]] Choice given_choice(const scenario::Case& one, scenario::Model model,
@@ -155,7 +152,6 @@ struct Scene {
   Finger finger;
   contact::Relaxation relaxation;                  // of the contact's modulus; empty if elastic
   std::optional<contact::DepthRatio> depth_ratio;  // with `contact.depth = "neo_hookean"`
-  std::optional<SizeRatio> size_ratio;             // with `contact.size = "body"`
   std::optional<contact::LayerContact> layer;    // for `layer`, and for `consistent` on flat layers
   std::unique_ptr<Specimen> specimen;            // null for `hertz`, `layer` and `solid`
   std::unique_ptr<SolidBody> solid;              // null for the others
@@ -169,14 +165,9 @@ struct Scene {
   [[nodiscard]] const contact::SphereLaw& law() const { return finger.whole; }
 };
 
-// Builds a case. Relative mesh files are looked for in the family's folder. Throws MeshError for an
-// unsuitable mesh, InputError for a time step above its limit and for a model that cannot be used.
-[[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family);
-
-// The same scene, to the bit; reuses what `shapes` contains, and adds what it builds.
-[[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family,
-                          SpecimenShapes& shapes);
-// With a choice that was made before; no question is evaluated again.
+// Builds a case with a choice that was made before; `shapes` keeps what is built. Relative mesh
+// files are looked for in the family's folder. Throws MeshError for an unsuitable mesh, InputError
+// for a time step above its limit and for a model that cannot be used.
 [[nodiscard]] Scene build(const scenario::Case& one, const scenario::Family& family,
                           SpecimenShapes& shapes, Choice choice);
 

@@ -143,6 +143,18 @@ const tissue::SpringFit& SpecimenShapes::fit(const Scenario& scenario, const std
   return *known.fit;
 }
 
+const SpecimenShapes::Numbers& SpecimenShapes::kept_numbers(const std::string& key,
+                                                            const std::function<Numbers()>& make) {
+  auto& [making, numbers] = [&]() -> auto& {
+    const std::lock_guard lock(looking_up_);
+    return numbers_[key];
+  }
+  ();
+  const std::lock_guard lock(making);
+  if (!numbers) numbers = make();
+  return *numbers;
+}
+
 double SpecimenShapes::seconds(const Scenario& scenario) {
   Entry& known = entry(scenario);
   const std::lock_guard lock(known.building);

@@ -1,6 +1,7 @@
 // The part of a specimen that does not depend on its materials, built once for all its cases.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <map>
@@ -8,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/layer.h"
@@ -67,6 +69,10 @@ class SpecimenShapes {
   [[nodiscard]] const FileSurface& surface(const scenario::SurfaceFile& file,
                                            const std::string& folder);
 
+  // Numbers that follow from a key alone, made by `make` if they are not there yet.
+  using Numbers = std::array<double, 3>;
+  const Numbers& kept_numbers(const std::string& key, const std::function<Numbers()>& make);
+
   // How long the shape of this scenario with its fit took to make, and all shapes so far, s.
   [[nodiscard]] double seconds(const scenario::Resolved& scenario);
   [[nodiscard]] double seconds() const { return seconds_; }
@@ -92,6 +98,8 @@ class SpecimenShapes {
   std::map<std::string, Entry> entries_;
   std::atomic<double> seconds_ = 0.0;
   std::map<std::string, FileSurface> surfaces_;  // by path and unit
+
+  std::map<std::string, std::pair<std::mutex, std::optional<Numbers>>> numbers_;
 
   std::mutex looking_up_layer_;
   std::map<std::vector<double>, contact::LayerLaw> laws_;      // of stacks, by all their numbers

@@ -12,7 +12,7 @@
 #include "contact/elliptic.h"
 #include "contact/hertz.h"
 #include "geometry/shape_touch.h"
-#include "scene/estimates.h"
+#include "scenario/programme.h"
 #include "scene/first_touch.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
@@ -65,11 +65,10 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
     if (std::holds_alternative<geometry::Cylinder>(shape) ||
         std::holds_alternative<geometry::LayeredLimb>(shape))
       touch.to_edge = std::min(touch.position.y(), touch.size.y() - touch.position.y());
-    if (!std::holds_alternative<geometry::Cuboid>(shape) && !size_is_fitted(scenario, touch)) {
-      const double spacing = 0.05 * touch.size.minCoeff();
-      touch.footing = footing(geometry::sampled(shape, {spacing, spacing}).parts.front().surface,
-                              scenario.tissue.base_height);
-    }
+    if (const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape))
+      for (const auto& [along, across] : scenario::finger_places(scenario, *box))
+        touch.to_edge =
+            std::min({touch.to_edge, along, box->size[0] - along, across, box->size[1] - across});
   }
   return touch;
 }
@@ -152,6 +151,34 @@ double to_creases(const geometry::SmoothSurface& surface, const Vec3& point, con
   return nearest;
 }
 
+// How far the body reaches straight down from a point of its surface, m.
+double thickness_under(const geometry::Surface& surface, const Vec3& point) {
+  constexpr double own = 1e-3;  // of the height: less is the point's own triangle
+  double low = point.z(), high = point.z();
+  for (const Vec3& vertex : surface.vertices) {
+    low = std::min(low, vertex.z());
+    high = std::max(high, vertex.z());
+  }
+  double end = low;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vec3 twice = geometry::twice_area(surface, static_cast<int>(t));
+    if (twice.z() >= 0.0) continue;  // an underside
+    const auto corner = [&](std::size_t k) -> const Vec3& {
+      return surface.vertices[as_index(surface.triangles[t][k])];
+    };
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 along = corner((k + 1) % 3) - corner(k), to = point - corner(k);
+      inside = inside && along.x() * to.y() - along.y() * to.x() <= 0.0;
+    }
+    if (!inside) continue;
+    const double z =
+        corner(0).z() - (twice.head<2>().dot((point - corner(0)).head<2>())) / twice.z();
+    if (z < point.z() - own * (high - low)) end = std::max(end, z);
+  }
+  return point.z() - end;
+}
+
 SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
   SurfaceTouch touch;
   const auto& vertices = surface.surface().vertices;
@@ -163,7 +190,6 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   }
   touch.size = high - low;
   touch.thickness = touch.size.z();
-  touch.footing = footing(surface.surface(), scenario.tissue.base_height);
   const Vec3 middle = 0.5 * (low + high);
   touch.lowest = {scenario.finger.x.value_or(middle.x()), scenario.finger.y.value_or(middle.y()),
                   high.z()};
@@ -192,7 +218,7 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   touch.curvature = geometry::turned_to(found.curvature, surface.normal(first.at));
   touch.one_sided = found.status == geometry::StarStatus::one_sided;
   const Vec3 position = surface.position(first.at);
-  touch.thickness = position.z() - low.z();
+  touch.thickness = thickness_under(surface.surface(), position);
   put(touch, position, radius);
   return touch;
 }
@@ -255,8 +281,11 @@ SurfaceTouch surface_touch(const Scenario& scenario, const std::string& folder,
     touch.nowhere = true;
     return touch;
   }
-  SurfaceTouch touch;
-  touch.cannot = "its shape comes from a file of tetrahedra";
+  // The mesh is as it is in the file.
+  Scenario plain = scenario;
+  scenario::refinement(plain.tissue.mesh).refine = false;
+  SurfaceTouch touch = of_file(shapes.shape(plain, folder).surface, scenario);
+  if (touch.known()) touch.cannot = "its shape comes from a file of tetrahedra";
   return touch;
 }
 

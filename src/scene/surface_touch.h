@@ -7,7 +7,6 @@
 #include "geometry/curvature.h"
 #include "geometry/smooth_surface.h"
 #include "scenario/resolved.h"
-#include "scene/footing.h"
 
 namespace palpate::scene {
 
@@ -17,13 +16,13 @@ class SpecimenShapes;
 // nearest to the sphere, as on a mesh.
 struct SurfaceTouch {
   Vec3 size = Vec3::Constant(std::numeric_limits<double>::infinity());  // m, of the bounding box
-  double thickness = std::numeric_limits<double>::infinity();  // m, from the touch to the underside
-  Vec3 lowest = Vec3::Zero();           // m, the lowest point of one sphere at first touch
-  Vec3 position = Vec3::Zero();         // m, of the surface
-  geometry::Curvature curvature;        // there, with the normal
-  std::optional<Footing> footing = {};  // of curved bodies, unless size_is_fitted()
-  // m, from the touch to the nearest edge (convex crease) of a file's surface, 0 on one, or to the
-  // end of a lying cylinder or limb; the sides of cuboids have estimates of their own.
+  // m, from the touch straight down to where the body ends, or the wall of a hollow one.
+  double thickness = std::numeric_limits<double>::infinity();
+  Vec3 lowest = Vec3::Zero();     // m, the lowest point of one sphere at first touch
+  Vec3 position = Vec3::Zero();   // m, of the surface
+  geometry::Curvature curvature;  // there, with the normal
+  // m, from the touch to the nearest edge (convex crease) of a file's surface, 0 on one, to the end
+  // of a lying cylinder or limb, or from the finger's way to the nearest side of a cuboid.
   double to_edge = std::numeric_limits<double>::infinity();
   bool one_sided = false;   // the curvature has StarStatus::one_sided
   std::string cannot = {};  // why there is no curvature; empty if there is one

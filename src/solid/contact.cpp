@@ -161,15 +161,4 @@ double Contact::energy(const Vector& displacement, std::span<const Ball> balls) 
   return sum;
 }
 
-std::vector<Contact::Pressed> Contact::pressed(const Vector& displacement,
-                                               std::span<const Ball> balls) const {
-  std::vector<Pressed> found;
-  for_each(
-      displacement, balls,
-      [&](const Own& face, std::size_t q, const Vec3& place, std::size_t, const Overlap& here) {
-        found.push_back({place, stiffness_ * here.depth, face.areas[q]});
-      });
-  return found;
-}
-
 }  // namespace palpate::solid

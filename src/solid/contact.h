@@ -42,15 +42,6 @@ class Contact {
   // J, whose gradient add() adds.
   [[nodiscard]] double energy(const Vector& displacement, std::span<const Ball> balls) const;
 
-  // The pressure (Pa) at every point of every face, with its displaced place (m) and area (m^2).
-  struct Pressed {
-    Vec3 place;
-    double pressure;
-    double area;
-  };
-  [[nodiscard]] std::vector<Pressed> pressed(const Vector& displacement,
-                                             std::span<const Ball> balls) const;
-
  private:
   static constexpr std::size_t face_points = 7;
   struct Own {

@@ -84,6 +84,7 @@ FingerPress::FingerPress(FingerOrder order) : order_(std::move(order)) {
         body.mirrored[as_index(axis)] && mirrored(order_.centres, axis, near) &&
         std::all_of(corners.begin(), corners.end(),
                     [&](const Vec3& at) { return std::abs(at[axis]) < near; });
+  mirror_ = body.touched.front();
   press_ = std::make_unique<Press>(make_body(body));
   std::vector<Ball> balls;
   for (const Vec3& centre : order_.centres)
@@ -110,6 +111,87 @@ void FingerPress::find_ball() {
     }
     ball_.push_back({travel - found->lost, found->normal(), {}});
   }
+}
+
+template <class Add>
+void FingerPress::with_copies(const std::array<Vec3, 3>& triangle, const Add& add) const {
+  const std::array<bool, 2>& mirrored = press_->body().mirrored;
+  for (int copy = 0; copy < 4; ++copy) {
+    const bool across_x = (copy & 1) != 0, across_y = (copy & 2) != 0;
+    if ((across_x && !mirrored[0]) || (across_y && !mirrored[1])) continue;
+    std::array<Vec3, 3> image = triangle;
+    for (Vec3& corner : image) {
+      if (across_x) corner.x() = 2.0 * mirror_.x() - corner.x();
+      if (across_y) corner.y() = 2.0 * mirror_.y() - corner.y();
+    }
+    if (across_x != across_y) std::swap(image[1], image[2]);
+    add(image);
+  }
+}
+
+FingerPress::Skin FingerPress::skin_at(double travel, const Vec3& place) {
+  const Vec3 finger = order_.first_touch + place - order_.share * travel * Vec3::UnitZ();
+  Skin skin;
+  const auto moved = press_->look(finger);
+  if (!moved) return skin;
+  skin.balls = press_->balls();
+  for (Ball& ball : skin.balls) ball.centre += finger;
+  const Body& body = press_->body();
+  const auto at = [&](int node) -> Vec3 {
+    return body.mesh.nodes[as_index(node)] + moved->segment<3>(3 * node);
+  };
+  constexpr std::array<std::array<std::size_t, 3>, 4> parts{
+      {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+  for (const OuterFace& face : body.met)
+    for (const auto& part : parts)
+      with_copies({at(face.nodes[part[0]]), at(face.nodes[part[1]]), at(face.nodes[part[2]])},
+                  [&](const auto& image) { skin.triangles.push_back(image); });
+  return skin;
+}
+
+std::vector<FingerPress::Face> FingerPress::faces() const {
+  const Body& body = press_->body();
+  geometry::TetMesh corners;
+  corners.nodes = body.mesh.nodes;
+  corners.regions = body.mesh.regions;
+  for (const Element& element : body.mesh.elements)
+    corners.tetrahedra.push_back({element[0], element[1], element[2], element[3]});
+  std::vector<Face> found;
+  const double close = 1e-6 * order_.radius;
+  const auto place = [&](const geometry::FaceUse& use) {
+    std::array<Vec3, 3> triangle;
+    for (std::size_t i = 0; i < 3; ++i) triangle[i] = corners.nodes[as_index(use.nodes[i])];
+    return triangle;
+  };
+  const auto in_a_mirror = [&](const std::array<Vec3, 3>& triangle) {
+    for (const int axis : {0, 1})
+      if (body.mirrored[as_index(axis)] &&
+          std::all_of(triangle.begin(), triangle.end(), [&](const Vec3& corner) {
+            return std::abs(corner[axis] - mirror_[axis]) < close;
+          }))
+        return true;
+    return false;
+  };
+  const std::vector<geometry::FaceUse> uses = geometry::face_uses(corners);
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    geometry::FaceUse use = uses[i];
+    int beyond = -1;
+    if (i + 1 < uses.size() && uses[i + 1].key == use.key) {
+      // Between two regions, the face belongs to the later one and is seen from the earlier one.
+      beyond = corners.region(uses[++i].tetrahedron);
+      if (beyond == corners.region(use.tetrahedron)) continue;
+      if (beyond > corners.region(use.tetrahedron)) {
+        beyond = corners.region(use.tetrahedron);
+        use = uses[i];
+      }
+    }
+    const auto triangle = place(use);
+    if (beyond < 0 && in_a_mirror(triangle)) continue;
+    with_copies(triangle, [&](const auto& image) {
+      found.push_back({image, corners.region(use.tetrahedron), beyond});
+    });
+  }
+  return found;
 }
 
 Moment FingerPress::moment_of(const Answer& answer, double force) {

@@ -52,6 +52,24 @@ class FingerPress {
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
+  // The skin that may be met at a place beside the first touch, displaced, with all copies that the
+  // mirrors make, m; faces are quadratic and come in four parts. With the balls there. Empty where
+  // no equilibrium is found.
+  struct Skin {
+    std::vector<std::array<Vec3, 3>> triangles;
+    std::vector<Ball> balls;
+  };
+  [[nodiscard]] Skin skin_at(double travel, const Vec3& place);
+
+  // Corners (m) and region of the faces of the body at rest and between its regions, with all
+  // copies; the region beyond is -1 outside.
+  struct Face {
+    std::array<Vec3, 3> corners;
+    int region = 0;
+    int beyond = -1;
+  };
+  [[nodiscard]] std::vector<Face> faces() const;
+
   [[nodiscard]] const Press& press() const { return *press_; }
 
  private:
@@ -70,9 +88,13 @@ class FingerPress {
   [[nodiscard]] std::optional<Answer> go(const Vec3& place, double travel);
   [[nodiscard]] static Moment moment_of(const Answer& answer, double force);
   void find_ball();
+  // Adds a triangle and its images in the mirrors, counter-clockwise like itself.
+  template <class Add>
+  void with_copies(const std::array<Vec3, 3>& triangle, const Add& add) const;
   [[nodiscard]] double tissue_travel(const Curve& tissue, double travel) const;
 
   FingerOrder order_;
+  Vec3 mirror_ = Vec3::Zero();  // m, a point of the planes of symmetry
   std::unique_ptr<Press> press_;
   std::vector<Curve> curves_;
   std::vector<Point> ball_;  // of an elastic finger

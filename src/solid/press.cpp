@@ -145,10 +145,16 @@ std::optional<Answer> Press::go(const Vec3& finger) {
   }
 }
 
-std::vector<Contact::Pressed> Press::pressed() const {
-  std::vector<Ball> balls = balls_;
-  for (Ball& ball : balls) ball.centre += now_.finger;
-  return contact_.pressed(now_.displacement, balls);
+std::optional<Vector> Press::look(const Vec3& finger) {
+  const State now = now_, before = before_;
+  const bool had_before = has_before_;
+  const auto found = go(finger);
+  std::optional<Vector> displacement;
+  if (found) displacement = std::move(now_.displacement);
+  now_ = now;
+  before_ = before;
+  has_before_ = had_before;
+  return displacement;
 }
 
 }  // namespace palpate::solid

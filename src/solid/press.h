@@ -54,8 +54,11 @@ class Press {
   [[nodiscard]] std::optional<Answer> go(const Vec3& finger);
   [[nodiscard]] const Vec3& reached() const { return now_.finger; }
 
-  [[nodiscard]] const Vector& displacement() const { return now_.displacement; }  // m
-  [[nodiscard]] std::vector<Contact::Pressed> pressed() const;
+  // The displacement (m) with the finger's point at `finger` (m); nothing without an equilibrium.
+  // The state stays as it is, so that later answers do not depend on this.
+  [[nodiscard]] std::optional<Vector> look(const Vec3& finger);
+
+  [[nodiscard]] const std::vector<Ball>& balls() const { return balls_; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] int factorisations() const { return factorisations_; }
 

@@ -15,6 +15,7 @@
 #include "base/whole_folder.h"
 #include "record/csv.h"
 #include "record/swept_column.h"
+#include "run/choose.h"
 #include "run/share_out.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
@@ -152,7 +153,7 @@ void refuse_unread(const scenario::Family& family) {
   for (std::size_t t = 0; t < tries; ++t) {
     const std::size_t i = tries == 1 ? 0 : t * (family.design.count() - 1) / (tries - 1);
     try {
-      const scene::Choice choice = scene::choose(scenario::make_case(family, i), shapes);
+      const scene::Choice choice = run::choose(scenario::make_case(family, i), shapes);
       if (choice.given) return;  // reading the scenario has checked this
       for (const std::string& key : scenario::unread_keys(family, i, choice.chosen.solver.model))
         ++unread[key];

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <set>
 
+#include "run/choose.h"
 #include "scenario/words.h"
 #include "scenario_text.h"
 #include "scene/scene.h"
@@ -81,17 +82,6 @@ TEST_F(Design, APressHasEveryGroup) {
                       "tissue.mesh={kind='mirrored',cells=[5,6,10]}"}));  // 3 4 6 by 4^(1/3)
   EXPECT_EQ(find(variants, "mass_spring, 2 rings")->settings.back(), "solver.rings=2");
   EXPECT_NE(find(variants, "coupled_springs, resolved on graded cells"), nullptr);
-}
-
-TEST_F(Design, FormulasAreTriedWithTheSizeOfABodyWhereItIsKnown) {
-  const auto on = [&](const char* shape) {
-    return design(asked(scenario::press + "[tissue]\nshape = " + shape + "\n"), 0);
-  };
-  const auto ball = on("{ kind = \"ellipsoid\", size = [\"60 mm\", \"60 mm\", \"60 mm\"] }");
-  ASSERT_NE(find(ball, "hertz, the body's size"), nullptr);
-  EXPECT_EQ(find(ball, "hertz, the body's size")->settings.back(), "contact.size=body");
-  EXPECT_EQ(find(ball, "layer, the body's size"), nullptr) << "not a layer";
-  EXPECT_EQ(find(on("{ kind = \"half_space\" }"), "hertz, the body's size"), nullptr);
 }
 
 // With a mesh whose inertia reaches the force.
@@ -196,7 +186,7 @@ TEST_F(Design, VariantsOfADeepPressSayThatItIs) {
   ASSERT_NE(find(variants, "as it stands"), nullptr);
   const auto depth_of = [&](const char* name) {
     const auto family = with_settings(press, 0, find(variants, name)->settings);
-    return scene::choose(family.cases.front()).chosen.contact.depth;
+    return run::choose(family.cases.front()).chosen.contact.depth;
   };
   EXPECT_EQ(depth_of("as it stands"), Depth::hertz);
   for (const char* name : {"auto", "hertz", "coupled_springs"})

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "run/family.h"
+#include "run/refined_mesh.h"
 #include "run_text.h"
 #include "scenario_text.h"
 
@@ -184,7 +185,7 @@ TEST(Sensitivity, OfHertzOverModulusAndRatioIsThatOfAProduct) {
   const auto family = scenario::parse(text, "test.toml", {});
   std::vector<double> forces;
   for (const auto& one : family.cases) {
-    const auto record = test::run_scene(scene::build(one, family));
+    const auto record = test::run_scene(run::build_scene(one, family));
     forces.push_back(std::get<double>(test::finding(record, "force_at_1_mm_N")));
   }
   ASSERT_EQ(forces.size(), 12u);

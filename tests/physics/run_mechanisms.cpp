@@ -10,6 +10,7 @@
 #include <string>
 
 #include "every.h"
+#include "run/choose.h"
 #include "scenario/family.h"
 #include "scenario/words.h"
 #include "scene/scene.h"
@@ -43,7 +44,7 @@ std::map<std::string, std::set<std::string>> reached() {
   for (const fs::path& path : shipped()) {
     const scenario::Family family = scenario::read(path.string(), {});
     for (const scenario::Case& one : family.cases) {
-      const scenario::Resolved run = scene::choose(one).chosen;
+      const scenario::Resolved run = run::choose(one).chosen;
       const auto note = [&](const std::string& key, const auto& of, auto value) {
         by[key + " = " + word(of, value)].insert(path.lexically_relative(PALPATE_SOURCE_DIR));
       };
@@ -60,7 +61,6 @@ std::map<std::string, std::set<std::string>> reached() {
       note("contact.law", words::laws, run.contact.law);
       note("contact.viscosity", words::contact_viscosities, run.contact.viscosity);
       note("contact.depth", words::depths, run.contact.depth);
-      note("contact.size", words::sizes, run.contact.size);
       if (run.contact.friction > 0.0) note("contact.slip", words::slips, run.contact.slip);
       if (!run.meshed()) continue;
       note("contact.coupling", words::couplings, run.contact.coupling);
@@ -91,7 +91,6 @@ TEST(Mechanisms, AreReachedByAShippedScenario) {
   look("contact.law", words::laws);
   look("contact.viscosity", words::contact_viscosities);
   look("contact.depth", words::depths);
-  look("contact.size", words::sizes);
   look("contact.slip", words::slips);
   look("contact.coupling", words::couplings);
   look("contact.curvature", words::curvature_methods);

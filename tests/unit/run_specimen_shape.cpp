@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "run/refined_mesh.h"
 #include "scenario/family.h"
 #include "scene/scene.h"
 
@@ -50,8 +51,8 @@ TEST(SpecimenShapes, build_the_same_scene_to_the_bit) {
       scene::SpecimenShapes shapes;
       for (std::size_t i = 0; i < family.cases.size(); ++i) {
         const auto& one = family.cases[backwards ? family.cases.size() - 1 - i : i];
-        const scene::Scene shared = scene::build(one, family, shapes);
-        expect_same_bits(*shared.specimen, *scene::build(one, family).specimen);
+        const scene::Scene shared = run::build_scene(one, family, shapes);
+        expect_same_bits(*shared.specimen, *run::build_scene(one, family).specimen);
       }
     }
   }

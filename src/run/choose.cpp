@@ -1,0 +1,391 @@
+// Evaluates the questions in order, and chooses the cheapest model within the tolerance.
+#include "run/choose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "run/size_effect.h"
+#include "scenario/integrators.h"
+#include "scenario/programme.h"
+#include "scene/refining_press.h"
+#include "scene/specimen_shape.h"
+#include "scene/time_plan.h"
+#include "solid/finger_press.h"
+
+namespace palpate::run {
+namespace {
+
+using scenario::Found;
+using scenario::Model;
+using scenario::Rung;
+using scene::Asked;
+using scene::Choice;
+using scene::Estimates;
+using scene::Forecast;
+using scene::SpecimenShapes;
+
+// The cheapest applicable model within the tolerance, or else the one with the least error; null
+// without forecasts.
+const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance) {
+  const Forecast* best = nullptr;
+  for (const Forecast& rung : choice.rungs) {
+    if (!rung.cannot.empty()) continue;
+    // The force of a press is that of finite elements on either kind of springs, but motion and
+    // pictures of independent springs do not have the tissue's Poisson's ratio.
+    if (!uniform && scenario::rung(rung.model).independent()) continue;
+    if (best == nullptr || rung.error < best->error) best = &rung;
+    if (rung.error > tolerance) continue;
+    return &rung;
+  }
+  return best;
+}
+
+// The texts of a question, with its answers below and above the threshold; answers that contain
+// numbers are made where the question is evaluated.
+struct QuestionRow {
+  const char* word;     // the name of the enumerator
+  const char* topic;    // one word
+  const char* measure;  // what the number is; empty if it only says yes or no
+  const char* below;
+  const char* above;
+};
+constexpr auto question_table = std::to_array<QuestionRow>({
+    {"uniform", "test", "", "", "the end faces are loaded, which only a mesh can compute"},
+    {"ratio_matters", "ratio", "error of independent springs",
+     "independent springs have the right Young's modulus",
+     "independent springs have a Poisson's ratio of their own"},
+    {"force_knows_mesh", "coupling", "", "one_way: the force is that of hertz, whatever the mesh",
+     ""},
+    {"rigid_tissue", "stiffness", "the tissue's share of the deformation",
+     "only the finger deforms", "the tissue deforms"},
+    {"half_space", "size", "change of a half-space's force by the size of the body",
+     "a half-space is enough", "the body is not a half-space"},
+    {"layer", "sides", "change of a flat layer's force by the sides", "the sides do not matter",
+     "the sides matter"},
+    {"edge", "edge", "bound of what an edge near the contact changes", "no edge is near",
+     "only a mesh with large strains knows the edge"},
+    {"deep", "depth", "change of the force by large strains", "small strains are enough", ""},
+    {"curved", "curvature", "difference between the two curvatures, finger included",
+     "one curvature is enough", "both curvatures matter, the contact is elliptic"},
+    {"time_dependent", "viscosity", "increase of the force by viscosity",
+     "the press is slow against the tissue's time constant", ""},
+    {"inertia", "inertia", "increase of the force by waves", "the loading is slow against waves",
+     ""},
+    {"shape_or_inclusion", "formula", "", "", ""},
+});
+static_assert(is_complete<Asked>(question_table), "every question has its text");
+
+class Chooser {
+ public:
+  Chooser(const scenario::Case& one, SpecimenShapes& shapes, Models models)
+      : case_(one),
+        shapes_(shapes),
+        quick_(models == Models::quick),
+        asked_(scenario::resolve(one, scenario::strongest.of)),
+        model_(one.scenario.solver.model.value_or(asked_.solver.model)) {
+    if (!asked_.uniform()) choice_.touch = surface_touch(asked_, one.folder, shapes);
+  }
+
+  Choice choose() {
+    choice_.given = case_.scenario.solver.model.has_value();
+    if (asked_.uniform())
+      uniform();
+    else
+      pressed();
+    if (choice_.given) choice_.found = {.inertia_matters = !rests()};
+    choice_.chosen = scenario::resolve(case_, model_, choice_.found);
+    return choice_;
+  }
+
+ private:
+  // Adds a question. `above` and `measure` replace the texts of the table unless they are empty.
+  void ask(Asked of, double number, double threshold, const std::string& above = "",
+           const std::string& measure = "") {
+    const QuestionRow& row = question_table[as_index(of)];
+    choice_.questions.push_back({row.topic, measure.empty() ? row.measure : measure, number,
+                                 threshold,
+                                 number < threshold ? row.below
+                                 : above.empty()    ? row.above
+                                                    : above});
+  }
+
+  [[nodiscard]] double tolerance() const { return asked_.solver.tolerance; }
+
+  // Whether a slow press by a named model is one of statics: nothing damps the ringing of a mesh
+  // without viscosity, which would turn its tetrahedra inside out.
+  [[nodiscard]] bool rests() const {
+    return !asked_.uniform() && !choice_.otherwise_found.inertia_matters &&
+           asked_.tissue.viscosity == tissue::Viscosity::none &&
+           asked_.solver.kinematics == scenario::Solver::Kinematics::linear &&
+           !asked_.solver.rings && !scenario::asks_for_steps(case_.scenario.solver);
+  }
+
+  // Questions for a test of a specimen between platens.
+  void uniform() {
+    const double nu = asked_.tissue.poisson_ratio;
+    const bool bonded = asked_.tissue.base == tissue::Base::bonded ||
+                        scenario::upper_platen(asked_) == tissue::Base::bonded;
+    const auto& shape = asked_.tissue.shape;
+    const bool prism = std::holds_alternative<scenario::Cuboid>(shape) ||
+                       std::holds_alternative<scenario::Cylinder>(shape);
+    // With a bonded end or several tissues the strain is uneven and nu matters; springs have 1/4.
+    // Independent springs get the stiffness of a prism whatever the shape: measured on the
+    // ligament (22 %) and the leg (40 %).
+    const bool uneven = bonded || scene::several_tissues(asked_) || !prism;
+    constexpr double even_error = 0.001;
+    constexpr double shape_error = 0.4;
+    const double meshed = scene::bonded_mesh_error(asked_);
+    const double stiffening =
+        scene::bonded_stiffening(asked_, nu) / scene::bonded_stiffening(asked_, 0.25);
+    const double ratio_error =
+        !prism   ? shape_error
+        : uneven ? std::max(0.5 * std::abs(nu - 0.25), std::abs(1.0 - 1.0 / stiffening)) + meshed
+                 : even_error;
+    ask(Asked::uniform, 1.0, 0.5);
+    ask(Asked::ratio_matters, ratio_error, tolerance(), "",
+        !prism   ? "error of independent springs on a shape that is no prism"
+        : uneven ? "error of independent springs with fixed ends or several tissues"
+                 : "");
+    const bool moving = about(asked_.solver.integrator).inertia;
+    const double ringing = moving ? scene::uniform_ringing(asked_) : 0.0;
+    if (moving)
+      ask(Asked::inertia, ringing, tolerance(), "the body rings",
+          "share of the strain by which it rings");
+    choice_.found.inertia_matters = moving;
+    const auto error_of_still = [&](const Rung& rung) {
+      return rung.own_ratio ? even_error + std::max(uneven ? rung.uneven : 0.0, meshed)
+                            : ratio_error;
+    };
+    for (const Rung& rung : scenario::ladder)
+      if (rung.uniform) add(rung, counted(ringing) + error_of_still(rung));
+    take_cheapest();
+  }
+
+  void pressed() {
+    choice_.expected = estimate(asked_, choice_.touch);
+    const double limit = tolerance();
+    // The reason why no formula is applicable, if none is.
+    std::optional<std::string> reason = beyond(Model::hertz, asked_, choice_.touch);
+    const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
+    measure();
+    const Estimates& e = choice_.expected;
+    if (asked_.contact.coupling == contact::Coupling::one_way && !reason) {
+      ask(Asked::force_knows_mesh, 0.0, 1.0);
+      if (!choice_.given) model_ = Model::hertz;
+      return;
+    }
+    std::string formulas;
+    for (const Rung& rung : scenario::ladder)
+      if (rung.formula() && !beyond(rung.of, asked_, choice_.touch))
+        formulas += (formulas.empty() ? "" : " or ") + std::string(rung.word);
+    ask(Asked::rigid_tissue, e.tissue_share, std::min(limit, 0.02));
+    if (!reason) ask(Asked::half_space, std::abs(e.size), limit);
+    if (box && !beyond(Model::layer, asked_, choice_.touch))
+      ask(Asked::layer, std::abs(e.sides), limit);
+    if (e.edge > 0.0) ask(Asked::edge, e.edge, limit);
+    choice_.found = {.viscosity_matters = e.viscous >= 0.2 * limit,
+                     .inertia_matters = e.inertia >= limit,
+                     .depth_matters = std::abs(e.deep) >= 0.2 * limit && has_depth_ratio()};
+    for (const Rung& rung : scenario::ladder) {
+      Found found = choice_.found;
+      if (choice_.given && model_ == rung.of) found.depth_matters = false;
+      add(rung, error_of(rung, found), of_mesh(rung));
+    }
+    choice_.waves = choice_.found.inertia_matters ? 0.0 : counted(e.inertia);
+    choice_.otherwise = *cheapest(choice_, false, limit);
+    choice_.otherwise_found = choice_.found;
+    ask(Asked::deep, std::abs(e.deep) + (e.depth_ratio ? 0.0 : e.deep_error), 0.2 * limit,
+        deep_answer(e), e.depth_ratio ? "" : "bound of what large strains change");
+    ask(Asked::curved, e.curvature_ratio - 1.0, 0.1);
+    // A fifth of the tolerance, because viscosity that is left out adds to the model's error.
+    ask(Asked::time_dependent, e.viscous, 0.2 * limit, viscous_answer());
+    ask(Asked::inertia, e.inertia, limit, inertia_answer());
+    ask(Asked::shape_or_inclusion, 1.0, 0.0,
+        formulas.empty() ? "none, because " + reason.value_or("") : formulas);
+    if (!choice_.given) model_ = choice_.otherwise.model;
+  }
+
+  // Presses a coarse mesh of the body, where something of it is asked for.
+  void measure() {
+    const bool none =
+        std::holds_alternative<scenario::HalfSpace>(asked_.tissue.shape) || choice_.touch.nowhere;
+    const bool formula = !beyond(Model::hertz, asked_, choice_.touch) ||
+                         !beyond(Model::layer, asked_, choice_.touch);
+    if (none || (!formula && scene::refines(asked_))) return;
+    Estimates& e = choice_.expected;
+    try {
+      const SizeEffect found = size_effect(asked_, case_.folder, choice_.touch, shapes_);
+      if (found.nodes == 0) return;
+      coarse_nodes_ = found.nodes;
+      // What an elastic finger takes of the depth knows nothing of the body.
+      const double change = e.tissue_share * found.change;
+      e.size_error = e.tissue_share * found.error;
+      e.measured = true;
+      if (std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape)) {
+        e.sides = change;
+        e.size = (1.0 + e.thickness) * (1.0 + change) - 1.0;
+      } else {
+        e.size = change;
+      }
+    } catch (const MeshError&) {  // the models that mesh the body say why
+    }
+  }
+
+  // The error that a rung is expected to have with what the scenario gives it, and with what was
+  // found where the scenario leaves a key open, a fraction of the force.
+  [[nodiscard]] double error_of(const Rung& rung, const Found& found) const {
+    const Estimates& e = choice_.expected;
+    if (rung.solid) return of_mesh(rung) + of_waves(rung, found);
+    const double body = rung.meshed() ? of_mesh(rung) : of_size(rung);
+    return body + of_waves(rung, found) +
+           (contact::mesh_is_tissue(asked_.contact.coupling) ? 0.0 : e.edge) + e.ball +
+           of_depth(found);
+  }
+
+  // The part of it that the mesh causes; 0 without one. Where the mesh is refined, what refining
+  // leaves, else the error of the coarse mesh, which falls with the square of the cells' size.
+  [[nodiscard]] double of_mesh(const Rung& rung) const {
+    if (rung.solid) {
+      if (tolerance() >= solid::error_of_one_mesh) return solid::error_of_one_mesh;
+      return std::max(tolerance(), solid::error_of_three_meshes);
+    }
+    if (!rung.meshed()) return 0.0;
+    if (scene::refines(asked_)) return scene::refined_share * tolerance();
+    if (coarse_nodes_ == 0) return unknown;
+    if (std::holds_alternative<scenario::MeshFile>(asked_.tissue.mesh))
+      return choice_.expected.size_error;
+    return choice_.expected.size_error *
+           std::pow(coarse_nodes_ / scene::expected_nodes(asked_.tissue.mesh), 2.0 / 3.0);
+  }
+
+  // What a formula does not know of the body's size, over the body's force.
+  [[nodiscard]] double of_size(const Rung& rung) const {
+    const Estimates& e = choice_.expected;
+    if (std::holds_alternative<scenario::HalfSpace>(asked_.tissue.shape)) return 0.0;
+    if (!e.measured) return unknown;
+    const double change = rung.of == Model::hertz ? e.size : e.sides;
+    return std::abs(1.0 / (1.0 + change) - 1.0) + e.size_error;
+  }
+
+  // What the depth leaves open: the error of its factor, or the effect that is left out. At least
+  // 0.1 %, for a contact that is never quite as small as a contact law assumes.
+  [[nodiscard]] double of_depth(const Found& found) const {
+    using Depth = scenario::Contact::Depth;
+    constexpr double least = 1e-3;
+    const Estimates& e = choice_.expected;
+    const auto depth = case_.scenario.contact.depth.value_or(
+        found.depth_matters ? Depth::neo_hookean : Depth::hertz);
+    const bool used = depth == Depth::neo_hookean && has_depth_ratio();
+    return std::max(least, used ? e.deep_error : std::abs(e.deep) + e.deep_error);
+  }
+
+  // All of the effect where the model does not move.
+  [[nodiscard]] double of_waves(const Rung& rung, const Found& found) const {
+    const auto& integrator = case_.scenario.solver.integrator;
+    const bool moving = integrator ? about(*integrator).inertia : found.inertia_matters;
+    return (rung.inertia && moving && moves() ? rung.waves : 1.0) *
+           counted(choice_.expected.inertia);
+  }
+
+  // An effect of inertia that is left out. It counts from a fifth of the tolerance on, as depth and
+  // viscosity do.
+  [[nodiscard]] double counted(double inertia) const {
+    return inertia < 0.2 * tolerance() ? 0.0 : inertia;
+  }
+
+  // Whether the rungs of this scenario can use the factor of a deep press.
+  [[nodiscard]] bool has_depth_ratio() const {
+    return choice_.expected.depth_ratio && !contact::mesh_is_tissue(asked_.contact.coupling);
+  }
+
+  // Whether the tissue's inertia affects the force on a mesh.
+  [[nodiscard]] bool moves() const { return scene::inertia_reaches_force(asked_); }
+
+  // Why `auto` does not take `solid`; empty if it may. The checks of a scenario that names it are
+  // those of the first two sentences.
+  [[nodiscard]] std::string no_solid() const {
+    const scenario::Scenario& given = case_.scenario;
+    if (given.contact.coupling != contact::Coupling::consistent)
+      return "the scenario names a coupling of contact and springs";
+    for (const scenario::Step& step : given.steps)
+      if (const auto* slide = std::get_if<scenario::Slide>(&step))
+        if (slide->keep == scenario::Slide::Keep::force || given.contact.friction > 0.0)
+          return "the finger slides with friction or at a force";
+    if (given.solver.integrator || given.solver.rings || asks_for_steps(given.solver) ||
+        given.solver.kinematics != scenario::Solver::Kinematics::linear)
+      return "the scenario names a method of steps";
+    if (given.output.tissue) return "`output.tissue` asks for displacements in time";
+    return quick_ ? "it takes seconds a force" : "";
+  }
+
+  [[nodiscard]] std::string deep_answer(const Estimates& e) const {
+    if (!e.depth_ratio) return "only a mesh with large strains knows by how much";
+    return std::string("large strains ") + (e.deep < 0.0 ? "lower" : "raise") + " the force by " +
+           percent_text(std::abs(e.deep)) + ", and a factor takes this into account";
+  }
+
+  [[nodiscard]] std::string viscous_answer() const {
+    if (asked_.contact.viscosity == scenario::Contact::Viscosity::tissue)
+      return "Lee and Radok's force while the contact grows, Ting's while it shrinks";
+    return "left out, because the scenario does not set `contact.viscosity`: the force is that of "
+           "the relaxed tissue";
+  }
+
+  [[nodiscard]] std::string inertia_answer() const {
+    if (moves()) return "a mesh includes it, a formula does not";
+    return "left out of the force of this scenario: `consistent` includes it with "
+           "`viscosity` none, nodal_drag, or a solid that relaxes in the contact too; else use "
+           "`resolved`";
+  }
+
+  void add(const Rung& rung, double error, double of_mesh = 0.0) {
+    const bool named = choice_.given && model_ == rung.of;
+    if (!asked_.uniform()) {
+      std::string cannot = beyond(rung.of, asked_, choice_.touch).value_or("");
+      if (rung.solid && cannot.empty() && !named) cannot = no_solid();
+      if (!cannot.empty()) {
+        choice_.rungs.push_back({.model = rung.of, .cannot = cannot});
+        return;
+      }
+    }
+    // The time of a set-up by conjugate gradients.
+    const double nodes = scene::expected_nodes(asked_.tissue.mesh);
+    const double set_up = 5.5e-5 * nodes * std::max(1.0, std::cbrt(nodes / 8000.0));
+    choice_.rungs.push_back({.model = rung.of,
+                             .error = error,
+                             .of_mesh = of_mesh,
+                             .seconds = rung.cost.once +
+                                        (asked_.regions.empty() ? 0.0 : rung.cost.layered) +
+                                        rung.cost.set_ups * set_up});
+  }
+
+  void take_cheapest() {
+    choice_.otherwise = *cheapest(choice_, true, tolerance());
+    if (!choice_.given) model_ = choice_.otherwise.model;
+  }
+
+  static constexpr double unknown = 1.0;  // the error where nothing is known
+
+  const scenario::Case& case_;
+  SpecimenShapes& shapes_;
+  bool quick_;
+  scenario::Resolved asked_;  // resolved with the most complete model, whatever the scenario names
+  Model model_;               // the choice
+  Choice choice_;
+  double coarse_nodes_ = 0.0;  // of the mesh of size_effect()
+};
+
+}  // namespace
+
+Choice choose(const scenario::Case& one) {
+  SpecimenShapes shapes;
+  return choose(one, shapes);
+}
+
+Choice choose(const scenario::Case& one, SpecimenShapes& shapes, Models models) {
+  return Chooser(one, shapes, models).choose();
+}
+
+}  // namespace palpate::run

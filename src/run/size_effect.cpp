@@ -1,0 +1,147 @@
+// Presses a coarse mesh of the body, and the formula in the same place.
+#include "run/size_effect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+#include "mechanics/pressed_mesh.h"
+#include "scene/first_touch.h"
+#include "scene/refining_press.h"
+#include "scene/scene.h"
+#include "scene/specimen_shape.h"
+
+namespace palpate::run {
+namespace {
+
+constexpr int coarse_nodes = 150;
+
+// Ratios at which bodies are pressed; between them the change is interpolated.
+constexpr std::array ratios{0.0, 0.25, 0.4, 0.47, scene::most_poisson_ratio};
+
+scenario::Mesh coarse(const scenario::Resolved& scenario) {
+  if (std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
+    scenario::Mesh mesh = scenario.tissue.mesh;
+    scenario::refinement(mesh).refine = false;
+    return mesh;
+  }
+  const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
+  if (box == nullptr || !scenario.regions.empty()) {
+    scenario::Tetgen mesh;
+    mesh.nodes = coarse_nodes;
+    return mesh;
+  }
+  scenario::Mirrored mesh;
+  const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / coarse_nodes);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    mesh.cells[axis] = std::clamp(static_cast<int>(std::lround(box->size[axis] / cell)), 2, 20);
+  return mesh;
+}
+
+// The trial: a rigid finger at a travel that is rounded up to a power of sqrt(2).
+scenario::Resolved trial_of(const scenario::Resolved& scenario, double ratio) {
+  scenario::Resolved trial = scene::refining_press(scenario);
+  trial.tissue.mesh = coarse(scenario);
+  trial.tissue.poisson_ratio = ratio;
+  trial.finger.spheres = 1;
+  trial.contact.coupling = contact::Coupling::consistent;
+  trial.contact.spread = scenario::Contact::Spread::pressure;
+  trial.contact.curvature_on = scenario::Contact::CurvatureOn::rest;
+  auto& indent = std::get<scenario::Indent>(trial.steps.front());
+  const double radius = trial.finger.radius;
+  indent.to = {radius * std::exp2(std::ceil(2.0 * std::log2(indent.to.value / radius)) / 2.0),
+               false};
+  return trial;
+}
+
+// The force of the formula, N; 0 where there is none.
+double formula(const scene::Scene& scene, const scene::SurfaceTouch& touch, double travel) {
+  if (!touch.known()) return 0.0;
+  const auto law = contact::contact_law(scene.scenario.contact.law,
+                                        {scene.finger.sphere_radius, scene.finger.sphere_modulus},
+                                        touch.curvature, scene.layer ? &*scene.layer : nullptr);
+  if (!law) return 0.0;
+  const auto [depth, normal] = touch.pressed(scene.finger.sphere_radius, travel);
+  return depth > law->point.last_depth() ? 0.0 : normal.z() * law->point.force(depth);
+}
+
+SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
+                 const scene::SurfaceTouch& touch, scene::SpecimenShapes& shapes) {
+  scenario::Family family;
+  family.folder = folder;
+  scene::Choice choice;
+  choice.given = true;
+  choice.chosen = trial;
+  choice.touch = touch;
+  scene::Scene scene = scene::build({}, family, shapes, choice);
+  if (std::holds_alternative<scenario::Cuboid>(trial.tissue.shape) && touch.known() &&
+      scene::all_slabs(trial))
+    scene.layer =
+        scene::make_layer(trial, scene.finger, shapes.layer_law(scene::layers_of(trial, 1.0)));
+  mechanics::PressedMesh mesh(scene);
+  mechanics::Touch pressed;
+  const Vec3 first = scene::first_touch(scene).finger;
+  SizeEffect found;
+  for (const Vec3& place : finger_way(trial)) {
+    // On a coarse mesh the contact may have no solution at the full depth.
+    const double deepest = scene::deepest_travel(trial, scene.law());
+    for (double travel = deepest; travel > 0.1 * deepest; travel *= 0.5) {
+      if (mesh.try_out(first + place - travel * Vec3::UnitZ(), pressed)) continue;
+      const mechanics::SphereContact* contact = pressed.deepest();
+      if (contact == nullptr) continue;
+      const double simple = formula(scene, touch, travel);
+      const double change = simple > 0.0 ? pressed.normal_force() / simple - 1.0 : 0.0;
+      if (found.nodes == 0 || std::abs(change) > std::abs(found.change)) found.change = change;
+      found.error = std::max(found.error, mechanics::mesh_error(*contact));
+      found.nodes = scene.specimen->network.nodes();
+      break;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Vec3> finger_way(const scenario::Resolved& scenario) {
+  std::vector<Vec3> found{Vec3::Zero()};
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
+      const double angle = slide->direction * std::numbers::pi / 180.0;
+      const Vec3 way = slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0);
+      const Vec3 start = found.back();
+      found.emplace_back(start + 0.5 * way);
+      found.emplace_back(start + way);
+    }
+  return found;
+}
+
+SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& folder,
+                       const scene::SurfaceTouch& touch, scene::SpecimenShapes& shapes) {
+  const double wanted = scene::deepest_travel(scenario, scene::make_finger(scenario).whole);
+  if (!(wanted > 0.0)) return {};
+  const double ratio = std::min(scenario.tissue.poisson_ratio, ratios.back());
+  const auto above = std::lower_bound(ratios.begin() + 1, ratios.end(), ratio);
+  const double share = (ratio - *(above - 1)) / (*above - *(above - 1));
+  const auto at = [&](double known) {
+    const scenario::Resolved trial = trial_of(scenario, known);
+    const auto& numbers = shapes.kept_numbers(
+        scene::shape_key(trial) + scene::refining_key(trial), [&]() -> std::array<double, 3> {
+          const SizeEffect found = press(trial, folder, touch, shapes);
+          return {found.change, found.error, static_cast<double>(found.nodes)};
+        });
+    // Effects of size grow with the radius of the contact.
+    const double narrower =
+        std::sqrt(wanted / std::get<scenario::Indent>(trial.steps.front()).to.value);
+    return SizeEffect{narrower * numbers[0], narrower * numbers[1], static_cast<int>(numbers[2])};
+  };
+  const SizeEffect low = share < 1.0 ? at(*(above - 1)) : SizeEffect{};
+  const SizeEffect high = share > 0.0 ? at(*above) : low;
+  if (share >= 1.0) return high;
+  if (low.nodes == 0 || high.nodes == 0) return {};
+  return {(1.0 - share) * low.change + share * high.change,
+          (1.0 - share) * low.error + share * high.error, high.nodes};
+}
+
+}  // namespace palpate::run

@@ -1,0 +1,35 @@
+// What the size of a body changes of the force of a formula, by one coarse mesh of the body.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenario/resolved.h"
+#include "scene/surface_touch.h"
+
+namespace palpate::scene {
+class SpecimenShapes;
+}
+
+namespace palpate::run {
+
+// Of the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger
+// of one sphere at the deepest travel.                                    docs/theory.md (68)
+struct SizeEffect {
+  double change = 0.0;  // of the formula's force, relative
+  double error = 0.0;   // the mesh's own, a fraction of its force
+  int nodes = 0;        // 0 if there is no mesh, or no solution on it
+};
+
+// The places of the finger beside the first touch: start, middle and end of every slide, m.
+[[nodiscard]] std::vector<Vec3> finger_way(const scenario::Resolved& scenario);
+
+// On a cuboid the formula is the exact one of its flat layers, so that the change is that of the
+// sides; elsewhere it is Hertz's, where the surface's curvature is known, and else the change is 0.
+// At the place that changes most along slides. Kept in `shapes` for travels and Poisson's ratios
+// nearby: travels are rounded up by less than sqrt(2), and ratios are interpolated.
+[[nodiscard]] SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& folder,
+                                     const scene::SurfaceTouch& touch,
+                                     scene::SpecimenShapes& shapes);
+
+}  // namespace palpate::run
