@@ -3,9 +3,8 @@
 // Groups of variants (not every combination):
 //   base                    what palpate chooses where model, mesh, coupling, integrator, steps and
 //                           rings are left open, and the scenario unchanged if that differs
-//   rung x mesh             every model, formulas also with `contact.size = "body"`; those with a
-//   mesh
-//                           on the scenario's mesh and on meshes with a quarter and four times its
+//   rung x mesh             every model; those with a mesh on the scenario's mesh and on meshes
+//   with a quarter and four times its
 //                           nodes (a ready mesh is not changed)
 //   rung x coupling         models with a mesh, with every coupling, on the scenario's mesh; one
 //                           sphere on a cuboid of one tissue also `resolved` on graded cells
@@ -35,7 +34,7 @@ struct Variant {
 };
 
 // The variants of a case, in the order of the table, without those that result in the same resolved
-// scenario as an earlier one. `shapes` keeps the meshes made for it. Throws like scene::choose().
+// scenario as an earlier one. `shapes` keeps the meshes made for it. Throws like run::choose().
 [[nodiscard]] std::vector<Variant> design(const Asked& asked, std::size_t of_case,
                                           scene::SpecimenShapes& shapes);
 

@@ -18,6 +18,7 @@
 #include "report/answer_lines.h"
 #include "report/machine.h"
 #include "report/results.h"
+#include "run/choose.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 
@@ -92,7 +93,10 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
         "note: " + rows +
         " contains the rows of a run that was killed or is still running; it is left as it is, "
         "`--device replay:` plays it; remove its folder when you no longer need it");
-  const scene::Scene scene = run::build_scene(family.cases.front(), family);
+  scene::SpecimenShapes shapes;
+  const scenario::Case& one = family.cases.front();
+  const scene::Scene scene =
+      run::build_scene(one, family, shapes, run::choose(one, shapes, run::Models::quick));
   live::refuse_beyond_device(scene, file, options);
   // Installed before the link, whose signal handlers are added to these. A reader of the messages
   // that goes away, and a closed terminal, must not end the run where it is.

@@ -23,6 +23,7 @@
 #include "meshing/surface_files.h"
 #include "meshing/tetgen_file.h"
 #include "report/vtu.h"
+#include "run/choose.h"
 #include "run/refined_mesh.h"
 #include "scene/scene.h"
 
@@ -139,7 +140,9 @@ scene::Scene scene_of(const Mesh& command, const Talk& talk) {
   if (family.cases.size() > 1)
     talk.say("note: " + command.subject + " has " + std::to_string(family.cases.size()) +
              " cases; this is the mesh of the first, " + first.name);
-  scene::Scene scene = run::build_scene(first, family);
+  scene::SpecimenShapes shapes;
+  scene::Scene scene =
+      run::build_scene(first, family, shapes, run::choose(first, shapes, run::Models::quick));
   if (!scene.specimen)
     throw InputError(place_of(family.document, "solver.model"),
                      "the scenario is computed by `" +

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "run/choose.h"
 #include "run/family.h"
 #include "run_text.h"
 #include "scenario/integrators.h"
@@ -82,7 +83,7 @@ std::optional<int> declared(const Programme& run, const std::string& integrator)
   std::vector<std::string> settings = run.settings;
   settings.push_back("solver.integrator=" + integrator);
   const auto family = scenario::parse(body + run.steps, "test.toml", settings);
-  const scenario::Resolved scenario = scene::choose(family.cases.front()).chosen;
+  const scenario::Resolved scenario = run::choose(family.cases.front()).chosen;
   return order_in_time(scenario.solver, scenario.tissue.viscosity);
 }
 

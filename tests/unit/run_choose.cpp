@@ -28,20 +28,20 @@ const std::string press = "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
 
 TEST(Choose, TwentySceneEachItsRung) {
   const std::map<std::string, Model> expected{
-      {"bone under a silicone finger", Model::hertz},
+      {"bone under a silicone finger", Model::solid},
       {"muscle without end", Model::hertz},
       {"thick muscle", Model::hertz},
       {"skin 30 mm thick", Model::layer},
       {"skin 10 mm thick", Model::layer},
       {"thin skin", Model::layer},
       {"ligament that slides on its base", Model::layer},
-      {"a narrow block", Model::coupled_springs},
-      {"beside a side", Model::coupled_springs},
-      {"a thin cylinder", Model::hertz},
-      {"an ellipsoid", Model::hertz},
-      {"a curved ligament", Model::coupled_springs},
-      {"a lump under the skin", Model::coupled_springs},
-      {"a layered limb", Model::coupled_springs},
+      {"a narrow block", Model::hertz},
+      {"beside a side", Model::solid},
+      {"a thin cylinder", Model::solid},
+      {"an ellipsoid", Model::solid},
+      {"a curved ligament", Model::solid},
+      {"a lump under the skin", Model::solid},
+      {"a layered limb", Model::solid},
       {"a fast tap", Model::coupled_springs},
       {"a slow press of a solid that relaxes", Model::hertz},
       {"a quick press of a solid that relaxes", Model::layer},
@@ -77,13 +77,13 @@ TEST(Choose, TheToleranceDecides) {
   };
   EXPECT_EQ(model(0.2), Model::hertz);   // the thickness and the sides make 9 %
   EXPECT_EQ(model(0.05), Model::layer);  // the sides take 1.6 %
-  // Nothing is that good: the least error, of a mesh that is refined, is said.
-  EXPECT_EQ(model(0.001), Model::coupled_springs);
+  // Nothing is that good: the least error, of three meshes of the solid, is said.
+  EXPECT_EQ(model(0.001), Model::solid);
   scenario::Case one = read(press);
   EXPECT_EQ(choose(one).shortfall(), "");
   one.scenario.solver.tolerance = 0.001;
   EXPECT_EQ(choose(one).shortfall().substr(0, 62),
-            "no model is expected to be within the tolerance of 0.1 %: `cou");
+            "no model is expected to be within the tolerance of 0.1 %: `sol");
 }
 
 TEST(Choose, ARefinedMeshIsForecastByItsTolerance) {
@@ -177,40 +177,33 @@ TEST(Choose, WithoutInertiaAMeshIsQuasiStatic) {
   const std::string narrow =
       "[tissue]\nviscosity = \"none\"\nshape = { kind = \"cuboid\", size = [\"25 mm\", \"25 mm\", "
       "\"30 mm\"] }\n";
-  EXPECT_EQ(choose(read(press + narrow)).chosen.solver.integrator, Integrator::quasi_static);
+  const std::string named = "[solver]\nmodel = \"coupled_springs\"\n";
+  EXPECT_EQ(choose(read(press + narrow + named)).chosen.solver.integrator,
+            Integrator::quasi_static);
   EXPECT_EQ(choose(read(press + "rate = \"300 mm/s\"\n" + narrow)).chosen.solver.integrator,
             Integrator::central_difference);
 }
 
-// Waves count from a fifth of the tolerance on: as an error of what does not move, or by motion
-// where nothing is within the tolerance without.
-TEST(Choose, InertiaBelowTheToleranceIsStatedOrComputed) {
-  constexpr double limit = 0.06;
-  const std::string narrow =
-      "[contact]\nsize = \"half_space\"\n[tissue]\nviscosity = \"none\"\nmesh = { kind = "
-      "\"kuhn\", cells = [6, 6, 6] }\nshape = { kind = \"cuboid\", size = [\"30 mm\", \"30 mm\", "
-      "\"30 mm\"] }\n";
-  const auto at = [&](double rate, const std::string& more = "") {
-    return choose(read(press + "rate = \"" + std::to_string(rate) + " mm/s\"\n" + narrow +
-                       "[solver]\ntolerance = 0.06\n" + more));
+// Waves count from a fifth of the tolerance on as an error of what does not move, and are computed
+// from the tolerance on.
+TEST(Choose, InertiaBelowTheToleranceIsStated) {
+  constexpr double limit = 0.05;
+  const auto at = [&](double rate) {
+    return choose(read(press + "rate = \"" + std::to_string(rate) +
+                       " mm/s\"\n[tissue]\nviscosity = \"none\"\n"));
   };
   const Choice slow = at(1.0);
   ASSERT_LT(slow.expected.inertia, 0.2 * limit);
   const double still = slow.taken()->error;
   ASSERT_LT(still, 0.6 * limit);
   const Choice quick = at(0.5 * (limit - still) / slow.expected.inertia);  // mm/s; linear in it
-  EXPECT_EQ(quick.chosen.solver.integrator, Integrator::quasi_static);
+  EXPECT_FALSE(quick.chosen.meshed());
   EXPECT_DOUBLE_EQ(quick.taken()->error, still + quick.expected.inertia);
   EXPECT_DOUBLE_EQ(quick.waves, quick.expected.inertia);
-  // Both add up to more than the tolerance here, although either is less.
-  const double quicker = (limit - 0.5 * still) / slow.expected.inertia;
-  const Choice moving = at(quicker);
-  ASSERT_LT(moving.expected.inertia, limit);
+  const Choice moving = at(1.2 * limit / slow.expected.inertia);
+  EXPECT_EQ(moving.chosen.solver.model, Model::coupled_springs);
   EXPECT_EQ(moving.chosen.solver.integrator, Integrator::central_difference);
-  EXPECT_DOUBLE_EQ(moving.taken()->error, still + 0.06 * moving.expected.inertia);
   EXPECT_EQ(moving.waves, 0.0);
-  const Choice held = at(quicker, "integrator = \"quasi_static\"\n");
-  EXPECT_DOUBLE_EQ(held.taken()->error, still + held.expected.inertia);
 }
 
 // A slow press leaves viscosity out, a quick one keeps it.
@@ -231,7 +224,8 @@ TEST(Estimates, OfTheDefaultBlock) {
   EXPECT_NEAR(found.chi, 3.3166248e-3 / 0.030, 1e-9);
   EXPECT_TRUE(found.measured);
   EXPECT_LT(found.sides, 0.0);
-  EXPECT_NEAR(found.sides, -0.016, 0.008);  // 1.6 % by coupled springs on converged meshes
+  // The solid on three meshes is 0.9 % below the layer with its factor, and states 0.9 %.
+  EXPECT_NEAR(found.sides, -0.009, 0.009);
   const contact::LayerLaw law({.poisson_ratio = 0.33});
   EXPECT_NEAR(found.thickness, law.force_factor(found.chi) - 1.0, 1e-6);
   EXPECT_NEAR(found.size, (1.0 + found.thickness) * (1.0 + found.sides) - 1.0, 1e-12);
