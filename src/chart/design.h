@@ -3,9 +3,9 @@
 // Groups of variants (not every combination):
 //   base                    what palpate chooses where model, mesh, coupling, integrator, steps and
 //                           rings are left open, and the scenario unchanged if that differs
-//   rung x mesh             every model; those with a mesh on the scenario's mesh and on meshes
-//   with a quarter and four times its
-//                           nodes (a ready mesh is not changed)
+//   rung x mesh             every model but `solid`; those with a mesh on the scenario's mesh and
+//                           on meshes with a quarter and four times its nodes (a ready mesh is not
+//                           changed)
 //   rung x coupling         models with a mesh, with every coupling, on the scenario's mesh; one
 //                           sphere on a cuboid of one tissue also `resolved` on graded cells
 //   integrator x time step  every integrator with its default step and with 1/4, 1 and 4 ms in one

@@ -46,7 +46,8 @@ class Finder {
       return half_space(found);
     const double left_out = std::abs(found.sides) + found.size_error + found.inertia;
     if (!scene::beyond(Model::layer, scenario_, choice_.touch) && found.measured &&
-        left_out <= refined_error && std::abs(found.deep) + found.deep_error <= refined_error)
+        left_out <= refined_error &&
+        (found.depth_ratio ? std::abs(found.deep) : found.deep_error) <= refined_error)
       return layer(found);
     const bool ready = std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh);
     return ready && found.inertia >= scenario_.solver.tolerance ? on_the_mesh() : refined(found);

@@ -33,7 +33,7 @@ TEST(Choose, TwentySceneEachItsRung) {
       {"thick muscle", Model::hertz},
       {"skin 30 mm thick", Model::layer},
       {"skin 10 mm thick", Model::layer},
-      {"thin skin", Model::layer},
+      {"thin skin", Model::solid},
       {"ligament that slides on its base", Model::layer},
       {"a narrow block", Model::hertz},
       {"beside a side", Model::solid},

@@ -65,7 +65,9 @@ TEST_F(SurfaceFiles, AreTouchedWhereTheShapeIs) {
       EXPECT_GT(file.curvature.normal.dot(shape.curvature.normal), std::cos(0.005));
       // The smooth surface through the triangles follows the shape to second order.
       EXPECT_LT((file.lowest - shape.lowest).norm(), 0.02e-3);
-      EXPECT_NEAR(file.thickness, shape.thickness, 0.5e-3);
+      // Straight down, a file ends at its own underside, a shape at that of its box.
+      EXPECT_LT(file.thickness, shape.thickness + 0.5e-3);
+      EXPECT_GT(file.thickness, 0.9 * shape.thickness);
       EXPECT_LT((file.size - shape.size).norm(), 0.5e-3);
     }
   }
@@ -103,10 +105,10 @@ TEST_F(SurfaceFiles, TellAutoTheirThicknessAndWidth) {
   ASSERT_NE(choice.forecast(scenario::Model::hertz), nullptr);
   EXPECT_GT(choice.forecast(scenario::Model::hertz)->error, 0.1);
   EXPECT_NE(choice.chosen.solver.model, scenario::Model::hertz);
-  // A large body of the same tissue needs no mesh.
+  // A large body of the same tissue is nearly a half-space.
   write(sampled(geometry::Ellipsoid{{0.4, 0.4, 0.4}}, 10e-3));
-  EXPECT_EQ(run::choose(scenario::read_case(text("x = \"240 mm\"\n"))).chosen.solver.model,
-            scenario::Model::hertz);
+  const Choice large = run::choose(scenario::read_case(text("x = \"240 mm\"\n")));
+  EXPECT_LT(std::abs(large.expected.size), 0.05);
 }
 
 TEST_F(SurfaceFiles, KnowTheirNearestEdge) {
