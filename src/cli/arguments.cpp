@@ -324,6 +324,9 @@ void add_options(CLI::App& verb, Identify& identify) {
   verb.add_option("scenario", identify.scenario, "Scenario of the test")
       ->required()
       ->type_name("SCENARIO");
+  verb.add_option("--with", identify.with,
+                  "A further measurement and its scenario, fitted together")
+      ->type_name("DATA SCENARIO");
   add_data(verb, identify.columns);
   verb.add_option("--origin", identify.x_origin,
                   "Subtracted from every x: where the programme begins");

@@ -195,10 +195,11 @@ struct Identify {
   std::string data;
   DataOptions columns{.compression = "auto"};
   std::string scenario;
-  std::vector<std::string> unknowns;  // KEY=LOW..HIGH
-  std::vector<std::string> givens;    // KEY=VALUE +- SD
-  std::string noise = "constant";     // or relative
-  std::optional<double> x_origin;     // where the programme begins, in the unit of x
+  std::vector<std::pair<std::string, std::string>> with;  // further pairs of data and scenario
+  std::vector<std::string> unknowns;                      // KEY=LOW..HIGH
+  std::vector<std::string> givens;                        // KEY=VALUE +- SD
+  std::string noise = "constant";                         // or relative
+  std::optional<double> x_origin;  // where the programme begins, in the unit of x
   std::vector<std::string> settings;
   std::string out = "out";
   bool force = false;
