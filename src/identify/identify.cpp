@@ -296,7 +296,7 @@ class Search {
 
   // Whether the pairs change by more than the stated errors of their models along the direction of
   // unknowns i and j that changes them least: a_k = sum J F w / sum (F w)^2, the relative change of
-  // the curve of pair k as a whole. One pair has such a direction always. docs/theory.md (133)
+  // the curve of pair k as a whole. One pair has such a direction always. docs/theory.md (126)
   [[nodiscard]] bool told_apart(std::size_t i, std::size_t j) const {
     const std::size_t n = unknowns_.size();
     double ii = 0.0, ij = 0.0, jj = 0.0;

@@ -109,7 +109,7 @@ struct Pair {
 // read_unknowns). Every pair is weighted by the scatter of its own rows, from their second
 // differences, but at least 1e-3 of its range. Two moduli that correlate by more than 0.95 are told
 // apart only where the pairs change with them by more than their models' stated errors.
-//                                                                             docs/theory.md (133)
+//                                                                             docs/theory.md (126)
 [[nodiscard]] Identification identify(const std::vector<Pair>& pairs,
                                       const std::vector<Unknown>& unknowns,
                                       const IdentifyOptions& options = {});
