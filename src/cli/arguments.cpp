@@ -55,6 +55,8 @@ void add_data(CLI::App& verb, DataOptions& data) {
   verb.add_option("--compliance", data.compliance,
                   "x minus force times it is the depth, as \"0.2 um/N\"")
       ->excludes(spring);
+  verb.add_option("--drift", data.drift,
+                  "Column of times: a drift of y between both ends of the record is taken off");
   verb.add_option("--case", data.case_name, "Only rows with this value in the column `case`");
 }
 
@@ -119,7 +121,7 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_option("--model", fit.model, "Curve")->required()->type_name(any_of(models));
   verb.add_option("--origin", fit.x_origin,
                   "Subtracted from every x; of times, default: where the step is");
-  verb.add_option("--radius", fit.radius, "hertz, layer: of the sphere or punch, as \"11 mm\"");
+  verb.add_option("--radius", fit.radius, "contact models: of the sphere or punch, as \"11 mm\"");
   verb.add_option("--tip", fit.tip, "hertz: default paraboloid")
       ->type_name("paraboloid|sphere|cone|pyramid3|pyramid4|punch");
   verb.add_option("--half-angle", fit.half_angle,
@@ -127,6 +129,14 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_option("--baseline", fit.baseline,
                   "hertz, layer: default: what the rows before contact allow")
       ->type_name("none|offset|tilt");
+  verb.add_option("--baseline-from", fit.baseline_from,
+                  "the same: rows before contact count from this x on, as \"0.1 mm\"");
+  verb.add_option("--baseline-to", fit.baseline_to, "the same: and up to this x");
+  verb.add_option("--contact-point", fit.contact_point,
+                  "the same: where it is known, as \"0.5 mm\"; default: fitted");
+  verb.add_option("--time", fit.time, "hertz_power_law, hertz_solid: column of the times");
+  verb.add_option("--atoms", fit.atoms,
+                  "adhesive: distance of the atoms at rest, default \"0.3 nm\"");
   verb.add_option("--from", fit.from,
                   "Least depth below contact, as \"0.1 mm\" or \"10 %\"; modulus: strain");
   verb.add_option("--to", fit.to, "Largest depth or strain, likewise");
@@ -140,13 +150,14 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_flag("--toe", fit.toe, "the same: count from where the line through the stress begins");
   verb.add_option("--loading", fit.loading, "the same: default by the signs")
       ->type_name("compression|tension");
-  verb.add_option("--poisson", fit.poisson_ratio, "hertz, layer: Poisson's ratio")
+  verb.add_option("--poisson", fit.poisson_ratio, "contact models: Poisson's ratio")
       ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
   verb.add_option("--base", fit.base, "layer: default bonded")->type_name("bonded|frictionless");
   verb.add_option("--terms", fit.terms,
                   "prony: number of relaxation times; above 5 they are spaced in their logarithm")
       ->check(CLI::Range(1, 60));
+  verb.add_flag("--liquid", fit.liquid, "prony: a liquid, which flows under load for ever");
   verb.add_option("--ramp", fit.ramp, "prony: duration of the loading ramp, in the unit of x")
       ->check(CLI::PositiveNumber);
   verb.add_option("--history", fit.history,
@@ -313,6 +324,9 @@ void add_options(CLI::App& verb, Identify& identify) {
   verb.add_option("scenario", identify.scenario, "Scenario of the test")
       ->required()
       ->type_name("SCENARIO");
+  verb.add_option("--with", identify.with,
+                  "A further measurement and its scenario, fitted together")
+      ->type_name("DATA SCENARIO");
   add_data(verb, identify.columns);
   verb.add_option("--origin", identify.x_origin,
                   "Subtracted from every x: where the programme begins");

@@ -52,7 +52,11 @@ using DataOptions = measured::DataLayout;
 
 // Models of `fit` that are not in the table of fit/model.h and have further options.
 inline constexpr std::array further_models{
-    "hertz", "layer", "prony", "prony_creep", "modulus", "neo_hookean", "ogden", "yeoh", "ogden3"};
+    "hertz",           "layer",       "jkr",         "dmt",
+    "adhesive",        "prony",       "prony_creep", "modulus",
+    "neo_hookean",     "ogden",       "yeoh",        "ogden3",
+    "hertz_power_law", "hertz_solid", "spring_pot",  "spring_pot_creep",
+    "fractional_zener"};
 
 struct Fit {
   static constexpr Word word{"fit", "Fit a curve to two columns of text tables"};
@@ -67,22 +71,28 @@ struct Fit {
   std::string tip;                 // of hertz: paraboloid (also empty), sphere, cone, pyramid3, ...
   std::string half_angle;          // of a cone or pyramid, in degrees
   std::string baseline;            // of hertz and layer: none, offset, tilt; empty: from the rows
-  std::string from;                // a depth below contact, or a share of the largest; empty: all
-  std::string to;                  // likewise
-  double poisson_ratio = -1;       // of the tissue; -1: not given
-  std::string thickness;           // of the layer
-  std::string base;                // of the layer: bonded or frictionless; empty: bonded
-  int terms = 0;                   // of prony; 0: not given
-  double ramp = 0.0;         // of prony: duration of the ramp before the hold, in the unit of x
-  std::string history;       // of prony: column of the strain, or of the stress in creep
-  double history_power = 0;  // exponent of that column; 0: 1, or 3/2 of a depth under a force
-  std::string height;        // of a specimen between platens: strain is length / height
-  std::string diameter;      // of a round specimen: stress is force / area
-  std::string area;          // of its cross-section, otherwise
-  std::string platens;       // slippery (also empty) or bonded
-  int cycle = 0;             // of several loadings, from 1; 0: not given
-  bool toe = false;          // takes a toe off
-  std::string loading;       // compression or tension; empty: by the signs
+  std::string baseline_from;       // the depths between which rows before contact are its baseline
+  std::string baseline_to;
+  std::string contact_point;  // where it is known; empty: fitted
+  std::string time;           // column of the times, for the viscous contact models
+  std::string atoms;          // of adhesive models: their distance at rest; empty: 0.3 nm
+  std::string from;           // a depth below contact, or a share of the largest; empty: all
+  std::string to;             // likewise
+  double poisson_ratio = -1;  // of the tissue; -1: not given
+  std::string thickness;      // of the layer
+  std::string base;           // of the layer: bonded or frictionless; empty: bonded
+  int terms = 0;              // of prony; 0: not given
+  bool liquid = false;        // of prony: flows under load for ever
+  double ramp = 0.0;          // of prony: duration of the ramp before the hold, in the unit of x
+  std::string history;        // of prony: column of the strain, or of the stress in creep
+  double history_power = 0;   // exponent of that column; 0: 1, or 3/2 of a depth under a force
+  std::string height;         // of a specimen between platens: strain is length / height
+  std::string diameter;       // of a round specimen: stress is force / area
+  std::string area;           // of its cross-section, otherwise
+  std::string platens;        // slippery (also empty) or bonded
+  int cycle = 0;              // of several loadings, from 1; 0: not given
+  bool toe = false;           // takes a toe off
+  std::string loading;        // compression or tension; empty: by the signs
 };
 struct Data {
   static constexpr Word word{"data", "Say what is understood of a measured file"};
@@ -185,10 +195,11 @@ struct Identify {
   std::string data;
   DataOptions columns{.compression = "auto"};
   std::string scenario;
-  std::vector<std::string> unknowns;  // KEY=LOW..HIGH
-  std::vector<std::string> givens;    // KEY=VALUE +- SD
-  std::string noise = "constant";     // or relative
-  std::optional<double> x_origin;     // where the programme begins, in the unit of x
+  std::vector<std::pair<std::string, std::string>> with;  // further pairs of data and scenario
+  std::vector<std::string> unknowns;                      // KEY=LOW..HIGH
+  std::vector<std::string> givens;                        // KEY=VALUE +- SD
+  std::string noise = "constant";                         // or relative
+  std::optional<double> x_origin;  // where the programme begins, in the unit of x
   std::vector<std::string> settings;
   std::string out = "out";
   bool force = false;

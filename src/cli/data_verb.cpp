@@ -129,6 +129,9 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve)
   const Dimension& y = curve.y_axis.dimension;
   if (x == unit::mm.dimension && y == unit::N.dimension)
     return line + " --model hertz --radius \"... mm\" --poisson 0.5";
+  if (x == unit::mm.dimension && y == unit::mm.dimension &&
+      lower_case(curve.y_axis.column).find("defl") != std::string::npos)
+    return line + " --spring-constant \"... N/m\" --model hertz --radius \"... mm\" --poisson 0.5";
   if (x == unit::s.dimension)
     return line +
            (y == Dimension{} ? " --model prony_creep --terms 1" : " --model prony --terms 1");

@@ -71,6 +71,16 @@ std::optional<fit::DepthLimit> limit_of(const std::string& option, const std::st
   }
 }
 
+// A place on the axis of x, of any sign.
+std::optional<double> place_of(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return parse_quantity(text, unit::mm);
+  } catch (const std::invalid_argument& wrong) {
+    refuse("`" + option + "` " + wrong.what());
+  }
+}
+
 }  // namespace
 
 double length_of(const std::string& option, const std::string& text) {
@@ -82,6 +92,14 @@ double length_of(const std::string& option, const std::string& text) {
   }
   if (!(size > 0.0)) refuse("`" + option + "` is `" + text + "`; give a length above 0");
   return size;
+}
+
+fit::AdhesiveTest adhesive_test(const Fit& command) {
+  fit::AdhesiveTest test;
+  if (command.model != "adhesive")
+    test.law = command.model == "jkr" ? fit::Adhesion::jkr : fit::Adhesion::dmt;
+  if (!command.atoms.empty()) test.distance = length_of("--atoms", command.atoms);
+  return test;
 }
 
 fit::ContactTest contact_test(const Fit& command) {
@@ -104,6 +122,12 @@ fit::ContactTest contact_test(const Fit& command) {
     test.radius = length_of("--radius", command.radius);
   }
   test.base = base_of(command.base);
+  const bool hertz = command.model == "hertz";
+  if (!hertz && command.model != "layer" && test.tip != fit::Tip::Kind::paraboloid)
+    refuse("the model `" + command.model + "` knows no tip but `paraboloid`; leave `--tip` out");
+  if (!hertz && command.model != "layer" && command.baseline == "tilt" &&
+      command.model.starts_with("hertz_"))
+    refuse("the model `" + command.model + "` knows no tilt; give `--baseline offset`");
   if (command.model == "layer") {
     if (test.tip != fit::Tip::Kind::paraboloid)
       refuse("the model `layer` knows no tip but `paraboloid`; leave `--tip` out");
@@ -115,7 +139,16 @@ fit::ContactTest contact_test(const Fit& command) {
   if (test.from && test.to && test.from->share == test.to->share &&
       !(test.from->value < test.to->value))
     refuse("`--from` is not below `--to`; give a range of depths");
-  if (command.columns.segment == "retract") test.way = fit::ContactTest::Way::retract;
+  test.baseline_from = place_of("--baseline-from", command.baseline_from);
+  test.baseline_to = place_of("--baseline-to", command.baseline_to);
+  if (test.baseline_from && test.baseline_to && !(*test.baseline_from < *test.baseline_to))
+    refuse("`--baseline-from` is not below `--baseline-to`; give a range of x");
+  test.contact_point = place_of("--contact-point", command.contact_point);
+  const std::string& segment = command.columns.segment;
+  const bool adhesive =
+      command.model == "jkr" || command.model == "dmt" || command.model == "adhesive";
+  if (segment == "retract" || (adhesive && segment.empty())) test.way = fit::Way::retract;
+  if (segment == "all" && !adhesive) test.way = fit::Way::all;
   test.residuals = fit::Residuals::correlated;
   return test;
 }

@@ -14,9 +14,11 @@
 #include "cli/fit_contact.h"
 #include "fit/contact_model.h"
 #include "fit/contact_warnings.h"
+#include "fit/fractional.h"
 #include "fit/prony.h"
 #include "fit/step_origin.h"
 #include "fit/uniaxial.h"
+#include "fit/viscous_contact.h"
 #include "measured/measured.h"
 
 namespace palpate::cli {
@@ -169,13 +171,23 @@ void check_options(const Fit& command) {
   };
   const std::initializer_list<std::string_view> uniaxial{"modulus", "neo_hookean", "ogden", "yeoh",
                                                          "ogden3"};
+  const std::initializer_list<std::string_view> contact{
+      "hertz", "layer", "jkr", "dmt", "adhesive", "hertz_power_law", "hertz_solid"};
+  const std::initializer_list<std::string_view> viscous{"hertz_power_law", "hertz_solid"};
+  const std::initializer_list<std::string_view> adhesive{"jkr", "dmt", "adhesive"};
   const std::initializer_list<std::string_view> part{"hertz", "layer", "modulus", "neo_hookean",
                                                      "ogden", "yeoh",  "ogden3"};
   for (const Option& option :
-       {Option{"--radius", !command.radius.empty(), {"hertz", "layer"}, false, "\"11 mm\""},
-        Option{"--tip", !command.tip.empty(), {"hertz", "layer"}, false, "sphere"},
+       {Option{"--radius", !command.radius.empty(), contact, false, "\"11 mm\""},
+        Option{"--tip", !command.tip.empty(), contact, false, "sphere"},
         Option{"--half-angle", !command.half_angle.empty(), {"hertz"}, false, "\"20 deg\""},
-        Option{"--baseline", !command.baseline.empty(), {"hertz", "layer"}, false, "offset"},
+        Option{"--baseline", !command.baseline.empty(), contact, false, "offset"},
+        Option{"--baseline-from", !command.baseline_from.empty(), {"hertz", "layer"}, false, ""},
+        Option{"--baseline-to", !command.baseline_to.empty(), {"hertz", "layer"}, false, ""},
+        Option{"--contact-point", !command.contact_point.empty(), {"hertz", "layer"}, false, ""},
+        Option{"--time", !command.time.empty(), viscous, true, "time"},
+        Option{"--atoms", !command.atoms.empty(), adhesive, false, "\"0.3 nm\""},
+        Option{"--liquid", command.liquid, {"prony", "prony_creep"}, false, ""},
         Option{"--from", !command.from.empty(), part, false, "\"10 %\""},
         Option{"--to", !command.to.empty(), part, false, "\"50 %\""},
         Option{"--height", !command.height.empty(), uniaxial, false, "\"10 mm\""},
@@ -185,7 +197,7 @@ void check_options(const Fit& command) {
         Option{"--loading", !command.loading.empty(), uniaxial, false, "compression"},
         Option{"--cycle", command.cycle > 0, uniaxial, false, "1"},
         Option{"--toe", command.toe, uniaxial, false, ""},
-        Option{"--poisson", command.poisson_ratio >= 0, {"hertz", "layer"}, true, "0.45"},
+        Option{"--poisson", command.poisson_ratio >= 0, contact, true, "0.45"},
         Option{"--thickness", !command.thickness.empty(), {"layer"}, true, "\"5 mm\""},
         Option{"--base", !command.base.empty(), {"layer"}, false, "bonded"},
         Option{"--ramp", command.ramp > 0.0, {"prony", "prony_creep"}, false, "0.5"},
@@ -200,7 +212,7 @@ void check_options(const Fit& command) {
       refuse("the model `" + command.model + "` wants `" + option.name + "`; write it as `" +
              option.name + " " + option.example + "`");
   }
-  if (command.x_origin && is_one_of(command.model, {"hertz", "layer"}))
+  if (command.x_origin && is_one_of(command.model, contact))
     refuse("`--origin` is not used by the model `" + command.model +
            "`, which fits the contact point; leave it out");
   if (command.x_origin && is_one_of(command.model, uniaxial))
@@ -226,7 +238,17 @@ void check_axis(const measured::MeasuredCurve& curve, const measured::MeasuredAx
 fit::Fit contact_fit(const Fit& command, const measured::MeasuredCurve& curve) {
   check_axis(curve, curve.x_axis, unit::mm, "--x");
   check_axis(curve, curve.y_axis, unit::N, "--y");
-  return fit::fit_contact(curve.x, curve.y, contact_test(command));
+  const fit::ContactTest test = contact_test(command);
+  if (is_one_of(command.model, {"jkr", "dmt", "adhesive"}))
+    return fit::fit_adhesive(curve.x, curve.y, test, adhesive_test(command));
+  if (is_one_of(command.model, {"hertz", "layer"})) return fit::fit_contact(curve.x, curve.y, test);
+  const measured::MeasuredColumn& time = curve.beside.front();
+  if (!(time.axis.dimension == unit::s.dimension))
+    throw InputError({curve.file, 0, 0}, "`" + time.axis.column +
+                                             "` is no time in a known unit; name another `--time`");
+  return fit::fit_viscous(
+      time.values, curve.x, curve.y, test,
+      command.model == "hertz_solid" ? fit::Viscous::solid : fit::Viscous::power_law);
 }
 
 // The series with its loading history: a step, a ramp, or a column of the same rows.
@@ -234,6 +256,7 @@ fit::PronySeries series_of(const Fit& command, const measured::MeasuredCurve& cu
   fit::PronySeries series;
   if (command.model == "prony_creep") series.kind = fit::PronySeries::Kind::creep;
   series.terms = command.terms;
+  series.liquid = command.liquid;
   series.history.ramp = command.ramp;
   if (command.history.empty()) {
     if (command.history_power > 0)
@@ -242,16 +265,11 @@ fit::PronySeries series_of(const Fit& command, const measured::MeasuredCurve& cu
   }
   if (command.ramp > 0.0)
     refuse("`--ramp` and `--history` both give the loading; leave one of them out");
-  DataOptions columns = command.columns;
-  columns.blanks = DataOptions::Blanks::keep;
-  columns.y = command.history;
-  columns.y_unit.clear();
-  columns.compression.clear();
-  const measured::MeasuredCurve history = measured::read_measured(curve.file, columns);
+  const measured::MeasuredColumn& history = curve.beside.front();
   const bool depth =
-      history.y_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension;
+      history.axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension;
   const double power = command.history_power > 0 ? command.history_power : depth ? 1.5 : 1.0;
-  for (const double each : history.y)
+  for (const double each : history.values)
     series.history.samples.push_back(
         power == 1.0 ? each : std::copysign(std::pow(std::abs(each), power), each));
   return series;
@@ -273,11 +291,18 @@ fit::StepOrigin origin_of(const Fit& command, const measured::MeasuredCurve& cur
   if (command.x_origin) return {*command.x_origin, {}};
   if (!command.history.empty()) return {};  // only differences of the times count
   using fit::AfterStep;
-  if (is_one_of(command.model, {"prony", "standard_linear_solid", "kelvin_voigt_recovery"}))
+  if (is_one_of(command.model, {"fractional_zener"})) {
+    const bool falls =
+        curve.y_written.size() < 2 || curve.y_written.back() < curve.y_written.front();
+    return fit::step_origin(curve.x_written, curve.y_written,
+                            falls ? AfterStep::falls : AfterStep::rises, 0.0);
+  }
+  if (is_one_of(command.model,
+                {"prony", "standard_linear_solid", "kelvin_voigt_recovery", "spring_pot"}))
     return fit::step_origin(curve.x_written, curve.y_written, AfterStep::falls, command.ramp);
   if (command.model == "prony_creep")
     return fit::step_origin(curve.x_written, curve.y_written, AfterStep::rises, command.ramp);
-  if (command.model == "kelvin_voigt")
+  if (is_one_of(command.model, {"kelvin_voigt", "spring_pot_creep"}))
     return fit::step_origin(curve.x_written, curve.y_written, AfterStep::rises_from_zero, 0.0);
   return {};
 }
@@ -304,7 +329,14 @@ fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& whole) {
     if (stepped) result.notes.insert(result.notes.begin(), origin.sentence);
     return result;
   };
-  if (is_one_of(command.model, {"hertz", "layer"})) return contact_fit(command, curve);
+  if (is_one_of(command.model,
+                {"hertz", "layer", "jkr", "dmt", "adhesive", "hertz_power_law", "hertz_solid"}))
+    return contact_fit(command, curve);
+  for (const auto& [name, model] : {std::pair{"spring_pot", fit::Fractional::spring_pot},
+                                    {"spring_pot_creep", fit::Fractional::spring_pot_creep},
+                                    {"fractional_zener", fit::Fractional::zener}})
+    if (command.model == name)
+      return said(fit::fit_fractional(curve.x_written, curve.y_written, model, options));
   if (is_one_of(command.model, {"modulus", "neo_hookean", "ogden", "yeoh", "ogden3"}))
     return uniaxial_fit(command, curve);
   if (const auto model = fit::find_model(command.model))
@@ -340,6 +372,9 @@ void check_fit(const Fit& command) {
 FittedCurve fit_curve(const Fit& command, const std::string& path) {
   DataOptions columns = command.columns;
   columns.blanks = DataOptions::Blanks::keep;  // the fit counts all points that it leaves out
+  if (is_one_of(command.model, {"jkr", "dmt", "adhesive"})) columns.usual = "retract";
+  for (const std::string* each : {&command.time, &command.history})
+    if (!each->empty()) columns.beside.push_back(*each);
   const measured::MeasuredCurve curve = measured::read_measured(path, columns);
   fit::Fit result;
   try {

@@ -35,18 +35,20 @@ void begin_with_programme(const Identify& command, measured::MeasuredCurve& curv
   const double gap = curve.x[1] - curve.x[0];
   if (first <= gap * (1.0 + 1e-9)) return;
   const std::string begins = rounded_text(curve.x_written.front());
-  throw InputError({command.data, 0, 0},
+  throw InputError({curve.file, 0, 0},
                    "its first row is at " + begins + " " + curve.x_axis.unit +
                        ", and the programme of the scenario begins at 0; give `--origin " + begins +
                        "` if it begins with that row, or `--origin 0` if the clock is that of the "
                        "programme and the rows before are missing");
 }
 
-identify::Measurement read_measurement(const Identify& command, const Talk& talk) {
-  measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
-  for (const std::string& note : curve.notes) talk.say("note: " + note);
+identify::Measurement read_measurement(const Identify& command, const std::string& data,
+                                       const Talk& talk) {
+  measured::MeasuredCurve curve = measured::read_measured(data, command.columns);
+  const std::string where = command.with.empty() ? "note: " : "note: " + data + ": ";
+  for (const std::string& note : curve.notes) talk.say(where + note);
   if (curve.guessed)
-    talk.say("note: x is `" + curve.x_axis.column + "` and y is `" + curve.y_axis.column + "`");
+    talk.say(where + "x is `" + curve.x_axis.column + "` and y is `" + curve.y_axis.column + "`");
   if (curve.x_axis.stretch)
     for (double& each : curve.x) each -= 1.0;
   begin_with_programme(command, curve);
@@ -58,56 +60,88 @@ identify::Measurement read_measurement(const Identify& command, const Talk& talk
           .y_dimension = curve.y_axis.dimension};
 }
 
+scenario::Family read_scenario(const Identify& command, const std::string& path, const Talk& talk) {
+  scenario::Family family = scenario::read(path, command.settings);
+  const std::string where = command.with.empty() ? "note: " : "note: " + path + ": ";
+  for (const Problem& note : family.notes) talk.say("note: " + note.text());
+  if (family.cases.size() > 1)
+    talk.say(where + "only the first of " + std::to_string(family.cases.size()) +
+             " cases is fitted, " + family.cases.front().name);
+  const scenario::Case& first = family.cases.front();
+  if (first.scenario.finger.material != "rigid" && !first.scenario.uniform())
+    talk.say(where + "the finger is `" + first.scenario.finger.material +
+             "`, which gives way; set `finger.material = \"rigid\"` for a ball of metal or glass");
+  return family;
+}
+
 // The arguments say how the data are read and what is unknown.
-std::string origin_of(const Identify& command, const Arguments& arguments,
-                      const scenario::Family& family) {
+std::string origin_of(const Arguments& arguments, std::span<const identify::PairFiles> pairs) {
   std::string text;
   for (const std::string& word : arguments.given)
     if (word != "--force" && word != "--quiet" && word != "-q" && word != "--json")
       text += word + "\n";
-  return text + file_sha256(command.data) + "\n" + report::origin_of(family);
+  for (const identify::PairFiles& pair : pairs)
+    text += file_sha256(pair.measured) + "\n" + report::origin_of(*pair.family);
+  return text;
 }
 
 }  // namespace
 
 int perform(const Identify& command, const Arguments& arguments, const Talk& talk) {
   const std::string started = report::utc_now();
-  if (command.data.ends_with(".toml") && !command.scenario.ends_with(".toml"))
-    throw InputError({command.data, 0, 0},
-                     "is a scenario, and the measurement comes first; write `palpate identify " +
-                         command.scenario + " " + command.data + "`");
-  scenario::Family family = scenario::read(command.scenario, command.settings);
-  for (const Problem& note : family.notes) talk.say("note: " + note.text());
-  if (family.cases.size() > 1)
-    talk.say("note: only the first of " + std::to_string(family.cases.size()) +
-             " cases is fitted, " + family.cases.front().name);
+  std::vector<std::pair<std::string, std::string>> asked{{command.data, command.scenario}};
+  asked.insert(asked.end(), command.with.begin(), command.with.end());
+  if (asked.size() > 1 && !command.givens.empty())
+    refuse("`--given` widens the intervals of one measurement; leave it or `--with` out");
+  std::vector<scenario::Family> families;
+  families.reserve(asked.size());
+  std::vector<const scenario::Scenario*> scenarios;
+  std::vector<identify::PairFiles> files;
+  for (const auto& [data, path] : asked) {
+    if (data.ends_with(".toml") && !path.ends_with(".toml"))
+      throw InputError({data, 0, 0},
+                       "is a scenario, and the measurement comes first; write `palpate identify " +
+                           path + " " + data + "`");
+    families.push_back(read_scenario(command, path, talk));
+    scenarios.push_back(&families.back().cases.front().scenario);
+    files.push_back({data, &families.back()});
+  }
   const std::vector<identify::Unknown> unknowns =
-      identify::read_unknowns(command.unknowns, family.cases.front().scenario);
+      identify::read_unknowns(command.unknowns, scenarios);
+  scenario::Family& family = families.front();
   const std::vector<identify::Given> givens =
       identify::read_givens(command.givens, family.cases.front().scenario, unknowns);
   identify::set_givens(family, givens);
   WholeFolder folder((std::filesystem::path(command.out) / (family.name + "_identified")).string(),
                      "identification", command.force ? Replace::any : Replace::incomplete,
-                     origin_of(command, arguments, family));
+                     origin_of(arguments, files));
   folder.refuse_what_is_there();
-  const identify::Measurement measured = read_measurement(command, talk);
+  std::vector<identify::Measurement> measured;
+  measured.reserve(asked.size());
+  std::vector<identify::Pair> pairs;
+  for (const identify::PairFiles& one : files) {
+    measured.push_back(read_measurement(command, one.measured, talk));
+    pairs.push_back({&measured.back(), one.family});
+  }
   identify::IdentifyOptions options;
   if (command.noise == "relative") options.noise = identify::Noise::relative;
 
   // Nothing is kept until the search has ended, so that an interrupt may end the program at once.
-  identify::Identification found = identify::identify(measured, family, unknowns, options);
-  identify::carry_givens(found, measured, family, givens);
+  identify::Identification found = identify::identify(pairs, unknowns, options);
+  identify::carry_givens(found, measured.front(), family, givens);
   for (const std::string& note : found.notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);
-  for (const std::string& warning : identify::write_identification(
-           found, family, command.data, {arguments.given, started}, folder))
+  for (const std::string& warning :
+       identify::write_identification(found, files, {arguments.given, started}, folder))
     talk.warn(warning);
   if (talk.json()) {
     print(json_lines(identify::identified_table(found)));
   } else {
     for (const std::string& line : identify::identified_sentences(found)) print(line + "\n");
   }
-  talk.say(folder.path() + ": identified.csv, residuals.csv, profile.csv, scenario.toml");
+  const std::string each = files.size() > 1 ? "_1" : "";
+  talk.say(folder.path() + ": identified.csv, residuals" + each + ".csv, profile.csv, scenario" +
+           each + ".toml" + (files.size() > 1 ? " and those of the other pairs" : ""));
   return exit_good;
 }
 

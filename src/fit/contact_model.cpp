@@ -60,11 +60,12 @@ class ContactFit {
   }
 
   Fit all() {
-    const ContactChoice choice = test_.from || test_.to ? chosen_part() : chosen();
+    const bool part = test_.from || test_.to || test_.baseline_from || test_.baseline_to;
+    const ContactChoice choice = part ? chosen_part() : chosen();
     refuse_what_shows_no_contact(choice);
     fit_.n = static_cast<int>(rows_.depth.size());
     if (outside_ > 0)
-      fit_.notes.push_back(plural(outside_, "point") + " left out by `--from` and `--to`");
+      fit_.notes.push_back(plural(outside_, "point") + " left out by the limits of depth");
     fit_.left_out += outside_;
     fit_.range_low = unit::mm.from_si(rows_.low);
     fit_.range_high = unit::mm.from_si(rows_.high);
@@ -106,46 +107,31 @@ class ContactFit {
                              " usable; record more points");
   }
 
-  // Keeps the rows up to the deepest one, or those from there on. A curve turns back if its last
-  // rows are a tenth of the range above the deepest.
   void take_one_way(std::vector<double>& h, std::vector<double>& f) {
-    const auto low = std::min_element(h.begin(), h.end());
-    const auto high = std::max_element(h.begin(), h.end());  // the first of several
-    const auto deepest = as_index(high - h.begin());
-    const double back = *high - 0.1 * (*high - *low);
-    const auto away = [&](double each) { return each < back; };
-    const auto turn = h.begin() + static_cast<std::ptrdiff_t>(deepest);
-    if (std::none_of(turn, h.end(), away)) return;
-    const bool comes = std::any_of(h.begin(), turn, away);
-    const auto size = static_cast<int>(h.size());
-    const auto cut = [&](std::size_t from, std::size_t to) {
-      h = {h.begin() + static_cast<std::ptrdiff_t>(from),
-           h.begin() + static_cast<std::ptrdiff_t>(to)};
-      f = {f.begin() + static_cast<std::ptrdiff_t>(from),
-           f.begin() + static_cast<std::ptrdiff_t>(to)};
-    };
-    if (!comes || test_.way == ContactTest::Way::all) return;
-    if (test_.way == ContactTest::Way::approach) {
-      cut(0, deepest + 1);
-      leave_out(size - static_cast<int>(h.size()),
-                "the way back from the deepest row; `--segment retract` fits it");
-    } else {
-      cut(deepest, h.size());
-      leave_out(size - static_cast<int>(h.size()), "the way to the deepest row");
-    }
+    const OneWay part = one_way(h, test_.way);
+    const std::size_t size = h.size();
+    for (std::vector<double>* each : {&h, &f})
+      *each = {each->begin() + static_cast<std::ptrdiff_t>(part.from),
+               each->begin() + static_cast<std::ptrdiff_t>(part.to)};
+    leave_out(static_cast<int>(size - h.size()),
+              test_.way == Way::approach
+                  ? "the way back from the deepest row; `--segment retract` fits it"
+                  : "the way to the deepest row");
     refuse_few(h.size());
   }
+
+  [[nodiscard]] SearchLimits limits() const { return {law_.deepest, true, test_.contact_point}; }
 
   [[nodiscard]] ContactChoice chosen() const {
     std::optional<ContactChoice> choice;
     using Asked = ContactTest::BaselineChoice;
     if (test_.baseline == Asked::automatic) {
-      choice = choose_contact(law_.unit, rows_, law_.deepest);
+      choice = choose_contact(law_.unit, rows_, limits());
     } else {
       const Baseline baseline = test_.baseline == Asked::none     ? Baseline::none
                                 : test_.baseline == Asked::offset ? Baseline::offset
                                                                   : Baseline::tilt;
-      if (const auto guess = search_contact(law_.unit, rows_, baseline, {law_.deepest}))
+      if (const auto guess = search_contact(law_.unit, rows_, baseline, limits()))
         choice = ContactChoice{baseline, *guess};
     }
     if (choice) return *choice;
@@ -157,7 +143,7 @@ class ContactFit {
     throw InputError({}, "no contact point fits the curve; give a curve of force over depth");
   }
 
-  // Keeps the rows before contact and those between `from` and `to`; false if nothing changes.
+  // Keeps the rows of the baseline and those between `from` and `to`; false if nothing changes.
   bool narrow(double contact) {
     const double most = all_.high - contact;
     const auto length = [&](const std::optional<DepthLimit>& limit, double otherwise) {
@@ -166,8 +152,12 @@ class ContactFit {
     };
     const double from = length(test_.from, 0.0);
     const double to = length(test_.to, most) * (1.0 + 1e-12);
-    PressRows kept =
-        those([&](double h) { return h <= contact || (h - contact >= from && h - contact <= to); });
+    const double free_from = test_.baseline_from.value_or(-std::numeric_limits<double>::infinity());
+    const double free_to = test_.baseline_to.value_or(std::numeric_limits<double>::infinity());
+    PressRows kept = those([&](double h) {
+      if (h <= contact) return h >= free_from && h <= free_to;
+      return h - contact >= from && h - contact <= to;
+    });
     const bool same = kept.depth == rows_.depth;
     rows_ = std::move(kept);
     return !same;
@@ -184,7 +174,7 @@ class ContactFit {
     refuse_few(kept.depth.size());
     const auto [low, high] = std::minmax_element(kept.depth.begin(), kept.depth.end());
     if (*low == *high)
-      throw InputError({}, "no depth is left between `--from` and `--to`; widen them");
+      throw InputError({}, "no depth is left between the limits of depth; widen them");
     kept.low = *low;
     kept.high = *high;
     return kept;
@@ -215,7 +205,7 @@ class ContactFit {
     }
     if (!best)
       throw InputError({},
-                       "no contact point fits the rows between `--from` and `--to`; widen them");
+                       "no contact point fits the rows between the limits of depth; widen them");
     rows_ = std::move(best_rows);
     outside_ = static_cast<int>(all_.depth.size() - rows_.depth.size());
     return *best;
@@ -286,25 +276,28 @@ class ContactFit {
                                "record more points in contact");
   }
 
-  // Unknowns: E* divided by its guess, the contact point divided by the range, offset and tilt.
+  // Unknowns: E* divided by its guess, the contact point divided by the range unless it is known,
+  // offset and tilt.
   void finish(const ContactChoice& choice) {
     const ContactGuess& guess = choice.guess;
     const double range = rows_.range();
-    const std::size_t count = 2 + as_index(choice.baseline);
+    const std::size_t lead = test_.contact_point ? 1 : 2;
+    const std::size_t count = lead + as_index(choice.baseline);
     const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
                               std::span<double> slopes) {
+      const double contact = lead == 1 ? guess.contact : p[1] * range;
       for (std::size_t i = 0; i < values.size(); ++i) {
-        const UnitForce unit = law_.unit(rows_.depth[i] - p[1] * range);
+        const UnitForce unit = law_.unit(rows_.depth[i] - contact);
         const double along = (rows_.depth[i] - rows_.low) / range;
         values[i] = p[0] * guess.factor * unit.force;
-        if (count > 2) values[i] += p[2];
-        if (count > 3) values[i] += p[3] * along;
+        if (count > lead) values[i] += p[lead];
+        if (count > lead + 1) values[i] += p[lead + 1] * along;
         if (slopes.empty()) continue;
         double* row = &slopes[i * count];
         row[0] = guess.factor * unit.force;
-        row[1] = -p[0] * guess.factor * unit.stiffness * range;
-        if (count > 2) row[2] = 1.0;
-        if (count > 3) row[3] = along;
+        if (lead > 1) row[1] = -p[0] * guess.factor * unit.stiffness * range;
+        if (count > lead) row[lead] = 1.0;
+        if (count > lead + 1) row[lead + 1] = along;
       }
       return true;
     };
@@ -312,19 +305,23 @@ class ContactFit {
     const auto start = [](double value) { return std::abs(value) < 1e-3 ? 0.0 : value; };
     std::vector<double> unknowns{1.0, guess.contact / range, start(guess.offset),
                                  start(guess.tilt)};
-    unknowns.resize(count);
+    const auto fitted = [&](auto& all) {
+      if (lead == 1) all.erase(all.begin() + 1);
+      all.resize(count);
+    };
+    fitted(unknowns);
     const Minimum minimum = minimise(rows_.force, curve, unknowns, 200);
 
     // E = E* (1 - nu^2) for a rigid tip                  Chen 2007 eq. (2); docs/theory.md (1)
     const double young = guess.factor * scale_ * (1.0 - test_.poisson_ratio * test_.poisson_ratio);
     std::vector<double> scale{unit::kPa.from_si(young), unit::mm.from_si(range), scale_,
                               scale_ / unit::mm.from_si(range)};
-    scale.resize(count);
+    fitted(scale);
     fit_.parameters = {{.name = "E", .unit = "kPa"},
                        {.name = "h_0", .unit = "mm"},
                        {.name = "F_0", .unit = "N"},
                        {.name = "tilt", .unit = "N/mm"}};
-    fit_.parameters.resize(count);
+    fitted(fit_.parameters);
     for (std::size_t i = 0; i < count; ++i) fit_.parameters[i].initial = unknowns[i] * scale[i];
     settle(fit_, minimum, {rows_.force, scale_, scale, test_.residuals});
     if (fit_.termination == Termination::failed) return;
@@ -332,7 +329,8 @@ class ContactFit {
   }
 
   void describe(const ContactChoice& choice, const Minimum& minimum) {
-    const double contact = minimum.parameters[1] * rows_.range();
+    const double contact =
+        test_.contact_point ? *test_.contact_point : minimum.parameters[1] * rows_.range();
     ContactResult result{test_, choice.baseline};
     result.deepest = rows_.high - contact;
     result.before = as_index(std::count_if(rows_.depth.begin(), rows_.depth.end(),
@@ -341,7 +339,7 @@ class ContactFit {
     const double pressed =
         minimum.parameters[0] * choice.guess.factor * law_.unit(result.deepest).force;
     result.drift =
-        choice.baseline == Baseline::tilt ? std::abs(minimum.parameters[3] / pressed) : 0.0;
+        choice.baseline == Baseline::tilt ? std::abs(minimum.parameters.back() / pressed) : 0.0;
     static constexpr std::array<const char*, 3> words{"no baseline", "a force offset",
                                                       "a force offset and a tilt"};
     fit_.law += ", with " + std::string(words[as_index(choice.baseline)]);

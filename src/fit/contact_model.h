@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "contact/layer_integral.h"
+#include "fit/loading_part.h"
 #include "fit/regression.h"
 #include "fit/tip.h"
 
@@ -28,9 +29,12 @@ struct ContactTest {
 
   enum class BaselineChoice { automatic, none, offset, tilt };
   BaselineChoice baseline = BaselineChoice::automatic;
+  std::optional<double> baseline_from = {};  // m: of the rows before contact, only those from here
+  std::optional<double> baseline_to = {};    // to here count
+  std::optional<double> contact_point = {};  // m, known; none: fitted
   std::optional<DepthLimit> from = {};
   std::optional<DepthLimit> to = {};
-  enum class Way { approach, retract, all };
+  using Way = fit::Way;
   Way way = Way::approach;
   Residuals residuals = Residuals::independent;
 };
@@ -40,7 +44,8 @@ struct ContactTest {
 // (contact/layer.h), 0 before contact. Parameters: E in kPa, h_0 in mm and, if there is a
 // baseline, F_0 in N and k in N/mm; ranges in mm, rmse in N. `automatic` fits an offset where three
 // rows lie before contact, and a tilt where ten do. Of a curve that goes in and out, `way` is
-// fitted. Points that are not used are counted, and named in the notes.
+// fitted. A known contact point is no parameter. Points that are not used are counted, and named in
+// the notes.
 // Throws InputError for fewer than 4 points, for fewer than 3 beyond the contact point, for a
 // single depth, for a curve in which the load does not grow with depth or that shows no contact,
 // and for data deeper than the law of a thin layer permits.

@@ -115,9 +115,15 @@ std::optional<ContactGuess> search_contact(const UnitLaw& law, const PressRows& 
     if (!best || found->squares < best->squares) best = found;
     return found->squares;
   };
-  for (int i = 0; i < steps; ++i) (void)keep(first + i * step);
+  if (limits.fixed) {
+    (void)keep(*limits.fixed);
+  } else {
+    for (int i = 0; i < steps; ++i) (void)keep(first + i * step);
+    if (best)
+      (void)numerics::minimum({best->contact - step, std::min(best->contact + step, rows.high)},
+                              keep);
+  }
   if (!best) return std::nullopt;
-  (void)numerics::minimum({best->contact - step, std::min(best->contact + step, rows.high)}, keep);
   best->before = as_index(std::count_if(rows.depth.begin(), rows.depth.end(),
                                         [&](double h) { return h <= best->contact; }));
   const double share =
@@ -170,7 +176,7 @@ bool determines(const PressRows& rows, const ContactGuess& guess, Baseline basel
 }  // namespace
 
 std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows& rows,
-                                            double deepest) {
+                                            const SearchLimits& limits) {
   constexpr std::size_t for_offset = 3;
   constexpr std::size_t for_tilt = 10;
   const auto n = static_cast<double>(std::min(rows.depth.size(), means));
@@ -189,7 +195,7 @@ std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows&
   double least = std::numeric_limits<double>::infinity();
   for (const Baseline baseline : {Baseline::none, Baseline::offset, Baseline::tilt}) {
     std::optional<ContactGuess>& guess = guesses[as_index(baseline)];
-    guess = search_contact(law, rows, baseline, {deepest});
+    guess = search_contact(law, rows, baseline, limits);
     if (!guess || guess->before < rows_for(baseline) || rows.depth.size() < guess->before + 2)
       guess.reset();
     if (!guess || (baseline != Baseline::none && !(guess->factor > 0.0))) continue;
@@ -207,7 +213,7 @@ std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows&
   }
   for (const Baseline other : {Baseline::offset, Baseline::tilt}) {
     if (other == best->baseline) continue;
-    const auto guess = search_contact(law, rows, other, {deepest, false});
+    const auto guess = search_contact(law, rows, other, {limits.deepest, false, limits.fixed});
     if (guess && guess->factor > 0.0) best->others.emplace_back(other, guess->factor);
   }
   return best;

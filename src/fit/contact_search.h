@@ -48,6 +48,7 @@ struct ContactGuess {
 struct SearchLimits {
   double deepest;           // largest depth of the law, m
   bool within_rows = true;  // the contact lies within the rows wherever there is a baseline
+  std::optional<double> fixed = {};  // m, the known contact point
 };
 [[nodiscard]] std::optional<ContactGuess> search_contact(const UnitLaw& law, const PressRows& rows,
                                                          Baseline baseline,
@@ -64,6 +65,6 @@ struct ContactChoice {
   std::vector<std::pair<Baseline, double>> others = {};  // the factors with other baselines
 };
 [[nodiscard]] std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows& rows,
-                                                          double deepest);
+                                                          const SearchLimits& limits);
 
 }  // namespace palpate::fit

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -120,47 +121,104 @@ std::vector<std::complex<double>> padded(const Eigen::VectorXd& values, std::siz
   return all;
 }
 
-// S(f) = s (1 + (c/f)^a), fitted to the periodogram by Whittle's likelihood. The fit has taken the
-// power of the lowest frequencies, one for each unknown, which are therefore left out.
-struct Spectrum {
-  double level = 0.0, corner = 0.0, power = 1.0;
-  bool better = false;  // than the spectrum of the first-order process
-  [[nodiscard]] double at(double f) const { return level * (1.0 + std::pow(corner / f, power)); }
-};
-Spectrum spectrum_of(const Eigen::VectorXd& residuals, Eigen::Index p, std::size_t size,
-                     double rho) {
-  const auto n = static_cast<double>(residuals.size());
-  const auto transformed = padded(residuals, size);
-  // Means over bands that grow by a twentieth, of frequencies a band of 1/n apart.
-  std::vector<double> f, height, weight;
-  double next = 0.0;
-  for (auto k = static_cast<double>(p + 1); k < 0.5 * n; k += 1.0) {
-    const auto at = static_cast<std::size_t>(std::lround(k / n * static_cast<double>(size)));
-    const double value = std::norm(transformed[at]) / n;
-    if (f.empty() || k >= next) {
-      f.push_back(0.0);
-      height.push_back(0.0);
-      weight.push_back(0.0);
-      next = std::max(k + 1.0, 1.05 * k);
+// Bands of frequency that grow by a twentieth, of the bins `from` to `to` of `spacing` each.
+struct Bands {
+  std::vector<std::vector<std::size_t>> bins;
+  std::vector<double> f;  // mean frequency, cycles per row
+
+  Bands(std::size_t from, std::size_t to, double spacing) {
+    double next = 0.0;
+    for (std::size_t k = from; k <= to; ++k) {
+      const auto at = static_cast<double>(k);
+      if (bins.empty() || at >= next) {
+        bins.emplace_back();
+        next = std::max(at + 1.0, 1.05 * at);
+      }
+      bins.back().push_back(k);
     }
-    f.back() += k / n;
-    height.back() += value;
-    weight.back() += 1.0;
+    for (const auto& band : bins)
+      f.push_back(0.5 * spacing * static_cast<double>(band.front() + band.back()));
   }
-  for (std::size_t b = 0; b < f.size(); ++b) {
-    f[b] /= weight[b];
-    height[b] /= weight[b];
+};
+
+// Sums over the bins of each band of Re(X_k X_l^*), X the transforms of the columns.
+std::vector<Matrix> products_in(const Bands& bands, const Matrix& columns, std::size_t size,
+                                const std::function<double(std::size_t)>& weight,
+                                const std::function<std::size_t(std::size_t)>& place) {
+  std::vector<std::vector<std::complex<double>>> waves;
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) waves.push_back(padded(columns.col(k), size));
+  std::vector<Matrix> sums;
+  for (const auto& band : bands.bins) {
+    Matrix& sum = sums.emplace_back(Matrix::Zero(columns.cols(), columns.cols()));
+    for (const std::size_t bin : band)
+      for (Eigen::Index i = 0; i < sum.rows(); ++i)
+        for (Eigen::Index j = 0; j < sum.cols(); ++j)
+          sum(i, j) +=
+              weight(bin) *
+              (waves[as_index(i)][place(bin)] * std::conj(waves[as_index(j)][place(bin)])).real();
   }
-  double total = 0.0;
-  for (const double each : weight) total += each;
+  return sums;
+}
+
+// The covariance of the estimates under a spectrum S(f) = s (1 + (c/f)^a), the mean over the
+// corners c and powers a of a grid, each by its likelihood.
+struct Flicker {
+  Matrix covariance;         // of the estimates
+  double lowest = 0.0;       // S at one cycle in all rows
+  double degrees = 0.0;      // of freedom of the variances
+  double probability = 0.0;  // of this spectrum, against that of the first-order process
+};
+
+// Whittle's likelihood of the residuals' periodogram. The fit has taken its part of the low
+// frequencies: with Q an orthonormal basis of the jacobian, the expected periodogram is
+//   S(f) (1 - 2 |Q(f)|^2 / n) + Q(f)^* A Q(f) / n,  A = int S(g) Q(g) Q(g)^* dg.
+//                                                                             docs/theory.md (118)
+Flicker flicker_of(const Rows& rows, Eigen::Index p, const Matrix& inverse, double rho) {
+  const auto n = static_cast<double>(rows.rows());
+  std::size_t size = 1;
+  while (size < 2 * as_index(rows.rows())) size *= 2;
+  const auto spacing = 1.0 / static_cast<double>(size);
+  const Matrix jacobian = rows.leftCols(p);
+  const Matrix basis =
+      Eigen::HouseholderQR<Matrix>(jacobian).householderQ() * Matrix::Identity(rows.rows(), p);
+  Matrix all(rows.rows(), 2 * p);
+  all << basis, jacobian * inverse;
+
+  // Over all frequencies, of which the upper half mirrors the lower one.
+  Bands whole(0, size / 2, spacing);
+  whole.f.front() = 0.5 / n;
+  const auto mirrored = [&](std::size_t bin) { return bin == 0 || 2 * bin == size ? 1.0 : 2.0; };
+  const std::vector<Matrix> integrals =
+      products_in(whole, all, size, mirrored, [](std::size_t bin) { return bin; });
+
+  // At the frequencies of the periodogram, 1/n apart.
+  const Bands bands(1, as_index((rows.rows() - 1) / 2), 1.0 / n);
+  const auto place = [&](std::size_t bin) {
+    return static_cast<std::size_t>(
+        std::lround(static_cast<double>(bin) / n * static_cast<double>(size)));
+  };
+  const auto once = [](std::size_t) { return 1.0; };
+  const std::vector<Matrix> taken = products_in(bands, basis, size, once, place);
+  const std::vector<Matrix> powers = products_in(bands, rows.col(p), size, once, place);
+
   // -log L of a shape, with its level.
   const auto fitted = [&](const auto& shape_at) {
+    Matrix inner = Matrix::Zero(p, p);
+    for (std::size_t b = 0; b < whole.f.size(); ++b)
+      inner += shape_at(whole.f[b]) * spacing * integrals[b].topLeftCorner(p, p);
     double level = 0.0;
     double logs = 0.0;
-    for (std::size_t b = 0; b < f.size(); ++b) {
-      const double shape = shape_at(f[b]);
-      level += weight[b] * height[b] / shape;
-      logs += weight[b] * std::log(shape);
+    double total = 0.0;
+    for (std::size_t b = 0; b < bands.f.size(); ++b) {
+      const auto count = static_cast<double>(bands.bins[b].size());
+      const double shape = shape_at(bands.f[b]);
+      const double expected = std::max(shape * (count - 2.0 * taken[b].trace() / n) +
+                                           taken[b].cwiseProduct(inner).sum() / n,
+                                       1e-3 * shape * count) /
+                              count;
+      level += powers[b](0, 0) / n / expected;
+      logs += count * std::log(expected);
+      total += count;
     }
     return std::pair{total * std::log(level / total) + logs, level / total};
   };
@@ -168,19 +226,56 @@ Spectrum spectrum_of(const Eigen::VectorXd& residuals, Eigen::Index p, std::size
       fitted([&](double at) {
         return 1.0 / (1.0 - 2.0 * rho * std::cos(2.0 * std::numbers::pi * at) + rho * rho);
       }).first;
-  Spectrum best;
+  struct Shape {
+    double corner, power, minus_log, level;
+    [[nodiscard]] double at(double f) const { return level * (1.0 + std::pow(corner / f, power)); }
+  };
+  std::vector<Shape> shapes;
   double least = std::numeric_limits<double>::infinity();
   for (const double power : {0.5, 0.75, 1.0, 1.25, 1.5, 2.0})
-    for (int k = -1; k <= 30; ++k) {
-      const double corner = k < 0 ? 0.0 : std::pow(10.0, -4.0 + 0.2 * k);
+    for (int k = 0; k <= 30; ++k) {
+      const double corner = std::pow(10.0, -4.0 + 0.2 * k);
       const auto [value, level] =
           fitted([&](double at) { return 1.0 + std::pow(corner / at, power); });
-      if (!(value < least)) continue;
-      least = value;
-      best = {level, corner, power};
+      shapes.push_back({corner, power, value, level});
+      least = std::min(least, value);
     }
-  best.better = least < first_order;
-  return best;
+  Flicker found{.covariance = Matrix::Zero(p, p)};
+  // Both have few parameters, so that their largest likelihoods decide.
+  found.probability = 1.0 / (1.0 + std::exp(std::min(least - first_order, 700.0)));
+  std::vector<double> mean(whole.f.size(), 0.0);  // S in the bands
+  double sum = 0.0;
+  for (const Shape& shape : shapes) {
+    const double weight = std::exp(least - shape.minus_log);
+    if (!(weight > 1e-4)) continue;
+    sum += weight;
+    found.lowest += weight * shape.at(1.0 / n);
+    for (std::size_t b = 0; b < whole.f.size(); ++b) mean[b] += weight * shape.at(whole.f[b]);
+  }
+  found.lowest /= sum;
+  // Degrees of freedom by Satterthwaite 1946: 2 (sum v)^2 / sum (v^2 / m), v the part of a variance
+  // that comes from m ordinates of the periodogram, each a chi-squared number with two.
+  std::vector<Eigen::VectorXd> parts;
+  std::vector<double> ordinates;
+  double filled = 1.0;
+  for (std::size_t b = 0; b < whole.f.size(); ++b) {
+    const Matrix part = mean[b] / sum * spacing * integrals[b].bottomRightCorner(p, p);
+    found.covariance += part;
+    const double width = static_cast<double>(whole.bins[b].size()) * spacing * n;
+    if (filled >= 1.0) {  // the last group has an ordinate
+      parts.emplace_back(Eigen::VectorXd::Zero(p));
+      ordinates.push_back(0.0);
+      filled = 0.0;
+    }
+    parts.back() += part.diagonal();
+    ordinates.back() += width;
+    filled += width;
+  }
+  Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(p);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    squares += parts[k].array().square() / std::max(ordinates[k], 1.0);
+  found.degrees = (2.0 * found.covariance.diagonal().array().square() / squares).minCoeff();
+  return found;
 }
 
 }  // namespace
@@ -260,29 +355,20 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
   found.effective_size = static_cast<double>(n) * (1.0 - rho) / (1.0 + rho);
 
   // Fewer than 100 rows do not tell such a spectrum from chance.
-  // Var = 1/N sum_k S(f_k) W_k W_k^*, W the transform of the influence of each row.
-  std::size_t size = 1;
-  while (size < 2 * as_index(n)) size *= 2;
-  const Spectrum spectrum = spectrum_of(rows.col(p), p, size, rho);
-  const double lowest = 0.5 / static_cast<double>(n);
-  const Matrix influence = rows.leftCols(p) * inverse;
-  std::vector<std::vector<std::complex<double>>> waves;
-  for (Eigen::Index k = 0; k < p; ++k) waves.push_back(padded(influence.col(k), size));
-  Matrix flicker = Matrix::Zero(p, p);
-  for (std::size_t k = 0; k < size; ++k) {
-    const double f = static_cast<double>(std::min(k, size - k)) / static_cast<double>(size);
-    const double power = spectrum.at(std::max(f, lowest)) / static_cast<double>(size);
-    for (Eigen::Index i = 0; i < p; ++i)
-      for (Eigen::Index j = 0; j < p; ++j)
-        flicker(i, j) += power * (waves[as_index(i)][k] * std::conj(waves[as_index(j)][k])).real();
-  }
-  flicker *= scale[p] * scale[p];
-  const double wider = (flicker.diagonal().array() / sandwich.diagonal().array()).log().mean();
-  if (n >= 100 && spectrum.better && wider > 0.0 && flicker.allFinite()) {
-    sandwich = flicker;
-    found.effective_size = std::min(found.effective_size,
-                                    static_cast<double>(n) * scatter / spectrum.at(2.0 * lowest));
-    found.degrees = std::min(found.degrees, std::max(4.0, 0.5 * found.effective_size));
+  if (n >= 100) {
+    Flicker flicker = flicker_of(rows, p, inverse, rho);
+    flicker.covariance *= scale[p] * scale[p];
+    const double wider =
+        (flicker.covariance.diagonal().array() / sandwich.diagonal().array()).log().mean();
+    if (wider > 0.0 && flicker.covariance.allFinite()) {
+      const double part = flicker.probability;
+      sandwich = (1.0 - part) * sandwich + part * flicker.covariance;
+      found.effective_size = std::min(
+          found.effective_size, 1.0 / ((1.0 - part) / found.effective_size +
+                                       part * flicker.lowest / (static_cast<double>(n) * scatter)));
+      found.degrees =
+          std::min(found.degrees, 1.0 / ((1.0 - part) / found.degrees + part / flicker.degrees));
+    }
   }
   found.covariance.resize(unknowns * unknowns);
   for (Eigen::Index i = 0; i < p; ++i)

@@ -38,6 +38,17 @@ std::vector<Branch> branches_of(std::span<const double> x, double share) {
   return branches;
 }
 
+OneWay one_way(std::span<const double> depth, Way way) {
+  const auto low = std::min_element(depth.begin(), depth.end());
+  const auto high = std::max_element(depth.begin(), depth.end());  // the first of several
+  const double back = *high - 0.1 * (*high - *low);
+  const auto away = [&](double each) { return each < back; };
+  const bool turns = std::any_of(high, depth.end(), away) && std::any_of(depth.begin(), high, away);
+  const auto deepest = static_cast<std::size_t>(high - depth.begin());
+  if (!turns || way == Way::all) return {0, depth.size()};
+  return way == Way::approach ? OneWay{0, deepest + 1} : OneWay{deepest, depth.size()};
+}
+
 std::size_t rows_before_fall(std::span<const double> stress, double share) {
   if (stress.empty()) return 0;
   const double noise = noise_of(stress);

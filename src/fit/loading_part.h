@@ -22,4 +22,14 @@ struct Branch {
 // fall that is followed by no rise beyond it is a rupture, any other one a partial failure.
 [[nodiscard]] std::size_t rows_before_fall(std::span<const double> stress, double share = 0.1);
 
+enum class Way { approach, retract, all };
+
+// Of a curve that goes in and out, the rows up to the deepest one, or those from there on;
+// otherwise all of them. A curve turns back if its last rows are a tenth of the range above the
+// deepest.
+struct OneWay {
+  std::size_t from = 0, to = 0;
+};
+[[nodiscard]] OneWay one_way(std::span<const double> depth, Way way);
+
 }  // namespace palpate::fit

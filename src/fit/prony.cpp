@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "fit/ceres_fit.h"
 #include "fit/nnls.h"
+#include "fit/separable.h"
 #include "fit/settle.h"
 
 namespace palpate::fit {
@@ -90,9 +91,14 @@ class Basis {
       : points_(points),
         kind_(series.kind),
         history_(points.history),
-        constant_(loading(points.x, history_)) {}
+        constant_(loading(points.x, history_)) {
+    const bool relaxation = kind_ == PronySeries::Kind::relaxation;
+    if (!(series.liquid && relaxation)) leading_.push_back(constant_);
+    if (series.liquid && !relaxation) leading_.push_back(flow());
+  }
 
-  [[nodiscard]] const std::vector<double>& constant() const { return constant_; }
+  // The columns before the terms: H, and its integral for a liquid that creeps.
+  [[nodiscard]] const std::vector<std::vector<double>>& leading() const { return leading_; }
 
   [[nodiscard]] BasisColumn column(double tau) const {
     BasisColumn column = relaxing(points_.x, tau, history_);
@@ -105,10 +111,30 @@ class Basis {
   }
 
  private:
+  // int_0^x H
+  [[nodiscard]] std::vector<double> flow() const {
+    std::vector<double> values;
+    double sum = 0.0;
+    const double ramp = history_.ramp;
+    for (std::size_t i = 0; i < points_.x.size(); ++i) {
+      const double x = points_.x[i];
+      if (!history_.samples.empty()) {
+        if (i > 0)
+          sum += 0.5 * (history_.samples[i] + history_.samples[i - 1]) * (x - points_.x[i - 1]);
+        values.push_back(sum);
+      } else {
+        values.push_back(x < ramp ? 0.5 * std::max(x, 0.0) * std::max(x, 0.0) / ramp
+                                  : x - 0.5 * ramp);
+      }
+    }
+    return values;
+  }
+
   const Points& points_;
   PronySeries::Kind kind_;
   const LoadingHistory& history_;
   std::vector<double> constant_;
+  std::vector<std::vector<double>> leading_;
 };
 
 // Geometrically spaced times between two limits, in the unit of the scaled x.
@@ -119,36 +145,35 @@ std::vector<double> spaced(double low, double high, int count) {
   return times;
 }
 
-// At most 400 rows of the constant and of the columns of the times, and the values of y.
+// At most 400 rows of the leading columns and of those of the times, and the values of y.
 struct Thinned {
-  Eigen::MatrixXd columns;  // the constant first
+  Eigen::MatrixXd columns;  // the leading ones first
   Eigen::VectorXd target;
 };
 Thinned thinned(const Points& points, const Basis& basis, std::span<const double> times,
                 std::size_t most) {
   const std::size_t stride = 1 + points.x.size() / most;
   const auto rows = static_cast<Eigen::Index>((points.x.size() + stride - 1) / stride);
-  Thinned made{Eigen::MatrixXd(rows, static_cast<Eigen::Index>(times.size()) + 1),
+  std::vector<std::vector<double>> columns = basis.leading();
+  for (const double time : times) columns.push_back(basis.column(time).value);
+  Thinned made{Eigen::MatrixXd(rows, static_cast<Eigen::Index>(columns.size())),
                Eigen::VectorXd(rows)};
   for (Eigen::Index i = 0; i < rows; ++i) {
-    made.columns(i, 0) = basis.constant()[as_index(i) * stride];
     made.target(i) = points.y[as_index(i) * stride];
-  }
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const BasisColumn column = basis.column(times[k]);
-    for (Eigen::Index i = 0; i < rows; ++i)
-      made.columns(i, static_cast<Eigen::Index>(k) + 1) = column.value[as_index(i) * stride];
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      made.columns(i, static_cast<Eigen::Index>(k)) = columns[k][as_index(i) * stride];
   }
   return made;
 }
 
 // The best combination of `terms` different times of a grid. Returns the unknowns of the search:
-// the constant, then y_k and ln tau_k of each term.
+// the factors of the leading columns, then y_k and ln tau_k of each term.
 std::vector<double> start_of(const Points& points, const Basis& basis, int terms) {
   constexpr int count = 12;
   const std::vector<double> times = spaced(std::max(points.least_gap, 1e-5), 3.0, count);
   const Thinned grid = thinned(points, basis, times, 400);
   if (!grid.columns.allFinite()) return {};
+  const auto lead = static_cast<Eigen::Index>(basis.leading().size());
   std::vector<char> chosen(times.size(), 0);
   std::fill_n(chosen.begin(), terms, 1);
   std::vector<double> best;
@@ -157,60 +182,43 @@ std::vector<double> start_of(const Points& points, const Basis& basis, int terms
     std::vector<std::size_t> some;
     for (std::size_t i = 0; i < times.size(); ++i)
       if (chosen[i] != 0) some.push_back(i);
-    Eigen::MatrixXd matrix(grid.columns.rows(), static_cast<Eigen::Index>(some.size()) + 1);
-    matrix.col(0) = grid.columns.col(0);
+    Eigen::MatrixXd matrix(grid.columns.rows(), lead + static_cast<Eigen::Index>(some.size()));
+    matrix.leftCols(lead) = grid.columns.leftCols(lead);
     for (std::size_t k = 0; k < some.size(); ++k)
-      matrix.col(static_cast<Eigen::Index>(k) + 1) =
-          grid.columns.col(static_cast<Eigen::Index>(some[k]) + 1);
+      matrix.col(lead + static_cast<Eigen::Index>(k)) =
+          grid.columns.col(lead + static_cast<Eigen::Index>(some[k]));
     const Eigen::VectorXd heights = matrix.colPivHouseholderQr().solve(grid.target);
     const double squares = (matrix * heights - grid.target).squaredNorm();
     if (!heights.allFinite() || !(squares < least)) continue;
     least = squares;
-    best = {heights(0)};
+    best.assign(heights.begin(), heights.begin() + lead);
     for (std::size_t k = 0; k < some.size(); ++k) {
-      best.push_back(heights(static_cast<Eigen::Index>(k) + 1));
+      best.push_back(heights(lead + static_cast<Eigen::Index>(k)));
       best.push_back(std::log(times[some[k]]));
     }
   } while (std::prev_permutation(chosen.begin(), chosen.end()));
   return best;
 }
 
-// Sorts the terms by increasing tau; the search may have changed their order.
-void sort_terms(Minimum& minimum) {
+// Sorts the terms by increasing tau, since the search may have changed their order, and replaces ln
+// tau by tau. `lead` parameters stand before the terms.
+void finish_terms(Minimum& minimum, std::size_t lead) {
   const std::size_t count = minimum.parameters.size();
-  std::vector<std::size_t> terms(count / 2);
+  std::vector<std::size_t> terms((count - lead) / 2);
   std::iota(terms.begin(), terms.end(), std::size_t{0});
   std::stable_sort(terms.begin(), terms.end(), [&](std::size_t a, std::size_t b) {
-    return minimum.parameters[2 * a + 2] < minimum.parameters[2 * b + 2];
+    return minimum.parameters[lead + 2 * a + 1] < minimum.parameters[lead + 2 * b + 1];
   });
-  std::vector<std::size_t> from{0};
+  std::vector<std::size_t> from(lead);
+  std::iota(from.begin(), from.end(), std::size_t{0});
   for (const std::size_t k : terms) {
-    from.push_back(2 * k + 1);
-    from.push_back(2 * k + 2);
+    from.push_back(lead + 2 * k);
+    from.push_back(lead + 2 * k + 1);
   }
-  const Minimum before = minimum;
-  for (std::size_t i = 0; i < count; ++i) {
-    minimum.parameters[i] = before.parameters[from[i]];
-    if (before.inverse_normal.empty()) continue;
-    for (std::size_t j = 0; j < count; ++j)
-      minimum.inverse_normal[i * count + j] = before.inverse_normal[from[i] * count + from[j]];
-  }
-  for (std::size_t row = 0; row < before.jacobian.size(); row += count)
-    for (std::size_t i = 0; i < count; ++i)
-      minimum.jacobian[row + i] = before.jacobian[row + from[i]];
-}
-
-// Converts ln tau to tau, with d tau = tau d ln tau for the errors.
-void times_of(Minimum& minimum) {
-  const std::size_t count = minimum.parameters.size();
-  for (std::size_t i = 2; i < count; i += 2) {
+  reorder_parameters(minimum, from);
+  for (std::size_t i = lead + 1; i < count; i += 2) {
     const double tau = std::exp(minimum.parameters[i]);
-    minimum.parameters[i] = tau;
-    for (std::size_t j = 0; j < count && !minimum.inverse_normal.empty(); ++j) {
-      minimum.inverse_normal[i * count + j] *= tau;
-      minimum.inverse_normal[j * count + i] *= tau;
-    }
-    for (std::size_t at = i; at < minimum.jacobian.size(); at += count) minimum.jacobian[at] /= tau;
+    replace_parameter(minimum, i, tau, tau);
   }
 }
 
@@ -229,17 +237,22 @@ void fit_given_times(Fit& fit, const Points& points, const Basis& basis,
   const Eigen::VectorXd about = all.target.array() - all.target.mean();
   fit.r2 = about.squaredNorm() > 0.0 ? 1.0 - residuals.squaredNorm() / about.squaredNorm()
                                      : Estimate::unknown;
-  std::vector<Estimate> kept{fit.parameters[0]};
-  kept[0].estimate = (*heights)[0] * points.y_scale;
+  const std::size_t lead = basis.leading().size();
+  std::vector<Estimate> kept;
+  for (std::size_t k = 0; k < lead; ++k) {
+    kept.push_back(fit.parameters[k]);
+    kept.back().estimate =
+        (*heights)[static_cast<Eigen::Index>(k)] * points.y_scale / (k == 1 ? points.x_scale : 1.0);
+  }
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const double height = (*heights)[static_cast<Eigen::Index>(k) + 1];
+    const double height = (*heights)[static_cast<Eigen::Index>(lead + k)];
     if (height <= 0.0) continue;
-    kept.push_back(fit.parameters[2 * k + 1]);
+    kept.push_back(fit.parameters[lead + 2 * k]);
     kept.back().estimate = height * points.y_scale;
-    kept.push_back(fit.parameters[2 * k + 2]);
+    kept.push_back(fit.parameters[lead + 2 * k + 1]);
     kept.back().estimate = times[k] * points.x_scale;
   }
-  fit.notes.push_back(std::to_string((kept.size() - 1) / 2) + " of " +
+  fit.notes.push_back(std::to_string((kept.size() - lead) / 2) + " of " +
                       std::to_string(series.terms) +
                       " terms are above 0; their times are given, so that they have no intervals");
   fit.parameters = std::move(kept);
@@ -248,7 +261,9 @@ void fit_given_times(Fit& fit, const Points& points, const Basis& basis,
 std::string law_of(const PronySeries& series) {
   const bool relaxation = series.kind == PronySeries::Kind::relaxation;
   std::string law =
-      relaxation ? "y = y_inf + sum y_k e^(-x/tau_k)" : "y = y_0 + sum y_k (1 - e^(-x/tau_k))";
+      relaxation ? std::string("y = ") + (series.liquid ? "" : "y_inf + ") + "sum y_k e^(-x/tau_k)"
+                 : std::string("y = y_0 + ") + (series.liquid ? "y_flow x + " : "") +
+                       "sum y_k (1 - e^(-x/tau_k))";
   if (series.history.ramp > 0.0)
     law += ", after a ramp of " + rounded_text(series.history.ramp) + " (Boltzmann)";
   if (!series.history.samples.empty())
@@ -267,7 +282,14 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
   fit.name = relaxation ? "prony" : "prony_creep";
   fit.law = law_of(series);
   fit.x_origin = options.x_origin;
-  fit.parameters.push_back({.name = relaxation ? "y_inf" : "y_0", .unit = options.y_unit});
+  if (!(series.liquid && relaxation))
+    fit.parameters.push_back({.name = relaxation ? "y_inf" : "y_0", .unit = options.y_unit});
+  if (series.liquid && !relaxation)
+    fit.parameters.push_back(
+        {.name = "y_flow",
+         .unit = options.x_unit.empty()
+                     ? options.y_unit
+                     : (options.y_unit.empty() ? "1" : options.y_unit) + "/" + options.x_unit});
   for (int k = 1; k <= series.terms; ++k) {
     fit.parameters.push_back({.name = "y_" + std::to_string(k), .unit = options.y_unit});
     fit.parameters.push_back({.name = "tau_" + std::to_string(k), .unit = options.x_unit});
@@ -282,13 +304,16 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
   if (start.empty()) return fit;
 
   const std::size_t count = start.size();
+  const std::size_t lead = basis.leading().size();
   const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
                             std::span<double> slopes) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = p[0] * basis.constant()[i];
-      if (!slopes.empty()) slopes[i * count] = basis.constant()[i];
-    }
-    for (std::size_t k = 1; k < count; k += 2) {
+    std::fill(values.begin(), values.end(), 0.0);
+    for (std::size_t k = 0; k < lead; ++k)
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] += p[k] * basis.leading()[k][i];
+        if (!slopes.empty()) slopes[i * count + k] = basis.leading()[k][i];
+      }
+    for (std::size_t k = lead; k < count; k += 2) {
       const BasisColumn column = basis.column(std::exp(p[k + 1]));
       for (std::size_t i = 0; i < values.size(); ++i) {
         values[i] += p[k] * column.value[i];
@@ -301,13 +326,13 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
   };
   Minimum minimum = minimise(points.y, curve, start, options.max_iterations);
   std::vector<double> scale(count, points.y_scale);
-  for (std::size_t i = 2; i < count; i += 2) scale[i] = points.x_scale;
-  for (std::size_t i = 0; i < count; ++i)
-    fit.parameters[i].initial = (i >= 2 && i % 2 == 0 ? std::exp(start[i]) : start[i]) * scale[i];
-  if (minimum.status != Minimum::Status::failed) {
-    sort_terms(minimum);
-    times_of(minimum);
+  if (lead > 1) scale[1] /= points.x_scale;
+  for (std::size_t i = lead + 1; i < count; i += 2) scale[i] = points.x_scale;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool time = i > lead && (i - lead) % 2 == 1;
+    fit.parameters[i].initial = (time ? std::exp(start[i]) : start[i]) * scale[i];
   }
+  if (minimum.status != Minimum::Status::failed) finish_terms(minimum, lead);
   settle(fit, minimum, {points.y, points.y_scale, scale, options.residuals});
   return fit;
 }

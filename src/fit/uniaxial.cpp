@@ -16,48 +16,36 @@
 #include "fit/ceres_fit.h"
 #include "fit/contact_warnings.h"
 #include "fit/loading_part.h"
+#include "fit/separable.h"
 #include "fit/settle.h"
 
 namespace palpate::fit {
 namespace {
 
-// Nominal stress for E = 1 Pa at a stretch, and its derivative with respect to alpha.
-struct UnitStress {
-  double value, slope;
-};
-
-UnitStress neo_hookean(double stretch) {
-  return {(stretch - 1.0 / (stretch * stretch)) / 3.0, 0.0};
-}
+// Nominal stress for E = 1 Pa at a stretch.
+double neo_hookean(double stretch) { return (stretch - 1.0 / (stretch * stretch)) / 3.0; }
 
 // P = 2/(3 alpha) (L^(alpha-1) - L^(-alpha/2-1)) for E = 3 mu = 1, and for alpha -> 0 its limit
 // ln L / L.
-UnitStress ogden(double stretch, double alpha) {
+double ogden(double stretch, double alpha) {
   const double log = std::log(stretch);
-  const double long_part = std::pow(stretch, alpha - 1.0);
-  const double wide_part = std::pow(stretch, -0.5 * alpha - 1.0);
-  if (std::abs(alpha) < 1e-4)  // series in alpha
-    return {(log + 0.25 * alpha * log * log) / stretch, 0.25 * log * log / stretch};
-  const double value = 2.0 / (3.0 * alpha) * (long_part - wide_part);
-  return {value, 2.0 / (3.0 * alpha) * (long_part * log + 0.5 * wide_part * log) - value / alpha};
+  if (std::abs(alpha) < 1e-4) return (log + 0.25 * alpha * log * log) / stretch;
+  return 2.0 / (3.0 * alpha) *
+         (std::pow(stretch, alpha - 1.0) - std::pow(stretch, -0.5 * alpha - 1.0));
 }
 
-// phi_k of a sum of terms, and its derivative with respect to alpha_k.
+// phi_k of a sum of terms.
 //   yeoh    P = 2 (L - L^-2) (C1 + 2 C2 (I1-3) + 3 C3 (I1-3)^2), I1 = L^2 + 2/L, E = 6 C1
 //   ogden3  P = sum mu_k (L^(alpha_k-1) - L^(-alpha_k/2-1))
-UnitStress term(UniaxialTest::Model model, double stretch, std::size_t k, double alpha) {
+double term(UniaxialTest::Model model, double stretch, std::size_t k, double alpha) {
   using Model = UniaxialTest::Model;
   if (model == Model::ogden) return ogden(stretch, alpha);
-  if (model == Model::ogden3) {
-    const double log = std::log(stretch);
-    const double long_part = std::pow(stretch, alpha - 1.0);
-    const double wide_part = std::pow(stretch, -0.5 * alpha - 1.0);
-    return {long_part - wide_part, long_part * log + 0.5 * wide_part * log};
-  }
-  const double base = neo_hookean(stretch).value;
-  if (k == 0) return {base, 0.0};
+  if (model == Model::ogden3)
+    return std::pow(stretch, alpha - 1.0) - std::pow(stretch, -0.5 * alpha - 1.0);
+  const double base = neo_hookean(stretch);
+  if (k == 0) return base;
   const double over = stretch * stretch + 2.0 / stretch - 3.0;
-  return {k == 1 ? 12.0 * base * over : 18.0 * base * over * over, 0.0};
+  return k == 1 ? 12.0 * base * over : 18.0 * base * over * over;
 }
 
 const char* word(UniaxialTest::Model model) {
@@ -446,23 +434,13 @@ class UniaxialFit {
       throw InputError({}, "the model `" + fit_.name + "` needs at least " +
                                std::to_string(count + 2) + " points, and " +
                                std::to_string(strain_.size()) + " are usable; record more points");
-    const auto unit = [&](std::size_t i, std::size_t k, double alpha) {
-      UnitStress at = term(test_.model, stretch_[i], k, alpha);
-      return UnitStress{sign * at.value, sign * at.slope};
-    };
-    const std::vector<double> guess = start(unit, terms, powers);
-    const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
-                              std::span<double> slopes) {
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] = 0.0;
-        for (std::size_t k = 0; k < terms; ++k) {
-          const UnitStress at = unit(i, k, powers ? p[terms + k] : 0.0);
-          values[i] += p[k] * at.value;
-          if (slopes.empty()) continue;
-          slopes[i * count + k] = at.value;
-          if (powers) slopes[i * count + terms + k] = p[k] * at.slope;
-        }
-      }
+    Separable curve;
+    curve.linear = terms;
+    curve.starts = starts(terms, powers);
+    curve.columns = [&](std::span<const double> alpha, std::span<double> phi) {
+      for (std::size_t i = 0; i < stretch_.size(); ++i)
+        for (std::size_t k = 0; k < terms; ++k)
+          phi[i * terms + k] = sign * term(test_.model, stretch_[i], k, powers ? alpha[k] : 0.0);
       return true;
     };
     const char* first = test_.model == Model::ogden3 ? "mu_1" : "E";
@@ -479,7 +457,7 @@ class UniaxialFit {
         fit_.parameters.push_back({.name = name, .unit = ""});
     std::vector<double> scale(count, 1.0);
     for (std::size_t k = 0; k < terms; ++k) scale[k] = unit::kPa.from_si(scale_);
-    const Minimum minimum = minimise(stress_, curve, guess, 1000);
+    const Minimum minimum = minimise(stress_, curve, 1000);
     settle(fit_, minimum, {stress_, scale_, scale, test_.residuals});
     fit_.rmse = unit::kPa.from_si(fit_.rmse);
     if (test_.model == Model::ogden3 && fit_.termination == Termination::converged) add_modulus();
@@ -508,44 +486,20 @@ class UniaxialFit {
     fit_.covariance.clear();
   }
 
-  // The best factors for exponents of a grid, by linear least squares.
-  template <class Unit>
-  [[nodiscard]] std::vector<double> start(const Unit& unit, std::size_t terms, bool powers) const {
-    std::vector<double> grid;
-    if (terms == 1)
-      for (double alpha = -40.25; alpha <= 40.5; alpha += 0.5) grid.push_back(alpha);
-    else
-      grid = {-9.0, -5.0, -2.0, 1.3, 2.5, 4.0, 6.0, 9.0, 14.0};
-    if (!powers) grid = {0.0, 0.0, 0.0};
-    std::vector<double> best;
-    double least = std::numeric_limits<double>::infinity();
-    const auto rows = static_cast<Eigen::Index>(stress_.size());
-    const Eigen::Map<const Eigen::VectorXd> target(stress_.data(), rows);
-    const auto columns = static_cast<Eigen::Index>(terms);
-    const auto try_one = [&](const std::vector<double>& alpha) {
-      Eigen::MatrixXd matrix(rows, columns);
-      for (Eigen::Index i = 0; i < rows; ++i)
-        for (Eigen::Index k = 0; k < columns; ++k)
-          matrix(i, k) = unit(as_index(i), as_index(k), alpha[as_index(k)]).value;
-      if (!matrix.allFinite()) return;
-      const Eigen::VectorXd factors = matrix.colPivHouseholderQr().solve(target);
-      const double squares = (matrix * factors - target).squaredNorm();
-      if (!(squares < least) || !factors.allFinite()) return;
-      least = squares;
-      best.assign(factors.begin(), factors.end());
-      if (powers) best.insert(best.end(), alpha.begin(), alpha.end());
-    };
-    if (!powers) {
-      try_one(grid);
-    } else if (terms == 1) {
-      for (const double alpha : grid) try_one({alpha});
-    } else {
-      for (std::size_t i = 0; i < grid.size(); ++i)
-        for (std::size_t j = i + 1; j < grid.size(); ++j)
-          for (std::size_t k = j + 1; k < grid.size(); ++k) try_one({grid[i], grid[j], grid[k]});
+  // Exponents to begin with.
+  static std::vector<std::vector<double>> starts(std::size_t terms, bool powers) {
+    std::vector<std::vector<double>> all;
+    if (!powers) return {{}};
+    if (terms == 1) {
+      for (double alpha = -40.25; alpha <= 40.5; alpha += 0.5) all.push_back({alpha});
+      return all;
     }
-    if (best.empty()) best.assign(powers ? 2 * terms : terms, 1.0);
-    return best;
+    const std::array grid{-9.0, -5.0, -2.0, 1.3, 2.5, 4.0, 6.0, 9.0, 14.0};
+    for (std::size_t i = 0; i < grid.size(); ++i)
+      for (std::size_t j = i + 1; j < grid.size(); ++j)
+        for (std::size_t k = j + 1; k < grid.size(); ++k)
+          all.push_back({grid[i], grid[j], grid[k]});
+    return all;
   }
 
   // Gent and Lindley's factor divides every modulus.

@@ -93,6 +93,8 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
     return std::sqrt(std::max(0.0, variance));
   };
   const auto finish_by_logarithm = [&](double value) {
+    found.gradient = gradient;
+    found.product = true;
     const double log_error = error();
     found.estimate = value;
     found.std_error = value * log_error;
@@ -116,7 +118,7 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
     const double along_r = gradient[r] * errors.loose[0][r];
     if (has(unknowns[r].key, ".poisson_ratio") &&
         std::abs(along_e + along_r) <= 0.05 * std::abs(along_e)) {
-      found.text = unknowns[e].key + " / (1 - " + unknowns[r].key + "^2)";
+      found.text = unknowns[e].name() + " / (1 - " + unknowns[r].name() + "^2)";
       found.unit = unknowns[e].unit_text();
       return finish_by_logarithm(unknowns[e].shown(unknowns[e].value(u[e])) / (1.0 - nu * nu));
     }
@@ -139,16 +141,18 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
     const double shown = unknown.shown(unknown.value(u[i]));
     if (powers) {
       value *= std::pow(shown, factor);
-      found.text += (k == 0 ? "" : " * ") + with_exponent(unknown.key, factor);
+      found.text += (k == 0 ? "" : " * ") + with_exponent(unknown.name(), factor);
       const std::string unit = with_exponent(unknown.unit_text(), factor);
       found.unit += (found.unit.empty() || unit.empty() ? "" : " ") + unit;
     } else {
       value += factor * shown;
-      found.text += k == 0 ? unknown.key : " + " + rounded_text(factor, 3) + " * " + unknown.key;
+      found.text +=
+          k == 0 ? unknown.name() : " + " + rounded_text(factor, 3) + " * " + unknown.name();
       if (k == 0) found.unit = unknown.unit_text();
     }
   }
   if (powers) return finish_by_logarithm(value);
+  found.gradient = gradient;
   found.estimate = value;
   found.std_error = error();
   found.ci95_low = value - t * found.std_error;

@@ -1,6 +1,7 @@
 // Writes the files of an identification, run.json last.
 #include "identify/folder.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/text.h"
@@ -24,7 +25,8 @@ std::string echo_of(const identify::Identification& found, const scenario::Famil
     const std::string value = rounded_text(unknown.shown(each.estimate), 6) +
                               (unknown.unit ? " " + unknown.unit_text() : "");
     if (each.tied)
-      text += "# " + unknown.key + " is not determined by itself: one of many values that fit.\n";
+      text +=
+          "# " + unknown.name() + " is not determined by itself: one of many values that fit.\n";
     if (unknown.what == identify::Unknown::What::contact_point)
       text += "# Travel 0 is at " + value + " of the measurement.\n";
     if (unknown.what == identify::Unknown::What::force_offset)
@@ -33,17 +35,22 @@ std::string echo_of(const identify::Identification& found, const scenario::Famil
   return text + scenario::echo(one);
 }
 
+// Of the files of pair k.
+std::string suffix_of(const Identification& found, std::size_t k) {
+  return found.pairs.empty() ? "" : "_" + std::to_string(k + 1);
+}
+
 std::string figure_words(const std::string& name) {
-  if (name == "profile")
+  if (name.starts_with("profile"))
     return "How much worse the fit becomes if one value is kept and the others follow; below the "
            "line the value is within the 95 % interval.";
   return "Measured and fitted curve, and below them the residuals, measured minus model.";
 }
 
 // The page of an identification: what was found, how well it fits, and what it depends on.
-void write_page(const identify::Identification& found, const scenario::Family& family,
+void write_page(const identify::Identification& found, std::span<const PairFiles> pairs,
                 const std::vector<HashedFile>& inputs, WholeFolder& folder) {
-  page::Page page(family.title, "identification");
+  page::Page page(pairs.front().family->title, "identification");
   page.answer(identified_sentences(found));
   page.section("Figures", page::all_figures(folder, figure_words));
   constexpr std::size_t most = 60;
@@ -55,12 +62,15 @@ void write_page(const identify::Identification& found, const scenario::Family& f
   std::vector<std::string> remarks = found.notes;
   remarks.insert(remarks.end(), found.warnings.begin(), found.warnings.end());
   page.section("Remarks", page::paragraphs(remarks));
-  page.section("What was asked",
-               page::folded("The scenario as written", family.inputs.front().content) +
-                   page::folded("The scenario with the estimates, scenario.toml",
-                                read_text(folder.file("scenario.toml"))));
+  page::Markup asked;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const std::string name = "scenario" + suffix_of(found, k) + ".toml";
+    asked += page::folded("The scenario as written", pairs[k].family->inputs.front().content) +
+             page::folded("The scenario with the estimates, " + name, read_text(folder.file(name)));
+  }
+  page.section("What was asked", asked);
   page.section("How it was made",
-               page::making({.command = "palpate run scenario.toml",
+               page::making({.command = "palpate run scenario" + suffix_of(found, 0) + ".toml",
                              .remark = "The command repeats the fitted curve. `palpate identify` "
                                        "with the files below repeats the fit."},
                             inputs, folder));
@@ -70,28 +80,42 @@ void write_page(const identify::Identification& found, const scenario::Family& f
 }  // namespace
 
 std::vector<std::string> write_identification(const Identification& found,
-                                              const scenario::Family& family,
-                                              const std::string& measured,
+                                              std::span<const PairFiles> pairs,
                                               const report::Origin& origin, WholeFolder& folder) {
   std::vector<std::string> warnings;
   folder.open();
-  folder.write("scenario.toml", echo_of(found, family));
-  for (const scenario::InputFile& input : family.inputs)
-    if (&input != &family.inputs.front()) folder.write(input.name, input.content);
+  std::vector<scenario::InputFile> read;  // by the scenarios, each file once
+  const std::string& title = pairs.front().family->title;
+  const std::vector<const Identification*> all = views(found);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const std::string suffix = suffix_of(found, k);
+    folder.write("scenario" + suffix + ".toml", echo_of(*all[k], *pairs[k].family));
+    for (const scenario::InputFile& input : pairs[k].family->inputs) {
+      const bool known = std::any_of(read.begin(), read.end(),
+                                     [&](const auto& one) { return one.name == input.name; });
+      if (known) continue;
+      if (&input != &pairs[k].family->inputs.front()) folder.write(input.name, input.content);
+      read.push_back(input);
+    }
+    folder.write("residuals" + suffix + ".csv", record::csv_text(residual_table(*all[k])));
+  }
   folder.write("identified.csv", record::csv_text(identified_table(found)));
   folder.write("correlation.csv", record::csv_text(correlation_table(found)));
-  folder.write("residuals.csv", record::csv_text(residual_table(found)));
-  plot::draw(identified_sheet(family.title, found), folder, warnings);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    plot::draw(identified_sheet(title, *all[k], suffix_of(found, k)), folder, warnings);
   if (!found.profile.empty()) {
     folder.write("profile.csv", record::csv_text(profile_table(found)));
-    plot::draw(profile_sheet(family.title, found), folder, warnings);
+    plot::draw(profile_sheet(title, found), folder, warnings);
   }
 
-  report::Manifest manifest = report::begin_manifest(origin, family.inputs);
+  report::Manifest manifest = report::begin_manifest(origin, read);
   std::vector<HashedFile> inputs = manifest.inputs;
-  inputs.push_back({std::filesystem::path(measured).filename().string(), file_sha256(measured)});
-  write_page(found, family, inputs, folder);
-  manifest.inputs.push_back({measured, inputs.back().sha256});
+  for (const PairFiles& pair : pairs) {
+    const std::string hash = file_sha256(pair.measured);
+    inputs.push_back({std::filesystem::path(pair.measured).filename().string(), hash});
+    manifest.inputs.push_back({pair.measured, hash});
+  }
+  write_page(found, pairs, inputs, folder);
   manifest.outputs = folder.files();
   manifest.complete = true;
   folder.write("run.json", report::manifest_text(manifest));

@@ -1,6 +1,7 @@
 // The result folder of an identification: tables, figures and the fitted scenario.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,19 +13,26 @@
 
 namespace palpate::identify {
 
-// curve.gp: data, model and residuals. Reads residuals.csv.
+// curve.gp: data, model and residuals. Reads residuals.csv. Of the pairs of a joint identification
+// the names have a suffix: curve_2.gp, residuals_2.csv, scenario_2.toml.
 [[nodiscard]] plot::Sheet identified_sheet(const std::string& title,
-                                           const identify::Identification& found);
+                                           const identify::Identification& found,
+                                           const std::string& suffix);
 // profile.gp: one panel per unknown, profile likelihood and 95 % level. Reads profile.csv.
 [[nodiscard]] plot::Sheet profile_sheet(const std::string& title,
                                         const identify::Identification& found);
 
-// Writes an identification into `folder` and renames it to its final name. `measured` is the path
-// of the measured file; run.json stores its hash. Returns warnings, one per figure that could not
+// The files of one pair: the measured one, and the family of its scenario.
+struct PairFiles {
+  std::string measured;
+  const scenario::Family* family = nullptr;
+};
+
+// Writes an identification into `folder` and renames it to its final name. run.json stores the
+// hashes of the measured files. Returns warnings, one per figure that could not
 // be drawn. Throws SystemError if the folder cannot be written.
 [[nodiscard]] std::vector<std::string> write_identification(const Identification& found,
-                                                            const scenario::Family& family,
-                                                            const std::string& measured,
+                                                            std::span<const PairFiles> pairs,
                                                             const report::Origin& origin,
                                                             WholeFolder& folder);
 

@@ -2,14 +2,17 @@
 #include "identify/identify.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/numerics.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
 #include "fit/residual_tests.h"
+#include "fit/step_origin.h"
 #include "identify/box_errors.h"
 #include "identify/box_profile.h"
 #include "identify/fixed_rung.h"
@@ -38,25 +41,41 @@ double median_spacing(std::vector<double> x) {
   return steps[steps.size() / 2];
 }
 
+// One pair of data and scenario within a search.
+struct Part {
+  const scenario::Family* family = nullptr;
+  std::vector<Unknown> unknowns;   // those of this pair
+  std::vector<std::size_t> index;  // of each, among all unknowns
+  std::unique_ptr<ScenarioCurve> curve;
+  std::optional<ClosedCurve> closed;
+  std::size_t from = 0, to = 0;  // its points among all
+  double rows_each = 1.0;
+  Identification found;  // of this pair alone
+
+  template <class T>
+  [[nodiscard]] std::vector<T> own(std::span<const T> all) const {
+    std::vector<T> some;
+    for (const std::size_t i : index) some.push_back(all[i]);
+    return some;
+  }
+  bool values(std::span<const double> all, std::span<double> out) {
+    const std::vector<double> u = own(all);
+    if (!closed) return curve->evaluate(u, out);
+    closed::values(*closed, u.data(), out.data());
+    return true;
+  }
+};
+
 class Search {
  public:
-  Search(const Measurement& measured, const scenario::Family& family,
-         const std::vector<Unknown>& unknowns, const IdentifyOptions& options)
-      : measured_(measured), family_(family), unknowns_(unknowns), options_(options) {}
+  Search(const std::vector<Pair>& pairs, const std::vector<Unknown>& unknowns,
+         const IdentifyOptions& options)
+      : unknowns_(unknowns), options_(options) {
+    parts_.reserve(pairs.size());  // curves keep references to the unknowns of their parts
+    for (const Pair& pair : pairs) add(pair);
+  }
 
   Identification all() {
-    const scenario::Case& asked = family_.cases.front();
-    PreparedCurve prepared = prepare_curve(measured_, family_, unknowns_, options_.noise);
-    found_.kind = prepared.curve->kind();
-    found_.given = prepared.given;
-    found_.rung = prepared.curve->fixed().solver.model;
-    found_.worst_error = prepared.worst_error;
-    found_.x = std::move(prepared.x);
-    found_.measured = std::move(prepared.measured);
-    found_.left_out = prepared.left_out;
-    found_.notes = std::move(prepared.notes);
-    weights_ = std::move(prepared.weights);
-    curve_ = std::move(prepared.curve);
     make_problem();
     refuse_what_changes_nothing();
     find_best();
@@ -65,29 +84,82 @@ class Search {
       profiles();
       sensitivity();
     }
-    conclude(asked);
-    return found_;
+    conclude();
+    return std::move(found_);
   }
 
  private:
+  void add(const Pair& pair) {
+    Part& part = parts_.emplace_back();
+    part.family = pair.family;
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      const auto& in = unknowns_[i].pairs;
+      if (std::find(in.begin(), in.end(), parts_.size() - 1) == in.end()) continue;
+      part.unknowns.push_back(unknowns_[i]);
+      part.index.push_back(i);
+    }
+    PreparedCurve prepared =
+        prepare_curve(*pair.measured, *pair.family, part.unknowns, options_.noise);
+    Identification& found = part.found;
+    found.kind = prepared.curve->kind();
+    found.given = prepared.given;
+    found.rung = prepared.curve->fixed().solver.model;
+    found.worst_error = prepared.worst_error;
+    found.left_out = prepared.left_out;
+    found.notes = std::move(prepared.notes);
+    found.x = std::move(prepared.x);
+    found.measured = std::move(prepared.measured);
+    part.rows_each = prepared.rows_each;
+    part.curve = std::move(prepared.curve);
+    // A model that the scenario names is run: the formula of a uniform test only approximates it.
+    part.closed = part.curve->closed();
+    if (part.closed && found.given && found.kind != CurveKind::force_travel) part.closed.reset();
+    found.closed_form = part.closed.has_value();
+    part.from = found_.x.size();
+    found_.x.insert(found_.x.end(), found.x.begin(), found.x.end());
+    found_.measured.insert(found_.measured.end(), found.measured.begin(), found.measured.end());
+    part.to = found_.x.size();
+    found_.left_out += found.left_out;
+    weights_.insert(weights_.end(), prepared.weights.begin(), prepared.weights.end());
+  }
+
+  [[nodiscard]] bool joint() const { return parts_.size() > 1; }
+
+  // Residuals of several pairs are divided by the scatter of their own rows.
+  void weigh_pairs() {
+    for (const Part& part : parts_) {
+      std::vector<double> scaled;
+      for (std::size_t i = part.from; i < part.to; ++i)
+        scaled.push_back(found_.measured[i] * weights_[i]);
+      const double scatter = std::max(fit::noise_of(scaled), 1e-3);
+      for (std::size_t i = part.from; i < part.to; ++i) weights_[i] /= scatter;
+    }
+  }
+
   void make_problem() {
+    const Identification& first = parts_.front().found;
+    found_.kind = first.kind;
+    found_.given = first.given;
+    found_.rung = first.rung;
+    found_.worst_error = first.worst_error;
+    found_.closed_form = first.closed_form;
+    if (joint()) weigh_pairs();
+    for (const Part& part : parts_)
+      for (const std::string& note : part.found.notes)
+        found_.notes.push_back(
+            (joint() ? "pair " + std::to_string(&part - parts_.data() + 1) + ": " : std::string()) +
+            note);
     problem_.unknowns = unknowns_.size();
     problem_.curve = [this](std::span<const double> u, std::span<double> values) {
-      if (StopScope::stopped()) return false;
-      if (closed_) {
-        closed::values(*closed_, u.data(), values.data());
-        return true;
-      }
-      return curve_->evaluate(u, values);
+      return std::all_of(parts_.begin(), parts_.end(), [&](Part& part) {
+        return !StopScope::stopped() &&
+               part.values(u, values.subspan(part.from, part.to - part.from));
+      });
     };
-    // A model that the scenario names is run: the formula of a uniform test only approximates it.
-    closed_ = curve_->closed();
-    if (closed_ && found_.given && found_.kind != CurveKind::force_travel) closed_.reset();
-    if (closed_) problem_.closed = &*closed_;
+    if (!joint() && parts_.front().closed) problem_.closed = &*parts_.front().closed;
     problem_.slopes = options_.slopes;
     problem_.measured = found_.measured;
     problem_.weights = weights_;
-    found_.closed_form = closed_.has_value();
   }
 
   bool values_at(std::span<const double> u, std::vector<double>& values) {
@@ -115,11 +187,17 @@ class Search {
         if (changes) break;
       }
       if (tried && !changes)
-        refuse("`--unknown " + unknowns_[i].key + "` changes nothing in what `" + model_word() +
+        refuse("`--unknown " + unknowns_[i].name() + "` changes nothing in what `" + model_word() +
                "` computes of " + words_of(found_.kind).sentence +
                "; leave it out, or set what makes it count (`palpate explain " + unknowns_[i].key +
                "`)");
     }
+  }
+
+  [[nodiscard]] std::string failure() const {
+    for (const Part& part : parts_)
+      if (!part.curve->failure().empty()) return part.curve->failure();
+    return "the curve cannot be evaluated in the ranges";
   }
 
   [[nodiscard]] std::string model_word() const { return scenario::rung(found_.rung).word; }
@@ -129,10 +207,7 @@ class Search {
     found_.evaluations += result.evaluations;
     // After an interrupt the curve cannot be evaluated, and what was computed since is wrong.
     StopScope::end_if_stopped();
-    if (!result.best.found)
-      refuse("the search found no fit: " + (curve_->failure().empty()
-                                                ? "the curve cannot be evaluated in the ranges"
-                                                : curve_->failure()));
+    if (!result.best.found) refuse("the search found no fit: " + failure());
     best_ = result.best;
     found_.model.resize(found_.x.size());
     (void)values_at(best_.u, found_.model);
@@ -162,6 +237,7 @@ class Search {
     // Unknowns at a bound are held there for the errors of the others.
     if (std::count(moving.begin(), moving.end(), 0) > 0) errors_ = errors_of(moving);
     for (std::size_t i = 0; i < n; ++i) set_interval(i);
+    predict_errors();
     tie_what_correlates();
     if (const auto combined = combination(errors_, unknowns_, best_.u, t_))
       found_.combinations.push_back(*combined);
@@ -183,9 +259,9 @@ class Search {
             unknowns_[i].what == Unknown::What::key && unknowns_[j].what == Unknown::What::key;
         if (!(product > 0.0) || !keys) continue;
         const double with = errors_.variance(i, j) / std::sqrt(product);
-        const bool elastic = is_elastic(i) && is_elastic(j);
+        const bool elastic = is_elastic(i) && is_elastic(j) && !told_apart(i, j);
         if (std::abs(with) <= high_correlation || !(few || elastic)) continue;
-        found_.notes.push_back("`" + unknowns_[j].key + "` and `" + unknowns_[i].key +
+        found_.notes.push_back("`" + unknowns_[j].name() + "` and `" + unknowns_[i].name() +
                                "` correlate by " + rounded_text(with, 4) +
                                (few ? ", and the points are worth " +
                                           rounded_text(std::max(1.0, found_.effective_size), 3) +
@@ -201,6 +277,54 @@ class Search {
         }
         return;
       }
+  }
+
+  void predict_errors() {
+    for (Part& part : parts_) {
+      const scenario::Case at = part.curve->at(estimates_of(part));
+      if (!part.found.closed_form || !part.family->cases.front().scenario.uniform())
+        part.found.predicted_error = predicted_error(at);
+    }
+    found_.predicted_error = parts_.front().found.predicted_error;
+  }
+
+  [[nodiscard]] std::vector<double> estimates_of(const Part& part) const {
+    std::vector<double> values;
+    for (const std::size_t i : part.index) values.push_back(unknowns_[i].value(best_.u[i]));
+    return values;
+  }
+
+  // Whether the pairs change by more than the stated errors of their models along the direction of
+  // unknowns i and j that changes them least: a_k = sum J F w / sum (F w)^2, the relative change of
+  // the curve of pair k as a whole. One pair has such a direction always. docs/theory.md (126)
+  [[nodiscard]] bool told_apart(std::size_t i, std::size_t j) const {
+    const std::size_t n = unknowns_.size();
+    double ii = 0.0, ij = 0.0, jj = 0.0;
+    std::vector<std::array<double, 2>> changes;
+    for (const Part& part : parts_) {
+      std::array<double, 2> change{};
+      double size = 0.0;
+      for (std::size_t row = part.from; row < part.to; ++row) {
+        const double weighted = found_.model[row] * weights_[row];
+        change[0] += best_.jacobian[row * n + i] * weighted;
+        change[1] += best_.jacobian[row * n + j] * weighted;
+        size += weighted * weighted;
+      }
+      for (double& each : change) each /= std::max(size, 1e-300);
+      ii += change[0] * change[0];
+      ij += change[0] * change[1];
+      jj += change[1] * change[1];
+      changes.push_back(change);
+    }
+    // The eigenvector of the smaller eigenvalue.
+    const double angle = 0.5 * std::atan2(2.0 * ij, ii - jj) + 0.5 * std::numbers::pi;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const double moved =
+          std::abs(std::cos(angle) * changes[k][0] + std::sin(angle) * changes[k][1]);
+      const double error = std::max(parts_[k].found.predicted_error.value_or(0.0), 1e-3);
+      if (0.5 * moved > error) return true;  // over half the box
+    }
+    return false;
   }
 
   // A property of an elastic body, which a single press knows through one stiffness.
@@ -278,17 +402,18 @@ class Search {
   void refuse_the_undetermined() const {
     const auto& all = found_.unknowns;
     if (std::all_of(all.begin(), all.end(), [](const auto& one) { return one.at_bound; }))
-      refuse("the best fit lies at the edge of the range of " +
-             std::string(all.size() == 1 ? ticked(all.front().unknown.key) : "every `--unknown`") +
-             ", so that the answer is outside; widen the range, or mend the scenario");
+      refuse(
+          "the best fit lies at the edge of the range of " +
+          std::string(all.size() == 1 ? ticked(all.front().unknown.name()) : "every `--unknown`") +
+          ", so that the answer is outside; widen the range, or mend the scenario");
     const bool some = std::any_of(all.begin(), all.end(),
                                   [](const auto& one) { return !one.tied && !one.at_bound; });
     if (!some && found_.combinations.empty())
-      refuse(
-          "these data cannot tell " +
-          std::string(all.size() == 1 ? ticked(all.front().unknown.key) : "any of the unknowns") +
-          " to better than half of the range; record a longer or less noisy curve, or leave out "
-          "an `--unknown`");
+      refuse("these data cannot tell " +
+             std::string(all.size() == 1 ? ticked(all.front().unknown.name())
+                                         : "any of the unknowns") +
+             " to better than half of the range; record a longer or less noisy curve, or leave out "
+             "an `--unknown`");
   }
 
   void profiles() {
@@ -329,6 +454,7 @@ class Search {
 
   // Repeats the fit with the contact point moved a little earlier and later.
   void sensitivity() {
+    if (joint()) return;
     const std::size_t n = unknowns_.size();
     std::vector<char> held(n, 0);
     std::size_t contact = n;
@@ -363,84 +489,117 @@ class Search {
   }
 
   void shift_points(double shift) {
-    curve_->set_shift(shift);
-    if (closed_)
-      for (std::size_t i = 0; i < found_.x.size(); ++i) closed_->x[i] = found_.x[i] - shift;
+    Part& part = parts_.front();
+    part.curve->set_shift(shift);
+    if (part.closed)
+      for (std::size_t i = 0; i < found_.x.size(); ++i) part.closed->x[i] = found_.x[i] - shift;
   }
 
-  void conclude(const scenario::Case& asked) {
-    const std::size_t n = found_.x.size();
-    double mean = 0.0;
-    for (const double y : found_.measured) mean += y;
-    mean /= static_cast<double>(n);
-    double squares = 0.0;
-    double total = 0.0;
+  void conclude() {
     std::vector<double> weighted;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double residual = found_.measured[i] - found_.model[i];
-      weighted.push_back(residual * weights_[i]);
-      squares += residual * residual;
-      total += (found_.measured[i] - mean) * (found_.measured[i] - mean);
-    }
-    found_.rmse = std::sqrt(squares / static_cast<double>(n));
-    found_.r2 = 1.0 - squares / total;
-    const double range = 1.0 / weights_.front();
-    found_.noise = options_.noise == Noise::constant ? noise_ * range : noise_;
+    for (std::size_t i = 0; i < found_.x.size(); ++i)
+      weighted.push_back((found_.measured[i] - found_.model[i]) * weights_[i]);
+    const Part& first = parts_.front();
+    const double range = 1.0 / *std::max_element(weights_.begin(), weights_.end());
+    found_.noise = noise_ * std::sqrt(first.rows_each) *
+                   (options_.noise == Noise::constant && !joint() ? range : 1.0);
     found_.durbin_watson = fit::durbin_watson(weighted);
     found_.runs_z = fit::runs_z(weighted);
-
-    std::vector<double> values;
-    for (const Identified& one : found_.unknowns) values.push_back(one.estimate);
-    const scenario::Case at = curve_->at(values);
-    found_.predicted_error =
-        found_.closed_form && asked.scenario.uniform() ? std::nullopt : predicted_error(at);
-    if (found_.predicted_error && options_.model_error) widen_by_model(*found_.predicted_error);
-    found_.deep_effect =
-        found_.kind == CurveKind::force_travel || found_.kind == CurveKind::force_time
-            ? deep_effect(at)
-            : std::nullopt;
-    found_.scenario = scenario::answered(asked, curve_->fixed());
-    double end = *std::max_element(found_.x.begin(), found_.x.end());
-    for (const Identified& one : found_.unknowns)
-      if (one.unknown.what == Unknown::What::contact_point) end -= one.estimate;
-    (void)lengthen(found_.kind, found_.scenario, end);
-    set_unknowns(found_.scenario, unknowns_, values);
-    for (const Identified& one : found_.unknowns)
-      if (one.unknown.what == Unknown::What::force_offset)
-        found_.scenario.contact.ambient_force += one.estimate;
+    if (options_.model_error) widen_by_model();
+    for (Part& part : parts_) conclude_part(part);
+    found_.rmse = first.found.rmse;
+    found_.r2 = first.found.r2;
+    for (const Part& part : parts_) found_.r2 = std::min(found_.r2, part.found.r2);
+    found_.deep_effect = first.found.deep_effect;
+    found_.scenario = first.found.scenario;
+    if (joint())
+      for (const Part& part : parts_) found_.pairs.push_back(part.found);
     found_.warnings =
-        warnings_of(found_, {weighted, noise_, model_word()}, scenario::resolve(at, found_.rung));
+        warnings_of(found_, {weighted, noise_, model_word()},
+                    scenario::resolve(first.curve->at(estimates_of(first)), found_.rung));
+  }
+
+  // The curve, the fit and the scenario of one pair.
+  void conclude_part(Part& part) {
+    Identification& found = part.found;
+    const auto slice = [&](const std::vector<double>& all) {
+      return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(part.from),
+                                 all.begin() + static_cast<std::ptrdiff_t>(part.to));
+    };
+    found.model = slice(found_.model);
+    const auto n = static_cast<double>(found.x.size());
+    double mean = 0.0;
+    for (const double y : found.measured) mean += y / n;
+    double squares = 0.0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < found.x.size(); ++i) {
+      const double residual = found.measured[i] - found.model[i];
+      squares += residual * residual;
+      total += (found.measured[i] - mean) * (found.measured[i] - mean);
+    }
+    found.rmse = std::sqrt(squares / n);
+    found.r2 = 1.0 - squares / total;
+    found.unknowns = part.own(std::span<const Identified>(found_.unknowns));
+    const std::vector<double> values = estimates_of(part);
+    const bool press = found.kind == CurveKind::force_travel || found.kind == CurveKind::force_time;
+    if (press) found.deep_effect = deep_effect(part.curve->at(values));
+    found.scenario = scenario::answered(part.family->cases.front(), part.curve->fixed());
+    double end = *std::max_element(found.x.begin(), found.x.end());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (part.unknowns[i].what == Unknown::What::contact_point) end -= values[i];
+    (void)lengthen(found.kind, found.scenario, end);
+    set_unknowns(found.scenario, part.unknowns, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (part.unknowns[i].what == Unknown::What::force_offset)
+        found.scenario.contact.ambient_force += values[i];
   }
 
   // The stated error of the model is a bound on a bias: a force that is wrong by so much everywhere
   // moves u by (J^T J)^-1 J^T (error F w), which is added to each side of the intervals.
   //                                                                          docs/theory.md (117)
-  void widen_by_model(double error) {
+  void widen_by_model() {
     const std::size_t n = unknowns_.size();
-    std::vector<double> product(n, 0.0);
-    for (std::size_t row = 0; row < found_.x.size(); ++row)
-      for (std::size_t i = 0; i < n; ++i)
-        product[i] += best_.jacobian[row * n + i] * error * found_.model[row] * weights_[row];
+    std::vector<double> moved(n, 0.0);  // by every pair, whose errors may differ in sign
+    std::vector<double> combined(found_.combinations.size(), 0.0);
+    for (const Part& part : parts_) {
+      const double error = part.found.predicted_error.value_or(0.0);
+      std::vector<double> product(n, 0.0);
+      for (std::size_t row = part.from; row < part.to; ++row)
+        for (std::size_t i = 0; i < n; ++i)
+          product[i] += best_.jacobian[row * n + i] * error * found_.model[row] * weights_[row];
+      std::vector<double> change(n, 0.0);
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j)
+          change[i] += errors_.variance(i, j) / (sigma_ * sigma_) * product[j];
+        moved[i] += std::abs(change[i]);
+      }
+      for (std::size_t k = 0; k < combined.size(); ++k) {
+        double along = 0.0;
+        for (std::size_t i = 0; i < n; ++i) along += found_.combinations[k].gradient[i] * change[i];
+        combined[k] += std::abs(along);
+      }
+    }
+    for (std::size_t k = 0; k < combined.size(); ++k) {
+      Combination& one = found_.combinations[k];
+      one.ci95_low =
+          one.product ? one.ci95_low * std::exp(-combined[k]) : one.ci95_low - combined[k];
+      one.ci95_high =
+          one.product ? one.ci95_high * std::exp(combined[k]) : one.ci95_high + combined[k];
+    }
     for (std::size_t i = 0; i < n; ++i) {
       Identified& one = found_.unknowns[i];
       if (one.tied || one.at_bound || one.unknown.what == Unknown::What::force_offset) continue;
-      double moved = 0.0;
-      for (std::size_t j = 0; j < n; ++j)
-        moved += errors_.variance(i, j) / (sigma_ * sigma_) * product[j];
       const auto move = [&](std::optional<double>& end, double sign) {
-        if (end) end = unknowns_[i].value(unknowns_[i].inverse(*end) + sign * std::abs(moved));
+        if (end) end = unknowns_[i].value(unknowns_[i].inverse(*end) + sign * moved[i]);
       };
       for (auto* low : {&one.ci95_low, &one.profile_low}) move(*low, -1.0);
       for (auto* high : {&one.ci95_high, &one.profile_high}) move(*high, 1.0);
     }
   }
 
-  const Measurement& measured_;
-  const scenario::Family& family_;
   const std::vector<Unknown>& unknowns_;
   const IdentifyOptions& options_;
-  std::unique_ptr<ScenarioCurve> curve_;
-  std::optional<ClosedCurve> closed_;
+  std::vector<Part> parts_;
   std::vector<double> weights_;
   BoxProblem problem_;
   BoxMinimum best_;
@@ -456,7 +615,19 @@ class Search {
 
 Identification identify(const Measurement& measured, const scenario::Family& family,
                         const std::vector<Unknown>& unknowns, const IdentifyOptions& options) {
-  return Search(measured, family, unknowns, options).all();
+  return identify({{&measured, &family}}, unknowns, options);
+}
+
+std::vector<const Identification*> views(const Identification& found) {
+  if (found.pairs.empty()) return {&found};
+  std::vector<const Identification*> all;
+  for (const Identification& one : found.pairs) all.push_back(&one);
+  return all;
+}
+
+Identification identify(const std::vector<Pair>& pairs, const std::vector<Unknown>& unknowns,
+                        const IdentifyOptions& options) {
+  return Search(pairs, unknowns, options).all();
 }
 
 }  // namespace palpate::identify

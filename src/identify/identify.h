@@ -46,6 +46,8 @@ struct Combination {
   double estimate = 0.0;
   double std_error = 0.0;
   double ci95_low = 0.0, ci95_high = 0.0;
+  std::vector<double> gradient;  // over u, of the combination or, if it is a product, its logarithm
+  bool product = false;
 };
 
 struct ProfilePoint {
@@ -61,7 +63,11 @@ struct GivenPart {
   std::vector<double> deviations;     // one per unknown, SI
 };
 
+// `pairs` is empty for one measurement. For several, each has its own curve, model and scenario
+// there, x, measured and model are those of all pairs one after the other, and what belongs to a
+// single curve (kind, scenario, rung, contact_shift) is that of the first.
 struct Identification {
+  std::vector<Identification> pairs;
   CurveKind kind = CurveKind::force_travel;
   scenario::Scenario scenario;  // whole programme, every `auto` resolved, with the estimates
   scenario::Model rung = scenario::Model::hertz;
@@ -89,6 +95,24 @@ struct Identification {
   std::vector<std::string> notes;     // sentences
   std::vector<std::string> warnings;  // sentences
 };
+
+// The pairs of a joint identification, or the only one itself.
+[[nodiscard]] std::vector<const Identification*> views(const Identification& found);
+
+// A measurement and the scenario of its test.
+struct Pair {
+  const Measurement* measured = nullptr;
+  const scenario::Family* family = nullptr;
+};
+
+// Fits the first case of each pair's family to its measurement, with the unknowns that it has (see
+// read_unknowns). Every pair is weighted by the scatter of its own rows, from their second
+// differences, but at least 1e-3 of its range. Two moduli that correlate by more than 0.95 are told
+// apart only where the pairs change with them by more than their models' stated errors.
+//                                                                             docs/theory.md (126)
+[[nodiscard]] Identification identify(const std::vector<Pair>& pairs,
+                                      const std::vector<Unknown>& unknowns,
+                                      const IdentifyOptions& options = {});
 
 // Fits the family's first case to the measurement, on one thread and deterministically. Throws
 // InputError for fewer points than unknowns plus one, a constant curve, an unknown that changes

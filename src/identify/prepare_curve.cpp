@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "identify/averaged.h"
 #include "identify/fixed_rung.h"
 #include "identify/lengthen.h"
 #include "identify/search_starts.h"
@@ -25,6 +26,8 @@ class Preparation {
     check_pseudo_keys();
     choose_rung(asked);
     choose_points();
+    average();
+    found_.curve->set_points(found_.x);
     weigh(noise);
     return std::move(found_);
   }
@@ -44,6 +47,9 @@ class Preparation {
         (kind_ == CurveKind::strain_time || kind_ == CurveKind::stress_time ||
          kind_ == CurveKind::stress_strain))
       refuse("`--unknown force_offset` is added to a force, and this curve is " +
+             std::string(words_of(kind_).sentence) + "; leave it out");
+    if (unknown_of(Unknown::What::force_delay) != nullptr && kind_ != CurveKind::force_time)
+      refuse("`--unknown force_delay` shifts a force over time, and this curve is " +
              std::string(words_of(kind_).sentence) + "; leave it out");
   }
 
@@ -161,7 +167,19 @@ class Preparation {
                               " (its last step ends at a force, or the force leaves it)");
     note_left_out(before, "before the programme begins, at 0 " + std::string(words.x.symbol));
     refuse_poor_data();
-    found_.curve->set_points(found_.x);
+  }
+
+  // The cost of a search grows with the rows, and means of neighbours say as much as they do.
+  void average() {
+    if (found_.x.size() <= most_rows) return;
+    AveragedRows means = averaged(found_.x, found_.measured);
+    found_.notes.push_back(std::to_string(found_.x.size()) + " rows are averaged to " +
+                           std::to_string(means.x.size()) +
+                           " points, means of neighbours over which the curve is straight");
+    found_.x = std::move(means.x);
+    found_.measured = std::move(means.y);
+    counts_ = std::move(means.count);
+    found_.rows_each = *std::max_element(counts_.begin(), counts_.end());
   }
 
   void refuse_poor_data() const {
@@ -185,12 +203,15 @@ class Preparation {
     for (const double y : found_.measured)
       found_.weights.push_back(
           noise == Noise::constant ? 1.0 / range : 1.0 / std::max(std::abs(y), 0.01 * largest));
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+      found_.weights[i] *= std::sqrt(counts_[i] / found_.rows_each);
   }
 
   const Measurement& measured_;
   const scenario::Family& family_;
   const std::vector<Unknown>& unknowns_;
   CurveKind kind_ = CurveKind::force_travel;
+  std::vector<double> counts_;  // rows of each point, where they are averaged
   PreparedCurve found_;
 };
 

@@ -45,11 +45,13 @@ double largest_residual(const Identification& found) {
 
 }  // namespace
 
-plot::Sheet identified_sheet(const std::string& title, const identify::Identification& found) {
+plot::Sheet identified_sheet(const std::string& title, const identify::Identification& found,
+                             const std::string& suffix) {
   const identify::CurveWords& words = identify::words_of(found.kind);
   const auto [x, y] = axes(found.kind);
-  const std::string file = "'residuals.csv' using 1";
-  std::string text = plot::gnuplot_head("curve", 640, 12) +
+  const std::string table = "residuals" + suffix + ".csv";
+  const std::string file = "'" + table + "' using 1";
+  std::string text = plot::gnuplot_head("curve" + suffix, 640, 12) +
                      "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.15\nset "
                      "rmargin at screen 0.97\n";
   text += "set title " + plot::gnuplot_quoted(title + ": measured and fitted") +
@@ -70,7 +72,7 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
       "\nplot \\\n  0 with lines linewidth 1 linecolor rgb '#909090', \\\n  " + file + ":($4 / " +
       rounded_text(scale, 3) +
       ") with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'\nunset multiplot\n";
-  return {.name = "curve", .script = text, .reads = {"residuals.csv"}};
+  return {.name = "curve" + suffix, .script = text, .reads = {table}};
 }
 
 namespace {
@@ -109,11 +111,11 @@ plot::Sheet profile_sheet(const std::string& title, const identify::Identificati
     const identify::Identified& one = found.unknowns[i];
     const std::string unit = one.unknown.unit_text();
     const auto [origin, scale] = profile_axis(found, i);
-    const std::string pick = "(strcol('unknown') eq '" + one.unknown.key +
+    const std::string pick = "(strcol('unknown') eq '" + one.unknown.name() +
                              "' ? (column('value') - " + number_text(origin) + ") / " +
                              number_text(scale) + " : NaN)";
     text += "set xlabel " +
-            plot::gnuplot_quoted(one.unknown.key +
+            plot::gnuplot_quoted(one.unknown.name() +
                                  (origin == 0.0 ? "" : " - " + rounded_text(origin, 4)) +
                                  (unit.empty() ? "" : " (" + unit + ")") + power_text(scale)) +
             " noenhanced\nplot \\\n  'profile.csv' using " + pick +

@@ -43,7 +43,7 @@ std::string change(double moved, const Identified& one) {
 
 std::string combination_sentence(const Identification& found, const Combination& one) {
   std::vector<std::string> names;
-  for (const std::size_t i : one.of) names.push_back("`" + found.unknowns[i].unknown.key + "`");
+  for (const std::size_t i : one.of) names.push_back("`" + found.unknowns[i].unknown.name() + "`");
   return joined(names, " and ") + " are tied: these data cannot tell them apart. Determined is " +
          one.text + " = " + with_unit(one.estimate, one.unit) + ", 95 % " +
          rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4) +
@@ -86,7 +86,7 @@ record::Table identified_table(const Identification& found) {
     const Unknown& unknown = one.unknown;
     const std::optional<double> estimate = one.tied ? std::nullopt : std::optional(one.estimate);
     table.rows.push_back(
-        {unknown.key, unknown.unit_text(), cell(estimate, unknown), cell(one.std_error, unknown),
+        {unknown.name(), unknown.unit_text(), cell(estimate, unknown), cell(one.std_error, unknown),
          cell(one.ci95_low, unknown), cell(one.ci95_high, unknown), word(one.at_bound),
          word(one.tied), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
          one.tied ? Cell() : Cell(std::string(one.by_profile ? "profile" : "student")),
@@ -106,9 +106,9 @@ record::Table correlation_table(const Identification& found) {
   record::Table table;
   table.columns = {"unknown"};
   const std::size_t n = found.unknowns.size();
-  for (const Identified& one : found.unknowns) table.columns.push_back(one.unknown.key);
+  for (const Identified& one : found.unknowns) table.columns.push_back(one.unknown.name());
   for (std::size_t i = 0; i < n; ++i) {
-    table.rows.push_back({found.unknowns[i].unknown.key});
+    table.rows.push_back({found.unknowns[i].unknown.name()});
     for (std::size_t j = 0; j < n; ++j) {
       const double value = found.correlation[i * n + j];
       Cell& cell = table.rows.back().emplace_back();
@@ -139,7 +139,7 @@ record::Table profile_table(const Identification& found) {
   for (const ProfilePoint& point : found.profile) {
     const Unknown& unknown = found.unknowns[point.unknown].unknown;
     const std::string unit = unknown.unit_text();
-    table.rows.push_back({unknown.key, unit.empty() ? Cell() : Cell(unit),
+    table.rows.push_back({unknown.name(), unit.empty() ? Cell() : Cell(unit),
                           unknown.shown(point.value), point.delta, t * t});
   }
   return table;
@@ -148,9 +148,9 @@ record::Table profile_table(const Identification& found) {
 std::vector<std::string> identified_sentences(const Identification& found) {
   std::vector<std::string> lines;
   std::size_t width = 0;
-  for (const Identified& one : found.unknowns) width = std::max(width, one.unknown.key.size());
+  for (const Identified& one : found.unknowns) width = std::max(width, one.unknown.name().size());
   for (const Identified& one : found.unknowns) {
-    std::string line = one.unknown.key + std::string(width - one.unknown.key.size() + 2, ' ');
+    std::string line = one.unknown.name() + std::string(width - one.unknown.name().size() + 2, ' ');
     if (one.tied)
       line += "not determined by itself";
     else
@@ -168,17 +168,36 @@ std::vector<std::string> identified_sentences(const Identification& found) {
         lines.push_back("Of this, `" + part.key + "` = " + part.value + " +- " + part.deviation +
                         " adds a standard error of " +
                         with_unit(unknown.shown(part.deviations[i]), unknown.unit_text()) +
-                        " to `" + unknown.key + "`.");
-  lines.push_back(model_sentence(found));
+                        " to `" + unknown.name() + "`.");
+  const auto points_of = [](const Identification& one, const std::string& worth) {
+    const CurveWords& words = words_of(one.kind);
+    return std::to_string(one.x.size()) + " points" +
+           (one.left_out > 0 ? " (" + std::to_string(one.left_out) + " left out)" : "") + worth +
+           ", RMSE " + with_unit(words.y.from_si(one.rmse), words.y.symbol) + ", R2 " +
+           rounded_text(one.r2, 6);
+  };
+  const std::string worth =
+      found.rho > 0.0
+          ? ", worth " + rounded_text(std::max(1.0, found.effective_size), 3) + " independent ones"
+          : "";
+  const std::string watson = ", Durbin-Watson " + rounded_text(found.durbin_watson, 3) + ".";
+  if (found.pairs.empty()) {
+    lines.push_back(model_sentence(found));
+    lines.push_back(points_of(found, worth) + watson);
+  } else {
+    for (std::size_t k = 0; k < found.pairs.size(); ++k)
+      lines.push_back("Pair " + std::to_string(k + 1) + ": " + model_sentence(found.pairs[k]) +
+                      " " + points_of(found.pairs[k], "") + ".");
+    lines.push_back(std::to_string(found.x.size()) + " points together" + worth + watson);
+    for (std::size_t i = 0; i < found.unknowns.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (const double with = found.correlation[i * found.unknowns.size() + j];
+            std::abs(with) > 0.9)
+          lines.push_back("`" + found.unknowns[j].unknown.name() + "` and `" +
+                          found.unknowns[i].unknown.name() + "` correlate by " +
+                          rounded_text(with, 3) + ".");
+  }
   const CurveWords& words = words_of(found.kind);
-  lines.push_back(
-      std::to_string(found.x.size()) + " points" +
-      (found.left_out > 0 ? " (" + std::to_string(found.left_out) + " left out)" : "") +
-      (found.rho > 0.0
-           ? ", worth " + rounded_text(std::max(1.0, found.effective_size), 3) + " independent ones"
-           : "") +
-      ", RMSE " + with_unit(words.y.from_si(found.rmse), words.y.symbol) + ", R2 " +
-      rounded_text(found.r2, 6) + ", Durbin-Watson " + rounded_text(found.durbin_watson, 3) + ".");
   for (const Identified& one : found.unknowns)
     if (one.moved_down && one.moved_up)
       lines.push_back(std::string(found.kind == CurveKind::force_travel ||
@@ -186,7 +205,7 @@ std::vector<std::string> identified_sentences(const Identification& found) {
                                       ? "A contact point "
                                       : "A start ") +
                       with_unit(words.x.from_si(found.contact_shift), words.x.symbol) +
-                      " earlier or later changes `" + one.unknown.key + "` by " +
+                      " earlier or later changes `" + one.unknown.name() + "` by " +
                       change(*one.moved_down, one) + " or " + change(*one.moved_up, one) + ".");
   return lines;
 }

@@ -2,6 +2,7 @@
 #include "identify/unknowns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,8 +13,22 @@
 namespace palpate::identify {
 namespace {
 
-constexpr const char* contact_point = "contact_point";
-constexpr const char* force_offset = "force_offset";
+// Unknowns of a test or its sensor, which are no keys of a scenario.
+struct Extra {
+  const char* name;
+  Unknown::What what;
+  std::optional<Unit> unit;
+  Range range;
+};
+const std::array<Extra, 4>& extras() {
+  static const std::array<Extra, 4> all{{
+      {"contact_point", Unknown::What::contact_point, unit::mm, {}},
+      {"force_offset", Unknown::What::force_offset, unit::N, {}},
+      {"force_gain", Unknown::What::force_gain, std::nullopt, {.low = 0.0, .low_allowed = false}},
+      {"force_delay", Unknown::What::force_delay, unit::s, {.low = 0.0, .low_allowed = true}},
+  }};
+  return all;
+}
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
   palpate::refuse("`--unknown " + text + "` " + why);
@@ -62,18 +77,19 @@ std::string shown(double si, const std::optional<Unit>& unit) {
 
 scenario::NumericKey find_key(const std::string& text, const std::string& name,
                               const std::vector<scenario::NumericKey>& keys) {
-  if (name == contact_point) return {name, unit::mm, {}, {}};
-  if (name == force_offset) return {name, unit::N, {}, {}};
+  for (const Extra& extra : extras())
+    if (name == extra.name) return {name, extra.unit, extra.range, {}};
   const auto known =
       std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.path == name; });
   if (known == keys.end()) {
-    std::vector<std::string> names{contact_point, force_offset};
+    std::vector<std::string> names;
+    for (const Extra& extra : extras()) names.emplace_back(extra.name);
     for (const auto& key : keys) names.push_back(key.path);
     const auto near = nearest(name, names);
     refuse(text, "names no number of this scenario" +
                      (near ? "; did you mean `" + *near + "`?"
-                           : "; `palpate manual` lists the keys, and `contact_point` and "
-                             "`force_offset` are accepted too"));
+                           : "; `palpate manual` lists the keys, and `contact_point`, "
+                             "`force_offset`, `force_gain` and `force_delay` are accepted too"));
   }
   if (!known->use.used)
     refuse(text, "names a key that is used " + known->use.when +
@@ -81,14 +97,14 @@ scenario::NumericKey find_key(const std::string& text, const std::string& name,
   return *known;
 }
 
-Unknown read_unknown(const std::string& text, const std::vector<scenario::NumericKey>& keys) {
-  const Parts parts = parts_of(text);
+Unknown read_unknown(const std::string& text, const Parts& parts,
+                     const std::vector<scenario::NumericKey>& keys) {
   const scenario::NumericKey key = find_key(text, parts.key, keys);
   Unknown unknown;
   unknown.key = parts.key;
   unknown.unit = key.unit;
-  if (parts.key == contact_point) unknown.what = Unknown::What::contact_point;
-  if (parts.key == force_offset) unknown.what = Unknown::What::force_offset;
+  for (const Extra& extra : extras())
+    if (parts.key == extra.name) unknown.what = extra.what;
   unknown.low = bound(text, key.unit ? with_unit(parts.low, parts.high) : parts.low, key.unit);
   unknown.high = bound(text, parts.high, key.unit);
   if (!(unknown.low < unknown.high)) refuse(text, "wants a lower bound below the upper one");
@@ -104,7 +120,8 @@ Unknown read_unknown(const std::string& text, const std::vector<scenario::Numeri
     refuse(text, "leaves the limits of the key, which is " + limits + "; narrow the range");
   }
   // Quantities that must be positive are searched on a logarithmic scale.
-  const bool positive = key.unit && range.low == 0.0 && !range.low_allowed;
+  const bool positive = (key.unit || unknown.what == Unknown::What::force_gain) &&
+                        range.low == 0.0 && !range.low_allowed;
   if (positive) unknown.scale = Unknown::Scale::logarithmic;
   return unknown;
 }
@@ -124,17 +141,74 @@ double Unknown::slope(double u) const {
   return scale == Scale::logarithmic ? value(u) * std::log(high / low) : high - low;
 }
 
+namespace {
+
+using Keys = std::vector<scenario::NumericKey>;
+
+bool knows(const Keys& keys, const std::string& name) {
+  for (const Extra& extra : extras())
+    if (name == extra.name) return true;
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const auto& key) { return key.path == name && key.use.used; });
+}
+
+// The pairs that `word` behind `@` names: a number, `each` or `all`; empty: by the key's nature.
+std::vector<std::vector<std::size_t>> pairs_of(const std::string& text, const std::string& word,
+                                               const std::string& key,
+                                               const std::vector<Keys>& keys) {
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (knows(keys[k], key)) all.push_back(k);
+  if (all.empty()) all = {0};
+  const bool extra = std::any_of(extras().begin(), extras().end(),
+                                 [&](const Extra& one) { return key == one.name; });
+  std::vector<std::vector<std::size_t>> each;
+  for (const std::size_t k : all) each.push_back({k});
+  if (word.empty()) return extra ? each : std::vector<std::vector<std::size_t>>{all};
+  if (word == "each") return each;
+  if (word == "all") return std::vector<std::vector<std::size_t>>{all};
+  const auto number = whole_number(word);
+  if (!number || *number != std::floor(*number) || !(*number >= 1.0) ||
+      !(*number <= static_cast<double>(keys.size())))
+    refuse(text, "names the pair `" + word + "`, and there are " + std::to_string(keys.size()) +
+                     (keys.size() == 1 ? " pair" : " pairs") +
+                     " of data and scenario; write a number, `each` or `all` behind `@`");
+  return {{static_cast<std::size_t>(*number) - 1}};
+}
+
+}  // namespace
+
 std::vector<Unknown> read_unknowns(const std::vector<std::string>& texts,
-                                   const scenario::Scenario& scenario) {
-  const std::vector<scenario::NumericKey> keys = scenario::numeric_keys(scenario);
+                                   std::span<const scenario::Scenario* const> scenarios) {
+  std::vector<Keys> keys;
+  for (const scenario::Scenario* each : scenarios) keys.push_back(scenario::numeric_keys(*each));
   std::vector<Unknown> unknowns;
   for (const std::string& text : texts) {
-    unknowns.push_back(read_unknown(text, keys));
-    for (std::size_t i = 0; i + 1 < unknowns.size(); ++i)
-      if (unknowns[i].key == unknowns.back().key)
-        refuse(text, "is given twice; keep one of the two ranges");
+    Parts parts = parts_of(text);
+    std::string word;
+    if (const std::size_t at = parts.key.rfind('@'); at != std::string::npos) {
+      word = parts.key.substr(at + 1);
+      parts.key.resize(at);
+    }
+    for (const std::vector<std::size_t>& pairs : pairs_of(text, word, parts.key, keys)) {
+      Unknown one = read_unknown(text, parts, keys[pairs.front()]);
+      one.pairs = pairs;
+      one.separate = scenarios.size() > 1 && pairs.size() == 1;
+      for (const Unknown& other : unknowns)
+        if (other.key == one.key && std::any_of(pairs.begin(), pairs.end(), [&](std::size_t k) {
+              return std::find(other.pairs.begin(), other.pairs.end(), k) != other.pairs.end();
+            }))
+          refuse(text, "is given twice; keep one of the two ranges");
+      unknowns.push_back(std::move(one));
+    }
   }
   return unknowns;
+}
+
+std::vector<Unknown> read_unknowns(const std::vector<std::string>& texts,
+                                   const scenario::Scenario& scenario) {
+  const scenario::Scenario* const one = &scenario;
+  return read_unknowns(texts, {&one, 1});
 }
 
 void set_unknowns(scenario::Scenario& scenario, std::span<const Unknown> unknowns,

@@ -12,10 +12,13 @@
 namespace palpate::identify {
 
 struct Unknown {
-  enum class What { key, contact_point, force_offset };
+  enum class What { key, contact_point, force_offset, force_gain, force_delay };
   enum class Scale { linear, logarithmic };
 
-  std::string key;  // of the scenario, or `contact_point` or `force_offset`
+  std::string
+      key;  // of the scenario, or `contact_point`, `force_offset`, `force_gain`, `force_delay`
+  std::vector<std::size_t> pairs = {0};  // of data and scenario in which it is this one unknown
+  bool separate = false;                 // of one pair among several: its name ends with `@N`
   What what = What::key;
   Scale scale = Scale::linear;
   std::optional<Unit> unit;  // for input and output; nothing: a pure number
@@ -28,6 +31,9 @@ struct Unknown {
   [[nodiscard]] double slope(double u) const;  // d value / du
   // The value in `unit`.
   [[nodiscard]] double shown(double si) const { return unit ? unit->from_si(si) : si; }
+  [[nodiscard]] std::string name() const {
+    return separate ? key + "@" + std::to_string(pairs.front() + 1) : key;
+  }
   [[nodiscard]] std::string unit_text() const { return unit ? unit->symbol : ""; }
 };
 
@@ -35,7 +41,12 @@ struct Unknown {
 // the scenario's list of keys. Quantities that are positive by nature get a logarithmic scale.
 // Throws InputError with a sentence that names `--unknown` for an unknown key (with the nearest
 // one), a key that the scenario does not use, a bound of another dimension or beyond the key's
-// limits, bounds in the wrong order, and a key given twice.
+// limits, bounds in the wrong order, and a key given twice. Of several scenarios a key is one
+// unknown in all that have it; what belongs to a test or its sensor (contact_point, force_offset,
+// force_gain, force_delay) is one unknown each. `KEY@2` is that of the second pair alone,
+// `KEY@each` one each, `KEY@all` one for all.
+[[nodiscard]] std::vector<Unknown> read_unknowns(
+    const std::vector<std::string>& texts, std::span<const scenario::Scenario* const> scenarios);
 [[nodiscard]] std::vector<Unknown> read_unknowns(const std::vector<std::string>& texts,
                                                  const scenario::Scenario& scenario);
 

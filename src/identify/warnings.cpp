@@ -33,14 +33,15 @@ std::vector<std::string> warnings_of(const Identification& found,
                        "little");
   for (const Identified& one : found.unknowns)
     if (one.at_bound)
-      warnings.push_back("the best `" + one.unknown.key +
+      warnings.push_back("the best `" + one.unknown.name() +
                          "` is on the edge of its range; widen the range, or hold it there with "
                          "`--set`");
-  if (found.predicted_error && *found.predicted_error > with.solver.tolerance)
-    warnings.push_back("the estimated error of `" + residuals.model + "` is " +
-                       percent_text(*found.predicted_error) +
-                       " here, and the estimates are wrong by about as much" +
-                       (found.given ? "; leave `solver.model` to `auto`" : ""));
+  for (const Identification* one : views(found))
+    if (one->predicted_error && *one->predicted_error > with.solver.tolerance)
+      warnings.push_back("the estimated error of `" + std::string(scenario::rung(one->rung).word) +
+                         "` is " + percent_text(*one->predicted_error) +
+                         " here, and the estimates are wrong by about as much" +
+                         (one->given ? "; leave `solver.model` to `auto`" : ""));
   const auto waves = inertia_of_flow(with);
   if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
     warnings.push_back("waves in the specimen change its deformation by about " +

@@ -84,6 +84,11 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
   for (const Column* column : {&x, &y})
     if (const std::string weight = weight_note(table, *column); !weight.empty())
       curve.notes.push_back(weight);
+  std::vector<Column> beside;
+  for (const std::string& name : layout.beside) {
+    beside.push_back(find_column(table, name, "", Role::y));
+    curve.beside.push_back({axis_of(beside.back()), {}});
+  }
   const Rows rows = chosen_rows(table, layout, {x, y});
   for (const std::size_t i : rows.kept) {
     const RawRow& row = table.rows[i];
@@ -100,6 +105,11 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
     curve.x.push_back(x.unit ? x.unit->factor.to_si(x_value) : x_value);
     curve.y.push_back(y.unit ? y.unit->factor.to_si(y_value) : y_value);
     curve.lines.push_back(row.line);
+    for (std::size_t k = 0; k < beside.size(); ++k) {
+      const double value = number_of(table, row, beside[k]);
+      curve.beside[k].values.push_back(beside[k].unit ? beside[k].unit->factor.to_si(value)
+                                                      : value);
+    }
   }
   if (x.falls) curve.notes.push_back("`" + x.name + "` falls as the tip goes in; taken as a depth");
   curve.notes.insert(curve.notes.end(), rows.notes.begin(), rows.notes.end());
@@ -144,6 +154,77 @@ void take_off_deflection(MeasuredCurve& curve, const DataLayout& layout) {
                         ", is the depth");
 }
 
+// The line over time through the free ends of the whole record, before and after contact.
+void take_off_drift(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout) {
+  if (layout.drift.empty()) return;
+  const Column x = find_column(table, layout.x, layout.x_unit, Role::x);
+  const Column y = find_column(table, layout.y, layout.y_unit, Role::y);
+  Column time;
+  time.index = named_index(table, layout.drift, "--drift");
+  time.name = layout.drift;
+  DataLayout all = layout;
+  all.segment = "all";
+  struct Row {
+    double t, x, y;
+    int line;
+  };
+  std::vector<Row> rows;
+  for (const std::size_t i : chosen_rows(table, all, {x, y}).kept) {
+    const RawRow& row = table.rows[i];
+    const Row each{number_of(table, row, time), number_of(table, row, x), number_of(table, row, y),
+                   row.line};
+    if (std::isfinite(each.t) && std::isfinite(each.x) && std::isfinite(each.y))
+      rows.push_back(each);
+  }
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Row& row : rows) {
+    low = std::min(low, row.x);
+    high = std::max(high, row.x);
+  }
+  struct End {
+    double n = 0.0, t = 0.0, y = 0.0;
+  };
+  const auto end_of = [&](auto from, auto to) {
+    End end;
+    for (auto row = from; row != to && std::abs(row->x - from->x) <= 0.1 * (high - low); ++row) {
+      end.n += 1.0;
+      end.t += row->t;
+      end.y += row->y;
+    }
+    end.t /= end.n;
+    end.y /= end.n;
+    return end;
+  };
+  if (rows.size() < 10)
+    throw InputError({curve.file, 0, 0}, "has too few rows for a `--drift`; leave it out");
+  const End first = end_of(rows.begin(), rows.end());
+  const End last = end_of(rows.rbegin(), rows.rend());
+  const bool free = std::abs(rows.front().x - rows.back().x) <= 0.2 * (high - low);
+  if (!free || first.n < 5 || last.n < 5 || !(last.t > first.t))
+    throw InputError({curve.file, 0, 0},
+                     "does not begin and end at the same place with five rows there, so that two "
+                     "free ends are not known; leave `--drift` out, or give `--baseline-from` and "
+                     "`--baseline-to`");
+  const double rate = (last.y - first.y) / (last.t - first.t);
+  double most = 0.0;
+  for (const Row& row : rows) most = std::max(most, std::abs(row.y - first.y));
+  // The rows of the curve by their lines, both in the order of the file.
+  const double to_si = y.unit ? y.unit->factor.to_si(1.0) : 1.0;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < curve.y.size(); ++i) {
+    while (at + 1 < rows.size() && rows[at].line < curve.lines[i]) ++at;
+    const double drift = rate * (rows[at].t - first.t);
+    curve.y_written[i] -= drift;
+    curve.y[i] -= drift * to_si;
+  }
+  curve.notes.push_back("a drift of `" + y.name + "` by " +
+                        percent_text(std::abs(last.y - first.y) / std::max(most, 1e-300)) +
+                        " of its largest change, from " + rounded_text(first.n) +
+                        " rows before and " + rounded_text(last.n) +
+                        " after contact, is taken off");
+}
+
 }  // namespace
 
 MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
@@ -153,6 +234,7 @@ MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
   curve.file = file;
   curve.notes = table.notes;
   take(curve, table, layout);
+  take_off_drift(curve, table, layout);
   if (curve.left_out > 0)
     curve.notes.push_back(std::to_string(curve.left_out) +
                           (curve.left_out == 1 ? " row is" : " rows are") +

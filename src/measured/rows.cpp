@@ -172,8 +172,8 @@ std::optional<std::size_t> segment_column(const RawTable& table) {
   return only;
 }
 
-// The approach of a force over a length, where a column of words tells it from other parts.
-void keep_approach(const RawTable& table, const Axes& axes, Rows& rows) {
+// The usual segment of a force over a length, where a column of words tells it from other parts.
+void keep_usual(const RawTable& table, const Axes& axes, const std::string& usual, Rows& rows) {
   const auto is = [](const Column& column, const Dimension& dimension) {
     return column.unit && column.unit->factor.dimension == dimension;
   };
@@ -181,20 +181,22 @@ void keep_approach(const RawTable& table, const Axes& axes, Rows& rows) {
   const auto column = segment_column(table);
   if (!column) return;
   const bool flags = table.kind == RawTable::Kind::afm_tab;  // of which 0 and False are approaches
-  const auto approaches = [&](std::size_t i) {
+  const Part part = usual == "approach" ? Part::approach : Part::retract;
+  const auto wanted = [&](std::size_t i) {
     const std::string& cell = table.rows[i].fields[*column].text;
-    return flags ? is_segment(cell, "approach") : part_of(cell) == Part::approach;
+    return flags ? is_segment(cell, usual) : part_of(cell) == part;
   };
-  const auto taken = std::count_if(rows.kept.begin(), rows.kept.end(), approaches);
+  const auto taken = std::count_if(rows.kept.begin(), rows.kept.end(), wanted);
   const std::size_t all = rows.kept.size();
   if (taken == 0 || as_index(taken) == all) return;
   DataLayout layout;
-  layout.segment = "approach";
+  layout.segment = usual;
   keep_segment(table, layout, *column, rows);
   rows.notes.push_back("the column `" + table.names[*column] + "` divides the curve: its " +
-                       std::to_string(rows.kept.size()) + " rows of the approach are taken, of " +
-                       std::to_string(all) +
-                       "; `--segment retract` or `--segment all` takes others");
+                       std::to_string(rows.kept.size()) + " rows of the " + usual +
+                       " are taken, of " + std::to_string(all) + "; `--segment " +
+                       (part == Part::approach ? "retract" : "approach") +
+                       "` or `--segment all` takes others");
 }
 
 void keep_where(const RawTable& table, const std::string& condition, Rows& rows) {
@@ -253,7 +255,7 @@ Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Axes& ax
                        "contains " + std::to_string(table.tables) +
                            " tables with the same columns; choose one, as `--segment 1`, or take "
                            "the rows of all by `--segment all`");
-    if (layout.segment.empty()) keep_approach(table, axes, rows);
+    if (layout.segment.empty()) keep_usual(table, axes, layout.usual, rows);
     return rows;
   }
   if (const auto column = segment_column(table)) {

@@ -1,7 +1,8 @@
 // How often the intervals of `palpate fit` contain the truth: AR(1) noise, 1/f noise (rho = -1) and
 // forces rounded to steps of 2 % of the largest (rho = -2). No test: it prints
-// the table of docs/identify.md. `palpate-fit-coverage [REPEATS]`
+// the table of docs/identify.md. `palpate-fit-coverage [REPEATS [SEED [RHO]]]`
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -13,11 +14,13 @@
 int main(int count, char** words) {
   using namespace palpate;
   const int repeats = count > 1 ? std::atoi(words[1]) : 1000;
+  const auto seed = static_cast<std::uint64_t>(count > 2 ? std::atoi(words[2]) : 23);
   std::printf("| curve | points | rho | contained, first | second |\n|---|---|---|---|---|\n");
   for (const bool press : {true, false})
     for (const int points : {100, 400, 1600})
       for (const double rho : {0.0, 0.5, 0.9, -1.0, -2.0}) {
-        std::mt19937_64 random(23);
+        if (count > 3 && rho != std::atof(words[3])) continue;
+        std::mt19937_64 random(seed);
         std::normal_distribution<double> normal(0.0, 1.0);
         int first = 0, second = 0;
         for (int k = 0; k < repeats; ++k) {

@@ -229,5 +229,33 @@ TEST(ContactModel, ASignIsAdvisedOnlyWhereItIsWrong) {
       << refusal(curve, test);
 }
 
+TEST(ContactModel, AKnownContactPointIsNoParameter) {
+  const Tip tip{Tip::Kind::paraboloid, radius, 0.0};
+  const Curve curve = tilted_curve(tip, {.offset = 0.2, .tilt = 10.0});
+  ContactTest test = test_of(tip);
+  test.contact_point = contact_at;
+  const Fit fit = fit_contact(curve.depth, curve.force, test);
+  ASSERT_EQ(fit.parameters.size(), 3U);
+  EXPECT_EQ(fit.parameters[1].name, "F_0");
+  EXPECT_NEAR(fit.parameters[0].estimate, 72.4, 1e-8 * 72.4);  // exact data
+  EXPECT_NEAR(fit.parameters[2].estimate, 0.01, 1e-9);         // N/mm
+}
+
+// A bump between 0.1 and 0.35 mm, as of a surface that attracts the tip, is no baseline.
+TEST(ContactModel, ABaselineOfChosenRows) {
+  const Tip tip{Tip::Kind::paraboloid, radius, 0.0};
+  Curve curve = tilted_curve(tip, {.offset = 0.2, .tilt = 10.0});
+  for (std::size_t i = 0; i < curve.depth.size(); ++i)
+    if (curve.depth[i] > 1e-4 && curve.depth[i] < 3.5e-4) curve.force[i] -= 0.05;
+  ContactTest test = test_of(tip);
+  test.baseline = ContactTest::BaselineChoice::tilt;
+  const Fit all = fit_contact(curve.depth, curve.force, test);
+  EXPECT_GT(std::abs(all.parameters[0].estimate - 72.4), 0.1);
+  test.baseline_to = 0.95e-4;
+  const Fit fit = fit_contact(curve.depth, curve.force, test);
+  EXPECT_NEAR(fit.parameters[0].estimate, 72.4, 1e-6 * 72.4);  // exact data
+  EXPECT_NEAR(fit.parameters[1].estimate, 0.4, 1e-6);
+}
+
 }  // namespace
 }  // namespace palpate::fit

@@ -203,5 +203,28 @@ TEST(Prony, ManyTermsAreNotNegative) {
   EXPECT_NEAR(sum, 4.0, 0.02);  // y(0)
 }
 
+// A Maxwell liquid relaxes to 0, a Burgers liquid creeps on at a constant rate.
+TEST(Prony, LiquidsExactly) {
+  std::vector<double> x, fall, creep;
+  for (int i = 0; i <= 200; ++i) {
+    const double t = 0.05 * i;
+    x.push_back(t);
+    fall.push_back(1.3 * std::exp(-t / 2.0));
+    creep.push_back(0.2 + 0.03 * t + 0.5 * (1.0 - std::exp(-t / 1.5)));
+  }
+  PronySeries series{PronySeries::Kind::relaxation, 1, true};
+  Fit fit = fit_prony(x, fall, series, {.x_unit = "s", .y_unit = "kPa"});
+  ASSERT_EQ(fit.parameters.size(), 2U);
+  EXPECT_NEAR(fit.parameters[0].estimate, 1.3, 1e-9);  // exact data
+  EXPECT_NEAR(fit.parameters[1].estimate, 2.0, 1e-9);  // likewise
+  series.kind = PronySeries::Kind::creep;
+  fit = fit_prony(x, creep, series, {.x_unit = "s"});
+  ASSERT_EQ(fit.parameters.size(), 4U);
+  EXPECT_EQ(fit.parameters[1].name + " " + fit.parameters[1].unit, "y_flow 1/s");
+  for (const auto& [i, truth] :
+       {std::pair{0U, 0.2}, std::pair{1U, 0.03}, std::pair{2U, 0.5}, std::pair{3U, 1.5}})
+    EXPECT_NEAR(fit.parameters[i].estimate, truth, 1e-8) << i;  // exact data
+}
+
 }  // namespace
 }  // namespace palpate::fit

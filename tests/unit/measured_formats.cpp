@@ -166,5 +166,60 @@ TEST(MeasuredFormats, FebioLogData) {
       "row one value per name");
 }
 
+// A text export of TA TRIOS: sections in brackets, names, and a row of units below them.
+TEST(MeasuredFormats, TriosSteps) {
+  const std::string text =
+      "Filename\tgel.tri\nInstrument name\tDHR-2\n\n[step]\nStress Relaxation - 1\n"
+      "Time\tStress\tStrain\tTemperature\ns\tMPa\t%\t\u00b0C\n"
+      "0.1\t0.002\t5\t25.01\n0.2\t0.0015\t5\t25.02\n0.4\t0.0012\t5\t25.0\n";
+  const MeasuredCurve curve = parse_measured(text, "gel.txt", {.x = "Time", .y = "Stress"});
+  EXPECT_EQ(curve.x, (Numbers{0.1, 0.2, 0.4}));
+  EXPECT_NEAR(curve.y[0], 2000.0, 1e-9);  // rounding
+  EXPECT_EQ(curve.x_axis.unit, "s");
+}
+
+// A text export of Anton Paar's Bioindenter: penetration depth and normal force.
+TEST(MeasuredFormats, BioindenterDepthAndForce) {
+  const std::string text =
+      "Anton Paar Indentation\nSample:\tliver\nIndenter radius:\t500 um\n\n"
+      "Time\tPd\tFn\n[s]\t[nm]\t[uN]\n0\t0\t0\n0.1\t50\t0.4\n0.2\t100\t1.2\n";
+  const MeasuredCurve curve = parse_measured(text, "liver.txt", {});
+  EXPECT_EQ(curve.x_axis.column + " " + curve.y_axis.column, "Pd Fn");
+  EXPECT_NEAR(curve.x[2], 1e-7, 1e-18);  // rounding
+  EXPECT_NEAR(curve.y[2], 1.2e-6, 1e-17);
+}
+
+// depth = travel - force / k; a deflection in the column of y is force / k itself.
+TEST(MeasuredFormats, TheBendingIsTakenOff) {
+  const std::string force = "travel (um),force (nN)\n0,0\n1,10\n2,30\n";
+  MeasuredCurve curve = parse_measured(force, "c.csv", {.spring_constant = "0.1 N/m"});
+  EXPECT_NEAR(curve.x[1], 0.9e-6, 1e-18);
+  EXPECT_NEAR(curve.x[2], 1.7e-6, 1e-18);
+  EXPECT_NEAR(parse_measured(force, "c.csv", {.compliance = "10 um/uN"}).x[2], 1.7e-6, 1e-18);
+  const std::string bent = "travel (um),deflection (nm)\n0,0\n1,100\n2,300\n";
+  curve = parse_measured(bent, "c.csv", {.spring_constant = "0.1 N/m"});
+  EXPECT_NEAR(curve.x[2], 1.7e-6, 1e-18);
+  EXPECT_NEAR(curve.y[2], 30e-9, 1e-20);
+  EXPECT_EQ(format_refusal(force, {.spring_constant = "0.1 N"}),
+            "palpate: `--spring-constant 0.1 N` is no stiffness; write it as `0.1 N/m`");
+}
+
+TEST(MeasuredFormats, ADriftIsTakenOff) {
+  std::string text = "time (s),travel (mm),force (N)\n";
+  const auto travel = [](int i) { return i <= 50 ? 0.1 * i : 0.1 * (100 - i); };
+  for (int i = 0; i <= 100; ++i)
+    text += std::to_string(i) + "," + std::to_string(travel(i)) + "," +
+            std::to_string(std::max(travel(i) - 2.0, 0.0) + 0.01 * i) + "\n";
+  const MeasuredCurve curve =
+      parse_measured(text, "c.csv", {.x = "travel", .y = "force", .drift = "time"});
+  for (int i = 0; i <= 100; ++i)  // the mean time of the first 6 rows is 2.5 s
+    EXPECT_NEAR(curve.y[static_cast<std::size_t>(i)], std::max(travel(i) - 2.0, 0.0) + 0.01 * 2.5,
+                1e-6);
+  const std::string half = text.substr(0, text.find("\n70,") + 1);
+  EXPECT_NE(format_refusal(half, {.x = "travel", .y = "force", .drift = "time"})
+                .find("does not begin and end at the same place"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace palpate::measured

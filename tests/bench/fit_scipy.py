@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Writes curves with noise into a folder and prints what scipy fits to them, to compare with `palpate fit`."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import brentq, curve_fit, least_squares
+from scipy.special import gamma
+
+
+def save(path, names, x, y):
+    np.savetxt(path, np.c_[x, y], delimiter=",", header=names, comments="", fmt="%.17g")
+
+
+def say(name, values, errors):
+    print(name, *(f"{value:.6g} +- {error:.3g}" for value, error in zip(values, errors, strict=True)))
+
+
+def relaxations(folder, rng):
+    t = np.linspace(0.05, 6, 120)
+    curves = {
+        "spring_pot": (lambda t, c, b: c * t**-b / gamma(1 - b), (3.0, 0.2), 0.05),
+        "liquid": (lambda t, y, tau: y * np.exp(-t / tau), (1.3, 2.0), 0.01),
+    }
+    for name, (law, truth, noise) in curves.items():
+        y = law(t, *truth) + rng.normal(0, noise, len(t))
+        save(folder / f"{name}.csv", "time (s),stress (kPa)", t, y)
+        values, covariance = curve_fit(law, t, y, p0=(1.0, 0.5))
+        say(name, values, np.sqrt(np.diag(covariance)))
+
+
+def adhesion(folder, rng):
+    radius, modulus, work = 2.5e-6, 1e4, 2e-5
+    opening = (np.pi * work * radius**2 / 8 / modulus) ** (1 / 3)
+    a = opening * np.linspace(3.5, 1.1, 301)
+    h = 1e-6 + a**2 / radius - np.sqrt(2 * np.pi * a * work / modulus)
+    force = 4 * modulus * a**3 / (3 * radius) - np.sqrt(8 * np.pi * work * modulus * a**3)
+    pull = 1.5 * np.pi * work * radius
+    h = np.r_[h, h[-1] - 4e-9 * np.arange(1, 151)]
+    force = np.r_[force, np.zeros(150)] + rng.normal(0, 0.02 * pull, 451)
+    save(folder / "jkr.csv", "depth (um),force (nN)", h * 1e6, force * 1e9)
+
+    def residuals(q):
+        e, w, contact, offset = q * np.array([1e4, 1e-5, 1e-6, 1e-10])
+        scale = (np.pi * w * radius**2 / 8 / e) ** (1 / 3)
+        out = np.full(len(h), offset)
+        for i in range(301):
+            d = (h[i] - contact) * radius / scale**2
+            x = brentq(lambda x, d=d: x * x - 4 * np.sqrt(x) - d, 1, 1e3) if d > -3 else 1.0
+            out[i] += np.pi * w * radius / 6 * (x**3 - 6 * x**1.5)
+        return (out - force) / pull
+
+    found = least_squares(residuals, [0.9, 1.8, 1.01, 0.0])
+    errors = np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac)) * 2 * found.cost / (451 - 4))
+    say("jkr (E in kPa, w in mJ/m^2)", found.x[:2] * [7.5, 0.01], errors[:2] * [7.5, 0.01])
+
+
+def main():
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+    rng = np.random.default_rng(11)
+    relaxations(folder, rng)
+    adhesion(folder, rng)
+
+
+if __name__ == "__main__":
+    main()
