@@ -99,15 +99,16 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   identify::carry_givens(found, measured, family, givens);
   for (const std::string& note : found.notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);
-  for (const std::string& warning : identify::write_identification(
-           found, family, command.data, {arguments.given, started}, folder))
-    talk.warn(warning);
+  const std::string missing =
+      warn_all(identify::write_identification(found, family, command.data,
+                                              {arguments.given, started}, folder),
+               talk);
   if (talk.json()) {
     print(json_lines(identify::identified_table(found)));
   } else {
     for (const std::string& line : identify::identified_sentences(found)) print(line + "\n");
   }
-  talk.say(folder.path() + ": identified.csv, residuals.csv, profile.csv, scenario.toml");
+  talk.say(folder.path() + ": identified.csv, residuals.csv, profile.csv, scenario.toml" + missing);
   return exit_good;
 }
 
