@@ -146,7 +146,8 @@ def killed(calls, before, call, wait, how, good):
         said = running.communicate()[1]
         took = time.monotonic() - sent
         wrong = []
-        codes = {good, 130, 75} if how == signal.SIGTERM else {good, -9}
+        # -15: in the first milliseconds, before the program listens.
+        codes = {good, 130, 75, -15} if how == signal.SIGTERM else {good, -9}
         if running.returncode not in codes:
             wrong.append(f"exit code {running.returncode}: {said[-300:]}")
         if how == signal.SIGTERM and took > MOST:
