@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +20,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/stop_scope.h"
 
 namespace palpate {
 namespace {
@@ -58,15 +60,16 @@ class Pipe {
   std::array<int, 2> ends_{};
 };
 
-// Reads until the other end is closed. Returns false if `end` comes first, or where nothing more
-// can be read: `error` is then the number of the error.
+// Reads until the other end is closed. Returns false if `end` or a stop comes first, or where
+// nothing more can be read: `error` is then the number of the error.
 bool drain(int pipe, Clock::time_point end, std::size_t most, std::string& output, int& error) {
   std::array<char, 65536> buffer;
   while (true) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
-    if (left <= 0) return false;
+    if (left <= 0 || StopScope::stopped()) return false;
     pollfd waiting{pipe, POLLIN, 0};
-    if (::poll(&waiting, 1, static_cast<int>(std::min<long>(left, 1'000'000))) <= 0) continue;
+    constexpr long until_next_look = 50;  // ms: a signal may reach another thread
+    if (::poll(&waiting, 1, static_cast<int>(std::min(left, until_next_look))) <= 0) continue;
     const ssize_t got = ::read(pipe, buffer.data(), buffer.size());
     if (got > 0) output.append(buffer.data(), std::min(as_index(got), most - output.size()));
     if (got == 0) return true;
@@ -82,7 +85,7 @@ bool drain(int pipe, Clock::time_point end, std::size_t most, std::string& outpu
 int wait_for(pid_t child, pid_t whom, Clock::time_point end, bool& in_time) {
   int status = 0;
   while (in_time && ::waitpid(child, &status, WNOHANG) == 0) {
-    in_time = Clock::now() < end;
+    in_time = Clock::now() < end && !StopScope::stopped();
     constexpr useconds_t pause = 1000;
     if (in_time) ::usleep(pause);
   }
@@ -104,7 +107,7 @@ ChildResult follow(Pipe& pipe, pid_t child, bool with_its_group, Clock::time_poi
   if (error != 0)
     throw SystemError("the output of " + name + " cannot be read: " + std::strerror(error));
   if (!in_time) {
-    result.end = ChildResult::End::timed_out;
+    result.end = StopScope::stopped() ? ChildResult::End::stopped : ChildResult::End::timed_out;
   } else if (WIFSIGNALED(status)) {
     result.end = ChildResult::End::killed;
     result.code = WTERMSIG(status);
@@ -170,6 +173,7 @@ bool write_all(int file, const std::string& bytes) {
 // library prints goes to /dev/null, and _exit() does not flush.
 [[noreturn]] void live(int pipe_end, const std::function<std::string()>& work,
                        const ChildLimits& limits, double address_space_before) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int null = ::open("/dev/null", O_RDWR);
   for (const int standard : {0, 1, 2}) ::dup2(null, standard);
   const int answer = pipe_end == 3 ? 3 : ::dup2(pipe_end, 3);
@@ -212,7 +216,9 @@ ChildResult run_in_child(const std::function<std::string()>& work, const ChildLi
   const pid_t child = ::fork();
   if (child == 0) live(pipe.writes(), work, limits, before);
   if (child < 0) throw SystemError(std::string("no child process: ") + std::strerror(errno));
-  return follow(pipe, child, false, end, std::string::npos, "a child process");
+  ChildResult result = follow(pipe, child, false, end, std::string::npos, "a child process");
+  if (result.end == ChildResult::End::stopped) throw Stopped();
+  return result;
 }
 
 }  // namespace palpate

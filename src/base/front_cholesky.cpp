@@ -10,6 +10,7 @@
 
 #include "base/index.h"
 #include "base/metis_lock.h"
+#include "base/stop_scope.h"
 
 namespace palpate {
 namespace {
@@ -317,6 +318,7 @@ bool FrontCholesky::factor(const SparseMatrix& lower) {
       }
     }
     for (int begin = 0; begin < width; begin += block) {
+      StopScope::end_if_stopped();
       const int end = std::min(begin + block, width);
       for (int low = begin; low < end; low += strip) {
         const int next = std::min(low + strip, end);

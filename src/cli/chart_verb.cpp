@@ -153,12 +153,11 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
     folder.write(name + ".csv", record::csv_text(moments));
   const std::vector<std::string> warnings = draw_all(charts, family, folder);
   write_page(family, text, table, folder);
-  for (const std::string& warning : folder.put(WholeFolder::State::complete, warnings))
-    talk.warn(warning);
+  const std::string missing = warn_all(folder.put(WholeFolder::State::complete, warnings), talk);
   journal.remove();
   print(talk.json() ? json_lines(table) : text);
-  talk.say(folder.path() + ": chart.csv, chart.md and the figure");
-  return exit_good;
+  talk.say(folder.path() + ": chart.csv, chart.md and the figure" + missing);
+  return StopScope::stopped() ? exit_interrupted : exit_good;
 }
 
 }  // namespace palpate::cli

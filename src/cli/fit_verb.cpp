@@ -209,9 +209,8 @@ void write_folder(const Fit& command, const record::Table& rows, const record::T
     figure.series.push_back(series);
     plot::draw(plot::sheet_of(figure), folder, warnings);
   }
-  for (const std::string& warning : folder.put(WholeFolder::State::complete, warnings))
-    talk.warn(warning);
-  talk.say(folder.path() + ": curves.csv, population.csv, population.svg");
+  const std::string missing = warn_all(folder.put(WholeFolder::State::complete, warnings), talk);
+  talk.say(folder.path() + ": curves.csv, population.csv, population.svg" + missing);
 }
 
 // Fits every curve of the command, prints one row per curve (failures with their reasons) and says

@@ -131,9 +131,8 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   identify::carry_givens(found, measured.front(), family, givens);
   for (const std::string& note : found.notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);
-  for (const std::string& warning :
-       identify::write_identification(found, files, {arguments.given, started}, folder))
-    talk.warn(warning);
+  const std::string missing = warn_all(
+      identify::write_identification(found, files, {arguments.given, started}, folder), talk);
   if (talk.json()) {
     print(json_lines(identify::identified_table(found)));
   } else {
@@ -141,7 +140,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   }
   const std::string each = files.size() > 1 ? "_1" : "";
   talk.say(folder.path() + ": identified.csv, residuals" + each + ".csv, profile.csv, scenario" +
-           each + ".toml" + (files.size() > 1 ? " and those of the other pairs" : ""));
+           each + ".toml" + (files.size() > 1 ? " and those of the other pairs" : "") + missing);
   return exit_good;
 }
 

@@ -140,21 +140,20 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   const int code = code_of(result.end.why);
   if (result.verdict) result.record.answer.verdict = live::verdict_sentence(*result.verdict);
   const std::string ended = "palpate: " + options.link + ": " + result.end.sentence;
+  std::string missing;
   try {
     folder.keep(0, result.record);
     std::vector<fit::NamedFit> fits;
     if (family.base.output.fits && !result.record.contact.empty())
       fits = fit::case_fits(scene.scenario, result.record);
-    for (const std::string& warning :
-         folder.finish({result.record}, fits, {arguments.given, started}))
-      talk.warn(warning);
+    missing = warn_all(folder.finish({result.record}, fits, {arguments.given, started}), talk);
   } catch (const SystemError& error) {
     if (code != exit_good) Talk::error(ended);
     throw SystemError(std::string(error.what()) + "; the rows written before are in " +
                       output.rows_file);
   }
   for (const std::string& line : report::answer_lines({result.record})) talk.say(line);
-  talk.say(folder.path() + ": " + rows);
+  talk.say(folder.path() + ": " + rows + missing);
   talk.event("result", {{"scenario", family.name},
                         {"folder", folder.path()},
                         {"outcome", record::outcome_word(result.record.outcome)},

@@ -102,13 +102,13 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
                   " s, everything up to it is kept");
     }
   }
-  const auto warnings = folder.finish(records, fits, {arguments.given, started});
-  for (const std::string& warning : warnings) talk.warn(warning);
+  const std::string missing =
+      warn_all(folder.finish(records, fits, {arguments.given, started}), talk);
   for (const std::string& line : report::answer_lines(records)) talk.say(line);
   if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))
     talk.say("The page to look at is " + page + ".");
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
-           std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases"));
+           std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases") + missing);
   talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
   return ran;
 }

@@ -30,15 +30,14 @@ int perform(const Stability& command, const Arguments&, const Talk& talk) {
                       " %, " + what);
       });
   talk.progress("");
-  for (const std::string& warning : stability::write_map(map, family.name, folder))
-    talk.warn(warning);
+  const std::string missing = warn_all(stability::write_map(map, family.name, folder), talk);
   if (talk.json()) {
     print(json_lines(stability::limit_table(map)) + json_lines(stability::failure_table(map)));
   } else {
     for (const std::string& sentence : map.sentences) print(sentence + "\n");
   }
-  talk.say(folder.path() + ": stability.csv, failures.csv, stability.svg");
-  return exit_good;
+  talk.say(folder.path() + ": stability.csv, failures.csv, stability.svg" + missing);
+  return StopScope::stopped() ? exit_interrupted : exit_good;
 }
 
 }  // namespace palpate::cli

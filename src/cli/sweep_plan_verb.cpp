@@ -32,6 +32,7 @@ int sweep_plan(const Sweep& command, const Talk& talk) {
   if (planned.forecast) {
     details.emplace_back("seconds", rounded_text(planned.forecast->seconds, 3));
     details.emplace_back("row_bytes", rounded_text(planned.forecast->bytes, 3));
+    details.emplace_back("memory_bytes", rounded_text(planned.forecast->memory, 3));
   }
   talk.event("plan", details);
   return exit_good;

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
+#include "sweep/forecast.h"
 #include "sweep/slurm.h"
 
 namespace palpate::cli {
@@ -98,13 +99,31 @@ int sweep_parts(const Sweep& command, const Talk& talk) {
   const sweep::SweepPlan plan = sweep::read_plan(command.subject, program_identity());
   const std::string start = program_word(command) + " sweep run " +
                             sweep::shell_word(std::filesystem::canonical(command.subject).string());
+  const sweep::SweepResults results(plan);
+  const std::vector<std::size_t> parts =
+      sweep::unfinished_parts(plan, results, as_index(command.of));
+  const auto cost = talk.json() && !parts.empty() ? sweep::forecast(plan.family, plan.curves)
+                                                  : std::optional<sweep::SweepForecast>();
   std::string text;
-  for (const std::size_t part :
-       sweep::unfinished_parts(plan, sweep::SweepResults(plan), as_index(command.of)))
-    text += start + " --shard " + std::to_string(part) + "/" + std::to_string(command.of) +
-            " --jobs 1\n";
+  for (const std::size_t part : parts) {
+    const std::string call =
+        start + " --shard " + std::to_string(part) + "/" + std::to_string(command.of) + " --jobs 1";
+    text += call + "\n";
+    if (!talk.json()) continue;
+    std::size_t cases = 0;
+    for (std::size_t i = part - 1; i < plan.count(); i += as_index(command.of))
+      if (!results.at(i).known()) ++cases;
+    std::vector<std::pair<std::string, std::string>> details{
+        {"command", call}, {"part", std::to_string(part)}, {"cases", std::to_string(cases)}};
+    if (cost) {
+      const double share = static_cast<double>(cases) / static_cast<double>(plan.count());
+      details.emplace_back("seconds", rounded_text(share * cost->seconds, 3));
+      details.emplace_back("memory_bytes", rounded_text(cost->memory, 3));
+    }
+    talk.event("part", details);
+  }
   if (text.empty()) talk.say(command.subject + ": every case has a row; there is nothing to run");
-  print(text);
+  if (!talk.json()) print(text);
   return exit_good;
 }
 

@@ -131,10 +131,10 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   folder.refuse_what_is_there();
   folder.open();
   sweep::merge_sweep(plan, results, totals, folder);
-  for (const std::string& warning :
-       folder.put(totals.missing == 0 ? State::complete : State::incomplete,
-                  look_at(plan, command, totals, folder)))
-    talk.warn(warning);
+  const std::string undrawn =
+      warn_all(folder.put(totals.missing == 0 ? State::complete : State::incomplete,
+                          look_at(plan, command, totals, folder)),
+               talk);
   std::string text = folder.path() + ": " + std::to_string(totals.completed) + " of " +
                      cases_text(totals.cases) + " completed";
   if (totals.diverged + totals.failed > 0)
@@ -142,7 +142,7 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   if (totals.missing > 0)
     text += ", " + std::to_string(totals.missing) + " missing (numbers " + totals.missing_numbers +
             "); `palpate sweep run` runs them";
-  talk.say(text);
+  talk.say(text + undrawn);
   talk.event("merged", {{"folder", folder.path()},
                         {"cases", std::to_string(totals.cases)},
                         {"completed", std::to_string(totals.completed)},

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "plot/gnuplot.h"
 
 namespace palpate::cli {
 namespace {
@@ -68,6 +69,11 @@ void Talk::event(const std::string& name,
   object["event"] = name;
   for (const auto& [key, value] : details) object[key] = value;
   print(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+std::string warn_all(const std::vector<std::string>& warnings, const Talk& talk) {
+  for (const std::string& warning : warnings) talk.warn(warning);
+  return plot::missing_figures(warnings);
 }
 
 std::string bar(std::size_t done, std::size_t all) {

@@ -35,6 +35,10 @@ class Talk {
   bool colours_ = false;
 };
 
+// Says all warnings. Returns what a verb's last line says of figures that were not drawn:
+// "; 2 figures were not drawn", or nothing.
+[[nodiscard]] std::string warn_all(const std::vector<std::string>& warnings, const Talk& talk);
+
 // A progress bar of 20 characters, with the numbers: `[##########..........] 5/10`.
 [[nodiscard]] std::string bar(std::size_t done, std::size_t all);
 

@@ -17,6 +17,21 @@ constexpr double farthest = 10.0;      // m, beyond the reach of any stage
 constexpr double strongest = 1e6;      // N, beyond any gauge
 constexpr double least_answer = 0.25;  // s, that a gauge may take at any rate
 
+// Whether a line without a reading has a word by which gauges report an overload: `OL`, `ovf`.
+bool tells_overload(std::string_view line) {
+  std::string word;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    const char c = i < line.size() ? static_cast<char>(line[i] & ~0x20) : ' ';
+    if (c >= 'A' && c <= 'Z') {
+      if (word.size() < 9) word += c;
+      continue;
+    }
+    if (word == "OL" || word == "OVF" || word == "OVER" || word == "OVERLOAD") return true;
+    word.clear();
+  }
+  return false;
+}
+
 double unit_or_none(Measure measure, const std::string& word) {
   return word.empty() ? 0.0 : unit_of(measure, word).value_or(0.0);
 }
@@ -164,7 +179,8 @@ std::optional<double> LineGauge::value_of(const LineWords& words, Measure measur
 
 Sample LineGauge::read(std::string_view line) {
   const auto words = pattern_.match(line);
-  if (!words) return finished(Arrival::dropped, Fault::garbage);
+  if (!words)
+    return finished(Arrival::dropped, tells_overload(line) ? Fault::overload : Fault::garbage);
   const auto force = value_of(*words, Measure::force);
   const auto travel = value_of(*words, Measure::travel);
   const auto time = value_of(*words, Measure::time);
@@ -175,10 +191,12 @@ Sample LineGauge::read(std::string_view line) {
   sample.force = *force;
   sample.device_time = *time;
   if (limits_.measures_travel) sample.position.z() = *travel;
-  if (last_ && *time < last_->device_time) {
-    restarted_ = true;
-    return finished(Arrival::lost, Fault::restarted);
-  }
+  // A gauge that was silent for so long would have been lost before.
+  const double ahead =
+      last_ ? *time - last_->device_time - (sample.received - last_->received) : 0.0;
+  if (last_ && *time < last_->device_time) out_of_time_ = Fault::restarted;
+  if (ahead > limits_.lost_after) out_of_time_ = Fault::clock_jumped;
+  if (out_of_time_ != Fault::none) return finished(Arrival::lost, out_of_time_);
   const bool timed = pattern_.has_number(Measure::time);
   if (timed && last_ && *time == last_->device_time) {
     sample.arrival = Arrival::duplicate;
@@ -197,7 +215,7 @@ Sample LineGauge::read(std::string_view line) {
 }
 
 Sample LineGauge::sample(double wait) {
-  if (restarted_) return finished(Arrival::lost, Fault::restarted);
+  if (out_of_time_ != Fault::none) return finished(Arrival::lost, out_of_time_);
   const double until = wire_time() + std::max(0.0, wait);
   while (true) {
     if (!due(until)) return finished(Arrival::none, Fault::none);

@@ -36,7 +36,8 @@ class LineGauge {
 
   // The next line, waiting for it at most `wait` s; with a poll text it asks first, unless a reply
   // is pending. A line that does not match is dropped. Position is along z, upwards, from the zero
-  // of the travel. After `restarted`, and when the port is gone, the link is lost.
+  // of the travel. After `restarted` or `clock_jumped`, and when the port is gone, the link is
+  // lost.
   [[nodiscard]] Sample sample(double wait);
   [[nodiscard]] bool stop() const { return !port_.lost(); }
 
@@ -77,14 +78,14 @@ class LineGauge {
   Identity identity_;
   Limits limits_;
   Traffic traffic_;
-  bool asked_ = false;          // a poll text was sent and no line has come
-  bool heard_ = false;          // bytes have come since
-  double asked_at_ = 0.0;       // s, wire_time()
-  double next_poll_ = 0.0;      // s, wire_time()
-  bool cut_ = false;            // the next line may lack its beginning
-  bool restarted_ = false;      // the gauge's time went back
-  double unit_ = 0.0;           // N, of the first force
-  std::optional<Sample> last_;  // the last fresh sample
+  bool asked_ = false;               // a poll text was sent and no line has come
+  bool heard_ = false;               // bytes have come since
+  double asked_at_ = 0.0;            // s, wire_time()
+  double next_poll_ = 0.0;           // s, wire_time()
+  bool cut_ = false;                 // the next line may lack its beginning
+  Fault out_of_time_ = Fault::none;  // the gauge's time went back or ahead
+  double unit_ = 0.0;                // N, of the first force
+  std::optional<Sample> last_;       // the last fresh sample
   std::array<Kept, kept_lines> kept_{};
   std::size_t kept_count_ = 0;  // lines since the start
   std::string first_bytes_;     // while greeting, for a diagnosis

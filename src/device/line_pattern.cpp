@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "base/text.h"
 #include "device/line_buffer.h"
@@ -86,6 +87,10 @@ LinePattern::LinePattern(std::string_view text, Decimal decimal)
 
 void LinePattern::add_name(std::string_view name) {
   if (name == "any") return add({.kind = Part::Kind::any, .text = "{any}"});
+  if (name == "force_sign") {
+    if (std::exchange(has_sign_, true)) refuse("wants `{force_sign}` once");
+    return add({.kind = Part::Kind::sign, .text = "{force_sign}"});
+  }
   for (std::size_t i = 0; i < measures; ++i) {
     const std::string_view number = names[i];
     const bool unit = name.size() > number.size() && name.substr(number.size()) == "_unit";
@@ -98,7 +103,8 @@ void LinePattern::add_name(std::string_view name) {
                 .text = "{" + std::string(name) + "}"});
   }
   refuse("wants a name that it knows in braces, got `{" + std::string(name) +
-         "}`; write `{force}`, `{travel}`, `{time}`, one of these with `_unit`, or `{any}`");
+         "}`; write `{force}`, `{travel}`, `{time}`, one of these with `_unit`, `{force_sign}` or "
+         "`{any}`");
 }
 
 void LinePattern::add(const Part& part) {
@@ -163,9 +169,15 @@ std::optional<std::size_t> LinePattern::take(std::size_t index, std::string_view
       while (end < line.size() && is_blank(line[end])) ++end;
       return end - at;
     }
+    case Part::Kind::sign:
+      if (at == line.size() || std::string_view("0+ 1-").find(line[at]) == line.npos)
+        return std::nullopt;
+      words.negative = line[at] == '1' || line[at] == '-';
+      return 1;
     case Part::Kind::number: {
       // A text of the pattern may end with anything, and what it does not say must not be a number.
-      const bool after_text = index > 0 && parts_[index - 1].kind == Part::Kind::text;
+      const bool after_text = index > 0 && (parts_[index - 1].kind == Part::Kind::text ||
+                                            parts_[index - 1].kind == Part::Kind::sign);
       const char before = at > 0 ? line[at - 1] : ' ';
       if (!after_text && (is_digit(before) || before == '.' || before == decimal_ ||
                           before == '-' || before == '+'))
@@ -204,6 +216,7 @@ std::optional<LineWords> LinePattern::match(std::string_view line, Furthest& fur
       part = back->part + 1;
     }
   }
+  if (words.negative) words.number[as_index(Measure::force)].value() *= -1.0;
   return words;
 }
 

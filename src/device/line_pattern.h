@@ -20,6 +20,7 @@ inline constexpr std::size_t measures = as_index(Measure::time) + 1;
 struct LineWords {
   std::array<std::optional<double>, measures> number{};
   std::array<std::string_view, measures> unit{};
+  bool negative = false;  // of the force, by its own sign
 
   [[nodiscard]] const std::optional<double>& of(Measure measure) const {
     return number[as_index(measure)];
@@ -28,8 +29,9 @@ struct LineWords {
 
 // A pattern is text in which `{force}`, `{travel}` and `{time}` stand for numbers, `{force_unit}`,
 // `{travel_unit}` and `{time_unit}` for words of letters, and `{any}` for as little of any text as
-// possible. A space stands for any number of spaces and tabs, also none; `{{` and `}}` for braces;
-// everything else for itself. The whole line has to match.
+// possible. `{force_sign}` is a digit or sign apart from the number: `0`, `+` or a space for
+// positive forces, `1` or `-` for negative ones. A space stands for any number of spaces and tabs,
+// also none; `{{` and `}}` for braces; everything else for itself. The whole line has to match.
 class LinePattern {
  public:
   enum class Decimal { point, comma };
@@ -51,7 +53,7 @@ class LinePattern {
 
  private:
   struct Part {
-    enum class Kind { text, space, any, number, unit };
+    enum class Kind { text, space, any, sign, number, unit };
     Kind kind = Kind::text;
     Measure measure = Measure::force;
     std::string text = {};  // of the pattern
@@ -73,6 +75,7 @@ class LinePattern {
   std::vector<Part> parts_;
   std::array<bool, measures> has_number_{};
   std::array<bool, measures> has_unit_{};
+  bool has_sign_ = false;
 };
 
 // N, m or s per unit that a line may name; nothing for other words. A mass means its weight:

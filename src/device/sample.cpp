@@ -27,6 +27,7 @@ std::string_view fault_text(Fault fault) {
     case Fault::unguarded: return "the process that guards the stand has ended";
     case Fault::flooded: return "the device sends more than can be read";
     case Fault::unknown_unit: return "a reading has a unit that is not known";
+    case Fault::clock_jumped: return "the device's own time jumped ahead";
     case Fault::restarted: return "the device's own time went back, as after a restart";
     case Fault::reframed: return "the service now turns or scales the arm's coordinates";
   }

@@ -55,6 +55,7 @@ enum class Fault : std::uint8_t {
   flooded,          // more came in one frame than can be read in it
   unknown_unit,     // a reading in a unit that is not known
   restarted,        // a gauge's own time went back
+  clock_jumped,     // a gauge's own time went ahead of the link's
   reframed,         // an arm's service began to turn or scale its coordinates
 };
 inline constexpr std::size_t fault_kinds = as_index(Fault::reframed) + 1;

@@ -34,6 +34,13 @@ constexpr std::array stand_kinds{
     FaultKind{"sign_flip", Life::lasting,
               "the force changes its sign, but the reply to LIST does not change"},
     FaultKind{"spike", Life::lasting, "`value` (\"5 N\") is added to the force that is shown"},
+    FaultKind{"drift", Life::lasting,
+              "the force that is shown grows by `value` (\"20 mN\") a second"},
+    FaultKind{
+        "friction", Life::lasting,
+        "`value` (\"50 mN\") is added to the force on the way down, and subtracted on the way up"},
+    FaultKind{"lag", Life::lasting, "the force is shown `value` late, at most 140 ms"},
+    FaultKind{"lost_force", Life::lasting, "the force reads 0, as with a broken wire"},
     FaultKind{"freeze", Life::lasting, "force and travel are shown as they were"},
     FaultKind{"overload", Life::lasting, "the gauge reports an overload, the crosshead stops"},
     FaultKind{"limit_switch", Life::moment,
@@ -63,9 +70,17 @@ constexpr std::array gauge_kinds{
     FaultKind{"unit_change", Life::moment, "the gauge shows lbF, others ounces"},
     FaultKind{"sign_flip", Life::lasting, "the force changes its sign"},
     FaultKind{"spike", Life::lasting, "`value` (\"5 N\") is added to the force that is shown"},
+    FaultKind{"drift", Life::lasting,
+              "the force that is shown grows by `value` (\"20 mN\") a second"},
+    FaultKind{
+        "friction", Life::lasting,
+        "`value` (\"50 mN\") is added to the force on the way down, and subtracted on the way up"},
+    FaultKind{"lag", Life::lasting, "the force is shown `value` late, at most 140 ms"},
+    FaultKind{"lost_force", Life::lasting, "the force reads 0, as with a broken wire"},
     FaultKind{"freeze", Life::lasting, "the same line is sent again and again"},
     FaultKind{"overload", Life::lasting, "the gauge reports an overload"},
     FaultKind{"reset", Life::moment, "the gauge starts again: its time is 0"},
+    FaultKind{"clock_jump", Life::moment, "the gauge's own time jumps ahead by `value` (\"5 s\")"},
 };
 
 constexpr std::array arm_kinds{
@@ -123,7 +138,9 @@ struct ValueOf {
   double otherwise;  // SI, the default
   palpate::Unit unit;
 };
-constexpr std::array values{ValueOf{"spike", 5.0, unit::N}, ValueOf{"jump", 0.05, unit::mm},
+constexpr std::array values{ValueOf{"spike", 5.0, unit::N},      ValueOf{"drift", 0.02, unit::N},
+                            ValueOf{"friction", 0.05, unit::N},  ValueOf{"lag", 0.1, unit::ms},
+                            ValueOf{"clock_jump", 5.0, unit::s}, ValueOf{"jump", 0.05, unit::mm},
                             ValueOf{"late", 0.03, unit::ms}};
 
 void time(FieldVisitor& visitor, const palpate::Key& key, std::optional<std::int64_t>& ns) {
@@ -157,7 +174,7 @@ void fields(FieldVisitor& visitor, Fault& fault, std::span<const FaultKind> kind
                                   [&](const ValueOf& each) { return each.kind == fault.kind; });
   if (value != values.end()) fault.value = value->otherwise;
   visitor.quantity(
-      {"value", "how much", {any || value != values.end(), "with `spike`, `jump` or `late`"}},
+      {"value", "how much", {any || value != values.end(), "with a kind whose effect has a size"}},
       fault.value, value != values.end() ? value->unit : unit::s, {});
 }
 
@@ -196,7 +213,7 @@ std::vector<Fault> Faults::begin(std::int64_t now, std::int64_t messages) {
       ++at;
       continue;
     }
-    Active active{*at};
+    Active active{*at, now};
     if (at->duration) active.until = now + *at->duration;
     active_.push_back(active);
     begun.push_back(*at);
@@ -227,6 +244,14 @@ double Faults::value(std::string_view kind) const {
   for (const Active& active : active_)
     if (active.fault.kind == kind) value = active.fault.value;
   return value;
+}
+
+double Faults::age(std::string_view kind, std::int64_t now) const {
+  double age = 0.0;
+  for (const Active& active : active_)
+    if (active.fault.kind == kind && (!active.until || now < *active.until))
+      age = static_cast<double>(now - active.since) * 1e-9;
+  return age;
 }
 
 std::optional<std::int64_t> Faults::next_time() const {

@@ -48,12 +48,15 @@ class Faults {
   [[nodiscard]] bool lasts(std::string_view kind, std::int64_t now) const;
   // True if a fault of this kind spoils the current reply, which is then counted.
   [[nodiscard]] bool spoils(std::string_view kind);
-  [[nodiscard]] double value(std::string_view kind) const;      // of the last fault that began
+  [[nodiscard]] double value(std::string_view kind) const;  // of the last fault that began
+  // s since the last fault of this kind began; 0 if it does not last at `now` (ns).
+  [[nodiscard]] double age(std::string_view kind, std::int64_t now) const;
   [[nodiscard]] std::optional<std::int64_t> next_time() const;  // ns, of the next fault with `at`
 
  private:
   struct Active {
     Fault fault;
+    std::int64_t since = 0;
     std::optional<std::int64_t> until = {};
   };
   std::vector<Fault> pending_;

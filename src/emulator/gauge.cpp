@@ -12,14 +12,17 @@ constexpr double counts_per_step = 64.0;
 
 double count_size(const Gauge& gauge) { return gauge.settings.resolution / counts_per_step; }
 
-// Counts: the mean of the last 2^exponent samples, or of all if there are fewer.
-double mean(const Gauge& gauge, int exponent) {
+// Counts: the mean of the last 2^exponent samples before `late` others, or of all if there are
+// fewer.
+double mean(const Gauge& gauge, int exponent, std::size_t late = 0) {
   const std::size_t wanted = std::size_t{1} << static_cast<unsigned>(exponent);
-  const std::size_t have = std::min(wanted, gauge.taken);
+  const std::size_t room = std::min(gauge.taken, longest_average);
+  const std::size_t have = std::min(wanted, room);
+  late = std::min(late, room - have);
   if (have == 0) return 0.0;
   std::int64_t sum = 0;
   for (std::size_t back = 1; back <= have; ++back)
-    sum += gauge.samples[(gauge.taken - back) % longest_average];
+    sum += gauge.samples[(gauge.taken - late - back) % longest_average];
   return static_cast<double>(sum) / static_cast<double>(have);
 }
 
@@ -47,8 +50,23 @@ void sample(Gauge& gauge, double force) {
   gauge.least = std::min(gauge.least, peak - gauge.zero);
 }
 
+void spoil(Gauge& gauge, const Faults& faults, std::int64_t now, double depth) {
+  if (depth != gauge.depth) gauge.way = depth > gauge.depth ? 1 : -1;
+  gauge.depth = depth;
+  gauge.flipped = faults.lasts("sign_flip", now);
+  gauge.forced_overload = faults.lasts("overload", now);
+  gauge.lost = faults.lasts("lost_force", now);
+  gauge.late = 0;
+  if (faults.lasts("lag", now))
+    gauge.late = static_cast<std::size_t>(std::max(0.0, faults.value("lag")) * sample_rate);
+  gauge.added = faults.lasts("spike", now) ? faults.value("spike") : 0.0;
+  gauge.added += faults.age("drift", now) * faults.value("drift");
+  if (faults.lasts("friction", now)) gauge.added += gauge.way * faults.value("friction");
+}
+
 double value_of(const Gauge& gauge, Reading reading) {
-  double counts = mean(gauge, gauge.filter) - static_cast<double>(gauge.zero);
+  if (gauge.lost) return gauge.added;
+  double counts = mean(gauge, gauge.filter, gauge.late) - static_cast<double>(gauge.zero);
   if (reading == Reading::peak_compression) counts = static_cast<double>(gauge.most);
   if (reading == Reading::peak_tension) counts = static_cast<double>(gauge.least);
   return counts * count_size(gauge) + gauge.added;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "emulator/faults.h"
 #include "emulator/random.h"
 
 namespace emulator {
@@ -44,6 +45,7 @@ enum class Polarity { compression_positive, compression_negative };
 enum class Reading { current, peak_tension, peak_compression };
 
 inline constexpr std::size_t longest_average = 1024;  // samples, FLTC10
+inline constexpr double sample_rate = 7000.0;         // per second
 
 struct Gauge {
   GaugeSettings settings = {};
@@ -62,7 +64,11 @@ struct Gauge {
   std::int64_t most = 0;   // counts, peak compression
   std::int64_t least = 0;  // counts, peak tension
   // Effects of faults.
-  double added = 0;  // N
+  double added = 0;      // N
+  std::size_t late = 0;  // samples by which the shown force is old
+  bool lost = false;     // the force reads 0
+  double depth = 0;      // m, of the last motion
+  int way = 0;           // 1 down, -1 up
   bool flipped = false;
   bool forced_overload = false;
   std::optional<std::string> forced_number;  // shown instead of the number
@@ -72,6 +78,9 @@ struct Gauge {
 
 // Takes one sample of the force on the gauge (N, positive in compression).
 void sample(Gauge& gauge, double force);
+
+// What lasting faults do to the shown force from now on (ns), with the finger at a depth (m).
+void spoil(Gauge& gauge, const Faults& faults, std::int64_t now, double depth);
 
 // N: the mean of the last 2^filter samples, or a peak, minus the zero.
 [[nodiscard]] double value_of(const Gauge& gauge, Reading reading);

@@ -78,9 +78,7 @@ void LineGauge::go_to(Nanoseconds time, std::int64_t lines) {
   }
   advance(std::max(now_, time));
   begin_faults(lines);
-  gauge_.flipped = faults_.lasts("sign_flip", now_);
-  gauge_.forced_overload = faults_.lasts("overload", now_);
-  gauge_.added = faults_.lasts("spike", now_) ? faults_.value("spike") : 0.0;
+  spoil(gauge_, faults_, now_, travel());
 }
 
 void LineGauge::begin_faults(std::int64_t lines) {
@@ -97,6 +95,7 @@ void LineGauge::begin_faults(std::int64_t lines) {
       zero_time_ = now_;
       if (settings_.style == LineStyle::hx711) send(banner);
     }
+    if (fault.kind == "clock_jump") zero_time_ -= nanoseconds(fault.value);
   }
 }
 

@@ -78,9 +78,7 @@ void Mark10::go_to(Nanoseconds time, std::int64_t requests) {
   now_ = std::max(now_, time);
   advance(stand_, now_);
   begin_faults(requests);
-  stand_.gauge.flipped = faults_.lasts("sign_flip", now_);
-  stand_.gauge.forced_overload = faults_.lasts("overload", now_);
-  stand_.gauge.added = faults_.lasts("spike", now_) ? faults_.value("spike") : 0.0;
+  spoil(stand_.gauge, faults_, now_, depth(stand_));
   if (!stand_.unsolicited.empty()) send(std::exchange(stand_.unsolicited, {}));
 }
 

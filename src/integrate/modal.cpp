@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/or_stopped.h"
 #include "integrate/wide_loops.h"
 #include "tissue/supports.h"
 
@@ -19,6 +20,7 @@ namespace palpate::integrate {
 namespace {
 
 using Columns = Eigen::MatrixXd;
+using Decomposition = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
 constexpr Eigen::Index width = block_lanes;  // columns of a block, which are solved for together
 
 // M^1/2 K^-1 M^1/2 over the free degrees of freedom, whose largest eigenvalues are 1 / omega^2 of
@@ -127,7 +129,8 @@ void Modal::find_all(KnownModes* known) {
   KnownModes& all = known != nullptr ? *known : own;
   if (all.matrix.rows() != size || all.matrix != scaled) {
     const auto start = std::chrono::steady_clock::now();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposition(scaled);
+    const auto decomposition =
+        or_stopped<Decomposition>([matrix = scaled] { return Decomposition(matrix); });
     all.matrix = std::move(scaled);
     all.squares = decomposition.eigenvalues();
     all.vectors = decomposition.eigenvectors();
@@ -156,6 +159,7 @@ void Modal::find_lowest(Eigen::Index count) {
   Columns image;  // of the basis in the basis
   Eigen::Index next_look = count;
   for (Eigen::Index known = 0; omega_.size() == 0; known += width) {
+    StopScope::end_if_stopped();
     const Eigen::Index more = known + width;
     if (more + width > size)
       throw MeshError("the lowest modes of the mesh were not found; set `solver.modes` lower");

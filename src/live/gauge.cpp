@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.h"
 #include "base/text.h"
 #include "device/safety.h"
 #include "live/guide.h"
@@ -24,6 +25,9 @@ using device::Trip;
 
 constexpr double longest_wait = 0.1;  // s, after which a signal is noticed
 constexpr double told_tare = 0.1;     // of `start_force`
+constexpr double given_up = 0.5;      // of the travel asked for: a withdrawal after it ends the run
+constexpr double still = 10.0;        // s without motion in contact, which no step asks for
+constexpr double moved = 0.02;        // of the deepest travel: less is no motion
 
 // Mean and standard deviation of readings; those of a long time, about the last hundred.
 class Readings {
@@ -87,7 +91,10 @@ class GaugeLoop {
     staleness_.step(now, sample.arrival);
     const bool silent = staleness_.state() == device::Staleness::State::lost ||
                         (stepped() && sample.arrival == Arrival::none && ++unheard_ > 2);
-    if (sample.arrival == Arrival::lost || silent) {
+    if (sample.fault == Fault::overload) {
+      note(LinkState::tripped, sample.fault);
+      ends(ended_by_link(Trip::overload, Fault::none));
+    } else if (sample.arrival == Arrival::lost || silent) {
       note(LinkState::lost, sample.fault);
       ends(ended_by_link(Trip::link_lost,
                          sample.fault == Fault::none ? Fault::silent : sample.fault));
@@ -149,12 +156,32 @@ class GaugeLoop {
     }
   }
 
+  // A person who stops short of a step's travel is not waited for.
+  void look_for_an_end(double time, double travel) {
+    deepest_ = std::max(deepest_, travel);
+    const scenario::Step& step = loop_.scene.scenario.steps[as_index(guide_.step() - 1)];
+    const auto* indent = std::get_if<scenario::Indent>(&step);
+    const bool holds = std::holds_alternative<scenario::Hold>(step);
+    if (std::abs(travel - rest_travel_) > moved * deepest_ || holds || deepest_ <= 0.0) {
+      rest_travel_ = travel;
+      moved_at_ = time;
+    }
+    const bool withdrawn = indent != nullptr && !indent->to.second && travel <= 0.0 &&
+                           deepest_ > given_up * indent->to.value;
+    if (!withdrawn && time - moved_at_ < still) return;
+    ends({LiveEnd::Why::too_long,
+          "step " + std::to_string(guide_.step()) + " was not carried out to its end: the finger " +
+              (withdrawn ? "was withdrawn after " + rounded_text(1e3 * deepest_, 3) + " mm"
+                         : "stands still at " + rounded_text(1e3 * travel, 3) + " mm")});
+  }
+
   void write(const Sample& sample) {
     const double time = time_of(sample) - first_time_;
     const Vec3 offset(0.0, 0.0, limits_.measures_travel ? sample.position.z() - surface_ : 0.0);
     if (limits_.measures_travel) {
       if (auto wrong = loop_.model.follow(offset, time)) return ends({LiveEnd::Why::model, *wrong});
       guide_.pass({time, offset, loop_.model.touch().force()});
+      look_for_an_end(time, -offset.z());
     } else if (time > planned_) {
       return ends({});
     }
@@ -182,6 +209,9 @@ class GaugeLoop {
   TouchLine line_;
   std::vector<Sample> first_;        // in contact, before the rows
   std::optional<double> last_free_;  // s, of the last reading without force
+  double deepest_ = 0.0;             // m, of the travel
+  double rest_travel_ = 0.0;         // m, of the last motion
+  double moved_at_ = 0.0;            // s
   long long rows_ = 0;
   int unheard_ = 0;  // waits in a row without a line, in lock-step
   bool over_ = false;

@@ -1,8 +1,10 @@
 // The loop of a stand: sets its limits, then carries out motions; safety rules check every reading.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/text.h"
+#include "contact/hertz.h"
 #include "device/mark10_protocol.h"
 #include "device/stand_safety.h"
 #include "live/guide.h"
@@ -25,17 +27,34 @@ constexpr double sample_wait = 0.06;   // s of wire time
 constexpr double free_way = 2e-3;      // m above the surface, where motions begin
 constexpr double travel_speed = 5e-3;  // m/s, out of contact
 constexpr double feel_speed = 0.5e-3;  // m/s
+constexpr double feel_noise = 5e-3;    // N: with more noise it goes slower, for more readings,
+constexpr double feel_slowest = 0.2;   // down to this part of feel_speed
 constexpr double feel_way = 20e-3;     // m, largest way down from the first position
 constexpr double feel_step = 0.2e-3;   // m: the stand goes no further if nobody can stop it
-constexpr double feel_from = 5e-3;     // N above the mean out of contact: the finger is in contact
-constexpr double feel_to = 40e-3;      // N above that mean: enough readings to find the surface
+constexpr double feel_to = 40e-3;      // N above the mean out of contact ends the search, or
+constexpr double noise_to = 10.0;      // so many standard deviations of the noise, if that is more
 constexpr int quiet_readings = 10;     // out of contact, for that mean and the noise
-constexpr double noise_from = 3.0;     // standard deviations of the noise, at least, for contact
-constexpr double noise_to = 12.0;      // and for the end of the search
+constexpr double found_to = 0.05;      // of the deepest travel: standard deviation of the surface
 constexpr double rest_time = 1.0;      // s, for the tissue to recover from feeling
 constexpr double arrived = 0.65 * device::mark10::travel_step;  // m: half a step, in mm or inches
 constexpr double stuck_time = 1.0;  // s without a change of travel during a motion
 constexpr int tries = 3;
+
+// The mean of the last five forces.
+class LastForces {
+ public:
+  void add(double force) { forces_[count_++ % forces_.size()] = force; }
+  [[nodiscard]] double mean() const {
+    const std::size_t have = std::min(count_, forces_.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < have; ++i) sum += forces_[i];
+    return sum / static_cast<double>(have);
+  }
+
+ private:
+  std::array<double, 5> forces_{};
+  std::size_t count_ = 0;
+};
 
 // The deepest permitted travel, m: for a step to a force twice the predicted one, up to the radius.
 double deepest_of(const scene::Scene& scene) {
@@ -134,6 +153,7 @@ class StandLoop {
     loop_.health.count(now(), sample);
     if (sample.arrival != Arrival::fresh) return sample;
     last_ = sample;
+    forces_.add(sample.force);
     if (reaching_) loop_.free.add(sample.force);
     return sample;
   }
@@ -192,10 +212,9 @@ class StandLoop {
 
   // What ends a motion before its target: a change of the force of either sign.
   struct Until {
-    double force = Limits::none;  // N
-    double quiet = 0.0;           // N, from which it changes
-    double contact = 0.0;         // N, the least change in contact
-    TouchLine* line = nullptr;    // receives the readings of the last contact
+    double force = Limits::none;      // N
+    double quiet = 0.0;               // N, from which it changes
+    SurfaceSearch* search = nullptr;  // receives the readings; the force is a mean then
   };
 
   // Moves to the height `target` (m), which is also set as the stand's limit.
@@ -220,14 +239,8 @@ class StandLoop {
     double moved_at = now();
     double before = last_.position.z();
     while (poll()) {
-      const double change = last_.force - until.quiet;
-      if (until.line != nullptr) {
-        // A reading without contact says that those before it were noise.
-        if (change > until.contact)
-          until.line->add(last_.position.z(), change);
-        else
-          *until.line = TouchLine();
-      }
+      if (until.search != nullptr) until.search->add(last_.taken, last_.position.z(), last_.force);
+      const double change = (until.search != nullptr ? forces_.mean() : last_.force) - until.quiet;
       const bool felt = std::abs(change) >= until.force;
       // The stand is stopped even at its limit: while braking it would continue if the limit moved.
       if (felt || std::abs(last_.position.z() - target) <= arrived) {
@@ -278,32 +291,44 @@ class StandLoop {
     const double quiet = first + mean;
     const double noise = std::sqrt(std::max(0.0, squares / quiet_readings - mean * mean) *
                                    quiet_readings / (quiet_readings - 1));
-    TouchLine line;
-    const Until until{.force = std::max(feel_to, noise_to * noise),
+    SurfaceSearch search(loop_.scene.relaxation);
+    // No deeper than the programme presses: to the force of relaxed tissue there.
+    const contact::SphereLaw& law = loop_.scene.law();
+    const double deep = contact::hertz::force(deepest_, law.radius, law.modulus);
+    const Until until{.force = std::max(feel_to, std::min(noise_to * noise, deep)),
                       .quiet = quiet,
-                      .contact = std::max(feel_from, noise_from * noise),
-                      .line = &line};
-    while (last_.force - quiet < until.force) {
+                      .search = &search};
+    const double speed = feel_speed * std::clamp(feel_noise / noise, feel_slowest, 1.0);
+    while (forces_.mean() - quiet < until.force) {
       const double z = last_.position.z();
       if (z <= low_ + arrived)
         return ends({LiveEnd::Why::link, "nothing was felt within " + rounded_text(1e3 * feel_way) +
                                              " mm; jog the stand nearer, or give `--surface`"});
-      if (!go(std::max(low_, z - feel_step), feel_speed, until)) return false;
+      if (!go(std::max(low_, z - feel_step), speed, until)) return false;
     }
-    const auto surface = line.surface();
-    if (!surface)
+    const auto found = search.find();
+    if (!found)
       return ends({LiveEnd::Why::link,
                    "the force does not grow with depth where it was felt; give `--surface`"});
-    surface_ = *surface;
+    if (found->error > found_to * deepest_)
+      return ends({LiveEnd::Why::link,
+                   "the gauge scatters by " + rounded_text(1e3 * found->noise, 2) +
+                       " mN, by which the surface is known to " +
+                       rounded_text(1e3 * found->error, 2) + " mm only; give `--surface`"});
+    surface_ = found->surface;
     felt_ = true;
     return true;
   }
 
   bool go_to_start() {
-    low_ = surface_ - deepest_;
+    low_ = std::min(surface_ - deepest_, last_.position.z());
     high_ = std::max(surface_ + free_way, last_.position.z());
     if (!allow_range(low_, high_)) return false;
     if (felt_ && !go(surface_ + free_way, travel_speed, {})) return false;
+    if (low_ < surface_ - deepest_) {  // the search went deeper than the programme
+      low_ = surface_ - deepest_;
+      if (!allow_range(low_, high_)) return false;
+    }
     // The finger is above the surface: these readings show the gauge's zero.
     reaching_ = true;
     const bool there = (!felt_ || wait(rest_time)) && go(surface_, travel_speed, {});
@@ -368,6 +393,7 @@ class StandLoop {
   double deepest_;  // m, of travel
   device::StandSafety safety_;
   Sample last_;                   // the last fresh one
+  LastForces forces_;             // of the last fresh ones
   Motion motion_;                 // continues after a halt
   double start_ = 0.0;            // s, of the clock
   double next_ = 0.0;             // s, of the clock: time of the next reading

@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/index.h"
 
 namespace palpate::live {
 namespace {
 
-constexpr double barely = 1e-3;  // of the model's largest force: no contact
+constexpr double barely = 1e-3;       // of the model's largest force: no contact
+constexpr double least_depth = 0.95;  // of the travel that the programme asks for
 
 double median(std::vector<double> values) {
   if (values.empty()) return Verdict::unknown;
@@ -18,15 +20,11 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value * value;
-  return values.empty() ? Verdict::unknown : std::sqrt(sum / static_cast<double>(values.size()));
-}
+double square(double value) { return value * value; }
 
 // The rows with a measured force, divided at the largest force of the model.
 struct Rows {
-  std::vector<double> travel, model, measured;
+  std::vector<double> time, travel, model, measured;
   std::size_t begin = 0;  // the last row without contact before the largest force
   std::size_t top = 0;    // the largest force of the model
   [[nodiscard]] std::size_t size() const { return travel.size(); }
@@ -36,6 +34,7 @@ Rows usable(const MeasuredCurve& curve) {
   Rows rows;
   for (std::size_t i = 0; i < curve.measured.size(); ++i) {
     if (!std::isfinite(curve.measured[i])) continue;
+    rows.time.push_back(curve.time.empty() ? static_cast<double>(i) : curve.time[i]);
     rows.travel.push_back(curve.travel[i]);
     rows.model.push_back(curve.model[i]);
     rows.measured.push_back(curve.measured[i]);
@@ -116,24 +115,69 @@ class Press {
   std::vector<double> travel_, force_;
 };
 
+// 1 while the travel grows, -1 while it falls, as at the motion before where it rests. A way back
+// of a fiftieth of the travel turns it.
+std::vector<double> ways(const Rows& rows) {
+  const auto [low, high] = std::minmax_element(rows.travel.begin(), rows.travel.end());
+  const double enough = 0.02 * (*high - *low);
+  std::vector<double> way(rows.size(), 1.0);
+  double now = 1.0;
+  std::size_t turn = 0;  // the row that is farthest that way
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double ahead = now * (rows.travel[i] - rows.travel[turn]);
+    if (ahead < -enough) {
+      now = -now;
+      std::fill(way.begin() + static_cast<std::ptrdiff_t>(turn) + 1,
+                way.begin() + static_cast<std::ptrdiff_t>(i), now);
+    }
+    if (ahead < -enough || ahead >= 0.0) turn = i;
+    way[i] = now;
+  }
+  return way;
+}
+
+// One cause, with its value that explains the measured force best.
+struct Explanation {
+  Cause cause = Cause::wrong_stiffness;
+  double rest = Verdict::unknown;   // N, rms that remains
+  double value = Verdict::unknown;  // of the cause, in the unit that Verdict gives it
+  int numbers = 1;                  // that were chosen
+  // A second number must explain more than the model's own difference could.
+  [[nodiscard]] double score() const { return rest * (numbers > 1 ? 1.2 : 1.0); }
+};
+
 class Judgement {
  public:
   Judgement(const MeasuredCurve& curve, double tolerance)
-      : rows_(usable(curve)), free_(curve.free), tolerance_(tolerance) {}
+      : rows_(usable(curve)), free_(curve.free), tolerance_(tolerance) {
+    found_.asked = curve.asked;
+  }
 
   Verdict all() {
     if (rows_.size() == 0) return found_;
     found_.peak = rows_.model[rows_.top];
+    found_.deepest = *std::max_element(rows_.travel.begin(), rows_.travel.end());
     if (!(found_.peak > 0.0)) return found_;
     look_before_contact();
+    look_at_noise();
     found_.allowed = tolerance_ * found_.peak;
-    if (found_.noise > 0.5 * found_.allowed) found_.allowed = 2.0 * found_.noise;
+    const bool noisy = found_.noise > 0.5 * found_.allowed;
+    if (noisy) found_.allowed = 2.0 * found_.noise;
     found_.difference = rest(rows_.measured);
     found_.stiffness = ratio(rows_.measured);
     describe();
-    found_.outcome =
-        found_.difference <= found_.allowed ? Verdict::Outcome::agrees : Verdict::Outcome::differs;
-    if (found_.outcome == Verdict::Outcome::differs) explain();
+    const bool deep_enough = found_.deepest >= least_depth * found_.asked;
+    const bool small = found_.difference <= found_.allowed;
+    found_.outcome = small && deep_enough ? Verdict::Outcome::agrees : Verdict::Outcome::differs;
+    if (!deep_enough) found_.causes.push_back(Cause::short_press);
+    if (!small) {
+      explain();
+    } else {
+      found_.explained = true;
+      found_.outliers = far_readings(rows_.measured);
+      if (found_.outliers > 0) found_.causes.push_back(Cause::outliers);
+      if (noisy) found_.causes.push_back(Cause::noise);
+    }
     return found_;
   }
 
@@ -150,21 +194,41 @@ class Judgement {
         if (!in_contact(i)) before.push_back(rows_.measured[i]);
     if (before.empty()) return;
     found_.offset = median(before);
-    std::vector<double> away;
-    for (const double reading : before) away.push_back(std::abs(reading - found_.offset));
-    // Of a normal distribution the median distance is 0.6745 standard deviations.
-    if (before.size() >= 5) found_.noise = median(away) / 0.6745;
     std::vector<double> after;
     for (std::size_t i = rows_.top; i < rows_.size(); ++i)
       if (!in_contact(i)) after.push_back(rows_.measured[i]);
     found_.drift = median(after) - found_.offset;
   }
 
-  // N, rms of `force` minus the model.
+  // The second differences of readings from the model, where what changes slowly is not seen.
+  void look_at_noise() {
+    std::vector<double> differences;
+    const auto add = [&](const std::vector<double>& values) {
+      for (std::size_t i = 1; i + 1 < values.size(); ++i)
+        differences.push_back(std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
+    };
+    std::vector<double> residuals;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      residuals.push_back(rows_.measured[i] - rows_.model[i]);
+    add(free_);
+    add(residuals);
+    // Those of a normal distribution have a variance of 1 + 4 + 1, and half of them are below
+    // 0.6745 of its root.
+    if (differences.size() >= 5) found_.noise = median(differences) / (0.6745 * std::sqrt(6.0));
+  }
+
+  // N, rms of `force` minus `expected(i)` over all rows.
+  template <typename Expected>
+  [[nodiscard]] double rest(const std::vector<double>& force, const Expected& expected) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const double residual = force[i] - expected(i);
+      sum += residual * residual;
+    }
+    return std::sqrt(sum / static_cast<double>(rows_.size()));
+  }
   [[nodiscard]] double rest(const std::vector<double>& force) const {
-    std::vector<double> residual;
-    for (std::size_t i = 0; i < rows_.size(); ++i) residual.push_back(force[i] - rows_.model[i]);
-    return root_mean_square(residual);
+    return rest(force, [&](std::size_t i) { return rows_.model[i]; });
   }
 
   // The measured force over the model's by least squares: with a constant offset if none is known.
@@ -188,17 +252,21 @@ class Judgement {
     return xx > 0.0 ? xy / xx : Verdict::unknown;
   }
 
-  // The measured force with its sign turned and without its offset.
-  [[nodiscard]] std::vector<double> corrected() const {
-    const double sign = found_.stiffness < 0.0 ? -1.0 : 1.0;
-    const double offset = std::isfinite(found_.offset) ? found_.offset : 0.0;
+  [[nodiscard]] double sign() const { return found_.stiffness < -0.1 ? -1.0 : 1.0; }
+
+  // The measured force with its sign turned if need be, above `offset`.
+  [[nodiscard]] std::vector<double> corrected(double sign, double offset) const {
     std::vector<double> force;
     for (const double reading : rows_.measured) force.push_back(sign * (reading - offset));
     return force;
   }
+  [[nodiscard]] double known_offset() const {
+    return std::isfinite(found_.offset) ? found_.offset : 0.0;
+  }
 
   void describe() {
-    const std::vector<double> force = corrected();
+    const std::vector<double> force =
+        corrected(found_.stiffness < 0.0 ? -1.0 : 1.0, known_offset());
     found_.hysteresis = lost_energy(rows_, force);
     found_.hysteresis_model = lost_energy(rows_, rows_.model);
     const std::size_t top = rows_.top + 1;
@@ -214,96 +282,219 @@ class Judgement {
   }
 
   void explain() {
-    std::vector<double> force = corrected();
+    const std::vector<double> zeroed = corrected(sign(), known_offset());
     double most = 0.0;
     for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (in_contact(i)) most = std::max(most, std::abs(force[i]));
+      if (in_contact(i)) most = std::max(most, std::abs(zeroed[i]));
+    const bool tare = std::abs(known_offset()) > found_.allowed;
     if (most <= std::max(found_.allowed, 5.0 * found_.noise)) {
-      add_tare();
+      if (tare) found_.causes.push_back(Cause::wrong_tare);
       found_.causes.push_back(Cause::no_specimen);
       found_.explained = true;
       return;
     }
     // A weak correlation has a sign too, which means nothing.
-    if (found_.stiffness < -0.1) found_.causes.push_back(Cause::wrong_sign);
-    add_tare();
-    if (rest(force) <= found_.allowed) {
+    if (sign() < 0.0) found_.causes.push_back(Cause::wrong_sign);
+    const std::vector<double> as_shown = corrected(sign(), 0.0);
+    if (rest(as_shown) <= found_.allowed) {
       found_.explained = true;
       return;
     }
-    if (explain_by_outliers(force) || explain_by_drift(force)) {
-      found_.explained = true;
-      return;
+    Explanation best = best_of(as_shown);
+    if (tare) {
+      const Explanation by_tare{Cause::wrong_tare, rest(zeroed)};
+      if (by_tare.rest <= found_.allowed && !(best.score() < by_tare.score())) best = by_tare;
+      if (!(best.rest <= found_.allowed)) {
+        found_.causes.push_back(Cause::wrong_tare);
+        best = best_of(zeroed);
+      }
     }
-    const double scale = std::abs(found_.stiffness);
-    std::vector<double> scaled;
-    for (const double each : force) scaled.push_back(each / scale);
-    const double by_stiffness = scale > 0.1 ? rest(scaled) * scale : Verdict::unknown;
-    const double by_surface = find_surface(force);
-    // Another surface shows in the press: where the press agrees as it is, the difference is
-    // elsewhere.
-    const bool surface = !(by_surface > by_stiffness) && by_surface <= found_.allowed &&
-                         press_rest(force) > found_.allowed;
-    if (!surface) found_.surface = Verdict::unknown;
-    if (surface) found_.causes.push_back(Cause::wrong_surface);
-    if (!surface && by_stiffness <= found_.allowed) found_.causes.push_back(Cause::wrong_stiffness);
-    found_.explained = surface || by_stiffness <= found_.allowed;
+    if (!(best.rest <= found_.allowed)) return;
+    found_.causes.push_back(best.cause);
+    found_.explained = true;
+    take(best);
   }
 
-  // A few readings alone are far off: without the farthest, one in fifty, the rest agrees.
-  bool explain_by_outliers(const std::vector<double>& force) {
-    std::vector<double> away;
+  void take(const Explanation& best) {
+    switch (best.cause) {
+      case Cause::wrong_surface: found_.surface = best.value; break;
+      case Cause::outliers: found_.outliers = static_cast<std::size_t>(best.value); break;
+      case Cause::drift: found_.drift = best.value; break;
+      case Cause::friction: found_.friction = best.value; break;
+      case Cause::lag: found_.lag = best.value; break;
+      case Cause::lost_force: found_.lost_at = best.value; break;
+      case Cause::overload: found_.ceiling = best.value; break;
+      default: break;
+    }
+  }
+
+  // The cause that leaves the least of the difference, among those that leave what is allowed; a
+  // surface only where it explains the press and no other cause the whole.
+  [[nodiscard]] Explanation best_of(const std::vector<double>& force) const {
+    Explanation best;
+    for (const Explanation& one :
+         {by_outliers(force), by_stiffness(force), by_drift(force), by_friction(force),
+          by_lag(force), by_loss(force), by_ceiling(force)})
+      if (one.rest <= found_.allowed && !(best.score() <= one.score())) best = one;
+    const Explanation surface = by_surface(force);
+    const double whole = rest(force, moved(surface.value));
+    if (surface.rest <= found_.allowed && whole < 0.5 * rest(force) && !(best.score() <= whole))
+      best = surface;
+    return best;
+  }
+
+  // How many readings are far off, if they are one in fifty at most; 0 otherwise.
+  [[nodiscard]] std::size_t far_readings(const std::vector<double>& force) const {
+    const std::size_t few = 1 + rows_.size() / 50;
+    if (rows_.size() < 10 * few) return 0;
+    std::size_t far = 0;
     for (std::size_t i = 0; i < rows_.size(); ++i)
-      away.push_back(std::abs(force[i] - rows_.model[i]));
-    const std::size_t few = 1 + away.size() / 50;
-    if (away.size() < 10 * few) return false;
-    std::sort(away.begin(), away.end());
-    const double far = 3.0 * found_.allowed;
-    const auto off = as_index(away.end() - std::upper_bound(away.begin(), away.end(), far));
-    if (off == 0 || off > few) return false;
-    away.resize(away.size() - off);
-    if (root_mean_square(away) > found_.allowed) return false;
-    found_.causes.push_back(Cause::outliers);
-    found_.outliers = off;
-    return true;
+      if (is_far(force, i)) ++far;
+    return far <= few ? far : 0;
+  }
+  [[nodiscard]] bool is_far(const std::vector<double>& force, std::size_t i) const {
+    return std::abs(force[i] - rows_.model[i]) > 3.0 * found_.allowed;
   }
 
-  // The gauge's zero moves evenly over the run: in the order of the rows, which are taken at a
-  // constant rate.
-  bool explain_by_drift(std::vector<double> force) {
-    if (!(std::abs(found_.drift) > found_.allowed)) return false;
-    const double sign = found_.stiffness < 0.0 ? -1.0 : 1.0;
-    const double last = static_cast<double>(rows_.size() - 1);
-    for (std::size_t i = 0; i < force.size(); ++i)
-      force[i] -= sign * found_.drift * static_cast<double>(i) / last;
-    if (rest(force) > found_.allowed) return false;
-    found_.causes.push_back(Cause::drift);
-    return true;
+  // A few readings alone are far off: without them the rest agrees.
+  [[nodiscard]] Explanation by_outliers(const std::vector<double>& force) const {
+    const std::size_t far = far_readings(force);
+    if (far == 0) return {};
+    const double near =
+        rest(force, [&](std::size_t i) { return is_far(force, i) ? force[i] : rows_.model[i]; });
+    return {Cause::outliers, near, static_cast<double>(far)};
   }
 
-  // N, rms of `force` minus the model in the press.
-  [[nodiscard]] double press_rest(const std::vector<double>& force) const {
-    std::vector<double> residual;
-    for (std::size_t i = rows_.begin; i <= rows_.top; ++i)
-      residual.push_back(force[i] - rows_.model[i]);
-    return root_mean_square(residual);
+  [[nodiscard]] Explanation by_stiffness(const std::vector<double>& force) const {
+    double xy = 0.0;
+    double xx = 0.0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      xy += rows_.model[i] * force[i];
+      xx += rows_.model[i] * rows_.model[i];
+    }
+    const double scale = xy / xx;
+    if (!(scale > 0.1)) return {};
+    return {Cause::wrong_stiffness,
+            rest(force, [&](std::size_t i) { return scale * rows_.model[i]; }), scale};
   }
 
-  void add_tare() {
-    if (std::abs(found_.offset) > found_.allowed) found_.causes.push_back(Cause::wrong_tare);
+  // The gauge's zero moves evenly in time: a straight line through the residuals.
+  [[nodiscard]] Explanation by_drift(const std::vector<double>& force) const {
+    const auto count = static_cast<double>(rows_.size());
+    double t = 0.0;
+    double y = 0.0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      t += rows_.time[i] / count;
+      y += (force[i] - rows_.model[i]) / count;
+    }
+    double tt = 0.0;
+    double ty = 0.0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      tt += (rows_.time[i] - t) * (rows_.time[i] - t);
+      ty += (rows_.time[i] - t) * (force[i] - rows_.model[i] - y);
+    }
+    if (!(tt > 0.0)) return {};
+    const double rate = ty / tt;
+    const double left =
+        rest(force, [&](std::size_t i) { return rows_.model[i] + y + rate * (rows_.time[i] - t); });
+    const double change = sign() * rate * (rows_.time.back() - rows_.time.front());
+    if (std::abs(change) <= found_.allowed) return {};  // the rest would be a tare
+    return {Cause::drift, left, change, 2};
   }
 
-  // Shifts the model's press along the travel until it fits best. Returns the rms that remains in
-  // the press, N; the rest of the run would need another computation.
-  double find_surface(const std::vector<double>& force) {
-    const Press press(rows_);
-    if (press.size() < 5) return Verdict::unknown;
-    const auto left = [&](double shift) {
-      std::vector<double> residual;
-      for (std::size_t i = rows_.begin; i <= rows_.top; ++i)
-        residual.push_back(force[i] - press.at(rows_.travel[i] - shift));
-      return root_mean_square(residual);
+  // A force along the motion, of one size, which stays at rest as the last motion left it.
+  [[nodiscard]] Explanation by_friction(const std::vector<double>& force) const {
+    const std::vector<double> way = ways(rows_);
+    double xy = 0.0;
+    double xx = 0.0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      xy += way[i] * (force[i] - rows_.model[i]);
+      xx += way[i] * way[i];
+    }
+    if (!(xy > 0.0)) return {};
+    const double size = xy / xx;
+    return {Cause::friction,
+            rest(force, [&](std::size_t i) { return rows_.model[i] + size * way[i]; }), size};
+  }
+
+  // The force is that of an earlier time.
+  [[nodiscard]] Explanation by_lag(const std::vector<double>& force) const {
+    const double span = rows_.time.back() - rows_.time.front();
+    Explanation best;
+    constexpr int steps = 200;
+    for (int i = 1; i <= steps; ++i) {
+      const double lag = 0.25 * span * i / steps;
+      std::size_t k = 0;
+      const double left = rest(force, [&](std::size_t row) {
+        const double time = rows_.time[row] - lag;
+        while (k + 1 < rows_.size() && rows_.time[k + 1] <= time) ++k;
+        if (time <= rows_.time.front() || k + 1 == rows_.size()) return rows_.model[k];
+        const double part = (time - rows_.time[k]) / (rows_.time[k + 1] - rows_.time[k]);
+        return rows_.model[k] + part * (rows_.model[k + 1] - rows_.model[k]);
+      });
+      if (!(best.rest <= left)) best = {Cause::lag, left, lag};
+    }
+    return best;
+  }
+
+  // From a row on the gauge shows one force, whatever the model's is.
+  [[nodiscard]] Explanation by_loss(const std::vector<double>& force) const {
+    double before = 0.0;  // squares of the residuals of the rows before
+    for (std::size_t i = 0; i < rows_.size(); ++i) before += square(force[i] - rows_.model[i]);
+    double n = 0.0;
+    double mean = 0.0;
+    double squares = 0.0;  // of the distances from the mean of the rows from here on
+    Explanation best;
+    for (std::size_t i = rows_.size(); i-- > 0;) {
+      before -= square(force[i] - rows_.model[i]);
+      n += 1.0;
+      const double change = force[i] - mean;
+      mean += change / n;
+      squares += change * (force[i] - mean);
+      const double left =
+          std::sqrt(std::max(0.0, before + squares) / static_cast<double>(rows_.size()));
+      if (in_contact(i) && !(best.rest <= left)) best = {Cause::lost_force, left, rows_.time[i], 2};
+    }
+    return best;
+  }
+
+  // The gauge shows no more than its largest reading, which it then shows again and again.
+  [[nodiscard]] Explanation by_ceiling(const std::vector<double>& force) const {
+    const double most = *std::max_element(force.begin(), force.end());
+    const double near = std::max(2.0 * found_.noise, 0.01 * most);
+    std::size_t there = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (force[i] > most - near && rows_.model[i] > most + near) ++there;
+    if (there < 3) return {};
+    return {Cause::overload,
+            rest(force, [&](std::size_t i) { return std::min(rows_.model[i], most); }), most};
+  }
+
+  // The model's force for a specimen that begins `shift` (m) lower: in the press at the travel
+  // less the shift; afterwards, where another computation would be needed, by Hertz's law of depth.
+  [[nodiscard]] std::function<double(std::size_t)> moved(double shift) const {
+    return [this, shift, press = Press(rows_)](std::size_t i) {
+      const double depth = rows_.travel[i];
+      if (i <= rows_.top) return press.at(depth - shift);
+      if (!(depth > 0.0) || depth <= shift) return 0.0;
+      const double share = (depth - shift) / depth;
+      return rows_.model[i] * share * std::sqrt(share);
     };
+  }
+
+  // Shifts the model's press along the travel until it fits best. What remains is that of the
+  // press alone.
+  [[nodiscard]] Explanation by_surface(const std::vector<double>& force) const {
+    const Press press(rows_);
+    if (press.size() < 5) return {};
+    const auto left = [&](double shift) {
+      double sum = 0.0;
+      for (std::size_t i = rows_.begin; i <= rows_.top; ++i)
+        sum += square(force[i] - press.at(rows_.travel[i] - shift));
+      return std::sqrt(sum / static_cast<double>(rows_.top - rows_.begin + 1));
+    };
+    // Another surface shows in the press: where that agrees as it is, the difference is elsewhere.
+    if (left(0.0) <= found_.allowed) return {};
     constexpr int steps = 200;
     const double deepest = rows_.travel[rows_.top];
     double best = 0.0;
@@ -315,8 +506,7 @@ class Judgement {
     for (int i = 0; i < 30; ++i, width *= 0.7)
       for (const double shift : {best - width, best + width})
         if (left(shift) < left(best)) best = shift;
-    found_.surface = best;
-    return left(best);
+    return {Cause::wrong_surface, left(best), best};
   }
 
   Rows rows_;
@@ -331,14 +521,20 @@ bool Verdict::has(Cause cause) const {
   return std::find(causes.begin(), causes.end(), cause) != causes.end();
 }
 
-MeasuredCurve measured_curve(const record::CaseRecord& record, std::span<const double> free) {
+MeasuredCurve measured_curve(const record::CaseRecord& record,
+                             const std::vector<scenario::Step>& steps,
+                             std::span<const double> free) {
   MeasuredCurve curve;
   for (std::size_t i = 0; i < record.measured.size(); ++i) {
+    curve.time.push_back(record.contact[i].time);
     curve.travel.push_back(-record.measured[i].place[2]);
     curve.model.push_back(record.contact[i].force);
     curve.measured.push_back(record.measured[i].force);
   }
   curve.free.assign(free.begin(), free.end());
+  for (const scenario::Step& step : steps)
+    if (const auto* indent = std::get_if<scenario::Indent>(&step); indent && !indent->to.second)
+      curve.asked = std::max(curve.asked, indent->to.value);
   return curve;
 }
 

@@ -42,7 +42,27 @@ std::string cause_clause(Cause cause, const Verdict& verdict) {
              " far off, and all others agree; look for a loose cable";
     case Cause::drift:
       return "drift: the gauge's zero moves by " + millinewtons(verdict.drift) +
-             " during the run; let it warm up";
+             " during the run; let it warm up, and zero it out of contact";
+    case Cause::friction:
+      return "friction: " + millinewtons(verdict.friction) +
+             " along the motion, added on the way in and taken off on the way out; see what "
+             "rubs";
+    case Cause::lag:
+      return "lag: the force is shown " + text_of(1e3 * verdict.lag) +
+             " ms late; shorten the gauge's filter, or press slower";
+    case Cause::lost_force:
+      return "lost force: from " + text_of(verdict.lost_at, 3) +
+             " s on the gauge does not follow the press; look at its cable";
+    case Cause::overload:
+      return "overload: the gauge shows no more than " + force_text(verdict.ceiling) +
+             "; take one with a larger range, or press less deep";
+    case Cause::short_press:
+      return "short press: it ends at " + length_text(verdict.deepest) + " of " +
+             length_text(verdict.asked) + "; press to the travel that the scenario asks for";
+    case Cause::noise:
+      return "noise: the gauge scatters by " + millinewtons(verdict.noise) +
+             ", and a smaller difference cannot be told; use a gauge of a smaller range, or its "
+             "filter";
   }
   return {};
 }
@@ -75,7 +95,7 @@ std::string verdict_sentence(const Verdict& verdict) {
     text += ", release at " + beside_model(verdict.release, verdict.release_model, length_text);
   for (const Cause cause : verdict.causes) text += "; " + cause_clause(cause, verdict);
   if (verdict.outcome == Verdict::Outcome::differs && !verdict.explained)
-    text += "; neither sign, tare, outliers, drift, surface nor stiffness explains it";
+    text += "; no single fault of gauge, stand or specimen explains it";
   return text;
 }
 
@@ -92,6 +112,12 @@ std::vector<record::Finding> verdict_findings(const Verdict& verdict) {
       case Cause::wrong_stiffness: return "wrong_stiffness";
       case Cause::outliers: return "outliers";
       case Cause::drift: return "drift";
+      case Cause::friction: return "friction";
+      case Cause::lag: return "lag";
+      case Cause::lost_force: return "lost_force";
+      case Cause::overload: return "overload";
+      case Cause::short_press: return "short_press";
+      case Cause::noise: return "noise";
     }
     return "";
   };
@@ -102,7 +128,7 @@ std::vector<record::Finding> verdict_findings(const Verdict& verdict) {
   findings.push_back({"measured_verdict", verdict.outcome == Outcome::agrees
                                               ? std::string("agrees")
                                               : std::string("differs")});
-  if (verdict.outcome == Outcome::differs) findings.push_back({"measured_causes", causes});
+  if (!causes.empty()) findings.push_back({"measured_causes", causes});
   const auto add = [&](const char* what, double value) {
     if (std::isfinite(value)) findings.push_back({what, value});
   };

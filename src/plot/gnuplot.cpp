@@ -10,12 +10,15 @@
 #include "base/child_process.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/stop_scope.h"
 #include "base/text.h"
 
 namespace palpate::plot {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* was_not_drawn = " was not drawn in ";
 
 // Why no picture was drawn, as the middle of a sentence; empty on success.
 std::string failure(const ChildResult& result, const DrawOptions& options) {
@@ -26,6 +29,7 @@ std::string failure(const ChildResult& result, const DrawOptions& options) {
       return program + "took longer than " + rounded_text(options.limit) + " s";
     case ChildResult::End::killed:
       return program + "was ended by signal " + std::to_string(result.code);
+    case ChildResult::End::stopped: return "the drawing was interrupted";
     case ChildResult::End::exited: break;
   }
   if (result.code == 0) return {};
@@ -56,9 +60,10 @@ Picture draw_picture(const Sheet& sheet, const std::string& format, const std::s
   const std::string script = sheet.name + ".gp";
   const std::string picture = sheet.name + "." + format;
   const std::string beside = picture + ".part" + std::to_string(::getpid());
-  const std::string not_drawn = picture + " was not drawn in " + folder + ": ";
+  const std::string not_drawn = picture + was_not_drawn + folder + ": ";
   if (const auto file = missing_file(sheet, folder))
     return {false, not_drawn + "`" + *file + "` is missing; run the scenario again"};
+  if (StopScope::stopped()) return {false, not_drawn + "the drawing was interrupted"};
   // -d: without the user's gnuplot settings.
   const ChildResult result =
       run_process({.argv = {options.program, "-d", "-e",
@@ -99,6 +104,17 @@ Drawing draw(const Sheet& sheet, const std::string& folder, const DrawOptions& o
     drawing.warning += picture.warning;
   }
   return drawing;
+}
+
+std::string missing_figures(const std::vector<std::string>& warnings) {
+  std::size_t count = 0;
+  for (const std::string& warning : warnings)
+    for (auto at = warning.find(was_not_drawn); at != std::string::npos;
+         at = warning.find(was_not_drawn, at + 1))
+      ++count;
+  if (count == 0) return {};
+  return "; " + std::to_string(count) +
+         (count == 1 ? " figure was not drawn" : " figures were not drawn");
 }
 
 void draw(const Sheet& sheet, WholeFolder& folder, std::vector<std::string>& warnings,

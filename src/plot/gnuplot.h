@@ -42,4 +42,7 @@ struct Sheet {
 void draw(const Sheet& sheet, WholeFolder& folder, std::vector<std::string>& warnings,
           const DrawOptions& options = {});
 
+// The end of a verb's last line: "; 2 figures were not drawn" after such warnings, or nothing.
+[[nodiscard]] std::string missing_figures(const std::vector<std::string>& warnings);
+
 }  // namespace palpate::plot

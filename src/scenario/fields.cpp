@@ -48,7 +48,7 @@ void finger_fields(FieldVisitor& visitor, Finger& finger) {
   visitor.text({"material", "`finger` (the paper's silicone rubber), any tissue, or `rigid`."},
                finger.material);
   visitor.quantity({"radius", "Radius of the single sphere that has the finger's mass."},
-                   finger.radius, unit::mm, between(1e-9, 1e3));
+                   finger.radius, unit::mm, between(unit::mm.to_si(1e-6), unit::mm.to_si(1e6)));
   visitor.count({"spheres", "Sphere bodies of equal mass that make up the finger, eq. (5)."},
                 finger.spheres, between(1, 64));
   visitor.choice({"calibration",

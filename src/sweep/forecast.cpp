@@ -1,6 +1,8 @@
 // Times cases as a sweep runs them, and counts how often what they share has to be made.
 #include "sweep/forecast.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -125,6 +127,13 @@ class Trial {
   scene::SinkingStore sinkings_;
 };
 
+// Of this process so far, bytes: it has held more cases at once than a worker does.
+double most_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in KiB
+}
+
 }  // namespace
 
 std::string SweepForecast::text() const {
@@ -145,6 +154,7 @@ std::optional<SweepForecast> forecast(const scenario::Family& family, bool keeps
   return SweepForecast{.cases = cases,
                        .seconds = *seconds,
                        .bytes = row * static_cast<double>(cases),
+                       .memory = most_memory(),
                        .curves = keeps_curves};
 }
 

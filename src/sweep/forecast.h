@@ -13,6 +13,7 @@ struct SweepForecast {
   std::size_t cases = 0;
   double seconds = 0.0;  // of processor time, on one worker
   double bytes = 0.0;    // of rows, without curves
+  double memory = 0.0;   // bytes, that one worker's process takes at most
   bool curves = false;
 
   [[nodiscard]] std::string text() const;  // about 12 s on one worker and 2.4 MB

@@ -26,17 +26,19 @@ struct Gauge {
   std::string settings = "hx711";
   std::string baud = "57600";
   std::string clock = "virtual";
+  std::string hand = {};  // a file; empty: that of the style
   std::vector<std::string> emulator = {};
 };
 
 std::vector<std::string> emulator_of(const Gauge& gauge, const std::string& log) {
+  const std::string shipped = project_file("scenarios/emulator/gauge_" + gauge.style + ".toml");
   std::vector<std::string> words{"gauge",
                                  "--clock",
                                  gauge.clock,
                                  "--baud",
                                  gauge.baud,
                                  "--gauge",
-                                 project_file("scenarios/emulator/gauge_" + gauge.style + ".toml"),
+                                 gauge.hand.empty() ? shipped : gauge.hand,
                                  "--tissue",
                                  project_file("scenarios/emulator/stand_tissue.toml"),
                                  "--log",
@@ -246,7 +248,10 @@ TEST_P(GaugeFaults, AreToldOrBounded) {
     EXPECT_EQ(faults, "{}");
   }
   if (fault.code != 0) {
-    EXPECT_TRUE(has(run.ended.err, "the link is lost")) << run.ended.err;
+    const bool over = std::string(fault.kind) == "overload";
+    EXPECT_TRUE(has(run.ended.err, over ? "the gauge is overloaded" : "the link is lost"))
+        << run.ended.err;
+    EXPECT_FALSE(has(run.ended.err, "measured and model agree")) << run.ended.err;
   }
 }
 
@@ -265,13 +270,35 @@ INSTANTIATE_TEST_SUITE_P(
         LineFault{"huge", "", 0, no_reply, good}, LineFault{"no_travel", "", 0, no_reply, good},
         LineFault{"wrong_unit", "", 0, no_reply, good}, LineFault{"slow", "", 0, "", good},
         LineFault{"wrong_baud", "", 6, no_reply, good}, LineFault{"freeze", "", 6, "", good},
-        LineFault{"overload", "", 6, no_reply, good},
+        LineFault{"overload", "", 6, "beyond what the gauge can measure", good},
+        LineFault{"clock_jump", "", 6, "the device's own time jumped ahead", good},
         LineFault{"reset", "", 6, "the device's own time went back", good},
         // Lines without a unit cannot show these three: their error is all of the
         // force (0.33 N), twice the force, and what is added.
         LineFault{"unit_change", "", 0, "", 0.35}, LineFault{"sign_flip", "", 0, "", 0.7},
         LineFault{"spike", "value = \"50 mN\"\n", 0, "", 0.05 + good}),
     [](const auto& one) { return std::string(one.param.kind) + std::to_string(one.index); });
+
+// A hand that stops short ends the run, and the verdict says so.
+TEST(GaugeRun, EndsWhereTheHandGivesUp) {
+  const TemporaryFolder folder;
+  std::string hand = read_file(project_file("scenarios/emulator/gauge_hx711.toml"));
+  for (auto at = hand.find("\"4 mm\""); at != std::string::npos; at = hand.find("\"4 mm\""))
+    hand.replace(at, 6, "\"3.5 mm\"");
+  const std::string still = hand.substr(0, hand.rfind("[[waypoint]]"));
+  for (const auto& [path, said] :
+       {std::pair{folder.file("back.toml", hand), "was withdrawn after"},
+        std::pair{folder.file("still.toml", still), "stands still at"}}) {
+    const LiveEmulator emulator(emulator_of(Gauge{.hand = path}, folder / "log.csv"));
+    const Ended ended =
+        palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"), "--device",
+                                link_of(Gauge{}, emulator), "--surface", "-2 mm", "--clock",
+                                "virtual", "--set", "output.figures=false", "--force", "--expect"});
+    EXPECT_EQ(ended.code, 3) << ended.err;
+    EXPECT_TRUE(has(ended.err, said)) << ended.err;
+    EXPECT_TRUE(has(ended.err, "short press: it ends at 1.5 mm of 2 mm")) << ended.err;
+  }
+}
 
 // With units in the lines another unit is converted, and an unknown one is named.
 TEST(GaugeUnits, AreConvertedOrNamed) {

@@ -182,7 +182,9 @@ TEST(LiveRun, FeelsContactInBothSigns) {
   EXPECT_EQ(ended.code, 6) << ended.err;
   EXPECT_TRUE(has(ended.err, "the gauge shows compression as negative")) << ended.err;
   const auto summary = stand.end().at("summary");
-  EXPECT_LT(summary.at("deepest_m").get<double>(), 0.7e-3);  // 40 mN are at 0.5 mm of this tissue
+  // 40 mN are at 0.5 mm of this tissue, or 0.7 mm where it has relaxed, and it is the mean of five
+  // readings, 10 um apart, that has to reach them.
+  EXPECT_LT(summary.at("deepest_m").get<double>(), 0.7e-3 + 5 * 10e-6);
   EXPECT_EQ(summary.at("moving"), false);
 }
 

@@ -69,16 +69,33 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(LiveVerdict, TheSurfaceIsFoundInNoise) {
   for (const char* seed : {"1", "2", "3"}) {
     const test::TemporaryFolder folder;
-    test::LiveEmulator emulator({"mark10", "--clock", "virtual", "--seed", seed, "--tissue",
-                                 test::project_file("scenarios/emulator/stand_tissue.toml"),
-                                 "--stand",
-                                 folder.file("stand.toml", "[gauge]\nnoise = \"10 mN\"\n")});
+    test::LiveEmulator emulator(
+        {"mark10", "--clock", "virtual", "--seed", seed, "--tissue",
+         test::project_file("scenarios/emulator/stand_tissue.toml"), "--stand",
+         folder.file("stand.toml", "[gauge]\nfilter = 0\nnoise = \"3 mN\"\n")});
     const test::Ended ended =
         test::palpate(folder.path(), {"run", test::project_file("scenarios/device_stand.toml"),
                                       "--device", "mark10:" + emulator.port(), "--arm", "--clock",
                                       "virtual", "--set", "output.figures=false"});
     EXPECT_EQ(ended.code, 0) << ended.err;
+    // The run withdraws to the surface that it found.
+    EXPECT_NEAR(emulator.end().at("summary").at("position_m").get<double>(), -2e-3, 0.05e-3);
   }
+}
+
+// A surface that noise leaves open by a good part of the press is none.
+TEST(LiveVerdict, ASurfaceThatNoiseHidesIsNotTaken) {
+  const test::TemporaryFolder folder;
+  const test::LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--tissue",
+       test::project_file("scenarios/emulator/stand_tissue.toml"), "--stand",
+       folder.file("stand.toml", "[gauge]\nfilter = 0\nnoise = \"60 mN\"\n")});
+  const test::Ended ended =
+      test::palpate(folder.path(), {"run", test::project_file("scenarios/device_stand.toml"),
+                                    "--device", "mark10:" + emulator.port(), "--arm", "--clock",
+                                    "virtual", "--set", "output.figures=false"});
+  EXPECT_EQ(ended.code, 6);
+  EXPECT_TRUE(has(ended.err, "by which the surface is known to")) << ended.err;
 }
 
 TEST(LiveVerdict, AnArmMeasuresNoForce) {

@@ -249,8 +249,8 @@ TEST(EmulatorStandFaults, ScriptsAreReadAndRefusedWithTheirPlace) {
             ":4:1: `replies` has no effect here: it is used only with a kind that spoils replies; "
             "remove it or change that");
   EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"stall\"\nvalue = \"2 N\"\n"),
-            ":4:1: `value` has no effect here: it is used only with `spike`, `jump` or `late`; "
-            "remove it or change that");
+            ":4:1: `value` has no effect here: it is used only with a kind whose effect has a "
+            "size; remove it or change that");
   EXPECT_EQ(refusal("[[fault]]\nat = \"1 s\"\nkind = \"spike\"\nvalue = \"2 mm\"\n"),
             ":4:9: `value` wants a force, got `2 mm`, a length; write it as `2 N`");
   EXPECT_EQ(refusal("[[fault]]\nat = \"-1 s\"\nkind = \"drop\"\n"),

@@ -73,7 +73,7 @@ TEST_F(Messages, OneOfEachClass) {
        "0.5`"},
       {"[contact]\nfriction = -1\n[finger]\nradius = \"0 mm\"\n",
        "press.toml:5:12: `friction` must be at least 0, got `-1`; give a value in that range\n"
-       "press.toml:7:10: `radius` must be at least 1e-09 m and at most 1e+06 mm, got `0 mm`; give "
+       "press.toml:7:10: `radius` must be at least 1e-06 mm and at most 1e+06 mm, got `0 mm`; give "
        "a value in that range"},
   };
   for (const auto& [text, sentence] : cases) {

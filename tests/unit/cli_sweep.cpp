@@ -1,4 +1,6 @@
 // `palpate sweep`: its files, what it says, its exit codes.
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include "record/csv.h"
 #include "sweep_program.h"
 
@@ -188,6 +190,20 @@ TEST_F(SweepVerb, PartsAreCommands) {
   EXPECT_EQ(parts.code, 0);
   EXPECT_EQ(std::count(parts.out.begin(), parts.out.end(), '\n'), 2);
   EXPECT_NE(parts.out.find(" --shard 1/3 --jobs 1\n"), std::string::npos) << parts.out;
+  // As JSON, with what each part will take.
+  const Ended told = sweep({"parts", "out/s_sweep", "--of", "3", "--json"});
+  std::istringstream lines(told.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const auto part = nlohmann::json::parse(line);
+    EXPECT_NE(parts.out.find(part.at("command").get<std::string>() + "\n"), std::string::npos);
+    EXPECT_EQ(part.at("cases"), "2");
+    EXPECT_GT(std::stod(part.at("seconds").get<std::string>()), 0.0);
+    const double bytes = std::stod(part.at("memory_bytes").get<std::string>());
+    EXPECT_GT(bytes, 5e6);
+    EXPECT_LT(bytes, 1e9);
+  }
+  EXPECT_EQ(count, 2);
   const Ended all =
       run_program({.arguments = {"-c", parts.out}, .folder = folder_.path(), .program = "bash"});
   EXPECT_EQ(all.code, 0) << all.err;

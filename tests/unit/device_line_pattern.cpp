@@ -35,6 +35,17 @@ TEST(LinePattern, ReadsWhatGaugesSend) {
   EXPECT_EQ(read("Reading: {force} {force_unit}", "Reading:\t.5 kg"), "0.50000 kg");
 }
 
+// Some gauges send the sign as a digit, apart from the number.
+TEST(LinePattern, ReadsASignOfItsOwn) {
+  const std::string pattern = "41{force_unit}{force_sign}{force}";
+  EXPECT_EQ(read(pattern, "41N00012.5"), "12.5000 N");
+  EXPECT_EQ(read(pattern, "41N10012.5"), "-12.500 N");
+  EXPECT_EQ(read(pattern, "41N20012.5"), "none");
+  EXPECT_EQ(read("{force} {force_sign}", "12.5 -"), "-12.500");
+  EXPECT_EQ(read("{force} {force_sign}", "12.5"), "none");
+  EXPECT_THROW(LinePattern("{force_sign}{force}{force_sign}"), std::invalid_argument);
+}
+
 // A doubtful line is not read: a cut or glued number, two numbers in one, or words for a number.
 TEST(LinePattern, RefusesSpoiltLines) {
   for (const char* line : {"", "N", "1.2.3 N", "1.5", "1.5 N1.5 N", "nan N", "inf N", "1e308 N",

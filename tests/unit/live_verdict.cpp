@@ -147,16 +147,56 @@ TEST(Verdict, NamesADriftAndAnOutlier) {
   }
 }
 
-// Dry friction in the stand adds to the force on the way in and takes from it on the way out; a
-// surface elsewhere would show in the press.
-TEST(Verdict, CallsNoOtherDifferenceASurface) {
+// Each fault alone is named, and none of them is called a surface.
+TEST(Verdict, NamesWhatIsWrongWithGaugeAndStand) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
-    MeasuredCurve curve = run_with(0.0, as_it_is, seed);
-    for (std::size_t i = 100; i < curve.measured.size(); ++i) curve.measured[i] -= 0.06;
-    const Verdict verdict = judge(curve, tolerance);
-    EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs);
-    EXPECT_FALSE(verdict.has(Cause::wrong_surface)) << verdict_sentence(verdict);
+    const auto faulty = [&](const std::function<double(std::size_t, double)>& shown) {
+      MeasuredCurve curve = run_with(0.0, as_it_is, seed);
+      for (std::size_t i = 0; i < curve.measured.size(); ++i)
+        curve.measured[i] = shown(i, curve.measured[i]);
+      return judge(curve, tolerance);
+    };
+    const std::vector<double> truth = run_with(0.0, as_it_is, seed).measured;
+    const Verdict friction =
+        faulty([](std::size_t i, double force) { return force + (i <= 100 ? 0.04 : -0.04); });
+    EXPECT_EQ(friction.causes, std::vector{Cause::friction}) << verdict_sentence(friction);
+    EXPECT_NEAR(friction.friction, 0.04, noise) << seed;
+    const Verdict lag =
+        faulty([&](std::size_t i, double) { return truth[i - std::min<std::size_t>(i, 7)]; });
+    EXPECT_EQ(lag.causes, std::vector{Cause::lag}) << verdict_sentence(lag);
+    EXPECT_NEAR(lag.lag, 7.0, 1.0) << "rows, without times";
+    const Verdict lost = faulty([](std::size_t i, double force) { return i < 70 ? force : 0.0; });
+    EXPECT_EQ(lost.causes, std::vector{Cause::lost_force}) << verdict_sentence(lost);
+    EXPECT_NEAR(lost.lost_at, 70.0, 1.0);
+    const Verdict full = faulty([](std::size_t, double force) { return std::min(force, 0.12); });
+    EXPECT_EQ(full.causes, std::vector{Cause::overload}) << verdict_sentence(full);
+    EXPECT_NEAR(full.ceiling, 0.12, 1e-12);
   }
+}
+
+// What an agreement cannot say is said with it.
+TEST(Verdict, AgreesWithARemarkOnNoiseAndOutliers) {
+  MeasuredCurve curve = run_with(0.0, as_it_is, 1);
+  curve.measured[70] += 0.1;
+  const Verdict spiked = judge(curve, tolerance);
+  EXPECT_EQ(spiked.outcome, Verdict::Outcome::agrees) << verdict_sentence(spiked);
+  EXPECT_EQ(spiked.causes, std::vector{Cause::outliers});
+  std::mt19937 generator(1);
+  std::normal_distribution<double> scatter(0.0, 20e-3);
+  MeasuredCurve noisy = run_with(0.0, as_it_is, 1);
+  for (double& force : noisy.measured) force += scatter(generator);
+  const Verdict blurred = judge(noisy, tolerance);
+  EXPECT_EQ(blurred.outcome, Verdict::Outcome::agrees) << verdict_sentence(blurred);
+  EXPECT_EQ(blurred.causes, std::vector{Cause::noise});
+}
+
+TEST(Verdict, NeverAgreesWithAPressThatStopsShort) {
+  MeasuredCurve curve = run_with(0.0, as_it_is, 1);
+  curve.asked = 1.5 * deepest;
+  const Verdict verdict = judge(curve, tolerance);
+  EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs);
+  EXPECT_EQ(verdict.causes, std::vector{Cause::short_press});
+  EXPECT_NE(verdict_sentence(verdict).find("it ends at 2 mm of 3 mm"), std::string::npos);
 }
 
 // Without readings of their own the rows before contact say what the noise is.
@@ -193,9 +233,8 @@ TEST(Verdict, SaysThatNothingExplainsAnotherLaw) {
                                 tolerance);
   EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs);
   EXPECT_FALSE(verdict.explained);
-  EXPECT_NE(
-      verdict_sentence(verdict).find("neither sign, tare, outliers, drift, surface nor stiffness"),
-      std::string::npos);
+  EXPECT_NE(verdict_sentence(verdict).find("no single fault of gauge, stand or specimen"),
+            std::string::npos);
 }
 
 TEST(Verdict, IsAsStrictAsItsTolerance) {

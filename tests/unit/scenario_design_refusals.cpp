@@ -142,7 +142,7 @@ TEST(Refused, RangesThatLeaveAKeysLimits) {
             "tissue and by more on a thin layer");
   EXPECT_EQ(said("design = \"lhs\"\nsamples = 1\n\"finger.radius\" = { from = \"0 mm\", to = \"11 "
                  "mm\" }\n"),
-            "press.toml:7:28: `radius` must be at least 1e-09 m and at most 1e+06 mm, got `0 mm`; "
+            "press.toml:7:28: `radius` must be at least 1e-06 mm and at most 1e+06 mm, got `0 mm`; "
             "give a value in that range");
   EXPECT_TRUE(said("\"tissue.young_modulus\" = { from = \"1 mm\", to = \"9 mm\", points = 3 }\n")
                   .starts_with("press.toml:5:35: `young_modulus` wants a pressure, got `1 mm`"));

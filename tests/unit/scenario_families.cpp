@@ -143,7 +143,7 @@ TEST(Setting, GoesThroughTheSameChecks) {
       "drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
       "retardation_time, "
       "shape, viscosity, young_modulus\n"
-      "--set finger.radius=0 mm: `radius` must be at least 1e-09 m and at most 1e+06 mm, got `0 "
+      "--set finger.radius=0 mm: `radius` must be at least 1e-06 mm and at most 1e+06 mm, got `0 "
       "mm`; give a value in that "
       "range\n"
       "--set contact.friction=-1: `friction` must be at least 0, got `-1`; give a value in that "

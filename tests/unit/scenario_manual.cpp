@@ -41,7 +41,7 @@ TEST(Manual, NamesEveryKeyOfAnEcho) {
 TEST(Manual, ShowsDefaultsRangesAndConditions) {
   const std::string text = manual();
   for (const char* part :
-       {"| `radius` | length >= 1e-09 m and <= 1e+06 mm | `11 mm` | Radius of the single sphere "
+       {"| `radius` | length >= 1e-06 mm and <= 1e+06 mm | `11 mm` | Radius of the single sphere "
         "that has the finger's mass. |",
         "| `friction` | number >= 0 | `0` | Coulomb's coefficient mu. |",
         "| `schema` | whole number = 1 | `1` | Version of this format. |",

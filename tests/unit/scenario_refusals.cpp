@@ -160,10 +160,10 @@ TEST(Refusals, Ranges) {
       {"[tissue]\ndensity = \"0 kg/m^3\"\n",
        "press.toml:5:11: `density` must be above 0 kg/m^3, got `0 kg/m^3" + range},
       {"[finger]\nradius = \"-11 mm\"\n",
-       "press.toml:5:10: `radius` must be at least 1e-09 m and at most 1e+06 mm, got `-11 mm" +
+       "press.toml:5:10: `radius` must be at least 1e-06 mm and at most 1e+06 mm, got `-11 mm" +
            range},
       {"[finger]\nradius = \"1e300 mm\"\n",
-       "press.toml:5:10: `radius` must be at least 1e-09 m and at most 1e+06 mm, got `1e300 mm" +
+       "press.toml:5:10: `radius` must be at least 1e-06 mm and at most 1e+06 mm, got `1e300 mm" +
            range},
       {"[contact]\nfriction = -0.1\n",
        "press.toml:5:12: `friction` must be at least 0, got `-0.1" + range},
