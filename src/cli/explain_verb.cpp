@@ -19,6 +19,7 @@
 #include "scenario/find.h"
 #include "scenario/integrators.h"
 #include "scenario/key_meaning.h"
+#include "scene/places.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 #include "sweep/forecast.h"
@@ -214,6 +215,8 @@ class Explanation {
         text += ", " + size_text(size);
     }
     line("  shape        " + text);
+    if (const auto box = body_box())
+      line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
     if (!scene_.specimen) {
       top();
       return;
@@ -221,9 +224,19 @@ class Explanation {
     const double height = scene_.specimen->base_height;
     line("  base         " +
          std::string(height > 0.0
-                         ? "the skin up to " + rounded_text(unit::mm.from_si(height)) + " mm"
+                         ? "the skin up to z " +
+                               rounded_text(unit::mm.from_si(scene_.specimen->low.z() + height)) +
+                               " mm"
                          : "the lowest plane") +
          (scene_.specimen->base == tissue::Base::bonded ? " is fixed" : " slides on the table"));
+  }
+
+  [[nodiscard]] std::optional<scene::Box> body_box() const {
+    if (scene_.specimen) return scene::Box{scene_.specimen->low, scene_.specimen->high};
+    if (scene_.solid) return scene::box_of(scene_.solid->skin->surface().vertices);
+    const scene::SurfaceTouch& touch = scene_.choice.touch;
+    if (!touch.size.allFinite()) return std::nullopt;
+    return scene::Box{touch.low, touch.low + touch.size};
   }
 
   static std::string size_text(const Vec3& size) {
@@ -256,12 +269,15 @@ class Explanation {
       std::string text = "  region " + std::to_string(i + 1) + "     ";
       text.resize(15, ' ');
       if (const auto* lump = std::get_if<scenario::Lump>(&region.part))
-        text += "a sphere of radius " + quantity_text(lump->radius, unit::mm);
+        text += "a sphere of radius " + quantity_text(lump->radius, unit::mm) + " around (" +
+                rounded_text(unit::mm.from_si(lump->centre[0])) + ", " +
+                rounded_text(unit::mm.from_si(lump->centre[1])) + ", " +
+                rounded_text(unit::mm.from_si(lump->centre[2])) + ") mm";
       else if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
         text += "from " + quantity_text(slab->bottom, unit::mm) + " to " +
                 quantity_text(slab->top, unit::mm) + " in height";
       else
-        text += "tag " + std::to_string(std::get<scenario::TaggedRegion>(region.part).tag);
+        text += part_text(std::get<scenario::TaggedRegion>(region.part));
       text += ", " + region.material + ": E " + quantity_text(region.young_modulus, unit::kPa) +
               ", density " + quantity_text(region.density, unit::density);
       if (scene_.specimen)
@@ -271,6 +287,10 @@ class Explanation {
     if (!scene::all_slabs(scene_.scenario) && scene::several_tissues(scene_.scenario) &&
         !scene_.scenario.uniform())
       line("  note         the contact law uses E and nu of `tissue.material` in every region");
+  }
+
+  static std::string part_text(const scenario::TaggedRegion& part) {
+    return part.name.empty() ? "tag " + std::to_string(part.tag) : "group `" + part.name + "`";
   }
 
   static std::string region_size(const geometry::TetMesh& mesh, int region) {

@@ -41,14 +41,16 @@ std::string ending_of(const std::string& path) {
 
 Kind kind_of(const std::string& path) {
   const std::string ending = ending_of(path);
-  for (const char* known : {".stl", ".obj", ".ply", ".off"})
+  for (const char* known : {".stl", ".obj", ".ply", ".off", ".vtp"})
     if (ending == known) return Kind::surface;
-  for (const char* known : {".node", ".ele", ".msh"})
-    if (ending == known) return Kind::mesh;
+  if (ending == ".node" || ending == ".ele") return Kind::mesh;
+  if (meshing::holds_cells(path))
+    return meshing::read_cells(path).solids.empty() ? Kind::surface : Kind::mesh;
   if (ending == ".toml") return Kind::scenario;
-  throw InputError({path, 0, 0},
-                   "is neither a surface (.stl, .obj, .ply, .off) nor a mesh (.node, .ele, .msh) "
-                   "nor a scenario (.toml); save it as one of them");
+  throw InputError(
+      {path, 0, 0},
+      "is neither a surface (.stl, .obj, .ply, .off, .vtp) nor a mesh (.msh, .vtu, "
+      ".vtk, .inp, .mesh, .node, .ele) nor a scenario (.toml); save it as one of them");
 }
 
 // Refuses options that have no effect on this kind of subject.
@@ -109,7 +111,7 @@ void check_outputs(const Mesh& command) {
       if (fs::is_directory(file)) throw InputError({file, 0, 0}, "is a folder; name a file");
       std::error_code unrelated;
       for (const std::string& read :
-           kind_of(command.subject) == Kind::mesh && ending_of(command.subject) != ".msh"
+           ending_of(command.subject) == ".node" || ending_of(command.subject) == ".ele"
                ? files_of(command.subject)
                : std::vector<std::string>{})
         if (fs::equivalent(file, read, unrelated))
@@ -268,7 +270,11 @@ int perform(const Mesh& command, const Arguments&, const Talk& talk) {
     if (kind == Kind::surface) {
       mesh = mesh_of_surface(command, talk);
     } else {
-      mesh = meshing::read_mesh(command.subject, metres_per(command.unit));
+      auto [found, names, remark] = meshing::read_mesh(command.subject, metres_per(command.unit));
+      mesh = std::move(found);
+      if (!remark.empty()) talk.say("note: " + remark);
+      for (const auto& [name, number] : names)
+        talk.say("note: region " + std::to_string(number) + " is `" + name + "`");
       meshing::check(mesh, command.subject, 0.0);
     }
     report.mesh(mesh, nullptr);

@@ -5,9 +5,11 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "meshing/cells.h"
 #include "meshing/surface_text.h"
 
 namespace palpate::meshing {
@@ -62,12 +64,27 @@ std::string format_of(const std::string& path) {
   const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   for (const char* known : {".stl", ".obj", ".ply", ".off"})
     if (ending == known) return ending.substr(1);
+  if (holds_cells(path)) return "cells";
   throw InputError({path, 0, 0},
-                   "a surface wants the ending `.stl`, `.obj`, `.ply` or `.off`; export it as one "
-                   "of these");
+                   "a surface wants the ending `.stl`, `.obj`, `.ply`, `.off`, `.vtp`, `.vtu`, "
+                   "`.vtk`, `.msh`, `.inp` or `.mesh`; export it as one of these");
+}
+
+Polygons faces_in(const std::string& path) {
+  Cells cells = read_cells(path);
+  if (!cells.solids.empty())
+    throw InputError({path},
+                     "holds solid cells; name it in `tissue.mesh` in place of `tissue.shape`");
+  for (std::size_t f = 0; f < cells.faces.size(); ++f) {
+    const std::string wrong =
+        wrong_corners("face " + std::to_string(f), cells.faces[f], 0, cells.nodes.size());
+    if (!wrong.empty()) fail(path, wrong);
+  }
+  return {std::move(cells.nodes), std::move(cells.faces)};
 }
 
 Polygons polygons_of(const std::string& path, const std::string& format) {
+  if (format == "cells") return faces_in(path);
   if (format == "stl") return read_stl(path);
   if (format == "obj") return read_obj(path);
   if (format == "ply") return read_ply(path);

@@ -8,7 +8,8 @@
 namespace palpate::meshing {
 
 // Reads a surface in the format given by the file's ending: .stl (ASCII or binary), .obj, .ply
-// (ASCII or binary of either byte order) or .off (ASCII), in upper or lower case. Coordinates are
+// (ASCII or binary of either byte order) or .off (ASCII), in upper or lower case; or the faces of a
+// file of cells (see cells.h) that has no solids. Coordinates are
 // read in double precision and multiplied by `metres_per_unit`. Vertices with equal
 // coordinates are merged, in the order in which the faces first name them; vertices without a face
 // are dropped. Polygons are cut into triangles from one corner; triangles keep the order of the

@@ -1,12 +1,10 @@
 // Reads PLY files, ASCII or binary of either byte order.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,45 +12,22 @@
 #include "base/files.h"
 #include "base/index.h"
 #include "base/text.h"
+#include "meshing/binary_numbers.h"
 #include "meshing/surface_text.h"
 #include "meshing/table_lines.h"
 
 namespace palpate::meshing {
 namespace {
 
-// A type of numbers, and how one is read from bytes.
-struct Type {
-  std::string_view name, other_name;
-  bool whole = false;
-  std::size_t bytes = 0;
-  double (*read)(const char* at, bool big_endian) = nullptr;
-};
-
-template <typename Number>
-double read(const char* at, bool big_endian) {
-  std::array<char, sizeof(Number)> raw{};
-  std::copy_n(at, raw.size(), raw.begin());
-  if (big_endian) std::reverse(raw.begin(), raw.end());
-  return static_cast<double>(std::bit_cast<Number>(raw));
-}
-
-template <typename Number>
-constexpr Type type(std::string_view name, std::string_view other_name) {
-  return {name, other_name, std::is_integral_v<Number>, sizeof(Number), read<Number>};
-}
+using Type = NumberType;
 
 constexpr std::array types{
-    type<std::int8_t>("char", "int8"),    type<std::uint8_t>("uchar", "uint8"),
-    type<std::int16_t>("short", "int16"), type<std::uint16_t>("ushort", "uint16"),
-    type<std::int32_t>("int", "int32"),   type<std::uint32_t>("uint", "uint32"),
-    type<float>("float", "float32"),      type<double>("double", "float64")};
+    number_type<std::int8_t>("char", "int8"),    number_type<std::uint8_t>("uchar", "uint8"),
+    number_type<std::int16_t>("short", "int16"), number_type<std::uint16_t>("ushort", "uint16"),
+    number_type<std::int32_t>("int", "int32"),   number_type<std::uint32_t>("uint", "uint32"),
+    number_type<float>("float", "float32"),      number_type<double>("double", "float64")};
 
-const Type* type_of(std::string_view word) {
-  const auto* const found = std::find_if(types.begin(), types.end(), [&](const Type& one) {
-    return one.name == word || one.other_name == word;
-  });
-  return found == types.end() ? nullptr : found;
-}
+const Type* type_of(std::string_view word) { return type_named(types, word); }
 
 struct Property {
   std::string name;

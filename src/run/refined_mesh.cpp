@@ -12,6 +12,7 @@
 #include "scenario/integrators.h"
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "scene/refining_press.h"
 #include "scene/specimen_mesh.h"
 
@@ -177,9 +178,11 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
                          scene::SpecimenShapes& shapes, scene::Choice choice) {
-  if (scene::refines(choice.chosen))
+  if (scene::refines(choice.chosen)) {
+    scene::refuse_misplaced(choice.chosen, family, shapes);
     (void)shapes.shape(choice.chosen,
                        [&] { return Refining(one, family, choice.chosen).refined(); });
+  }
   return scene::build(one, family, shapes, std::move(choice));
 }
 

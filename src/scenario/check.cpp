@@ -227,7 +227,7 @@ class Checker {
     std::set<int> known;
     for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
       const auto* tagged = std::get_if<TaggedRegion>(&scenario_.regions[i].part);
-      if (tagged != nullptr && !known.insert(tagged->tag).second)
+      if (tagged != nullptr && tagged->name.empty() && !known.insert(tagged->tag).second)
         problem("region." + std::to_string(i + 1) + ".tag", "another `[[region]]` has `tag` " +
                                                                 std::to_string(tagged->tag) +
                                                                 " too; keep one of the two");

@@ -55,8 +55,12 @@ void finger_fields(FieldVisitor& visitor, Finger& finger) {
                   "Which property several spheres share with the single sphere that they replace.",
                   {finger.spheres > 1, "with more than one of `spheres`", Use::Otherwise::note}},
                  finger.calibration, calibrations);
-  visitor.quantity_or("auto", {"x", "Where it presses; `auto`: the middle of the specimen."},
-                      finger.x, unit::mm, {});
+  visitor.quantity_or(
+      "auto",
+      {"x",
+       "Where it presses, in the coordinates of the body; `auto`: the middle of the "
+       "specimen."},
+      finger.x, unit::mm, {});
   visitor.quantity_or("auto", {"y", "Likewise."}, finger.y, unit::mm, {});
   const Use elastic{!finger.rigid(), "where the finger is not `rigid`"};
   visitor.quantity({"young_modulus", "Default: the material's.", elastic}, finger.young_modulus,
@@ -296,7 +300,7 @@ static void fields(FieldVisitor& visitor, Tetgen& mesh) {
   refinement(visitor, mesh);
 }
 static void fields(FieldVisitor& visitor, MeshFile& mesh) {
-  visitor.text({"file", "Path of the .node or .msh file, from the scenario's folder."}, mesh.file);
+  visitor.text({"file", "Path of the file, from the scenario's folder."}, mesh.file);
   visitor.text({"unit", "The length unit of its coordinates, such as `mm`. Required."}, mesh.unit);
   refinement(visitor, mesh);
 }
@@ -345,19 +349,30 @@ static void fields(FieldVisitor& visitor, Compress& step) {
 }
 
 static void fields(FieldVisitor& visitor, TaggedRegion& region) {
-  visitor.count({"tag", "The number of the region in the shape or in the mesh file."}, region.tag,
-                between(0, 1e9));
+  visitor.text({"name",
+                "The name of the region's group in the mesh file: a physical group of Gmsh, an "
+                "element set of Abaqus."},
+               region.name);
+  visitor.count({"tag",
+                 "The number of the region in the shape or in the mesh file.",
+                 {region.name.empty(), "without `name`", Use::Otherwise::note}},
+                region.tag, between(0, 1e9));
 }
 static void fields(FieldVisitor& visitor, Lump& region) {
-  visitor.quantities(
-      {"centre", "In the specimen's coordinates, from the lowest corner of its bounding box."},
-      region.centre, unit::mm, {});
+  visitor.quantities({"centre",
+                      "In the coordinates of the file that gives the body, or from the lowest "
+                      "corner of a shape that "
+                      "palpate makes; `palpate explain SCENARIO` prints the body's box. 99 % of "
+                      "the lump must lie in "
+                      "the body."},
+                     region.centre, unit::mm, {});
   visitor.quantity({"radius", "Of the lump."}, region.radius, unit::mm, above(0));
 }
 static void fields(FieldVisitor& visitor, Slab& region) {
-  visitor.quantity({"bottom", "Height where it begins."}, region.bottom, unit::mm, at_least(0));
+  visitor.quantity({"bottom", "Height where it begins, like `centre` of a lump."}, region.bottom,
+                   unit::mm, {});
   visitor.quantity({"top", "Height where it ends; the top of the body is `tissue`."}, region.top,
-                   unit::mm, above(0));
+                   unit::mm, {});
 }
 
 namespace {
@@ -434,10 +449,11 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                     tissue.base, bases);
   visitor.quantity_or("auto",
                       {"base_height",
-                       "The skin up to this height is its base; `auto`: the underside where it is "
-                       "flat, else the lowest tenth of the specimen.",
+                       "The skin up to this height, in the coordinates of the body, is its base; "
+                       "`auto`: the underside where it is flat, else the lowest tenth of the "
+                       "specimen.",
                        use.mesh.used ? use.finger : use.mesh},
-                      tissue.base_height, unit::mm, at_least(0));
+                      tissue.base_height, unit::mm, {});
 }
 
 }  // namespace

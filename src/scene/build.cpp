@@ -12,6 +12,7 @@
 #include "scenario/programme.h"
 #include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
@@ -121,11 +122,9 @@ std::vector<double> densities_of(const scenario::Resolved& scenario) {
 }
 
 void measure_size(Specimen& specimen) {
-  specimen.low = specimen.high = specimen.mesh.nodes.front();
-  for (const Vec3& node : specimen.mesh.nodes) {
-    specimen.low = specimen.low.cwiseMin(node);
-    specimen.high = specimen.high.cwiseMax(node);
-  }
+  const Box box = box_of(specimen.mesh.nodes);
+  specimen.low = box.low;
+  specimen.high = box.high;
 }
 
 }  // namespace
@@ -387,12 +386,17 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   refuse_sliding(scene, family);
   if (!scenario.uniform()) set_depth_ratio(scene, family);
   set_size_ratio(scene, family);
+  refuse_misplaced(scenario, family, shapes);
   switch (scenario.solver.model) {
     case Model::hertz: break;
     case Model::layer: set_layer(scene, shapes); break;
     case Model::mass_spring:
     case Model::coupled_springs: set_specimen(scene, family, shapes); break;
     case Model::solid: scene.solid = make_solid_body(scene, family.folder, shapes); break;
+  }
+  if (std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape)) {
+    if (scene.specimen) refuse_outside(scenario, scene.specimen->surface->surface(), family);
+    if (scene.solid) refuse_outside(scenario, scene.solid->skin->surface(), family);
   }
   return scene;
 }

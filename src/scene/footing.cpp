@@ -33,7 +33,7 @@ Footing footing(const geometry::Surface& surface, std::optional<double> base_hei
   const auto lowest = std::min_element(
       surface.triangles.begin(), surface.triangles.end(),
       [&](const auto& one, const auto& other) { return middle(one) < middle(other); });
-  const double held = base_height.value_or(stands_flat ? 0.0 : 0.1 * height);
+  const double held = base_height ? *base_height - found.level : (stands_flat ? 0.0 : 0.1 * height);
   // At least one triangle of a coarse surface.
   const double top = std::max(found.level + held + flat, middle(*lowest));
 

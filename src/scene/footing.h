@@ -8,7 +8,8 @@
 namespace palpate::scene {
 
 // The ellipse with the area's centre and second moments, seen from above, of the skin that is held:
-// its flat underside, or else what lies within `base_height` (a tenth of the height by default).
+// its flat underside, or else what lies below `base_height` (m; by default a tenth of the height
+// above the lowest point).
 struct Footing {
   double level = 0.0;                   // m, the body's lowest point
   Eigen::Vector2d centre{0.0, 0.0};     // m

@@ -5,6 +5,7 @@
 
 #include "geometry/surface.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
 
@@ -47,15 +48,9 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
   };
 
   const geometry::Surface& skin = body->skin->surface();
-  Vec3 low = skin.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& vertex : skin.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
+  const auto [low, high] = box_of(skin.vertices);
   const bool flat = stands_flat(skin, low.z(), 1e-9 * (high - low).norm());
-  body->base_level =
-      low.z() + scenario.tissue.base_height.value_or(flat ? 0.0 : 0.1 * (high.z() - low.z()));
+  body->base_level = base_level(scenario, {low, high}, flat);
 
   refuse_covered_lumps(scenario);
   const SurfaceTouch& touch = scene.choice.touch;

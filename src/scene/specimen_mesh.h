@@ -1,6 +1,7 @@
 // The tetrahedra of a specimen from the shape, mesh and regions of a scenario.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ void refuse_covered_lumps(const scenario::Resolved& scenario);
 
 struct SpecimenMesh {
   geometry::TetMesh mesh;
-  std::string remark;  // that of meshing::FileMesh, or empty
+  std::string remark = {};  // that of meshing::FileMesh or meshing::NamedMesh, or empty
+  std::map<std::string, int> names = {};  // of the file's regions
 };
 
 // The mesh with the numbers of its substances: TetMesh::regions are 0 for `tissue.material`, then

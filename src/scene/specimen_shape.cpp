@@ -11,6 +11,7 @@
 #include "geometry/surface.h"
 #include "meshing/level_cut.h"
 #include "meshing/mesh_check.h"
+#include "scene/places.h"
 #include "scene/refining_press.h"
 #include "scene/specimen_mesh.h"
 
@@ -69,10 +70,10 @@ SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
 }
 
 SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
-  auto [mesh, remark] = specimen_mesh(scenario, folder);
-  const auto [low, high] = reach(mesh);
+  auto [mesh, remark, names] = specimen_mesh(scenario, folder);
+  const double low = reach(mesh).first;
   const bool flat = flat_area(geometry::skin(mesh), low, 1e-9 * geometry::diagonal(mesh)) > 0.0;
-  const double level = low + scenario.tissue.base_height.value_or(flat ? 0.0 : 0.1 * (high - low));
+  const double level = base_level(scenario, box_of(mesh.nodes), flat);
   if (level > low && !scenario.uniform() &&
       !std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
     mesh = meshing::cut_at(std::move(mesh), level, true, parametric(scenario.tissue.shape));

@@ -14,6 +14,7 @@
 #include "geometry/shape_touch.h"
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
 
@@ -155,12 +156,8 @@ double to_creases(const geometry::SmoothSurface& surface, const Vec3& point, con
 SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
   SurfaceTouch touch;
   const auto& vertices = surface.surface().vertices;
-  Vec3 low = vertices.front();
-  Vec3 high = low;
-  for (const Vec3& vertex : vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
+  const auto [low, high] = box_of(vertices);
+  touch.low = low;
   touch.size = high - low;
   touch.thickness = touch.size.z();
   touch.footing = footing(surface.surface(), scenario.tissue.base_height);

@@ -16,6 +16,7 @@ class SpecimenShapes;
 // What a closed form knows of a specimen's surface. The force acts along the normal of the surface
 // nearest to the sphere, as on a mesh.
 struct SurfaceTouch {
+  Vec3 low = Vec3::Zero();  // m, the lowest corner of the bounding box
   Vec3 size = Vec3::Constant(std::numeric_limits<double>::infinity());  // m, of the bounding box
   double thickness = std::numeric_limits<double>::infinity();  // m, from the touch to the underside
   Vec3 lowest = Vec3::Zero();           // m, the lowest point of one sphere at first touch

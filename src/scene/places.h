@@ -1,0 +1,46 @@
+// Where a specimen and its regions lie. Every place of a scenario is in the coordinates of the file
+// that gives the body, or from the lowest corner of a shape that palpate makes.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "geometry/body.h"
+#include "scenario/family.h"
+#include "scenario/resolved.h"
+
+namespace palpate::scene {
+
+class SpecimenShapes;
+
+struct Box {
+  Vec3 low = Vec3::Zero();  // m
+  Vec3 high = Vec3::Zero();
+
+  [[nodiscard]] std::string text() const;  // "x -30 to 30, y -30 to 30, z 0 to 30 mm"
+};
+
+// At least one place is needed.
+[[nodiscard]] Box box_of(std::span<const Vec3> places);
+
+// "in the file's coordinates", or "from the lowest corner of its box".
+[[nodiscard]] std::string coordinates_text(const scenario::Resolved& scenario);
+
+// The height (m) up to which the skin is the base: `tissue.base_height`, or the lowest plane of a
+// body with a flat underside, or a tenth of its height above its lowest point.
+[[nodiscard]] double base_level(const scenario::Resolved& scenario, const Box& body,
+                                bool stands_flat);
+
+// The part of a lump that lies inside a closed surface, 0 to 1; error below 0.002.
+[[nodiscard]] double share_inside(const geometry::Surface& body, const geometry::Lump& lump);
+
+// Throws InputError with both boxes for a lump of which less than 99 % lies inside the body, a slab
+// of which less than 99 % lies in its height, and a base above or below the body.
+void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface& body,
+                    const scenario::Family& family);
+
+// The same for the body of a shape or of a surface file; nothing for other bodies.
+void refuse_misplaced(const scenario::Resolved& scenario, const scenario::Family& family,
+                      SpecimenShapes& shapes);
+
+}  // namespace palpate::scene
