@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <utility>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "meshing/cells.h"
 #include "meshing/surface_text.h"
@@ -112,6 +114,39 @@ geometry::Surface read_surface(const std::string& path, double metres_per_unit) 
       surface.triangles.push_back(triangle);
     }
   return surface;
+}
+
+void write_surface(const std::string& path, const geometry::Surface& surface,
+                   double metres_per_unit) {
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
+  if (ending != ".off" && ending != ".stl")
+    throw InputError({path}, "a surface is written as `.off` or `.stl`; give one of these endings");
+  std::string text;
+  if (ending == ".off") {
+    text = "OFF\n" + std::to_string(surface.vertices.size()) + " " +
+           std::to_string(surface.triangles.size()) + " 0\n";
+    for (const Vec3& vertex : surface.vertices)
+      text += number_text(vertex.x() / metres_per_unit) + " " +
+              number_text(vertex.y() / metres_per_unit) + " " +
+              number_text(vertex.z() / metres_per_unit) + "\n";
+    for (const auto& [a, b, c] : surface.triangles)
+      text += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  } else {
+    const auto put = [&](const auto& value) {
+      text.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    };
+    text.assign(80, ' ');
+    put(static_cast<std::uint32_t>(surface.triangles.size()));
+    for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+      const Vec3 normal = geometry::twice_area(surface, t).normalized();
+      for (int axis = 0; axis < 3; ++axis) put(static_cast<float>(normal[axis]));
+      for (const int vertex : surface.triangles[as_index(t)])
+        for (int axis = 0; axis < 3; ++axis)
+          put(static_cast<float>(surface.vertices[as_index(vertex)][axis] / metres_per_unit));
+      put(std::uint16_t{0});
+    }
+  }
+  write_atomically(path, text);
 }
 
 }  // namespace palpate::meshing

@@ -19,4 +19,9 @@ namespace palpate::meshing {
 // with file, line where possible, and a remedy, for all mistakes in its content.
 [[nodiscard]] geometry::Surface read_surface(const std::string& path, double metres_per_unit);
 
+// Writes a surface as .off or binary .stl, as the ending says, whole or not at all; coordinates are
+// divided by `metres_per_unit`. Throws InputError for another ending, SystemError if it cannot.
+void write_surface(const std::string& path, const geometry::Surface& surface,
+                   double metres_per_unit);
+
 }  // namespace palpate::meshing

@@ -116,11 +116,7 @@ std::span<const Element> needed(const std::string& path, const Header& header) {
     };
     std::size_t corners = 0;
     for (const Property& property : element.properties) {
-      if (element.name == "face" && property.is_corners() && property.type->whole)
-        ++corners;
-      else if (property.length != nullptr)
-        fail(path, "element `" + element.name + "` has a list `" + property.name +
-                       "`; export it without texture and other extras");
+      if (element.name == "face" && property.is_corners() && property.type->whole) ++corners;
     }
     if (element.name == "vertex") {
       if (!has("x") || !has("y") || !has("z"))
@@ -166,6 +162,14 @@ class AsciiBody {
     if (count < 3 || left < count) lines_.fail(too_few_corners(std::min(count, left)));
     for (std::size_t c = 0; c < count; ++c) corners.push_back(lines_.whole(word_++, "a corner"));
   }
+  void pass_over(const Property& property) {
+    require(property);
+    const auto count = as_index(std::max(0, lines_.whole(word_++, "a count")));
+    if (lines_.words().size() - word_ < count)
+      lines_.fail("the line ends in list `" + property.name +
+                  "`; the file may be cut short: export it again");
+    word_ += count;
+  }
   void end() const {
     if (word_ != lines_.words().size())
       lines_.fail("the line has " + std::to_string(lines_.words().size()) +
@@ -210,6 +214,9 @@ class BinaryBody {
     for (double c = 0.0; c < count; ++c)  // a number beyond an int names no vertex
       corners.push_back(static_cast<int>(std::min(next(*property.type), 2147483647.0)));
   }
+  void pass_over(const Property& property) {
+    for (double left = next(*property.length); left > 0.0; --left) (void)next(*property.type);
+  }
   void end() const {}
   void end_of_file(std::size_t faces) const {
     if (at_ != content_.size())
@@ -248,8 +255,12 @@ Polygons polygons(Body&& body, std::span<const Element> elements, bool ends_with
       Vec3 vertex = Vec3::Zero();
       std::vector<int> corners;
       for (const Property& property : element.properties) {
-        if (property.is_corners()) {
+        if (element.name == "face" && property.is_corners()) {
           body.corners(property, corners);
+          continue;
+        }
+        if (property.length != nullptr) {  // texture and the like
+          body.pass_over(property);
           continue;
         }
         const double value = body.number(property);

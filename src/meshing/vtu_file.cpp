@@ -132,8 +132,7 @@ class VtuReader {
   // Format: VTK File Formats, "XML File Formats".
   Cells read() {
     const std::string_view text(text_);
-    if (text.rfind("</VTKFile>") == std::string_view::npos)
-      refuse("ends before `</VTKFile>`");
+    if (text.rfind("</VTKFile>") == std::string_view::npos) refuse("ends before `</VTKFile>`");
     const std::size_t data = text.find("<AppendedData");
     const std::string_view structure = text.substr(0, data);
     if (data != std::string_view::npos) {

@@ -103,7 +103,7 @@ class Refining {
     // scene_with() takes this mesh as it is.
     scenario::refinement(trial_.chosen.tissue.mesh).refine = false;
     std::vector<double> levels = scene::slab_levels(press);
-    levels.push_back(shape.base_level);
+    if (press.tissue.held_from_below()) levels.push_back(shape.base_level);
     meshing::TrueBoundary boundary(shape.mesh, scene::parametric(press.tissue.shape),
                                    scene::lumps_of(press), levels);
     scene::Refined told{.start_nodes = static_cast<int>(shape.mesh.nodes.size()),
@@ -173,7 +173,7 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
                          scene::SpecimenShapes& shapes) {
-  return build_scene(one, family, shapes, scene::choose(one));
+  return build_scene(one, family, shapes, scene::choose(one, shapes));
 }
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,

@@ -62,6 +62,16 @@ void finger_fields(FieldVisitor& visitor, Finger& finger) {
        "specimen."},
       finger.x, unit::mm, {});
   visitor.quantity_or("auto", {"y", "Likewise."}, finger.y, unit::mm, {});
+  visitor.quantity_list(
+      {"at",
+       "A place in the coordinates of a body from a file: three lengths, in place "
+       "of `x` and `y`. The finger presses the nearest place of the surface, "
+       "along its normal unless `towards` is given."},
+      finger.at, unit::mm, {});
+  visitor.text({"towards",
+                "The direction of the press in the coordinates of a body from a file, as `up` of "
+                "`tissue.shape`. Default: down."},
+               finger.towards);
   const Use elastic{!finger.rigid(), "where the finger is not `rigid`"};
   visitor.quantity({"young_modulus", "Default: the material's.", elastic}, finger.young_modulus,
                    unit::kPa, above(0));
@@ -258,8 +268,24 @@ static void fields(FieldVisitor& visitor, HalfSpace& shape) {
 static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
   visitor.text({"file", "Path of the surface, from the scenario's folder."}, shape.file);
   visitor.text({"unit", "The length unit of its coordinates, such as `mm`. Required."}, shape.unit);
+  visitor.text({"up",
+                "The direction in the file's coordinates that points up, against the way of the "
+                "finger: `x`, `-y`, or three numbers such as `0 0.2 1`."},
+               shape.up);
+  visitor.flag({"repair",
+                "Whether small faults are mended, which is said: vertices in one place, doubled "
+                "triangles, sheets that share a vertex, triangles that face inwards, and holes and "
+                "crossing triangles with at most 2 % of the area."},
+               shape.repair);
+  visitor.count_or("auto",
+                   {"part",
+                    "Which of several closed parts the body is, by falling volume; `auto`: the "
+                    "largest, which is said."},
+                   shape.part, between(1, 1e6));
 }
-static void fields(FieldVisitor&, AsMeshed&) {}
+static void fields(FieldVisitor& visitor, AsMeshed& shape) {
+  visitor.text({"up", "As for a surface from a file."}, shape.up);
+}
 
 static void grading(FieldVisitor& visitor, double& ratio) {
   visitor.number({"grading",
@@ -447,6 +473,12 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                    tissue.drag, unit::per_second, at_least(0));
   visitor.choice_or(auto_bases, {"base", "How the base of the specimen is supported.", use.based},
                     tissue.base, bases);
+  visitor.text({"base_side",
+                "The side of a body from a file that is held, a direction in its coordinates, as "
+                "`up` of `tissue.shape`; `base_height` is then along the opposite direction. "
+                "Default: the underside.",
+                use.mesh.used ? use.finger : use.mesh},
+               tissue.base_side);
   visitor.quantity_or("auto",
                       {"base_height",
                        "The skin up to this height, in the coordinates of the body, is its base; "

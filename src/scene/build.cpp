@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "base/text.h"
 #include "contact/hertz.h"
@@ -237,7 +238,10 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   measure_size(*specimen);
   const double top = specimen->high.z();
   const double top_area = shape.top_area;
-  specimen->base_height = shape.base_level - specimen->low.z();
+  const Vec3& up = scenario.tissue.base_up;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec3& node : specimen->mesh.nodes) lowest = std::min(lowest, node.dot(up));
+  specimen->base_height = shape.base_level - lowest;
   if (scenario.uniform() && top_area <= 0.0)
     throw MeshError(
         "the specimen has no flat upper end for a platen; `creep`, `relax` and `compress` need a "
@@ -263,10 +267,10 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
     specimen->held_between_platens = tissue::held_between_platens(
         specimen->mesh, specimen->base, top, scenario::upper_platen(scenario));
   }
-  specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height);
+  specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height, up);
   specimen->skin = shape.skin;
-  if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape))
-    specimen->of_file = shapes.surface(*file, folder).surface;
+  if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape))
+    specimen->of_file = shapes.surface(scenario, folder).surface;
   specimen->remark = shape.remark;
   specimen->surface.emplace(shape.surface);
   return specimen;

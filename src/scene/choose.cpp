@@ -7,6 +7,7 @@
 #include "scenario/programme.h"
 #include "scene/estimates.h"
 #include "scene/model_errors.h"
+#include "scene/places.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
 #include "scene/time_plan.h"
@@ -72,8 +73,10 @@ class Chooser {
  public:
   Chooser(const scenario::Case& one, SpecimenShapes& shapes)
       : case_(one),
+        shapes_(shapes),
         asked_(scenario::resolve(one, scenario::strongest.of)),
         model_(one.scenario.solver.model.value_or(asked_.solver.model)) {
+    place_in_scene(asked_, one.folder, shapes);
     if (!asked_.uniform()) choice_.touch = surface_touch(asked_, one.folder, shapes);
   }
 
@@ -85,6 +88,7 @@ class Chooser {
       pressed();
     if (choice_.given) choice_.found = {.inertia_matters = !rests()};
     choice_.chosen = scenario::resolve(case_, model_, choice_.found);
+    place_in_scene(choice_.chosen, case_.folder, shapes_);
     return choice_;
   }
 
@@ -295,6 +299,7 @@ class Chooser {
   }
 
   const scenario::Case& case_;
+  SpecimenShapes& shapes_;
   scenario::Resolved asked_;  // resolved with the most complete model, whatever the scenario names
   Model model_;               // the choice
   Choice choice_;
@@ -332,6 +337,7 @@ Choice given_choice(const scenario::Case& one, Model model, SpecimenShapes& shap
   Choice choice;
   choice.given = true;
   choice.chosen = scenario::resolve(one, model);
+  place_in_scene(choice.chosen, one.folder, shapes);
   if (choice.chosen.uniform()) return choice;
   choice.touch = surface_touch(choice.chosen, one.folder, shapes);
   choice.expected = estimate(choice.chosen, choice.touch);

@@ -14,7 +14,6 @@
 #include "meshing/level_cut.h"
 #include "meshing/mesh_check.h"
 #include "meshing/mesh_files.h"
-#include "meshing/surface_check.h"
 #include "meshing/surface_files.h"
 #include "meshing/tetgen.h"
 #include "meshing/tetgen_body.h"
@@ -128,14 +127,15 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder) {
     if (file == nullptr) {
       mesh = tetgen_mesh(scenario, *tetgen);
     } else {
-      auto [found, remark] = meshing::tetgen_file(
-          surface_of(*file, folder), numbered_lumps(scenario), target(*tetgen), meshing_time);
+      auto [found, remark] =
+          meshing::tetgen_file(surface_of(scenario, folder).surface, numbered_lumps(scenario),
+                               target(*tetgen), meshing_time);
       made = {std::move(found), std::move(remark)};
     }
   } else {
     const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
-    auto [found, names, remark] =
-        meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
+    auto [found, names, remark] = mesh_of(file, folder);
+    for (Vec3& node : found.nodes) node = scenario.tissue.turn * node;
     made = {std::move(found), std::move(remark), std::move(names)};
     name = "the mesh of " + file.file;
   }
@@ -273,11 +273,17 @@ std::vector<geometry::Lump> lumps_of(const Scenario& scenario) {
   return found;
 }
 
-geometry::Surface surface_of(const scenario::SurfaceFile& file, const std::string& folder) {
-  geometry::Surface surface =
-      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit));
-  meshing::check_closed(surface, file.file);
-  return surface;
+meshing::WholeSurface surface_of(const Scenario& scenario, const std::string& folder) {
+  const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
+  meshing::WholeSurface whole = meshing::whole_surface(
+      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit)), file.file,
+      {file.repair, file.part});
+  for (Vec3& vertex : whole.surface.vertices) vertex = scenario.tissue.turn * vertex;
+  return whole;
+}
+
+meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {
+  return meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
 }
 
 SpecimenMesh specimen_mesh(const Scenario& scenario, const std::string& folder) {

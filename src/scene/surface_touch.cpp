@@ -45,7 +45,7 @@ SurfaceTouch of_half_space(const scenario::HalfSpace& half) {
 
 SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
   SurfaceTouch touch;
-  touch.size = geometry::extent(shape);
+  touch.size = touch.high = geometry::extent(shape);
   const double x = scenario.finger.x.value_or(0.5 * touch.size.x());
   const double y = scenario.finger.y.value_or(0.5 * touch.size.y());
   touch.lowest = {x, y, touch.size.z()};
@@ -157,10 +157,13 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   SurfaceTouch touch;
   const auto& vertices = surface.surface().vertices;
   const auto [low, high] = box_of(vertices);
-  touch.low = low;
+  const Box own = box_in_file(scenario, vertices);
+  touch.low = own.low;
+  touch.high = own.high;
   touch.size = high - low;
   touch.thickness = touch.size.z();
-  touch.footing = footing(surface.surface(), scenario.tissue.base_height);
+  if (scenario.tissue.held_from_below())
+    touch.footing = footing(surface.surface(), scenario.tissue.base_height);
   const Vec3 middle = 0.5 * (low + high);
   touch.lowest = {scenario.finger.x.value_or(middle.x()), scenario.finger.y.value_or(middle.y()),
                   high.z()};
@@ -244,9 +247,13 @@ SurfaceTouch surface_touch(const Scenario& scenario, const std::string& folder,
   if (const auto shape = parametric(scenario.tissue.shape)) return of_shape(*shape, scenario);
   if (const auto* half = std::get_if<scenario::HalfSpace>(&scenario.tissue.shape))
     return of_half_space(*half);
-  if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
-    const SpecimenShapes::FileSurface& read = shapes.surface(*file, folder);
-    if (read.surface) return of_file(*read.surface, scenario);
+  if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape)) {
+    const SpecimenShapes::FileSurface& read = shapes.surface(scenario, folder);
+    if (read.surface) {
+      SurfaceTouch touch = of_file(*read.surface, scenario);
+      touch.remark = read.remark;
+      return touch;
+    }
     SurfaceTouch touch;
     touch.cannot = read.fault;
     touch.nowhere = true;

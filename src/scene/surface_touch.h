@@ -16,7 +16,8 @@ class SpecimenShapes;
 // What a closed form knows of a specimen's surface. The force acts along the normal of the surface
 // nearest to the sphere, as on a mesh.
 struct SurfaceTouch {
-  Vec3 low = Vec3::Zero();  // m, the lowest corner of the bounding box
+  Vec3 low = Vec3::Zero();  // m, corners of the bounding box in the coordinates of the file
+  Vec3 high = Vec3::Zero();
   Vec3 size = Vec3::Constant(std::numeric_limits<double>::infinity());  // m, of the bounding box
   double thickness = std::numeric_limits<double>::infinity();  // m, from the touch to the underside
   Vec3 lowest = Vec3::Zero();           // m, the lowest point of one sphere at first touch
@@ -28,6 +29,7 @@ struct SurfaceTouch {
   double to_edge = std::numeric_limits<double>::infinity();
   bool one_sided = false;   // the curvature has StarStatus::one_sided
   std::string cannot = {};  // why there is no curvature; empty if there is one
+  std::string remark = {};  // on a surface that was mended; empty if it is as the file gives it
   bool nowhere = false;     // no model can press here: beside the body, or it is not sound
 
   [[nodiscard]] bool known() const { return cannot.empty(); }

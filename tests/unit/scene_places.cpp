@@ -2,11 +2,14 @@
 #include "scene/places.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include "geometry/shapes.h"
+#include "meshing/surface_files.h"
 #include "scene/scene.h"
 
 namespace palpate::scene {
@@ -58,7 +61,73 @@ TEST(Places, a_slab_and_a_base_are_asked_too) {
       std::string::npos);
   EXPECT_NE(refusal_of("[tissue]\nyoung_modulus = \"10 kPa\"\nbase_height = \"31 mm\"\n[[step]]\n"
                        "kind = \"indent\"\nto = \"1 mm\"\n")
-                .find("the base ends at z 31 mm, but the body has z 0 to 30 mm"),
+                .find("the base ends at a height of 31 mm, but the body has 0 to 30 mm"),
+            std::string::npos);
+}
+
+// A box of 60 x 40 x 20 mm about the origin as a file, with another axis up or pressed from a side.
+class PlacedBody : public testing::Test {
+ protected:
+  PlacedBody() {
+    geometry::Surface box =
+        geometry::sampled(geometry::Cuboid{Vec3(60, 40, 20)}, {5.0, 5.0}).parts.front().surface;
+    for (Vec3& vertex : box.vertices) vertex -= Vec3(30, 20, 10);
+    std::filesystem::create_directories(folder_);
+    meshing::write_surface(folder_ + "/box.off", box, 1.0);
+  }
+  ~PlacedBody() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] scenario::Resolved placed(const std::string& shape, const std::string& rest) const {
+    const scenario::Family family =
+        scenario::parse("[tissue]\nshape = { file = \"box.off\", unit = \"mm\"" + shape + " }\n" +
+                            "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n" + rest,
+                        folder_ + "/press.toml", {});
+    return choose(family.cases.front()).chosen;
+  }
+
+  std::string folder_ = testing::TempDir() + "palpate_placed" + std::to_string(::getpid());
+};
+
+TEST_F(PlacedBody, the_way_of_the_finger_becomes_minus_z) {
+  const scenario::Resolved up = placed(", up = \"-y\"", "");
+  EXPECT_EQ(Vec3(up.tissue.turn * -Vec3::UnitY()), Vec3(Vec3::UnitZ()));
+  EXPECT_EQ(up.tissue.base_up, Vec3(Vec3::UnitZ()));
+  const scenario::Resolved side = placed("", "[finger]\ntowards = \"x\"\n");
+  EXPECT_EQ(Vec3(side.tissue.turn * Vec3::UnitX()), Vec3(-Vec3::UnitZ()));
+  EXPECT_EQ(side.tissue.base_up, Vec3(side.tissue.turn * Vec3::UnitZ()));
+  EXPECT_NEAR(side.tissue.turn.determinant(), 1.0, 1e-12);  // rounding
+}
+
+TEST_F(PlacedBody, a_place_is_taken_to_the_surface_and_pressed_along_its_normal) {
+  const scenario::Resolved side =
+      placed("",
+             "[finger]\nat = [\"5 mm\", \"50 mm\", \"3 mm\"]\n[[region]]\n"
+             "kind = \"sphere\"\nradius = \"2 mm\"\ncentre = [\"5 mm\", \"10 mm\", \"3 mm\"]\n");
+  EXPECT_NEAR((side.tissue.turn * Vec3::UnitY() - Vec3::UnitZ()).norm(), 0.0, 1e-9);  // rounding
+  const auto& lump = std::get<scenario::Lump>(side.regions.front().part);
+  EXPECT_NEAR(lump.centre[0], *side.finger.x, 1e-9);  // the lump lies below the finger
+  EXPECT_NEAR(lump.centre[1], *side.finger.y, 1e-9);
+  EXPECT_NEAR(lump.centre[2], 0.010, 1e-9);
+}
+
+TEST_F(PlacedBody, what_does_not_go_together_is_refused) {
+  const auto refusal = [&](const std::string& shape, const std::string& rest) {
+    try {
+      (void)placed(shape, rest);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(refusal(", up = \"up\"", "").find("`up` wants a direction, got `up`"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal(", up = \"y\"", "[finger]\nx = \"1 mm\"\n").find("give the place as `finger.at`"),
+      std::string::npos);
+  EXPECT_NE(refusal("", "[finger]\nat = [\"1 mm\"]\n").find("`at` wants three lengths, got 1"),
+            std::string::npos);
+  EXPECT_NE(refusal("", "[finger]\ntowards = \"x\"\n[[region]]\nkind = \"slab\"\ntop = \"5 mm\"\n")
+                .find("a `slab` is for a finger that comes from above"),
             std::string::npos);
 }
 
