@@ -19,6 +19,7 @@
 #include "scenario/find.h"
 #include "scenario/integrators.h"
 #include "scenario/key_meaning.h"
+#include "scene/places.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 #include "sweep/forecast.h"
@@ -214,16 +215,59 @@ class Explanation {
         text += ", " + size_text(size);
     }
     line("  shape        " + text);
-    if (!scene_.specimen) {
-      top();
-      return;
-    }
-    const double height = scene_.specimen->base_height;
+    if (const auto box = body_box())
+      line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
+    if (!scene_.choice.touch.remark.empty()) line("  mended       " + scene_.choice.touch.remark);
+    towards();
+    if (!scene_.specimen) top();
+    const geometry::SmoothSurface* const skin = scene_.specimen ? &*scene_.specimen->surface
+                                                : scene_.solid  ? scene_.solid->skin.get()
+                                                                : nullptr;
+    if (skin == nullptr) return;
+    const scenario::Resolved& scenario = scene_.scenario;
+    const double level = scene::base_level(scenario, skin->surface());
+    double low = level;
+    for (const Vec3& vertex : skin->surface().vertices)
+      low = std::min(low, vertex.dot(scenario.tissue.base_up));
+    const std::string& side = scenario.tissue.base_side;
     line("  base         " +
-         std::string(height > 0.0
-                         ? "the skin up to " + rounded_text(unit::mm.from_si(height)) + " mm"
-                         : "the lowest plane") +
-         (scene_.specimen->base == tissue::Base::bonded ? " is fixed" : " slides on the table"));
+         (level > low
+              ? "the skin up to a height of " + rounded_text(unit::mm.from_si(level)) + " mm"
+              : std::string("the lowest plane")) +
+         (side.empty() ? "" : " on the side towards " + side) +
+         (scenario.tissue.base == tissue::Base::bonded ? " is fixed, " : " slides on the table, ") +
+         percent_text(
+             scene::base_area(scenario, skin->surface(), low * Vec3::UnitZ(), 0.0).of_surface) +
+         " of the surface");
+  }
+
+  // The way of a finger that does not come along -z.
+  void towards() {
+    const Vec3 way = -scene_.scenario.tissue.turn.row(2).transpose();
+    if (way == -Vec3::UnitZ() || scene_.scenario.uniform()) return;
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis)
+      text += (axis == 0 ? "(" : ", ") + rounded_text(way[axis] + 0.0, 3);
+    line("  press        towards " + text + ") in the file's coordinates");
+  }
+
+  // In the coordinates of the file.
+  [[nodiscard]] std::optional<scene::Box> body_box() const {
+    const scene::SurfaceTouch& touch = scene_.choice.touch;
+    if (touch.size.allFinite()) return scene::Box{touch.low, touch.high};
+    if (scene_.specimen) return scene::box_in_file(scene_.scenario, scene_.specimen->mesh.nodes);
+    if (scene_.solid)
+      return scene::box_in_file(scene_.scenario, scene_.solid->skin->surface().vertices);
+    return std::nullopt;
+  }
+
+  // A place of the scene in the coordinates of the file.
+  [[nodiscard]] std::string place_text(const Vec3& place) const {
+    const Vec3 own = scene_.scenario.tissue.turn.transpose() * place;
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis)
+      text += (axis == 0 ? "(" : ", ") + rounded_text(unit::mm.from_si(own[axis]));
+    return text + ") mm";
   }
 
   static std::string size_text(const Vec3& size) {
@@ -240,11 +284,8 @@ class Explanation {
     line("  top          curvatures " + rounded_text(touch.curvature.kappa_1) + " and " +
          rounded_text(touch.curvature.kappa_2) + " 1/m, positive if convex");
     if (!touch.size.allFinite()) return;
-    std::string at;
-    for (int axis = 0; axis < 3; ++axis)
-      at += (axis == 0 ? "" : ", ") + rounded_text(unit::mm.from_si(touch.position[axis]));
     constexpr double degrees = 180.0 / std::numbers::pi;
-    line("               at (" + at + ") mm, where the surface is inclined by " +
+    line("               at " + place_text(touch.position) + ", where the surface is inclined by " +
          rounded_text(degrees * std::acos(std::min(1.0, touch.curvature.normal.z())), 3) +
          " degrees");
   }
@@ -256,12 +297,13 @@ class Explanation {
       std::string text = "  region " + std::to_string(i + 1) + "     ";
       text.resize(15, ' ');
       if (const auto* lump = std::get_if<scenario::Lump>(&region.part))
-        text += "a sphere of radius " + quantity_text(lump->radius, unit::mm);
+        text += "a sphere of radius " + quantity_text(lump->radius, unit::mm) + " around " +
+                place_text({lump->centre[0], lump->centre[1], lump->centre[2]});
       else if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
         text += "from " + quantity_text(slab->bottom, unit::mm) + " to " +
                 quantity_text(slab->top, unit::mm) + " in height";
       else
-        text += "tag " + std::to_string(std::get<scenario::TaggedRegion>(region.part).tag);
+        text += part_text(std::get<scenario::TaggedRegion>(region.part));
       text += ", " + region.material + ": E " + quantity_text(region.young_modulus, unit::kPa) +
               ", density " + quantity_text(region.density, unit::density);
       if (scene_.specimen)
@@ -271,6 +313,10 @@ class Explanation {
     if (!scene::all_slabs(scene_.scenario) && scene::several_tissues(scene_.scenario) &&
         !scene_.scenario.uniform())
       line("  note         the contact law uses E and nu of `tissue.material` in every region");
+  }
+
+  static std::string part_text(const scenario::TaggedRegion& part) {
+    return part.name.empty() ? "tag " + std::to_string(part.tag) : "group `" + part.name + "`";
   }
 
   static std::string region_size(const geometry::TetMesh& mesh, int region) {

@@ -19,8 +19,8 @@
 #include "meshing/mesh_check.h"
 #include "meshing/mesh_files.h"
 #include "meshing/mesh_quality.h"
-#include "meshing/surface_check.h"
 #include "meshing/surface_files.h"
+#include "meshing/surface_repair.h"
 #include "meshing/tetgen_file.h"
 #include "report/vtu.h"
 #include "run/choose.h"
@@ -42,14 +42,16 @@ std::string ending_of(const std::string& path) {
 
 Kind kind_of(const std::string& path) {
   const std::string ending = ending_of(path);
-  for (const char* known : {".stl", ".obj", ".ply", ".off"})
+  for (const char* known : {".stl", ".obj", ".ply", ".off", ".vtp"})
     if (ending == known) return Kind::surface;
-  for (const char* known : {".node", ".ele", ".msh"})
-    if (ending == known) return Kind::mesh;
+  if (ending == ".node" || ending == ".ele") return Kind::mesh;
+  if (meshing::holds_cells(path))
+    return meshing::read_cells(path).solids.empty() ? Kind::surface : Kind::mesh;
   if (ending == ".toml") return Kind::scenario;
-  throw InputError({path, 0, 0},
-                   "is neither a surface (.stl, .obj, .ply, .off) nor a mesh (.node, .ele, .msh) "
-                   "nor a scenario (.toml); save it as one of them");
+  throw InputError(
+      {path, 0, 0},
+      "is neither a surface (.stl, .obj, .ply, .off, .vtp) nor a mesh (.msh, .vtu, "
+      ".vtk, .inp, .mesh, .node, .ele) nor a scenario (.toml); save it as one of them");
 }
 
 // Refuses options that have no effect on this kind of subject.
@@ -88,20 +90,29 @@ double edge_length(const std::string& text) {
   return edge;
 }
 
+bool is_surface_file(const std::string& out) {
+  return ending_of(out) == ".off" || ending_of(out) == ".stl";
+}
+
 // The names of the files that are written for an `--out`.
 std::vector<std::string> files_of(const std::string& out) {
   const fs::path path(out);
   const std::string ending = path.extension().string();
-  if (ending == ".vtu") return {out};
+  if (ending == ".vtu" || is_surface_file(out)) return {out};
   if (ending != ".node" && ending != ".ele")
-    throw InputError({out, 0, 0}, "`--out` wants the ending `.node`, `.ele` or `.vtu`");
+    throw InputError(
+        {out, 0, 0},
+        "`--out` wants the ending `.node`, `.ele` or `.vtu`, or `.off` or `.stl` for a "
+        "surface");
   return {fs::path(path).replace_extension(".node").string(),
           fs::path(path).replace_extension(".ele").string()};
 }
 
 // Refuses output files that cannot be written, before any computation.
-void check_outputs(const Mesh& command) {
-  for (const std::string& out : command.out)
+void check_outputs(const Mesh& command, Kind kind) {
+  for (const std::string& out : command.out) {
+    if (is_surface_file(out) && kind != Kind::surface)
+      throw InputError({out, 0, 0}, "is for surfaces; write a mesh as `.node` or `.vtu`");
     for (const std::string& file : files_of(out)) {
       const fs::path folder = fs::absolute(file).parent_path();
       if (!fs::is_directory(folder))
@@ -110,19 +121,28 @@ void check_outputs(const Mesh& command) {
       if (fs::is_directory(file)) throw InputError({file, 0, 0}, "is a folder; name a file");
       std::error_code unrelated;
       for (const std::string& read :
-           kind_of(command.subject) == Kind::mesh && ending_of(command.subject) != ".msh"
+           ending_of(command.subject) == ".node" || ending_of(command.subject) == ".ele"
                ? files_of(command.subject)
                : std::vector<std::string>{})
         if (fs::equivalent(file, read, unrelated))
           throw InputError({file, 0, 0}, "is the input file; give another name to `--out`");
     }
+  }
 }
 
+// Also writes the surface where that is asked for.
 geometry::TetMesh mesh_of_surface(const Mesh& command, const Talk& talk) {
   meshing::Target target{.nodes = command.nodes};
   if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
-  geometry::Surface surface = meshing::read_surface(command.subject, metres_per(command.unit));
-  meshing::check_closed(surface, command.subject);
+  auto [surface, mended] = meshing::whole_surface(
+      meshing::read_surface(command.subject, metres_per(command.unit)), command.subject, {});
+  if (!mended.empty()) talk.say("note: " + mended);
+  for (const std::string& out : command.out) {
+    if (!is_surface_file(out)) continue;
+    if (!command.force && fs::exists(out))
+      throw InputError({out, 0, 0}, "is there already; give another name, or `--force`");
+    meshing::write_surface(out, surface, metres_per(command.unit));
+  }
   // An equilateral triangle of edge l has an area of sqrt(3) / 4 l^2.
   if (target.nodes == 0 && target.edge_length == 0.0)
     target.edge_length = std::sqrt(geometry::area(surface) /
@@ -255,7 +275,7 @@ void write(const std::string& out, const geometry::TetMesh& mesh) {
 int perform(const Mesh& command, const Arguments&, const Talk& talk) {
   const Kind kind = kind_of(command.subject);
   check_options(command, kind);
-  check_outputs(command);
+  check_outputs(command, kind);
   Report report;
   geometry::TetMesh mesh;
   if (kind == Kind::scenario) {
@@ -271,14 +291,20 @@ int perform(const Mesh& command, const Arguments&, const Talk& talk) {
     if (kind == Kind::surface) {
       mesh = mesh_of_surface(command, talk);
     } else {
-      mesh = meshing::read_mesh(command.subject, metres_per(command.unit));
+      auto [found, names, remark] = meshing::read_mesh(command.subject, metres_per(command.unit));
+      mesh = std::move(found);
+      if (!remark.empty()) talk.say("note: " + remark);
+      for (const auto& [name, number] : names)
+        talk.say("note: region " + std::to_string(number) + " is `" + name + "`");
       meshing::check(mesh, command.subject, 0.0);
     }
     report.mesh(mesh, nullptr);
   }
   if (!command.force)
-    for (const std::string& out : command.out) refuse_other_files(out, mesh);
-  for (const std::string& out : command.out) write(out, mesh);
+    for (const std::string& out : command.out)
+      if (!is_surface_file(out)) refuse_other_files(out, mesh);
+  for (const std::string& out : command.out)
+    if (!is_surface_file(out)) write(out, mesh);
   print(talk.json() ? json_lines(report.table()) : names_and_values(report.table()));
   return exit_good;
 }

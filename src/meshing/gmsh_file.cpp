@@ -1,35 +1,48 @@
-// Reads the sections between `$Name` and `$EndName`, and skips those that a mesh does not need.
-#include "meshing/gmsh_file.h"
-
+// Reads Gmsh's .msh files: the sections between `$Name` and `$EndName` that a mesh needs.
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
-#include <map>
+#include <limits>
+#include <unordered_map>
 #include <utility>
 
+#include "meshing/binary_numbers.h"
+#include "meshing/cells.h"
 #include "meshing/table_lines.h"
 
 namespace palpate::meshing {
 namespace {
 
-constexpr int four_node_tetrahedron = 4;
+// A type of elements: all its nodes, and its corners, which come first.
+struct GmshKind {
+  int type, nodes, corners, dimension;
+};
+constexpr GmshKind gmsh_kinds[] = {
+    {1, 2, 2, 1},   {2, 3, 3, 2},   {3, 4, 4, 2},   {4, 4, 4, 3},   {5, 8, 8, 3},   {6, 6, 6, 3},
+    {7, 5, 5, 3},   {8, 3, 2, 1},   {9, 6, 3, 2},   {10, 9, 4, 2},  {11, 10, 4, 3}, {12, 27, 8, 3},
+    {13, 18, 6, 3}, {14, 14, 5, 3}, {15, 1, 1, 0},  {16, 8, 4, 2},  {17, 20, 8, 3}, {18, 15, 6, 3},
+    {19, 13, 5, 3}, {20, 9, 3, 2},  {21, 10, 3, 2}, {22, 12, 3, 2}, {23, 15, 3, 2}, {24, 15, 3, 2},
+    {25, 21, 3, 2}, {26, 4, 2, 1},  {27, 5, 2, 1},  {28, 6, 2, 1},  {29, 20, 4, 3}, {30, 35, 4, 3},
+    {31, 56, 4, 3}, {36, 16, 4, 2}, {37, 25, 4, 2}, {90, 40, 6, 3}, {91, 75, 6, 3}, {92, 64, 8, 3},
+    {93, 125, 8, 3}};
 
-// Hexahedra, prisms, pyramids and all solid elements of higher order.
-bool other_solid(int type) {
-  return (type >= 5 && type <= 7) || (type >= 11 && type <= 14) || (type >= 17 && type <= 19) ||
-         (type >= 29 && type <= 33) || (type >= 71 && type <= 125);
-}
+constexpr const char* save_again = "; save the file again from Gmsh";
 
-class Reader {
+// The numbers of a section: one record a line in ASCII, one after the other in binary.
+class GmshReader {
  public:
-  Reader(const std::string& path, double metres_per_unit)
-      : lines_(path), metres_per_unit_(metres_per_unit) {}
+  explicit GmshReader(const std::string& path) : path_(path), lines_(path) {}
 
-  geometry::TetMesh read() {
+  Cells read() {
     read_format();
     while (lines_.next()) {
       const std::string section(lines_.words()[0]);
+      section_ = section;
       if (section == "$Entities" && version_4_) {
         read_entities();
+      } else if (section == "$PhysicalNames") {
+        read_names();
       } else if (section == "$Nodes") {
         version_4_ ? read_nodes_4() : read_nodes_2();
       } else if (section == "$Elements") {
@@ -40,222 +53,278 @@ class Reader {
         skip(section);
         continue;
       } else {
-        lines_.fail_at(0, "a section such as `$Nodes` should begin here, got `" + section +
-                              "`; save the file again from Gmsh");
+        lines_.fail_at(
+            0, "a section such as `$Nodes` should begin here, got `" + section + "`" + save_again);
       }
       expect_end(section);
     }
-    if (corners_.empty())
+    if (cells_.solids.empty() && cells_.faces.empty())
       lines_.fail(
-          "the file holds no tetrahedra with four nodes; mesh the volumes in first order (`gmsh "
-          "-3`), and where there are physical groups put the volumes into them");
-    return assembled();
+          "the file holds no solid cells and no faces; mesh the volumes (`gmsh -3`), and where "
+          "there are physical groups put the volumes into them");
+    return std::move(cells_);
   }
 
  private:
   void read_format() {
     if (!lines_.next() || lines_.words()[0] != "$MeshFormat")
       lines_.fail(
-          "the file does not begin with `$MeshFormat`; save it from Gmsh as ASCII 4.1 "
-          "(`gmsh -format msh41`)");
-    step("$MeshFormat", 2);
+          "the file does not begin with `$MeshFormat`; save it from Gmsh as version 4.1 (`gmsh "
+          "-format msh41`)");
+    section_ = "$MeshFormat";
+    begin(2);
     const std::string version(lines_.words()[0]);
     if (version != "4.1" && version != "2.2")
       lines_.fail_at(
-          0, "version `" + version + "` is not read; save it as ASCII 4.1 (`gmsh -format msh41`)");
-    if (lines_.words()[1] != "0")
-      lines_.fail_at(1,
-                     "the file is binary; save it as ASCII 4.1 (`gmsh -format msh41` without "
-                     "`-bin`)");
+          0, "version `" + version + "` is not read; save it as 4.1 (`gmsh -format msh41`)");
     version_4_ = version == "4.1";
+    if (lines_.words()[1] != "0") {
+      if (lines_.words().size() < 3 || lines_.words()[2] != "8")
+        lines_.fail("a binary file wants numbers of 8 bytes" + std::string(save_again));
+      binary_ = true;
+      const auto one = lines_.take(4);
+      big_endian_ = number_at<std::int32_t>(one.data(), false) != 1;
+      if (number_at<std::int32_t>(one.data(), big_endian_) != 1)
+        lines_.fail("no binary numbers follow, as `1 8` announces" + std::string(save_again));
+    }
     expect_end("$MeshFormat");
   }
 
-  // Goes to the next line of a section, which must have at least `least` words.
-  void step(const std::string& section, std::size_t least) {
+  // Begins a record of at least `least` words.
+  void begin(std::size_t least) {
+    word_ = 0;
+    if (binary_) return;
     if (!lines_.next() || lines_.words()[0].starts_with("$"))
-      lines_.fail("section `" + section + "` ends too early; save the file again from Gmsh");
-    if (lines_.words().size() < least)
+      lines_.fail("section `" + section_ + "` ends too early" + save_again);
+    want_words(least);
+  }
+  void want_words(std::size_t least) const {
+    if (!binary_ && lines_.words().size() < least)
       lines_.fail("the line has " + std::to_string(lines_.words().size()) +
-                  " words, but at least " + std::to_string(least) +
-                  " belong here; save the file again from Gmsh");
+                  " words, but at least " + std::to_string(least) + " belong here" + save_again);
+  }
+  // The counts of sections are text in binary files of version 2.2.
+  int text_count(const std::string& what) {
+    const bool before = std::exchange(binary_, false);
+    begin(1);
+    const int found = static_cast<int>(count(what));
+    binary_ = before;
+    return found;
+  }
+
+  template <class Number>
+  Number binary() {
+    return number_at<Number>(lines_.take(sizeof(Number)).data(), big_endian_);
+  }
+  [[noreturn]] void fail(const std::string& message, const std::string& remedy = save_again) const {
+    if (!binary_ && word_ > 0 && word_ <= lines_.words().size())
+      lines_.fail_at(word_ - 1, message + remedy);
+    throw InputError({path_, binary_ ? 0 : lines_.line()},
+                     (binary_ ? "in section `" + section_ + "` " : "") + message + remedy);
+  }
+  int whole(const std::string& what) {
+    if (binary_) return binary<std::int32_t>();
+    want_words(word_ + 1);
+    return lines_.whole(word_++, what);
+  }
+  // What version 4.1 stores in 8 bytes.
+  std::int64_t wide(const std::string& what) {
+    return binary_ ? binary<std::int64_t>() : whole(what);
+  }
+  std::int64_t count(const std::string& what, bool of_8_bytes = false) {
+    const std::int64_t number = of_8_bytes ? wide(what) : whole(what);
+    if (number < 0 || number > std::numeric_limits<int>::max())
+      fail(what + " wants 0 or more, got `" + std::to_string(number) + "`");
+    return number;
+  }
+  double real(const std::string& what) {
+    if (!binary_) {
+      want_words(word_ + 1);
+      return lines_.number(word_++, what);
+    }
+    const double number = binary<double>();
+    if (!std::isfinite(number)) fail(what + " wants a finite number");
+    return number;
   }
 
   void expect_end(const std::string& section) {
     const std::string end = "$End" + section.substr(1);
     if (!lines_.next() || lines_.words()[0] != end)
-      lines_.fail("`" + end + "` should stand here; save the file again from Gmsh");
+      lines_.fail("`" + end + "` should stand here" + save_again);
   }
-
   void skip(const std::string& section) {
     const std::string end = "$End" + section.substr(1);
     while (lines_.next())
       if (lines_.words()[0] == end) return;
-    lines_.fail("section `" + section + "` has no `" + end + "`; save the file again from Gmsh");
+    lines_.fail("section `" + section + "` has no `" + end + "`" + save_again);
   }
 
-  int count(std::size_t i, const std::string& what) const {
-    const int number = lines_.whole(i, what);
-    if (number < 0)
-      lines_.fail_at(i, what + " wants 0 or more, got `" + std::string(lines_.words()[i]) +
-                            "`; save the file again from Gmsh");
-    return number;
+  // `3 7 "skin"`: the dimension, the tag and the name of a group.
+  void read_names() {
+    const int total = text_count("the number of names");
+    const bool before = std::exchange(binary_, false);
+    for (int i = 0; i < total; ++i) {
+      begin(3);
+      const int dimension = whole("the dimension");
+      const int tag = std::abs(whole("the physical tag"));
+      const std::string_view line = lines_.text();
+      const std::size_t open = line.find('"'), close = line.rfind('"');
+      if (dimension == 3 && close > open)
+        cells_.names[std::string(line.substr(open + 1, close - open - 1))] = tag;
+    }
+    binary_ = before;
   }
 
   // Reads the physical group of each volume.
   void read_entities() {
-    const std::string section = "$Entities";
-    step(section, 4);
-    int others = 0;
-    for (std::size_t i = 0; i < 3; ++i) others += count(i, "the number of entities");
-    const int volumes = count(3, "the number of volumes");
-    for (int i = 0; i < others; ++i) step(section, 1);
-    for (int i = 0; i < volumes; ++i) {
-      step(section, 8);  // tag, box (6), number of groups, groups
-      const int groups = count(7, "the number of physical groups");
-      if (groups > 1)
-        lines_.fail_at(7, "the volume belongs to " + std::to_string(groups) +
-                              " physical groups, so its tissue is not clear; leave it in one");
-      if (groups == 0) continue;
-      if (lines_.words().size() < 9)
-        lines_.fail_at(7,
-                       "the group's tag is missing; save the file "
-                       "again from Gmsh");
-      volume_region_[lines_.whole(0, "the volume's tag")] = region(8);
-    }
+    std::array<std::int64_t, 4> totals{};
+    begin(4);
+    for (auto& total : totals) total = count("the number of entities", true);
+    for (std::size_t dimension = 0; dimension < 4; ++dimension)
+      for (std::int64_t i = 0; i < totals[dimension]; ++i) {
+        begin(dimension == 0 ? 4 : 7);
+        const int entity = whole("the entity's tag");
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) (void)real("a coordinate");
+        const auto groups = count("the number of physical groups", true);
+        if (dimension == 3 && groups > 1)
+          fail("the volume belongs to " + std::to_string(groups) +
+                   " physical groups, so its tissue is not clear",
+               "; leave it in one");
+        // A negative tag means that the group reverses the element, which has no effect here.
+        for (std::int64_t g = 0; g < groups; ++g) {
+          const int group = std::abs(whole("the physical tag"));
+          if (dimension == 3) volume_region_[entity] = group;
+        }
+        if (dimension == 0) continue;
+        const auto bounds = count("the number of bounds", true);
+        for (std::int64_t b = 0; b < bounds; ++b) (void)whole("a bound");
+      }
   }
 
-  // A negative tag means that the group reverses the element, which has no effect here.
-  int region(std::size_t i) const { return std::abs(lines_.whole(i, "the physical tag")); }
-
-  void add_node(int tag, std::size_t first) {
-    const double x = lines_.number(first, "x");
-    const double y = lines_.number(first + 1, "y");
-    const double z = lines_.number(first + 2, "z");
-    if (!node_of_tag_.emplace(tag, static_cast<int>(nodes_.size())).second)
-      lines_.fail("there are two nodes with tag " + std::to_string(tag) +
-                  "; save the file again from Gmsh");
-    nodes_.emplace_back(x * metres_per_unit_, y * metres_per_unit_, z * metres_per_unit_);
+  void add_node(std::int64_t tag) {
+    Vec3 place;
+    for (int axis = 0; axis < 3; ++axis) place[axis] = real(std::string(1, "xyz"[axis]));
+    if (!node_of_tag_.emplace(tag, static_cast<int>(cells_.nodes.size())).second) {
+      word_ = 0;
+      fail("there are two nodes with tag " + std::to_string(tag));
+    }
+    cells_.nodes.push_back(place);
   }
 
   void read_nodes_2() {
-    step("$Nodes", 1);
-    const int total = count(0, "the number of nodes");
+    const int total = text_count("the number of nodes");
     for (int i = 0; i < total; ++i) {
-      step("$Nodes", 4);
-      add_node(lines_.whole(0, "the node's tag"), 1);
+      begin(4);
+      add_node(whole("the node's tag"));
     }
   }
 
   void read_nodes_4() {
-    step("$Nodes", 4);
-    const int blocks = count(0, "the number of blocks");
-    for (int b = 0; b < blocks; ++b) {
-      step("$Nodes", 4);  // dimension and tag of the entity, parametric, number
-      const int total = count(3, "the number of nodes");
-      std::vector<int> tags;
-      for (int i = 0; i < total; ++i) {
-        step("$Nodes", 1);
-        tags.push_back(lines_.whole(0, "the node's tag"));
+    begin(4);
+    const auto blocks = count("the number of blocks", true);
+    for (int k = 0; k < 3; ++k) (void)wide("a tag");
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      begin(4);
+      const int dimension = whole("the dimension");
+      (void)whole("the entity's tag");
+      const bool parametric = whole("whether nodes have parameters") != 0;
+      const auto total = count("the number of nodes", true);
+      std::vector<std::int64_t> tags;
+      for (std::int64_t i = 0; i < total; ++i) {
+        begin(1);
+        tags.push_back(wide("the node's tag"));
       }
-      for (const int tag : tags) {
-        step("$Nodes", 3);  // further words are its parameters on a curve or face
-        add_node(tag, 0);
+      for (const std::int64_t tag : tags) {
+        begin(3);
+        add_node(tag);
+        if (binary_ && parametric)  // on a line of an ASCII file the rest is not looked at
+          for (int k = 0; k < dimension; ++k) (void)real("a parameter");
       }
     }
   }
 
-  void refuse_other_solids(int type, std::size_t i) const {
-    if (other_solid(type))
-      lines_.fail_at(i, "elements of type " + std::to_string(type) +
-                            " are solids other than tetrahedra with four nodes; mesh again with "
-                            "tetrahedra of first order");
+  const GmshKind& kind_of(int type) const {
+    for (const GmshKind& kind : gmsh_kinds)
+      if (kind.type == type) return kind;
+    fail("elements of type " + std::to_string(type) + " are not known",
+         "; mesh again with tetrahedra of first or second order");
   }
 
-  void add_tetrahedron(std::size_t first, int region) {
-    std::array<int, 4> corner{};
-    for (std::size_t c = 0; c < 4; ++c) {
-      const auto node = node_of_tag_.find(lines_.whole(first + c, "a node"));
+  void add_element(const GmshKind& kind, int region, bool of_8_bytes) {
+    std::vector<int> corners;
+    for (int n = 0; n < kind.nodes; ++n) {
+      const std::int64_t tag = of_8_bytes ? wide("a node") : whole("a node");
+      if (n >= kind.corners || kind.dimension < 2) continue;
+      const auto node = node_of_tag_.find(tag);
       if (node == node_of_tag_.end())
-        lines_.fail_at(first + c, "there is no node `" + std::string(lines_.words()[first + c]) +
-                                      "` in `$Nodes`; save the file again from Gmsh");
-      corner[c] = node->second;
+        fail("there is no node `" + std::to_string(tag) + "` in `$Nodes`");
+      corners.push_back(node->second);
     }
-    corners_.push_back(corner);
-    regions_.push_back(region);
+    if (kind.dimension < 2) return;
+    cells_.curved = cells_.curved || (kind.dimension == 3 && kind.nodes > kind.corners);
+    if (kind.dimension == 2) {
+      cells_.faces.push_back(std::move(corners));
+      return;
+    }
+    Cell cell{.corners = kind.corners, .region = region};
+    std::copy(corners.begin(), corners.end(), cell.nodes.begin());
+    cells_.solids.push_back(cell);
   }
 
   void read_elements_2() {
-    step("$Elements", 1);
-    const int total = count(0, "the number of elements");
-    for (int i = 0; i < total; ++i) {
-      step("$Elements", 3);
-      const int type = lines_.whole(1, "the element's type");
-      refuse_other_solids(type, 1);
-      if (type != four_node_tetrahedron) continue;
-      const auto tags = as_index(count(2, "the number of tags"));
-      if (lines_.words().size() != 3 + tags + 4)
-        lines_.fail("a tetrahedron with " + std::to_string(tags) + " tags wants " +
-                    std::to_string(3 + tags + 4) + " words, the line has " +
-                    std::to_string(lines_.words().size()) + "; save the file again from Gmsh");
-      add_tetrahedron(3 + tags, tags > 0 ? region(3) : 0);
+    const int total = text_count("the number of elements");
+    for (int i = 0; i < total;) {
+      begin(3);
+      if (!binary_) (void)whole("the element's tag");
+      const GmshKind& kind = kind_of(whole("the element's type"));
+      const auto together = binary_ ? count("the number of elements") : 1;
+      const auto tags = count("the number of tags");
+      if (together < 1 || together > total - i) fail("more elements follow than are counted");
+      want_words(3 + as_index(static_cast<int>(tags)) + as_index(kind.nodes));
+      for (std::int64_t k = 0; k < together; ++k, ++i) {
+        if (binary_) (void)whole("the element's tag");
+        int region = 0;
+        for (std::int64_t t = 0; t < tags; ++t) {
+          const int tag = whole("a tag");
+          if (t == 0) region = std::abs(tag);
+        }
+        add_element(kind, region, false);
+      }
     }
   }
 
   void read_elements_4() {
-    step("$Elements", 4);
-    const int blocks = count(0, "the number of blocks");
-    for (int b = 0; b < blocks; ++b) {
-      step("$Elements", 4);  // dimension and tag of the entity, type, number
-      const int entity = lines_.whole(1, "the entity's tag");
-      const int type = lines_.whole(2, "the element's type");
-      refuse_other_solids(type, 2);
-      const int total = count(3, "the number of elements");
+    begin(4);
+    const auto blocks = count("the number of blocks", true);
+    for (int k = 0; k < 3; ++k) (void)wide("a tag");
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      begin(4);
+      (void)whole("the dimension");
+      const int entity = whole("the entity's tag");
+      const GmshKind& kind = kind_of(whole("the element's type"));
+      const auto total = count("the number of elements", true);
       const auto known = volume_region_.find(entity);
       const int region = known == volume_region_.end() ? 0 : known->second;
-      for (int i = 0; i < total; ++i) {
-        step("$Elements", type == four_node_tetrahedron ? 5 : 1);
-        if (type == four_node_tetrahedron) add_tetrahedron(1, region);
+      for (std::int64_t i = 0; i < total; ++i) {
+        begin(1 + as_index(kind.nodes));
+        (void)wide("the element's tag");
+        add_element(kind, region, true);
       }
     }
   }
 
-  [[nodiscard]] geometry::TetMesh assembled() const {
-    std::vector<int> new_index(nodes_.size(), -1);
-    for (const auto& corner : corners_)
-      for (const int node : corner) new_index[as_index(node)] = 0;
-    geometry::TetMesh mesh;
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      if (new_index[n] < 0) continue;
-      new_index[n] = static_cast<int>(mesh.nodes.size());
-      mesh.nodes.push_back(nodes_[n]);
-    }
-    for (const auto& corner : corners_) {
-      std::array<int, 4> renumbered{};
-      for (std::size_t c = 0; c < 4; ++c) renumbered[c] = new_index[as_index(corner[c])];
-      mesh.tetrahedra.push_back(renumbered);
-      if (geometry::signed_volume(mesh, static_cast<int>(mesh.tetrahedra.size()) - 1) < 0.0)
-        std::swap(mesh.tetrahedra.back()[2], mesh.tetrahedra.back()[3]);
-    }
-    if (std::any_of(regions_.begin(), regions_.end(), [](int region) { return region != 0; }))
-      mesh.regions = regions_;
-    return mesh;
-  }
-
+  std::string path_;
   TableLines lines_;
-  double metres_per_unit_;
-  bool version_4_ = false;
-  std::map<int, int> volume_region_;  // the physical tag of each volume that has one
-  std::map<int, int> node_of_tag_;    // into nodes_
-  std::vector<Vec3> nodes_;
-  std::vector<std::array<int, 4>> corners_;  // into nodes_
-  std::vector<int> regions_;                 // one per tetrahedron
+  std::string section_;
+  std::size_t word_ = 0;  // the next one of a line
+  bool version_4_ = false, binary_ = false, big_endian_ = false;
+  std::unordered_map<int, int> volume_region_;  // the physical tag of each volume that has one
+  std::unordered_map<std::int64_t, int> node_of_tag_;
+  Cells cells_;
 };
 
 }  // namespace
 
-geometry::TetMesh read_gmsh(const std::string& path, double metres_per_unit) {
-  return Reader(path, metres_per_unit).read();
-}
+Cells read_gmsh_cells(const std::string& path) { return GmshReader(path).read(); }
 
 }  // namespace palpate::meshing

@@ -10,7 +10,6 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "base/whole_folder.h"
-#include "meshing/gmsh_file.h"
 #include "meshing/table_lines.h"
 
 namespace palpate::meshing {
@@ -206,12 +205,14 @@ void write_node_ele(const std::string& path, const geometry::TetMesh& mesh) {
   if (kept) fs::remove(replaced(files), failed);
 }
 
-geometry::TetMesh read_mesh(const std::string& path, double metres_per_unit) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".msh") return read_gmsh(path, metres_per_unit);
-  if (ending == ".node" || ending == ".ele") return read_node_ele(path, metres_per_unit);
+NamedMesh read_mesh(const std::string& path, double metres_per_unit) {
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
+  if (holds_cells(path)) return tetrahedra_of(read_cells(path), path, metres_per_unit);
+  if (ending == ".node" || ending == ".ele") return {read_node_ele(path, metres_per_unit)};
   throw InputError(
-      {path}, "a mesh file wants the ending `.node`, `.ele` or `.msh`; save it as one of them");
+      {path},
+      "a mesh file wants the ending `.msh`, `.vtu`, `.vtk`, `.inp`, `.mesh`, `.node` or "
+      "`.ele`; save it as one of them");
 }
 
 }  // namespace palpate::meshing

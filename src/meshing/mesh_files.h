@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geometry/tet_mesh.h"
+#include "meshing/cells.h"
 
 namespace palpate::meshing {
 
@@ -25,8 +26,8 @@ void write_node_ele(const std::string& path, const geometry::TetMesh& mesh);
 // Whether both files exist and are what write_node_ele() would write. `path` names either file.
 [[nodiscard]] bool holds_node_ele(const std::string& path, const geometry::TetMesh& mesh);
 
-// Reads .node and .ele as above, or Gmsh's .msh as in gmsh_file.h, as the ending says. Throws
+// Reads .node and .ele as above, or a file of cells (see cells.h), as the ending says. Throws
 // InputError for another ending too.
-[[nodiscard]] geometry::TetMesh read_mesh(const std::string& path, double metres_per_unit);
+[[nodiscard]] NamedMesh read_mesh(const std::string& path, double metres_per_unit);
 
 }  // namespace palpate::meshing

@@ -20,6 +20,18 @@ constexpr double largest = 10.0;   // m: larger than any tissue
 // In single precision a normal is meaningless below about 1e-7 of the longest edge.
 constexpr double needle = 1e-6;
 
+// Of a body of a strange size (m).
+std::string unit_guess(double size) {
+  constexpr double least = 0.005, most = 2.0;  // m, of what is usually pressed
+  for (const auto& [factor, words] :
+       {std::pair(1e-3, "`mm` in place of `m`"), std::pair(1e3, "`m` in place of `mm`"),
+        std::pair(1e-6, "`um` in place of `m`")})
+    if (size * factor >= least && size * factor <= most)
+      return "check its unit: with " + std::string(words) + " it would be " +
+             rounded_text(size * factor) + " m";
+  return "check its unit";
+}
+
 class SurfaceChecker {
  public:
   SurfaceChecker(const geometry::Surface& surface, const std::string& name)
@@ -49,7 +61,7 @@ class SurfaceChecker {
     }
     const double size = (high - low).maxCoeff();
     if (!(size >= smallest && size <= largest))
-      fail("is " + rounded_text(size) + " m long, but wants 1e-6 m to 10 m; check its unit");
+      fail("is " + rounded_text(size) + " m long, but wants 1e-6 m to 10 m; " + unit_guess(size));
   }
 
   void shapes() const {

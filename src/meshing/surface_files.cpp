@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
+#include "meshing/cells.h"
 #include "meshing/surface_text.h"
 
 namespace palpate::meshing {
@@ -62,12 +66,27 @@ std::string format_of(const std::string& path) {
   const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   for (const char* known : {".stl", ".obj", ".ply", ".off"})
     if (ending == known) return ending.substr(1);
+  if (holds_cells(path)) return "cells";
   throw InputError({path, 0, 0},
-                   "a surface wants the ending `.stl`, `.obj`, `.ply` or `.off`; export it as one "
-                   "of these");
+                   "a surface wants the ending `.stl`, `.obj`, `.ply`, `.off`, `.vtp`, `.vtu`, "
+                   "`.vtk`, `.msh`, `.inp` or `.mesh`; export it as one of these");
+}
+
+Polygons faces_in(const std::string& path) {
+  Cells cells = read_cells(path);
+  if (!cells.solids.empty())
+    throw InputError({path},
+                     "holds solid cells; name it in `tissue.mesh` in place of `tissue.shape`");
+  for (std::size_t f = 0; f < cells.faces.size(); ++f) {
+    const std::string wrong =
+        wrong_corners("face " + std::to_string(f), cells.faces[f], 0, cells.nodes.size());
+    if (!wrong.empty()) fail(path, wrong);
+  }
+  return {std::move(cells.nodes), std::move(cells.faces)};
 }
 
 Polygons polygons_of(const std::string& path, const std::string& format) {
+  if (format == "cells") return faces_in(path);
   if (format == "stl") return read_stl(path);
   if (format == "obj") return read_obj(path);
   if (format == "ply") return read_ply(path);
@@ -95,6 +114,39 @@ geometry::Surface read_surface(const std::string& path, double metres_per_unit) 
       surface.triangles.push_back(triangle);
     }
   return surface;
+}
+
+void write_surface(const std::string& path, const geometry::Surface& surface,
+                   double metres_per_unit) {
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
+  if (ending != ".off" && ending != ".stl")
+    throw InputError({path}, "a surface is written as `.off` or `.stl`; give one of these endings");
+  std::string text;
+  if (ending == ".off") {
+    text = "OFF\n" + std::to_string(surface.vertices.size()) + " " +
+           std::to_string(surface.triangles.size()) + " 0\n";
+    for (const Vec3& vertex : surface.vertices)
+      text += number_text(vertex.x() / metres_per_unit) + " " +
+              number_text(vertex.y() / metres_per_unit) + " " +
+              number_text(vertex.z() / metres_per_unit) + "\n";
+    for (const auto& [a, b, c] : surface.triangles)
+      text += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  } else {
+    const auto put = [&](const auto& value) {
+      text.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    };
+    text.assign(80, ' ');
+    put(static_cast<std::uint32_t>(surface.triangles.size()));
+    for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+      const Vec3 normal = geometry::twice_area(surface, t).normalized();
+      for (int axis = 0; axis < 3; ++axis) put(static_cast<float>(normal[axis]));
+      for (const int vertex : surface.triangles[as_index(t)])
+        for (int axis = 0; axis < 3; ++axis)
+          put(static_cast<float>(surface.vertices[as_index(vertex)][axis] / metres_per_unit));
+      put(std::uint16_t{0});
+    }
+  }
+  write_atomically(path, text);
 }
 
 }  // namespace palpate::meshing

@@ -1,12 +1,10 @@
 // Reads PLY files, ASCII or binary of either byte order.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,45 +12,22 @@
 #include "base/files.h"
 #include "base/index.h"
 #include "base/text.h"
+#include "meshing/binary_numbers.h"
 #include "meshing/surface_text.h"
 #include "meshing/table_lines.h"
 
 namespace palpate::meshing {
 namespace {
 
-// A type of numbers, and how one is read from bytes.
-struct Type {
-  std::string_view name, other_name;
-  bool whole = false;
-  std::size_t bytes = 0;
-  double (*read)(const char* at, bool big_endian) = nullptr;
-};
-
-template <typename Number>
-double read(const char* at, bool big_endian) {
-  std::array<char, sizeof(Number)> raw{};
-  std::copy_n(at, raw.size(), raw.begin());
-  if (big_endian) std::reverse(raw.begin(), raw.end());
-  return static_cast<double>(std::bit_cast<Number>(raw));
-}
-
-template <typename Number>
-constexpr Type type(std::string_view name, std::string_view other_name) {
-  return {name, other_name, std::is_integral_v<Number>, sizeof(Number), read<Number>};
-}
+using Type = NumberType;
 
 constexpr std::array types{
-    type<std::int8_t>("char", "int8"),    type<std::uint8_t>("uchar", "uint8"),
-    type<std::int16_t>("short", "int16"), type<std::uint16_t>("ushort", "uint16"),
-    type<std::int32_t>("int", "int32"),   type<std::uint32_t>("uint", "uint32"),
-    type<float>("float", "float32"),      type<double>("double", "float64")};
+    number_type<std::int8_t>("char", "int8"),    number_type<std::uint8_t>("uchar", "uint8"),
+    number_type<std::int16_t>("short", "int16"), number_type<std::uint16_t>("ushort", "uint16"),
+    number_type<std::int32_t>("int", "int32"),   number_type<std::uint32_t>("uint", "uint32"),
+    number_type<float>("float", "float32"),      number_type<double>("double", "float64")};
 
-const Type* type_of(std::string_view word) {
-  const auto* const found = std::find_if(types.begin(), types.end(), [&](const Type& one) {
-    return one.name == word || one.other_name == word;
-  });
-  return found == types.end() ? nullptr : found;
-}
+const Type* type_of(std::string_view word) { return type_named(types, word); }
 
 struct Property {
   std::string name;
@@ -141,11 +116,7 @@ std::span<const Element> needed(const std::string& path, const Header& header) {
     };
     std::size_t corners = 0;
     for (const Property& property : element.properties) {
-      if (element.name == "face" && property.is_corners() && property.type->whole)
-        ++corners;
-      else if (property.length != nullptr)
-        fail(path, "element `" + element.name + "` has a list `" + property.name +
-                       "`; export it without texture and other extras");
+      if (element.name == "face" && property.is_corners() && property.type->whole) ++corners;
     }
     if (element.name == "vertex") {
       if (!has("x") || !has("y") || !has("z"))
@@ -191,6 +162,14 @@ class AsciiBody {
     if (count < 3 || left < count) lines_.fail(too_few_corners(std::min(count, left)));
     for (std::size_t c = 0; c < count; ++c) corners.push_back(lines_.whole(word_++, "a corner"));
   }
+  void pass_over(const Property& property) {
+    require(property);
+    const auto count = as_index(std::max(0, lines_.whole(word_++, "a count")));
+    if (lines_.words().size() - word_ < count)
+      lines_.fail("the line ends in list `" + property.name +
+                  "`; the file may be cut short: export it again");
+    word_ += count;
+  }
   void end() const {
     if (word_ != lines_.words().size())
       lines_.fail("the line has " + std::to_string(lines_.words().size()) +
@@ -235,6 +214,9 @@ class BinaryBody {
     for (double c = 0.0; c < count; ++c)  // a number beyond an int names no vertex
       corners.push_back(static_cast<int>(std::min(next(*property.type), 2147483647.0)));
   }
+  void pass_over(const Property& property) {
+    for (double left = next(*property.length); left > 0.0; --left) (void)next(*property.type);
+  }
   void end() const {}
   void end_of_file(std::size_t faces) const {
     if (at_ != content_.size())
@@ -273,8 +255,12 @@ Polygons polygons(Body&& body, std::span<const Element> elements, bool ends_with
       Vec3 vertex = Vec3::Zero();
       std::vector<int> corners;
       for (const Property& property : element.properties) {
-        if (property.is_corners()) {
+        if (element.name == "face" && property.is_corners()) {
           body.corners(property, corners);
+          continue;
+        }
+        if (property.length != nullptr) {  // texture and the like
+          body.pass_over(property);
           continue;
         }
         const double value = body.number(property);

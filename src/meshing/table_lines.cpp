@@ -34,6 +34,24 @@ bool TableLines::next() {
   return false;
 }
 
+void TableLines::skip_paragraph() {
+  bool empty = false;
+  while (!empty && position_ < text_.size()) {
+    const std::size_t end = std::min(text_.find('\n', position_), text_.size());
+    empty = trimmed(std::string_view(text_).substr(position_, end - position_)).empty();
+    position_ = end + 1;
+    ++line_;
+  }
+}
+
+std::string_view TableLines::take(std::size_t bytes) {
+  if (position_ > text_.size() || bytes > text_.size() - position_)
+    throw InputError({file_}, "ends in the numbers after line " + std::to_string(line_) +
+                                  "; it is cut short: save it again");
+  position_ += bytes;
+  return std::string_view(text_).substr(position_ - bytes, bytes);
+}
+
 double TableLines::number(std::size_t i, const std::string& what) const {
   const auto value = whole_number(words_[i]);
   if (!value || !std::isfinite(*value))

@@ -21,6 +21,17 @@ class TableLines {
   // The current line's words, which refer to data of this object.
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
 
+  // The current line as it is, and the whole file.
+  [[nodiscard]] std::string_view text() const { return current_; }
+  [[nodiscard]] std::string_view file_text() const { return text_; }
+
+  // The next `bytes` bytes after the current line, for binary parts of a file; next() continues
+  // after them. Throws InputError if the file ends before.
+  [[nodiscard]] std::string_view take(std::size_t bytes);
+
+  // Goes on after the next empty line.
+  void skip_paragraph();
+
   // The current line's number, from 1.
   [[nodiscard]] int line() const { return line_; }
 

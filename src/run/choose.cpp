@@ -9,6 +9,7 @@
 #include "run/size_effect.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
+#include "scene/places.h"
 #include "scene/refining_press.h"
 #include "scene/specimen_shape.h"
 #include "scene/time_plan.h"
@@ -85,6 +86,7 @@ class Chooser {
         quick_(models == Models::quick),
         asked_(scenario::resolve(one, scenario::strongest.of)),
         model_(one.scenario.solver.model.value_or(asked_.solver.model)) {
+    scene::place_in_scene(asked_, one.folder, shapes);
     if (!asked_.uniform()) choice_.touch = surface_touch(asked_, one.folder, shapes);
   }
 
@@ -96,6 +98,7 @@ class Chooser {
       pressed();
     if (choice_.given) choice_.found = {.inertia_matters = !rests()};
     choice_.chosen = scenario::resolve(case_, model_, choice_.found);
+    scene::place_in_scene(choice_.chosen, case_.folder, shapes_);
     return choice_;
   }
 
@@ -238,7 +241,8 @@ class Chooser {
       } else {
         e.size = change;
       }
-    } catch (const MeshError&) {  // the models that mesh the body say why
+    } catch (const MeshError&) {   // the models that mesh the body say why,
+    } catch (const InputError&) {  // and where the mistake stands
     }
   }
 

@@ -18,6 +18,7 @@
 #include "scenario/integrators.h"
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "tissue/coupled.h"
 #include "tissue/part.h"
 #include "tissue/springs.h"
@@ -41,6 +42,7 @@ class Findings {
     add("outcome", std::string(record::outcome_word(record_.outcome)));
     add("last_stable_time_s", record_.last_stable_time);
     add("model", rung_.word);
+    surface();
     if (scene_.specimen) specimen(*scene_.specimen);
     if (!record_.contact.empty()) contact();
     if (!record_.strain.empty()) strain();
@@ -65,6 +67,29 @@ class Findings {
     record_.findings.push_back({name, std::move(value)});
   }
   void remark(const std::string& sentence) { record_.remarks.push_back(sentence); }
+
+  void surface() {
+    const std::string& mended = scene_.choice.touch.remark;
+    if (!mended.empty()) remark(mended);
+    const scenario::Resolved& scenario = scene_.scenario;
+    const scene::SurfaceTouch& touch = scene_.choice.touch;
+    const geometry::SmoothSurface* const skin = scene_.specimen ? &*scene_.specimen->surface
+                                                : scene_.solid  ? scene_.solid->skin.get()
+                                                                : nullptr;
+    if (skin == nullptr || scenario.uniform() || !touch.known() || !touch.size.allFinite() ||
+        !scenario.tissue.held_from_below())
+      return;
+    // A load spreads by about 45 degrees.
+    constexpr double least_under = 0.1;
+    const double height = touch.position.z() - scene::base_level(scenario, skin->surface());
+    const scene::BaseArea base =
+        scene::base_area(scenario, skin->surface(), touch.position, height);
+    if (base.under_press < least_under)
+      remark("only " + percent_text(base.under_press) +
+             " of the base lies under the press: the body bends or turns on it; see the base in "
+             "`palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it is held "
+             "elsewhere");
+  }
 
   void specimen(const scene::Specimen& specimen) {
     const double table_modulus = scene_.scenario.tissue.young_modulus;

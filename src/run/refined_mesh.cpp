@@ -13,6 +13,7 @@
 #include "scenario/integrators.h"
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "scene/refining_press.h"
 #include "scene/specimen_mesh.h"
 
@@ -89,7 +90,7 @@ class Refining {
     // scene_with() takes this mesh as it is.
     scenario::refinement(trial_.chosen.tissue.mesh).refine = false;
     std::vector<double> levels = scene::slab_levels(press);
-    levels.push_back(shape.base_level);
+    if (press.tissue.held_from_below()) levels.push_back(shape.base_level);
     meshing::TrueBoundary boundary(shape.mesh, scene::parametric(press.tissue.shape),
                                    scene::lumps_of(press), levels);
     scene::Refined told{.start_nodes = static_cast<int>(shape.mesh.nodes.size()),
@@ -164,9 +165,11 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
                          scene::SpecimenShapes& shapes, scene::Choice choice) {
-  if (scene::refines(choice.chosen))
+  if (scene::refines(choice.chosen)) {
+    scene::refuse_misplaced(choice.chosen, family, shapes);
     (void)shapes.shape(choice.chosen,
                        [&] { return Refining(one, family, choice.chosen).refined(); });
+  }
   return scene::build(one, family, shapes, std::move(choice));
 }
 

@@ -65,6 +65,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.tissues = scene::tissues_of(scenario);
   body.base = scenario.tissue.base;
   body.base_level = given.base_level;
+  body.base_up = scenario.tissue.base_up;
   body.mirrored = {true, true};
   body.per_radius = per_radius;
   order.skin = given.skin.get();

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "scenario/direction.h"
 #include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
@@ -175,6 +176,7 @@ class Checker {
               "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
               "kind = \"tetgen\", nodes = 1500 }`");
     slabs();
+    directions();
     const auto* tetgen = std::get_if<Tetgen>(&tissue.mesh);
     if (tetgen != nullptr && tetgen->tetrahedra &&
         (box || tetgen->edge || std::holds_alternative<SurfaceFile>(tissue.shape)))
@@ -199,6 +201,50 @@ class Checker {
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i)
       if (std::holds_alternative<Slide>(scenario_.steps[i]))
         wrong("step." + std::to_string(i + 1), "a `slide` over", "remove it");
+  }
+
+  // How a body from a file stands, and from where it is pressed.
+  void directions() {
+    const auto asked = [&](const std::string& path, const std::string& text) {
+      if (!text.empty() && !direction_of(text))
+        problem(path, "`" + path.substr(path.rfind('.') + 1) + "` wants a direction, got `" + text +
+                          "`; write it as `y`, `-x` or `0 0.2 1`");
+    };
+    const auto* surface = std::get_if<SurfaceFile>(&scenario_.tissue.shape);
+    const auto* meshed = std::get_if<AsMeshed>(&scenario_.tissue.shape);
+    const Finger& finger = scenario_.finger;
+    const std::string up = surface != nullptr ? surface->up : meshed != nullptr ? meshed->up : "z";
+    if (up.empty()) problem("tissue.shape.up", "`up` is empty; write it as `z`");
+    asked("tissue.shape.up", up);
+    asked("finger.towards", finger.towards);
+    asked("tissue.base_side", scenario_.tissue.base_side);
+    if (!finger.at.empty() && finger.at.size() != 3)
+      problem("finger.at", "`at` wants three lengths, got " + std::to_string(finger.at.size()) +
+                               "; write it as `[\"1 mm\", \"2 mm\", \"3 mm\"]`");
+    const char* aside = !finger.at.empty()                    ? "finger.at"
+                        : !finger.towards.empty()             ? "finger.towards"
+                        : !scenario_.tissue.base_side.empty() ? "tissue.base_side"
+                                                              : nullptr;
+    if (aside != nullptr && surface == nullptr && meshed == nullptr)
+      return problem(aside, "`" + std::string(aside) +
+                                "` is for bodies from files; leave it out, or give the body as a "
+                                "file");
+    const bool turned = aside != nullptr || up != "z";
+    if (turned && (finger.x || finger.y))
+      problem(finger.x ? "finger.x" : "finger.y",
+              "`x` and `y` are for a finger that comes along -z; give the place as `finger.at`");
+    if (aside == nullptr) return;
+    if (scenario_.tissue.base == tissue::Base::frictionless)
+      problem("tissue.base",
+              "a body that is pressed from its side needs a bonded base; write `base "
+              "= \"bonded\"`");
+    for (std::size_t i = 0; i < scenario_.regions.size(); ++i)
+      if (std::holds_alternative<Slab>(scenario_.regions[i].part))
+        problem(
+            "region." + std::to_string(i + 1),
+            "a `slab` is for a finger that comes from above; use a `tagged` region of a mesh, or "
+            "leave out `" +
+                std::string(aside) + "`");
   }
 
   // Slabs of a cuboid must lie below its top; they must not overlap.
@@ -227,7 +273,7 @@ class Checker {
     std::set<int> known;
     for (std::size_t i = 0; i < scenario_.regions.size(); ++i) {
       const auto* tagged = std::get_if<TaggedRegion>(&scenario_.regions[i].part);
-      if (tagged != nullptr && !known.insert(tagged->tag).second)
+      if (tagged != nullptr && tagged->name.empty() && !known.insert(tagged->tag).second)
         problem("region." + std::to_string(i + 1) + ".tag", "another `[[region]]` has `tag` " +
                                                                 std::to_string(tagged->tag) +
                                                                 " too; keep one of the two");

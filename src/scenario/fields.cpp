@@ -55,9 +55,23 @@ void finger_fields(FieldVisitor& visitor, Finger& finger) {
                   "Which property several spheres share with the single sphere that they replace.",
                   {finger.spheres > 1, "with more than one of `spheres`", Use::Otherwise::note}},
                  finger.calibration, calibrations);
-  visitor.quantity_or("auto", {"x", "Where it presses; `auto`: the middle of the specimen."},
-                      finger.x, unit::mm, {});
+  visitor.quantity_or(
+      "auto",
+      {"x",
+       "Where it presses, in the coordinates of the body; `auto`: the middle of the "
+       "specimen."},
+      finger.x, unit::mm, {});
   visitor.quantity_or("auto", {"y", "Likewise."}, finger.y, unit::mm, {});
+  visitor.quantity_list(
+      {"at",
+       "A place in the coordinates of a body from a file: three lengths, in place "
+       "of `x` and `y`. The finger presses the nearest place of the surface, "
+       "along its normal unless `towards` is given."},
+      finger.at, unit::mm, {});
+  visitor.text({"towards",
+                "The direction of the press in the coordinates of a body from a file, as `up` of "
+                "`tissue.shape`. Default: down."},
+               finger.towards);
   const Use elastic{!finger.rigid(), "where the finger is not `rigid`"};
   visitor.quantity({"young_modulus", "Default: the material's.", elastic}, finger.young_modulus,
                    unit::kPa, above(0));
@@ -251,8 +265,24 @@ static void fields(FieldVisitor& visitor, HalfSpace& shape) {
 static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
   visitor.text({"file", "Path of the surface, from the scenario's folder."}, shape.file);
   visitor.text({"unit", "The length unit of its coordinates, such as `mm`. Required."}, shape.unit);
+  visitor.text({"up",
+                "The direction in the file's coordinates that points up, against the way of the "
+                "finger: `x`, `-y`, or three numbers such as `0 0.2 1`."},
+               shape.up);
+  visitor.flag({"repair",
+                "Whether small faults are mended, which is said: vertices in one place, doubled "
+                "triangles, sheets that share a vertex, triangles that face inwards, and holes and "
+                "crossing triangles with at most 2 % of the area."},
+               shape.repair);
+  visitor.count_or("auto",
+                   {"part",
+                    "Which of several closed parts the body is, by falling volume; `auto`: the "
+                    "largest, which is said."},
+                   shape.part, between(1, 1e6));
 }
-static void fields(FieldVisitor&, AsMeshed&) {}
+static void fields(FieldVisitor& visitor, AsMeshed& shape) {
+  visitor.text({"up", "As for a surface from a file."}, shape.up);
+}
 
 static void grading(FieldVisitor& visitor, double& ratio) {
   visitor.number({"grading",
@@ -293,7 +323,7 @@ static void fields(FieldVisitor& visitor, Tetgen& mesh) {
   refinement(visitor, mesh);
 }
 static void fields(FieldVisitor& visitor, MeshFile& mesh) {
-  visitor.text({"file", "Path of the .node or .msh file, from the scenario's folder."}, mesh.file);
+  visitor.text({"file", "Path of the file, from the scenario's folder."}, mesh.file);
   visitor.text({"unit", "The length unit of its coordinates, such as `mm`. Required."}, mesh.unit);
   refinement(visitor, mesh);
 }
@@ -342,19 +372,30 @@ static void fields(FieldVisitor& visitor, Compress& step) {
 }
 
 static void fields(FieldVisitor& visitor, TaggedRegion& region) {
-  visitor.count({"tag", "The number of the region in the shape or in the mesh file."}, region.tag,
-                between(0, 1e9));
+  visitor.text({"name",
+                "The name of the region's group in the mesh file: a physical group of Gmsh, an "
+                "element set of Abaqus."},
+               region.name);
+  visitor.count({"tag",
+                 "The number of the region in the shape or in the mesh file.",
+                 {region.name.empty(), "without `name`", Use::Otherwise::note}},
+                region.tag, between(0, 1e9));
 }
 static void fields(FieldVisitor& visitor, Lump& region) {
-  visitor.quantities(
-      {"centre", "In the specimen's coordinates, from the lowest corner of its bounding box."},
-      region.centre, unit::mm, {});
+  visitor.quantities({"centre",
+                      "In the coordinates of the file that gives the body, or from the lowest "
+                      "corner of a shape that "
+                      "palpate makes; `palpate explain SCENARIO` prints the body's box. 99 % of "
+                      "the lump must lie in "
+                      "the body."},
+                     region.centre, unit::mm, {});
   visitor.quantity({"radius", "Of the lump."}, region.radius, unit::mm, above(0));
 }
 static void fields(FieldVisitor& visitor, Slab& region) {
-  visitor.quantity({"bottom", "Height where it begins."}, region.bottom, unit::mm, at_least(0));
+  visitor.quantity({"bottom", "Height where it begins, like `centre` of a lump."}, region.bottom,
+                   unit::mm, {});
   visitor.quantity({"top", "Height where it ends; the top of the body is `tissue`."}, region.top,
-                   unit::mm, above(0));
+                   unit::mm, {});
 }
 
 namespace {
@@ -429,12 +470,19 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                    tissue.drag, unit::per_second, at_least(0));
   visitor.choice_or(auto_bases, {"base", "How the base of the specimen is supported.", use.based},
                     tissue.base, bases);
+  visitor.text({"base_side",
+                "The side of a body from a file that is held, a direction in its coordinates, as "
+                "`up` of `tissue.shape`; `base_height` is then along the opposite direction. "
+                "Default: the underside.",
+                use.mesh.used ? use.finger : use.mesh},
+               tissue.base_side);
   visitor.quantity_or("auto",
                       {"base_height",
-                       "The skin up to this height is its base; `auto`: the underside where it is "
-                       "flat, else the lowest tenth of the specimen.",
+                       "The skin up to this height, in the coordinates of the body, is its base; "
+                       "`auto`: the underside where it is flat, else the lowest tenth of the "
+                       "specimen.",
                        use.mesh.used ? use.finger : use.mesh},
-                      tissue.base_height, unit::mm, at_least(0));
+                      tissue.base_height, unit::mm, {});
 }
 
 }  // namespace

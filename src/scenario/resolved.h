@@ -2,6 +2,7 @@
 // it is what a Scene computes.
 #pragma once
 
+#include "base/vec3.h"
 #include "contact/hertz.h"
 #include "scenario/family.h"
 
@@ -16,6 +17,12 @@ struct Resolved : PlainScenario {
   struct Tissue : PlainTissue, Substance {
     tissue::ViscousLaw law;  // elastic if no viscosity is computed and the material has none
     tissue::Base base = tissue::Base::bonded;
+    // From the coordinates of a body's file to those of the scene, in which the finger comes along
+    // -z; and the direction in the scene away from the side that is held.
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    Vec3 base_up = Vec3::UnitZ();
+
+    [[nodiscard]] bool held_from_below() const { return base_up.z() == 1.0; }
   };
   struct Region : PlainRegion, Substance {};
   struct Finger : PlainFinger {

@@ -53,15 +53,20 @@ struct HalfSpace {
   std::optional<double> curvature_2;  // 1/m, across the first; empty: the same
 };
 struct SurfaceFile {
-  static constexpr Word word{"file",
-                             "A closed surface from an STL, OBJ, PLY or OFF file. For a mesh, "
-                             "triangles that are too fine, "
-                             "and needles, are replaced."};
+  static constexpr Word word{
+      "file",
+      "A closed surface from an STL, OBJ, PLY, OFF, VTP or VTU file. For a mesh, "
+      "triangles that are too fine, "
+      "and needles, are replaced."};
   std::string file;
-  std::string unit;  // symbol of a length unit
+  std::string unit;         // symbol of a length unit
+  std::string up = "z";     // the direction of the file's coordinates that points up
+  bool repair = true;       // small faults of the surface
+  std::optional<int> part;  // of several closed parts; empty: the only one, or the largest
 };
 struct AsMeshed {
   static constexpr Word word{"as_meshed", "The shape of the ready mesh that `tissue.mesh` names."};
+  std::string up = "z";  // as for a surface
 };
 using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb, HalfSpace,
                            SurfaceFile, AsMeshed>;
@@ -88,7 +93,11 @@ struct Tetgen : Refinement {
   std::optional<double> edge;     // m; if given, `nodes` is not used
 };
 struct MeshFile : Refinement {
-  static constexpr Word word{"file", "A ready mesh: TetGen's .node and .ele, or Gmsh's .msh."};
+  static constexpr Word word{
+      "file",
+      "A ready mesh of tetrahedra, hexahedra, prisms or pyramids: .msh of Gmsh, "
+      ".vtu and .vtk of VTK, .inp of Abaqus, .mesh of MEDIT, .node and .ele "
+      "of TetGen."};
   std::string file;
   std::string unit;  // symbol of a length unit
 };
@@ -115,7 +124,8 @@ struct PlainTissue {
   Mesh mesh = Mirrored{};
   tissue::Viscosity viscosity = tissue::Viscosity::kelvin_voigt;
   std::vector<Branch> branches;       // for `prony`
-  std::optional<double> base_height;  // m; empty: 0 if the underside is flat, else height / 10
+  std::string base_side;              // the direction of the held side; empty: down
+  std::optional<double> base_height;  // m; empty: the flat underside, or else a tenth of the height
 };
 struct Tissue : PlainTissue {
   std::optional<double> density;        // kg/m^3; empty properties are those of the material
@@ -129,8 +139,10 @@ struct Tissue : PlainTissue {
 };
 
 struct TaggedRegion {
-  static constexpr Word word{"tagged", "A region of the shape or of the mesh file, by its number."};
+  static constexpr Word word{"tagged",
+                             "A region of the shape or of the mesh file, by its number or name."};
   int tag = 1;
+  std::string name = {};  // of a group in the mesh file; if it is empty, `tag` counts
 };
 struct Lump {
   static constexpr Word word{"sphere", "A lump inside the specimen."};
@@ -163,6 +175,8 @@ struct PlainFinger {
   int spheres = 1;
   finger::Calibration calibration = finger::Calibration::force;
   std::optional<double> x, y;  // m, position; empty: the middle of the specimen
+  std::vector<double> at;      // m, three; or empty: `x` and `y` count
+  std::string towards;         // the direction of the press; empty: down, or into the skin at `at`
   Weight weight = Weight::in_contact;
 
   [[nodiscard]] bool rigid() const { return material == "rigid"; }

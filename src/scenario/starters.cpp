@@ -130,7 +130,7 @@ mesh          = { kind = "tetgen", nodes = 1500 }
 
 [[region]]
 kind          = "sphere"
-centre        = ["40 mm", "30 mm", "28 mm"]    # from the lowest corner of the bounding box
+centre        = ["40 mm", "30 mm", "28 mm"]    # from the lowest corner; of a file: its own coordinates
 radius        = "7 mm"
 young_modulus = "50 kPa"
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "base/text.h"
 #include "contact/hertz.h"
@@ -12,6 +13,7 @@
 #include "scenario/programme.h"
 #include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
@@ -121,11 +123,9 @@ std::vector<double> densities_of(const scenario::Resolved& scenario) {
 }
 
 void measure_size(Specimen& specimen) {
-  specimen.low = specimen.high = specimen.mesh.nodes.front();
-  for (const Vec3& node : specimen.mesh.nodes) {
-    specimen.low = specimen.low.cwiseMin(node);
-    specimen.high = specimen.high.cwiseMax(node);
-  }
+  const Box box = box_of(specimen.mesh.nodes);
+  specimen.low = box.low;
+  specimen.high = box.high;
 }
 
 }  // namespace
@@ -238,7 +238,10 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   measure_size(*specimen);
   const double top = specimen->high.z();
   const double top_area = shape.top_area;
-  specimen->base_height = shape.base_level - specimen->low.z();
+  const Vec3& up = scenario.tissue.base_up;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec3& node : specimen->mesh.nodes) lowest = std::min(lowest, node.dot(up));
+  specimen->base_height = shape.base_level - lowest;
   if (scenario.uniform() && top_area <= 0.0)
     throw MeshError(
         "the specimen has no flat upper end for a platen; `creep`, `relax` and `compress` need a "
@@ -264,10 +267,10 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
     specimen->held_between_platens = tissue::held_between_platens(
         specimen->mesh, specimen->base, top, scenario::upper_platen(scenario));
   }
-  specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height);
+  specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height, up);
   specimen->skin = shape.skin;
-  if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape))
-    specimen->of_file = shapes.surface(*file, folder).surface;
+  if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape))
+    specimen->of_file = shapes.surface(scenario, folder).surface;
   specimen->remark = shape.remark;
   specimen->surface.emplace(shape.surface);
   return specimen;
@@ -361,12 +364,17 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   refuse_beyond(scene, family);
   refuse_sliding(scene, family);
   if (!scenario.uniform()) set_depth_ratio(scene, family);
+  refuse_misplaced(scenario, family, shapes);
   switch (scenario.solver.model) {
     case Model::hertz: break;
     case Model::layer: set_layer(scene, shapes); break;
     case Model::mass_spring:
     case Model::coupled_springs: set_specimen(scene, family, shapes); break;
     case Model::solid: scene.solid = make_solid_body(scene, family.folder, shapes); break;
+  }
+  if (std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape)) {
+    if (scene.specimen) refuse_outside(scenario, scene.specimen->surface->surface(), family);
+    if (scene.solid) refuse_outside(scenario, scene.solid->skin->surface(), family);
   }
   return scene;
 }

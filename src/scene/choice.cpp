@@ -1,5 +1,6 @@
 // What a choice says of its models.
 #include "base/text.h"
+#include "scene/places.h"
 #include "scene/refining_press.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
@@ -26,6 +27,7 @@ Choice given_choice(const scenario::Case& one, scenario::Model model, SpecimenSh
   Choice choice;
   choice.given = true;
   choice.chosen = scenario::resolve(one, model);
+  place_in_scene(choice.chosen, one.folder, shapes);
   if (choice.chosen.uniform()) return choice;
   choice.touch = surface_touch(choice.chosen, one.folder, shapes);
   choice.expected = estimate(choice.chosen, choice.touch);

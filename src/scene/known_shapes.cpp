@@ -21,6 +21,7 @@ std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario,
   // Steeper, the second order of SurfaceTouch::pressed() is not enough.
   constexpr double steepest = 60.0;  // degrees
   if (!touch.known()) return touch.cannot;
+  if (!scenario.tissue.held_from_below()) return "the body is not held from below the finger";
   const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
   if (box != nullptr && leaves(scenario, *box)) return "the finger leaves the top of the body";
   if (!touch.curved() && !touch.tilted()) return std::nullopt;

@@ -5,23 +5,11 @@
 
 #include "geometry/surface.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
 
 namespace palpate::scene {
-namespace {
-
-// Whether a triangle lies in the plane of the lowest vertex.
-bool stands_flat(const geometry::Surface& surface, double low, double rounding) {
-  return std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const auto& triangle) {
-    return std::all_of(triangle.begin(), triangle.end(), [&](int vertex) {
-      return surface.vertices[as_index(vertex)].z() <= low + rounding;
-    });
-  });
-}
-
-}  // namespace
-
 std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string& folder,
                                            SpecimenShapes& shapes) {
   constexpr double spacing_over_size = 0.02;  // of shapes, for the first touch alone
@@ -31,8 +19,8 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
     body->mesh = specimen_mesh(scenario, folder).mesh;
     body->skin =
         std::make_shared<const geometry::SmoothSurface>(geometry::skin(*body->mesh).surface);
-  } else if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
-    body->surface = body->skin = shapes.surface(*file, folder).surface;
+  } else if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape)) {
+    body->surface = body->skin = shapes.surface(scenario, folder).surface;
   } else {
     body->shape = parametric(scenario.tissue.shape);
     const double spacing = spacing_over_size * geometry::extent(*body->shape).norm();
@@ -47,15 +35,8 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
   };
 
   const geometry::Surface& skin = body->skin->surface();
-  Vec3 low = skin.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& vertex : skin.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
-  const bool flat = stands_flat(skin, low.z(), 1e-9 * (high - low).norm());
-  body->base_level =
-      low.z() + scenario.tissue.base_height.value_or(flat ? 0.0 : 0.1 * (high.z() - low.z()));
+  const auto [low, high] = box_of(skin.vertices);
+  body->base_level = base_level(scenario, skin);
 
   refuse_covered_lumps(scenario);
   const SurfaceTouch& touch = scene.choice.touch;

@@ -22,9 +22,9 @@ struct SolidBody {
   std::shared_ptr<const geometry::SmoothSurface> surface;  // of a file
   std::optional<geometry::TetMesh> mesh;                   // with the numbers of substances
   std::shared_ptr<const geometry::SmoothSurface> skin;     // the surface of any of them
-  double base_level = 0.0;                                 // m; the skin up to this height is held
-  Vec3 first_touch = Vec3::Zero();                         // m, the finger's point there
-  Vec3 touched = Vec3::Zero();                             // m, the place of the skin there
+  double base_level = 0.0;          // m; the skin up to this height along `tissue.base_up` is held
+  Vec3 first_touch = Vec3::Zero();  // m, the finger's point there
+  Vec3 touched = Vec3::Zero();      // m, the place of the skin there
 
   // The substance of a part of the shape: 0 is the tissue, then the scenario's regions in order.
   std::function<int(int part)> substance_of;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -13,12 +14,12 @@
 #include "meshing/level_cut.h"
 #include "meshing/mesh_check.h"
 #include "meshing/mesh_files.h"
-#include "meshing/surface_check.h"
 #include "meshing/surface_files.h"
 #include "meshing/tetgen.h"
 #include "meshing/tetgen_body.h"
 #include "meshing/tetgen_file.h"
 #include "scene/estimates.h"
+#include "scene/places.h"
 
 namespace palpate::scene {
 namespace {
@@ -126,17 +127,22 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder) {
     if (file == nullptr) {
       mesh = tetgen_mesh(scenario, *tetgen);
     } else {
-      auto [found, remark] = meshing::tetgen_file(
-          surface_of(*file, folder), numbered_lumps(scenario), target(*tetgen), meshing_time);
+      auto [found, remark] =
+          meshing::tetgen_file(surface_of(scenario, folder).surface, numbered_lumps(scenario),
+                               target(*tetgen), meshing_time);
       made = {std::move(found), std::move(remark)};
     }
   } else {
     const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
-    mesh = meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
+    auto [found, names, remark] = mesh_of(file, folder);
+    for (Vec3& node : found.nodes) node = scenario.tissue.turn * node;
+    made = {std::move(found), std::move(remark), std::move(names)};
     name = "the mesh of " + file.file;
   }
   meshing::check(mesh, name, volume);
-  const std::vector<double> heights = slab_levels(scenario);
+  std::vector<double> heights = slab_levels(scenario);
+  const Box around = box_of(mesh.nodes);
+  std::erase_if(heights, [&](double z) { return z <= around.low.z() || z >= around.high.z(); });
   for (const double height : heights)
     mesh = meshing::cut_at(std::move(mesh), height, false, parametric(scenario.tissue.shape));
   if (!heights.empty()) {
@@ -146,14 +152,33 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder) {
   return made;
 }
 
+// The number in the mesh of a tagged region.
+int number_of(const scenario::TaggedRegion& region, std::size_t i,
+              const std::map<std::string, int>& names) {
+  if (region.name.empty()) return region.tag;
+  const auto known = names.find(region.name);
+  if (known != names.end()) return known->second;
+  std::string all;
+  for (const auto& [name, number] : names) all += (all.empty() ? "`" : ", `") + name + "`";
+  throw MeshError(
+      "the mesh has no region with the name `" + region.name + "` of `[[region]]` " +
+      std::to_string(i + 1) + "; " +
+      (all.empty() ? "its file has no names, write `tag` with a number" : "it has " + all));
+}
+
 // Replaces the numbers of shapes and files by 0 for the tissue and 1... for the scenario's regions.
-void number_regions(geometry::TetMesh& mesh, const Scenario& scenario) {
+void number_regions(SpecimenMesh& made, const Scenario& scenario) {
+  geometry::TetMesh& mesh = made.mesh;
   std::vector<char> used(scenario.regions.size(), 0);
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
+    const auto* tagged = std::get_if<scenario::TaggedRegion>(&scenario.regions[i].part);
+    numbers.push_back(tagged != nullptr ? number_of(*tagged, i, made.names)
+                                        : first_own + static_cast<int>(i));
+  }
   const auto substance = [&](int number) {
     for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
-      const auto* tagged = std::get_if<scenario::TaggedRegion>(&scenario.regions[i].part);
-      if (tagged != nullptr ? tagged->tag != number : first_own + static_cast<int>(i) != number)
-        continue;
+      if (numbers[i] != number) continue;
       used[i] = 1;
       return static_cast<int>(i) + 1;
     }
@@ -248,17 +273,23 @@ std::vector<geometry::Lump> lumps_of(const Scenario& scenario) {
   return found;
 }
 
-geometry::Surface surface_of(const scenario::SurfaceFile& file, const std::string& folder) {
-  geometry::Surface surface =
-      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit));
-  meshing::check_closed(surface, file.file);
-  return surface;
+meshing::WholeSurface surface_of(const Scenario& scenario, const std::string& folder) {
+  const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
+  meshing::WholeSurface whole = meshing::whole_surface(
+      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit)), file.file,
+      {file.repair, file.part});
+  for (Vec3& vertex : whole.surface.vertices) vertex = scenario.tissue.turn * vertex;
+  return whole;
+}
+
+meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {
+  return meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
 }
 
 SpecimenMesh specimen_mesh(const Scenario& scenario, const std::string& folder) {
   SpecimenMesh made = any_mesh(scenario, folder);
   geometry::TetMesh& mesh = made.mesh;
-  if (!scenario.regions.empty() || !mesh.regions.empty()) number_regions(mesh, scenario);
+  if (!scenario.regions.empty() || !mesh.regions.empty()) number_regions(made, scenario);
   const auto shape = parametric(scenario.tissue.shape);
   const bool lies = shape && !std::holds_alternative<geometry::Cuboid>(*shape);
   if (scenario.uniform() && lies) stand_up(mesh);

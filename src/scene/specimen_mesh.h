@@ -1,6 +1,7 @@
 // The tetrahedra of a specimen from the shape, mesh and regions of a scenario.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "geometry/shapes.h"
 #include "geometry/surface.h"
 #include "geometry/tet_mesh.h"
+#include "meshing/cells.h"
+#include "meshing/surface_repair.h"
 #include "scenario/resolved.h"
 
 namespace palpate::scene {
@@ -25,13 +28,18 @@ namespace palpate::scene {
 // hundredth of a lump before it.
 void refuse_covered_lumps(const scenario::Resolved& scenario);
 
-// The surface from a file. Throws InputError if it cannot be read, MeshError if it bounds no body.
-[[nodiscard]] geometry::Surface surface_of(const scenario::SurfaceFile& file,
-                                           const std::string& folder);
+// The surface from the scenario's file, turned. Throws InputError if it cannot be read, MeshError
+// if it bounds no body.
+[[nodiscard]] meshing::WholeSurface surface_of(const scenario::Resolved& scenario,
+                                               const std::string& folder);
+
+// The mesh from the scenario's file, not turned, with the file's numbers of regions.
+[[nodiscard]] meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder);
 
 struct SpecimenMesh {
   geometry::TetMesh mesh;
-  std::string remark;  // that of meshing::FileMesh, or empty
+  std::string remark = {};  // that of meshing::FileMesh or meshing::NamedMesh, or empty
+  std::map<std::string, int> names = {};  // of the file's regions
 };
 
 // The mesh with the numbers of its substances: TetMesh::regions are 0 for `tissue.material`, then

@@ -8,9 +8,11 @@
 
 #include "base/error.h"
 #include "base/field_writer.h"
+#include "base/text.h"
 #include "geometry/surface.h"
 #include "meshing/level_cut.h"
 #include "meshing/mesh_check.h"
+#include "scene/places.h"
 #include "scene/refining_press.h"
 #include "scene/specimen_mesh.h"
 
@@ -69,11 +71,10 @@ SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
 }
 
 SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
-  auto [mesh, remark] = specimen_mesh(scenario, folder);
-  const auto [low, high] = reach(mesh);
-  const bool flat = flat_area(geometry::skin(mesh), low, 1e-9 * geometry::diagonal(mesh)) > 0.0;
-  const double level = low + scenario.tissue.base_height.value_or(flat ? 0.0 : 0.1 * (high - low));
-  if (level > low && !scenario.uniform() &&
+  auto [mesh, remark, names] = specimen_mesh(scenario, folder);
+  const double low = reach(mesh).first;
+  const double level = base_level(scenario, geometry::skin(mesh).surface);
+  if (level > low && !scenario.uniform() && scenario.tissue.held_from_below() &&
       !std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
     mesh = meshing::cut_at(std::move(mesh), level, true, parametric(scenario.tissue.shape));
     meshing::check(mesh, "the mesh, cut at the border of the base,", 0.0);
@@ -95,6 +96,9 @@ std::string shape_key(const Scenario& scenario) {
   }
   only.solver.model = scenario::strongest.of;  // has a mesh, and reads all keys of shape and mesh
   // A uniform test turns shapes to stand on their ends.
+  only.tissue.base_side = scenario.tissue.base_side;
+  only.finger.at = scenario.finger.at;
+  only.finger.towards = scenario.finger.towards;
   if (scenario.uniform())
     only.steps.emplace_back(scenario::Creep{});
   else
@@ -161,16 +165,22 @@ double SpecimenShapes::seconds(const Scenario& scenario) {
   return known.seconds;
 }
 
-const SpecimenShapes::FileSurface& SpecimenShapes::surface(const scenario::SurfaceFile& file,
+const SpecimenShapes::FileSurface& SpecimenShapes::surface(const Scenario& scenario,
                                                            const std::string& folder) {
+  const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
+  std::string key = folder + "\n" + file.file + "\n" + file.unit + (file.repair ? "\nr" : "\n") +
+                    std::to_string(file.part.value_or(0));
+  for (int i = 0; i < 9; ++i) key += " " + number_text(scenario.tissue.turn(i / 3, i % 3));
   FileSurface& known = [&]() -> FileSurface& {
     const std::lock_guard lock(looking_up_);
-    return surfaces_[folder + "\n" + file.file + "\n" + file.unit];
+    return surfaces_[key];
   }();
   const std::lock_guard lock(known.reading);
   if (known.surface || !known.fault.empty()) return known;
   try {
-    known.surface = std::make_shared<const geometry::SmoothSurface>(surface_of(file, folder));
+    meshing::WholeSurface whole = surface_of(scenario, folder);
+    known.remark = std::move(whole.remark);
+    known.surface = std::make_shared<const geometry::SmoothSurface>(std::move(whole.surface));
   } catch (const MeshError& error) {
     known.fault = error.what();
   } catch (const InputError& error) {

@@ -64,9 +64,11 @@ class SpecimenShapes {
   struct FileSurface {
     std::mutex reading;
     std::shared_ptr<const geometry::SmoothSurface> surface;
+    std::string remark;  // of meshing::WholeSurface
     std::string fault;
   };
-  [[nodiscard]] const FileSurface& surface(const scenario::SurfaceFile& file,
+  // Of a scenario whose shape is a SurfaceFile, turned as the scenario says.
+  [[nodiscard]] const FileSurface& surface(const scenario::Resolved& scenario,
                                            const std::string& folder);
 
   // Numbers that follow from a key alone, made by `make` if they are not there yet.
@@ -97,7 +99,7 @@ class SpecimenShapes {
   std::mutex looking_up_;
   std::map<std::string, Entry> entries_;
   std::atomic<double> seconds_ = 0.0;
-  std::map<std::string, FileSurface> surfaces_;  // by path and unit
+  std::map<std::string, FileSurface> surfaces_;  // by path, unit, turn and what is asked of it
 
   std::map<std::string, std::pair<std::mutex, std::optional<Numbers>>> numbers_;
 

@@ -14,6 +14,7 @@
 #include "geometry/shape_touch.h"
 #include "scenario/programme.h"
 #include "scene/first_touch.h"
+#include "scene/places.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
 
@@ -44,7 +45,7 @@ SurfaceTouch of_half_space(const scenario::HalfSpace& half) {
 
 SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
   SurfaceTouch touch;
-  touch.size = geometry::extent(shape);
+  touch.size = touch.high = geometry::extent(shape);
   const double x = scenario.finger.x.value_or(0.5 * touch.size.x());
   const double y = scenario.finger.y.value_or(0.5 * touch.size.y());
   touch.lowest = {x, y, touch.size.z()};
@@ -182,12 +183,10 @@ double thickness_under(const geometry::Surface& surface, const Vec3& point) {
 SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
   SurfaceTouch touch;
   const auto& vertices = surface.surface().vertices;
-  Vec3 low = vertices.front();
-  Vec3 high = low;
-  for (const Vec3& vertex : vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
+  const auto [low, high] = box_of(vertices);
+  const Box own = box_in_file(scenario, vertices);
+  touch.low = own.low;
+  touch.high = own.high;
   touch.size = high - low;
   touch.thickness = touch.size.z();
   const Vec3 middle = 0.5 * (low + high);
@@ -273,9 +272,13 @@ SurfaceTouch surface_touch(const Scenario& scenario, const std::string& folder,
   if (const auto shape = parametric(scenario.tissue.shape)) return of_shape(*shape, scenario);
   if (const auto* half = std::get_if<scenario::HalfSpace>(&scenario.tissue.shape))
     return of_half_space(*half);
-  if (const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape)) {
-    const SpecimenShapes::FileSurface& read = shapes.surface(*file, folder);
-    if (read.surface) return of_file(*read.surface, scenario);
+  if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape)) {
+    const SpecimenShapes::FileSurface& read = shapes.surface(scenario, folder);
+    if (read.surface) {
+      SurfaceTouch touch = of_file(*read.surface, scenario);
+      touch.remark = read.remark;
+      return touch;
+    }
     SurfaceTouch touch;
     touch.cannot = read.fault;
     touch.nowhere = true;

@@ -15,6 +15,8 @@ class SpecimenShapes;
 // What a closed form knows of a specimen's surface. The force acts along the normal of the surface
 // nearest to the sphere, as on a mesh.
 struct SurfaceTouch {
+  Vec3 low = Vec3::Zero();  // m, corners of the bounding box in the coordinates of the file
+  Vec3 high = Vec3::Zero();
   Vec3 size = Vec3::Constant(std::numeric_limits<double>::infinity());  // m, of the bounding box
   // m, from the touch straight down to where the body ends, or the wall of a hollow one.
   double thickness = std::numeric_limits<double>::infinity();
@@ -26,6 +28,7 @@ struct SurfaceTouch {
   double to_edge = std::numeric_limits<double>::infinity();
   bool one_sided = false;   // the curvature has StarStatus::one_sided
   std::string cannot = {};  // why there is no curvature; empty if there is one
+  std::string remark = {};  // on a surface that was mended; empty if it is as the file gives it
   bool nowhere = false;     // no model can press here: beside the body, or it is not sound
 
   [[nodiscard]] bool known() const { return cannot.empty(); }

@@ -59,12 +59,20 @@ Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
   return sizes;
 }
 
+// The plane to which the base reaches, where it is normal to an axis.
+std::optional<Plane> base_plane(const BodyOrder& order) {
+  for (const int axis : {0, 1, 2})
+    if (std::abs(order.base_up[axis]) == 1.0)
+      return Plane{axis, order.base_up[axis] * order.base_level};
+  return std::nullopt;
+}
+
 // The mirrors of the order that the body has as well.
 std::vector<Plane> mirrors_of(const BodyOrder& order, const Extent& extent) {
   std::vector<Plane> found;
   if (order.mesh != nullptr || order.touched.empty()) return found;
   for (const int axis : {0, 1}) {
-    if (!order.mirrored[as_index(axis)]) continue;
+    if (!order.mirrored[as_index(axis)] || order.base_up[axis] != 0.0) continue;
     const double middle = 0.5 * (extent.low[axis] + extent.high[axis]);
     const double near = 1e-6 * (extent.high[axis] - extent.low[axis]);
     if (std::abs(order.touched.front()[axis] - middle) > near) continue;
@@ -120,7 +128,9 @@ void support(const BodyOrder& order, std::span<const Plane> mirrors, const Exten
         body.held[3 * n + as_index(mirror.axis)] = 1;
   }
   std::set<int> base;
-  const double level = std::max(order.base_level, extent.low.z()) + rounding;
+  double lowest = order.base_level;
+  if (order.base_up.z() == 1.0) lowest = std::max(lowest, extent.low.z());
+  const double level = lowest + rounding;
   for (const OuterFace& face : body.mesh.boundary) {
     if (std::any_of(mirrors.begin(), mirrors.end(), [&](const Plane& mirror) {
           return lies_on(body.mesh, face, mirror, rounding);
@@ -129,7 +139,8 @@ void support(const BodyOrder& order, std::span<const Plane> mirrors, const Exten
     const auto corner = [&](std::size_t i) -> const Vec3& {
       return body.mesh.nodes[as_index(face.nodes[i])];
     };
-    if (corner(0).z() <= level && corner(1).z() <= level && corner(2).z() <= level)
+    const auto height = [&](std::size_t i) { return corner(i).dot(order.base_up); };
+    if (height(0) <= level && height(1) <= level && height(2) <= level)
       base.insert(face.nodes.begin(), face.nodes.end());
     else if ((corner(1) - corner(0)).cross(corner(2) - corner(0)).z() > 0.0)
       body.met.push_back(face);
@@ -149,7 +160,7 @@ Body make_body(const BodyOrder& order) {
                    .region_of = order.region_of,
                    .inclusions = order.inclusions,
                    .mirrors = mirrors,
-                   .base_level = order.base_level,
+                   .base = base_plane(order),
                    .sizes = sizes_for(order, extent)};
   Body body;
   body.mesh = mesh_for(wanted);

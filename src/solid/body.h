@@ -21,7 +21,8 @@ struct BodyOrder {
 
   std::vector<tissue::Isotropic> tissues;  // one per region
   tissue::Base base = tissue::Base::bonded;
-  double base_level = 0.0;  // m, absolute; the skin up to this height is the base
+  double base_level = 0.0;       // m, absolute; the skin up to this height is the base
+  Vec3 base_up = Vec3::UnitZ();  // the direction of that height; if it is not z, the base is bonded
 
   double radius = 0.0;             // m, of the balls
   double travel = 0.0;             // m, the deepest

@@ -58,10 +58,12 @@ class Mesher {
         for (const double level : {one.bottom, one.top})
           if (level > low_.z() && level < high_.z()) add_level(level);
     for (const Plane& level : levels_) net.cut(level);
-    if (order_.base_level > low_.z() &&
-        std::none_of(levels_.begin(), levels_.end(),
-                     [&](const Plane& level) { return level.at == order_.base_level; }))
-      net.cut({2, order_.base_level});
+    if (const auto& base = order_.base;
+        base && base->at > low_[base->axis] && base->at < high_[base->axis] &&
+        std::none_of(levels_.begin(), levels_.end(), [&](const Plane& level) {
+          return level.axis == base->axis && level.at == base->at;
+        }))
+      net.cut(*base);
     fill_planes(net);
     const auto size = [this](const Vec3& place) { return order_.sizes.at(place); };
     net.refine(size);
@@ -299,7 +301,7 @@ class Mesher {
   [[nodiscard]] Mesh curved(const meshing::PieceMesh& filled) const {
     std::vector<Plane> planes = order_.mirrors;
     planes.insert(planes.end(), levels_.begin(), levels_.end());
-    planes.push_back({2, order_.base_level});
+    if (order_.base) planes.push_back(*order_.base);
     std::map<std::array<int, 2>, std::vector<int>> of_edge;
     for (std::size_t f = 0; f < filled.faces.size(); ++f)
       for (std::size_t i = 0; i < 3; ++i) {

@@ -46,7 +46,7 @@ struct MeshOrder {
   std::function<int(int)> region_of = {};
   std::vector<Inclusion> inclusions = {};  // later ones replace earlier ones
   std::vector<Plane> mirrors = {};         // the body above each is meshed
-  double base_level = 0.0;                 // m; edges follow it where it is above the lowest point
+  std::optional<Plane> base = {};          // edges follow it where it crosses the body
   Sizes sizes;
 };
 

@@ -7,18 +7,17 @@
 
 namespace palpate::tissue {
 
-std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double base_height) {
+std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double base_height,
+                               const Vec3& up) {
   std::vector<char> held(3 * mesh.nodes.size(), 0);
-  const auto height = [](const Vec3& node) { return node.z(); };
+  const auto height = [&](const Vec3& node) { return node.dot(up); };
   double low = height(mesh.nodes.front());
   for (const Vec3& node : mesh.nodes) low = std::min(low, height(node));
-  std::vector<int> nodes = geometry::nodes_at_height(mesh, low);
-  if (base_height > 0.0) {
-    nodes.clear();
-    const double rounding = 1e-9 * geometry::diagonal(mesh);
-    for (const int node : geometry::skin(mesh).nodes)
-      if (height(mesh.nodes[as_index(node)]) <= low + base_height + rounding) nodes.push_back(node);
-  }
+  std::vector<int> nodes;
+  const double rounding = 1e-9 * geometry::diagonal(mesh);
+  for (const int node : geometry::skin(mesh).nodes)
+    if (height(mesh.nodes[as_index(node)]) <= low + std::max(0.0, base_height) + rounding)
+      nodes.push_back(node);
   const auto hold = [&](int node, int axis) { held[as_index(3 * node + axis)] = 1; };
   for (const int node : nodes) {
     hold(node, 2);

@@ -18,9 +18,11 @@ inline constexpr const char* not_held =
 
 // One flag per degree of freedom, 1 where it is held. The base is the lowest plane or, if
 // `base_height` (m) is positive, the skin up to this height above it. With a frictionless base one
-// node is kept from sliding and a second one from turning the body about the first.
+// node is kept from sliding and a second one from turning the body about the first. Heights are
+// along `up`, a unit vector; another one than z needs a bonded base.
 [[nodiscard]] std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base,
-                                             double base_height = 0.0);
+                                             double base_height = 0.0,
+                                             const Vec3& up = Vec3::UnitZ());
 
 // The same, and the height of the nodes at `top` (m) is prescribed; where `platen` is bonded they
 // do not move sideways either.

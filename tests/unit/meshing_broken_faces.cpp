@@ -136,10 +136,10 @@ TEST_F(BrokenSurfaces, ply_headers) {
   EXPECT_EQ(complaint("a.ply", with(good_ply, "float y", "int y")),
             "mesh: a.ply: its vertices want `x`, `y` and `z` of type `float` or `double`; export "
             "it again");
-  EXPECT_EQ(complaint("a.ply", with(good_ply, "vertex_indices\n",
-                                    "vertex_indices\nproperty list uchar float texcoord\n")),
-            "mesh: a.ply: element `face` has a list `texcoord`; export it without texture and "
-            "other extras");
+  const std::string textured = complaint(
+      "a.ply", with(good_ply, "vertex_indices\n",
+                    "vertex_indices\nproperty list uchar float texcoord\n"));  // without its values
+  EXPECT_NE(textured.find("the line ends before `texcoord`"), std::string::npos) << textured;
   EXPECT_EQ(complaint("a.ply", ply("end_header\n")),
             "mesh: a.ply: its header wants an element `vertex` and an element `face`; export it "
             "again");

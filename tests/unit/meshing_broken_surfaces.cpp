@@ -45,8 +45,8 @@ TEST_F(BrokenSurfaces, files_that_cannot_be_read) {
   EXPECT_EQ(verdict("none.stl"),
             "input: none.stl: cannot be read: No such file or directory; check the path");
   EXPECT_EQ(complaint("a.step", good_obj),
-            "input: a.step: a surface wants the ending `.stl`, `.obj`, `.ply` or `.off`; export it "
-            "as one of these");
+            "input: a.step: a surface wants the ending `.stl`, `.obj`, `.ply`, `.off`, `.vtp`, "
+            "`.vtu`, `.vtk`, `.msh`, `.inp` or `.mesh`; export it as one of these");
   EXPECT_TRUE(complaint("stl", good_stl).starts_with("input: stl: a surface wants the ending"));
   for (const char* name : {"folder.stl", "folder.obj", "folder.ply", "folder.off"}) {
     std::filesystem::create_directory(path(name));

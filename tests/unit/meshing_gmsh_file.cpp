@@ -1,5 +1,5 @@
 // Gmsh's .msh files: both versions give one mesh; what is read over; every error with its place.
-#include "meshing/gmsh_file.h"
+#include "meshing/mesh_files.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -44,7 +44,7 @@ class GmshFile : public testing::Test {
   [[nodiscard]] geometry::TetMesh read(const std::string& text,
                                        double metres_per_unit = 1.0) const {
     write_atomically(path_, text);
-    return read_gmsh(path_, metres_per_unit);
+    return read_mesh(path_, metres_per_unit).mesh;
   }
 
   // The error without the folder.
@@ -105,26 +105,28 @@ TEST_F(GmshFile, line_ends_of_windows_are_read) {
 
 TEST_F(GmshFile, other_formats_are_refused_with_a_remedy) {
   EXPECT_EQ(complaint(""),
-            ": the file does not begin with `$MeshFormat`; save it from Gmsh as ASCII 4.1 (`gmsh "
+            ": the file does not begin with `$MeshFormat`; save it from Gmsh as version 4.1 (`gmsh "
             "-format msh41`)");
   EXPECT_EQ(complaint("$NOD\n").substr(0, 34), ":1: the file does not begin with `");
   EXPECT_EQ(complaint(kVersion4, "4.1 0 8", "4.1 1 8"),
-            ":2:5: the file is binary; save it as ASCII 4.1 (`gmsh -format msh41` without `-bin`)");
+            ":2: no binary numbers follow, as `1 8` announces; save the file again from Gmsh");
   EXPECT_EQ(complaint(kVersion4, "4.1 0 8", "4 0 8"),
-            ":2:1: version `4` is not read; save it as ASCII 4.1 (`gmsh -format msh41`)");
+            ":2:1: version `4` is not read; save it as 4.1 (`gmsh -format msh41`)");
   EXPECT_EQ(complaint(kVersion4, "4.1 0 8\n$EndMeshFormat", "4.1 0 8\n$Nodes"),
             ":3: `$EndMeshFormat` should stand here; save the file again from Gmsh");
 }
 
 TEST_F(GmshFile, what_is_no_plain_body_is_refused) {
-  EXPECT_EQ(complaint(kHead4 + kEntities4 + kNodes4 + "$Elements\n0 0 0 0\n$EndElements\n"),
-            ":32: the file holds no tetrahedra with four nodes; mesh the volumes in first order "
-            "(`gmsh -3`), and where there are physical groups put the volumes into them");
-  EXPECT_EQ(complaint(kVersion4, "3 2 4 1\n5", "3 2 5 1\n5"),
-            ":40:5: elements of type 5 are solids other than tetrahedra with four nodes; mesh "
-            "again with tetrahedra of first order");
-  EXPECT_EQ(complaint(kVersion2, "5 4 3 3", "5 11 3 3").substr(0, 32),
-            ":24:3: elements of type 11 are s");
+  EXPECT_EQ(
+      complaint(kHead4 + kEntities4 + kNodes4 + "$Elements\n0 0 0 0\n$EndElements\n"),
+      ":32: the file holds no solid cells and no faces; mesh the volumes (`gmsh -3`), and where "
+      "there are physical groups put the volumes into them");
+  EXPECT_EQ(complaint(kVersion4, "3 2 4 1\n5", "3 2 99 1\n5"),
+            ":40:5: elements of type 99 are not known; mesh again with tetrahedra of first or "
+            "second order");
+  EXPECT_EQ(
+      complaint(kVersion2, "5 4 3 3", "5 11 3 3"),
+      ":24: the line has 10 words, but at least 16 belong here; save the file again from Gmsh");
   EXPECT_EQ(complaint(kVersion4, "1 7 1 1", "2 7 3 1 1"),
             ":9:15: the volume belongs to 2 physical groups, so its tissue is not clear; leave it "
             "in one");
@@ -149,15 +151,14 @@ TEST_F(GmshFile, bad_lines_have_a_place) {
   EXPECT_EQ(complaint(kVersion2, "10 20 30 40", "10 20 31 40"),
             ":23:17: there is no node `31` in `$Nodes`; save the file again from Gmsh");
   EXPECT_EQ(complaint(kVersion2, "10 20 30 40", "10 20 30"),
-            ":23: a tetrahedron with 2 tags wants 9 words, the line has 8; save the file again "
-            "from Gmsh");
+            ":23: the line has 8 words, but at least 9 belong here; save the file again from Gmsh");
   EXPECT_EQ(complaint(kVersion2, "4 4 2 7", "4 4 2 x").substr(0, 7), ":23:7: ");
   EXPECT_EQ(complaint(kVersion4, "10 20 30 40 \n", "10 20 30 \n").substr(0, 30),
             ":39: the line has 4 words, but");
   EXPECT_EQ(complaint(kVersion4, "$Entities\n1 1 1 2", "$Entities\n1 1 1 3"),
             ":11: section `$Entities` ends too early; save the file again from Gmsh");
   EXPECT_EQ(complaint(kVersion4, "1 7 1 1 ", "1"),
-            ":9:15: the group's tag is missing; save the file again from Gmsh");
+            ":9: the line has 8 words, but at least 9 belong here; save the file again from Gmsh");
   EXPECT_EQ(complaint(kHead2 + "rubbish\n"),
             ":4:1: a section such as `$Nodes` should begin here, got `rubbish`; save the file "
             "again from Gmsh");
@@ -173,7 +174,7 @@ TEST_F(GmshFile, files_that_break_off_are_refused) {
 }
 
 TEST_F(GmshFile, a_missing_file_is_named) {
-  EXPECT_THROW((void)read_gmsh("/nowhere/paw.msh", 1.0), InputError);
+  EXPECT_THROW((void)read_mesh("/nowhere/paw.msh", 1.0), InputError);
 }
 
 }  // namespace

@@ -76,20 +76,21 @@ TEST_F(AnyMeshFile, the_ending_tells_the_kind) {
   }
   write_atomically(path("box.msh"), text + "$EndElements\n");
   for (const char* name : {"box.node", "box.ele", "box.msh"}) {
-    const geometry::TetMesh back = read_mesh(path(name), 0.5);
+    const geometry::TetMesh back = read_mesh(path(name), 0.5).mesh;
     EXPECT_EQ(back.tetrahedra, mesh.tetrahedra) << name;
     EXPECT_EQ(back.nodes.back(), 0.5 * mesh.nodes.back()) << name;
   }
 }
 
 TEST_F(AnyMeshFile, other_endings_are_refused) {
-  for (const char* name : {"box.vtu", "box", "box.MSH"}) {
+  for (const char* name : {"box.step", "box", "box.meshb"}) {
     try {
       (void)read_mesh(path(name), 1.0);
       FAIL() << "no error";
     } catch (const InputError& error) {
       EXPECT_EQ(error.what(), path(name) +
-                                  ": a mesh file wants the ending `.node`, `.ele` or `.msh`; save "
+                                  ": a mesh file wants the ending `.msh`, `.vtu`, `.vtk`, `.inp`, "
+                                  "`.mesh`, `.node` or `.ele`; save "
                                   "it as one of them");
     }
   }

@@ -96,7 +96,9 @@ TEST(SurfaceCheck, refuses_what_is_not_finite) {
 
 TEST(SurfaceCheck, asks_about_the_unit) {
   EXPECT_EQ(closed(corner(60.0)),
-            "surface `paw`: is 60 m long, but wants 1e-6 m to 10 m; check its unit");
+            "surface `paw`: is 60 m long, but wants 1e-6 m to 10 m; check its unit: with `mm` in "
+            "place of "
+            "`m` it would be 0.06 m");
   EXPECT_EQ(closed(corner(6e-8)),
             "surface `paw`: is 6e-08 m long, but wants 1e-6 m to 10 m; check its unit");
   EXPECT_EQ(closed(corner(1e300)),

@@ -150,7 +150,7 @@ TEST_F(SurfaceFiles, AreRefusedWhereNoFormulaHolds) {
             }).find("the finger passes beside the specimen at x 90 mm, y "),
             std::string::npos);
   geometry::Surface open = sampled(geometry::Cylinder{}, 5e-3);
-  open.triangles.pop_back();
+  open.triangles.resize(open.triangles.size() * 3 / 4);  // too much to be mended
   write(open);
   EXPECT_NE(
       test::refusal<MeshError>([&] { return test::scene_of(text("", hertz)); }).find("is open: "),

@@ -139,7 +139,8 @@ TEST(Setting, GoesThroughTheSameChecks) {
       "as `0.5`");
   EXPECT_EQ(
       refusal(press + "[tissue]\nyung = 1\n", {"finger.radius=0 mm", "contact.friction=-1"}),
-      "press.toml:5:1: `yung` is not a key here; known keys: base, base_height, branch, density, "
+      "press.toml:5:1: `yung` is not a key here; known keys: base, base_height, base_side, branch, "
+      "density, "
       "drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
       "retardation_time, "
       "shape, viscosity, young_modulus\n"

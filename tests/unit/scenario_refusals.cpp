@@ -8,7 +8,7 @@ TEST(Refusals, ThePlainScenarioIsAccepted) { EXPECT_EQ(refusal(press), "accepted
 
 TEST(Refusals, UnknownKeys) {
   const std::string tissue_keys =
-      "base, base_height, branch, density, drag, instantaneous_ratio, material, mesh, "
+      "base, base_height, base_side, branch, density, drag, instantaneous_ratio, material, mesh, "
       "poisson_ratio, "
       "relaxation_time, retardation_time, shape, viscosity, young_modulus";
   EXPECT_EQ(refusal("shema = 1\n" + press),
@@ -265,21 +265,21 @@ TEST(Refusals, DuplicatesAndBrokenFiles) {
 }
 
 TEST(Refusals, TwoMistakesAreToldInTheOrderOfTheFile) {
-  EXPECT_EQ(
-      refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
-              "radius = \"5\"\n" +
-              press),
-      "press.toml:2:1: `yung` is not a key here; known keys: base, base_height, branch, density, "
-      "drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
-      "retardation_time, "
-      "shape, viscosity, young_modulus\n"
-      "press.toml:3:12: `material` does not know `skn`; did you mean `skin`? Known here: "
-      "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-      "`file.toml#name`\n"
-      "press.toml:5:12: `material` does not know `fingr`; did you mean `finger`? Known here: "
-      "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
-      "`file.toml#name`\n"
-      "press.toml:6:10: `radius` wants a length with its unit, got `5`; write it as `5 mm`");
+  EXPECT_EQ(refusal("[tissue]\nyung = 1\nmaterial = \"skn\"\n[finger]\nmaterial = \"fingr\"\n"
+                    "radius = \"5\"\n" +
+                    press),
+            "press.toml:2:1: `yung` is not a key here; known keys: base, base_height, base_side, "
+            "branch, density, "
+            "drag, instantaneous_ratio, material, mesh, poisson_ratio, relaxation_time, "
+            "retardation_time, "
+            "shape, viscosity, young_modulus\n"
+            "press.toml:3:12: `material` does not know `skn`; did you mean `skin`? Known here: "
+            "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+            "`file.toml#name`\n"
+            "press.toml:5:12: `material` does not know `fingr`; did you mean `finger`? Known here: "
+            "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
+            "`file.toml#name`\n"
+            "press.toml:6:10: `radius` wants a length with its unit, got `5`; write it as `5 mm`");
 }
 
 TEST(Refusals, OneMistakeIsOneMessage) {

@@ -86,7 +86,7 @@ TEST(SolidMesher, MiddlesLieOnTheTrueBoundary) {
   const Vec3 half(0.030, 0.026, 0.018);
   MeshOrder order{.shape = geometry::Ellipsoid{2.0 * half},
                   .mirrors = {{1, half.y()}},
-                  .base_level = 0.0036,
+                  .base = Plane{2, 0.0036},
                   .sizes = {{{Vec3(half.x(), half.y(), 2.0 * half.z()), 0.003, 0.002}}, 0.010}};
   const Mesh mesh = mesh_for(order);
   const double want = 0.5 * ball * half.prod();

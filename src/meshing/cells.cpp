@@ -1,0 +1,183 @@
+// Cuts cells into tetrahedra, and knows VTK's types of cells.
+#include "meshing/cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <span>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace palpate::meshing {
+namespace {
+
+using CellFace = std::vector<int>;
+
+// The faces of a cell by its number of corners; their direction does not matter.
+const std::vector<CellFace>& faces_of(int corners) {
+  static const std::vector<CellFace> tetrahedron{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};
+  static const std::vector<CellFace> pyramid{
+      {0, 1, 2, 3}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  static const std::vector<CellFace> prism{
+      {0, 1, 2}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+  static const std::vector<CellFace> hexahedron{{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                                {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  switch (corners) {
+    case 4: return tetrahedron;
+    case 5: return pyramid;
+    case 6: return prism;
+    default: return hexahedron;
+  }
+}
+
+// From the corner with the lowest node to all faces that do not have it, each cut from its own.
+void cut_into(std::vector<std::array<int, 4>>& found, const Cell& cell) {
+  const std::span<const int> nodes(cell.nodes.data(), as_index(cell.corners));
+  const int apex = *std::min_element(nodes.begin(), nodes.end());
+  for (const CellFace& face : faces_of(cell.corners)) {
+    CellFace own;
+    for (const int corner : face) own.push_back(nodes[as_index(corner)]);
+    if (std::find(own.begin(), own.end(), apex) != own.end()) continue;
+    std::rotate(own.begin(), std::min_element(own.begin(), own.end()), own.end());
+    for (std::size_t i = 1; i + 1 < own.size(); ++i) {
+      std::array<int, 4> one{apex, own[0], own[i], own[i + 1]};
+      if (one[1] != one[2] && one[2] != one[3] && one[1] != one[3]) found.push_back(one);
+    }
+  }
+}
+
+struct VtkKind {
+  int type;
+  int corners;
+  bool solid;
+  bool curved;
+};
+constexpr VtkKind vtk_kinds[] = {
+    {5, 3, false, false}, {9, 4, false, false}, {10, 4, true, false}, {12, 8, true, false},
+    {13, 6, true, false}, {14, 5, true, false}, {22, 3, false, true}, {23, 4, false, true},
+    {24, 4, true, true},  {25, 8, true, true},  {26, 6, true, true},  {27, 5, true, true},
+    {28, 4, false, true}, {29, 8, true, true},  {32, 6, true, true},  {33, 8, true, true},
+    {34, 3, false, true}, {69, 3, false, true}, {70, 4, false, true}, {71, 4, true, true},
+    {72, 8, true, true},  {73, 6, true, true},  {74, 5, true, true}};
+constexpr int vtk_polygon = 7, vtk_pixel = 8, vtk_voxel = 11;
+// Points and lines.
+constexpr int vtk_passed_over[] = {0, 1, 2, 3, 4, 21, 35, 68};
+
+std::string ending_in(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string());
+}
+
+}  // namespace
+
+NamedMesh tetrahedra_of(const Cells& cells, const std::string& path, double metres_per_unit) {
+  if (cells.solids.empty())
+    throw InputError({path},
+                     cells.faces.empty()
+                         ? "holds no solid cells; save the tetrahedra of the volumes too"
+                         : "holds faces alone; name it in `tissue.shape`, or mesh its volume");
+  NamedMesh made;
+  std::vector<std::array<int, 4>> found;
+  std::vector<int> regions;
+  std::size_t cut = 0;
+  for (const Cell& cell : cells.solids) {
+    if (cell.corners == 4)
+      found.push_back({cell.nodes[0], cell.nodes[1], cell.nodes[2], cell.nodes[3]});
+    else
+      cut_into(found, cell), ++cut;
+    regions.resize(found.size(), cell.region);
+  }
+  std::vector<int> number(cells.nodes.size(), -1);
+  for (const auto& one : found)
+    for (const int node : one) number[as_index(node)] = 0;
+  for (std::size_t n = 0; n < number.size(); ++n) {
+    if (number[n] < 0) continue;
+    number[n] = static_cast<int>(made.mesh.nodes.size());
+    made.mesh.nodes.push_back(cells.nodes[n] * metres_per_unit);
+  }
+  for (const auto& [a, b, c, d] : found) {
+    made.mesh.tetrahedra.push_back(
+        {number[as_index(a)], number[as_index(b)], number[as_index(c)], number[as_index(d)]});
+    auto& last = made.mesh.tetrahedra.back();
+    if (geometry::signed_volume(made.mesh, static_cast<int>(made.mesh.tetrahedra.size()) - 1) < 0.0)
+      std::swap(last[2], last[3]);
+  }
+  if (std::any_of(regions.begin(), regions.end(), [](int region) { return region != 0; }))
+    made.mesh.regions = std::move(regions);
+  made.names = cells.names;
+  if (cut > 0)
+    made.remark = std::to_string(cut) + " hexahedra, prisms and pyramids of " + path +
+                  " were cut into tetrahedra";
+  if (cells.curved)
+    made.remark += (made.remark.empty() ? "" : "; ") + std::string("of the cells of ") + path +
+                   " only the corners are used, so that their sides are straight";
+  return made;
+}
+
+bool holds_cells(const std::string& path) {
+  const std::string ending = ending_in(path);
+  return ending == ".msh" || ending == ".vtk" || ending == ".vtu" || ending == ".vtp" ||
+         ending == ".inp" || ending == ".mesh";
+}
+
+Cells read_cells(const std::string& path) {
+  const std::string ending = ending_in(path);
+  if (ending == ".msh") return read_gmsh_cells(path);
+  if (ending == ".vtk") return read_vtk_cells(path);
+  if (ending == ".inp") return read_abaqus_cells(path);
+  if (ending == ".mesh") return read_medit_cells(path);
+  return read_vtu_cells(path);
+}
+
+bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells) {
+  if (std::find(std::begin(vtk_passed_over), std::end(vtk_passed_over), type) !=
+      std::end(vtk_passed_over))
+    return true;
+  std::vector<int> corners = nodes;
+  if (type == vtk_polygon) {
+    if (corners.size() < 3) return false;
+    cells.faces.push_back(std::move(corners));
+    return true;
+  }
+  if (type == vtk_voxel && corners.size() == 8) {
+    std::swap(corners[2], corners[3]);
+    std::swap(corners[6], corners[7]);
+    type = 12;
+  } else if (type == vtk_pixel && corners.size() == 4) {
+    std::swap(corners[2], corners[3]);
+    type = 9;
+  }
+  const auto* const kind = std::find_if(std::begin(vtk_kinds), std::end(vtk_kinds),
+                                        [&](const VtkKind& one) { return one.type == type; });
+  if (kind == std::end(vtk_kinds) || corners.size() < as_index(kind->corners)) return false;
+  corners.resize(as_index(kind->corners));
+  cells.curved = cells.curved || kind->curved;
+  if (!kind->solid) {
+    cells.faces.push_back(std::move(corners));
+    return true;
+  }
+  Cell cell{.corners = kind->corners, .region = at};
+  std::copy(corners.begin(), corners.end(), cell.nodes.begin());
+  cells.solids.push_back(cell);
+  return true;
+}
+
+void number_by(const std::vector<double>& regions, Cells& cells) {
+  constexpr double most = 2147483647.0;
+  for (Cell& cell : cells.solids) {
+    const double number =
+        as_index(cell.region) < regions.size() ? regions[as_index(cell.region)] : 0.0;
+    cell.region = std::abs(number) <= most ? static_cast<int>(std::abs(number)) : 0;
+  }
+}
+
+bool numbers_parts(const std::string& name) {
+  for (const char* known :
+       {"gmsh:physical", "medit:ref", "CellEntityIds", "cell_tags", "PhysicalIds", "abaqus:region",
+        "attribute", "region", "tissue", "material", "MaterialID", "material_id"})
+    if (lower_case(name) == lower_case(known)) return true;
+  return false;
+}
+
+}  // namespace palpate::meshing

@@ -1,0 +1,72 @@
+// Nodes, solid cells and faces as files of unstructured meshes hold them, and their tetrahedra.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/tet_mesh.h"
+
+namespace palpate::meshing {
+
+// A tetrahedron, pyramid, prism or hexahedron has 4, 5, 6 or 8 corners, in VTK's order, which is
+// that of Gmsh, Abaqus and MEDIT too.
+struct Cell {
+  std::array<int, 8> nodes{};
+  int corners = 0;
+  int region = 0;
+};
+
+struct Cells {
+  std::vector<Vec3> nodes;  // in the file's unit
+  std::vector<Cell> solids;
+  std::vector<std::vector<int>> faces;  // corners, counter-clockwise from outside
+  std::map<std::string, int> names;     // regions of solids by the names of their groups
+  bool curved = false;                  // some cells have nodes besides their corners
+};
+
+// A mesh with the names of its regions, and a sentence on what was made of the file's cells.
+struct NamedMesh {
+  geometry::TetMesh mesh;
+  std::map<std::string, int> names = {};
+  std::string remark = {};
+};
+
+// The tetrahedra in all solids, which match across faces: every quadrangle is cut from its node
+// with the lowest number (Dompierre et al. 1999). Only nodes of tetrahedra are kept, in the order
+// of the file; `regions` is empty if all are 0. Tetrahedra that are inside out are turned round,
+// those of degenerate cells with a repeated node are left out. Coordinates are multiplied by
+// `metres_per_unit`. Throws InputError for `path` if there are no solids.
+[[nodiscard]] NamedMesh tetrahedra_of(const Cells& cells, const std::string& path,
+                                      double metres_per_unit);
+
+// The cells of a file by its ending: .msh of Gmsh, .vtk and .vtu or .vtp of VTK, .inp of Abaqus,
+// .mesh of MEDIT. Throws InputError, with file and line where there are lines.
+[[nodiscard]] bool holds_cells(const std::string& path);
+[[nodiscard]] Cells read_cells(const std::string& path);
+
+// The readers. All numbers of nodes in the result are in range, and all coordinates finite.
+// Gmsh: version 2.2 or 4.1 in ASCII or binary of either byte order, elements of any order; tags of
+// nodes may have gaps. A cell's region is the absolute value of its physical tag, 0 without one.
+// Refused: partitioned meshes, and volumes in several physical groups.
+[[nodiscard]] Cells read_gmsh_cells(const std::string& path);
+// VTK: regions are those of the first array of cells that numbers_parts(). XML files in ASCII or
+// binary, appended or not, plain or compressed by zlib.
+[[nodiscard]] Cells read_vtk_cells(const std::string& path);
+[[nodiscard]] Cells read_vtu_cells(const std::string& path);
+// Abaqus: one part; regions are the sets of elements, numbered in the order of their appearance.
+[[nodiscard]] Cells read_abaqus_cells(const std::string& path);
+// MEDIT in ASCII: regions are the references of solids.
+[[nodiscard]] Cells read_medit_cells(const std::string& path);
+
+// VTK's cells, by their type: adds one with these nodes as a solid or face. `at` is its number in
+// the file, which becomes its region until number_by() replaces it. False for other types.
+[[nodiscard]] bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells);
+// Replaces the numbers by an array with an entry for every cell of the file, or by 0 if it is
+// empty.
+void number_by(const std::vector<double>& regions, Cells& cells);
+// Whether an array of this name tells to which part a cell belongs, as other programs write it.
+[[nodiscard]] bool numbers_parts(const std::string& name);
+
+}  // namespace palpate::meshing

@@ -1,0 +1,288 @@
+// Boxes of bodies and regions, and the volume of a ball inside a surface.
+#include "scene/places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "geometry/box_tree.h"
+#include "meshing/mesh_check.h"
+#include "scenario/direction.h"
+#include "scene/specimen_mesh.h"
+#include "scene/specimen_shape.h"
+
+namespace palpate::scene {
+namespace {
+
+constexpr double least_inside = 0.99;
+
+std::string range_text(double low, double high) {
+  return rounded_text(unit::mm.from_si(low), 4) + " to " + rounded_text(unit::mm.from_si(high), 4);
+}
+
+// What is wrong with a region of which `inside` lies in the body; both are named with their boxes.
+std::string outside(std::size_t region, double inside, const std::string& own,
+                    const std::string& body, const std::string& remedy) {
+  const std::string which = "`[[region]]` " + std::to_string(region + 1);
+  return (inside > 0.0 ? "only " + percent_text(inside) + " of " + which + " lies inside the body"
+                       : which + " lies outside the body") +
+         ": it has " + own + ", the body " + body + "; " + remedy;
+}
+
+}  // namespace
+
+std::string Box::text() const {
+  return "x " + range_text(low.x(), high.x()) + ", y " + range_text(low.y(), high.y()) + ", z " +
+         range_text(low.z(), high.z()) + " mm";
+}
+
+Box box_of(std::span<const Vec3> places) {
+  Box box{places.front(), places.front()};
+  for (const Vec3& place : places) {
+    box.low = box.low.cwiseMin(place);
+    box.high = box.high.cwiseMax(place);
+  }
+  return box;
+}
+
+std::string coordinates_text(const scenario::Resolved& scenario) {
+  return parametric(scenario.tissue.shape) ? "from the lowest corner of its box"
+                                           : "in the file's coordinates";
+}
+
+namespace {
+
+// The smallest rotation that takes a unit vector to z; exact for axes.
+Eigen::Matrix3d turn_up(const Vec3& up) {
+  if (up.z() < -0.999999) {
+    const Eigen::DiagonalMatrix<double, 3> over(1.0, -1.0, -1.0);
+    return turn_up(over * up) * over;
+  }
+  const Vec3 axis = up.cross(Vec3::UnitZ());
+  Eigen::Matrix3d skew;
+  skew << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
+  return Eigen::Matrix3d::Identity() + skew + skew * skew / (1.0 + up.z());
+}
+
+Vec3 direction_or(const std::string& text, const Vec3& otherwise) {
+  return scenario::direction_of(text).value_or(otherwise);
+}
+
+// The body's surface as its file gives it; null if it cannot be read.
+std::shared_ptr<const geometry::SmoothSurface> unturned(const scenario::Resolved& scenario,
+                                                        const std::string& folder,
+                                                        SpecimenShapes& shapes) {
+  if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape))
+    return shapes.surface(scenario, folder).surface;
+  const auto* file = std::get_if<scenario::MeshFile>(&scenario.tissue.mesh);
+  if (file == nullptr) return nullptr;
+  const geometry::TetMesh mesh = mesh_of(*file, folder).mesh;
+  meshing::check(mesh, "the mesh of " + file->file, 0.0);
+  return std::make_shared<const geometry::SmoothSurface>(geometry::skin(mesh).surface);
+}
+
+}  // namespace
+
+void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
+                    SpecimenShapes& shapes) {
+  const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
+  const auto* meshed = std::get_if<scenario::AsMeshed>(&scenario.tissue.shape);
+  if (file == nullptr && meshed == nullptr) return;
+  const Vec3 up = direction_or(file != nullptr ? file->up : meshed->up, Vec3::UnitZ());
+  scenario::Resolved::Finger& finger = scenario.finger;
+  Vec3 towards = direction_or(finger.towards, -up);
+  Vec3 place = Vec3::Zero();
+  if (finger.at.size() == 3 && !scenario.uniform()) {
+    const auto surface = unturned(scenario, folder, shapes);
+    if (!surface) return;
+    place = Vec3(finger.at[0], finger.at[1], finger.at[2]);
+    const geometry::Near near = geometry::BoxTree(surface->surface()).nearest(place);
+    const geometry::SurfacePoint at{near.triangle, near.weights};
+    place = surface->position(at);
+    if (finger.towards.empty()) towards = -surface->normal(at);
+  }
+  const Eigen::Matrix3d turn = turn_up(scenario.uniform() ? up : Vec3(-towards));
+  scenario.tissue.turn = turn;
+  const Vec3 base_up = -direction_or(scenario.tissue.base_side, -up);
+  // To the last bit where the finger comes against it.
+  scenario.tissue.base_up =
+      base_up == -towards || scenario.uniform() ? Vec3(Vec3::UnitZ()) : Vec3(turn * base_up);
+  for (scenario::Resolved::Region& region : scenario.regions)
+    if (auto* lump = std::get_if<scenario::Lump>(&region.part)) {
+      const Vec3 centre = turn * Vec3(lump->centre[0], lump->centre[1], lump->centre[2]);
+      lump->centre = {centre.x(), centre.y(), centre.z()};
+    }
+  if (finger.at.size() == 3 && !scenario.uniform()) {
+    const Vec3 turned = turn * place;
+    finger.x = turned.x();
+    finger.y = turned.y();
+  }
+}
+
+Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places) {
+  const Eigen::Matrix3d back = scenario.tissue.turn.transpose();
+  Box box{back * places.front(), back * places.front()};
+  for (const Vec3& place : places) {
+    const Vec3 own = back * place;
+    box.low = box.low.cwiseMin(own);
+    box.high = box.high.cwiseMax(own);
+  }
+  return box;
+}
+
+double base_level(const scenario::Resolved& scenario, const geometry::Surface& body) {
+  if (scenario.tissue.base_height) return *scenario.tissue.base_height;
+  const Vec3& up = scenario.tissue.base_up;
+  double low = body.vertices.front().dot(up);
+  double high = low;
+  for (const Vec3& vertex : body.vertices) {
+    low = std::min(low, vertex.dot(up));
+    high = std::max(high, vertex.dot(up));
+  }
+  const double rounding = 1e-9 * (high - low);
+  const bool flat =
+      std::any_of(body.triangles.begin(), body.triangles.end(), [&](const auto& triangle) {
+        return std::all_of(triangle.begin(), triangle.end(), [&](int vertex) {
+          return body.vertices[as_index(vertex)].dot(up) <= low + rounding;
+        });
+      });
+  return low + (flat ? 0.0 : 0.1 * (high - low));
+}
+
+BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& body,
+                   const Vec3& place, double radius) {
+  const Vec3& up = scenario.tissue.base_up;
+  const Box box = box_of(body.vertices);
+  const double level = base_level(scenario, body) + 1e-9 * (box.high - box.low).norm();
+  double base = 0.0, above = 0.0, near = 0.0;
+  for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
+    Vec3 middle = Vec3::Zero();
+    for (const int vertex : body.triangles[as_index(t)])
+      middle += body.vertices[as_index(vertex)] / 3.0;
+    if (middle.dot(up) > level) continue;
+    const Vec3 area = 0.5 * geometry::twice_area(body, t);
+    base += area.norm();
+    above += std::abs(area.z());
+    if ((middle - place).head<2>().norm() <= radius) near += std::abs(area.z());
+  }
+  return {base / geometry::area(body), above > 0.0 ? near / above : 0.0};
+}
+
+double share_inside(const geometry::Surface& body, const geometry::Lump& lump) {
+  // Vertical lines through a lattice on the lump's disc; its offset avoids vertices and edges.
+  constexpr int lines = 41;
+  constexpr double offset = 0.4142;
+  const double step = 2.0 * lump.radius / lines;
+  const double r = lump.radius;
+  const auto along = [&](int axis, int i) {
+    return lump.centre[axis] - r + (i + offset + 0.01 * axis) * step;
+  };
+  std::vector<std::vector<double>> crossings(lines * lines);
+  for (const auto& triangle : body.triangles) {
+    const Vec3& a = body.vertices[as_index(triangle[0])];
+    const Vec3& b = body.vertices[as_index(triangle[1])];
+    const Vec3& c = body.vertices[as_index(triangle[2])];
+    std::array<int, 2> first{}, last{};
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto index = [&](double at) {
+        return std::clamp((at - along(axis, 0)) / step, -1.0, static_cast<double>(lines));
+      };
+      first[as_index(axis)] =
+          std::max(0, static_cast<int>(std::ceil(index(std::min({a[axis], b[axis], c[axis]})))));
+      last[as_index(axis)] = std::min(
+          lines - 1, static_cast<int>(std::floor(index(std::max({a[axis], b[axis], c[axis]})))));
+    }
+    const Vec3 normal = (b - a).cross(c - a);
+    if (normal.z() == 0.0) continue;
+    for (int i = first[0]; i <= last[0]; ++i)
+      for (int j = first[1]; j <= last[1]; ++j) {
+        const double x = along(0, i), y = along(1, j);
+        const auto side = [&](const Vec3& from, const Vec3& to) {
+          return (to.x() - from.x()) * (y - from.y()) - (to.y() - from.y()) * (x - from.x()) > 0.0;
+        };
+        if (side(a, b) != side(b, c) || side(b, c) != side(c, a)) continue;
+        crossings[as_index(i * lines + j)].push_back(
+            a.z() - (normal.x() * (x - a.x()) + normal.y() * (y - a.y())) / normal.z());
+      }
+  }
+  double inside = 0.0, all = 0.0;
+  for (int i = 0; i < lines; ++i)
+    for (int j = 0; j < lines; ++j) {
+      const double x = along(0, i) - lump.centre.x(), y = along(1, j) - lump.centre.y();
+      const double half = std::sqrt(std::max(0.0, r * r - x * x - y * y));
+      all += 2.0 * half;
+      std::vector<double>& heights = crossings[as_index(i * lines + j)];
+      std::sort(heights.begin(), heights.end());
+      for (std::size_t k = 0; k + 1 < heights.size(); k += 2)
+        inside += std::max(0.0, std::min(heights[k + 1], lump.centre.z() + half) -
+                                    std::max(heights[k], lump.centre.z() - half));
+    }
+  return inside / all;
+}
+
+void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface& body,
+                    const scenario::Family& family) {
+  const Box box = box_of(body.vertices);
+  const std::string own_box = box_in_file(scenario, body.vertices).text();
+  const std::string where = ", " + coordinates_text(scenario);
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
+    const std::string path = "region." + std::to_string(i + 1);
+    if (const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part)) {
+      const double inside =
+          std::max(0.0, std::min(slab->top, box.high.z()) - std::max(slab->bottom, box.low.z()));
+      const double share = inside / (slab->top - slab->bottom);
+      if (share < least_inside)
+        throw InputError(place_of(family.document, path + ".bottom"),
+                         outside(i, share, "z " + range_text(slab->bottom, slab->top) + " mm",
+                                 "z " + range_text(box.low.z(), box.high.z()) + " mm" + where,
+                                 "change `bottom` and `top`"));
+    }
+    if (const auto* ball = std::get_if<scenario::Lump>(&scenario.regions[i].part)) {
+      const Vec3 centre(ball->centre[0], ball->centre[1], ball->centre[2]);
+      const double share = share_inside(body, {centre, ball->radius, 0});
+      const Vec3 in_file = scenario.tissue.turn.transpose() * centre;
+      const Vec3 around = Vec3::Constant(ball->radius);
+      const Box own{in_file - around, in_file + around};
+      if (share < least_inside)
+        throw InputError(
+            place_of(family.document, path + ".centre"),
+            outside(i, share, own.text(), own_box + where, "change `centre` or `radius`"));
+    }
+  }
+  const auto& height = scenario.tissue.base_height;
+  if (!height) return;
+  double low = body.vertices.front().dot(scenario.tissue.base_up);
+  double high = low;
+  for (const Vec3& vertex : body.vertices) {
+    low = std::min(low, vertex.dot(scenario.tissue.base_up));
+    high = std::max(high, vertex.dot(scenario.tissue.base_up));
+  }
+  if (*height < low || *height >= high)
+    throw InputError(place_of(family.document, "tissue.base_height"),
+                     "the base ends at a height of " + rounded_text(unit::mm.from_si(*height), 4) +
+                         " mm, but the body has " + range_text(low, high) + " mm" + where +
+                         "; give a height between the two");
+}
+
+void refuse_misplaced(const scenario::Resolved& scenario, const scenario::Family& family,
+                      SpecimenShapes& shapes) {
+  const bool placed =
+      std::any_of(scenario.regions.begin(), scenario.regions.end(), [](const auto& region) {
+        return !std::holds_alternative<scenario::TaggedRegion>(region.part);
+      });
+  if (!placed && !scenario.tissue.base_height) return;
+  if (const auto shape = parametric(scenario.tissue.shape)) {
+    constexpr double spacing_over_size = 0.02;  // a chord is then 1e-4 of the size inside
+    const double spacing = spacing_over_size * geometry::extent(*shape).norm();
+    refuse_outside(scenario, geometry::sampled(*shape, {spacing, spacing}).parts.front().surface,
+                   family);
+  } else if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape)) {
+    const auto surface = shapes.surface(scenario, family.folder).surface;
+    if (surface) refuse_outside(scenario, surface->surface(), family);
+  }
+}
+
+}  // namespace palpate::scene

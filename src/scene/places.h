@@ -1,0 +1,63 @@
+// Where a specimen and its regions lie. Every place of a scenario is in the coordinates of the file
+// that gives the body, or from the lowest corner of a shape that palpate makes.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "geometry/body.h"
+#include "scenario/family.h"
+#include "scenario/resolved.h"
+
+namespace palpate::scene {
+
+class SpecimenShapes;
+
+struct Box {
+  Vec3 low = Vec3::Zero();  // m
+  Vec3 high = Vec3::Zero();
+
+  [[nodiscard]] std::string text() const;  // "x -30 to 30, y -30 to 30, z 0 to 30 mm"
+};
+
+// At least one place is needed.
+[[nodiscard]] Box box_of(std::span<const Vec3> places);
+
+// "in the file's coordinates", or "from the lowest corner of its box".
+[[nodiscard]] std::string coordinates_text(const scenario::Resolved& scenario);
+
+// Sets `tissue.turn` and `tissue.base_up`, and turns the scenario's places with the body: centres
+// of lumps, and `finger.at`, which becomes `finger.x` and `finger.y`. Throws MeshError if a mesh
+// that the finger's place depends on cannot be read.
+void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
+                    SpecimenShapes& shapes);
+
+// The box of places of the scene in the coordinates of the body's file.
+[[nodiscard]] Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places);
+
+// The height (m) along `tissue.base_up` to which the skin is the base: `tissue.base_height`, or the
+// lowest plane of a body with a flat underside, or a tenth of its height above its lowest point.
+[[nodiscard]] double base_level(const scenario::Resolved& scenario, const geometry::Surface& body);
+
+// The part of the surface's area that is the base, and how much of the base's area seen from above
+// lies within a radius (m) around a place.
+struct BaseArea {
+  double of_surface = 0.0;
+  double under_press = 0.0;
+};
+[[nodiscard]] BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& body,
+                                 const Vec3& place, double radius);
+
+// The part of a lump that lies inside a closed surface, 0 to 1; error below 0.002.
+[[nodiscard]] double share_inside(const geometry::Surface& body, const geometry::Lump& lump);
+
+// Throws InputError with both boxes for a lump of which less than 99 % lies inside the body, a slab
+// of which less than 99 % lies in its height, and a base above or below the body.
+void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface& body,
+                    const scenario::Family& family);
+
+// The same for the body of a shape or of a surface file; nothing for other bodies.
+void refuse_misplaced(const scenario::Resolved& scenario, const scenario::Family& family,
+                      SpecimenShapes& shapes);
+
+}  // namespace palpate::scene

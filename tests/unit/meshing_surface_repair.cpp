@@ -1,0 +1,117 @@
+// Faults of scans that are mended, each told; what is worse is refused with its size.
+#include "meshing/surface_repair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+#include "geometry/shapes.h"
+#include "meshing/surface_check.h"
+#include "refusal.h"
+
+namespace palpate::meshing {
+namespace {
+
+using geometry::Surface;
+
+// An ellipsoid of 80 x 60 x 40 mm; its volume is that of the polyhedron.
+Surface body() {
+  return geometry::sampled(geometry::Ellipsoid{Vec3(0.08, 0.06, 0.04)}, {0.004, 0.004})
+      .parts.front()
+      .surface;
+}
+
+Surface with(Surface one, const Surface& other, const Vec3& shift, double scale, bool inwards) {
+  const int first = static_cast<int>(one.vertices.size());
+  for (const Vec3& vertex : other.vertices) one.vertices.push_back(scale * vertex + shift);
+  for (auto [a, b, c] : other.triangles) {
+    if (inwards) std::swap(b, c);
+    one.triangles.push_back({first + a, first + b, first + c});
+  }
+  return one;
+}
+
+// Mends it and requires the volume of the body, within `part` of it.
+std::string told(const Surface& broken, double part) {
+  const WholeSurface whole = whole_surface(broken, "paw", {});
+  check_closed(whole.surface, "mended");
+  const double volume = geometry::enclosed(body()).volume;
+  EXPECT_NEAR(geometry::enclosed(whole.surface).volume, volume, part * volume);
+  return whole.remark;
+}
+
+constexpr double rounding = 1e-9;  // where no vertex moves
+
+TEST(SurfaceRepair, a_sound_surface_stays_to_the_bit) {
+  const WholeSurface whole = whole_surface(body(), "paw", {});
+  EXPECT_EQ(whole.surface.vertices, body().vertices);
+  EXPECT_EQ(whole.surface.triangles, body().triangles);
+  EXPECT_EQ(whole.remark, "");
+}
+
+TEST(SurfaceRepair, small_holes_are_closed) {
+  Surface open = body();
+  open.triangles.erase(open.triangles.begin() + 100);
+  open.triangles.erase(open.triangles.begin() + 700);
+  const std::string text = told(open, 0.001);  // two flat triangles on a curved surface
+  EXPECT_TRUE(text.starts_with("the surface of paw was mended: 2 holes closed with ")) << text;
+  EXPECT_NE(text.find(" mm around near ("), std::string::npos) << text;
+}
+
+TEST(SurfaceRepair, doubled_and_turned_triangles_are_mended) {
+  Surface doubled = body();
+  doubled.triangles.push_back(doubled.triangles[7]);
+  EXPECT_EQ(told(doubled, rounding),
+            "the surface of paw was mended: 1 doubled or flat triangle removed");
+  Surface turned = body();
+  for (std::size_t t = 0; t < turned.triangles.size(); t += 5)
+    std::swap(turned.triangles[t][0], turned.triangles[t][1]);
+  EXPECT_EQ(told(turned, rounding), "the surface of paw was mended: all triangles turned outwards");
+}
+
+TEST(SurfaceRepair, vertices_in_one_place_are_joined) {
+  Surface apart;
+  const Surface whole = body();
+  for (const auto& triangle : whole.triangles) {
+    for (const int corner : triangle)
+      apart.vertices.push_back(whole.vertices[as_index(corner)] +
+                               2e-8 * Vec3::Unit(static_cast<int>(apart.vertices.size()) % 3));
+    const int next = static_cast<int>(apart.vertices.size());
+    apart.triangles.push_back({next - 3, next - 2, next - 1});
+  }
+  EXPECT_NE(told(apart, 1e-5).find("joined to another in the same place"), std::string::npos);
+}
+
+TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
+  const std::string speck = told(with(body(), body(), Vec3(0.1, 0, 0), 0.02, false), rounding);
+  EXPECT_NE(speck.find("part 1 of 2 is taken, and 1 speck left out"), std::string::npos) << speck;
+  const Surface two = with(body(), body(), Vec3(0.2, 0, 0), 0.5, false);
+  const std::string text = told(two, rounding);
+  EXPECT_NE(text.find("part 1 of 2 is taken, without part 2 near ("), std::string::npos) << text;
+  const Surface second = whole_surface(two, "paw", {true, 2}).surface;
+  EXPECT_NEAR(geometry::enclosed(second).volume, 0.125 * geometry::enclosed(body()).volume, 1e-12);
+}
+
+TEST(SurfaceRepair, what_is_worse_is_refused_with_its_size) {
+  Surface open = body();
+  std::erase_if(open.triangles, [&](const auto& triangle) {
+    return std::all_of(triangle.begin(), triangle.end(),
+                       [&](int vertex) { return open.vertices[as_index(vertex)].z() > 0.03; });
+  });
+  const auto refusal = [](const Surface& surface, const RepairOrder& order) {
+    return test::refusal<MeshError>([&] { return whole_surface(surface, "paw", order); });
+  };
+  const std::string wide = refusal(open, {});
+  EXPECT_TRUE(wide.starts_with("surface `paw`: is open: 1 hole would need ")) << wide;
+  const std::string hollow = refusal(with(body(), body(), Vec3(0.02, 0.015, 0.01), 0.5, true), {});
+  EXPECT_NE(hollow.find(" lies inside part 1, as a cavity with 1"), std::string::npos) << hollow;
+  Surface doubled = body();
+  doubled.triangles.push_back(doubled.triangles[7]);
+  EXPECT_NE(refusal(doubled, {.repair = false}).find("have the same vertices"), std::string::npos);
+  EXPECT_NE(refusal(body(), {true, 3}).find("has 1 part, and `part` is 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::meshing

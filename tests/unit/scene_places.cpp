@@ -1,0 +1,135 @@
+// Boxes, and regions that are not where the body is.
+#include "scene/places.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "geometry/shapes.h"
+#include "meshing/surface_files.h"
+#include "scene/scene.h"
+
+namespace palpate::scene {
+namespace {
+
+const std::string kLump =
+    "[tissue]\nyoung_modulus = \"10 kPa\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n"
+    "[[region]]\nkind = \"sphere\"\nradius = \"5 mm\"\n";
+
+std::string refusal_of(const std::string& text) {
+  try {
+    const scenario::Family family = scenario::parse(text, "press.toml", {});
+    (void)build(family.cases.front(), family);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Places, the_part_of_a_ball_in_a_half_space_is_that_of_its_cap) {
+  const geometry::Surface box =
+      geometry::sampled(geometry::Cuboid{Vec3(1.0, 1.0, 1.0)}, {0.1, 0.1}).parts.front().surface;
+  for (const double height : {-0.1, 0.0, 0.03, 0.06, 0.11}) {
+    // A cap of the height h of a ball of radius r has the part h^2 (3 r - h) / (4 r^3).
+    const double r = 0.1;
+    const double h = std::clamp(r + height, 0.0, 2.0 * r);
+    EXPECT_NEAR(share_inside(box, {Vec3(0.5, 0.5, height), r, 0}),
+                h * h * (3.0 * r - h) / (4.0 * r * r * r), 0.002)  // as promised
+        << height;
+  }
+}
+
+TEST(Places, a_lump_outside_is_refused_with_both_boxes) {
+  EXPECT_EQ(
+      refusal_of(kLump + "centre = [\"70 mm\", \"30 mm\", \"15 mm\"]\n"),
+      "press.toml:9:10: `[[region]]` 1 lies outside the body: it has x 65 to 75, y 25 to 35, z "
+      "10 to 20 mm, the body x 0 to 60, y 0 to 60, z 0 to 30 mm, from the lowest corner of its "
+      "box; change `centre` or `radius`");
+  EXPECT_TRUE(refusal_of(kLump + "centre = [\"30 mm\", \"30 mm\", \"27 mm\"]\n")
+                  .starts_with("press.toml:9:10: only "));
+}
+
+TEST(Places, a_slab_and_a_base_are_asked_too) {
+  const std::string press =
+      "[tissue]\nyoung_modulus = \"10 kPa\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+  EXPECT_NE(
+      refusal_of(press + "[[region]]\nkind = \"slab\"\nbottom = \"-20 mm\"\ntop = \"-5 mm\"\n")
+          .find("`[[region]]` 1 lies outside the body: it has z -20 to -5 mm, the body z 0 to 30"),
+      std::string::npos);
+  EXPECT_NE(refusal_of("[tissue]\nyoung_modulus = \"10 kPa\"\nbase_height = \"31 mm\"\n[[step]]\n"
+                       "kind = \"indent\"\nto = \"1 mm\"\n")
+                .find("the base ends at a height of 31 mm, but the body has 0 to 30 mm"),
+            std::string::npos);
+}
+
+// A box of 60 x 40 x 20 mm about the origin as a file, with another axis up or pressed from a side.
+class PlacedBody : public testing::Test {
+ protected:
+  PlacedBody() {
+    geometry::Surface box =
+        geometry::sampled(geometry::Cuboid{Vec3(60, 40, 20)}, {5.0, 5.0}).parts.front().surface;
+    for (Vec3& vertex : box.vertices) vertex -= Vec3(30, 20, 10);
+    std::filesystem::create_directories(folder_);
+    meshing::write_surface(folder_ + "/box.off", box, 1.0);
+  }
+  ~PlacedBody() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] scenario::Resolved placed(const std::string& shape, const std::string& rest) const {
+    const scenario::Family family =
+        scenario::parse("[tissue]\nshape = { file = \"box.off\", unit = \"mm\"" + shape + " }\n" +
+                            "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n" + rest,
+                        folder_ + "/press.toml", {});
+    return choose(family.cases.front()).chosen;
+  }
+
+  std::string folder_ = testing::TempDir() + "palpate_placed" + std::to_string(::getpid());
+};
+
+TEST_F(PlacedBody, the_way_of_the_finger_becomes_minus_z) {
+  const scenario::Resolved up = placed(", up = \"-y\"", "");
+  EXPECT_EQ(Vec3(up.tissue.turn * -Vec3::UnitY()), Vec3(Vec3::UnitZ()));
+  EXPECT_EQ(up.tissue.base_up, Vec3(Vec3::UnitZ()));
+  const scenario::Resolved side = placed("", "[finger]\ntowards = \"x\"\n");
+  EXPECT_EQ(Vec3(side.tissue.turn * Vec3::UnitX()), Vec3(-Vec3::UnitZ()));
+  EXPECT_EQ(side.tissue.base_up, Vec3(side.tissue.turn * Vec3::UnitZ()));
+  EXPECT_NEAR(side.tissue.turn.determinant(), 1.0, 1e-12);  // rounding
+}
+
+TEST_F(PlacedBody, a_place_is_taken_to_the_surface_and_pressed_along_its_normal) {
+  const scenario::Resolved side =
+      placed("",
+             "[finger]\nat = [\"5 mm\", \"50 mm\", \"3 mm\"]\n[[region]]\n"
+             "kind = \"sphere\"\nradius = \"2 mm\"\ncentre = [\"5 mm\", \"10 mm\", \"3 mm\"]\n");
+  EXPECT_NEAR((side.tissue.turn * Vec3::UnitY() - Vec3::UnitZ()).norm(), 0.0, 1e-9);  // rounding
+  const auto& lump = std::get<scenario::Lump>(side.regions.front().part);
+  EXPECT_NEAR(lump.centre[0], *side.finger.x, 1e-9);  // the lump lies below the finger
+  EXPECT_NEAR(lump.centre[1], *side.finger.y, 1e-9);
+  EXPECT_NEAR(lump.centre[2], 0.010, 1e-9);
+}
+
+TEST_F(PlacedBody, what_does_not_go_together_is_refused) {
+  const auto refusal = [&](const std::string& shape, const std::string& rest) {
+    try {
+      (void)placed(shape, rest);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(refusal(", up = \"up\"", "").find("`up` wants a direction, got `up`"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal(", up = \"y\"", "[finger]\nx = \"1 mm\"\n").find("give the place as `finger.at`"),
+      std::string::npos);
+  EXPECT_NE(refusal("", "[finger]\nat = [\"1 mm\"]\n").find("`at` wants three lengths, got 1"),
+            std::string::npos);
+  EXPECT_NE(refusal("", "[finger]\ntowards = \"x\"\n[[region]]\nkind = \"slab\"\ntop = \"5 mm\"\n")
+                .find("a `slab` is for a finger that comes from above"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::scene
