@@ -176,6 +176,13 @@ TEST_F(MeshVerb, RefusesWhatCannotServe) {
   expect_refused(2, {cube, "--set", "solver.model=hertz"}, "`hertz`, which has no mesh");
 }
 
+TEST_F(MeshVerb, WritesSurfaces) {
+  for (const char* out : {"copy.off", "copy.stl"}) {
+    const double volume = quality({"cube.off", "--unit", "mm", "--out", out})["volume_mm3"];
+    EXPECT_NEAR(quality({out, "--unit", "mm"})["volume_mm3"], volume, 1e-9) << out;  // rounding
+  }
+}
+
 TEST_F(MeshVerb, ReplacesFilesOnlyWhereTold) {
   write_file(folder_ / "mine.ele", "precious");
   expect_refused(2, {"cube.off", "--unit", "mm", "--out", "mine.node"},
@@ -190,7 +197,8 @@ TEST_F(MeshVerb, ReplacesFilesOnlyWhereTold) {
   expect_refused(2, {"box.ele", "--unit", "mm", "--out", "box.node", "--force"},
                  "box.node: is the input file");
   EXPECT_EQ(read_file(folder_ / "box.node"), before);
-  expect_refused(2, {"cube.off", "--unit", "mm", "--out", "a.stl"}, "wants the ending");
+  expect_refused(2, {"cube.off", "--unit", "mm", "--out", "a.step"}, "wants the ending");
+  expect_refused(2, {"box.node", "--unit", "m", "--out", "a.stl"}, "is for surfaces");
   expect_refused(2, {"cube.off", "--unit", "mm", "--out", "nowhere/a.vtu"},
                  "is in a folder that does not exist");
 }

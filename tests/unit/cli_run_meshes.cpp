@@ -126,7 +126,9 @@ TEST_F(RunMeshes, broken_surfaces_are_refused_and_leave_nothing) {
   const std::string sound = off(corners_given, sides);
   const auto refused = [&](const std::string& text, const std::string& sentence) {
     write_file(folder_ / "leg.off", text);
-    expect_refused(of_surface("leg.off"), 5, sentence);
+    std::string scenario = of_surface("leg.off");
+    scenario.insert(scenario.find(" }"), ", repair = false");
+    expect_refused(scenario, 5, sentence);
   };
   refused(off(corners_given, Faces(sides.begin(), sides.end() - 1)),
           "palpate: surface `leg.off`: is open: 4 edges in 1 hole belong to one face only");
@@ -145,6 +147,17 @@ TEST_F(RunMeshes, broken_surfaces_are_refused_and_leave_nothing) {
   Faces inverted = sides;
   for (auto& f : inverted) std::swap(f[1], f[3]);
   refused(off(corners_given, inverted), "palpate: surface `leg.off`: is inside out");
+}
+
+TEST_F(RunMeshes, small_faults_are_mended_and_told) {
+  Faces inverted = sides;
+  for (auto& f : inverted) std::swap(f[1], f[3]);
+  write_file(folder_ / "leg.off", off(corners_given, inverted));
+  const Ended ended = run(of_surface("leg.off"));
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.err.find("the surface of leg.off was mended: all triangles turned outwards"),
+            std::string::npos)
+      << ended.err;
 }
 
 TEST_F(RunMeshes, only_flat_ends_take_platens) {
@@ -270,12 +283,12 @@ TEST_F(RunMeshes, regions_that_are_not_there) {
       "[tissue]\nmesh = { kind = \"tetgen\", nodes = 300 }\n[[region]]\nkind = \"sphere\"\nradius "
       "= "
       "\"4 mm\"\n";
-  expect_refused(
-      lump + "centre = [\"90 mm\", \"30 mm\", \"15 mm\"]\n" + steps, 5,
-      "the lump of radius 4 mm about (90, 30, 15) mm does not lie wholly inside the body");
-  expect_refused(
-      lump + "centre = [\"30 mm\", \"30 mm\", \"28 mm\"]\n" + steps, 5,
-      "the lump of radius 4 mm about (30, 30, 28) mm does not lie wholly inside the body");
+  expect_refused(lump + "centre = [\"90 mm\", \"30 mm\", \"15 mm\"]\n" + steps, 2,
+                 "`[[region]]` 1 lies outside the body: it has x 86 to 94, y 26 to 34, z 11 to 19 "
+                 "mm, the body "
+                 "x 0 to 60, y 0 to 60, z 0 to 30 mm");
+  expect_refused(lump + "centre = [\"30 mm\", \"30 mm\", \"28 mm\"]\n" + steps, 2,
+                 "only 84 % of `[[region]]` 1 lies inside the body");
 }
 
 TEST_F(RunMeshes, a_finger_beside_the_specimen) {
