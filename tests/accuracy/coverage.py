@@ -207,7 +207,7 @@ def write(folder, name, text):
 def cheaper(program, folder, taken, truth):
     """The models below `taken` that are within the tolerance of the truth."""
     good = []
-    ladder = ("hertz", "layer", "coupled_springs")
+    ladder = ("hertz", "layer", "coupled_springs", "solid")
     for model in ladder[:ladder.index(taken)]:
         found = None
         for depth in ("neo_hookean", "hertz"):
@@ -380,7 +380,7 @@ def report(rows):
         for value in sorted({row[key] for row in rows}):
             print(summary(f"{key}: {value}", [row for row in rows if row[key] == value]))
     own = [row for row in rows if row["setting"].startswith("defaults")]
-    ladder = ("hertz", "layer", "coupled_springs")
+    ladder = ("hertz", "layer", "coupled_springs", "solid")
     above = [row for row in own if row["cheaper"]
              and ladder.index(row["model"]) - ladder.index(row["cheaper"].split()[0]) > 1]
     over = [row for row in own if row["cheaper"]]

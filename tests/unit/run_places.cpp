@@ -10,6 +10,8 @@
 
 #include "geometry/shapes.h"
 #include "meshing/surface_files.h"
+#include "run/choose.h"
+#include "run/refined_mesh.h"
 #include "scene/scene.h"
 
 namespace palpate::scene {
@@ -22,7 +24,7 @@ const std::string kLump =
 std::string refusal_of(const std::string& text) {
   try {
     const scenario::Family family = scenario::parse(text, "press.toml", {});
-    (void)build(family.cases.front(), family);
+    (void)run::build_scene(family.cases.front(), family);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -82,7 +84,7 @@ class PlacedBody : public testing::Test {
         scenario::parse("[tissue]\nshape = { file = \"box.off\", unit = \"mm\"" + shape + " }\n" +
                             "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n" + rest,
                         folder_ + "/press.toml", {});
-    return choose(family.cases.front()).chosen;
+    return run::choose(family.cases.front()).chosen;
   }
 
   std::string folder_ = testing::TempDir() + "palpate_placed" + std::to_string(::getpid());
