@@ -236,8 +236,9 @@ class Chooser {
       e.size_error = e.tissue_share * found.error;
       e.measured = true;
       if (std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape)) {
-        e.sides = change;
-        e.size = (1.0 + e.thickness) * (1.0 + change) - 1.0;
+        const bool layered = !asked_.regions.empty();
+        e.sides = layered ? change : (1.0 + change) / (1.0 + e.thickness) - 1.0;
+        e.size = layered ? (1.0 + e.thickness) * (1.0 + change) - 1.0 : change;
       } else {
         e.size = change;
       }
@@ -320,6 +321,7 @@ class Chooser {
   // those of the first two sentences.
   [[nodiscard]] std::string no_solid() const {
     const scenario::Scenario& given = case_.scenario;
+    if (given.contact.depth) return "the scenario names what depth does to the force";
     if (given.contact.coupling != contact::Coupling::consistent)
       return "the scenario names a coupling of contact and springs";
     for (const scenario::Step& step : given.steps)

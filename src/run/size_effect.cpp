@@ -21,7 +21,7 @@ constexpr int coarse_nodes = 150;
 // Ratios at which bodies are pressed; between them the change is interpolated.
 constexpr std::array ratios{0.0, 0.25, 0.4, 0.47, scene::most_poisson_ratio};
 
-scenario::Mesh coarse(const scenario::Resolved& scenario) {
+scenario::Mesh coarse(const scenario::Resolved& scenario, const scene::SurfaceTouch& touch) {
   if (std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
     scenario::Mesh mesh = scenario.tissue.mesh;
     scenario::refinement(mesh).refine = false;
@@ -37,23 +37,39 @@ scenario::Mesh coarse(const scenario::Resolved& scenario) {
   const double cell = std::cbrt(box->size[0] * box->size[1] * box->size[2] / coarse_nodes);
   for (std::size_t axis = 0; axis < 3; ++axis)
     mesh.cells[axis] = std::clamp(static_cast<int>(std::lround(box->size[axis] / cell)), 2, 20);
+  // Cells about as long as the way to the nearest boundary under the finger.
+  const double near = std::min(touch.to_edge, touch.thickness);
+  const double wide = *std::max_element(box->size.begin(), box->size.end());
+  mesh.grading = std::clamp(wide / (2.0 * near), 1.0, 30.0);
+  if (mesh.grading > 1.5) mesh.cells = {6, 6, 5};
   return mesh;
 }
 
 // The trial: a rigid finger at a travel that is rounded up to a power of sqrt(2).
-scenario::Resolved trial_of(const scenario::Resolved& scenario, double ratio) {
+scenario::Resolved trial_of(const scenario::Resolved& scenario, const scene::SurfaceTouch& touch,
+                            double ratio) {
   scenario::Resolved trial = scene::refining_press(scenario);
-  trial.tissue.mesh = coarse(scenario);
+  trial.tissue.mesh = coarse(scenario, touch);
   trial.tissue.poisson_ratio = ratio;
   trial.finger.spheres = 1;
-  trial.contact.coupling = contact::Coupling::consistent;
-  trial.contact.spread = scenario::Contact::Spread::pressure;
-  trial.contact.curvature_on = scenario::Contact::CurvatureOn::rest;
+  const contact::CurvatureLaw law = trial.contact.law;
+  trial.contact = {};
+  trial.contact.law = law;
   auto& indent = std::get<scenario::Indent>(trial.steps.front());
   const double radius = trial.finger.radius;
   indent.to = {radius * std::exp2(std::ceil(2.0 * std::log2(indent.to.value / radius)) / 2.0),
                false};
   return trial;
+}
+
+// All that the press depends on.
+std::string key_of(const scenario::Resolved& trial, const scene::SurfaceTouch& touch) {
+  std::string key = scene::shape_key(trial) + scene::refining_key(trial);
+  for (const double number :
+       {touch.curvature.kappa_1, touch.curvature.kappa_2, touch.curvature.normal.x(),
+        touch.curvature.normal.y(), static_cast<double>(trial.contact.law)})
+    key += " " + number_text(number);
+  return key;
 }
 
 // The force of the formula, N; 0 where there is none.
@@ -75,11 +91,7 @@ SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
   choice.given = true;
   choice.chosen = trial;
   choice.touch = touch;
-  scene::Scene scene = scene::build({}, family, shapes, choice);
-  if (std::holds_alternative<scenario::Cuboid>(trial.tissue.shape) && touch.known() &&
-      scene::all_slabs(trial))
-    scene.layer =
-        scene::make_layer(trial, scene.finger, shapes.layer_law(scene::layers_of(trial, 1.0)));
+  const scene::Scene scene = scene::build({}, family, shapes, choice);
   mechanics::PressedMesh mesh(scene);
   mechanics::Touch pressed;
   const Vec3 first = scene::first_touch(scene).finger;
@@ -125,12 +137,11 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
   const auto above = std::lower_bound(ratios.begin() + 1, ratios.end(), ratio);
   const double share = (ratio - *(above - 1)) / (*above - *(above - 1));
   const auto at = [&](double known) {
-    const scenario::Resolved trial = trial_of(scenario, known);
-    const auto& numbers = shapes.kept_numbers(
-        scene::shape_key(trial) + scene::refining_key(trial), [&]() -> std::array<double, 3> {
-          const SizeEffect found = press(trial, folder, touch, shapes);
-          return {found.change, found.error, static_cast<double>(found.nodes)};
-        });
+    const scenario::Resolved trial = trial_of(scenario, touch, known);
+    const auto& numbers = shapes.kept_numbers(key_of(trial, touch), [&]() -> std::array<double, 3> {
+      const SizeEffect found = press(trial, folder, touch, shapes);
+      return {found.change, found.error, static_cast<double>(found.nodes)};
+    });
     // Effects of size grow with the radius of the contact.
     const double narrower =
         std::sqrt(wanted / std::get<scenario::Indent>(trial.steps.front()).to.value);

@@ -24,9 +24,9 @@ struct SizeEffect {
 // The places of the finger beside the first touch: start, middle and end of every slide, m.
 [[nodiscard]] std::vector<Vec3> finger_way(const scenario::Resolved& scenario);
 
-// On a cuboid the formula is the exact one of its flat layers, so that the change is that of the
-// sides; elsewhere it is Hertz's, where the surface's curvature is known, and else the change is 0.
-// At the place that changes most along slides. Kept in `shapes` for travels and Poisson's ratios
+// The formula is Hertz's where the surface's curvature is known, else the change is 0; on a cuboid
+// of several flat layers it is their exact law (61), so that the change is that of the sides. At
+// the place that changes most along slides. Kept in `shapes` for travels and Poisson's ratios
 // nearby: travels are rounded up by less than sqrt(2), and ratios are interpolated.
 [[nodiscard]] SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& folder,
                                      const scene::SurfaceTouch& touch,

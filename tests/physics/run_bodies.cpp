@@ -164,7 +164,7 @@ record::CaseRecord run_shape(const ShapePress& press, const char* model, double 
       "[tissue]\nyoung_modulus = \"30 kPa\"\npoisson_ratio = " + text(press.poisson_ratio) +
       "\nshape = { " + press.shape + " }\n[finger]\nmaterial = \"rigid\"\nradius = \"" +
       text(press.radius) + " mm\"\n" + press.place +
-      "[contact]\nviscosity = \"none\"\ndepth = \"neo_hookean\"\n[solver]\nmodel = \"" + model +
+      "[contact]\nviscosity = \"none\"\ndepth = \"hertz\"\n[solver]\nmodel = \"" + model +
       "\"\ntolerance = " + text(tolerance) +
       "\n[output]\ninterval = \"100 ms\"\npressure_maps = false\n"
       "[[step]]\nkind = \"indent\"\nto = \"" +

@@ -94,7 +94,7 @@ TEST_F(RunSurfaces, are_explained) {
   EXPECT_NE(ended.out.find("top          curvatures 20"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("mm, where the surface is inclined by 30 degrees"), std::string::npos)
       << ended.out;
-  EXPECT_NE(ended.out.find("size         error of a force that ignores the body's size"),
+  EXPECT_NE(ended.out.find("size         change of a half-space's force by the size of the body"),
             std::string::npos);
 }
 

@@ -148,7 +148,8 @@ TEST_F(SweepVerb, EventsAreJson) {
       "{\"event\":\"plan\",\"folder\":\"out/s_sweep\",\"cases\":\"6\",\"there_already\":"
       "\"false\",\"seconds\":\""))
       << planned.out;
-  EXPECT_TRUE(planned.out.ends_with("\"row_bytes\":\"14400\"}\n")) << planned.out;
+  EXPECT_NE(planned.out.find("\"row_bytes\":\"14400\",\"memory_bytes\":\""), std::string::npos)
+      << planned.out;
   const Ended run = sweep({"run", "out/s_sweep", "--json"});
   EXPECT_NE(run.out.find("{\"event\":\"progress\",\"done\":\"6\",\"all\":\"6\",\"failed\":\"0\""),
             std::string::npos)
