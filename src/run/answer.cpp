@@ -302,7 +302,7 @@ class LeftOuts {
 
   void ball() {
     if (rung_.solid || e_.ball <= 0.2 * tolerance()) return;
-    omit("that the finger is a ball and no half-space", -e_.ball, would(-e_.ball),
+    omit("the size of the finger, which yields as a ball", -e_.ball, would(-e_.ball),
          "set `solver.model = \"solid\"`");
   }
 

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/text.h"
 #include "mechanics/pressed_mesh.h"
+#include "scenario/programme.h"
 #include "scene/first_touch.h"
 #include "scene/refining_press.h"
 #include "scene/scene.h"
@@ -55,6 +57,18 @@ scenario::Resolved trial_of(const scenario::Resolved& scenario, const scene::Sur
   const contact::CurvatureLaw law = trial.contact.law;
   trial.contact = {};
   trial.contact.law = law;
+  // On a flat the finger is pressed where it comes nearest to a side.
+  if (const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape)) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& [x, y] : scenario::finger_places(scenario, *box)) {
+      const double side = std::min({x, box->size[0] - x, y, box->size[1] - y});
+      if (side >= nearest) continue;
+      nearest = side;
+      trial.finger.x = x;
+      trial.finger.y = y;
+    }
+    trial.steps.resize(1);
+  }
   auto& indent = std::get<scenario::Indent>(trial.steps.front());
   const double radius = trial.finger.radius;
   indent.to = {radius * std::exp2(std::ceil(2.0 * std::log2(indent.to.value / radius)) / 2.0),
