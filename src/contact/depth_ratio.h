@@ -42,8 +42,8 @@ class DepthRatio {
 
   // The relative error of the factor, without that of the linear force: 0.4 % by formula and finite
   // elements, and what the nearest side changes, which is at most 2 (a/W)^2 h/W on the discs that
-  // were computed, and half of it on most. Beyond last_depth() the factor's distance from 1 is added
-  // as often as it fits into the excess.
+  // were computed, and half of it on most. Beyond last_depth() the factor's distance from 1 is
+  // added as often as it fits into the excess.
   [[nodiscard]] double error(double depth) const;
 
  private:
