@@ -198,22 +198,16 @@ geometry::Surface even(const geometry::Surface& surface, double spacing, double 
   return taken(mesh);
 }
 
-}  // namespace palpate::meshing::cgal_library
-
-namespace palpate::meshing::cgal_library {
 namespace {
 
-using RepairKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using RepairPoint = RepairKernel::Point_3;
-using RepairMesh = CGAL::Surface_mesh<RepairPoint>;
 namespace processing = CGAL::Polygon_mesh_processing;
 
-Vec3 place_of(const RepairPoint& point) { return {point.x(), point.y(), point.z()}; }
+Vec3 place_of(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
 // Removes connected parts that are open and have less than a thousandth of the area.
-int remove_fragments(RepairMesh& mesh) {
+int remove_fragments(Mesh& mesh) {
   constexpr double least_area = 1e-3;
-  const auto parts = mesh.add_property_map<RepairMesh::Face_index, std::size_t>("f:part", 0).first;
+  const auto parts = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:part", 0).first;
   const std::size_t count = processing::connected_components(mesh, parts);
   std::vector<double> areas(count, 0.0);
   std::vector<char> open(count, 0);
@@ -233,7 +227,7 @@ int remove_fragments(RepairMesh& mesh) {
 }
 
 // Fills a hole and returns where it was, its circumference and the area of its triangles.
-Mending::Hole fill(RepairMesh& mesh, RepairMesh::Halfedge_index border) {
+Mending::Hole fill(Mesh& mesh, Mesh::Halfedge_index border) {
   Mending::Hole hole;
   int corners = 0;
   for (const auto half : mesh.halfedges_around_face(border)) {
@@ -243,8 +237,8 @@ Mending::Hole fill(RepairMesh& mesh, RepairMesh::Halfedge_index border) {
     ++corners;
   }
   hole.place /= corners;
-  std::vector<RepairMesh::Face_index> faces;
-  std::vector<RepairMesh::Vertex_index> vertices;
+  std::vector<Mesh::Face_index> faces;
+  std::vector<Mesh::Vertex_index> vertices;
   processing::triangulate_and_refine_hole(mesh, border, std::back_inserter(faces),
                                           std::back_inserter(vertices));
   for (const auto face : faces) hole.area += processing::face_area(face, mesh);
@@ -252,10 +246,10 @@ Mending::Hole fill(RepairMesh& mesh, RepairMesh::Halfedge_index border) {
   return hole;
 }
 
-double crossing_area(const RepairMesh& mesh) {
-  std::vector<std::pair<RepairMesh::Face_index, RepairMesh::Face_index>> pairs;
+double crossing_area(const Mesh& mesh) {
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   processing::self_intersections(mesh, std::back_inserter(pairs));
-  std::set<RepairMesh::Face_index> faces;
+  std::set<Mesh::Face_index> faces;
   for (const auto& [one, other] : pairs) faces.insert({one, other});
   double area = 0.0;
   for (const auto face : faces) area += processing::face_area(face, mesh);
@@ -266,7 +260,7 @@ double crossing_area(const RepairMesh& mesh) {
 
 Mending mended(const geometry::Surface& surface) {
   Mending made;
-  std::vector<RepairPoint> points;
+  std::vector<Point> points;
   std::vector<std::vector<std::size_t>> polygons;
   for (const Vec3& vertex : surface.vertices)
     points.emplace_back(vertex.x(), vertex.y(), vertex.z());
@@ -277,13 +271,13 @@ Mending mended(const geometry::Surface& surface) {
   const std::size_t before = points.size();
   processing::orient_polygon_soup(points, polygons);
   made.parted = static_cast<int>(points.size()) - static_cast<int>(before);
-  RepairMesh mesh;
+  Mesh mesh;
   processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
   processing::stitch_borders(mesh);
   processing::remove_degenerate_faces(mesh);
   made.parted += static_cast<int>(processing::duplicate_non_manifold_vertices(mesh));
   made.fragments = remove_fragments(mesh);
-  std::vector<RepairMesh::Halfedge_index> borders;
+  std::vector<Mesh::Halfedge_index> borders;
   processing::extract_boundary_cycles(mesh, std::back_inserter(borders));
   for (const auto border : borders) made.holes.push_back(fill(mesh, border));
   made.area = processing::area(mesh);
