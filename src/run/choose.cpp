@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "run/share_out.h"
 #include "run/size_effect.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
@@ -75,6 +76,8 @@ constexpr auto question_table = std::to_array<QuestionRow>({
     {"inertia", "inertia", "increase of the force by waves", "the loading is slow against waves",
      ""},
     {"shape_or_inclusion", "formula", "", "", ""},
+    {"family", "family", "", "",
+     "another case needs it, and cases that are compared take one model"},
 });
 static_assert(is_complete<Asked>(question_table), "every question has its text");
 
@@ -207,7 +210,13 @@ class Chooser {
     ask(Asked::inertia, e.inertia, limit, inertia_answer());
     ask(Asked::shape_or_inclusion, 1.0, 0.0,
         formulas.empty() ? "none, because " + reason.value_or("") : formulas);
-    if (!choice_.given) model_ = choice_.otherwise.model;
+    if (choice_.given) return;
+    model_ = choice_.otherwise.model;
+    if (!case_.at_least || *case_.at_least <= model_) return;
+    const Forecast* common = choice_.forecast(*case_.at_least);
+    if (common == nullptr) return;
+    ask(Asked::family, 1.0, 0.0);
+    model_ = common->model;
   }
 
   // Presses a coarse mesh of the body, where something of it is asked for.
@@ -401,6 +410,25 @@ Choice choose(const scenario::Case& one) {
 
 Choice choose(const scenario::Case& one, SpecimenShapes& shapes, Models models) {
   return Chooser(one, shapes, models).choose();
+}
+
+OneModel one_model(const scenario::Family& family, SpecimenShapes& shapes, int workers) {
+  constexpr std::size_t most = 64;
+  if (family.base.solver.model) return {};
+  const std::size_t count = std::max(family.design.count(), family.cases.size());
+  const std::size_t tries = std::min(count, most);
+  std::vector<std::pair<std::size_t, Choice>> made(tries);
+  share_out(tries, workers, [&](std::size_t t) {
+    const std::size_t i = tries == 1 ? 0 : t * (count - 1) / (tries - 1);
+    made[t] = {i, family.cases.empty() ? choose(scenario::make_case(family, i), shapes)
+                                       : choose(family.cases[i], shapes)};
+  });
+  Model dearest = Model::hertz;
+  for (const auto& [i, choice] : made) {
+    if (choice.given) return {};  // models are swept
+    dearest = std::max(dearest, choice.chosen.solver.model);
+  }
+  return {dearest, {made.begin(), made.end()}};
 }
 
 }  // namespace palpate::run

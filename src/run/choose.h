@@ -1,6 +1,9 @@
 // The choice of the model for a case.
 #pragma once
 
+#include <map>
+#include <optional>
+
 #include "scene/scene.h"
 
 namespace palpate::run {
@@ -15,5 +18,14 @@ enum class Models { all, quick };
 [[nodiscard]] scene::Choice choose(const scenario::Case& one, scene::SpecimenShapes& shapes,
                                    Models models = Models::all);
 [[nodiscard]] scene::Choice choose(const scenario::Case& one);
+
+// The dearest model that `auto` takes for a case of the family; of more than 64 cases, for 64 of
+// them, evenly chosen: compared cases take one model, so that their differences are none of models.
+struct OneModel {
+  std::optional<scenario::Model> model;            // nothing where the scenario names a model
+  std::map<std::size_t, scene::Choice> choices{};  // that were made, by the number of the case
+};
+[[nodiscard]] OneModel one_model(const scenario::Family& family, scene::SpecimenShapes& shapes,
+                                 int workers);
 
 }  // namespace palpate::run

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/stop_scope.h"
+#include "run/choose.h"
 #include "run/findings.h"
 #include "run/pace.h"
 #include "run/press.h"
@@ -37,8 +38,12 @@ std::string chosen(const scenario::Resolved& scenario) {
 std::vector<scene::Scene> build_all(const scenario::Family& family, int workers) {
   std::vector<scene::Scene> scenes(family.cases.size());
   scene::SpecimenShapes shapes;
-  share_out(scenes.size(), workers,
-            [&](std::size_t i) { scenes[i] = run::build_scene(family.cases[i], family, shapes); });
+  const auto common = scenes.size() > 1 ? one_model(family, shapes, workers).model : std::nullopt;
+  share_out(scenes.size(), workers, [&](std::size_t i) {
+    scenario::Case one = family.cases[i];
+    one.at_least = common;
+    scenes[i] = run::build_scene(one, family, shapes);
+  });
   return scenes;
 }
 

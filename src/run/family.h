@@ -19,7 +19,8 @@ struct Stop {
   [[nodiscard]] bool no_more() const { return end_now.load() || begin_no_more.load(); }
 };
 
-// Builds every case. Throws the exception of the first case (by number) that has one.
+// Builds every case, all by one_model(). Throws the exception of the first case (by number) that
+// has one.
 [[nodiscard]] std::vector<scene::Scene> build_all(const scenario::Family& family, int workers);
 
 // A record with the case's name and the values chosen for `auto`, without rows.

@@ -118,6 +118,7 @@ Case make_case(const Family& family, std::size_t i) {
   for (const auto* problems : {&made.reading.problems, &made.together})
     if (!problems->empty()) throw InputError(*problems);
   made.one.name = case_name(family, i, made.one.swept);
+  made.one.at_least = family.at_least;
   return std::move(made.one);
 }
 

@@ -27,9 +27,10 @@ struct Case {
   Scenario scenario;
   Materials materials;
   std::vector<std::pair<std::string, std::string>>
-      swept;                       // key and value, as written, without folders
-  std::vector<std::string> files;  // names of the input files besides the scenario
-  std::string folder;              // of relative paths
+      swept;                                   // key and value, as written, without folders
+  std::vector<std::string> files;              // names of the input files besides the scenario
+  std::string folder;                          // of relative paths
+  std::optional<Solver::Model> at_least = {};  // of Family
 };
 
 // Poisson's ratio of the tissue.
@@ -57,6 +58,8 @@ struct Family {
   Scenario base;  // the first case, as read
   Design design;  // of [sweep]
   std::vector<Case> cases;
+  // Where `auto` takes a cheaper model for a case, it takes this one: run::one_model().
+  std::optional<Solver::Model> at_least = {};
   std::vector<Problem> notes;
   std::vector<InputFile> inputs;
   Library library;

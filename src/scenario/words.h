@@ -73,7 +73,8 @@ inline constexpr Word auto_directions{
 inline constexpr auto directions = words_of<Contact::Direction>(
     {{"skin", "the skin's normals at rest, consistent with small strains"},
      {"sphere", "the sphere's normals at the displaced nodes"}});
-inline constexpr Word auto_models{"auto", "the cheapest model that meets `tolerance`"};
+inline constexpr Word auto_models{
+    "auto", "the cheapest model that meets `tolerance`, one for all cases of a sweep"};
 inline constexpr Words<Model, ladder.size()> models(ladder);
 inline constexpr Word auto_volumes{"auto",
                                    "`nodal` with `coupled_springs`, `none` with `mass_spring`"};

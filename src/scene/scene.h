@@ -39,7 +39,8 @@ enum class Asked {
   curved,
   time_dependent,
   inertia,
-  shape_or_inclusion
+  shape_or_inclusion,
+  family
 };
 
 // A question with its numbers.

@@ -144,23 +144,23 @@ void refuse_many(const scenario::Family& family, const std::optional<SweepForeca
                        "; give `--yes` to plan more than " + std::to_string(sweep_ceiling));
 }
 
-// Refuses a swept key that none of the models which `auto` chooses reads.
-void refuse_unread(const scenario::Family& family) {
-  constexpr std::size_t most = 64;  // cases tried, evenly chosen
-  const std::size_t tries = std::min(family.design.count(), most);
+// Takes one model for all cases, and refuses a swept key that none of the models which `auto`
+// chooses reads.
+void take_model(scenario::Family& family, int workers) {
   std::map<std::string, std::size_t> unread;
   scene::SpecimenShapes shapes;
-  for (std::size_t t = 0; t < tries; ++t) {
-    const std::size_t i = tries == 1 ? 0 : t * (family.design.count() - 1) / (tries - 1);
-    try {
-      const scene::Choice choice = run::choose(scenario::make_case(family, i), shapes);
-      if (choice.given) return;  // reading the scenario has checked this
-      for (const std::string& key : scenario::unread_keys(family, i, choice.chosen.solver.model))
-        ++unread[key];
-    } catch (const InputError&) {  // write_cases() reports invalid cases
-      return;
-    }
+  std::map<std::size_t, scene::Choice> choices;
+  try {
+    auto [model, made] = run::one_model(family, shapes, workers);
+    family.at_least = model;
+    choices = std::move(made);
+  } catch (const InputError&) {  // write_cases() reports invalid cases
   }
+  const std::size_t tries = choices.size();
+  for (const auto& [i, choice] : choices)
+    for (const std::string& key : scenario::unread_keys(family, i, choice.chosen.solver.model))
+      ++unread[key];
+  if (choices.empty()) return;
   for (const scenario::Setting& setting : family.design.settings(0))
     if (const auto found = unread.find(setting.key);
         found != unread.end() && found->second == tries)
@@ -204,17 +204,17 @@ std::size_t take_over(const SweepPlan& from, const SweepPlan& to) {
 }  // namespace
 
 Planned plan_sweep(const SweepOrder& order) {
-  const scenario::Family original = scenario::outline(order.scenario, order.settings);
+  scenario::Family original = scenario::outline(order.scenario, order.settings);
   if (original.design.empty())
     throw InputError({order.scenario, 0, 0},
                      "has no `sweep`; give it one, or run it by `palpate run`");
+  take_model(original, order.workers);
   Planned planned{.folder = (fs::path(order.out) / (original.name + "_sweep")).string(),
                   .cases = original.design.count(),
                   .notes = original.notes,
                   .forecast = forecast(original, order.curves == SweepOrder::Curves::kept)};
   if (planned.cases > sweep_ceiling && order.ceiling == SweepOrder::Ceiling::holds)
     refuse_many(original, planned.forecast);
-  refuse_unread(original);
   WholeFolder folder(planned.folder, "plan of a sweep", Replace::incomplete);
   const bool there = fs::exists(fs::path(planned.folder) / "plan.json");
   if (!there) folder.refuse_what_is_there();
@@ -223,7 +223,8 @@ Planned plan_sweep(const SweepOrder& order) {
   folder.write(scenario, portable(original));
   for (std::size_t i = 1; i < original.inputs.size(); ++i)
     folder.write("inputs/" + original.inputs[i].name, original.inputs[i].content);
-  const scenario::Family copy = scenario::outline(folder.file(scenario), {});
+  scenario::Family copy = scenario::outline(folder.file(scenario), {});
+  copy.at_least = original.at_least;
   write_cases(folder.file("plan.csv"), original, copy, order.workers);
   folder.add({"plan.csv"});
   const PlanFile file{.program = order.program,
@@ -231,6 +232,7 @@ Planned plan_sweep(const SweepOrder& order) {
                       .settings = order.settings,
                       .curves = order.curves == SweepOrder::Curves::kept,
                       .cases = planned.cases,
+                      .model = copy.at_least,
                       .csv_hash = folder.files().back().sha256,
                       .inputs = hashed_inputs(copy)};
   const std::string text = plan_text(file);
@@ -288,6 +290,7 @@ SweepPlan read_plan(const std::string& folder, const std::string& program) {
   if (hash.digits() != file.csv_hash || plan.ids.size() != file.cases) throw changed("plan.csv");
   plan.family = scenario::outline_planned((fs::path(folder) / "inputs/scenario.toml").string());
   plan.family.name = file.name;
+  plan.family.at_least = file.model;
   if (plan.family.base.title.empty()) plan.family.title = file.name;
   return plan;
 }

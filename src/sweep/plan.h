@@ -63,7 +63,8 @@ inline constexpr std::size_t sweep_ceiling = 10000;
 [[nodiscard]] SweepPlan read_plan(const std::string& folder, const std::string& program);
 
 // A case's id: the first 16 digits of the SHA-256 of all its keys, with defaults and material
-// properties, and of the hashes of the files that it reads. `files` are pairs of name and hash.
+// properties, of the model that its family takes, and of the hashes of the files that it reads.
+// `files` are pairs of name and hash.
 using HashedNames = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] HashedNames hashed_inputs(const scenario::Family& family);
 [[nodiscard]] std::uint64_t case_id(const scenario::Case& one, const HashedNames& files);

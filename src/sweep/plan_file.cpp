@@ -1,6 +1,7 @@
 // plan.json as JSON text. The text is hashed, so that its keys are written in a fixed order.
 #include "sweep/plan_file.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -18,6 +19,7 @@ std::string plan_text(const PlanFile& file) {
   json["settings"] = file.settings;
   json["curves"] = file.curves;
   json["cases"] = file.cases;
+  if (file.model) json["model"] = scenario::rung(*file.model).word;  // of `auto`, for all cases
   json["plan_csv_sha256"] = file.csv_hash;
   json["inputs"] = Json::array();
   for (const auto& [name, hash] : file.inputs)
@@ -37,6 +39,12 @@ PlanFile read_plan_file(const std::string& text, const std::string& path) {
     const Json& cases = json.at("cases");
     if (!cases.is_number_unsigned()) throw std::runtime_error("no number of cases");
     file.cases = cases;
+    if (json.contains("model")) {
+      const auto named = [&](const scenario::Rung& rung) { return json["model"] == rung.word; };
+      const auto* rung = std::find_if(scenario::ladder.begin(), scenario::ladder.end(), named);
+      if (rung == scenario::ladder.end()) throw std::runtime_error("no model");
+      file.model = rung->of;
+    }
     file.csv_hash = json.at("plan_csv_sha256");
     for (const Json& input : json.at("inputs"))
       file.inputs.emplace_back(input.at("name"), input.at("sha256"));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct PlanFile {
   std::vector<std::string> settings;
   bool curves = false;
   std::size_t cases = 0;
+  std::optional<scenario::Solver::Model> model = {};  // Family::at_least
   std::string csv_hash = {};
   HashedNames inputs;  // the scenario first
 };

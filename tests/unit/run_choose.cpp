@@ -270,5 +270,30 @@ TEST(Choose, AnEdgeIsForTheSolid) {
   EXPECT_EQ(at("60 mm").expected.edge, 0.0);
 }
 
+// A place beside an edge is for the solid; cases that are compared with it are as well.
+TEST(Choose, CasesOfAFamilyTakeOneModel) {
+  const auto family = [](const std::string& solver) {
+    return scenario::parse("[tissue]\nviscosity = \"none\"\n[finger]\nmaterial = \"rigid\"\n" + press +
+                               solver + "[sweep]\n\"finger.x\" = [\"3 mm\", \"30 mm\"]\n",
+                           "scene.toml", {});
+  };
+  scene::SpecimenShapes shapes;
+  const scenario::Family open = family("");
+  const OneModel one = one_model(open, shapes, 1);
+  EXPECT_EQ(one.model, Model::solid);
+  ASSERT_EQ(one.choices.size(), 2U);
+  EXPECT_EQ(one.choices.at(1).chosen.solver.model, Model::layer);
+  scenario::Case middle = open.cases.back();
+  middle.at_least = one.model;
+  const Choice taken = choose(middle, shapes);
+  EXPECT_EQ(taken.chosen.solver.model, Model::solid);
+  EXPECT_EQ(taken.otherwise.model, Model::layer);
+  EXPECT_EQ(taken.questions.back().asked, "family");
+
+  EXPECT_FALSE(one_model(family("[solver]\nmodel = \"layer\"\n"), shapes, 1).model);
+  middle.scenario.solver.model = Model::layer;
+  EXPECT_EQ(choose(middle, shapes).chosen.solver.model, Model::layer) << "named";
+}
+
 }  // namespace
 }  // namespace palpate::run

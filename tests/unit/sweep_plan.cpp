@@ -60,6 +60,20 @@ TEST_F(Plans, an_id_knows_the_case_and_not_its_number) {
   EXPECT_NE(other, last);
 }
 
+// Rows of a sweep are compared, so that all cases take the model that one of them needs.
+TEST_F(Plans, keep_the_model_that_all_cases_take) {
+  const std::string text =
+      "[tissue]\nviscosity = \"none\"\n[finger]\nmaterial = \"rigid\"\n[[step]]\nkind = \"indent\"\nto = "
+      "\"1 mm\"\n[sweep]\n";
+  const SweepPlan both = plan(text + "\"finger.x\" = [\"3 mm\", \"30 mm\"]\n");
+  EXPECT_EQ(both.family.at_least, scenario::Solver::Model::solid);
+  EXPECT_EQ(scenario::make_case(both.family, 1).at_least, scenario::Solver::Model::solid);
+  fs::remove_all(root_ / "out");
+  const SweepPlan middle = plan(text + "\"finger.x\" = [\"30 mm\", \"31 mm\"]\n");
+  EXPECT_EQ(middle.family.at_least, scenario::Solver::Model::layer);
+  EXPECT_NE(middle.ids.front(), both.ids.back()) << "of another model";
+}
+
 TEST_F(Plans, an_id_knows_the_content_of_files) {
   const std::string table = "[a]\ndensity = { value = \"1100 kg/m^3\", source = \"x\" }\n";
   const scenario::Family family = scenario::outline_text(formulas, "s.toml", {});
