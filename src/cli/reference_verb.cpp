@@ -1,6 +1,9 @@
 // `palpate reference`: prints the forces of a scenario by mesh refinement and extrapolation.
 #include <filesystem>
 
+#include <optional>
+
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/whole_folder.h"
@@ -20,10 +23,9 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
   std::vector<std::pair<std::string, chart::Reference>> found;
   bool diverged = false;
   for (const scenario::Case& one : family.cases) {
-    chart::Reference reference =
-        chart::refer(one, family, command.levels,
-                     [&](const std::string& level) { talk.progress(one.name + ", " + level); });
-    talk.progress("");
+    std::optional<Ticker> ticker(std::in_place, talk, [&] { return one.name; });
+    chart::Reference reference = chart::refer(one, family, command.levels, set_doing);
+    ticker.reset();
     for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");
     if (reference.diverged) {
       diverged = true;

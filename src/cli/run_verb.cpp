@@ -1,7 +1,9 @@
 // `palpate run`: runs scenarios one after the other, and the cases of each in parallel.
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "base/error.h"
@@ -69,11 +71,14 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   report::ResultFolder& folder = *prepared.folder;
   const std::string started = report::utc_now();
   folder.open();
-  std::size_t done = 0;
+  std::atomic<std::size_t> done{0};
+  std::optional<Ticker> ticker(std::in_place, talk, [&] {
+    return family.name + ": " + std::to_string(done) + " of " + std::to_string(scenes.size()) +
+           (scenes.size() == 1 ? " case" : " cases");
+  });
   const auto finished = [&](std::size_t i, const record::CaseRecord& record) {
     folder.keep(i, record);
-    talk.progress(family.name + ": " + std::to_string(++done) + " of " +
-                  std::to_string(scenes.size()) + " cases");
+    ++done;
     talk.event("case", {{"scenario", family.name},
                         {"case", record.name},
                         {"outcome", record::outcome_word(record.outcome)},
@@ -83,7 +88,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
                         {"left_out", record.answer.left_out}});
   };
   const std::vector<record::CaseRecord> records = run::run_all(scenes, prepared.workers, finished);
-  talk.progress("");
+  ticker.reset();
   if (StopScope::stopped() && records.empty()) return {};
 
   std::vector<fit::NamedFit> fits;

@@ -3,11 +3,13 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "plot/gnuplot.h"
@@ -69,6 +71,34 @@ void Talk::event(const std::string& name,
   object["event"] = name;
   for (const auto& [key, value] : details) object[key] = value;
   print(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+Ticker::Ticker(const Talk& talk, std::function<std::string()> text)
+    : talk_(talk), text_(std::move(text)) {
+  if (talk.shows_progress()) thread_ = std::thread([this] { tick(); });
+}
+
+Ticker::~Ticker() {
+  {
+    const std::scoped_lock lock(mutex_);
+    ended_ = true;
+  }
+  end_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  talk_.progress("");
+}
+
+void Ticker::tick() {
+  using namespace std::chrono_literals;
+  const auto start = std::chrono::steady_clock::now();
+  std::unique_lock lock(mutex_);
+  for (auto wait = 2000ms; !end_.wait_for(lock, wait, [this] { return ended_; }); wait = 250ms) {
+    const auto seconds =
+        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start);
+    const std::string at = doing();
+    talk_.progress(text_() + (at.empty() ? "" : ", " + at) + ", " +
+                   std::to_string(seconds.count()) + " s");
+  }
 }
 
 std::string warn_all(const std::vector<std::string>& warnings, const Talk& talk) {

@@ -1,7 +1,11 @@
 // Messages on stderr and JSON events on stdout.
 #pragma once
 
+#include <condition_variable>
+#include <functional>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -38,6 +42,26 @@ class Talk {
 // Says all warnings. Returns what a verb's last line says of figures that were not drawn:
 // "; 2 figures were not drawn", or nothing.
 [[nodiscard]] std::string warn_all(const std::vector<std::string>& warnings, const Talk& talk);
+
+// While this exists, progress() shows `text`, what is being done and the time, from the second
+// second on.
+class Ticker {
+ public:
+  Ticker(const Talk& talk, std::function<std::string()> text);
+  ~Ticker();
+  Ticker(const Ticker&) = delete;
+  Ticker& operator=(const Ticker&) = delete;
+
+ private:
+  void tick();
+
+  const Talk& talk_;
+  std::function<std::string()> text_;
+  std::mutex mutex_;
+  std::condition_variable end_;
+  bool ended_ = false;
+  std::thread thread_;
+};
 
 // A progress bar of 20 characters, with the numbers: `[##########..........] 5/10`.
 [[nodiscard]] std::string bar(std::size_t done, std::size_t all);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/doing.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "geometry/box_tree.h"
@@ -199,6 +200,9 @@ Moment FingerPress::moment_of(const Answer& answer, double force) {
 }
 
 std::optional<Answer> FingerPress::go(const Vec3& place, double travel) {
+  set_doing(std::to_string(press_->body().mesh.nodes.size()) + " nodes, press to " +
+            quantity_text(travel / order_.share, unit::mm) + " of " +
+            quantity_text(order_.deepest, unit::mm));
   auto found = press_->go(order_.first_touch + place - travel * Vec3::UnitZ());
   if (!found) {
     const double reached = (order_.first_touch.z() - press_->reached().z()) / order_.share;

@@ -1,6 +1,7 @@
 // Who hears what: stdout for data, stderr for talk, nothing that a terminal alone understands.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -43,6 +44,31 @@ TEST_F(RunTalk, what_all_cases_share_is_said_once) {
   ASSERT_NE(first, std::string::npos) << said;
   EXPECT_EQ(said.find(remark, first + 1), std::string::npos) << said;
   EXPECT_NE(said.find("10 kPa, and so in 2 more cases: " + remark), std::string::npos) << said;
+}
+
+// On a terminal a press of seconds says which mesh it is at, and how deep.
+TEST_F(RunTalk, a_long_press_says_where_it_is) {
+  write_file(folder_ / "press.toml",
+             "[solver]\nmodel = \"solid\"\ntolerance = 0.005\n[tissue]\nviscosity = "
+             "\"none\"\n[finger]\nmaterial = "
+             "\"rigid\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n");
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  ASSERT_EQ(::grantpt(terminal), 0);
+  ASSERT_EQ(::unlockpt(terminal), 0);
+  const std::string name = ::ptsname(terminal);
+  Running running({.arguments = {"run", "press.toml"}, .folder = folder_.path(), .before = [&] {
+                     ::dup2(::open(name.c_str(), O_RDWR | O_NOCTTY), 2);
+                   }});
+  std::string seen;
+  std::array<char, 4096> part{};
+  // It reads nothing once the program has closed the other side.
+  for (ssize_t got = 0; (got = ::read(terminal, part.data(), part.size())) > 0;)
+    seen.append(part.data(), static_cast<std::size_t>(got));
+  ::close(terminal);
+  EXPECT_EQ(running.wait().code, 0);
+  EXPECT_NE(seen.find("press: 0 of 1 case, "), std::string::npos) << seen;
+  EXPECT_NE(seen.find(" nodes, press to "), std::string::npos) << seen;
 }
 
 TEST_F(RunTalk, quiet_is_silent) {
