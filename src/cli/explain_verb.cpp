@@ -305,13 +305,14 @@ class Explanation {
       else
         text += part_text(std::get<scenario::TaggedRegion>(region.part));
       text += ", " + region.material + ": E " + quantity_text(region.young_modulus, unit::kPa) +
-              ", density " + quantity_text(region.density, unit::density);
+              ", nu " + rounded_text(region.poisson_ratio, 4) + ", density " +
+              quantity_text(region.density, unit::density);
       if (scene_.specimen)
         text += "; " + region_size(scene_.specimen->mesh, static_cast<int>(i) + 1);
       line(text);
     }
     if (!scene::all_slabs(scene_.scenario) && scene::several_tissues(scene_.scenario) &&
-        !scene_.scenario.uniform())
+        scene_.scenario.meshed() && !scene_.scenario.uniform())
       line("  note         the contact law uses E and nu of `tissue.material` in every region");
   }
 
