@@ -28,7 +28,7 @@ const Unit mJ_per_m2{"mJ/m^2", "work of adhesion", 1, 1e3, {0, 1, -2}};
 
 // x = a / a_c >= 1 of JKR: x^2 - 4 sqrt(x) = d, h = d a_c^2 / R, a_c^3 = pi w R^2 / (8 E*). The
 // left side is convex, and Newton's steps from the right of the root do not pass it.
-double relative_radius(double d) {
+double contact_over_least(double d) {
   if (!(d > -3.0)) return 1.0;
   double x = 2.6 + std::sqrt(std::max(d, 0.0));
   for (int i = 0; i < 60; ++i) {
@@ -47,7 +47,7 @@ double contact_scale(double radius, double modulus, double work) {
 AdhesiveForce jkr(double radius, double modulus, double work, double depth) {
   const double a = contact_scale(radius, modulus, work);
   const double d = depth * radius / (a * a);
-  const double x = relative_radius(d);
+  const double x = contact_over_least(d);
   const double cubed = x * std::sqrt(x);
   const double unit = pi * radius / 6.0;  // F = pi w R / 6 (x^3 - 6 x^(3/2))
   const double g = cubed * cubed - 6.0 * cubed;
