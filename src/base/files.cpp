@@ -122,7 +122,7 @@ namespace {
 
 }  // namespace
 
-void HeldFile::write(const std::string& path, std::string_view content) {
+void HeldFile::write(const std::string& path, std::string_view content, Disk disk) {
   const std::string temporary = path + ".part" + std::to_string(::getpid());
   const int file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) fail(path, temporary, errno);
@@ -141,7 +141,11 @@ void HeldFile::write(const std::string& path, std::string_view content) {
     check(written >= 0 || errno == EINTR);
     content.remove_prefix(as_index(std::max<ssize_t>(written, 0)));
   }
-  check(::fsync(file) == 0);
+  // Where the system cannot begin early, sync_file() does all.
+  if (disk == Disk::now)
+    check(::fsync(file) == 0);
+  else
+    (void)::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
   check(::rename(temporary.c_str(), path.c_str()) == 0);
   release();
   file_ = file;
@@ -186,7 +190,15 @@ void write_through(const std::string& path, std::string_view content) {
 
 }  // namespace
 
-void write_atomically(const std::string& path, std::string_view content) {
+void sync_file(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool good = file >= 0 && ::fsync(file) == 0;
+  const int error = errno;
+  if (file >= 0) ::close(file);
+  if (!good) throw SystemError(path + " cannot be written: " + std::strerror(error));
+}
+
+void write_atomically(const std::string& path, std::string_view content, Disk disk) {
   struct stat there {};
   const bool exists = ::stat(path.c_str(), &there) == 0;
   if (exists && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode))
@@ -197,7 +209,7 @@ void write_atomically(const std::string& path, std::string_view content) {
   const std::string target = link ? std::filesystem::canonical(path, error).string() : path;
   if (error) throw SystemError(path + " cannot be written: " + error.message());
   if (!exists) make_folders(std::filesystem::path(target).parent_path().string());
-  HeldFile().write(target, content);
+  HeldFile().write(target, content, disk);
 }
 
 void make_folders(const std::string& path) {

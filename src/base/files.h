@@ -14,8 +14,13 @@ namespace palpate {
 [[nodiscard]] std::string read_text(const std::string& path);
 
 // Replaces a file whole, by a temporary one on the disk; makes its folder; writes into a device, a
-// pipe or a link's target. Throws SystemError (full disk, no permission), the file as it was.
-void write_atomically(const std::string& path, std::string_view content);
+// pipe or a link's target. Throws SystemError (full disk, no permission), the file as it was. With
+// Disk::later the new content is only on its way to the disk, and sync_file() waits for it.
+enum class Disk { now, later };
+void write_atomically(const std::string& path, std::string_view content, Disk disk = Disk::now);
+
+// Returns when the file is on the disk. Throws SystemError.
+void sync_file(const std::string& path);
 
 // Creates a folder and the folders above it if they do not exist. Throws SystemError.
 void make_folders(const std::string& path);
@@ -35,7 +40,7 @@ class HeldFile {
   HeldFile& operator=(const HeldFile&) = delete;
 
   // Writes a file as write_atomically() does. The lock exists before the file has its final name.
-  void write(const std::string& path, std::string_view content);
+  void write(const std::string& path, std::string_view content, Disk disk = Disk::now);
   // Locks an existing file. Returns false if another process has the lock, there is no such file,
   // or its file system has no locks.
   [[nodiscard]] bool take(const std::string& path);

@@ -336,7 +336,7 @@ void WholeFolder::open() {
 
 void WholeFolder::write(const std::string& name, std::string_view content) {
   make_folders(fs::path(file(name)).parent_path().string());
-  write_atomically(file(name), content);
+  write_atomically(file(name), content, Disk::later);
   files_.push_back({name, sha256(content)});
 }
 
@@ -367,6 +367,7 @@ std::vector<std::string> WholeFolder::put(State content, std::vector<std::string
   std::string list = first_line(kind_, content) + origin_line_;
   if (const auto old = list_of(path_); old && may_replace(path_)) list += replaces_line(*old);
   for (const HashedFile& one : files_) list += file_line(one);
+  for (const HashedFile& one : files_) sync_file(file(one.path));
   list_.write(file(list_name), list);
   listed_ = true;
   for (const std::string& name : remove_unlisted(partial_, list))

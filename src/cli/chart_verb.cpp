@@ -156,8 +156,13 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   const std::string missing = warn_all(folder.put(WholeFolder::State::complete, warnings), talk);
   journal.remove();
   print(talk.json() ? json_lines(table) : text);
-  talk.say(folder.path() + ": chart.csv, chart.md and the figure" + missing);
-  return StopScope::stopped() ? exit_interrupted : exit_good;
+  const std::string what = folder.path() + ": chart.csv, chart.md and the figure" + missing;
+  if (!StopScope::stopped()) {
+    talk.say(what);
+    return exit_good;
+  }
+  Talk::error("palpate: interrupted; " + what);
+  return exit_interrupted;
 }
 
 }  // namespace palpate::cli

@@ -61,6 +61,7 @@ Prepared prepare(const scenario::Family& family, const Run& command, const Talk&
 struct Ran {
   std::size_t kept = 0;  // number of finished cases
   bool diverged = false;
+  std::string missing = {};  // figures that were not drawn, for the last line
 };
 
 // Runs all cases and writes the result folder, unless an interrupt came before the first case
@@ -107,13 +108,12 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
                   " s, everything up to it is kept");
     }
   }
-  const std::string missing =
-      warn_all(folder.finish(records, fits, {arguments.given, started}), talk);
+  ran.missing = warn_all(folder.finish(records, fits, {arguments.given, started}), talk);
   for (const std::string& line : report::answer_lines(records)) talk.say(line);
   if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))
     talk.say("The page to look at is " + page + ".");
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
-           std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases") + missing);
+           std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases") + ran.missing);
   talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
   return ran;
 }
@@ -165,13 +165,14 @@ int perform(const Run& command, const Arguments& arguments, const Talk& talk) {
   Ran ran;
   for (const Prepared& prepared : all) {
     if (StopScope::stopped()) break;
-    const auto [kept, diverged] = run_family(prepared, arguments, talk);
+    const auto [kept, diverged, missing] = run_family(prepared, arguments, talk);
     ran.kept += kept;
     ran.diverged = ran.diverged || diverged;
+    ran.missing += missing;
   }
   if (StopScope::stopped()) {
     Talk::error(std::string("palpate: interrupted; ") +
-                (ran.kept > 0 ? "finished cases are kept" : "nothing was written"));
+                (ran.kept > 0 ? "finished cases are kept" + ran.missing : "nothing was written"));
     return exit_interrupted;
   }
   return ran.diverged ? exit_diverged : exit_good;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
 #include "report/family_figures.h"
@@ -122,12 +123,13 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   for (const std::string& warning : results.warnings()) talk.warn(warning);
   using State = WholeFolder::State;
   // The same rows and columns give the same tables and figures.
-  std::string origin = plan.hash;
+  Sha256 origin;
+  origin.add(plan.hash);
   for (std::size_t i = 0; i < plan.count(); ++i)
-    if (results.at(i).known()) origin += sweep::id_text(results.at(i).head.seal);
-  for (const std::string& column : command.show) origin += "\n" + column;
+    if (results.at(i).known()) origin.add(sweep::id_text(results.at(i).head.seal));
+  for (const std::string& column : command.show) origin.add("\n" + column);
   WholeFolder folder((std::filesystem::path(plan.folder) / "merged").string(), "merged sweep",
-                     command.force ? Replace::any : Replace::incomplete, origin);
+                     command.force ? Replace::any : Replace::incomplete, origin.digits());
   folder.refuse_what_is_there();
   folder.open();
   sweep::merge_sweep(plan, results, totals, folder);

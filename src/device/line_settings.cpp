@@ -41,6 +41,16 @@ void fields(FieldVisitor& visitor, LineSettings& settings) {
                    unit::N, above(0.0));
 }
 
+// TOML's single quotes keep a backslash as it is, and no gauge waits for the two characters.
+void refuse_literal_ends(const Node& file, const char* key, const std::string& text) {
+  for (const char* end : {"\\r", "\\n"})
+    if (text.find(end) != std::string::npos)
+      throw InputError(place_of(file, key),
+                       "would be sent with the two characters `" + std::string(end) +
+                           "` and no line end, because single quotes of TOML keep them; write "
+                           "double quotes, as `poll = \"Q\\r\\n\"`");
+}
+
 // Every number of the pattern needs one unit, from the line or from the settings.
 void check_unit(const Node& file, const LinePattern& pattern, Measure measure, const char* key,
                 const std::string& given) {
@@ -79,6 +89,9 @@ LineSettings read_line_settings(const std::string& path) {
                                                  " baud; write " + known_rates());
   if (settings.force_scale == 0.0)
     throw InputError(place_of(file, "force_scale"), "0 makes every force 0; give the factor");
+  refuse_literal_ends(file, "poll", settings.poll);
+  refuse_literal_ends(file, "start", settings.start);
+  refuse_literal_ends(file, "stop", settings.stop);
   try {
     const LinePattern pattern(settings.pattern, settings.decimal);
     check_unit(file, pattern, Measure::force, "force_unit", settings.force_unit);

@@ -9,7 +9,8 @@
 #include "commands/pages.h"
 #include "emulator/arm_server.h"
 #include "emulator/line_gauge.h"
-#include "emulator/mark10_link.h"
+#include "emulator/mark10.h"
+#include "emulator/pty_loop.h"
 #include "emulator/settings.h"
 
 namespace emulator {
@@ -53,97 +54,106 @@ Nanoseconds step_of(const char* option, const std::string& text) {
   return step;
 }
 
-std::optional<double> lifetime_of(const Common& common) {
-  if (common.lifetime.empty()) return {};
-  return time_of("--for", common.lifetime);
+// Log and end of a run, of whatever device.
+template <class Run>
+void take_common(const Common& given, Run& run) {
+  run.log = given.log;
+  if (!given.lifetime.empty()) run.lifetime = time_of("--for", given.lifetime);
+}
+
+std::vector<Fault> faults_of(const Common& given, std::span<const FaultKind> kinds) {
+  return given.faults.empty() ? std::vector<Fault>() : read_faults(given.faults, kinds);
 }
 
 void list_faults(const char* link, std::span<const FaultKind> kinds) {
   for (const FaultKind& kind : kinds) std::printf("%s\t%s\t%s\n", link, kind.name, kind.what);
 }
 
-struct Mark10Arguments {
+// Of a device on a serial line.
+template <class Settings>
+struct LineArguments {
   Common common = {};
-  Mark10Run run = {};
-  std::string stand = {};
-  std::string tick = "20 ms";
+  Settings settings = {};
+  PtyRun run = {};
+  std::string file = {};
+  std::string tick = {};
+};
+
+template <class Settings>
+CLI::App* add_line(CLI::App& app, const char* name, const char* what,
+                   LineArguments<Settings>& given) {
+  CLI::App* verb = app.add_subcommand(name, what);
+  add_common(*verb, given.common);
+  verb->add_option("--link", given.run.link, "symbolic link to the port");
+  verb->add_option("--baud", given.run.baud, "rate of the line");
+  verb->add_option("--tick", given.tick, "virtual clock: replies come at multiples of this time");
+  return verb;
+}
+
+template <class Settings>
+void take_line(LineArguments<Settings>& given, TissueSettings& tissue,
+               std::span<const FaultKind> kinds) {
+  Settings& settings = given.settings;
+  if (given.common.tissue == "none")
+    tissue.surface = -1.0;  // m, out of reach
+  else if (!given.common.tissue.empty())
+    tissue = read_tissue(given.common.tissue);
+  settings.faults = faults_of(given.common, kinds);
+  given.run.clock = settings.clock = clock_of(given.common);
+  given.run.tick = settings.tick = step_of("--tick", given.tick);
+  settings.baud = given.run.baud;
+  take_common(given.common, given.run);
+}
+
+struct Mark10Arguments : LineArguments<Mark10Settings> {
   std::string latency = "0 ms";
   std::string jitter = "0 ms";
 };
 
 CLI::App* add_mark10(CLI::App& app, Mark10Arguments& given) {
-  CLI::App* verb = app.add_subcommand("mark10", "a motorised stand with a gauge, on a pty");
-  add_common(*verb, given.common);
-  verb->add_option("--link", given.run.line.link, "symbolic link to the port");
-  verb->add_option("--stand", given.stand, "TOML file of the tables [stand] and [gauge]");
-  verb->add_option("--seed", given.run.settings.stand.seed, "of the gauge's noise");
-  verb->add_option("--baud", given.run.line.baud, "rate of the line");
-  verb->add_option("--tick", given.tick, "virtual clock: replies come at multiples of this time");
+  given.tick = "20 ms";
+  CLI::App* verb = add_line(app, "mark10", "a motorised stand with a gauge, on a pty", given);
+  verb->add_option("--stand", given.file, "TOML file of the tables [stand] and [gauge]");
+  verb->add_option("--seed", given.settings.stand.seed, "of the gauge's noise");
   verb->add_option("--latency", given.latency, "virtual clock: age of the readings in a reply");
   verb->add_option("--jitter", given.jitter, "virtual clock: largest random part of that age");
   return verb;
 }
 
 int start(Mark10Arguments& given) {
-  Mark10Settings& settings = given.run.settings;
-  if (!given.stand.empty()) read_stand(given.stand, settings.stand);
-  if (given.common.tissue == "none")
-    settings.stand.tissue.surface = -1.0;  // m, out of reach
-  else if (!given.common.tissue.empty())
-    settings.stand.tissue = read_tissue(given.common.tissue);
-  if (!given.common.faults.empty())
-    settings.faults = read_faults(given.common.faults, stand_faults());
-  given.run.line.clock = clock_of(given.common);
-  given.run.line.tick = step_of("--tick", given.tick);
+  Mark10Settings& settings = given.settings;
+  if (!given.file.empty()) read_stand(given.file, settings.stand);
+  take_line(given, settings.stand.tissue, stand_faults());
   settings.latency = nanoseconds(time_of("--latency", given.latency));
   settings.jitter = nanoseconds(time_of("--jitter", given.jitter));
   if (settings.latency < 0 || settings.jitter < 0 ||
-      settings.latency + settings.jitter >= given.run.line.tick)
+      settings.latency + settings.jitter >= settings.tick)
     throw InputError({"--latency"},
                      "a reading must be younger than one tick; give shorter times of `--latency` "
                      "and `--jitter`, or a longer `--tick`");
-  given.run.line.log = given.common.log;
-  given.run.line.lifetime = lifetime_of(given.common);
-  return run_mark10(given.run);
+  Log log(given.run.log, "position_m,travel_m,velocity_m_s,depth_m,force_N");
+  Mark10 mark10(settings, log);
+  return PtyLoop(given.run, mark10).go();
 }
 
-struct GaugeArguments {
-  Common common = {};
-  LineGaugeSettings settings = {};
-  PtyRun run = {.baud = 9600};
-  std::string file = {};
-  std::string tick = "100 ms";
-};
+using GaugeArguments = LineArguments<LineGaugeSettings>;
 
 CLI::App* add_gauge(CLI::App& app, GaugeArguments& given) {
+  given.run.baud = 9600;
+  given.tick = "100 ms";
   CLI::App* verb =
-      app.add_subcommand("gauge", "a gauge that sends lines, pressed by hand, on a pty");
-  add_common(*verb, given.common);
-  verb->add_option("--link", given.run.link, "symbolic link to the port");
+      add_line(app, "gauge", "a gauge that sends lines, pressed by hand, on a pty", given);
   verb->add_option("--gauge", given.file, "TOML file of the tables [gauge] and [[waypoint]]");
   verb->add_option("--seed", given.settings.seed, "of the gauge's noise");
-  verb->add_option("--baud", given.run.baud, "rate of the line");
-  verb->add_option("--tick", given.tick, "virtual clock: replies come at multiples of this time");
   return verb;
 }
 
 int start(GaugeArguments& given) {
-  LineGaugeSettings& settings = given.settings;
-  if (!given.file.empty()) read_line_gauge(given.file, settings);
-  if (given.common.tissue == "none")
-    settings.tissue.surface = -1.0;  // m, out of reach
-  else if (!given.common.tissue.empty())
-    settings.tissue = read_tissue(given.common.tissue);
-  if (!given.common.faults.empty())
-    settings.faults = read_faults(given.common.faults, gauge_faults());
-  given.run.clock = settings.clock = clock_of(given.common);
-  given.run.tick = settings.tick = step_of("--tick", given.tick);
-  settings.baud = given.run.baud;
-  given.run.log = given.common.log;
-  given.run.lifetime = lifetime_of(given.common);
+  if (!given.file.empty()) read_line_gauge(given.file, given.settings);
+  take_line(given, given.settings.tissue, gauge_faults());
   Log log(given.run.log, "travel_m,force_N");
-  LineGauge gauge(settings, log);
-  return PtyLoop<LineGauge>(given.run, gauge).go();
+  LineGauge gauge(given.settings, log);
+  return PtyLoop(given.run, gauge).go();
 }
 
 struct ArmArguments {
@@ -171,8 +181,7 @@ int start(ArmArguments& given) {
   if (!given.hand.empty()) read_hand(given.hand, settings);
   if (!given.common.tissue.empty() && given.common.tissue != "none")
     settings.tissue = read_tissue(given.common.tissue);
-  if (!given.common.faults.empty())
-    settings.faults = read_faults(given.common.faults, arm_faults());
+  settings.faults = faults_of(given.common, arm_faults());
   settings.clock = clock_of(given.common);
   settings.period = step_of("--period", given.period);
   if (given.service != "3.1" && given.service != "3.5")
@@ -182,8 +191,7 @@ int start(ArmArguments& given) {
   for (const int port : {given.run.port, given.run.events_port})
     if (port < 0 || port > 65535)
       throw InputError({"--port"}, "the number must lie between 0 and 65535; write 0 for any");
-  given.run.log = given.common.log;
-  given.run.lifetime = lifetime_of(given.common);
+  take_common(given.common, given.run);
   return run_inverse3(given.run);
 }
 

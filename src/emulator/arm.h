@@ -10,7 +10,7 @@
 #include "emulator/faults.h"
 #include "emulator/hand.h"
 #include "emulator/log.h"
-#include "emulator/mark10.h"
+#include "emulator/serial_device.h"
 #include "emulator/tissue.h"
 
 namespace emulator {

@@ -10,9 +10,10 @@
 namespace emulator {
 namespace {
 
-constexpr std::array stand_kinds{
+// Of both devices on a serial line. A reply of the gauge is a line that it sends.
+constexpr std::array line_kinds{
     FaultKind{"unplug", Life::moment, "the port is gone; with `duration` it comes back"},
-    FaultKind{"stall", Life::lasting, "nothing is sent; what was due comes afterwards, at once"},
+    FaultKind{"stall", Life::lasting, "nothing is sent; replies come afterwards, at once"},
     FaultKind{"deaf", Life::lasting, "bytes that arrive are lost, `s` as well"},
     FaultKind{"garbage", Life::replies, "every byte of the reply is replaced by another"},
     FaultKind{"truncate", Life::replies, "only the reply's first half is sent"},
@@ -20,19 +21,15 @@ constexpr std::array stand_kinds{
     FaultKind{"drop", Life::replies, "the reply is lost"},
     FaultKind{"duplicate", Life::replies, "the reply is sent twice"},
     FaultKind{"echo", Life::lasting, "bytes that arrive are sent back before the reply"},
-    FaultKind{"error_reply", Life::replies, "`*10` is sent instead of the reply"},
-    FaultKind{"unsolicited", Life::replies, "a force line comes before the reply"},
+    FaultKind{"unsolicited", Life::replies, "another line comes before the reply"},
     FaultKind{"nul", Life::replies, "a NUL byte follows every byte"},
     FaultKind{"nan", Life::replies, "the force reads `nan`"},
     FaultKind{"huge", Life::replies, "the force reads `1e308`"},
-    FaultKind{"no_travel", Life::replies, "the reply to `n` lacks its second line"},
-    FaultKind{"swap", Life::replies, "the reply's two lines come in the other order"},
+    FaultKind{"no_travel", Life::replies, "the reply lacks its travel"},
     FaultKind{"slow", Life::lasting, "the line runs at a tenth of its rate"},
     FaultKind{"wrong_baud", Life::lasting, "both sides receive noise"},
-    FaultKind{"unit_change", Life::moment, "the gauge shows lbF"},
-    FaultKind{"travel_unit_change", Life::moment, "the stand shows inches"},
-    FaultKind{"sign_flip", Life::lasting,
-              "the force changes its sign, but the reply to LIST does not change"},
+    FaultKind{"unit_change", Life::moment, "the gauge shows lbF, a sketch or balance ounces"},
+    FaultKind{"sign_flip", Life::lasting, "the force changes its sign, and nothing says so"},
     FaultKind{"spike", Life::lasting, "`value` (\"5 N\") is added to the force that is shown"},
     FaultKind{"drift", Life::lasting,
               "the force that is shown grows by `value` (\"20 mN\") a second"},
@@ -41,47 +38,35 @@ constexpr std::array stand_kinds{
         "`value` (\"50 mN\") is added to the force on the way down, and subtracted on the way up"},
     FaultKind{"lag", Life::lasting, "the force is shown `value` late, at most 140 ms"},
     FaultKind{"lost_force", Life::lasting, "the force reads 0, as with a broken wire"},
-    FaultKind{"freeze", Life::lasting, "force and travel are shown as they were"},
-    FaultKind{"overload", Life::lasting, "the gauge reports an overload, the crosshead stops"},
+    FaultKind{"freeze", Life::lasting, "the same reading is sent again and again"},
+    FaultKind{"overload", Life::lasting, "the gauge reports an overload; a stand stops"},
+    FaultKind{"reset", Life::moment,
+              "switched off and on: a stand's settings are lost, a gauge's time is 0"},
+};
+
+constexpr std::array stand_only{
+    FaultKind{"error_reply", Life::replies, "`*10` is sent instead of the reply"},
+    FaultKind{"swap", Life::replies, "the reply's two lines come in the other order"},
+    FaultKind{"travel_unit_change", Life::moment, "the stand shows inches"},
     FaultKind{"limit_switch", Life::moment,
               "the crosshead stops as at a limit switch; only the opposite direction is free"},
     FaultKind{"runaway", Life::lasting, "`s` is ignored"},
-    FaultKind{"reset", Life::moment, "the stand is switched off and on: settings are lost"},
 };
 
-constexpr std::array gauge_kinds{
-    FaultKind{"unplug", Life::moment, "the port is gone; with `duration` it comes back"},
-    FaultKind{"stall", Life::lasting, "nothing is sent"},
-    FaultKind{"deaf", Life::lasting, "bytes that arrive are lost"},
-    FaultKind{"garbage", Life::replies, "every byte of the line is replaced by another"},
-    FaultKind{"truncate", Life::replies, "only the line's first half is sent, with its end"},
-    FaultKind{"glue", Life::replies, "the line's end is lost, so two lines become one"},
-    FaultKind{"drop", Life::replies, "the line is lost"},
-    FaultKind{"duplicate", Life::replies, "the line is sent twice"},
-    FaultKind{"echo", Life::lasting, "bytes that arrive are sent back"},
-    FaultKind{"unsolicited", Life::replies, "another text comes before the line"},
-    FaultKind{"nul", Life::replies, "a NUL byte follows every byte"},
-    FaultKind{"nan", Life::replies, "the force reads `nan`"},
-    FaultKind{"huge", Life::replies, "the force reads `1e308`"},
-    FaultKind{"no_travel", Life::replies, "the line lacks its travel"},
+constexpr std::array gauge_only{
     FaultKind{"wrong_unit", Life::replies, "the line ends with the unit `kp`"},
-    FaultKind{"slow", Life::lasting, "the line runs at a tenth of its rate"},
-    FaultKind{"wrong_baud", Life::lasting, "both sides receive noise"},
-    FaultKind{"unit_change", Life::moment, "the gauge shows lbF, others ounces"},
-    FaultKind{"sign_flip", Life::lasting, "the force changes its sign"},
-    FaultKind{"spike", Life::lasting, "`value` (\"5 N\") is added to the force that is shown"},
-    FaultKind{"drift", Life::lasting,
-              "the force that is shown grows by `value` (\"20 mN\") a second"},
-    FaultKind{
-        "friction", Life::lasting,
-        "`value` (\"50 mN\") is added to the force on the way down, and subtracted on the way up"},
-    FaultKind{"lag", Life::lasting, "the force is shown `value` late, at most 140 ms"},
-    FaultKind{"lost_force", Life::lasting, "the force reads 0, as with a broken wire"},
-    FaultKind{"freeze", Life::lasting, "the same line is sent again and again"},
-    FaultKind{"overload", Life::lasting, "the gauge reports an overload"},
-    FaultKind{"reset", Life::moment, "the gauge starts again: its time is 0"},
     FaultKind{"clock_jump", Life::moment, "the gauge's own time jumps ahead by `value` (\"5 s\")"},
 };
+
+template <std::size_t a, std::size_t b>
+constexpr std::array<FaultKind, a + b> both(const std::array<FaultKind, a>& one,
+                                            const std::array<FaultKind, b>& other) {
+  std::array<FaultKind, a + b> all{};
+  std::copy(other.begin(), other.end(), std::copy(one.begin(), one.end(), all.begin()));
+  return all;
+}
+constexpr auto stand_kinds = both(line_kinds, stand_only);
+constexpr auto gauge_kinds = both(line_kinds, gauge_only);
 
 constexpr std::array arm_kinds{
     FaultKind{"rst", Life::moment, "the connection is reset"},
@@ -180,6 +165,7 @@ void fields(FieldVisitor& visitor, Fault& fault, std::span<const FaultKind> kind
 
 }  // namespace
 
+std::span<const FaultKind> line_faults() { return line_kinds; }
 std::span<const FaultKind> stand_faults() { return stand_kinds; }
 std::span<const FaultKind> gauge_faults() { return gauge_kinds; }
 std::span<const FaultKind> arm_faults() { return arm_kinds; }

@@ -14,11 +14,13 @@ namespace emulator {
 enum class Life { moment, replies, lasting };
 
 struct FaultKind {
-  const char* name;
-  Life life;
-  const char* what;  // for docs/emulator.md and the verb `faults`
+  const char* name = nullptr;
+  Life life = Life::moment;
+  const char* what = nullptr;  // for docs/emulator.md and the verb `faults`
 };
 
+// Of the stand and of the gauge; those that both have come first: line_faults().
+[[nodiscard]] std::span<const FaultKind> line_faults();
 [[nodiscard]] std::span<const FaultKind> stand_faults();
 [[nodiscard]] std::span<const FaultKind> gauge_faults();
 [[nodiscard]] std::span<const FaultKind> arm_faults();

@@ -16,26 +16,16 @@ constexpr double gram = 9.80665e-3;  // N
 constexpr double unsteady = 2e-3;    // N between two lines, above which a balance shows `US`
 constexpr const char* banner = "HX711 ready\r\n";
 
-// A byte at a wrong rate: never a printable one.
-char noise(char byte) {
-  return static_cast<char>((static_cast<unsigned char>(byte) * 37U + 11U) | 0x80U);
-}
-
 }  // namespace
 
 LineGauge::LineGauge(const LineGaugeSettings& settings, Log& log)
-    : settings_(settings),
+    : SerialDevice(settings.faults, settings.baud, log),
+      settings_(settings),
       gauge_(make_gauge(settings.gauge, settings.seed)),
-      tissue_(make_tissue(settings.tissue, 1.0 / static_cast<double>(rate))),
-      faults_(settings.faults),
-      log_(&log) {
-  sample(gauge_, 0.0);
+      tissue_(make_tissue(settings.tissue, 1.0 / static_cast<double>(rate))) {
+  // It has been on for a while: a tare at once is that of a whole reading.
+  for (int i = 0; i < 1 << gauge_.filter; ++i) sample(gauge_, 0.0);
   if (settings.style == LineStyle::hx711) out_ = banner;
-}
-
-Nanoseconds LineGauge::byte_time() const {
-  const Nanoseconds usual = (10'000'000'000 + settings_.baud / 2) / settings_.baud;
-  return faults_.lasts("slow", now_) ? 10 * usual : usual;
 }
 
 double LineGauge::travel() const {
@@ -61,7 +51,7 @@ std::string LineGauge::summary() const {
   return text;
 }
 
-void LineGauge::advance(Nanoseconds time) {
+void LineGauge::advance_to(Nanoseconds time) {
   for (;; ++steps_) {
     const Nanoseconds next = (steps_ + 1) * 1'000'000'000 / rate;
     if (next > time) break;
@@ -72,36 +62,18 @@ void LineGauge::advance(Nanoseconds time) {
 }
 
 void LineGauge::go_to(Nanoseconds time, std::int64_t lines) {
-  for (auto next = faults_.next_time(); next && *next <= time; next = faults_.next_time()) {
-    advance(std::max(now_, *next));
-    begin_faults(lines);
-  }
-  advance(std::max(now_, time));
-  begin_faults(lines);
+  SerialDevice::go_to(time, lines);
   spoil(gauge_, faults_, now_, travel());
 }
 
-void LineGauge::begin_faults(std::int64_t lines) {
-  for (const Fault& fault : faults_.begin(now_, lines)) {
-    log_row("fault", fault.kind);
-    if (fault.kind == "unplug") {
-      unplugged_ = true;
-      out_.clear();
-      if (fault.duration) again_ = now_ + *fault.duration;
-    }
-    if (fault.kind == "unit_change")
-      gauge_.unit = settings_.style == LineStyle::mark10 ? 3 : 4;  // lbF, ozF
-    if (fault.kind == "reset") {
-      zero_time_ = now_;
-      if (settings_.style == LineStyle::hx711) send(banner);
-    }
-    if (fault.kind == "clock_jump") zero_time_ -= nanoseconds(fault.value);
+void LineGauge::begin(const Fault& fault) {
+  if (fault.kind == "unit_change")
+    gauge_.unit = settings_.style == LineStyle::mark10 ? 3 : 4;  // lbF, ozF
+  if (fault.kind == "reset") {
+    zero_time_ = now_;
+    if (settings_.style == LineStyle::hx711) send(banner);
   }
-}
-
-void LineGauge::plug_in() {
-  unplugged_ = false;
-  again_.reset();
+  if (fault.kind == "clock_jump") zero_time_ -= nanoseconds(fault.value);
 }
 
 double LineGauge::line_rate() const {
@@ -118,9 +90,9 @@ void LineGauge::stream(Nanoseconds until) {
   }
   const Nanoseconds step = std::llround(1e9 / per_second);
   if (next_line_ == 0) next_line_ = step;
-  for (; next_line_ <= until && !unplugged_; next_line_ += step) {
+  for (; next_line_ <= until && !unplugged(); next_line_ += step) {
     go_to(next_line_, lines_);
-    if (!unplugged_) send_line(line());
+    if (!unplugged()) send_line(line());
   }
 }
 
@@ -133,7 +105,7 @@ void LineGauge::pass(Nanoseconds now) {
     return;
   }
   stream(now);
-  if (!unplugged_) go_to(now, -1);  // faults that count lines begin with a line only
+  if (!unplugged()) go_to(now, -1);  // faults that count lines begin with a line only
 }
 
 std::string LineGauge::line() {
@@ -176,25 +148,7 @@ void LineGauge::send_line(std::string text) {
   const std::string bare = text.substr(0, text.find('\r'));
   if (faults_.spoils("wrong_unit"))
     text = bare.substr(0, bare.find_last_not_of(" gNozlbF") + 1) + " kp\r\n";
-  if (faults_.spoils("glue")) text = bare;
-  if (faults_.spoils("truncate")) text = bare.substr(0, bare.size() / 2) + "\r\n";
-  if (faults_.spoils("duplicate")) text += text;
-  if (faults_.spoils("unsolicited")) text = "battery 80 %\r\n" + text;
-  if (faults_.spoils("nul")) {
-    std::string wide;
-    for (const char byte : text) (wide += byte) += '\0';
-    text = wide;
-  }
-  if (faults_.spoils("garbage")) std::transform(text.begin(), text.end() - 2, text.begin(), noise);
-  if (faults_.spoils("drop")) text.clear();
-  send(text);
-}
-
-void LineGauge::send(const std::string& bytes) {
-  if (bytes.empty()) return;
-  log_row("out", bytes);
-  const bool garbled = other_rate_ || faults_.lasts("wrong_baud", now_);
-  for (const char byte : bytes) out_ += garbled ? noise(byte) : byte;
+  send(spoilt(text, "battery 80 %\r\n", 2));
 }
 
 std::string LineGauge::obey_line(const std::string& command) {
@@ -210,8 +164,9 @@ std::string LineGauge::obey_line(const std::string& command) {
 void LineGauge::take(char byte, Rate rate_of_other_side) {
   const bool lockstep = settings_.clock == Clock::lockstep;
   listened_ = true;
-  if (unplugged_) return;
-  if (rate_of_other_side == Rate::other || faults_.lasts("wrong_baud", now_)) {
+  hears_at(rate_of_other_side);
+  if (unplugged()) return;
+  if (other_rate_ || faults_.lasts("wrong_baud", now_)) {
     if (settings_.style != LineStyle::hx711) send(std::string(1, byte));
     return;
   }
@@ -230,18 +185,13 @@ void LineGauge::take(char byte, Rate rate_of_other_side) {
   const std::string command = std::exchange(command_, {});
   log_row("in", command);
   go_to(lockstep ? (now_ / settings_.tick + 1) * settings_.tick : now_, lines_);
-  if (unplugged_) return;
+  if (unplugged()) return;
   const std::string reply = obey_line(command);
   if (reply.empty()) return;
   if (command.starts_with('?') || command == "Q" || command == "SI")
     send_line(reply);
   else
     send(reply);
-}
-
-std::string LineGauge::give() {
-  if (faults_.lasts("stall", now_)) return {};
-  return std::exchange(out_, {});
 }
 
 }  // namespace emulator

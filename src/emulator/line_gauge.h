@@ -3,15 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "emulator/faults.h"
 #include "emulator/gauge.h"
 #include "emulator/gcl2.h"
-#include "emulator/log.h"
-#include "emulator/mark10.h"
+#include "emulator/serial_device.h"
 #include "emulator/tissue.h"
 
 namespace emulator {
@@ -49,61 +47,42 @@ void fields(palpate::FieldVisitor& visitor, LineGaugeSettings& settings);
 // Throws InputError.
 void read_line_gauge(const std::string& path, LineGaugeSettings& settings);
 
-class LineGauge {
+class LineGauge : public SerialDevice {
  public:
-  enum class Rate { same, other };
-
   LineGauge(const LineGaugeSettings& settings, Log& log);
 
-  [[nodiscard]] Nanoseconds byte_time() const;  // of ten bits
-  // Real clock: advances to `now` and sends the lines that are due. Virtual clock: sends the next
-  // line of a stream, which begins with the first byte that arrives: somebody listens then.
-  void pass(Nanoseconds now);
-  void take(char byte, Rate rate_of_other_side);
-  void hears_at(Rate rate_of_other_side) { other_rate_ = rate_of_other_side == Rate::other; }
-  [[nodiscard]] std::string give();  // bytes to be sent now
+  // Real clock: sends the lines that are due. Virtual clock: sends the next line of a stream, which
+  // begins with the first byte that arrives: somebody listens then.
+  void pass(Nanoseconds now) override;
+  void take(char byte, Rate rate_of_other_side) override;
 
-  [[nodiscard]] bool unplugged() const { return unplugged_; }
-  [[nodiscard]] std::optional<Nanoseconds> plugged_again_at() const { return again_; }
-  void plug_in();
-
-  [[nodiscard]] Nanoseconds now() const { return now_; }
   [[nodiscard]] double travel() const;  // m, true
   [[nodiscard]] double force() const { return force_of(tissue_); }
-  [[nodiscard]] std::string summary() const;  // a JSON object
-  void log_state() { log_row("state", ""); }
+  [[nodiscard]] std::string summary() const override;
 
  private:
   void go_to(Nanoseconds time, std::int64_t lines);
-  void advance(Nanoseconds time);
-  void begin_faults(std::int64_t lines);
+  void advance_to(Nanoseconds time) override;
+  void begin(const Fault& fault) override;
+  void log_row(const char* kind, const std::string& text) override;
   [[nodiscard]] double line_rate() const;  // per second; 0: none are sent unasked
   void stream(Nanoseconds until);
   [[nodiscard]] std::string line();
   [[nodiscard]] std::string obey_line(const std::string& command);
   void send_line(std::string line);
-  void send(const std::string& bytes);
-  void log_row(const char* kind, const std::string& text);
 
   LineGaugeSettings settings_;
   Gauge gauge_;
   Gcl2 language_ = {};
   Tissue tissue_;
-  Faults faults_;
-  Log* log_;
-  Nanoseconds now_ = 0;
   Nanoseconds next_line_ = 0;
   Nanoseconds zero_time_ = 0;  // of the gauge's own clock
   std::int64_t steps_ = 0;     // of 1/7000 s
   std::int64_t lines_ = 0;     // sent
   double last_shown_ = 0.0;    // N, for `ST` and `US`
   bool listened_ = false;      // a byte has arrived
-  bool other_rate_ = false;    // the client's port has another baud rate
   std::string command_ = {};
-  std::string out_ = {};
   std::string frozen_ = {};
-  bool unplugged_ = false;
-  std::optional<Nanoseconds> again_ = {};
 };
 
 }  // namespace emulator

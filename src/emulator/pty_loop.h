@@ -17,8 +17,8 @@
 #include <string>
 
 #include "emulator/log.h"
-#include "emulator/mark10.h"
 #include "emulator/pty.h"
+#include "emulator/serial_device.h"
 
 namespace emulator {
 
@@ -62,11 +62,10 @@ struct DueByte {
 };
 
 // Prints one JSON line with the port when the port is ready, and again after an `unplug`, and one
-// with the device's summary() at the end. A `Device` has the members of Mark10 that are used here.
-template <class Device>
+// with the device's summary() at the end.
 class PtyLoop {
  public:
-  PtyLoop(const PtyRun& run, Device& device)
+  PtyLoop(const PtyRun& run, SerialDevice& device)
       : run_(run),
         device_(device),
         pty_(std::make_unique<Pty>(run.baud, run.link)),
@@ -95,12 +94,15 @@ class PtyLoop {
     std::fflush(stdout);
   }
 
+  [[nodiscard]] SerialDevice::Rate side() const {
+    return pty_->same_rate() ? SerialDevice::Rate::same : SerialDevice::Rate::other;
+  }
+
   void turn() {
     wait();
     const Nanoseconds now = monotonic() - start_;
     if (run_.lifetime && now > nanoseconds(*run_.lifetime)) ended_ = true;
-    if constexpr (requires { device_.hears_at(Device::Rate::same); })
-      if (pty_) device_.hears_at(pty_->same_rate() ? Device::Rate::same : Device::Rate::other);
+    if (pty_) device_.hears_at(side());
     // A stream of a virtual clock goes on when its last line has been read, so that an unplugged
     // line loses nothing.
     if (!lockstep() || (due_.empty() && (!pty_ || pty_->is_read()))) device_.pass(now);
@@ -129,10 +131,9 @@ class PtyLoop {
   void read(Nanoseconds now) {
     const std::string bytes = pty_->read_all();
     if (bytes.empty()) return;
-    const auto at = pty_->same_rate() ? Device::Rate::same : Device::Rate::other;
     for (const char byte : bytes) {
       in_.add(now, device_.byte_time());
-      device_.take(byte, at);
+      device_.take(byte, side());
       queue(now);
     }
   }
@@ -176,7 +177,7 @@ class PtyLoop {
   }
 
   const PtyRun& run_;
-  Device& device_;
+  SerialDevice& device_;
   std::unique_ptr<Pty> pty_;
   int signals_;
   Nanoseconds start_ = monotonic();

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "base/child_process.h"
 #include "base/error.h"
 #include "base/index.h"
-#include "base/or_stopped.h"
 #include "integrate/wide_loops.h"
 #include "tissue/supports.h"
 
@@ -20,7 +21,6 @@ namespace palpate::integrate {
 namespace {
 
 using Columns = Eigen::MatrixXd;
-using Decomposition = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
 constexpr Eigen::Index width = block_lanes;  // columns of a block, which are solved for together
 
 // M^1/2 K^-1 M^1/2 over the free degrees of freedom, whose largest eigenvalues are 1 / omega^2 of
@@ -73,6 +73,31 @@ Columns orthonormalise(const Eigen::Ref<const Columns>& basis, Columns& block) {
   }
   coordinates.bottomRows(width) = left;
   return coordinates;
+}
+
+// The eigenvalues and eigenvectors of a matrix. A child process computes them, because Eigen knows
+// no StopScope and takes minutes for some thousand degrees of freedom.
+void decompose(const Eigen::MatrixXd& matrix, KnownModes& into) {
+  const auto size = as_index(matrix.rows());
+  const std::size_t squares = size * sizeof(double);  // bytes
+  const std::size_t bytes = squares * (size + 1);
+  const auto work = [&] {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(matrix);
+    std::string answer(bytes, '\0');
+    std::memcpy(answer.data(), found.eigenvalues().data(), squares);
+    std::memcpy(answer.data() + squares, found.eigenvectors().data(), bytes - squares);
+    return answer;
+  };
+  constexpr double unlimited = 1e7;  // s
+  const ChildResult ended =
+      run_in_child(work, {.time = unlimited, .memory = 1e8 + 8.0 * static_cast<double>(bytes)});
+  if (!ended.good() || ended.output.size() != bytes)
+    throw MeshError("the modes of " + std::to_string(size) +
+                    " degrees of freedom do not fit into the memory; set `solver.modes` lower");
+  into.squares.resize(matrix.rows());
+  into.vectors.resize(matrix.rows(), matrix.rows());
+  std::memcpy(into.squares.data(), ended.output.data(), squares);
+  std::memcpy(into.vectors.data(), ended.output.data() + squares, bytes - squares);
 }
 
 }  // namespace
@@ -129,11 +154,8 @@ void Modal::find_all(KnownModes* known) {
   KnownModes& all = known != nullptr ? *known : own;
   if (all.matrix.rows() != size || all.matrix != scaled) {
     const auto start = std::chrono::steady_clock::now();
-    const auto decomposition =
-        or_stopped<Decomposition>([matrix = scaled] { return Decomposition(matrix); });
+    decompose(scaled, all);
     all.matrix = std::move(scaled);
-    all.squares = decomposition.eigenvalues();
-    all.vectors = decomposition.eigenvectors();
     all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   } else {
     all.saved += all.seconds;

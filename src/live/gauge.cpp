@@ -169,6 +169,7 @@ class GaugeLoop {
     const bool withdrawn = indent != nullptr && !indent->to.second && travel <= 0.0 &&
                            deepest_ > given_up * indent->to.value;
     if (!withdrawn && time - moved_at_ < still) return;
+    if (!withdrawn) loop_.moved_until = moved_at_;
     ends({LiveEnd::Why::too_long,
           "step " + std::to_string(guide_.step()) + " was not carried out to its end: the finger " +
               (withdrawn ? "was withdrawn after " + rounded_text(1e3 * deepest_, 3) + " mm"

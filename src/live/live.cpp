@@ -291,9 +291,10 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   // Half a run that a fault of the device ended says nothing of the specimen.
   if (measures_force() && link_.limits().measures_travel && result.end.why != Why::link) {
     const scenario::Resolved& asked = scene_->scenario;
-    result.verdict = judge(
-        measured_curve(record, asked.steps, std::span(loop.free.force).first(loop.free.count)),
-        asked.solver.tolerance);
+    result.verdict =
+        judge(measured_curve(record, asked.steps, std::span(loop.free.force).first(loop.free.count),
+                             loop.moved_until),
+              asked.solver.tolerance);
     for (record::Finding& finding : verdict_findings(*result.verdict))
       record.findings.push_back(std::move(finding));
   }

@@ -141,10 +141,11 @@ struct Explanation {
   Cause cause = Cause::wrong_stiffness;
   double rest = Verdict::unknown;   // N, rms that remains
   double value = Verdict::unknown;  // of the cause, in the unit that Verdict gives it
-  int numbers = 1;                  // that were chosen
-  // A second number must explain more than the model's own difference could.
-  [[nodiscard]] double score() const { return rest * (numbers > 1 ? 1.2 : 1.0); }
+  double score = rest;              // the least is the best
 };
+
+// A second number must explain more than the model's own difference could.
+constexpr double second_number = 1.2;
 
 class Judgement {
  public:
@@ -252,7 +253,14 @@ class Judgement {
     return xx > 0.0 ? xy / xx : Verdict::unknown;
   }
 
-  [[nodiscard]] double sign() const { return found_.stiffness < -0.1 ? -1.0 : 1.0; }
+  // A weak correlation has a sign too, which means nothing, and one far reading can turn it.
+  [[nodiscard]] double sign() const {
+    if (!(found_.stiffness < -0.1)) return 1.0;
+    std::vector<double> pressed;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (in_contact(i)) pressed.push_back(rows_.measured[i] - known_offset());
+    return median(pressed) < 0.0 ? -1.0 : 1.0;
+  }
 
   // The measured force with its sign turned if need be, above `offset`.
   [[nodiscard]] std::vector<double> corrected(double sign, double offset) const {
@@ -293,7 +301,6 @@ class Judgement {
       found_.explained = true;
       return;
     }
-    // A weak correlation has a sign too, which means nothing.
     if (sign() < 0.0) found_.causes.push_back(Cause::wrong_sign);
     const std::vector<double> as_shown = corrected(sign(), 0.0);
     if (rest(as_shown) <= found_.allowed) {
@@ -301,13 +308,15 @@ class Judgement {
       return;
     }
     Explanation best = best_of(as_shown);
-    if (tare) {
-      const Explanation by_tare{Cause::wrong_tare, rest(zeroed)};
-      if (by_tare.rest <= found_.allowed && !(best.score() < by_tare.score())) best = by_tare;
-      if (!(best.rest <= found_.allowed)) {
-        found_.causes.push_back(Cause::wrong_tare);
-        best = best_of(zeroed);
-      }
+    Explanation above_rest = best_of(zeroed);
+    above_rest.score *= second_number;
+    // An offset within what is allowed is no fault, and every cause may have it besides.
+    if (!tare && !(best.score <= above_rest.score)) best = above_rest;
+    const double left = rest(zeroed);
+    if (left <= found_.allowed && !(best.score < left)) best = {Cause::wrong_tare, left};
+    if (tare && !(best.rest <= found_.allowed)) {
+      found_.causes.push_back(Cause::wrong_tare);
+      best = above_rest;
     }
     if (!(best.rest <= found_.allowed)) return;
     found_.causes.push_back(best.cause);
@@ -335,10 +344,11 @@ class Judgement {
     for (const Explanation& one :
          {by_outliers(force), by_stiffness(force), by_drift(force), by_friction(force),
           by_lag(force), by_loss(force), by_ceiling(force)})
-      if (one.rest <= found_.allowed && !(best.score() <= one.score())) best = one;
-    const Explanation surface = by_surface(force);
-    const double whole = rest(force, moved(surface.value));
-    if (surface.rest <= found_.allowed && whole < 0.5 * rest(force) && !(best.score() <= whole))
+      if (one.rest <= found_.allowed && !(best.score <= one.score)) best = one;
+    Explanation surface = by_surface(force);
+    surface.score = rest(force, moved(surface.value));
+    if (surface.rest <= found_.allowed && surface.score < 0.5 * rest(force) &&
+        !(best.score <= surface.score))
       best = surface;
     return best;
   }
@@ -399,7 +409,7 @@ class Judgement {
         rest(force, [&](std::size_t i) { return rows_.model[i] + y + rate * (rows_.time[i] - t); });
     const double change = sign() * rate * (rows_.time.back() - rows_.time.front());
     if (std::abs(change) <= found_.allowed) return {};  // the rest would be a tare
-    return {Cause::drift, left, change, 2};
+    return {Cause::drift, left, change, second_number * left};
   }
 
   // A force along the motion, of one size, which stays at rest as the last motion left it.
@@ -453,7 +463,8 @@ class Judgement {
       squares += change * (force[i] - mean);
       const double left =
           std::sqrt(std::max(0.0, before + squares) / static_cast<double>(rows_.size()));
-      if (in_contact(i) && !(best.rest <= left)) best = {Cause::lost_force, left, rows_.time[i], 2};
+      if (in_contact(i) && !(best.rest <= left))
+        best = {Cause::lost_force, left, rows_.time[i], second_number * left};
     }
     return best;
   }
@@ -522,10 +533,11 @@ bool Verdict::has(Cause cause) const {
 }
 
 MeasuredCurve measured_curve(const record::CaseRecord& record,
-                             const std::vector<scenario::Step>& steps,
-                             std::span<const double> free) {
+                             const std::vector<scenario::Step>& steps, std::span<const double> free,
+                             double until) {
   MeasuredCurve curve;
   for (std::size_t i = 0; i < record.measured.size(); ++i) {
+    if (record.contact[i].time > until) break;
     curve.time.push_back(record.contact[i].time);
     curve.travel.push_back(-record.measured[i].place[2]);
     curve.model.push_back(record.contact[i].force);

@@ -23,11 +23,11 @@ struct MeasuredCurve {
   double asked = 0.0;                 // m, deepest travel of the programme; 0: none is asked
 };
 
-// The columns of a record, with the readings before its programme and the deepest travel of
-// `steps`.
+// The columns of a record until a time (s), with the readings before its programme and the deepest
+// travel of `steps`.
 [[nodiscard]] MeasuredCurve measured_curve(const record::CaseRecord& record,
                                            const std::vector<scenario::Step>& steps,
-                                           std::span<const double> free);
+                                           std::span<const double> free, double until);
 
 // Explanations of a difference.
 enum class Cause {

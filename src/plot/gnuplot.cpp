@@ -95,7 +95,7 @@ Sheet sheet_of(const Figure& figure) {
 Drawing draw(const Sheet& sheet, const std::string& folder, const DrawOptions& options) {
   Drawing drawing;
   const std::string script = sheet.name + ".gp";
-  write_atomically((fs::path(folder) / script).string(), sheet.script);
+  write_atomically((fs::path(folder) / script).string(), sheet.script, Disk::later);
   drawing.files.push_back(script);
   for (const std::string& format : options.formats) {
     const Picture picture = draw_picture(sheet, format, folder, options);

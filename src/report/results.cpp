@@ -143,10 +143,12 @@ void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
   const std::vector<record::CaseRecord> one{record};
   if (!record.contact.empty() && !grown_.contains("force_indentation.csv"))
     write_atomically(folder + "/force_indentation.csv",
-                     record::csv_text(record::contact_table(one)));
+                     record::csv_text(record::contact_table(one)), Disk::later);
   if (!record.strain.empty())
-    write_atomically(folder + "/strain_time.csv", record::csv_text(record::strain_table(one)));
-  write_atomically(folder + "/findings.csv", record::csv_text(findings_table(*family_, one)));
+    write_atomically(folder + "/strain_time.csv", record::csv_text(record::strain_table(one)),
+                     Disk::later);
+  write_atomically(folder + "/findings.csv", record::csv_text(findings_table(*family_, one)),
+                   Disk::later);
 }
 
 void ResultFolder::write_tissue(const std::vector<record::CaseRecord>& records) {

@@ -14,7 +14,7 @@ namespace {
 
 using sweep::FactorColumn;
 
-constexpr std::size_t most_levels = 100;
+constexpr std::size_t most_levels = 40;  // six maps, their tables and the page then have 4 MB
 
 // A factor of a full grid.
 struct GridFactor {

@@ -28,7 +28,7 @@ struct Response {
 };
 
 // The response on a full grid; nothing if no factor with several levels is a number. Only every
-// k-th level is taken of a factor with more than 100 levels; the title then states k.
+// k-th level is taken of a factor with more than 40 levels; the title then states k.
 [[nodiscard]] std::optional<Response> response(const sweep::SweepColumns& columns,
                                                const sweep::OutputColumn& output,
                                                const std::string& title);

@@ -142,7 +142,7 @@ std::string map(const Response& response) {
       plot::gnuplot_column(y) + "):(" + plot::gnuplot_column("low_" + x) + "):(" +
       plot::gnuplot_column("high_" + x) + "):(" + plot::gnuplot_column("low_" + y) + "):(" +
       plot::gnuplot_column("high_" + y) + "):(" + plot::gnuplot_column(response.output) +
-      ") with boxxyerror fillstyle solid 1.0 border linewidth 0.4 linecolor palette notitle"};
+      ") with boxxyerror fillstyle solid 1.0 noborder linecolor palette notitle"};
   if (!lines.segments.empty())
     for (const char* style :
          {"linewidth 2.6 linecolor rgb '#90ffffff'", "linewidth 0.9 linecolor rgb '#202020'"})

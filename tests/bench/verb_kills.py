@@ -18,37 +18,22 @@ import sys
 import tempfile
 import time
 
-PRESS = """[tissue]
-young_modulus = "20 kPa"
-poisson_ratio = 0.45
-[finger]
-material = "rigid"
-radius = "5 mm"
-[[step]]
-kind = "indent"
-to = "0.4 mm"
-rate = "4 mm/s"
-[output]
-interval = "10 ms"
-"""
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from press import PRESS, curve, meshed  # noqa: E402
+
 FILES = {
     "s.toml": PRESS,
-    "modes.toml": PRESS.replace("[finger]", 'mesh = { kind = "kuhn", cells = [7, 7, 6] }\n[finger]')
-    + '[solver]\nmodel = "mass_spring"\nintegrator = "modal"\nmodes = 1152\n',
-    "lowest.toml": PRESS.replace("[finger]", 'mesh = { kind = "kuhn", cells = [14, 14, 10] }\n[finger]')
-    + '[solver]\nmodel = "mass_spring"\nintegrator = "modal"\nmodes = 150\n',
+    "modes.toml": meshed([7, 7, 6]) + 'integrator = "modal"\nmodes = 1152\n',
+    "lowest.toml": meshed([14, 14, 10]) + 'integrator = "modal"\nmodes = 150\n',
     "body.toml": PRESS.replace(
         "[finger]", 'shape = { kind = "ellipsoid", size = ["60 mm", "50 mm", "40 mm"] }\nmesh = { kind = "tetgen", nodes = 12000 }\n[finger]')
     + '[solver]\nmodel = "mass_spring"\n',
     "solid.toml": PRESS + '[solver]\nmodel = "solid"\ntolerance = 0.01\n',
     "figures.toml": PRESS + '[sweep]\n"tissue.young_modulus" = { from = "10 kPa", to = "20 kPa", points = 64 }\n',
     "sweep.toml": PRESS + '[sweep]\n"tissue.young_modulus" = { from = "10 kPa", to = "20 kPa", points = 300 }\n',
-    "maps.toml": PRESS.replace("[finger]", 'mesh = { kind = "kuhn", cells = [3, 3, 2] }\n[finger]')
-    + '[solver]\nmodel = "mass_spring"\n',
+    "maps.toml": meshed([3, 3, 2]),
     "chart.toml": PRESS.replace("[tissue]\n", '[tissue]\nshape = { kind = "half_space" }\n'),
-    "data.csv": "time_s,travel_mm,force_N\n" + "".join(
-        "%g,%g,%g\n" % (0.1 * i, 0.01 * i, 0.02 * (0.01 * i) ** 1.5 + 1e-5 * (i * 7919 % 13)) for i in range(400)
-    ),
+    "data.csv": curve(400, 0.01),
 }
 PLAN = ["sweep", "plan", "sweep.toml"]
 RAN = [PLAN, ["sweep", "run", "out/sweep_sweep"]]

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """How often a live run names the fault that it has, and how often one without fault agrees.
 
-    tests/bench/verdicts.py build/dev/palpate build/dev/palpate-emulator [RUNS] [--show]
+    tests/bench/verdicts.py build/dev/palpate build/dev/palpate-emulator [RUNS] [--seed 1] [--show]
 
 RUNS emulated runs (200 unless given) have one fault each and as many have none, on the motorised stand and on
-a sketch that prints time, force and travel, both with the tissue of scenarios/device_stand.toml. Kind, size and
-time of a fault follow from the run's number: sizes are fractions of the model's largest force, 0.22 N. A fault is
-named if `measured_causes` is that cause and no other, or if the run ends by its link with a sentence that says it.
+a sketch that prints time, force and travel. The seed draws the tissue's modulus and the finger's radius, the gauge's
+noise, the sketch's rate, and the size and time of the fault: sizes are fractions of the model's largest force. A fault
+is named if `measured_causes` is that cause and no other, or if the run ends by its link with a sentence that says it.
 """
 
 import argparse
@@ -21,10 +21,9 @@ import tempfile
 
 PROJECT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCENARIO = os.path.join(PROJECT, "scenarios", "device_stand.toml")
-TISSUE = os.path.join(PROJECT, "scenarios", "emulator", "stand_tissue.toml")
 HAND = os.path.join(PROJECT, "scenarios", "emulator", "gauge_hx711.toml")
 SKETCH = os.path.join(PROJECT, "scenarios", "gauges", "hx711.toml")
-PEAK = 220.0  # mN
+PEAK = 222.0  # mN, of the scenario as it is
 TOUCHED = 1.0  # s of both emulators: the press, the hold and the way back take a second each
 
 
@@ -36,50 +35,55 @@ def fault(kind, at, **more):
 class Run:
     """One session: files of the emulator, options of palpate, and what it should say."""
 
-    def __init__(self, number, kind):
-        chance = random.Random(number)
-        self.seed, self.kind = number + 1, kind
+    def __init__(self, seed, number, kind):
+        chance = random.Random(f"{seed} {number} {kind}")
+        self.seed, self.kind = chance.randrange(1, 10**6), kind
         self.device = chance.choice(["stand", "sketch"])
-        self.surface, self.faults, self.noise = "-2 mm", "", None
-        self.settings = {}
-        self.sketch = SKETCH
+        self.surface, self.faults = "-2 mm", ""
+        self.modulus, self.radius = chance.uniform(6, 30), chance.uniform(4, 8)  # kPa, mm
+        peak = PEAK * self.modulus / 12 * (self.radius / 5) ** 0.5
+        # A reading is the mean of 8 samples.
+        self.noise = peak * chance.uniform(0.001, 0.01) * 8 ** 0.5
+        self.rate = chance.choice([8, 10, 12.5, 20, 40, 80])  # of the sketch, 1/s
+        self.settings = {"tissue.young_modulus": f"{self.modulus:.3f} kPa", "finger.radius": f"{self.radius:.3f} mm"}
         self.travel = 4.0  # mm, deepest of the hand
         self.said = kind  # or a part of the sentence of a run that the link ends
         share = chance.uniform
         sign = chance.choice([-1, 1])
         if kind == "tare":
             self.said = "wrong_tare"
-            self.faults = fault("spike", 0, value=f"{sign * share(0.1, 0.6) * PEAK:.1f} mN")
+            self.faults = fault("spike", 0, value=f"{sign * share(0.08, 1.0) * peak:.2f} mN")
         elif kind == "sign":
             self.said = "wrong_sign"
             self.faults = fault("sign_flip", 0)
         elif kind == "surface":
             self.said = "wrong_surface"
-            self.surface = f"{-2 + sign * share(0.25, 0.6):.3f} mm"
+            self.surface = f"{-2 + sign * share(0.2, 0.6):.3f} mm"
             self.travel = 4.6  # the hand reaches the travel that is asked of it
         elif kind == "stiffness":
             self.said = "wrong_stiffness"
-            self.settings["tissue.young_modulus"] = f"{12 * chance.choice([share(0.5, 0.8), share(1.3, 2)]):.2f} kPa"
+            self.settings["tissue.young_modulus"] = (
+                f"{self.modulus * chance.choice([share(0.4, 0.82), share(1.22, 2.5)]):.3f} kPa")
         elif kind == "no specimen":
             self.said = "no_specimen"
         elif kind == "drift":
-            self.faults = fault("drift", 0, value=f"{sign * share(0.08, 0.3) * PEAK:.1f} mN")
+            self.faults = fault("drift", 0, value=f"{sign * share(0.07, 0.5) * peak:.2f} mN")
         elif kind == "friction":
-            self.faults = fault("friction", 0, value=f"{share(0.12, 0.4) * PEAK:.1f} mN")
+            self.faults = fault("friction", 0, value=f"{share(0.1, 0.6) * peak:.2f} mN")
         elif kind == "lag":
             # 140 ms are the longest that the emulator's gauge can be late.
             self.faults = fault("lag", 0, value=f"{share(100, 140):.0f} ms")
         elif kind == "lost force":
             self.said = "lost_force"
-            self.faults = fault("lost_force", TOUCHED + share(0.6, 1.6))
+            self.faults = fault("lost_force", TOUCHED + share(0.4, 1.7))
         elif kind == "outlier":
             self.said = "outliers"
-            period = 0.02 if self.device == "stand" else 0.1
-            size = sign * share(0.5, 10) * PEAK
-            self.faults = fault("spike", TOUCHED + share(0.2, 1.8), value=f"{size:.1f} mN", duration=f"{period:.3f} s")
+            period = 0.02 if self.device == "stand" else 1 / self.rate
+            # A reading beyond the stand's ceiling of 5 N would end the run.
+            size = sign * min(share(0.3, 20) * peak, 4000.0)
+            self.faults = fault("spike", TOUCHED + share(0.2, 1.8), value=f"{size:.2f} mN", duration=f"{period:.4f} s")
         elif kind == "noise":
-            # A reading of the emulator is the mean of 8 samples.
-            self.noise = share(0.04, 0.12) * PEAK * 8 ** 0.5
+            self.noise = share(0.035, 0.2) * peak * 8 ** 0.5
         elif kind == "overload":
             self.said = "the gauge is overloaded"
             self.faults = fault("overload", TOUCHED + share(0.5, 1.5))
@@ -94,22 +98,24 @@ class Run:
             self.faults = fault("clock_jump", TOUCHED + share(0.2, 2.5), value=f"{share(2, 3600):.1f} s")
 
     def emulator(self, folder):
-        tissue = "none" if self.kind == "no specimen" else TISSUE
+        tissue = "none" if self.kind == "no specimen" else write(folder, "tissue.toml", (
+            f'E0 = "{2.5 * self.modulus:.4f} kPa"\nEinf = "{self.modulus:.4f} kPa"\ntau = "0.5 s"\nnu = 0.45\n'
+            f'R = "{self.radius:.3f} mm"\nsurface = "-2 mm"\n'))
         words = ["--clock", "virtual", "--seed", str(self.seed), "--tissue", tissue]
         if self.faults:
             words += ["--fault", write(folder, "faults.toml", self.faults)]
-        gauge = f'noise = "{self.noise:.2f} mN"\n' if self.noise else ""
+        gauge = f'noise = "{self.noise:.3f} mN"\n'
         if self.device == "stand":
-            if gauge:
-                words += ["--stand", write(folder, "stand.toml", "[gauge]\n" + gauge)]
-            return ["mark10"] + words
+            return ["mark10"] + words + ["--stand", write(folder, "stand.toml", "[gauge]\n" + gauge)]
         with open(HAND) as file:
-            hand = file.read().replace('"4 mm"', f'"{self.travel:.2f} mm"')
-        if gauge:
-            hand = hand.replace('noise    = "0.2 mN"\n', gauge)
+            hand = file.read().replace('"4 mm"', f'"{self.travel:.2f} mm"').replace('noise    = "0.2 mN"\n', gauge)
+        hand = hand.replace("rate     = 10\n", f"rate = {self.rate}\n")
+        with open(SKETCH) as file:
+            sketch = file.read().replace("rate        = 10\n", f"rate = {self.rate}\n")
+        if self.kind == "noise":
             # A tare by one reading of such noise would be a second fault.
-            with open(SKETCH) as file:
-                self.sketch = write(folder, "sketch.toml", file.read().replace('start       = "t"', 'start = "x"'))
+            sketch = sketch.replace('start       = "t"', 'start = "x"')
+        self.sketch = write(folder, "sketch.toml", sketch)
         return ["gauge", "--baud", "57600", "--gauge", write(folder, "hand.toml", hand)] + words
 
     def link(self, port):
@@ -156,13 +162,14 @@ def main():
     parser.add_argument("palpate", type=os.path.abspath)
     parser.add_argument("emulator", type=os.path.abspath)
     parser.add_argument("runs", type=int, nargs="?", default=200)
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--show", action="store_true", help="the last message of runs that are not named")
     arguments = parser.parse_args()
     named = collections.Counter()
     played = collections.Counter()
     agreed = 0
     for number in range(arguments.runs):
-        run = Run(number, KINDS[number % len(KINDS)])
+        run = Run(arguments.seed, number, KINDS[number % len(KINDS)])
         verdict, causes, said = play(arguments, run)
         good = causes == run.said and (verdict == "differs" or run.kind == "noise")
         good = good or (" " in run.said and run.said in said and verdict != "agrees")
@@ -170,7 +177,7 @@ def main():
         named[run.kind] += good
         if not good and arguments.show:
             print(number, run.device, run.kind, repr(run.faults or run.surface), said.strip().splitlines()[-1])
-        verdict, causes, said = play(arguments, Run(number, "none"))
+        verdict, causes, said = play(arguments, Run(arguments.seed, number, "none"))
         agreed += verdict == "agrees" and causes == ""
         if verdict != "agrees" and arguments.show:
             print(number, "without fault", said.strip().splitlines()[-1])

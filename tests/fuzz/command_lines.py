@@ -3,14 +3,15 @@
 
     command_lines.py PROGRAM [--count 200] [--seed 1] [--memory GIB]
 
-A finding is a signal, an exit code that the README does not list for wrong input or that says
-"internal error", an error without a sentence, or a call that goes on for 20 s and then ignores
-Ctrl-C for 20 s more. Each is printed with its call and files, and the exit code is 1.
+Every verb is called. A finding is a signal, an exit code that `palpate --help` does not list or that
+is 1, an error without a sentence, a text of a library or a sanitizer, or a call that goes on for
+20 s and then ignores Ctrl-C for 20 s more. Each is printed with its call and files, and the exit code is 1.
 """
 import argparse
 import collections
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -18,31 +19,20 @@ import subprocess
 import sys
 import tempfile
 
-GOOD = {0, 2, 3, 4, 5, 6, 7, 75, 130}
+GOOD = {0, 2, 3, 4, 5, 6, 7, 8, 75, 130}
+# Texts of libraries, of sanitizers and of the language.
+FOREIGN = [b"Sanitizer", b"runtime error:", b"terminate called", b"what():", b"std::", b"basic_string",
+           b"vector::", b"json.exception", b"Assertion", b"internal error", b"bad_"]
 PATIENCE = 20.0  # s
 
-SCENARIO = """title = "Press"
-[tissue]
-young_modulus = "20 kPa"
-poisson_ratio = 0.45
-[finger]
-material = "rigid"
-radius = "5 mm"
-[[step]]
-kind = "indent"
-to = "0.4 mm"
-rate = "4 mm/s"
-[[step]]
-kind = "hold"
-time = "20 ms"
-[output]
-interval = "10 ms"
-figures = false
-"""
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from press import PRESS, curve, meshed  # noqa: E402
+
+SCENARIO = PRESS + "figures = false\n"
 FILES = {
     "s.toml": SCENARIO,
-    "mesh.toml": SCENARIO.replace("[finger]", 'mesh = { kind = "kuhn", cells = [2, 2, 2] }\n[finger]')
-    + '[solver]\nmodel = "mass_spring"\n',
+    "mesh.toml": meshed([2, 2, 2], SCENARIO),
+    "half.toml": SCENARIO.replace("[tissue]\n", '[tissue]\nshape = { kind = "half_space" }\n'),
     "sweep.toml": SCENARIO + '[sweep]\n"tissue.young_modulus" = ["10 kPa", "20 kPa"]\n',
     "stl.toml": SCENARIO.replace(
         "[finger]", 'shape = { kind = "file", file = "b.stl", unit = "mm" }\n[finger]'),
@@ -51,8 +41,7 @@ FILES = {
         + "endloop\nendfacet\n"
         for f in (((0, 0, 0), (0, 20, 0), (20, 0, 0)), ((0, 0, 0), (20, 0, 0), (0, 0, 20)),
                   ((0, 0, 0), (0, 0, 20), (0, 20, 0)), ((20, 0, 0), (0, 20, 0), (0, 0, 20)))),
-    "data.csv": "time_s,travel_mm,force_N\n" + "".join(
-        "%g,%g,%g\n" % (0.1 * i, 0.05 * i, 0.02 * (0.05 * i) ** 1.5) for i in range(12)),
+    "data.csv": curve(12, 0.05),
     "other.csv": "time_s,travel_mm,force_N\n0,0,0\n0.1,0.1,0.01\n",
     "tolerances.toml": "[default]\nrel = 1e-3\n[column.force_N]\nabs = 0.01\nreason = \"noise\"\n",
 }
@@ -61,28 +50,48 @@ run s.toml --out o
 run mesh.toml --set step.1.to=0.1_mm --jobs 1 --out o
 run s.toml sweep.toml --out o --force --quiet
 run stl.toml --out o
+run s.toml --device replay:data.csv --out l
+run s.toml --dry-run
 explain s.toml
 explain mesh.toml --json
+explain sweep.toml
 explain tissue.young_modulus
 mesh mesh.toml --out m.node
-mesh b.stl --unit mm
+mesh b.stl --unit mm --out m.ply --force
 data data.csv
 fit data.csv --x travel_mm --y force_N --model hertz --radius 5_mm --poisson 0.5
 fit data.csv other.csv --x 2 --y 3 --model hertz --radius 5_mm --poisson 0.5 --out f
 fit data.csv --x time_s --y force_N --model prony
 identify data.csv s.toml --x travel_mm --y force_N --unknown tissue.young_modulus=2_kPa..60_kPa --out o
 sweep plan sweep.toml --out o
-sweep run o/sweep_sweep --shard 1/2
+sweep plan sweep.toml --out p --reuse o/sweep_sweep --curves
+sweep run o/sweep_sweep --shard 1/2 --accept-failed --done d
+sweep retry o/sweep_sweep --shard 1/2 --jobs 1
 sweep status o/sweep_sweep
-sweep merge o/sweep_sweep --force
-sweep slurm o/sweep_sweep
-compare data.csv other.csv --tolerances tolerances.toml
-export o/s --to csv-si --out e
-live s.toml --link replay:data.csv --out o
+sweep merge o/sweep_sweep --force --show peak_force_N
+sweep parts o/sweep_sweep --of 3 --json
+sweep slurm o/sweep_sweep --chunk 1 --time 01:00:00 --program p --prologue s.toml
+compare data.csv other.csv --tolerances tolerances.toml --report c.html --junit c.xml
+report o --quiet
+export o/s --to csv-si --out e --force
 device probe replay:data.csv
 device monitor replay:data.csv
-manual
-golden check
+device stop mark10:nowhere
+reference half.toml --levels 3
+bench mesh.toml --frames 2
+chart half.toml --repeats 1 --out o
+stability mesh.toml --out o
+open o/s
+new press n.toml --force
+manual commands --man
+schema
+completion bash
+complete run s.t
+help sweep plan
+golden add s.toml
+golden check s.toml
+golden list
+golden bless s.toml --reason because
 """.strip().splitlines()]
 WORDS = ["", "-", "--", "--help", "--json", "--quiet", "--force", "--set", "--out", "/dev/null", "/",
          ".", "nan", "inf", "-1", "0", "1e308", "1e-308", "99999999999999999999", "0.3_mm", "\x1b[2J",
@@ -166,7 +175,18 @@ def why_bad(code, message, memory):
         return ""
     if code not in GOOD:
         return "exit code %d" % code
-    return "no sentence" if code in (2, 4, 5, 6) and not message.strip() else ""
+    for text in FOREIGN:
+        if text in message:
+            return "says `%s`" % text.decode()
+    return "no sentence" if code in (2, 4, 5, 6, 7, 8) and not message.strip() else ""
+
+
+def verbs_of(program, words=()):
+    """The verbs that the program's help lists, with those below them."""
+    text = subprocess.run([program, *words, "--help"], check=True, capture_output=True, text=True).stdout
+    listed = re.findall(r"^  (\w+)  ", text.partition("Subcommands:")[2], re.M)
+    listed = [word for word in listed if word != "help"]
+    return [verb for word in listed for verb in verbs_of(program, (*words, word))] or [words]
 
 
 def main():
@@ -178,6 +198,8 @@ def main():
     options = parser.parse_args()
     program = os.path.abspath(options.program)
     rng = random.Random(options.seed)
+    for verb in verbs_of(program):
+        assert any(tuple(call[:len(verb)]) == verb for call in CALLS), "no call of " + " ".join(verb)
     codes = collections.Counter()
     slow = findings = 0
     start = tempfile.mkdtemp(prefix="palpate-calls-")

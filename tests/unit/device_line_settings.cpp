@@ -53,6 +53,8 @@ TEST(LineSettings, AreRefusedAtTheirPlace) {
            {good + "force_scale = 0\n", "makes every force 0"},
            {good + "data_bits = 9\n", "data_bits"},
            {good + "bauds = 9600\n", "bauds"},
+           {good + "poll = 'Q\\r\\n'\n", "single quotes of TOML keep them"},
+           {good + "start = 't\\n'\n", "no line end"},
            {"pattern = \"{weight}\"\n", "got `{weight}`"},
            {"pattern = \"{force} {force_unit} {travel} {travel_unit}\"\nstart_force = \"1 N\"\n",
             "the lines have a travel"}})

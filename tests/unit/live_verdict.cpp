@@ -147,6 +147,38 @@ TEST(Verdict, NamesADriftAndAnOutlier) {
   }
 }
 
+// However far it is: it turns the correlation with the model, and is no turned sign.
+TEST(Verdict, AFarReadingIsNoTurnedSign) {
+  MeasuredCurve curve = run_with(0.0, as_it_is, 1);
+  curve.measured[50] -= 20.0;
+  const Verdict verdict = judge(curve, tolerance);
+  EXPECT_LT(verdict.stiffness, -0.1);
+  EXPECT_EQ(verdict.causes, std::vector{Cause::outliers}) << verdict_sentence(verdict);
+}
+
+// An offset of the gauge that is no fault by itself must not make another cause of one.
+TEST(Verdict, NamesTheSurfaceBesideASmallOffset) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto shown = [](double force) { return force + 9e-3; };
+    for (const double surface : {0.25e-3, 0.5e-3}) {
+      const Verdict verdict = judge(run_with(surface, shown, seed), tolerance);
+      EXPECT_EQ(verdict.causes, std::vector{Cause::wrong_surface}) << verdict_sentence(verdict);
+      EXPECT_NEAR(verdict.surface, surface, 0.03e-3);
+    }
+  }
+}
+
+// A finger that stood where no step asked for it was waited for, which says nothing.
+TEST(Verdict, LeavesOutWhatWasWaitedFor) {
+  record::CaseRecord record;
+  for (const double time : {0.0, 1.0, 2.0, 3.0}) {
+    record.contact.push_back({});
+    record.contact.back().time = time;
+    record.measured.push_back({});
+  }
+  EXPECT_EQ(measured_curve(record, {}, {}, 1.5).time, (std::vector{0.0, 1.0}));
+}
+
 // Each fault alone is named, and none of them is called a surface.
 TEST(Verdict, NamesWhatIsWrongWithGaugeAndStand) {
   for (unsigned seed = 1; seed <= 50; ++seed) {

@@ -145,9 +145,9 @@ TEST(Response, ThinsWhatNoPictureCouldShow) {
     columns.outputs[0].values.push_back(2.0 * i);
   }
   const auto made = response(columns, columns.outputs[0], "Press");
-  EXPECT_EQ(made->title, "Press: Peak force (N), one level in 3 of a");
-  EXPECT_EQ(made->grid.x.size(), 84u);
-  EXPECT_EQ(made->grid.values[83], 2.0 * 249);
+  EXPECT_EQ(made->title, "Press: Peak force (N), one level in 7 of a");
+  EXPECT_EQ(made->grid.x.size(), 36u);
+  EXPECT_EQ(made->grid.values[35], 2.0 * 245);
 }
 
 TEST(Response, PointsOfManyCasesAreThinnedEvenly) {
