@@ -201,8 +201,9 @@ void sync_file(const std::string& path) {
 void write_atomically(const std::string& path, std::string_view content, Disk disk) {
   struct stat there {};
   const bool exists = ::stat(path.c_str(), &there) == 0;
-  if (exists && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode))
-    return write_through(path, content);
+  if (exists && S_ISDIR(there.st_mode))
+    throw InputError({path, 0, 0}, "is a folder, and a file is to be written; give its name");
+  if (exists && !S_ISREG(there.st_mode)) return write_through(path, content);
   // What a link points to is replaced, not the link.
   std::error_code error;
   const bool link = exists && ::lstat(path.c_str(), &there) == 0 && S_ISLNK(there.st_mode);

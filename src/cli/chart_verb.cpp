@@ -156,7 +156,8 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   const std::string missing = warn_all(folder.put(WholeFolder::State::complete, warnings), talk);
   journal.remove();
   print(talk.json() ? json_lines(table) : text);
-  const std::string what = folder.path() + ": chart.csv, chart.md and the figure" + missing;
+  const std::string what = folder.path() + (missing.empty() ? ": chart.csv, chart.md and the figure"
+                                                            : ": chart.csv and chart.md" + missing);
   if (!StopScope::stopped()) {
     talk.say(what);
     return exit_good;

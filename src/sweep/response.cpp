@@ -14,7 +14,7 @@ namespace {
 
 using sweep::FactorColumn;
 
-constexpr std::size_t most_levels = 40;  // six maps, their tables and the page then have 4 MB
+constexpr std::size_t most_levels = 40;  // six maps then have 2 MB, and the page as much
 
 // A factor of a full grid.
 struct GridFactor {

@@ -136,13 +136,15 @@ std::string map(const Response& response) {
       "set cblabel " + plot::gnuplot_quoted(output_label(response.output)) + " offset 1,0\n" +
       "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.37\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.4\n" +
+      // Edges of SVG are crisp; in other pictures the background would shine through between cells.
+      "border = format eq 'svg' ? 'noborder' : 'border linewidth 0.4'\n" +
       names_of_lines(response, lines);
   std::vector<std::string> plots{
       csv(response) + " using (" + known + " ? NaN : " + plot::gnuplot_column(x) + "):(" +
       plot::gnuplot_column(y) + "):(" + plot::gnuplot_column("low_" + x) + "):(" +
       plot::gnuplot_column("high_" + x) + "):(" + plot::gnuplot_column("low_" + y) + "):(" +
       plot::gnuplot_column("high_" + y) + "):(" + plot::gnuplot_column(response.output) +
-      ") with boxxyerror fillstyle solid 1.0 noborder linecolor palette notitle"};
+      ") with boxxyerror fillstyle solid 1.0 @border linecolor palette notitle"};
   if (!lines.segments.empty())
     for (const char* style :
          {"linewidth 2.6 linecolor rgb '#90ffffff'", "linewidth 0.9 linecolor rgb '#202020'"})

@@ -150,6 +150,7 @@ def mutated_call(call, rng):
 def run(program, call, folder, memory):
     """The exit code (negative: a signal), or None for a hang; stderr; whether it was interrupted."""
     def limit():
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # a script in the background has it ignored
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         if memory:
             resource.setrlimit(resource.RLIMIT_AS, (memory << 30, memory << 30))

@@ -177,6 +177,10 @@ TEST_F(Files, APipeIsWrittenInto) {
   EXPECT_EQ(got, "through it");
 }
 
+TEST_F(Files, AFolderIsNoFileToWrite) {
+  EXPECT_THROW(write_atomically(folder_.path().string(), "text"), InputError);
+}
+
 TEST_F(Files, ALinkStaysAndItsFolderIsMade) {
   namespace fs = std::filesystem;
   const std::string folder = path_ + "_folder";

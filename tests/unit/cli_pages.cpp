@@ -41,6 +41,22 @@ TEST(Pages, NameEveryVerbAndKey) {
   EXPECT_TRUE(emulator.out.starts_with(".TH \"palpate\\-emulator\" 1")) << emulator.err;
 }
 
+// A folder's name is no scheme: a page opens where the link of the index says.
+TEST(Pages, AnIndexHasLinksToFoldersOfAnyName) {
+  const TemporaryFolder folder;
+  const std::string name = "out/javascript:alert(1)?#";
+  write_file(folder / "s.toml", "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\n");
+  ASSERT_EQ(
+      palpate(folder.path(), {"run", "s.toml", "--out", name, "--set", "output.figures=false"})
+          .code,
+      0);
+  ASSERT_EQ(palpate(folder.path(), {"report", "out"}).code, 0);
+  const std::string index = read_file(folder / "out/index.html");
+  EXPECT_NE(index.find("href=\"./javascript%3Aalert%281%29%3F%23/s/report.html\""),
+            std::string::npos)
+      << index;
+}
+
 TEST(Pages, KeysAreListedOnceWithTheirWords) {
   std::set<std::string> paths;
   for (const FlatKey& key : scenario::settable_keys()) {

@@ -97,6 +97,53 @@ TEST_F(RunStops, an_incomplete_result_is_run_again_without_force) {
   EXPECT_NE(read_file(folder_ / "out/slow/run.json").find("\"complete\": true"), std::string::npos);
 }
 
+// While figures are drawn: the program that draws is ended, the result stands, and the last line
+// says what is missing. A terminal that the user has chosen for gnuplot does not reach it.
+class FigureStops : public testing::Test {
+ protected:
+  FigureStops() {
+    write_file(folder_ / "bin/gnuplot", "#!/bin/sh\nprintf '%s' \"${GNUTERM-none}\" > '" +
+                                            (folder_ / "terminal").string() +
+                                            "'\nexec sleep 100\n");
+    fs::permissions(folder_ / "bin/gnuplot", fs::perms(0755));
+  }
+
+  [[nodiscard]] Ended stopped(const std::vector<std::string>& arguments) const {
+    Running running(
+        {.arguments = arguments,
+         .folder = folder_.path(),
+         .set = {{"PATH", (folder_ / "bin").string() + ":/usr/bin:/bin"}, {"GNUTERM", "dumb"}}});
+    EXPECT_TRUE(running.until([&] { return fs::exists(folder_ / "terminal"); }));
+    running.send(SIGTERM);
+    return running.wait();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(FigureStops, of_a_run_are_counted) {
+  write_file(folder_ / "press.toml",
+             "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n");
+  const Ended ended = stopped({"run", "press.toml"});
+  EXPECT_EQ(ended.code, 130) << ended.err;
+  EXPECT_TRUE(ended.err.ends_with(
+      "palpate: interrupted; finished cases are kept; 1 figure was not drawn\n"))
+      << ended.err;
+  EXPECT_EQ(read_file(folder_ / "terminal"), "none");
+  EXPECT_TRUE(fs::exists(folder_ / "out/press/contents.sha256"));
+}
+
+TEST_F(FigureStops, of_a_chart_are_counted) {
+  write_file(folder_ / "s.toml",
+             "[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = \"indent\"\n"
+             "to = \"0.1 mm\"\n");
+  const Ended ended = stopped({"chart", "s.toml", "--repeats", "1"});
+  EXPECT_EQ(ended.code, 130) << ended.err;
+  EXPECT_TRUE(ended.err.ends_with("out/s_chart: chart.csv and chart.md; 1 figure was not drawn\n"))
+      << ended.err;
+  EXPECT_TRUE(fs::exists(folder_ / "out/s_chart/contents.sha256"));
+}
+
 // Libraries do so where the memory does not suffice.
 TEST_F(RunStops, an_abort_has_a_sentence_and_a_code) {
   Running running(call({}));

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/stop_scope.h"
 #include "integrate/modal.h"
 #include "jittered_block.h"
 #include "scene/spring_body.h"
@@ -136,6 +137,13 @@ TEST_F(LowestModes, and_the_others_have_exact_statics_together) {
     EXPECT_LT((few + others - whole).norm(), 1e-9 * whole.norm());  // rounding, statics are exact
     EXPECT_GT(others.norm(), 0.01 * whole.norm());
   }
+}
+
+// The matrix is Eigen's, which no signal ends; a child of the program computes it.
+TEST_F(LowestModes, are_not_waited_for_by_a_signal) {
+  const std::atomic<bool> signal = true;
+  const StopScope scope(signal);
+  EXPECT_THROW(integrate::Modal all(*body_), Stopped);
 }
 
 // What is known is taken for the same body only.
