@@ -95,18 +95,22 @@ void refuse_thousands(std::span<const Line> lines, const Shape& shape, const std
                               "thousands");
 }
 
-// Whether a line is one of numbers such as `1.500,25;-476,5`, whose commas separate no columns.
-bool has_marked_numbers(const Line& line, const std::string& file) {
+// A line of numbers such as `1.500,25;-476,5`, whose commas separate no columns, is refused.
+void refuse_marked_numbers(const Line& line, const std::string& file) {
   const std::vector<Piece> fields = pieces_of(line, ';', file);
-  bool marked = false;
+  const Piece* example = nullptr;
   for (const Piece& field : fields) {
     const std::size_t comma = field.text.find(',');
-    marked = marked || (comma != std::string::npos && field.text.find('.') < comma);
+    if (comma != std::string::npos && field.text.find('.') < comma) example = &field;
     std::string plain = field.text;
     std::erase(plain, '.');
-    if (plain.empty() || !measured_number(plain, ',')) return false;
+    if (plain.empty() || !measured_number(plain, ',')) return;
   }
-  return marked && fields.size() > 1;
+  if (example == nullptr || fields.size() < 2) return;
+  throw InputError({file, line.number, example->column},
+                   "`" + example->text +
+                       "` has marks between thousands, which are no part of a number; save the "
+                       "numbers without them, as `1234.5`");
 }
 
 }  // namespace
@@ -165,10 +169,8 @@ Shape shape_of(std::span<const Line> all, const std::string& file, const DataLay
       highest = reached;
       best = shape;
     }
-  if (best.separator == ',' && !best.separator_given &&
-      std::any_of(lines.begin(), lines.end(),
-                  [&](const Line& line) { return has_marked_numbers(line, file); }))
-    best.separator = ';';  // the numbers are refused where they are read
+  if (best.separator == ',' && !best.separator_given)
+    for (const Line& line : lines) refuse_marked_numbers(line, file);
   if (best.decimal == ',' && !best.decimal_given) refuse_thousands(all, best, file);
   return best;
 }

@@ -276,8 +276,8 @@ TEST(Measured, RefusalsHavePlaces) {
       read("No|Extension|Load\n |mm|N\n1|0.1|2\n2|0.2|3\n", {.x = "Extension", .y = "Load"}).y,
       (Numbers{2, 3}));
   EXPECT_EQ(refusal("Weg (um);Kraft (uN)\n1.500,000;-476,500\n1.505,000;-191,250\n"),
-            "data.csv:2:1: `Weg (um)` holds `1.500,000`, whose marks between thousands are no part "
-            "of a number; save the numbers without them, as `1234.5`");
+            "data.csv:2:1: `1.500,000` has marks between thousands, which are no part of a number; "
+            "save the numbers without them, as `1234.5`");
   EXPECT_EQ(refusal("a,b\n,2\n1,\n"),
             "data.csv: no row is left with a number in `a` and in `b`; name columns that are "
             "filled");
