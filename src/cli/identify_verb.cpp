@@ -1,4 +1,5 @@
 // `palpate identify`: estimates tissue properties from a measured curve.
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
@@ -141,7 +142,8 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   const std::string each = files.size() > 1 ? "_1" : "";
   talk.say(folder.path() + ": identified.csv, residuals" + each + ".csv, profile.csv, scenario" +
            each + ".toml" + (files.size() > 1 ? " and those of the other pairs" : "") + missing);
-  return exit_good;
+  const auto tied = [](const identify::Identified& one) { return one.tied; };
+  return std::any_of(found.unknowns.begin(), found.unknowns.end(), tied) ? exit_partial : exit_good;
 }
 
 }  // namespace palpate::cli

@@ -4,8 +4,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -76,206 +74,178 @@ double best_rho(const Products& products, double degrees) {
   return numerics::minimum({place(std::max(best - 1, 0)), place(std::min(best + 1, steps))}, at);
 }
 
-// S = J^T C J with C_ij = rho^|i-j|, by a sum forwards and a sum backwards.
-Matrix correlated_product(const Rows& rows, Eigen::Index p, double rho) {
+// What matters of the residuals are frequencies that the curve has, so that means of neighbours are
+// judged: a law for all frequencies would be chosen by the fastest ones, which are the most.
+constexpr Eigen::Index fewest_blocks = 100;
+constexpr Eigen::Index most_blocks = 400;
+
+// The autocovariances of the means, of m rows each, of a process whose rows correlate by
+// exp(-lag / time).
+Eigen::VectorXd decaying(Eigen::Index blocks, Eigen::Index m, double time) {
+  const double rho = std::exp(-1.0 / time);
+  Eigen::VectorXd powers(blocks * m + 1);
+  for (Eigen::Index k = 0; k < powers.size(); ++k) powers[k] = k == 0 ? 1.0 : rho * powers[k - 1];
+  Eigen::VectorXd found = Eigen::VectorXd::Zero(blocks);
+  const auto rows = static_cast<double>(m);
+  for (Eigen::Index k = 0; k < blocks; ++k)
+    for (Eigen::Index l = 1 - m; l < m; ++l)
+      found[k] +=
+          (1.0 - static_cast<double>(std::abs(l)) / rows) / rows * powers[std::abs(k * m + l)];
+  return found;
+}
+
+// The autocovariances of noise with the spectrum f^-power, which goes on for four octaves below the
+// lowest frequency of the record.
+Eigen::VectorXd flicker(Eigen::Index blocks, double power) {
+  const Eigen::Index circle = 32 * blocks;  // lags repeat after so many
+  const auto turn = [&](Eigen::Index i) {
+    return 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(circle);
+  };
+  Eigen::VectorXd cosines(circle);
+  for (Eigen::Index i = 0; i < circle; ++i) cosines[i] = std::cos(turn(i));
+  Eigen::VectorXd found = Eigen::VectorXd::Zero(blocks);
+  for (Eigen::Index j = 0; j <= circle / 2; ++j) {
+    const double times = j == 0 || 2 * j == circle ? 1.0 : 2.0;
+    const double spectrum =
+        times * std::pow(static_cast<double>(std::max<Eigen::Index>(j, 2)), -power);
+    for (Eigen::Index k = 0; k < blocks; ++k) found[k] += spectrum * cosines[j * k % circle];
+  }
+  return found;
+}
+
+// What the blocks say under one covariance of theirs.
+struct Judged {
+  double minus_two_log = 0.0;  // of the restricted likelihood
+  double variance = 0.0;       // the factor of the covariance
+};
+
+// By Durbin's recursion for the predictions of each block from those before.   Durbin 1960
+Judged judge(const Rows& rows, const Eigen::VectorXd& covariance) {
   const Eigen::Index n = rows.rows();
-  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(p);
-  Matrix product = Matrix::Zero(p, p);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto row = rows.row(i).head(p);
-    product +=
-        row.transpose() * row + row.transpose() * (rho * sum) + (rho * sum).transpose() * row;
-    sum = row + rho * sum;
+  const Eigen::Index p = rows.cols() - 1;
+  Rows white(n, p + 1);
+  white.row(0) = rows.row(0) / std::sqrt(covariance[0]);
+  Eigen::VectorXd weights(0);  // of the blocks before, the first one first
+  double left = covariance[0];
+  double logs = std::log(left);
+  for (Eigen::Index k = 1; k < n; ++k) {
+    const double partial =
+        (covariance[k] - (k > 1 ? weights.dot(covariance.segment(1, k - 1)) : 0.0)) / left;
+    Eigen::VectorXd next(k);
+    next[0] = partial;
+    if (k > 1) next.tail(k - 1) = weights - partial * weights.reverse();
+    weights = std::move(next);
+    left *= 1.0 - partial * partial;
+    logs += std::log(left);
+    white.row(k) = (rows.row(k) - weights.transpose() * rows.topRows(k)) / std::sqrt(left);
   }
-  return product;
+  const Matrix normal = white.transpose() * white;
+  const Eigen::LDLT<Matrix> split(normal.topLeftCorner(p, p));
+  const Eigen::VectorXd product = normal.topRightCorner(p, 1);
+  const auto degrees = static_cast<double>(n - p);
+  const double variance = std::max(normal(p, p) - product.dot(split.solve(product)), 0.0) / degrees;
+  return {degrees * std::log(variance) + logs + split.vectorD().array().log().sum(), variance};
 }
 
-// sum_j x_j e^(-2 pi i jk/N), in place; N is a power of two.      Cooley and Tukey 1965
-void transform(std::vector<std::complex<double>>& x) {
-  const std::size_t n = x.size();
-  for (std::size_t i = 1, j = 0; i < n; ++i) {
-    std::size_t bit = n >> 1U;
-    for (; (j & bit) != 0; bit >>= 1U) j ^= bit;
-    j ^= bit;
-    if (i < j) std::swap(x[i], x[j]);
-  }
-  for (std::size_t length = 2; length <= n; length *= 2) {
-    const std::complex<double> turn =
-        std::polar(1.0, -2.0 * std::numbers::pi / static_cast<double>(length));
-    for (std::size_t i = 0; i < n; i += length) {
-      std::complex<double> at = 1.0;
-      for (std::size_t k = 0; k < length / 2; ++k, at *= turn) {
-        const auto even = x[i + k];
-        const auto odd = at * x[i + k + length / 2];
-        x[i + k] = even + odd;
-        x[i + k + length / 2] = even - odd;
-      }
+// The rows in blocks of as many neighbours each, give or take one: means, and sums of the first p
+// columns.
+struct Blocks {
+  Rows means;
+  Matrix sums;
+  double kept = 0.0;  // the least share of the variance of an estimate under white noise
+
+  Blocks(const Rows& rows, const Matrix& inverse, Eigen::Index count)
+      : means(count, rows.cols()), sums(count, inverse.rows()) {
+    for (Eigen::Index b = 0; b < count; ++b) {
+      const Eigen::Index from = b * rows.rows() / count;
+      const Eigen::Index to = (b + 1) * rows.rows() / count;
+      means.row(b) = rows.middleRows(from, to - from).colwise().mean();
+      sums.row(b) = means.row(b).head(sums.cols()) * static_cast<double>(to - from);
     }
+    const Matrix variance = inverse * sums.transpose() * sums * inverse;
+    kept = (variance.diagonal().array() / inverse.diagonal().array()).minCoeff() *
+           static_cast<double>(count) / static_cast<double>(rows.rows());
+  }
+};
+
+// As few blocks as keep what the estimates take from the rows.
+Blocks blocks_of(const Rows& rows, const Matrix& inverse) {
+  constexpr double enough = 0.95;
+  Eigen::Index count = fewest_blocks;
+  while (true) {
+    Blocks blocks(rows, inverse, std::min(count, rows.rows()));
+    if (blocks.kept >= enough || count >= std::min(most_blocks, rows.rows())) return blocks;
+    count *= 2;
   }
 }
 
-std::vector<std::complex<double>> padded(const Eigen::VectorXd& values, std::size_t size) {
-  std::vector<std::complex<double>> all(size);
-  for (Eigen::Index i = 0; i < values.size(); ++i) all[as_index(i)] = values[i];
-  transform(all);
+// A process that the residuals may be, with its weight among all.
+struct Process {
+  double weight = 0.0;
+  Matrix covariance;     // of the estimates
+  double of_mean = 0.0;  // variance of the mean of all rows
+};
+
+// White noise plus noise that decays or flickers, in shares and times on logarithmic grids.
+std::vector<Process> processes(const Blocks& blocks, const Matrix& inverse, Eigen::Index rows) {
+  const Eigen::Index n = blocks.means.rows();
+  std::vector<std::vector<Eigen::VectorXd>> families(2);
+  const Eigen::Index each = (rows + n / 2) / n;
+  for (double time = 0.5 * static_cast<double>(each); time <= static_cast<double>(rows);
+       time *= 2.0)
+    families[0].push_back(decaying(n, each, time));
+  for (const double power : {0.5, 1.0, 1.5}) families[1].push_back(flicker(n, power));
+
+  // sum over rows of one lag of J_i J_(i+lag)^T, and the same turned
+  std::vector<Matrix> lagged;
+  for (Eigen::Index lag = 0; lag < n; ++lag) {
+    const Matrix product =
+        blocks.sums.topRows(n - lag).transpose() * blocks.sums.bottomRows(n - lag);
+    lagged.push_back(lag == 0 ? product : Matrix(product + product.transpose()));
+  }
+  std::vector<Process> all;
+  for (const auto& family : families)
+    for (const Eigen::VectorXd& slow : family)
+      for (const double share : {0.001, 0.003, 0.01, 0.03, 0.1, 0.25, 0.5, 0.75, 0.9, 0.97, 1.0}) {
+        Eigen::VectorXd covariance = share / slow[0] * slow;
+        covariance[0] = 1.0;
+        const Judged judged = judge(blocks.means, covariance);
+        if (!std::isfinite(judged.minus_two_log)) continue;
+        Process& one = all.emplace_back();
+        // A family counts as much as the other.
+        one.weight = -0.5 * judged.minus_two_log - std::log(static_cast<double>(family.size()));
+        Matrix product = Matrix::Zero(inverse.rows(), inverse.cols());
+        for (Eigen::Index lag = 0; lag < n; ++lag) {
+          product += covariance[lag] * lagged[as_index(lag)];
+          one.of_mean += (lag == 0 ? 1.0 : 2.0) * static_cast<double>(n - lag) * covariance[lag];
+        }
+        one.of_mean *= judged.variance / static_cast<double>(n * n);
+        one.covariance = judged.variance / blocks.kept * (inverse * product * inverse);
+      }
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Process& one : all) most = std::max(most, one.weight);
+  double sum = 0.0;
+  for (Process& one : all) sum += one.weight = std::exp(one.weight - most);
+  for (Process& one : all) one.weight /= sum;
   return all;
 }
 
-// Bands of frequency that grow by a twentieth, of the bins `from` to `to` of `spacing` each.
-struct Bands {
-  std::vector<std::vector<std::size_t>> bins;
-  std::vector<double> f;  // mean frequency, cycles per row
-
-  Bands(std::size_t from, std::size_t to, double spacing) {
-    double next = 0.0;
-    for (std::size_t k = from; k <= to; ++k) {
-      const auto at = static_cast<double>(k);
-      if (bins.empty() || at >= next) {
-        bins.emplace_back();
-        next = std::max(at + 1.0, 1.05 * at);
-      }
-      bins.back().push_back(k);
+// The half width q that a Student variable of a variance drawn by the weights exceeds once in
+// twenty: sum w P(|t| sqrt(v) > q) = 0.05.
+double half_width(const std::vector<Process>& all, Eigen::Index i,
+                  std::span<const double> students) {
+  double most = 0.0;
+  for (const Process& one : all) most = std::max(most, one.covariance(i, i));
+  const auto exceeded = [&](double width) {
+    double share = 0.0;
+    for (const Process& one : all) {
+      const double at = width / std::sqrt(one.covariance(i, i));
+      const auto beyond = students.end() - std::upper_bound(students.begin(), students.end(), at);
+      share += one.weight * static_cast<double>(beyond) / static_cast<double>(students.size());
     }
-    for (const auto& band : bins)
-      f.push_back(0.5 * spacing * static_cast<double>(band.front() + band.back()));
-  }
-};
-
-// Sums over the bins of each band of Re(X_k X_l^*), X the transforms of the columns.
-std::vector<Matrix> products_in(const Bands& bands, const Matrix& columns, std::size_t size,
-                                const std::function<double(std::size_t)>& weight,
-                                const std::function<std::size_t(std::size_t)>& place) {
-  std::vector<std::vector<std::complex<double>>> waves;
-  for (Eigen::Index k = 0; k < columns.cols(); ++k) waves.push_back(padded(columns.col(k), size));
-  std::vector<Matrix> sums;
-  for (const auto& band : bands.bins) {
-    Matrix& sum = sums.emplace_back(Matrix::Zero(columns.cols(), columns.cols()));
-    for (const std::size_t bin : band)
-      for (Eigen::Index i = 0; i < sum.rows(); ++i)
-        for (Eigen::Index j = 0; j < sum.cols(); ++j)
-          sum(i, j) +=
-              weight(bin) *
-              (waves[as_index(i)][place(bin)] * std::conj(waves[as_index(j)][place(bin)])).real();
-  }
-  return sums;
-}
-
-// The covariance of the estimates under a spectrum S(f) = s (1 + (c/f)^a), the mean over the
-// corners c and powers a of a grid, each by its likelihood.
-struct Flicker {
-  Matrix covariance;         // of the estimates
-  double lowest = 0.0;       // S at one cycle in all rows
-  double degrees = 0.0;      // of freedom of the variances
-  double probability = 0.0;  // of this spectrum, against that of the first-order process
-};
-
-// Whittle's likelihood of the residuals' periodogram. The fit has taken its part of the low
-// frequencies: with Q an orthonormal basis of the jacobian, the expected periodogram is
-//   S(f) (1 - 2 |Q(f)|^2 / n) + Q(f)^* A Q(f) / n,  A = int S(g) Q(g) Q(g)^* dg.
-//                                                                             docs/theory.md (118)
-Flicker flicker_of(const Rows& rows, Eigen::Index p, const Matrix& inverse, double rho) {
-  const auto n = static_cast<double>(rows.rows());
-  std::size_t size = 1;
-  while (size < 2 * as_index(rows.rows())) size *= 2;
-  const auto spacing = 1.0 / static_cast<double>(size);
-  const Matrix jacobian = rows.leftCols(p);
-  const Matrix basis =
-      Eigen::HouseholderQR<Matrix>(jacobian).householderQ() * Matrix::Identity(rows.rows(), p);
-  Matrix all(rows.rows(), 2 * p);
-  all << basis, jacobian * inverse;
-
-  // Over all frequencies, of which the upper half mirrors the lower one.
-  Bands whole(0, size / 2, spacing);
-  whole.f.front() = 0.5 / n;
-  const auto mirrored = [&](std::size_t bin) { return bin == 0 || 2 * bin == size ? 1.0 : 2.0; };
-  const std::vector<Matrix> integrals =
-      products_in(whole, all, size, mirrored, [](std::size_t bin) { return bin; });
-
-  // At the frequencies of the periodogram, 1/n apart.
-  const Bands bands(1, as_index((rows.rows() - 1) / 2), 1.0 / n);
-  const auto place = [&](std::size_t bin) {
-    return static_cast<std::size_t>(
-        std::lround(static_cast<double>(bin) / n * static_cast<double>(size)));
+    return share > 0.05;
   };
-  const auto once = [](std::size_t) { return 1.0; };
-  const std::vector<Matrix> taken = products_in(bands, basis, size, once, place);
-  const std::vector<Matrix> powers = products_in(bands, rows.col(p), size, once, place);
-
-  // -log L of a shape, with its level.
-  const auto fitted = [&](const auto& shape_at) {
-    Matrix inner = Matrix::Zero(p, p);
-    for (std::size_t b = 0; b < whole.f.size(); ++b)
-      inner += shape_at(whole.f[b]) * spacing * integrals[b].topLeftCorner(p, p);
-    double level = 0.0;
-    double logs = 0.0;
-    double total = 0.0;
-    for (std::size_t b = 0; b < bands.f.size(); ++b) {
-      const auto count = static_cast<double>(bands.bins[b].size());
-      const double shape = shape_at(bands.f[b]);
-      const double expected = std::max(shape * (count - 2.0 * taken[b].trace() / n) +
-                                           taken[b].cwiseProduct(inner).sum() / n,
-                                       1e-3 * shape * count) /
-                              count;
-      level += powers[b](0, 0) / n / expected;
-      logs += count * std::log(expected);
-      total += count;
-    }
-    return std::pair{total * std::log(level / total) + logs, level / total};
-  };
-  const double first_order =
-      fitted([&](double at) {
-        return 1.0 / (1.0 - 2.0 * rho * std::cos(2.0 * std::numbers::pi * at) + rho * rho);
-      }).first;
-  struct Shape {
-    double corner, power, minus_log, level;
-    [[nodiscard]] double at(double f) const { return level * (1.0 + std::pow(corner / f, power)); }
-  };
-  std::vector<Shape> shapes;
-  double least = std::numeric_limits<double>::infinity();
-  for (const double power : {0.5, 0.75, 1.0, 1.25, 1.5, 2.0})
-    for (int k = 0; k <= 30; ++k) {
-      const double corner = std::pow(10.0, -4.0 + 0.2 * k);
-      const auto [value, level] =
-          fitted([&](double at) { return 1.0 + std::pow(corner / at, power); });
-      shapes.push_back({corner, power, value, level});
-      least = std::min(least, value);
-    }
-  Flicker found{.covariance = Matrix::Zero(p, p)};
-  // Both have few parameters, so that their largest likelihoods decide.
-  found.probability = 1.0 / (1.0 + std::exp(std::min(least - first_order, 700.0)));
-  std::vector<double> mean(whole.f.size(), 0.0);  // S in the bands
-  double sum = 0.0;
-  for (const Shape& shape : shapes) {
-    const double weight = std::exp(least - shape.minus_log);
-    if (!(weight > 1e-4)) continue;
-    sum += weight;
-    found.lowest += weight * shape.at(1.0 / n);
-    for (std::size_t b = 0; b < whole.f.size(); ++b) mean[b] += weight * shape.at(whole.f[b]);
-  }
-  found.lowest /= sum;
-  // Degrees of freedom by Satterthwaite 1946: 2 (sum v)^2 / sum (v^2 / m), v the part of a variance
-  // that comes from m ordinates of the periodogram, each a chi-squared number with two.
-  std::vector<Eigen::VectorXd> parts;
-  std::vector<double> ordinates;
-  double filled = 1.0;
-  for (std::size_t b = 0; b < whole.f.size(); ++b) {
-    const Matrix part = mean[b] / sum * spacing * integrals[b].bottomRightCorner(p, p);
-    found.covariance += part;
-    const double width = static_cast<double>(whole.bins[b].size()) * spacing * n;
-    if (filled >= 1.0) {  // the last group has an ordinate
-      parts.emplace_back(Eigen::VectorXd::Zero(p));
-      ordinates.push_back(0.0);
-      filled = 0.0;
-    }
-    parts.back() += part.diagonal();
-    ordinates.back() += width;
-    filled += width;
-  }
-  Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(p);
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    squares += parts[k].array().square() / std::max(ordinates[k], 1.0);
-  found.degrees = (2.0 * found.covariance.diagonal().array().square() / squares).minCoeff();
-  return found;
+  return numerics::change({0.0, std::sqrt(most) * students.back()}, 1e-6, exceeded).middle();
 }
 
 }  // namespace
@@ -342,34 +312,27 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
   const Eigen::LDLT<Matrix> normal(products.all.topLeftCorner(p, p));
   if (normal.info() != Eigen::Success || !(normal.vectorD().minCoeff() > 0.0)) return std::nullopt;
   const Matrix inverse = normal.solve(Matrix::Identity(p, p));
-  const double rho = found.rho;
-  // Residuals of a law that does not fit look like a walk, whose variance has no limit: the scatter
-  // that is there, with some allowance for what the fit takes away, is the most that is taken.
+  const Blocks blocks = blocks_of(rows, inverse);
+  const std::vector<Process> all = processes(blocks, inverse, n);
+  if (all.empty()) return std::nullopt;
   const double scatter = rows.col(p).squaredNorm() / degrees;
-  const double variance =
-      std::min(at.variance / (1.0 - rho * rho), 2.0 * scatter) * scale[p] * scale[p];
-  Matrix sandwich = variance * (inverse * correlated_product(rows, p, rho) * inverse);
-  // The variance of a mean depends on s^2 / (1-rho)^2, whose relative variance is
-  // 2/n + 4 var(rho) / (1-rho)^2 with var(rho) = (1-rho^2) / n.
-  found.degrees = std::max(4.0, degrees * (1.0 - rho) / (3.0 + rho));
-  found.effective_size = static_cast<double>(n) * (1.0 - rho) / (1.0 + rho);
-
-  // Fewer than 100 rows do not tell such a spectrum from chance.
-  if (n >= 100) {
-    Flicker flicker = flicker_of(rows, p, inverse, rho);
-    flicker.covariance *= scale[p] * scale[p];
-    const double wider =
-        (flicker.covariance.diagonal().array() / sandwich.diagonal().array()).log().mean();
-    if (wider > 0.0 && flicker.covariance.allFinite()) {
-      const double part = flicker.probability;
-      sandwich = (1.0 - part) * sandwich + part * flicker.covariance;
-      found.effective_size = std::min(
-          found.effective_size, 1.0 / ((1.0 - part) / found.effective_size +
-                                       part * flicker.lowest / (static_cast<double>(n) * scatter)));
-      found.degrees =
-          std::min(found.degrees, 1.0 / ((1.0 - part) / found.degrees + part / flicker.degrees));
-    }
+  Matrix sandwich = Matrix::Zero(p, p);
+  double of_mean = 0.0;
+  for (const Process& one : all) {
+    sandwich += one.weight * one.covariance;
+    of_mean += one.weight * one.of_mean;
   }
+  found.effective_size = scatter / of_mean;
+  found.degrees = static_cast<double>(blocks.means.rows() - p);
+  constexpr int levels = 400;
+  std::vector<double> students;  // |t| at even probabilities
+  for (int k = 0; k < levels; ++k)
+    students.push_back(numerics::student_t_quantile(0.5 + (k + 0.5) / (2 * levels), found.degrees));
+  const double t = numerics::student_t_quantile(0.975, found.degrees);
+  Eigen::VectorXd wider(p);
+  for (Eigen::Index i = 0; i < p; ++i)
+    wider[i] = half_width(all, i, students) / (t * std::sqrt(sandwich(i, i))) * scale[p];
+  sandwich = wider.asDiagonal() * sandwich * wider.asDiagonal();
   found.covariance.resize(unknowns * unknowns);
   for (Eigen::Index i = 0; i < p; ++i)
     for (Eigen::Index k = 0; k < p; ++k)

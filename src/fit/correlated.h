@@ -7,21 +7,19 @@
 
 namespace palpate::fit {
 
-// Residuals as a first-order autoregressive process, e_i = rho e_(i-1) + noise.
+// Residuals whose neighbours correlate.
 struct Autocorrelation {
   double rho = 0.0;                // correlation of neighbours, 0 to 0.999
-  double degrees = 0.0;            // of freedom, for Student's t; at least 4
-  double effective_size = 0.0;     // independent rows that are worth as much, n (1-rho) / (1+rho)
+  double degrees = 0.0;            // of freedom, for Student's t
+  double effective_size = 0.0;     // independent rows whose mean is as well known
   std::vector<double> covariance;  // of the unknowns, by rows: the sandwich of docs/theory.md (101)
 };
 
 // rho by restricted maximum likelihood, which takes the fitted unknowns into account, and the
-// covariance of the ordinary estimates under it. `jacobian` has one row of `unknowns` derivatives
-// per residual, in the order of time. The variance is at most twice that of the residuals. Nothing
-// if the likelihood ratio against independent residuals is below 2.71 (5 %, one-sided), for fewer
-// than 20 residuals, and if the jacobian lacks full rank.
-// A spectrum that rises towards
-// low frequencies as a power, as 1/f noise does, gives the covariance instead where it is wider.
+// covariance of the ordinary estimates, with the 95 % intervals of white noise with slow noise of
+// many kinds, each by its likelihood. `jacobian` has one row of `unknowns` derivatives per
+// residual, in the order of time. Nothing if the likelihood ratio against independent residuals is
+// below 2.71 (5 %, one-sided), for fewer than 20 residuals, and if the jacobian lacks full rank.
 //                        docs/theory.md (100), (101), (118); Harville 1977, J. Am. Stat. Assoc. 72
 [[nodiscard]] std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals,
                                                              std::span<const double> jacobian,

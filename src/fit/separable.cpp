@@ -5,66 +5,136 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "base/index.h"
 
 namespace palpate::fit {
 namespace {
 
-// The factors and the best of the starts; empty if none can be computed.
-std::vector<double> start_of(std::span<const double> y, const Separable& curve) {
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto points = static_cast<Eigen::Index>(y.size());
-  const auto linear = static_cast<Eigen::Index>(curve.linear);
-  const Eigen::Map<const Eigen::VectorXd> target(y.data(), points);
-  std::vector<double> phi(y.size() * curve.linear);
-  const Eigen::Map<const Rows> matrix(phi.data(), points, linear);
-  std::vector<double> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::vector<double>& shapes : curve.starts) {
-    if (!curve.columns(shapes, phi) || !matrix.allFinite()) continue;
-    const Eigen::VectorXd factors = matrix.colPivHouseholderQr().solve(target);
-    const double squares = (matrix * factors - target).squaredNorm();
-    if (!(squares < least) || !factors.allFinite()) continue;
-    least = squares;
-    best.assign(factors.begin(), factors.end());
-    best.insert(best.end(), shapes.begin(), shapes.end());
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The columns of a curve at some shapes, and the derivatives of the curve.
+class Columns {
+ public:
+  Columns(const Separable& curve, std::size_t points)
+      : curve_(curve),
+        phi_(static_cast<Eigen::Index>(points), static_cast<Eigen::Index>(curve.linear)),
+        above_(phi_),
+        below_(phi_) {}
+
+  [[nodiscard]] const Rows& at() const { return phi_; }
+
+  bool set(std::span<const double> shapes) { return computed(shapes, phi_); }
+
+  // d y / d s_k for these factors, by central differences; false where they cannot be computed.
+  bool slope(std::span<const double> shapes, std::size_t k, const Eigen::VectorXd& factors,
+             Eigen::VectorXd& slope) {
+    std::vector<double> moved(shapes.begin(), shapes.end());
+    const double step = 1e-5 * std::max(1.0, std::abs(shapes[k]));  // error of order step^2
+    moved[k] = shapes[k] + step;
+    if (!computed(moved, above_)) return false;
+    moved[k] = shapes[k] - step;
+    if (!computed(moved, below_)) return false;
+    slope = (above_ - below_) * factors / (2.0 * step);
+    return true;
   }
+
+ private:
+  bool computed(std::span<const double> shapes, Rows& phi) const {
+    return curve_.columns(shapes, {phi.data(), as_index(phi.size())});
+  }
+
+  const Separable& curve_;
+  Rows phi_, above_, below_;
+};
+
+// Shapes with the factors that are best for them.
+struct Start {
+  double squares = std::numeric_limits<double>::infinity();
+  std::vector<double> shapes, factors;
+};
+
+std::optional<Start> start_at(std::span<const double> y, Columns& columns,
+                              const std::vector<double>& shapes) {
+  if (!columns.set(shapes) || !columns.at().allFinite()) return std::nullopt;
+  const Eigen::Map<const Eigen::VectorXd> target(y.data(), columns.at().rows());
+  const Eigen::VectorXd factors = columns.at().colPivHouseholderQr().solve(target);
+  if (!factors.allFinite()) return std::nullopt;
+  return Start{
+      (columns.at() * factors - target).squaredNorm(), shapes, {factors.begin(), factors.end()}};
+}
+
+// The nearest minimum over the shapes alone, the factors being always the best ones: the slopes are
+// those of the curve without what the columns can describe.       Kaufman 1975, BIT 15, 49
+std::optional<Start> projected(std::span<const double> y, const Separable& curve,
+                               const Start& start) {
+  Columns columns(curve, y.size());
+  const CurveAt at = [&](std::span<const double> p, std::span<double> values,
+                         std::span<double> slopes) {
+    const std::vector<double> shapes(p.begin(), p.end());
+    const auto now = start_at(y, columns, shapes);
+    if (!now) return false;
+    const Eigen::Map<const Eigen::VectorXd> factors(now->factors.data(), columns.at().cols());
+    Eigen::Map<Eigen::VectorXd>(values.data(), columns.at().rows()) = columns.at() * factors;
+    if (slopes.empty()) return true;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> split(columns.at());
+    const Eigen::MatrixXd basis =
+        split.householderQ() * Eigen::MatrixXd::Identity(columns.at().rows(), columns.at().cols());
+    Eigen::VectorXd slope;
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      if (!columns.slope(shapes, k, factors, slope)) return false;
+      slope -= basis * (basis.transpose() * slope);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        slopes[i * shapes.size() + k] = slope[static_cast<Eigen::Index>(i)];
+    }
+    return true;
+  };
+  const Minimum minimum = minimise(y, at, start.shapes, 200);
+  if (minimum.status == Minimum::Status::failed) return std::nullopt;
+  return start_at(y, columns, minimum.parameters);
+}
+
+// The best of the starts, or of the minima next to the first of them.
+std::optional<Start> start_of(std::span<const double> y, const Separable& curve) {
+  Columns columns(curve, y.size());
+  std::vector<Start> all;
+  for (const std::vector<double>& shapes : curve.starts)
+    if (auto start = start_at(y, columns, shapes)) all.push_back(*std::move(start));
+  if (all.empty()) return std::nullopt;
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Start& a, const Start& b) { return a.squares < b.squares; });
+  Start best = all.front();
+  const double rounding = 1e-26 * static_cast<double>(y.size());
+  for (std::size_t i = 0; i < std::min(curve.minima, all.size()) && best.squares > rounding; ++i)
+    if (const auto found = projected(y, curve, all[i]); found && found->squares < best.squares)
+      best = *found;
   return best;
 }
 
 }  // namespace
 
 Minimum minimise(std::span<const double> y, const Separable& curve, int max_iterations) {
-  const std::vector<double> start = start_of(y, curve);
-  if (start.empty()) return {};
+  const auto found = start_of(y, curve);
+  if (!found) return {};
+  std::vector<double> start = found->factors;
+  start.insert(start.end(), found->shapes.begin(), found->shapes.end());
   const std::size_t linear = curve.linear;
   const std::size_t count = start.size();
-  std::vector<double> phi(y.size() * linear);
-  std::vector<double> above(phi.size());
-  std::vector<double> below(phi.size());
+  Columns columns(curve, y.size());
   const CurveAt at = [&](std::span<const double> p, std::span<double> values,
                          std::span<double> slopes) {
-    const std::span<const double> factors = p.first(linear);
-    const auto sum = [&](const std::vector<double>& columns, std::size_t i) {
-      double value = 0.0;
-      for (std::size_t j = 0; j < linear; ++j) value += factors[j] * columns[i * linear + j];
-      return value;
-    };
-    if (!curve.columns(p.subspan(linear), phi)) return false;
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = sum(phi, i);
+    const Eigen::Map<const Eigen::VectorXd> factors(p.data(), columns.at().cols());
+    const std::span<const double> shapes = p.subspan(linear);
+    if (!columns.set(shapes)) return false;
+    Eigen::Map<Eigen::VectorXd>(values.data(), columns.at().rows()) = columns.at() * factors;
     if (slopes.empty()) return true;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      for (std::size_t j = 0; j < linear; ++j) slopes[i * count + j] = phi[i * linear + j];
-    std::vector<double> shapes(p.begin() + static_cast<std::ptrdiff_t>(linear), p.end());
+    Eigen::Map<Rows> table(slopes.data(), columns.at().rows(), static_cast<Eigen::Index>(count));
+    table.leftCols(columns.at().cols()) = columns.at();
+    Eigen::VectorXd slope;
     for (std::size_t k = 0; k < shapes.size(); ++k) {
-      const double shape = shapes[k];
-      const double step = 1e-5 * std::max(1.0, std::abs(shape));  // error of order step^2
-      shapes[k] = shape + step;
-      if (!curve.columns(shapes, above)) return false;
-      shapes[k] = shape - step;
-      if (!curve.columns(shapes, below)) return false;
-      shapes[k] = shape;
-      for (std::size_t i = 0; i < values.size(); ++i)
-        slopes[i * count + linear + k] = (sum(above, i) - sum(below, i)) / (2.0 * step);
+      if (!columns.slope(shapes, k, factors, slope)) return false;
+      table.col(static_cast<Eigen::Index>(linear + k)) = slope;
     }
     return true;
   };

@@ -15,6 +15,8 @@ struct Separable {
   // Computes phi at these shapes, one row of `linear` numbers per point; false if it cannot.
   std::function<bool(std::span<const double> shapes, std::span<double> phi)> columns;
   std::vector<std::vector<double>> starts;  // shapes, each with its best factors; the best is taken
+  // 1 or more: of so many of the best starts the nearest minima are compared first.
+  std::size_t minima = 0;
 };
 
 // The best of `starts`, by linear least squares for c, and from there a minimum over all of them.

@@ -437,6 +437,7 @@ class UniaxialFit {
     Separable curve;
     curve.linear = terms;
     curve.starts = starts(terms, powers);
+    if (test_.model == Model::ogden3) curve.minima = 24;  // its squares have several minima
     curve.columns = [&](std::span<const double> alpha, std::span<double> phi) {
       for (std::size_t i = 0; i < stretch_.size(); ++i)
         for (std::size_t k = 0; k < terms; ++k)
@@ -460,7 +461,7 @@ class UniaxialFit {
     const Minimum minimum = minimise(stress_, curve, 1000);
     settle(fit_, minimum, {stress_, scale_, scale, test_.residuals});
     fit_.rmse = unit::kPa.from_si(fit_.rmse);
-    if (test_.model == Model::ogden3 && fit_.termination == Termination::converged) add_modulus();
+    if (test_.model == Model::ogden3 && fit_.termination != Termination::failed) add_modulus();
   }
 
   // E = 3/2 sum mu_k alpha_k, before the terms, which determine it better than each other.
@@ -473,13 +474,13 @@ class UniaxialFit {
       slope[k] = 1.5 * value(3 + k);
       slope[3 + k] = 1.5 * value(k);
     }
-    double variance = 0.0;
-    for (std::size_t i = 0; i < 6; ++i)
+    double variance = fit_.covariance.empty() ? Estimate::unknown : 0.0;
+    for (std::size_t i = 0; i < 6 && !fit_.covariance.empty(); ++i)
       for (std::size_t j = 0; j < 6; ++j)
         variance += slope[i] * slope[j] * fit_.covariance[6 * i + j];
     const Estimate& one = fit_.parameters[0];
     const double t = (one.ci95_high - one.estimate) / one.std_error;
-    young.std_error = std::sqrt(std::max(variance, 0.0));
+    young.std_error = std::sqrt(variance < 0.0 ? 0.0 : variance);
     young.ci95_low = young.estimate - t * young.std_error;
     young.ci95_high = young.estimate + t * young.std_error;
     fit_.parameters.insert(fit_.parameters.begin(), young);
@@ -494,7 +495,7 @@ class UniaxialFit {
       for (double alpha = -40.25; alpha <= 40.5; alpha += 0.5) all.push_back({alpha});
       return all;
     }
-    const std::array grid{-9.0, -5.0, -2.0, 1.3, 2.5, 4.0, 6.0, 9.0, 14.0};
+    const std::array grid{-9.0, -5.0, -2.0, 1.5, 2.5, 4.0, 6.0, 9.0, 14.0};
     for (std::size_t i = 0; i < grid.size(); ++i)
       for (std::size_t j = i + 1; j < grid.size(); ++j)
         for (std::size_t k = j + 1; k < grid.size(); ++k)

@@ -31,6 +31,14 @@ std::vector<std::string> warnings_of(const Identification& found,
     warnings.push_back("R^2 is " + rounded_text(found.r2, 3) +
                        ", so that the model describes the curve poorly, and the estimates mean "
                        "little");
+  std::vector<std::string> tied;
+  for (const Identified& one : found.unknowns)
+    if (one.tied) tied.push_back("`" + one.unknown.name() + "`");
+  if (!tied.empty())
+    warnings.push_back(
+        joined(tied, " and ") + (tied.size() > 1 ? " have no numbers" : " has no number") +
+        ": these data do not tell; give one by `--set` or `--given`, or add a test that "
+        "differs, such as another radius or thickness, by `--with`");
   for (const Identified& one : found.unknowns)
     if (one.at_bound)
       warnings.push_back("the best `" + one.unknown.name() +

@@ -18,9 +18,9 @@ char separator_of(const std::string& word) {
   if (word == "tab" || word == "\t" || word == "\\t") return '\t';
   if (word == "blank" || word == "space" || word == " ") return ' ';
   if (word == "," || word == "comma") return ',';
-  if (word == ";" || word == "semicolon") return ';';
+  if (word == ";" || word == "semicolon" || word == "|") return word == "|" ? '|' : ';';
   throw InputError(
-      {}, "palpate: `--separator " + word + "` is unknown; give `,`, `;`, `tab` or `blank`");
+      {}, "palpate: `--separator " + word + "` is unknown; give `,`, `;`, `|`, `tab` or `blank`");
 }
 
 char decimal_of(const std::string& word) {
@@ -95,6 +95,24 @@ void refuse_thousands(std::span<const Line> lines, const Shape& shape, const std
                               "thousands");
 }
 
+// A line of numbers such as `1.500,25;-476,5`, whose commas separate no columns, is refused.
+void refuse_marked_numbers(const Line& line, const std::string& file) {
+  const std::vector<Piece> fields = pieces_of(line, ';', file);
+  const Piece* example = nullptr;
+  for (const Piece& field : fields) {
+    const std::size_t comma = field.text.find(',');
+    if (comma != std::string::npos && field.text.find('.') < comma) example = &field;
+    std::string plain = field.text;
+    std::erase(plain, '.');
+    if (plain.empty() || !measured_number(plain, ',')) return;
+  }
+  if (example == nullptr || fields.size() < 2) return;
+  throw InputError({file, line.number, example->column},
+                   "`" + example->text +
+                       "` has marks between thousands, which are no part of a number; save the "
+                       "numbers without them, as `1234.5`");
+}
+
 }  // namespace
 
 bool is_comment(const Line& line) {
@@ -131,7 +149,7 @@ std::vector<Line> sample_of(std::span<const Line> lines) {
 
 Shape shape_of(std::span<const Line> all, const std::string& file, const DataLayout& layout) {
   const std::vector<Line> lines = sample_of(all);
-  constexpr std::array separators{'\t', ';', ',', ' '};  // at equal scores the first is taken
+  constexpr std::array separators{'\t', ';', ',', ' ', '|'};  // at equal scores the first is taken
   constexpr std::array decimals{'.', ','};
   Shape best;
   best.separator_given = !layout.separator.empty();
@@ -151,6 +169,8 @@ Shape shape_of(std::span<const Line> all, const std::string& file, const DataLay
       highest = reached;
       best = shape;
     }
+  if (best.separator == ',' && !best.separator_given)
+    for (const Line& line : lines) refuse_marked_numbers(line, file);
   if (best.decimal == ',' && !best.decimal_given) refuse_thousands(all, best, file);
   return best;
 }

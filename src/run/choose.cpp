@@ -99,7 +99,8 @@ class Chooser {
       uniform();
     else
       pressed();
-    if (choice_.given) choice_.found = {.inertia_matters = !rests()};
+    if (choice_.given)
+      choice_.found = {.inertia_matters = !rests(), .depth_matters = takes_depth(model_)};
     choice_.chosen = scenario::resolve(case_, model_, choice_.found);
     scene::place_in_scene(choice_.chosen, case_.folder, shapes_);
     return choice_;
@@ -126,6 +127,12 @@ class Chooser {
            asked_.tissue.viscosity == tissue::Viscosity::none &&
            asked_.solver.kinematics == scenario::Solver::Kinematics::linear &&
            !asked_.solver.rings && !scenario::asks_for_steps(case_.scenario.solver);
+  }
+
+  // Whether a model that the scenario names has the factor of a deep press where `auto` finds that
+  // it matters: a layer is the same by either way, the others are what their names say.
+  [[nodiscard]] bool takes_depth(Model named) const {
+    return named == Model::layer && choice_.found.depth_matters;
   }
 
   // Questions for a test of a specimen between platens.
@@ -196,7 +203,7 @@ class Chooser {
                      .depth_matters = std::abs(e.deep) >= 0.2 * limit && has_depth_ratio()};
     for (const Rung& rung : scenario::ladder) {
       Found found = choice_.found;
-      if (choice_.given && model_ == rung.of) found.depth_matters = false;
+      if (choice_.given && model_ == rung.of) found.depth_matters = takes_depth(rung.of);
       add(rung, error_of(rung, found), of_mesh(rung));
     }
     choice_.waves = choice_.found.inertia_matters ? 0.0 : counted(e.inertia);

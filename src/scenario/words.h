@@ -63,8 +63,8 @@ inline constexpr Word auto_contact_viscosities{
 inline constexpr auto contact_viscosities = words_of<Contact::Viscosity>(
     {{"none", "the force of the relaxed tissue"},
      {"tissue", "Lee and Radok's theory while the contact grows, Ting's while it shrinks"}});
-inline constexpr Word auto_depths{"auto",
-                                  "`neo_hookean` where `model = \"auto\"` finds that it matters"};
+inline constexpr Word auto_depths{
+    "auto", "`neo_hookean` where `auto` or a named `layer` finds that it matters"};
 inline constexpr auto depths = words_of<Contact::Depth>(
     {{"hertz", "h^(3/2), however deep"},
      {"neo_hookean", "the force times the factor of a deep press into neo-Hookean tissue"}});

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Writes curves with noise into a folder and prints what scipy fits to them, to compare with `palpate fit`."""
+"""Writes curves with noise into a folder and prints what scipy fits to them, to compare with `palpate fit`:
+`fit_scipy.py FOLDER [PYRHEO NANITE]`, the last two are checkouts of these programs, whose laws scipy then fits too."""
 
 import sys
+import types
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +19,39 @@ def say(name, values, errors):
     print(name, *(f"{value:.6g} +- {error:.3g}" for value, error in zip(values, errors, strict=True)))
 
 
-def relaxations(folder, rng):
+def laws_of(pyrheo, nanite):
+    """The laws of pyRheo and nanite, without what else these packages import."""
+    package = types.ModuleType("pyRheo")
+    package.__path__ = [str(Path(pyrheo) / "pyRheo")]
+    sys.modules["pyRheo"] = package
+    sys.modules["lmfit"] = types.ModuleType("lmfit")
+    from pyRheo.rheo_models.relaxation_models import MaxwellModel, SpringPot
+
+    text = (Path(nanite) / "src/nanite/model/model_hertz_paraboloidal.py").read_text()
+    names = {"np": np}
+    start = text.index("def hertz_paraboloidal")
+    exec(text[start : text.index("return aa*bb + baseline") + 23], names)
+    return {
+        "spring_pot": lambda t, c, b: SpringPot(c, b, t),
+        "liquid": lambda t, y, tau: MaxwellModel(y, y * tau, t),
+        "hertz": lambda h, e, c, f: names["hertz_paraboloidal"](-h, e * 1e3, 5e-3, 0.5, -c, f),
+    }
+
+
+def press(folder, rng, others):
+    def law(h, e, c, f):
+        return 4 / 3 * e * 1e3 / 0.75 * np.sqrt(5e-3) * np.maximum(h - c, 0) ** 1.5 + f
+
+    h = np.linspace(1.5e-3, 3e-3, 301)
+    y = law(h, 20, 2e-3, 0) + rng.normal(0, 2e-4, len(h))
+    save(folder / "hertz.csv", "depth (m),force (N)", h, y)
+    for name, one in (("scipy", law), ("nanite", others.get("hertz"))):
+        if one:
+            values, covariance = curve_fit(one, h, y, p0=(10, 1.9e-3, 0), x_scale=(10, 1e-3, 1e-3), method="trf")
+            say(f"hertz {name}", values, np.sqrt(np.diag(covariance)))
+
+
+def relaxations(folder, rng, others):
     t = np.linspace(0.05, 6, 120)
     curves = {
         "spring_pot": (lambda t, c, b: c * t**-b / gamma(1 - b), (3.0, 0.2), 0.05),
@@ -28,6 +62,9 @@ def relaxations(folder, rng):
         save(folder / f"{name}.csv", "time (s),stress (kPa)", t, y)
         values, covariance = curve_fit(law, t, y, p0=(1.0, 0.5))
         say(name, values, np.sqrt(np.diag(covariance)))
+        if name in others:
+            values, covariance = curve_fit(others[name], t, y, p0=(1.0, 0.5))
+            say(f"{name} pyRheo", values, np.sqrt(np.diag(covariance)))
 
 
 def adhesion(folder, rng):
@@ -59,8 +96,10 @@ def adhesion(folder, rng):
 def main():
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     rng = np.random.default_rng(11)
-    relaxations(folder, rng)
+    others = laws_of(*sys.argv[2:4]) if len(sys.argv) > 3 else {}
+    relaxations(folder, rng, others)
     adhesion(folder, rng)
+    press(folder, rng, others)
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ double force_at(const record::CaseRecord& record, double time) {
 
 const std::string layer =
     "[tissue]\nshape = { kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", \"10 mm\"] }\n"
-    "[finger]\nmaterial = \"rigid\"\n[solver]\nmodel = \"layer\"\n"
+    "[finger]\nmaterial = \"rigid\"\n[contact]\ndepth = \"hertz\"\n[solver]\nmodel = \"layer\"\n"
     "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"1 mm/s\"\n";
 
 TEST(ClosedForms, LayersOfThreeTissues) {
@@ -69,6 +69,26 @@ TEST(ClosedForms, DeepPressesTakeTheFactor) {
   const auto expected = find_case("large-12");
   EXPECT_NEAR(record.contact.back().force / contact::hertz::force(5.5e-3, 0.011, modulus),
               expected.value, (expected.rel_tol + 0.002) * expected.value);  // and the fit's
+}
+
+// The force of a named layer is that of the layer that `auto` takes, where large strains matter and
+// where they do not.
+TEST(ClosedForms, ANamedLayerIsTheLayerOfAuto) {
+  const std::string press =
+      "[tissue]\nyoung_modulus = \"20 kPa\"\npoisson_ratio = 0.45\nviscosity = \"none\"\n"
+      "base = \"bonded\"\nshape = { kind = \"cuboid\", size = [\"100 mm\", \"100 mm\", \"5 mm\"] "
+      "}\n"
+      "[finger]\nmaterial = \"rigid\"\nradius = \"5 mm\"\n"
+      "[[step]]\nkind = \"indent\"\nto = \"0.6 mm\"\nrate = \"1 mm/s\"\n";
+  for (const char* to : {"step.1.to=\"0.6 mm\"", "step.1.to=\"0.1 mm\""}) {
+    const auto chosen = run_text(press, {to});
+    const auto named = run_text(press, {to, "solver.model=layer"});
+    EXPECT_GT(named.contact.back().force, 0.0);
+    EXPECT_EQ(named.contact.back().force, chosen.contact.back().force) << to;
+  }
+  const auto linear = run_text(press, {"solver.model=layer", "contact.depth=hertz"});
+  const auto named = run_text(press, {"solver.model=layer"});
+  EXPECT_LT(named.contact.back().force, 0.99 * linear.contact.back().force);
 }
 
 // The mesh is linear, so that its force is multiplied as that of a closed form.

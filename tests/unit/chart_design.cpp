@@ -172,7 +172,8 @@ TEST_F(Design, AutoIsFreeInWhatTheScenarioNames) {
                left_out.solver.rings);
 }
 
-// Large strains raise the force by 2 %: `auto` includes them, a given model has to be told to.
+// Large strains raise the force by 2 %: `auto` and a named layer include them, so that the scenario
+// as it stands is the point `auto`; another named model has to be told to.
 TEST_F(Design, VariantsOfADeepPressSayThatItIs) {
   using Depth = scenario::Contact::Depth;
   const std::string deep =
@@ -183,12 +184,11 @@ TEST_F(Design, VariantsOfADeepPressSayThatItIs) {
   EXPECT_EQ(find(variants, "hertz")->settings,
             (Settings{"solver.model=hertz", "contact.depth=neo_hookean"}));
   EXPECT_EQ(find(variants, "auto")->settings, Settings{"solver.model=auto"});
-  ASSERT_NE(find(variants, "as it stands"), nullptr);
+  EXPECT_EQ(find(variants, "as it stands"), nullptr);
   const auto depth_of = [&](const char* name) {
     const auto family = with_settings(press, 0, find(variants, name)->settings);
     return run::choose(family.cases.front()).chosen.contact.depth;
   };
-  EXPECT_EQ(depth_of("as it stands"), Depth::hertz);
   for (const char* name : {"auto", "hertz", "coupled_springs"})
     EXPECT_EQ(depth_of(name), Depth::neo_hookean) << name;
   EXPECT_EQ(depth_of("coupled_springs, series"), Depth::hertz);

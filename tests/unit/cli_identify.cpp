@@ -99,6 +99,41 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
                 1e-6);  // six decimals of x
 }
 
+// One press knows E / (1 - nu^2) alone. Shell, JSON, table and page agree that E and nu have no
+// numbers, and the exit code says that something asked for is missing.
+TEST_F(IdentifyVerb, TiedUnknownsAreNoSuccess) {
+  const std::vector<std::string> words{"--unknown", "tissue.young_modulus=1..500 kPa", "--unknown",
+                                       "tissue.poisson_ratio=0.2..0.49"};
+  const Ended done = identify(words);
+  EXPECT_EQ(done.code, 7) << done.err;
+  EXPECT_NE(done.err.find("`tissue.young_modulus` and `tissue.poisson_ratio` have no numbers"),
+            std::string::npos)
+      << done.err;
+  EXPECT_NE(done.out.find("tissue.young_modulus  not determined by itself\n"), std::string::npos);
+  EXPECT_NE(done.out.find("tissue.poisson_ratio  not determined by itself\n"), std::string::npos);
+  EXPECT_NE(
+      done.out.find("Determined is tissue.young_modulus / (1 - tissue.poisson_ratio^2) = 75.2"),
+      std::string::npos)
+      << done.out;  // 60 / (1 - 0.45^2) = 75.24
+  const auto result = folder_ / "out/press_identified";
+  const record::Table table = record::read_csv((result / "identified.csv").string());
+  ASSERT_EQ(table.rows.size(), 3U);
+  for (const char* column : {"estimate", "std_error", "ci95_low", "ci95_high", "profile_low"})
+    for (std::size_t row = 0; row < 2; ++row)
+      EXPECT_FALSE(std::holds_alternative<double>(
+          table.rows[row][static_cast<std::size_t>(table.find(column))]))
+          << column;
+  EXPECT_NE(read_file(result / "report.html").find("have no numbers"), std::string::npos);
+  std::vector<std::string> machine = words;
+  machine.insert(machine.end(), {"--json", "--force"});
+  const Ended json = identify(machine);
+  EXPECT_EQ(json.code, 7);
+  EXPECT_NE(
+      json.out.find("\"unknown\":\"tissue.young_modulus\",\"unit\":\"kPa\",\"estimate\":null"),
+      std::string::npos)
+      << json.out;
+}
+
 TEST_F(IdentifyVerb, DoesNotReplaceUnasked) {
   const std::vector<std::string> words{"--unknown", "tissue.young_modulus=1..500 kPa"};
   ASSERT_EQ(identify(words).code, 0);

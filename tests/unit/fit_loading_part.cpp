@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -107,10 +108,46 @@ TEST(LoadingPart, TensionAndCompressionAreOneLaw) {
       ogden.x, ogden.y,
       {.model = UniaxialTest::Model::ogden3, .loading = UniaxialTest::Loading::tension});
   ASSERT_EQ(three.termination, Termination::converged);
-  // The curve is met, and E = 3/2 sum mu alpha within 1 %: the terms themselves have several
-  // minima, of which this is one.
-  EXPECT_NEAR(three.parameters[0].estimate, 1.2675, 0.01 * 1.2675);
-  EXPECT_GT(three.r2, 1.0 - 1e-6);
+  // Exact data: rounding, times the condition of six numbers that are told apart by little (4e7).
+  const std::array truth{1.2675, 0.63, 0.0012, -0.01, 1.3, 5.0, -2.0};
+  ASSERT_EQ(three.parameters.size(), truth.size());
+  EXPECT_NEAR(three.parameters[0].estimate, truth[0], 1e-7 * truth[0]);
+  std::vector<std::pair<double, double>> terms;  // alpha, mu, in any order
+  for (std::size_t k = 1; k <= 3; ++k)
+    terms.emplace_back(three.parameters[3 + k].estimate, three.parameters[k].estimate);
+  std::sort(terms.begin(), terms.end());
+  EXPECT_NEAR(terms[0].first, -2.0, 1e-5);
+  EXPECT_NEAR(terms[1].first, 1.3, 1e-5);
+  EXPECT_NEAR(terms[2].first, 5.0, 1e-5);
+  EXPECT_NEAR(terms[1].second, 0.63, 1e-5);
+}
+
+// Laws drawn at random: each is met to rounding, whatever its exponents.
+TEST(LoadingPart, OgdensTermsAreFoundWhereverTheyAre) {
+  std::mt19937 engine(2024);
+  const auto draw = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(engine);
+  };
+  for (int k = 0; k < 10; ++k) {
+    const std::array<std::pair<double, double>, 3> terms{
+        std::pair{-draw(1.0, 20.0), draw(-6.0, -1.0)},
+        {draw(100.0, 800.0), draw(1.0, 3.0)},
+        {draw(0.1, 3.0), draw(4.0, 9.0)}};
+    double modulus = 0.0;
+    for (const auto& [mu, alpha] : terms) modulus += 1.5e-3 * mu * alpha;
+    Rows rows;
+    for (int i = 0; i <= 120; ++i) {
+      const double l = 1.0 + 0.05 * i;
+      rows.x.push_back(l - 1.0);
+      rows.y.push_back(0.0);
+      for (const auto& [mu, alpha] : terms)
+        rows.y.back() += mu * (std::pow(l, alpha - 1.0) - std::pow(l, -0.5 * alpha - 1.0));
+    }
+    const Fit fit = fit_uniaxial(
+        rows.x, rows.y,
+        {.model = UniaxialTest::Model::ogden3, .loading = UniaxialTest::Loading::tension});
+    EXPECT_NEAR(fit.parameters[0].estimate, modulus, 1e-6 * modulus) << k;
+  }
 }
 
 TEST(LoadingPart, AToeIsNamedAndTakenOffOnRequest) {

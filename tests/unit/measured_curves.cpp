@@ -270,8 +270,14 @@ TEST(Measured, RefusalsHavePlaces) {
             "palpate: `--x-unit furlong` is no unit; write it as `mm`, `uN`, `kPa` or `1`");
   EXPECT_EQ(refusal("a,b\n1,2\n", {.skip = 2}),
             "data.csv: has 2 lines, and `--skip 2` leaves none");
-  EXPECT_EQ(refusal("a,b\n1,2\n", {.separator = "|"}),
-            "palpate: `--separator |` is unknown; give `,`, `;`, `tab` or `blank`");
+  EXPECT_EQ(refusal("a,b\n1,2\n", {.separator = "/"}),
+            "palpate: `--separator /` is unknown; give `,`, `;`, `|`, `tab` or `blank`");
+  EXPECT_EQ(
+      read("No|Extension|Load\n |mm|N\n1|0.1|2\n2|0.2|3\n", {.x = "Extension", .y = "Load"}).y,
+      (Numbers{2, 3}));
+  EXPECT_EQ(refusal("Weg (um);Kraft (uN)\n1.500,000;-476,500\n1.505,000;-191,250\n"),
+            "data.csv:2:1: `1.500,000` has marks between thousands, which are no part of a number; "
+            "save the numbers without them, as `1234.5`");
   EXPECT_EQ(refusal("a,b\n,2\n1,\n"),
             "data.csv: no row is left with a number in `a` and in `b`; name columns that are "
             "filled");
