@@ -23,7 +23,7 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
   std::vector<std::pair<std::string, chart::Reference>> found;
   bool diverged = false;
   for (const scenario::Case& one : family.cases) {
-    std::optional<Ticker> ticker(std::in_place, talk, [&] { return one.name; });
+    std::optional<ProgressLine> ticker(std::in_place, talk, [&] { return one.name; });
     chart::Reference reference = chart::refer(one, family, command.levels, set_doing);
     ticker.reset();
     for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");

@@ -73,12 +73,12 @@ void Talk::event(const std::string& name,
   print(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-Ticker::Ticker(const Talk& talk, std::function<std::string()> text)
+ProgressLine::ProgressLine(const Talk& talk, std::function<std::string()> text)
     : talk_(talk), text_(std::move(text)) {
   if (talk.shows_progress()) thread_ = std::thread([this] { tick(); });
 }
 
-Ticker::~Ticker() {
+ProgressLine::~ProgressLine() {
   {
     const std::scoped_lock lock(mutex_);
     ended_ = true;
@@ -88,7 +88,7 @@ Ticker::~Ticker() {
   talk_.progress("");
 }
 
-void Ticker::tick() {
+void ProgressLine::tick() {
   using namespace std::chrono_literals;
   const auto start = std::chrono::steady_clock::now();
   std::unique_lock lock(mutex_);

@@ -45,12 +45,12 @@ class Talk {
 
 // While this exists, progress() shows `text`, what is being done and the time, from the second
 // second on.
-class Ticker {
+class ProgressLine {
  public:
-  Ticker(const Talk& talk, std::function<std::string()> text);
-  ~Ticker();
-  Ticker(const Ticker&) = delete;
-  Ticker& operator=(const Ticker&) = delete;
+  ProgressLine(const Talk& talk, std::function<std::string()> text);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 
  private:
   void tick();
