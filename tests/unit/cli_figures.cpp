@@ -45,9 +45,15 @@ class Figures : public testing::Test {
 };
 
 TEST_F(Figures, FiveTissuesOnOnePlot) {
-  expect_readable(figures(project_file("scenarios/figure6_force_indentation.toml"),
-                          {"--set", "output.interval=20 ms"}),
-                  1);
+  const auto all = figures(project_file("scenarios/figure6_force_indentation.toml"),
+                           {"--set", "output.interval=20 ms"});
+  ASSERT_EQ(all.size(), 2U);
+  // On the linear axes the two softest tissues lie on the axis; the logarithmic ones show them.
+  for (const fs::path& figure : all)
+    for (const std::string& complaint : complaints(figure))
+      EXPECT_EQ(complaint,
+                figure.stem() == "figure_force_indentation" ? "a curve lies on the axis" : "")
+          << figure;
   const std::string svg =
       read_file(folder_ / "out/figure6_force_indentation/figure_force_indentation.svg");
   EXPECT_NE(svg.find(">a + b ln h, R² "), std::string::npos) << "the regression of the paper";
