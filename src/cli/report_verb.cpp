@@ -58,7 +58,8 @@ page::Markup picture(const fs::path& file, const std::string& report, const std:
   std::error_code error;
   if (file.extension() != ".svg" || fs::file_size(file, error) > most || error) return {};
   std::string prefix;
-  for (const char c : report) prefix += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  for (const char c : report + file.stem().string())
+    prefix += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return page::element(
       "figure", page::element("div", page::inline_svg(read_text(file.string()), prefix, words),
                               {{"class", "sheet plot"}}));
@@ -82,8 +83,10 @@ int perform(const Index& command, const Arguments&, const Talk& talk) {
   for (const std::string& report : reports) {
     const page::Summary summary = page::summary_of(read_text((folder / report).string()));
     const std::string title = summary.title.empty() ? report : summary.title;
-    const page::Markup shown =
-        picture((folder / report).parent_path() / summary.picture, report, title);
+    page::Markup shown;
+    for (const std::string& name : summary.pictures)
+      if (shown.empty() || !summary.paper.empty())
+        shown += picture((folder / report).parent_path() / name, report, title);
     std::string heading = title.substr(0, title.find(" – palpate"));
     if (!headings.insert(heading).second) heading += ", " + report;
     if (!summary.paper.empty())  // a result beside the paper's text is shown whole

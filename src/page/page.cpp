@@ -212,9 +212,11 @@ Summary summary_of(const std::string& html) {
   Summary summary{.title = between(html, "<title>", "</title>"),
                   .answer = between(html, "aria-label=\"The answer\">", "</p>")};
   const std::string picture = "picture: <a href=\"", paper = "id=\"beside-the-paper\"";
-  if (const std::size_t at = html.find(picture); at != std::string::npos)
-    summary.picture =
-        html.substr(at + picture.size(), html.find('"', at + picture.size()) - at - picture.size());
+  for (std::size_t at = html.find(picture); at != std::string::npos;
+       at = html.find(picture, at + 1)) {
+    const std::size_t from = at + picture.size();
+    summary.pictures.push_back(html.substr(from, html.find('"', from) - from));
+  }
   if (const std::size_t at = html.find(paper); at != std::string::npos) {
     const std::size_t from = html.find("</h2>", at) + 5;
     summary.paper = html.substr(from, html.find("</section>", from) - from);

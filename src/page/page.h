@@ -72,9 +72,9 @@ struct Making {
 // Of a page that write() made, as plain text; empty where there is none.
 struct Summary {
   std::string title = {};
-  std::string answer = {};   // its first line
-  std::string picture = {};  // the file of the first figure
-  std::string paper = {};    // the section `Beside the paper`, without its heading, as HTML
+  std::string answer = {};                 // its first line
+  std::vector<std::string> pictures = {};  // the files of its figures
+  std::string paper = {};  // the section `Beside the paper`, without its heading, as HTML
 };
 [[nodiscard]] Summary summary_of(const std::string& html);
 

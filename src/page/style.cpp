@@ -21,7 +21,7 @@ input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .skip { position: absolute; left: -999rem; } .skip:focus { position: static; }
 .kind { color: var(--soft); margin: 0; }
 .big { font-size: 2rem; font-weight: 600; line-height: 1.2; }
-.big span { font-size: 1.3rem; font-weight: 400; white-space: nowrap; }
+.big span { font-size: 1.3rem; font-weight: 400; }
 .answer { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
   font-size: 1.08rem; } .answer p { margin: .35rem 0; }
 nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }

@@ -514,7 +514,7 @@ void add_answer(page::Page& page, const Records& records) {
     std::vector<std::string> lines = answer_lines(records);
     std::erase(lines[1], '`');
     const std::size_t error = std::min(lines[1].find(", with"), lines[1].size());
-    page.headline(lines[1].substr(0, error), lines[1].substr(error));
+    page.headline(lines[1].substr(0, error), lines[1].substr(std::min(error + 2, lines[1].size())));
     if (records.size() <= most_answers)
       page.answer(
           element("div", page::table("Every case", case_table(records)), {{"class", "whole"}}));
