@@ -59,6 +59,7 @@ function ground(element, view) {
 }
 function look(page, width, frame) {
   const d = frame.contentDocument, view = frame.contentWindow, all = q => [...d.querySelectorAll(q)];
+  all("details").forEach(e => e.open = true);
   const wide = d.documentElement.scrollWidth;
   if (wide > width) say(page, "is " + wide + " px wide in a window of " + width);
   const ids = all("[id]").map(e => e.id);

@@ -244,6 +244,7 @@ void add_options(CLI::App& verb, Bench& bench) {
   verb.add_option("--frames", bench.frames, "Number of frames of 1 ms")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
+  verb.add_option("--report", bench.report, "Write the times as a page to this file");
 }
 
 void add_options(CLI::App& verb, Chart& chart) {

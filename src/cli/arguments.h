@@ -17,6 +17,7 @@ namespace palpate::cli {
 struct Manner {
   bool quiet = false;
   bool json = false;
+  bool csv = false;  // CSV on a terminal too
   bool no_colour = false;
 };
 
@@ -114,7 +115,7 @@ struct Compare {
   CheckOptions options;
 };
 struct Index {
-  static constexpr Word word{"report", "Write a page with links to the reports of a folder"};
+  static constexpr Word word{"report", "Write a page that shows the reports of a folder"};
   std::string folder;
 };
 struct Golden {
@@ -151,6 +152,7 @@ struct Bench {
   std::vector<std::string> scenarios;  // none: the paper's four models
   std::vector<std::string> settings;
   int frames = 1000;
+  std::string report;  // path of a page
 };
 struct Chart {
   static constexpr Word word{"chart",
@@ -257,7 +259,7 @@ struct Arguments {
 struct UsageError {
   std::string message;
 };
-// The text for --help or --version.
+// The text for --help or --version, or for no word at all.
 struct Answer {
   std::string text;
 };

@@ -107,8 +107,20 @@ void write_page(const scenario::Family& family, const std::string& text, const r
                         "in both.";
                }));
   constexpr std::size_t most = 200;
+  const std::vector<std::string> results{several ? "case" : "status",
+                                         "variant",
+                                         "claimed_error",
+                                         "cost_us_per_ms",
+                                         "total_s",
+                                         "pareto",
+                                         "knee",
+                                         "auto"};
   page.section("Variants",
-               page::table_of_file("Every variant that was tried", table, "chart.csv", most));
+               page::table_of_file("Every variant that was tried", page::columns_of(table, results),
+                                   "chart.csv", most));
+  page.section("Every column",
+               page::table_of_file("Settings, errors and costs", table, "chart.csv", most),
+               page::Page::Shown::folded);
   page.section("How it was made",
                page::making({.command = "palpate chart " + family.name + ".toml",
                              .remark = "Costs are times of the machine that measured them: only "

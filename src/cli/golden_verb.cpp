@@ -266,7 +266,7 @@ int list(const Golden& command, const Talk& talk) {
                           static_cast<double>(compare::tables_below(kept.expected).size()),
                           tolerances});
   }
-  print(talk.json() ? json_lines(table) : record::csv_text(table));
+  print_result(table, table, talk);
   return exit_good;
 }
 

@@ -305,7 +305,8 @@ int perform(const Mesh& command, const Arguments&, const Talk& talk) {
       if (!is_surface_file(out)) refuse_other_files(out, mesh);
   for (const std::string& out : command.out)
     if (!is_surface_file(out)) write(out, mesh);
-  print(talk.json() ? json_lines(report.table()) : names_and_values(report.table()));
+  const record::Table turned = names_and_values(report.table());
+  print_result(talk.json() ? report.table() : turned, turned, talk);
   return exit_good;
 }
 

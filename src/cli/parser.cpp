@@ -1,7 +1,9 @@
 // Parses the command line into the struct of its verb.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <tuple>
 
@@ -24,6 +26,44 @@ struct CommandsOf<std::variant<Kinds...>> {
   std::tuple<Kinds...> each;
 };
 
+// One call of each verb.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 21> examples{
+    {{"run", "palpate run quickstart --set \"step.1.to=3 mm\""},
+     {"explain", "palpate explain contact.viscosity"},
+     {"fit", "palpate fit measured.csv --model hertz --radius \"11 mm\""},
+     {"data", "palpate data measured.txt --x-unit um"},
+     {"compare", "palpate compare out/press other/press"},
+     {"report", "palpate report out"},
+     {"golden", "palpate golden check"},
+     {"mesh", "palpate mesh leg.stl --unit mm --edge \"3 mm\" --out leg.vtu"},
+     {"reference", "palpate reference press.toml --levels 4"},
+     {"bench", "palpate bench --frames 200"},
+     {"chart", "palpate chart press.toml"},
+     {"stability", "palpate stability press.toml"},
+     {"sweep", "palpate sweep plan press.toml"},
+     {"identify",
+      "palpate identify measured.csv press.toml --unknown \"tissue.young_modulus=1..500 kPa\""},
+     {"export", "palpate export out/press --to csv-si"},
+     {"device", "palpate device probe mark10:/dev/ttyUSB0"},
+     {"new", "palpate new press"},
+     {"open", "palpate open out/press"},
+     {"manual", "palpate manual keys --man"},
+     {"schema", "palpate schema > palpate.schema.json"},
+     {"completion", "palpate completion bash"}}};
+
+std::string_view example(std::string_view verb) {
+  const auto* const found = std::find_if(examples.begin(), examples.end(),
+                                         [&](const auto& one) { return one.first == verb; });
+  return found == examples.end() ? std::string_view() : found->second;
+}
+
+constexpr const char* welcome =
+    "palpate presses a virtual finger into virtual soft tissue, and says the force and its error.\n"
+    "\n"
+    "  palpate run quickstart     a first press, with a page of its results\n"
+    "  palpate new press          a commented scenario of your own, press.toml\n"
+    "  palpate --help             all verbs; `palpate help VERB` shows one\n";
+
 struct Parser {
   CLI::App app{"Batch mechanical testing of virtual soft tissue.", "palpate"};
   Arguments arguments;
@@ -36,6 +76,7 @@ struct Parser {
     app.add_flag("--quiet,-q", arguments.manner.quiet, "Only errors on stderr");
     app.add_flag("--no-color", arguments.manner.no_colour, "No colours, as with NO_COLOR set");
     app.add_flag("--json", arguments.manner.json, "JSON on stdout, one object per line");
+    app.add_flag("--csv", arguments.manner.csv, "CSV on a terminal too, where else tables stand");
     app.footer(
         "Exit codes: 0 good, 1 internal, 2 bad input, 3 comparison differs, 4 diverged, 5 mesh,\n"
         "6 device link, 7 sweep incomplete, 8 part run elsewhere, 75 interrupted, resumable, 130 "
@@ -46,7 +87,9 @@ struct Parser {
         ->add_option_function<std::vector<std::string>>(
             "verb", [](const std::vector<std::string>&) {}, "The verb; none: a list of all");
     for_each_command([&](auto& command) {
-      add_options(*app.add_subcommand(command.word.word, command.word.meaning), command);
+      CLI::App& verb = *app.add_subcommand(command.word.word, command.word.meaning);
+      add_options(verb, command);
+      verb.footer("Example: " + std::string(example(command.word.word)));
     });
   }
 
@@ -82,6 +125,7 @@ std::variant<Arguments, UsageError, Answer> parse(const std::vector<std::string>
     return Answer{
         commands::complete(described(), words, scenario::settable_keys(), scenario::examples())};
   }
+  if (given.empty()) return Answer{welcome};
   Parser parser;
   if (const auto wrong = commands::wrong_word(parser.app, arguments)) return UsageError{*wrong};
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

@@ -35,7 +35,7 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
     found.emplace_back(one.name, std::move(reference));
   }
   const record::Table table = chart::reference_table(found);
-  print(talk.json() ? json_lines(table) : record::csv_text(table));
+  print_result(table, table, talk);
   if (!command.out.empty()) {
     if (!command.force && fs::exists(file) && !holds(file.string(), record::csv_text(table)))
       throw InputError({file.string(), 0, 0},

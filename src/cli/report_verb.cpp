@@ -1,6 +1,9 @@
 // `palpate report FOLDER`: an index of all reports below a folder.
 #include <algorithm>
+#include <cctype>
+#include <cstdint>
 #include <filesystem>
+#include <set>
 #include <system_error>
 #include <vector>
 
@@ -49,6 +52,19 @@ std::string link_of(const std::string& path) {
   return link;
 }
 
+// The first figure of a report; nothing where it has none, or one that is large for a page of many.
+page::Markup picture(const fs::path& file, const std::string& report, const std::string& words) {
+  constexpr std::uintmax_t most = 400000;  // bytes
+  std::error_code error;
+  if (file.extension() != ".svg" || fs::file_size(file, error) > most || error) return {};
+  std::string prefix;
+  for (const char c : report + file.stem().string())
+    prefix += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return page::element(
+      "figure", page::element("div", page::inline_svg(read_text(file.string()), prefix, words),
+                              {{"class", "sheet plot"}}));
+}
+
 }  // namespace
 
 int perform(const Index& command, const Arguments&, const Talk& talk) {
@@ -63,14 +79,29 @@ int perform(const Index& command, const Arguments&, const Talk& talk) {
   page::Page page("Results", "index");
   page.answer({std::to_string(reports.size()) + (reports.size() == 1 ? " report." : " reports.")});
   page::Markup items;
+  std::set<std::string> headings;
   for (const std::string& report : reports) {
     const page::Summary summary = page::summary_of(read_text((folder / report).string()));
-    items += page::element(
-        "section", page::element("h3", page::link(link_of(report),
-                                                  summary.title.empty() ? report : summary.title)) +
-                       page::element("p", summary.answer));
+    const std::string title = summary.title.empty() ? report : summary.title;
+    page::Markup shown;
+    for (const std::string& name : summary.pictures)
+      if (shown.empty() || !summary.paper.empty())
+        shown += picture((folder / report).parent_path() / name, report, title);
+    std::string heading = title.substr(0, title.find(" – palpate"));
+    if (!headings.insert(heading).second) heading += ", " + report;
+    if (!summary.paper.empty())  // a result beside the paper's text is shown whole
+      page.section(
+          heading,
+          page::element("div",
+                        shown + page::Markup::ready(summary.paper) +
+                            page::element("p", page::link(link_of(report), "All of this result")),
+                        {{"class", "whole"}}));
+    else
+      items +=
+          page::element("section", shown + page::element("h3", page::link(link_of(report), title)) +
+                                       page::element("p", summary.answer));
   }
-  page.section("Reports", items);
+  if (!items.empty()) page.section("Reports", page::element("div", items, {{"class", "cards"}}));
   const std::string index = (folder / "index.html").string();
   write_atomically(index, page.html());
   talk.say(index + ": " + std::to_string(reports.size()) + " reports");

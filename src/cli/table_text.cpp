@@ -1,10 +1,12 @@
 // Tables as text; whole numbers have no decimal point in JSON.
 #include "cli/table_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "record/csv.h"
 
 namespace palpate::cli {
@@ -22,6 +24,12 @@ Json json_value(const record::Cell& cell) {
   return *number;
 }
 
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;  // not the later bytes of a letter
+  }));
+}
+
 }  // namespace
 
 std::string json_lines(const record::Table& table) {
@@ -34,11 +42,53 @@ std::string json_lines(const record::Table& table) {
   return text;
 }
 
-std::string names_and_values(const record::Table& table) {
+record::Table names_and_values(const record::Table& table) {
   record::Table turned{{"name", "value"}, {}};
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     turned.rows.push_back({table.columns[i], table.rows.front()[i]});
-  return record::csv_text(turned);
+  return turned;
+}
+
+std::string aligned(const record::Table& table) {
+  std::vector<std::vector<std::string>> lines{table.columns};
+  std::vector<std::size_t> widths(table.columns.size(), 0);
+  std::vector<bool> numeric(table.columns.size(), false);
+  for (const auto& row : table.rows) {
+    std::vector<std::string>& line = lines.emplace_back();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const auto* number = std::get_if<double>(&row[i]);
+      const auto* word = std::get_if<std::string>(&row[i]);
+      constexpr double whole = 1e9;
+      if (number != nullptr) {
+        numeric[i] = true;
+        const bool all = *number == std::trunc(*number) && std::abs(*number) < whole;
+        line.push_back(all ? number_text(*number) : rounded_text(*number, 4));
+      } else {
+        line.push_back(word == nullptr ? "-" : *word);
+      }
+    }
+  }
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], letters(line[i]));
+  std::string text;
+  for (const auto& line : lines) {
+    std::string one;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const std::string blanks(widths[i] - letters(line[i]), ' ');
+      one += (i == 0 ? "" : "  ") + (numeric[i] ? blanks + line[i] : line[i] + blanks);
+    }
+    text += one.substr(0, one.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+void print_result(const record::Table& table, const record::Table& for_eyes, const Talk& talk) {
+  if (talk.json())
+    print(json_lines(table));
+  else if (talk.csv())
+    print(record::csv_text(table));
+  else
+    print(aligned(for_eyes));
 }
 
 }  // namespace palpate::cli

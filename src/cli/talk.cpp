@@ -37,7 +37,10 @@ std::string shown(const std::string& text) {
 
 }  // namespace
 
-Talk::Talk(const Manner& manner) : manner_(manner), terminal_(::isatty(STDERR_FILENO) == 1) {
+Talk::Talk(const Manner& manner)
+    : manner_(manner),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      reader_(::isatty(STDOUT_FILENO) == 1) {
   const char* no_color = std::getenv("NO_COLOR");  // https://no-color.org: set and not empty
   const char* term = std::getenv("TERM");
   const bool dumb = term == nullptr || std::string_view(term) == "dumb";

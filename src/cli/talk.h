@@ -32,10 +32,13 @@ class Talk {
   [[nodiscard]] bool shows_progress() const { return terminal_ && !manner_.quiet && !manner_.json; }
   [[nodiscard]] bool quiet() const { return manner_.quiet; }
   [[nodiscard]] bool json() const { return manner_.json; }
+  // Whether results on stdout are for a program and not for a person's eyes: they are CSV then.
+  [[nodiscard]] bool csv() const { return manner_.csv || !reader_; }
 
  private:
   Manner manner_;
-  bool terminal_ = false;
+  bool terminal_ = false;  // stderr
+  bool reader_ = false;    // stdout is a terminal
   bool colours_ = false;
 };
 

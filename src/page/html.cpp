@@ -106,6 +106,18 @@ Markup table(const std::string& caption, const record::Table& content) {
       {{"class", "wide"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", caption}});
 }
 
+record::Table columns_of(const record::Table& content, const std::vector<std::string>& names) {
+  record::Table chosen{{}, std::vector<std::vector<record::Cell>>(content.rows.size())};
+  for (const std::string& name : names) {
+    const int at = content.find(name);
+    if (at < 0) continue;
+    chosen.columns.push_back(name);
+    for (std::size_t i = 0; i < content.rows.size(); ++i)
+      chosen.rows[i].push_back(content.rows[i][static_cast<std::size_t>(at)]);
+  }
+  return chosen;
+}
+
 Markup table_of_file(const std::string& caption, const record::Table& content,
                      const std::string& file, std::size_t most) {
   record::Table shown = content;

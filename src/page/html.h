@@ -48,6 +48,9 @@ using Attributes = std::vector<std::pair<std::string_view, std::string>>;
 // A table with a caption and row headings in its first column. Numbers have four digits and stand
 // to the right. It scrolls by itself, also by keyboard, if it is wider than the page.
 [[nodiscard]] Markup table(const std::string& caption, const record::Table& content);
+// These columns of a table, in this order; those that are there.
+[[nodiscard]] record::Table columns_of(const record::Table& content,
+                                       const std::vector<std::string>& names);
 // Of a large table the first `most` rows, with a link to the file that holds all of them.
 [[nodiscard]] Markup table_of_file(const std::string& caption, const record::Table& content,
                                    const std::string& file, std::size_t most);

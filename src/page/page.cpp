@@ -61,13 +61,21 @@ Page::Page(std::string title, std::string kind)
 
 void Page::answer(const std::vector<std::string>& sentences) { answer_ += paragraphs(sentences); }
 
-void Page::section(const std::string& heading, const Markup& body) {
+void Page::headline(const std::string& value, const std::string& error) {
+  answer_ += element("p", text(value + " ") + element("span", error), {{"class", "big"}});
+}
+
+void Page::section(const std::string& heading, const Markup& body, Shown shown) {
   if (body.empty()) return;
   const std::string id = id_of(heading);
   contents_ += element("li", link("#" + id, heading));
-  body_ += element("section", element("h2", heading, {{"id", id}}) + line() + body,
-                   {{"aria-labelledby", id}}) +
-           line();
+  const Markup head = element("h2", heading, {{"id", id}});
+  body_ +=
+      element("section",
+              shown == Shown::open ? head + line() + body
+                                   : element("details", element("summary", head) + line() + body),
+              {{"aria-labelledby", id}}) +
+      line();
 }
 
 void Page::script(const std::string& code) { script_ += code; }
@@ -201,8 +209,19 @@ std::string between(const std::string& html, std::string_view from, std::string_
 }  // namespace
 
 Summary summary_of(const std::string& html) {
-  return {.title = between(html, "<title>", "</title>"),
-          .answer = between(html, "aria-label=\"The answer\">", "</div>")};
+  Summary summary{.title = between(html, "<title>", "</title>"),
+                  .answer = between(html, "aria-label=\"The answer\">", "</p>")};
+  const std::string picture = "picture: <a href=\"", paper = "id=\"beside-the-paper\"";
+  for (std::size_t at = html.find(picture); at != std::string::npos;
+       at = html.find(picture, at + 1)) {
+    const std::size_t from = at + picture.size();
+    summary.pictures.push_back(html.substr(from, html.find('"', from) - from));
+  }
+  if (const std::size_t at = html.find(paper); at != std::string::npos) {
+    const std::size_t from = html.find("</h2>", at) + 5;
+    summary.paper = html.substr(from, html.find("</section>", from) - from);
+  }
+  return summary;
 }
 
 void write(Page page, WholeFolder& folder) {
@@ -211,7 +230,7 @@ void write(Page page, WholeFolder& folder) {
   std::size_t count = 0;
   for (const HashedFile& file : folder.files())
     if (++count <= most) items += element("li", link(file.path, file.path));
-  page.section("Files", element("ul", items));
+  page.section("Files", element("ul", items), Page::Shown::folded);
   folder.write(file_name, page.html());
 }
 

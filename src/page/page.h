@@ -18,10 +18,14 @@ class Page {
   // `kind` says what the page is about: `run`, `sweep`, ...
   Page(std::string title, std::string kind);
 
-  // Sentences at the head of the page.
+  // At the head of the page: one large line, such as a force and its error, then anything else.
+  void headline(const std::string& value, const std::string& error);
+  void answer(const Markup& more) { answer_ += more; }
   void answer(const std::vector<std::string>& sentences);
-  // A section with an entry in the contents. An empty body makes no section.
-  void section(const std::string& heading, const Markup& body);
+  // A section with an entry in the contents. An empty body makes no section. A folded one shows its
+  // heading until it is opened, and is not printed before.
+  enum class Shown { open, folded };
+  void section(const std::string& heading, const Markup& body, Shown shown = Shown::open);
   // A script of our own, which the page runs when it has been read.
   void script(const std::string& code);
 
@@ -65,10 +69,12 @@ struct Making {
 // A long text, folded up.
 [[nodiscard]] Markup folded(const std::string& summary, const std::string& content);
 
-// The title and the answer of a page that write() made, as plain text; empty where there is none.
+// Of a page that write() made, as plain text; empty where there is none.
 struct Summary {
   std::string title = {};
-  std::string answer = {};
+  std::string answer = {};                 // its first line
+  std::vector<std::string> pictures = {};  // the files of its figures
+  std::string paper = {};  // the section `Beside the paper`, without its heading, as HTML
 };
 [[nodiscard]] Summary summary_of(const std::string& html);
 

@@ -20,6 +20,8 @@ a { color: var(--link); } a:focus-visible, summary:focus-visible, .wide:focus-vi
 input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .skip { position: absolute; left: -999rem; } .skip:focus { position: static; }
 .kind { color: var(--soft); margin: 0; }
+.big { font-size: 2rem; font-weight: 600; line-height: 1.2; }
+.big span { font-size: 1.3rem; font-weight: 400; }
 .answer { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
   font-size: 1.08rem; } .answer p { margin: .35rem 0; }
 nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
@@ -42,7 +44,15 @@ th, td { border-bottom: 1px solid var(--line); padding: .25rem .8rem .25rem 0; t
 .words { min-width: 24rem; }
 code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--card);
   padding: .8rem; overflow-x: auto; overflow-wrap: normal; } code { background: var(--card); }
-summary { cursor: pointer; } footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
+summary { cursor: pointer; } summary h2 { display: inline-block; border: 0; margin: .4rem 0; padding: 0; }
+section + section > details:first-child { border-top: 1px solid var(--line); }
+.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
+.cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.whole svg, .cards svg { min-width: 0; } .whole .sheet::before, .cards .sheet::before { content: none; }
+.whole .words { min-width: 0; white-space: normal; } .answer td { white-space: nowrap; } .whole table { width: 100%; }
+@media screen and (max-width: 37rem) { .whole thead { display: none; }
+  .whole tr, .whole th, .whole td { display: block; } .whole tr { border-bottom: 1px solid var(--line); }
+  .whole th, .whole td { border: 0; padding: .1rem 0; text-align: left; } } footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }

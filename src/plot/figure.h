@@ -1,6 +1,7 @@
 // Description of a figure: curves from the CSV files of a result folder, and fits to them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct Series {
   std::string y_column = {};
   double scale = 1.0;      // factor of y for display, of the fits too; stated in a default label
   std::string label = {};  // in the legend; empty: the case's name
+  std::optional<std::size_t> colour = {};  // of line_colours; none: its place in the list
   std::vector<FittedCurve> fits = {};
   std::optional<int> step = {};      // rows of this step only
   std::optional<double> shade = {};  // with a colour bar: the value that gives the colour; such
@@ -44,8 +46,11 @@ struct Figure {
   std::string x_label = {};
   std::string y_label = {};
   std::string fit_label = {};  // legend entry of all fits together
-  Axis y_axis = Axis::linear;
-  double y_low = 0.0, y_high = 0.0;  // of a logarithmic axis, in the unit of the CSV file
+  std::string legend = {};     // above the legend: the keys, with units, in which the series differ
+  Axis x_axis = Axis::linear, y_axis = Axis::linear;
+  bool from_zero = false;            // a linear y axis includes zero
+  double x_low = 0.0, x_high = 0.0;  // of a logarithmic axis, in the unit of the CSV file
+  double y_low = 0.0, y_high = 0.0;
   std::vector<Series> series = {};
   std::optional<ColourBar> bar = {};
 };

@@ -10,10 +10,14 @@
 namespace palpate::plot {
 namespace {
 
-// Opacity of the data lines, so that a fit on top of them is visible.
-constexpr const char* pale = "70";
-// The last tenth of the palette is yellow, which is hard to see as a line on white.
-constexpr double brightest = 0.9;
+// The colour of a fit: that of its data, darker, so that it is visible on top of them.
+std::string darker(const std::string& colour) {
+  constexpr double share = 0.6;
+  std::string text;
+  for (std::size_t at = 0; at < 6; at += 2)
+    text += hex_text(static_cast<unsigned char>(share * std::stoi(colour.substr(at, 2), {}, 16)));
+  return text;
+}
 
 std::string label(const Series& series) {
   if (!series.label.empty()) return series.label;
@@ -45,8 +49,9 @@ struct Legend {
       longest = std::max(longest, letters(labels.back()));
     }
     if (labels.size() == 1 && !fits) return;
-    lines = labels.size() + (fits ? 1 : 0);
+    lines = labels.size() + (fits ? 1 : 0) + (figure.legend.empty() ? 0 : 1);
     if (fits) longest = std::max(longest, letters(figure.fit_label));
+    longest = std::max(longest, letters(figure.legend));
     constexpr std::size_t most_letters_beside = 18;
     below = longest > most_letters_beside;
     constexpr std::size_t letters_of_a_row = 90, sample = 8;
@@ -76,12 +81,16 @@ std::string frame(const Figure& figure, const Legend& legend) {
     text += "set key below horizontal height 1 Left reverse samplen 2.6 spacing 1.25\n";
   else
     text += "set key outside right top Left reverse samplen 2.6 spacing 1.25 width -2\n";
-  if (figure.y_axis == Axis::logarithmic && figure.y_high > figure.y_low)
-    text += "set yrange [" + rounded_text(figure.y_low, 6) + ":" + rounded_text(figure.y_high, 6) +
-            "]\n" + gnuplot_logarithmic("y", figure.y_low, figure.y_high);
+  if (figure.from_zero && figure.y_axis == Axis::linear) text += "set yrange [*<0:0<*]\n";
+  const auto logarithmic = [&](const std::string& axis, double low, double high) {
+    text += "set " + axis + "range [" + rounded_text(low, 6) + ":" + rounded_text(high, 6) + "]\n" +
+            gnuplot_logarithmic(axis, low, high);
+  };
+  if (figure.x_axis == Axis::logarithmic) logarithmic("x", figure.x_low, figure.x_high);
+  if (figure.y_axis == Axis::logarithmic) logarithmic("y", figure.y_low, figure.y_high);
   if (figure.bar) {
     const ColourBar& bar = *figure.bar;
-    text += gnuplot_palette(brightest) + "set cbrange [" + number_text(bar.low) + ":" +
+    text += gnuplot_palette(brightest_line) + "set cbrange [" + number_text(bar.low) + ":" +
             number_text(bar.high) + "]\nset cblabel " + gnuplot_quoted(bar.label) +
             " offset 1,0\nset colorbox\n";
     if (bar.scale == Axis::logarithmic) text += gnuplot_logarithmic("cb", bar.low, bar.high);
@@ -126,7 +135,8 @@ struct Look {
 };
 Look look_of(const Figure& figure, const Legend& legend, std::size_t i) {
   const Series& series = figure.series[i];
-  if (!figure.bar || !series.shade) return {line_colours[i % line_colours.size()], i};
+  if (!figure.bar || !series.shade)
+    return {line_colours[series.colour.value_or(i) % line_colours.size()], i};
   const ColourBar& bar = *figure.bar;
   const auto onto = [&](double value) {
     return bar.scale == Axis::logarithmic ? std::log(value) : value;
@@ -134,7 +144,7 @@ Look look_of(const Figure& figure, const Legend& legend, std::size_t i) {
   const double width = onto(bar.high) - onto(bar.low);
   const double share = width > 0.0 ? (onto(*series.shade) - onto(bar.low)) / width : 0.5;
   const auto place = std::find(legend.labels.begin(), legend.labels.end(), label(series));
-  return {palette_colour(brightest * share),
+  return {palette_colour(brightest_line * share),
           static_cast<std::size_t>(place - legend.labels.begin())};
 }
 
@@ -155,8 +165,7 @@ std::string data_line(const Figure& figure, const Legend& legend, std::size_t i)
            "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
   return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
          scaled(series.scale, gnuplot_column(series.y_column)) + ") with linespoints linewidth " +
-         width + " linecolor rgb '#" + (series.fits.empty() ? "" : pale) + look.colour + "'" +
-         point_style(look.marker) +
+         width + " linecolor rgb '#" + look.colour + "'" + point_style(look.marker) +
          (figure.bar || legend.lines == 0 ? " notitle" : " title " + gnuplot_quoted(label(series)));
 }
 
@@ -174,6 +183,9 @@ std::string fit_line(const Series& series, const FittedCurve& fit, const std::st
 std::string gnuplot_script(const Figure& figure) {
   const Legend legend(figure);
   std::vector<std::string> lines;
+  if (legend.lines > 0 && !figure.legend.empty())  // without a line of its own
+    lines.push_back("keyentry with lines linecolor rgb '#ffffff' title " +
+                    gnuplot_quoted(figure.legend));
   for (std::size_t i = 0; i < figure.series.size(); ++i)
     lines.push_back(data_line(figure, legend, i));
   if (figure.bar) {
@@ -186,12 +198,16 @@ std::string gnuplot_script(const Figure& figure) {
   for (std::size_t i = 0; i < figure.series.size(); ++i)
     for (std::size_t k = 0; k < figure.series[i].fits.size(); ++k)
       lines.push_back(fit_line(figure.series[i], figure.series[i].fits[k], function_name(i, k),
-                               look_of(figure, legend, i).colour));
+                               darker(look_of(figure, legend, i).colour)));
   if (lines.size() > data_lines)  // one legend entry for all fits
     lines.push_back("NaN with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#404040' title " +
                     gnuplot_quoted(figure.fit_label));
+  const std::string plot = "plot \\\n  " + joined(lines, ", \\\n  ") + "\n";
   return gnuplot_head(figure.name, legend.height()) + frame(figure, legend) + functions(figure) +
-         "plot \\\n  " + joined(lines, ", \\\n  ") + "\n";
+         gnuplot_ticks(plot, std::string(figure.x_axis == Axis::linear ? "x" : "") +
+                                 (figure.y_axis != Axis::linear ? ""
+                                  : figure.from_zero            ? "y0"
+                                                                : "y"));
 }
 
 }  // namespace palpate::plot

@@ -108,6 +108,25 @@ std::string gnuplot_logarithmic(const std::string& axis, double low, double high
   return "set logscale " + axis + "\nset " + axis + "tics (" + tics + ")\n";
 }
 
+std::string gnuplot_ticks(const std::string& plot, const std::string& axes) {
+  if (axes.empty()) return plot;
+  // The largest of 1, 2 and 5 times a power of ten that lies in `s` four times.
+  std::string text =
+      "power(s) = 10**floor(log10(s/4) + 1e-9)\n"
+      "step(s) = power(s)*(s/power(s) > 19.999 ? 5 : s/power(s) > 7.999 ? 2 : 1)\n"
+      "set output '/dev/null'\n" +
+      plot;
+  for (const std::string axis : {"x", "y"}) {
+    if (axes.find(axis) == std::string::npos) continue;
+    const std::string data = axis == "x" ? "GPVAL_DATA_X_" : "GPVAL_DATA_Y_";
+    text += "low = " + data + "MIN\nhigh = " + data + "MAX\n";
+    if (axis == "y" && axes.ends_with('0'))
+      text += "if (low > 0) low = 0\nif (high < 0) high = 0\n";
+    text += "if (high > low) set " + axis + "tics step(high - low)\n";
+  }
+  return text + "set output target\nset termoption noenhanced\nreplot\n";
+}
+
 std::string gnuplot_linear(const std::string& axis) {
   return "unset logscale " + axis + "\nset " + axis + "tics autofreq\n";
 }

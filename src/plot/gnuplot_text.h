@@ -27,6 +27,10 @@ inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 // A logarithmic scale with its ticks for the axis `x`, `y` or `cb` from `low` to `high`, both
 // positive: each power of ten is labelled, and 2 and 5 times it if the range is short.
 [[nodiscard]] std::string gnuplot_logarithmic(const std::string& axis, double low, double high);
+// `plot`, drawn with at least five ticks on the linear axes `axes`: `x`, `y`, `y0` with zero in it,
+// or two of them, as `xy`. It is run twice: the ranges are known after the first, which draws
+// nothing.
+[[nodiscard]] std::string gnuplot_ticks(const std::string& plot, const std::string& axes);
 // A linear scale again.
 [[nodiscard]] std::string gnuplot_linear(const std::string& axis);
 

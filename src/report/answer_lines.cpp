@@ -112,7 +112,7 @@ std::vector<std::string> said_once(const std::vector<NamedSentence>& all) {
   }
   std::vector<std::string> lines;
   for (const Kind& kind : kinds)
-    lines.push_back(kind.first.name +
+    lines.push_back(ticked(kind.first.name) +
                     (kind.cases == 1 ? ""
                                      : ", and so in " + std::to_string(kind.cases - 1) + " more" +
                                            (kind.cases == 2 ? " case" : " cases")) +

@@ -2,11 +2,13 @@
 #include "report/family_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,6 +23,7 @@ namespace {
 
 struct CaseColours {
   plot::ColourBar bar = {};
+  std::string others = {};  // the keys in the labels
   // By the case's name: the number, and a label made of the other swept values.
   std::map<std::string, std::pair<double, std::string>> cases = {};
 };
@@ -75,6 +78,10 @@ std::optional<CaseColours> case_colours(const scenario::Family& family) {
   constexpr double wide = 30.0;  // as for the axes of a figure
   if (*low > 0.0 && *high > wide * *low) colours.bar.scale = plot::Axis::logarithmic;
   std::set<std::string> labels;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < family.cases.front().swept.size(); ++k)
+    if (k != key) names.push_back(family.cases.front().swept[k].first);
+  colours.others = joined(names, ", ");
   for (std::size_t i = 0; i < family.cases.size(); ++i) {
     std::vector<std::string> others;
     for (std::size_t k = 0; k < family.cases[i].swept.size(); ++k)
@@ -86,6 +93,7 @@ std::optional<CaseColours> case_colours(const scenario::Family& family) {
   if (labels.size() > most_labels) {
     for (auto& [name, one] : colours.cases) one.second = "all cases";
     colours.bar.label += "; other keys vary too";
+    colours.others.clear();
   }
   return colours;
 }
@@ -107,6 +115,27 @@ double display_scale(const scenario::Family& family, const record::CaseRecord& r
 // More curves are a surface, and gnuplot reads the table once for every curve.
 constexpr std::size_t most_curves = 64;
 
+// The place of a tissue's colour, which the paper's five have in every figure; of another tissue,
+// the i-th of a figure, one of those behind them.
+std::size_t tissue_colour(const std::string& material, std::size_t i) {
+  constexpr std::array<std::string_view, 5> known{"skin", "muscle", "ligament", "bone",
+                                                  "upper_leg"};
+  const auto* const place = std::find(known.begin(), known.end(), material);
+  return as_index(place - known.begin()) + (place == known.end() ? i : 0);
+}
+
+// The places of the colours of all cases by name; none where cases share a tissue.
+std::map<std::string, std::size_t> tissue_colours(const scenario::Family& family) {
+  std::set<std::string> tissues;
+  std::map<std::string, std::size_t> places;
+  for (const scenario::Case& one : family.cases) {
+    const std::string& material = one.scenario.tissue.material;
+    places[one.name] = tissue_colour(material, tissues.size());
+    if (!tissues.insert(material).second) return {};
+  }
+  return places;
+}
+
 // One series per case, without fits; if there are many cases, coloured by a swept number. Of more
 // than most_curves cases, as many evenly chosen ones, which the title says.
 plot::Figure with_cases(plot::Figure (*figure)(std::vector<plot::Series>),
@@ -114,10 +143,14 @@ plot::Figure with_cases(plot::Figure (*figure)(std::vector<plot::Series>),
   const std::optional<CaseColours> colours = case_colours(family);
   std::vector<plot::Series> all;
   const std::size_t drawn = std::min(records.size(), most_curves);
+  const std::map<std::string, std::size_t> places = tissue_colours(family);
   for (std::size_t i = 0; i < drawn; ++i) {
     const record::CaseRecord& record =
         records[drawn == 1 ? 0 : i * (records.size() - 1) / (drawn - 1)];
-    plot::Series series{.case_name = record.name, .scale = display_scale(family, record)};
+    plot::Series series{
+        .case_name = record.name, .scale = display_scale(family, record), .colour = {}};
+    if (const auto place = places.find(record.name); place != places.end())
+      series.colour = place->second;
     if (colours) {
       const auto& [shade, label] = colours->cases.at(record.name);
       series.shade = shade;
@@ -127,6 +160,7 @@ plot::Figure with_cases(plot::Figure (*figure)(std::vector<plot::Series>),
   }
   plot::Figure made = figure(std::move(all));
   if (colours) made.bar = colours->bar;
+  made.legend = colours ? colours->others : joined(family.design.keys(), ", ");
   return made;
 }
 
@@ -170,6 +204,33 @@ std::vector<double> peaks(const scenario::Family& family, const Records& records
     all.push_back(display_scale(family, record) * peak);
   }
   return all;
+}
+
+// Where curves of different decades lie on a linear axis, they stand beside it on two logarithmic
+// ones as well, on which a power law is straight; alone if decades of a number are swept.
+void add_decades(std::vector<plot::Figure>& figures, plot::Figure decades,
+                 const scenario::Family& family, const Records& records) {
+  double deepest = 0.0;
+  for (const record::CaseRecord& record : records)
+    for (const record::ContactRow& row : record.contact)
+      deepest = std::max(deepest, unit::mm.from_si(row.indentation));
+  if (!(deepest > 0.0)) return;
+  constexpr double range = 30.0;  // of the depth
+  decades.x_axis = plot::Axis::logarithmic;
+  decades.x_low = deepest / range;
+  decades.x_high = deepest;
+  bool swept = false;
+  for (std::size_t k = 0; k < family.cases.front().swept.size(); ++k)
+    if (const auto numbers = numbers_of(family, k)) {
+      const auto [low, high] = std::minmax_element(numbers->values.begin(), numbers->values.end());
+      swept = swept || (*low > 0.0 && *high > 10.0 * *low);
+    }
+  if (swept) {
+    figures.front() = std::move(decades);
+    return;
+  }
+  decades.name += "_decades";
+  figures.insert(figures.begin() + 1, std::move(decades));
 }
 
 bool has_measured_force(const record::CaseRecord& record) {
@@ -232,9 +293,12 @@ std::optional<plot::Figure> curvature_figure(const scenario::Family& family,
     const std::string& material = one.swept[as_index(swept - keys.begin())].second;
     if (std::none_of(all.begin(), all.end(),
                      [&](const plot::Series& series) { return series.case_name == material; }))
-      all.push_back({.case_name = material, .column = "tissue.material"});
+      all.push_back({.case_name = material,
+                     .column = "tissue.material",
+                     .colour = tissue_colour(material, all.size())});
   }
   plot::Figure figure = figure_force_curvature(all);
+  if (all.size() > 1) figure.legend = "tissue.material";
   choose_axis(figure, forces, 1.5);
   return figure;
 }
@@ -263,7 +327,6 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
       peaks(family, records, &record::CaseRecord::contact, &record::ContactRow::force);
   constexpr double two_decades = 100.0;
   figures.push_back(with_cases(figure_force_indentation, family, records));
-  choose_axis(figures.back(), forces, two_decades);
   add_regression(figures.back(), family, fits);
   for (const record::CaseRecord& record : records)
     if (has_measured_force(record)) {
@@ -289,6 +352,10 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
     figures.push_back(along);
     for (plot::Series& series : figures.front().series) series.step = 1;  // not the slide
   }
+  plot::Figure decades = figures.front();
+  choose_axis(decades, forces, two_decades);
+  if (decades.y_axis == plot::Axis::logarithmic)
+    add_decades(figures, std::move(decades), family, records);
   if (const auto figure = curvature_figure(family, records)) figures.push_back(*figure);
   if (const auto figure = live_figure(records)) figures.push_back(*figure);
   return figures;

@@ -49,6 +49,7 @@ plot::Figure figure_force_indentation(std::vector<plot::Series> series) {
           .title = "Palpation force against indentation",
           .x_label = "Indentation h (mm)",
           .y_label = "Force F (N)",
+          .from_zero = true,
           .series =
               completed(std::move(series), {"force_indentation.csv", "indentation_mm", "force_N"})};
 }
@@ -58,6 +59,7 @@ plot::Figure figure_force_curvature(std::vector<plot::Series> series) {
           .title = "Palpation force against local curvature",
           .x_label = "Mean curvature, convex positive (1/m)",
           .y_label = "Force F (N)",
+          .from_zero = true,
           .series = completed(std::move(series),
                               {"findings.csv", "local_curvature_per_m", "peak_force_N"})};
 }
@@ -67,6 +69,7 @@ plot::Figure figure_force_slide(std::vector<plot::Series> series) {
           .title = "Force along the slide",
           .x_label = "Slide (mm)",
           .y_label = "Force F (N)",
+          .from_zero = true,
           .series = completed(std::move(series), {"force_indentation.csv", "slide_mm", "force_N"})};
 }
 
@@ -85,6 +88,7 @@ plot::Figure figure_strain_time(std::vector<plot::Series> series) {
           .x_label = "Time (s)",
           .y_label = "Strain",
           .fit_label = "Kelvin-Voigt fit",
+          .from_zero = true,
           .series = completed(std::move(series), {"strain_time.csv", "time_s", "strain"})};
 }
 
@@ -94,6 +98,7 @@ plot::Figure figure_stress_time(std::vector<plot::Series> series) {
           .x_label = "Time (s)",
           .y_label = "Stress (kPa)",
           .fit_label = "Standard linear solid fit",
+          .from_zero = true,
           .series = completed(std::move(series), {"strain_time.csv", "time_s", "stress_kPa"})};
 }
 
@@ -102,6 +107,7 @@ plot::Figure figure_stress_strain(std::vector<plot::Series> series) {
           .title = "Stress against strain",
           .x_label = "Strain",
           .y_label = "Stress (kPa)",
+          .from_zero = true,
           .series = completed(std::move(series), {"strain_time.csv", "strain", "stress_kPa"})};
 }
 
@@ -110,6 +116,7 @@ plot::Figure figure_force_time(std::vector<plot::Series> series) {
           .title = "Force against time",
           .x_label = "Time (s)",
           .y_label = "Force F (N)",
+          .from_zero = true,
           .series = completed(std::move(series), {"force_indentation.csv", "time_s", "force_N"})};
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/text.h"
@@ -159,14 +161,14 @@ std::string scene_script() {
 using Records = std::vector<record::CaseRecord>;
 
 struct Rows {
-  record::Table table{{"the paper", "here", "do they agree?", "why"}, {}};
+  record::Table table{{"the paper", "here", "verdict", "why"}, {}};
   void add(const std::string& paper, const std::string& here, const std::string& verdict,
            const std::string& why) {
     table.rows.push_back({paper, here, verdict, why});
   }
 };
 
-std::string agrees(bool yes) { return yes ? "yes" : "no"; }
+std::string agrees(bool yes) { return yes ? "agrees" : "differs"; }
 
 // Eq. (2) with Table 1, for the row of the largest force: the row's own indentation, and the radius
 // with the curvature of the surface there.
@@ -236,7 +238,7 @@ void add_fit(Rows& rows, const std::vector<fit::NamedFit>& fits) {
   }
   if (!std::isfinite(least) || !std::isfinite(power_low)) return;
   rows.add("The curves are drawn as F = a + b ln h",
-           "R² of " + rounded_text(least, 3) + " to " + rounded_text(most, 3), "cannot",
+           "R² of " + rounded_text(least, 3) + " to " + rounded_text(most, 3), agrees(false),
            "eq. (2) gives a convex h^(3/2); a logarithm is concave and starts below zero");
   rows.add("Eq. (2): the exponent of h is 1.5",
            rounded_text(power_low, 5) + " to " + rounded_text(power_high, 5),
@@ -287,7 +289,7 @@ void add_strains(Rows& rows, const scenario::Family& family, const Records& reco
       rows.add("Stiffer tissues settle later",
                "half of the final strain of " + record.name + " after " +
                    rounded_text(finding_number(record, "creep_half_time_s"), 3) + " s",
-               "cannot",
+               agrees(false),
                "a dashpot along every spring settles with eta / E, sooner where E is larger; the "
                "paper's curves show oscillation, or viscosities that it does not list");
       const double limit = finding_number(record, "stable_time_step_ms");
@@ -297,12 +299,13 @@ void add_strains(Rows& rows, const scenario::Family& family, const Records& reco
                  "stable up to " + rounded_text(limit, 3) +
                      " ms; the interval of the rows is the "
                      "paper's",
-                 "cannot", "a wave would cross many cells within the paper's step");
+                 agrees(limit >= unit::ms.from_si(family.base.output.interval)),
+                 "a wave would cross many cells within the paper's step");
       break;
     }
   }
   rows.add("The right half is called relaxation", "it is recovery: strain after unloading",
-           "cannot", "relaxation is the stress at a constant strain");
+           agrees(false), "relaxation is the stress at a constant strain");
 }
 
 // One row per statement of the paper's text about its Figure 6 or 7 (`output.paper` says which):
@@ -315,17 +318,17 @@ page::Markup paper_section(const scenario::Family& family, const Records& record
   if (family.base.output.paper == Paper::figure_6) {
     add_order(rows, records);
     add_curvatures(rows, family, records);
-    constexpr std::size_t most_rows = 8;
-    if (records.size() <= most_rows) add_forces(rows, family, records);
+    constexpr std::size_t most_forces = 8;
+    if (records.size() <= most_forces) add_forces(rows, family, records);
     add_fit(rows, fits);
   } else if (family.base.output.paper == Paper::figure_7) {
     add_strains(rows, family, records);
   }
   if (rows.table.rows.empty()) return {};
-  return page::element("p",
-                       "Chen, Wu, Sun and Heng (2007) print no numbers in this figure: what can be "
-                       "compared are the statements and equations of their text.") +
-         page::table("The paper beside this run", rows.table);
+  rows.add("Numbers along the curves: none are printed", "in the CSV files",
+           "the text does not say",
+           "what can be compared are the statements and equations of the text");
+  return element("div", page::table("The paper beside this run", rows.table), {{"class", "whole"}});
 }
 
 using page::element;
@@ -334,12 +337,16 @@ using page::text;
 using Records = std::vector<record::CaseRecord>;
 
 constexpr std::size_t most_columns = 6;  // cases of a table with one column per case
+constexpr std::size_t most_rows = 200;
+constexpr std::size_t most_answers = 8;  // cases that the head of the page names
 
 std::string figure_words(const plot::Figure& figure) {
   std::string words = figure.y_label + " against " + figure.x_label;
   if (figure.series.size() > 1) words += ", " + std::to_string(figure.series.size()) + " curves";
   if (figure.bar) words += "; the colour is " + figure.bar->label;
-  if (figure.y_axis == plot::Axis::logarithmic) words += "; logarithmic scale";
+  if (figure.y_axis == plot::Axis::logarithmic)
+    words +=
+        figure.x_axis == plot::Axis::logarithmic ? "; logarithmic scales" : "; logarithmic scale";
   return words + ".";
 }
 
@@ -387,34 +394,6 @@ Markup findings_by_case(const Records& records) {
                                 page::link("findings.csv", "findings.csv") + text("."));
 }
 
-// Of many cases the main findings, one row per case.
-Markup findings_by_row(const Records& records) {
-  record::Table table{{"case"}, {}};
-  const std::vector<std::string> names{"outcome",        "model",       "peak_force_N",
-                                       "peak_travel_mm", "peak_strain", "stated_error"};
-  std::vector<std::string> used;
-  for (const std::string& name : names)
-    for (const record::CaseRecord& record : records)
-      if (std::any_of(record.findings.begin(), record.findings.end(),
-                      [&](const auto& finding) { return finding.name == name; })) {
-        used.push_back(name);
-        table.columns.push_back(words_of_finding(name).label);
-        break;
-      }
-  for (const record::CaseRecord& record : records) {
-    std::vector<record::Cell> row{record.name};
-    for (const std::string& name : used) {
-      record::Cell cell;
-      for (const record::Finding& finding : record.findings)
-        if (finding.name == name) cell = finding_text(finding);
-      row.push_back(cell);
-    }
-    table.rows.push_back(row);
-  }
-  constexpr std::size_t most = 200;
-  return page::table_of_file("The main findings of every case", table, "findings.csv", most);
-}
-
 // An estimate with the digits that its interval gives it.
 std::string digits_of(double value, double low, double high) {
   const double half = 0.5 * (high - low);
@@ -425,7 +404,8 @@ std::string digits_of(double value, double low, double high) {
 }
 
 Markup fits(const std::vector<fit::NamedFit>& fits) {
-  record::Table table{{"case", "curve", "law", "parameter", "estimate", "95 % interval", "R²"}, {}};
+  record::Table table{{"case", "curve", "formula", "parameter", "estimate", "95 % interval", "R²"},
+                      {}};
   for (const fit::NamedFit& named : fits)
     for (const fit::Estimate& one : named.fit.parameters) {
       const auto number = [&](double value) {
@@ -433,7 +413,7 @@ Markup fits(const std::vector<fit::NamedFit>& fits) {
       };
       const std::string unit = one.unit.empty() ? "" : " " + one.unit;
       table.rows.push_back(
-          {named.case_name, named.curve, std::string(fit::info(named.fit.model).name), one.name,
+          {named.case_name, named.curve, std::string(fit::info(named.fit.model).formula), one.name,
            number(one.estimate) + unit,
            std::isfinite(one.ci95_low) ? number(one.ci95_low) + " to " + number(one.ci95_high)
                                        : std::string("unknown"),
@@ -479,28 +459,97 @@ Markup asked(const scenario::Family& family, const std::string& echo) {
          page::folded("The scenario with all defaults and choices, scenario.toml", echo);
 }
 
+// The end of a sentence's first statement: before a remedy or a further sentence.
+std::string first_statement(const std::string& text) {
+  return text.substr(0, std::min(text.find("; "), text.find(". ")));
+}
+
+// What is neglected, without remedies: `viscosity, which would add 36 % to the force while
+// pressing, and 2 other effects`.
+std::string neglected(const record::Answer& answer) {
+  std::string text = first_statement(answer.left_out);
+  if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
+  int others = 0;
+  const std::string_view other = " Also left out: ";
+  for (std::size_t at = answer.left_out.find(other); at != std::string::npos;
+       at = answer.left_out.find(other, at + 1))
+    ++others;
+  if (text.ends_with('.')) text.pop_back();
+  if (others > 0)
+    text += ", and " + std::to_string(others) + (others == 1 ? " other effect" : " other effects");
+  return text;
+}
+
+// The largest force or, without a finger, strain or stress, of a case: `1.17 N`.
+std::string peak_text(const record::CaseRecord& record) {
+  for (const auto& [name, unit] :
+       {std::pair("peak_force_N", " N"), {"peak_strain", ""}, {"peak_stress_kPa", " kPa"}})
+    if (const double value = finding_number(record, name); std::isfinite(value))
+      return rounded_text(value, 3) + unit;
+  return "no result";
+}
+
+std::string peak_error(const record::CaseRecord& record) {
+  const std::optional<double>& error = record.answer.stated_error;
+  if (record.outcome != record::Outcome::completed) return "until the run ended early";
+  if (!error) return "error not known";
+  return *error > 1.0 ? error_text(*error) + " off" : "± " + percent_text(*error);
+}
+
+record::Table case_table(const Records& records) {
+  record::Table table{{"case", "largest value", "error", "model", "neglected"}, {}};
+  for (const record::CaseRecord& record : records)
+    table.rows.push_back({record.name, peak_text(record), peak_error(record),
+                          finding_word(record, "model"), neglected(record.answer)});
+  return table;
+}
+
+// One case: the force, its error, the model, and what is neglected; several: a table of the same.
+void add_answer(page::Page& page, const Records& records) {
+  if (records.size() == 1) {
+    const record::Answer& answer = records.front().answer;
+    page.headline(peak_text(records.front()), peak_error(records.front()));
+    page.answer({first_statement(answer.model), "Neglected: " + neglected(answer)});
+  } else if (!records.empty()) {
+    std::vector<std::string> lines = answer_lines(records);
+    std::erase(lines[1], '`');
+    const std::size_t error = std::min(lines[1].find(", with"), lines[1].size());
+    page.headline(lines[1].substr(0, error), lines[1].substr(std::min(error + 2, lines[1].size())));
+    if (records.size() <= most_answers)
+      page.answer(
+          element("div", page::table("Every case", case_table(records)), {{"class", "whole"}}));
+  }
+}
+
 }  // namespace
 
 void write_run_page(const RunShown& shown, WholeFolder& folder) {
   const scenario::Family& family = shown.family;
   const Records& records = shown.records;
   page::Page page(family.title, "run");
-  page.answer(answer_lines(records));
+  add_answer(page, records);
   for (const record::CaseRecord& record : records)
     if (!record.answer.verdict.empty())
       page.answer({"Beside the device: " + record.answer.verdict + "."});
   page.section("Figures", figures(shown, folder));
-  page.section("Beside the paper", paper_section(family, records, shown.fits));
-  page.section("Remarks", remarks(records));
-  page.section("Findings", records.size() <= most_columns ? findings_by_case(records)
-                                                          : findings_by_row(records));
-  page.section("Fits", fits(shown.fits));
-  page.section("Pressure maps", maps(records));
   if (!records.empty() && !records.front().picture.faces.empty()) {
     page.section("Scene", scene_view(records.front().picture, family.title));
     page.script(scene_script());
   }
-  page.section("What was asked", asked(family, read_text(folder.file("scenario.toml"))));
+  page.section("Beside the paper", paper_section(family, records, shown.fits));
+  constexpr auto folded = page::Page::Shown::folded;
+  page.section("Model, error and what is neglected", page::paragraphs(answer_lines(records)),
+               folded);
+  page.section("Remarks", remarks(records), folded);
+  page.section(
+      "Findings",
+      records.size() <= most_columns
+          ? findings_by_case(records)
+          : page::table_of_file("Every case", case_table(records), "findings.csv", most_rows),
+      folded);
+  page.section("Fits", fits(shown.fits), folded);
+  page.section("Pressure maps", maps(records), folded);
+  page.section("What was asked", asked(family, read_text(folder.file("scenario.toml"))), folded);
   std::vector<HashedFile> inputs;
   for (const scenario::InputFile& input : family.inputs)
     inputs.push_back({input.name, sha256(input.content)});
@@ -512,7 +561,8 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
                     .remark = live ? "A live run follows its device, so that this command repeats "
                                      "the programme and not the motion of the device."
                                    : ""},
-                   inputs, folder));
+                   inputs, folder),
+      folded);
   page::write(std::move(page), folder);
 }
 

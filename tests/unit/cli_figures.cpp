@@ -38,8 +38,13 @@ class Figures : public testing::Test {
   }
   void expect_readable(const std::vector<fs::path>& all, std::size_t count) const {
     EXPECT_EQ(all.size(), count);
-    for (const fs::path& figure : all)
-      EXPECT_EQ(complaints(figure), std::vector<std::string>{}) << figure;
+    for (const fs::path& figure : all) {
+      std::vector<std::string> found = complaints(figure);
+      // Of decades the soft tissues lie on the linear axis; logarithmic ones beside it show them.
+      if (fs::exists(figure.parent_path() / (figure.stem().string() + "_decades.svg")))
+        std::erase(found, "a curve lies on the axis");
+      EXPECT_EQ(found, std::vector<std::string>{}) << figure;
+    }
   }
   TemporaryFolder folder_;
 };
@@ -47,7 +52,7 @@ class Figures : public testing::Test {
 TEST_F(Figures, FiveTissuesOnOnePlot) {
   expect_readable(figures(project_file("scenarios/figure6_force_indentation.toml"),
                           {"--set", "output.interval=20 ms"}),
-                  1);
+                  2);
   const std::string svg =
       read_file(folder_ / "out/figure6_force_indentation/figure_force_indentation.svg");
   EXPECT_NE(svg.find(">a + b ln h, R² "), std::string::npos) << "the regression of the paper";
@@ -55,7 +60,7 @@ TEST_F(Figures, FiveTissuesOnOnePlot) {
 
 TEST_F(Figures, TwentyEightCasesAreColours) {
   const auto all = figures(project_file("scenarios/figure6_local_geometry.toml"));
-  expect_readable(all, 2);
+  expect_readable(all, 3);
   const std::string svg =
       read_file(folder_ / "out/figure6_local_geometry/figure_force_indentation.svg");
   EXPECT_NE(svg.find(">tissue.shape.curvature (1/m)<"), std::string::npos) << "the colour bar";

@@ -43,7 +43,7 @@ TEST_F(RunTalk, what_all_cases_share_is_said_once) {
   const auto first = said.find(remark);
   ASSERT_NE(first, std::string::npos) << said;
   EXPECT_EQ(said.find(remark, first + 1), std::string::npos) << said;
-  EXPECT_NE(said.find("10 kPa, and so in 2 more cases: " + remark), std::string::npos) << said;
+  EXPECT_NE(said.find("`10 kPa`, and so in 2 more cases: " + remark), std::string::npos) << said;
 }
 
 // On a terminal a press of seconds says which mesh it is at, and how deep.

@@ -1,12 +1,17 @@
 // Pages: escaping, links, inline pictures, contrast.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <regex>
 
+#include "base/text.h"
 #include "page/page.h"
 #include "page/png.h"
 #include "page/style.h"
+#include "plot/gnuplot.h"
+#include "plot/palette.h"
 #include "temporary_folder.h"
 
 namespace palpate::page {
@@ -43,7 +48,7 @@ TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {
   const auto made = [] {
     Page page("A & B", "run");
     page.answer({"It is 3 < 4 N (`h`).", "So."});
-    page.section("Figures", text("x"));
+    page.section("Figures", text("x"), Page::Shown::folded);
     page.section("Empty", Markup());
     return page.html();
   };
@@ -51,7 +56,8 @@ TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {
   EXPECT_NE(made().find("<a href=\"#figures\">Figures</a>"), std::string::npos);
   EXPECT_EQ(made().find("Empty"), std::string::npos);
   EXPECT_EQ(summary_of(made()).title, "A & B – palpate run");
-  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4 N (h). So.");
+  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4 N (h).");
+  EXPECT_EQ(summary_of(made()).paper, "");
   EXPECT_EQ(summary_of("<p>another page</p>").title, "");
 }
 
@@ -114,6 +120,55 @@ TEST(Style, HasEnoughContrast) {
         const double a = luminance(scheme.at(ink)), b = luminance(scheme.at(ground));
         EXPECT_GE((std::max(a, b) + 0.05) / (std::min(a, b) + 0.05), 4.5) << ink << ground;
       }
+}
+
+// As CSS does it to a figure in the dark: `invert(a)`, then `hue-rotate(180deg)` (Filter Effects
+// Module 1), in sRGB.
+std::string as_in_the_dark(const std::string& colour, double inverted) {
+  constexpr double turn[3][3] = {
+      {-0.574, 1.430, 0.144}, {0.426, 0.430, 0.144}, {0.426, 1.430, -0.856}};
+  std::array<double, 3> parts{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double part = std::stoi(colour.substr(2 * k, 2), nullptr, 16) / 255.0;
+    parts[k] = inverted + part * (1.0 - 2.0 * inverted);
+  }
+  std::string text;
+  for (const auto& row : turn) {
+    const double sum = row[0] * parts[0] + row[1] * parts[1] + row[2] * parts[2];
+    text += hex_text(static_cast<unsigned char>(std::lround(255.0 * std::clamp(sum, 0.0, 1.0))));
+  }
+  return text;
+}
+
+// WCAG 2.1, 1.4.11: 3 for the lines of figures and 4.5 for their text, on white and in the dark.
+TEST(Style, FiguresHaveEnoughContrast) {
+  const std::string css = style();
+  std::smatch filter;
+  ASSERT_TRUE(
+      std::regex_search(css, filter, std::regex("invert\\(([.0-9]+)\\) hue-rotate\\(180deg\\)")));
+  const double inverted = std::stod(filter[1]);
+  const auto least = [&](const std::string& colour) {
+    const auto contrast = [](const std::string& one, const std::string& ground) {
+      const double a = luminance(one), b = luminance(ground);
+      return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
+    };
+    return std::min(contrast(colour, "ffffff"),
+                    contrast(as_in_the_dark(colour, inverted), as_in_the_dark("ffffff", inverted)));
+  };
+  for (const char* colour : plot::line_colours) EXPECT_GE(least(colour), 3.0) << colour;
+  for (int i = 0; i <= 20; ++i)
+    EXPECT_GE(least(plot::palette_colour(plot::brightest_line * i / 20.0)), 3.0) << i;
+  const std::string script = plot::gnuplot_script({.name = "f", .series = {{.csv_file = "f.csv"}}});
+  const std::regex shown("(textcolor|linecolor) rgb '#([0-9a-f]{6})'");
+  std::size_t texts = 0;
+  for (std::sregex_iterator at(script.begin(), script.end(), shown), end; at != end; ++at) {
+    if ((*at)[2] == "dcdcdc") continue;  // the grid, which carries nothing by itself
+    const bool text = (*at)[1] == "textcolor";
+    texts += text ? 1 : 0;
+    EXPECT_GE(least((*at)[2]), text ? 4.5 : 3.0) << at->str();
+  }
+  EXPECT_GT(texts, 0U);
+  EXPECT_LT(least("e69f00"), 3.0) << "an orange that is too pale is found";
 }
 
 }  // namespace

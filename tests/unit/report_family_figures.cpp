@@ -92,19 +92,38 @@ TEST(FamilyFigures, RegressionsAreDrawnWhereTheyAreAskedFor) {
   EXPECT_EQ(asked.fit_label, "a + b ln h, R² 0.67");
 }
 
-TEST(FamilyFigures, AnAxisIsLogarithmicWhereCurvesWouldLieOnIt) {
+TEST(FamilyFigures, DecadesStandOnLogarithmicAxesBesideTheLinearOnes) {
   const auto drawn = [](double ratio) {
     const auto family = scenario::parse("schema = 1\n" + indent, "test.toml", {});
     std::vector<record::CaseRecord> records(2);
     for (auto& record : records) record.contact.resize(1);
+    for (auto& record : records) record.contact[0].indentation = 3e-3;
     records[0].contact[0].force = 1.0;
     records[1].contact[0].force = ratio;
-    return report::family_figures(family, records, {}).at(0);
+    return report::family_figures(family, records, {});
   };
-  EXPECT_EQ(drawn(29.0).y_axis, plot::Axis::linear);
-  EXPECT_EQ(drawn(31.0).y_axis, plot::Axis::logarithmic);
-  EXPECT_EQ(drawn(31.0).y_low, 0.01);
-  EXPECT_EQ(drawn(31.0).y_high, 46.5);
+  EXPECT_EQ(drawn(29.0).size(), 1U);
+  EXPECT_EQ(drawn(31.0).size(), 2U);
+  EXPECT_EQ(drawn(31.0).at(0).y_axis, plot::Axis::linear);
+  EXPECT_TRUE(drawn(31.0).at(0).from_zero);
+  const plot::Figure decades = drawn(31.0).at(1);
+  EXPECT_EQ(decades.x_axis, plot::Axis::logarithmic);
+  EXPECT_EQ(decades.x_high, 3.0);
+  EXPECT_EQ(decades.y_axis, plot::Axis::logarithmic);
+  EXPECT_EQ(decades.y_low, 0.01);
+  EXPECT_EQ(decades.y_high, 46.5);
+}
+
+TEST(FamilyFigures, ATissueHasItsColourAndTheLegendItsKey) {
+  const auto family = scenario::parse(
+      "schema = 1\n" + indent + "[sweep]\n\"tissue.material\" = [\"bone\", \"skin\"]\n",
+      "test.toml", {});
+  std::vector<record::CaseRecord> records(2);
+  for (std::size_t i = 0; i < 2; ++i) records[i].name = family.cases[i].name;
+  const plot::Figure figure = report::family_figures(family, records, {}).at(0);
+  EXPECT_EQ(figure.legend, "tissue.material");
+  EXPECT_EQ(figure.series.at(0).colour, 3U);
+  EXPECT_EQ(figure.series.at(1).colour, 0U);
 }
 
 TEST(FamilyFigures, ManyCasesAreColouredByTheSweptNumber) {
