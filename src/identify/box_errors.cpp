@@ -140,6 +140,7 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
     const Unknown& unknown = unknowns[i];
     const double shown = unknown.shown(unknown.value(u[i]));
     if (powers) {
+      found.exponents.push_back(factor);
       value *= std::pow(shown, factor);
       found.text += (k == 0 ? "" : " * ") + with_exponent(unknown.name(), factor);
       const std::string unit = with_exponent(unknown.unit_text(), factor);

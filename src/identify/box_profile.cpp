@@ -27,7 +27,7 @@ class Side {
     }
     if (!at.found) return std::nan("");
     start = at.u;
-    profile_.points.push_back({u, at.squares});
+    profile_.points.push_back({u, at.squares, at.u});
     return at.squares;
   }
 
@@ -97,7 +97,7 @@ class Side {
 };
 
 void finish(Profile& profile, const BoxMinimum& best, std::size_t i) {
-  profile.points.push_back({best.u[i], best.squares});
+  profile.points.push_back({best.u[i], best.squares, best.u});
   std::stable_sort(profile.points.begin(), profile.points.end(),
                    [](const auto& one, const auto& other) { return one.u < other.u; });
 }

@@ -12,6 +12,7 @@ struct Profile {
   struct Point {
     double u = 0.0;
     double squares = 0.0;
+    std::vector<double> all;  // u of all unknowns
   };
   std::vector<Point> points;        // ascending u
   std::optional<double> low, high;  // u at the ends of the interval; nothing: not within the box

@@ -426,6 +426,7 @@ class Search {
       for (const Profile::Point& point : got.points)
         found_.profile.push_back({i, unknowns_[i].value(point.u), point.squares,
                                   (point.squares - best_.squares) / (sigma_ * sigma_)});
+      if (one.tied) valley_.insert(valley_.end(), got.points.begin(), got.points.end());
       if (one.tied) continue;
       if (got.low) one.profile_low = unknowns_[i].value(*got.low);
       if (got.high) one.profile_high = unknowns_[i].value(*got.high);
@@ -506,6 +507,7 @@ class Search {
     found_.durbin_watson = fit::durbin_watson(weighted);
     found_.runs_z = fit::runs_z(weighted);
     if (options_.model_error) widen_by_model();
+    widen_along_the_valley();
     for (Part& part : parts_) conclude_part(part);
     found_.rmse = first.found.rmse;
     found_.r2 = first.found.r2;
@@ -597,8 +599,38 @@ class Search {
     }
   }
 
+  // The exponents of a product are those near the best fit. Where tied unknowns may be elsewhere in
+  // their ranges, because the curve there differs by no more than noise and the model's error, its
+  // value there is part of the interval.
+  void widen_along_the_valley() {
+    double allowed = t_ * t_ * sigma_ * sigma_;
+    for (const Part& part : parts_)
+      for (std::size_t row = part.from; row < part.to; ++row) {
+        const double of_model =
+            part.found.predicted_error.value_or(0.0) * found_.model[row] * weights_[row];
+        allowed += of_model * of_model;
+      }
+    for (Combination& one : found_.combinations) {
+      if (one.exponents.empty()) continue;
+      const double down = one.ci95_low / one.estimate;
+      const double up = one.ci95_high / one.estimate;
+      for (const Profile::Point& point : valley_) {
+        if (point.squares - best_.squares > allowed) continue;
+        double there = one.estimate;
+        for (std::size_t k = 0; k < one.of.size(); ++k) {
+          const Unknown& unknown = unknowns_[one.of[k]];
+          there *= std::pow(unknown.value(point.all[one.of[k]]) / unknown.value(best_.u[one.of[k]]),
+                            one.exponents[k]);
+        }
+        one.ci95_low = std::min(one.ci95_low, there * down);
+        one.ci95_high = std::max(one.ci95_high, there * up);
+      }
+    }
+  }
+
   const std::vector<Unknown>& unknowns_;
   const IdentifyOptions& options_;
+  std::vector<Profile::Point> valley_;  // of the tied unknowns, over their ranges
   std::vector<Part> parts_;
   std::vector<double> weights_;
   BoxProblem problem_;

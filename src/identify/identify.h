@@ -48,6 +48,8 @@ struct Combination {
   double ci95_low = 0.0, ci95_high = 0.0;
   std::vector<double> gradient;  // over u, of the combination or, if it is a product, its logarithm
   bool product = false;
+  std::vector<double> exponents =
+      {};  // of a product of powers, as `of`; they are those near the best fit
 };
 
 struct ProfilePoint {

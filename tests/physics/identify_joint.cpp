@@ -1,6 +1,8 @@
 // Several measurements, one answer: what one press cannot tell, two of different size can.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "identify_scenes.h"
 
 namespace palpate {
@@ -77,6 +79,17 @@ TEST(IdentifyJoint, OneRadiusDoesNot) {
     // The combination's interval contains its truth and the model's stated error.
     EXPECT_GT(found.combinations[0].ci95_high / found.combinations[0].estimate,
               1.0 + *found.predicted_error);
+  }
+  // The power law holds near the best fit; its interval contains the truth all the same.
+  Joint wide{{layer_press("20 mm")}, elastic};
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto found = wide.found(seed, {.searches = 1});
+    ASSERT_EQ(found.combinations.size(), 1U);
+    const identify::Combination& one = found.combinations[0];
+    ASSERT_EQ(one.exponents.size(), 2U);
+    const double truth = std::pow(20.0, one.exponents[0]) * std::pow(0.45, one.exponents[1]);
+    EXPECT_LE(one.ci95_low, truth) << seed;
+    EXPECT_GE(one.ci95_high, truth) << seed;
   }
   // The same press twice says no more than once.
   Joint twice{{layer_press("2 mm"), layer_press("2 mm")}, elastic};
