@@ -28,6 +28,7 @@ FileFaults from_environment() {
   FileFaults faults;
   if (std::string_view(program_invocation_short_name) != "palpate") return faults;
   faults.kill_before = number_of("PALPATE_TEST_KILL_BEFORE");
+  faults.killed = ::getpid();
   faults.fail_at = number_of("PALPATE_TEST_FAIL_AT");
   faults.fail_with = number_of("PALPATE_TEST_FAIL_WITH");
   faults.stays = number_of("PALPATE_TEST_STAYS") != 0;
@@ -52,7 +53,8 @@ bool fails(Call call, bool may_wait = false) {
   FileFaults& faults = file_faults;
   ++faults.calls;
   if (faults.wait_ms > 0) ::poll(nullptr, 0, faults.wait_ms);
-  if (call != Call::reads && ++faults.changes == faults.kill_before) {
+  if (call != Call::reads && ++faults.changes == faults.kill_before &&
+      (faults.killed == 0 || faults.killed == ::getpid())) {
     ::kill(::getpid(), SIGKILL);
     for (;;) ::pause();
   }

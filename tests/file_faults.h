@@ -6,6 +6,7 @@ namespace palpate::test {
 
 struct FileFaults {
   int kill_before = 0;  // the how-manyth call that changes a file the process does not survive
+  int killed = 0;       // the process, not its children, which it answers for; 0: any
   int fail_at = 0;      // the how-manyth call on a file fails; 0: none
   int fail_with = 0;    // errno
   bool stays = false;   // as do all later calls that change a file, but for removals: a full disk
