@@ -104,7 +104,8 @@ int perform(const Index& command, const Arguments&, const Talk& talk) {
   if (!items.empty()) page.section("Reports", page::element("div", items, {{"class", "cards"}}));
   const std::string index = (folder / "index.html").string();
   write_atomically(index, page.html());
-  talk.say(index + ": " + std::to_string(reports.size()) + " reports");
+  talk.say(index + ": " + std::to_string(reports.size()) +
+           (reports.size() == 1 ? " report" : " reports"));
   return exit_good;
 }
 
