@@ -273,8 +273,8 @@ TEST(Choose, AnEdgeIsForTheSolid) {
 // A place beside an edge is for the solid; cases that are compared with it are as well.
 TEST(Choose, CasesOfAFamilyTakeOneModel) {
   const auto family = [](const std::string& solver) {
-    return scenario::parse("[tissue]\nviscosity = \"none\"\n[finger]\nmaterial = \"rigid\"\n" + press +
-                               solver + "[sweep]\n\"finger.x\" = [\"3 mm\", \"30 mm\"]\n",
+    return scenario::parse("[tissue]\nviscosity = \"none\"\n[finger]\nmaterial = \"rigid\"\n" +
+                               press + solver + "[sweep]\n\"finger.x\" = [\"3 mm\", \"30 mm\"]\n",
                            "scene.toml", {});
   };
   scene::SpecimenShapes shapes;

@@ -63,7 +63,8 @@ TEST_F(Plans, an_id_knows_the_case_and_not_its_number) {
 // Rows of a sweep are compared, so that all cases take the model that one of them needs.
 TEST_F(Plans, keep_the_model_that_all_cases_take) {
   const std::string text =
-      "[tissue]\nviscosity = \"none\"\n[finger]\nmaterial = \"rigid\"\n[[step]]\nkind = \"indent\"\nto = "
+      "[tissue]\nviscosity = \"none\"\n[finger]\nmaterial = \"rigid\"\n[[step]]\nkind = "
+      "\"indent\"\nto = "
       "\"1 mm\"\n[sweep]\n";
   const SweepPlan both = plan(text + "\"finger.x\" = [\"3 mm\", \"30 mm\"]\n");
   EXPECT_EQ(both.family.at_least, scenario::Solver::Model::solid);
