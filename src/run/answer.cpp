@@ -42,7 +42,7 @@ class Words {
                        std::string(rung_.word) + ", " + plain_word(rung_.of);
     std::vector<std::string> with;
     if (!scene_.scenario.uniform() && !scene_.relaxation.elastic()) with.emplace_back("viscosity");
-    if (scene_.depth_ratio) with.emplace_back("large strains");
+    if (scene_.depth_ratio && !rung_.solid) with.emplace_back("large strains");
     if (!with.empty()) text += ", with " + joined(with, " and ");
     return text + ". " + why();
   }
@@ -107,6 +107,9 @@ class Words {
       return "mass_spring would be " + error_text(springs->error) +
              " off, because its springs do not have the tissue's Poisson's ratio.";
     }
+    if (choice.otherwise.model != rung_.of)
+      return "Another case of the sweep needs it; alone, this one would take " +
+             word(choice.otherwise.model) + ".";
     if (rung_.of == Model::hertz) return enough();
     std::string text = against(Model::hertz);
     if (!rung_.formula() && std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape))
