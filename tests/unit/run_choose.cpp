@@ -6,6 +6,8 @@
 #include <map>
 
 #include "auto_scenes.h"
+#include "run/answer.h"
+#include "run/refined_mesh.h"
 #include "scenario/family.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
@@ -289,6 +291,11 @@ TEST(Choose, CasesOfAFamilyTakeOneModel) {
   EXPECT_EQ(taken.chosen.solver.model, Model::solid);
   EXPECT_EQ(taken.otherwise.model, Model::layer);
   EXPECT_EQ(taken.questions.back().asked, "family");
+  const std::string why = expect(build_scene(middle, open, shapes)).answer.model;
+  EXPECT_NE(why.find("Another case of the sweep needs it; alone, this one would take layer."),
+            std::string::npos)
+      << why;
+  EXPECT_EQ(why.find("with large strains"), std::string::npos) << why;
 
   EXPECT_FALSE(one_model(family("[solver]\nmodel = \"layer\"\n"), shapes, 1).model);
   middle.scenario.solver.model = Model::layer;
