@@ -32,8 +32,8 @@ class WholeFolder {
 
   // `kind` is a noun for the list and for messages, such as `result`. The constructor clears up
   // what killed processes left for this place: it completes an exchange that was begun and removes
-  // partial folders that contain nothing to keep. `origin` is any text that is equal for two
-  // commands if, and only if, both give the same result; empty if no other command can.
+  // partial folders that contain nothing to keep. `origin` is a fingerprint of the result, equal
+  // for two commands that give the same one; empty if no other command can.
   WholeFolder(const std::string& place, std::string kind, Replace replace,
               const std::string& origin = {});
   // Removes the partial folder unless it was put in place or contains a file to keep.

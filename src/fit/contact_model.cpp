@@ -238,8 +238,8 @@ class ContactFit {
     return least;
   }
 
-  // A sign is advised only where the curve with that sign is one of contact: its squares are less
-  // than a third of those of a straight line.
+  // Advises to turn the sign only where a contact fits the turned curve better than a straight line
+  // by a factor of three in the sum of squares.
   void refuse_what_shows_no_contact(const ContactChoice& choice) const {
     const ContactGuess& guess = choice.guess;
     const auto line = search_contact(law_.unit, rows_, Baseline::tilt, {law_.deepest});

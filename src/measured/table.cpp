@@ -291,8 +291,8 @@ std::string lines_text(const std::vector<TableRow>& rows, const Block& block) {
          std::to_string(rows[block.to - 1].line->number);
 }
 
-// The rows of a block with the words above it, back to the block before; those of the last block
-// with the words below it.
+// The rows of a block and its captions: everything since the block before; the last block also
+// takes what follows it.
 std::vector<TableRow> rows_around(std::vector<TableRow>& rows, const std::vector<Block>& blocks,
                                   std::size_t k) {
   const std::size_t from = k == 0 ? 0 : blocks[k - 1].to;

@@ -21,8 +21,8 @@ constexpr double stated = 1e-9;  // weights below it count as none
 constexpr double most_corrected = 0.75;
 constexpr double least_corrected = 0.02;
 
-// s + e, m/N. An estimate of the error that exceeds what it corrects says only that the mesh is too
-// coarse. `known` is the part of the half-space's sinking that e may correct, m/N.
+// s + e, m/N. Where e is larger than s the mesh is too coarse, and the correction is limited.
+// `known` is the part of the half-space's sinking that e may correct, m/N.
 double corrected(const BeyondHalfSpace& beyond, double known) {
   return beyond.sinking + std::min(beyond.error, most_corrected * std::abs(beyond.sinking) + known);
 }

@@ -81,8 +81,8 @@ class BodySinking {
   const geometry::SmoothSurface* surface_;
   // Made when first needed, of unit modulus.
   std::optional<EnergyCoupling> coupling_;
-  // Where the contact's law is that of flat layers, the mesh gives the effect of the sides alone:
-  // half the difference between free sides and these, which only slide.
+  // For laws of flat layers only the effect of the sides comes from the mesh: half the difference
+  // between free sides and these, which slide.
   std::optional<EnergyCoupling> sliding_;
   double largest_;           // m, the largest contact radius of the table
   double modulus_;           // Pa, E of the tissue

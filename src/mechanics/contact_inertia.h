@@ -7,11 +7,11 @@
 
 namespace palpate::mechanics {
 
-// The mesh's motion in a step. It is loaded with share (past force + slope (elastic force - past
-// elastic force)).
+// The mesh's motion in a step, under the load
+//   share (F_past + slope (F_elastic - F_elastic,past)).
 struct Motion {
   const integrate::Vector& displacement;  // m, at the step's end without the forces to be found
-  const integrate::Vector& still;         // N, its static displacement is subtracted; or empty
+  const integrate::Vector& still;         // N, its static displacement is subtracted; may be empty
   bool still_has_past = false;            // `still` contains the past elastic forces
   double share = 0.0;                     // 0 in explicit steps, whose end the forces do not reach
   double slope = 1.0;
@@ -73,7 +73,7 @@ class ContactInertia {
   const MovingPart* part_;
   double radiation_;          // m s/N, D of docs/theory.md (75)
   std::vector<int> pressed_;  // degrees of freedom under the wide patches
-  // The first entries belong to the contacts; the rest is spare memory.
+  // Only the leading entries, one per contact, are valid; the memory is kept between steps.
   Eigen::VectorXd motion_;            // m, `m` of docs/theory.md (74)
   Eigen::MatrixXd moving_by_force_;   // m/N, response at the end of the step
   Eigen::MatrixXd still_by_force_;    // m/N, static response c_ij of docs/theory.md (74)

@@ -85,8 +85,9 @@ std::optional<std::string> Consistent::step(const StepTo& to) {
   return part->move(to.touch);
 }
 
-// Of the single sphere that spheres with `calibration = "force"` replace: its patch is `joint`, and
-// it lies at all their contacts, in proportion to how far they are below the skin.
+// The surface displacement under the single sphere that a group of spheres with
+// `calibration = "force"` replaces: the mean over the group's contacts, weighted by their effective
+// depths, each with the patch of that sphere, which `joint` receives.
 BodySinking::Value Consistent::joint_sinking(const KeptList<SphereContact>& contacts,
                                              contact::Patch& joint) {
   double approaches = 0.0;
@@ -151,7 +152,7 @@ void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd
       continue;
     }
     compliance(i, i) = sinking;
-    // Half the sum over both directions, because the rest is read at points.
+    // Symmetrised, c_ij = (c_ij + c_ji) / 2, because readings at points are not quite symmetric.
     for (Eigen::Index j = 0; j < count; ++j) {
       if (i == j) continue;
       const SphereContact& other = contacts[as_index(j)];

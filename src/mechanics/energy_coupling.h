@@ -35,8 +35,8 @@ struct BeyondHalfSpace {
 //                                                              docs/theory.md (11)-(12)
 class EnergyCoupling {
  public:
-  // `held` has the supports' flags, one per degree of freedom of the part. All moduli are divided
-  // by `unit` (Pa), so that all results are multiplied by it.
+  // `held` has the supports' flags, one per degree of freedom of the part. Moduli are
+  // in units of `unit` (Pa); compliances divided by it are in m/N.
   EnergyCoupling(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held,
                  double unit = 1.0);
 
@@ -45,8 +45,8 @@ class EnergyCoupling {
   struct Press {
     contact::Patch patch;
     Vec3 along;
-    // Whether the load is that of the two before it, added and divided by sqrt(2); so is what is
-    // solved for.
+    // True if this load is (load[i - 2] + load[i - 1]) / sqrt(2); its solution is the same
+    // combination of theirs.
     bool sum_of_two = false;
   };
   // One result per load; their equations are solved together. `finer` refines the quadrature of the

@@ -14,9 +14,8 @@
 
 namespace palpate::mechanics {
 
-// What a response to a load is: in statics; the part of it that has inertia, which is less where
-// modal steps keep the lowest modes only; at the end of an implicit or modal step, in which the
-// load grows in modal steps; or where it acts during whole modal steps.
+// The response to a load: static; static, of the kept modes alone; at the end of one implicit or
+// modal step, in which the load grows linearly; or at the end of a modal step with a constant load.
 enum class Response { statics, moving_statics, step, whole_step };
 
 // With `solver.rings` only nodes around the contact move; otherwise the part is the whole specimen.

@@ -58,8 +58,8 @@ void PressedMesh::make_ready(Touch& touch) {
   for (std::vector<char>* flags : {&reach_.inside, &reach_.moving})
     flags->reserve(scene.specimen->network.rest.size());
 
-  // Steps at rest, without contact, change no state, but every method allocates its factors and
-  // vectors in them; some methods do so only in their second step.
+  // Two steps at rest, far from contact, so that later steps do not allocate: some methods make
+  // their factors and vectors only in their second step.
   const Vec3 place = touch.finger;
   const Vec3 away = scene::first_touch(scene).finger + scene.specimen->height() * Vec3::UnitZ();
   ContactHistory none(scene);

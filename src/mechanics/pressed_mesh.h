@@ -62,9 +62,9 @@ class PressedMesh {
   // The largest estimated error of equations solved by iterations, in the energy norm; else 0.
   [[nodiscard]] double solution_error();
 
-  // How many modes are kept where modal steps drop others, and what these others sink under the
-  // finger as a fraction of its travel; 0 if the mesh's motion does not reach the force. It follows
-  // without inertia.                                                       docs/theory.md (108)
+  // `count` modes are kept. `dropped_share` is the static displacement of the dropped modes under
+  // the finger over its travel, 0 if the mesh's motion does not reach the force.
+  //                                                                        docs/theory.md (108)
   struct KeptModes {
     Eigen::Index count = 0;
     double dropped_share = 0.0;

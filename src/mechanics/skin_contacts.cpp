@@ -102,8 +102,7 @@ std::optional<std::string> SkinContacts::give_law(SphereContact& contact) {
   contact.law = *law;
   if (scene_->depth_ratio) contact.deep = scene_->depth_ratio->value(contact.approach);
   if (contact.law.point.layer != nullptr && presses_as_one(*scene_)) {
-    // The law of the single sphere that these spheres represent; a^2 = R h with its R, which is
-    // n^(1/3) times the radius of a sphere.
+    // The law of one equivalent sphere of radius R = n^(1/3) times that of each; a^2 = R h.
     const auto count = static_cast<double>(scene_->finger.centres.size());
     contact.law.point.share = 1.0 / count;
     contact.law.radius_share = std::pow(count, -1.0 / 6.0);

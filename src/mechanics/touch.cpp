@@ -11,16 +11,16 @@
 namespace palpate::mechanics {
 namespace {
 
-// What is left of the estimate e after s + e: half of it, and more where e is large against the
-// force. Measured on the bodies of docs/accuracy.md.                        docs/theory.md (12)
+// The error that is stated after the correction s + e: half of e, and more where e is not small.
+// Measured on the bodies of docs/accuracy.md.                        docs/theory.md (12)
 constexpr double stated_share = 0.5;
 
 // What a mesh leaves open even where e is zero: the curvature read from its skin, the quadrature of
 // the loads and the interpolation over contact radii.
 constexpr double stated_least = 1e-3;
 
-// Of spheres that represent one, the shear is that of its patch under the drag of all, which is
-// shared like their forces.
+// A group of spheres that represents one shears like it, under the friction of all, which is shared
+// like their normal forces.
 void find_shear(const scene::Scene& scene, const Touch& touch, BodySinking& beyond,
                 SphereContact& contact) {
   contact::Patch patch = contact.patch;

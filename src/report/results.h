@@ -24,8 +24,7 @@ using CsvFiles = std::vector<std::pair<std::string, record::Table>>;
                                  const std::vector<record::CaseRecord>& records,
                                  const std::vector<fit::NamedFit>& fits);
 
-// A text that is equal for two families if both have the same inputs and settings, so that a run of
-// one repeats that of the other: for WholeFolder.
+// Fingerprint of inputs and settings, for WholeFolder: equal ones mean equal results.
 [[nodiscard]] std::string origin_of(const scenario::Family& family);
 
 // The folder OUT/NAME of a family. During the run, finished cases are in OUT/NAME.partial-PID.

@@ -18,8 +18,8 @@ namespace palpate::scenario {
 [[nodiscard]] std::vector<std::array<double, 2>> finger_places(const Resolved& scenario,
                                                                const Cuboid& box);
 
-// Why the formula of a compression, which is that of a body whose forces all follow one law of
-// time, does not apply in this scenario.
+// Why the closed formula of a compression, which needs one viscous law for the whole body, does not
+// apply in this scenario; nothing where it does.
 [[nodiscard]] std::optional<std::string> compression_problem(const Scenario& scenario,
                                                              const Compress& compress);
 

@@ -40,8 +40,8 @@ class Trial {
   // Makes case i; the first case made becomes the family's base.
   Case make(std::size_t i);
 
-  // Makes all cases of a family of at most `most`; of a larger one that many from the first to the
-  // last, and each row of a table that names other files.
+  // Makes all cases of a family of at most `most`; otherwise that many, evenly spread, and each row
+  // of a table that names other files.
   void try_cases(std::size_t most);
 
   // Checks that case names are different, and that `display_scale` uses existing names.

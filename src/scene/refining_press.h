@@ -18,8 +18,8 @@ struct Refined {
 // Whether the scenario's mesh is refined where its own error in the force comes from.
 [[nodiscard]] bool refines(const scenario::Resolved& scenario);
 
-// Of a scenario that refines(): a rigid finger, 10 kPa of `tissue.material`, one quasi-static
-// indent to the deepest travel, and the scenario's slides.
+// The reduced scenario by which the mesh of one that refines() is refined: a rigid finger, 10 kPa
+// of `tissue.material`, one quasi-static indent to the deepest travel, and the scenario's slides.
 [[nodiscard]] scenario::Resolved refining_press(const scenario::Resolved& scenario);
 
 // The numbers on which a refined mesh depends besides those of its start: the moduli's ratios, not

@@ -73,7 +73,7 @@ struct Choice {
   std::vector<Question> questions;
   std::vector<Forecast> rungs;  // cheapest first; empty if `one_way` alone decides the model
   scenario::Found found;
-  double waves = 0.0;  // what every model leaves out of the force because nothing moves, relative
+  double waves = 0.0;  // relative error of the force of every model without inertia
   // What would be taken if the scenario named no model, and what it would have.
   Forecast otherwise;
   scenario::Found otherwise_found;

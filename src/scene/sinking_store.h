@@ -14,8 +14,8 @@
 
 namespace palpate::scene {
 
-// For contacts of four radii. The moduli of the body are divided by that of the tissue, so that all
-// values are multiplied by its modulus (Pa).                                docs/theory.md (13)
+// For contacts of four radii. Values are for a tissue of E = 1 Pa: divided by its modulus they are
+// in m/N.                                                                   docs/theory.md (13)
 struct SunkPlace {
   static constexpr std::size_t radii = 4;
   std::array<double, radii> sinking{};         // 1/m, s + e

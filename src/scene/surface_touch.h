@@ -47,9 +47,9 @@ struct SurfaceTouch {
   [[nodiscard]] Pressed pressed(double radius, double travel) const;
 };
 
-// The curvature of a file's surface at a point, as the contact at the deepest travel meets it: the
-// fit spans that contact, so that it does not take the grain of a fine surface for curvature, but
-// at least `contact.curvature_rings`.
+// The curvature of a file's surface at a point, fitted over the contact at the deepest travel, or
+// over `contact.curvature_rings` where they are larger: facets smaller than the contact are
+// smoothed.
 [[nodiscard]] geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& surface,
                                                             const geometry::SurfacePoint& at,
                                                             const scenario::Resolved& scenario);

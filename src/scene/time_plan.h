@@ -40,9 +40,9 @@ struct TimePlan {
 
 // Whether the inertia of the tissue (and its drag against the ground) affects the contact force:
 // for `consistent`, in steps with inertia, if the static displacement of the mesh under its loads
-// is known, so that the rest of its motion is due to inertia. It is unknown with non-linear
-// kinematics, and if the contact leaves out the viscosity of the mesh. With Kelvin-Voigt, the
-// contact's dashpot would need the force of the step that it determines. docs/theory.md (74)
+// is known, so that the rest of its motion is due to inertia. False with non-linear kinematics,
+// where the contact neglects the viscosity of the mesh, and with Kelvin-Voigt, whose dashpot would
+// need the force that it determines. docs/theory.md (74)
 [[nodiscard]] bool inertia_reaches_force(const scenario::Resolved& scenario);
 
 // D = C / F'^2, m s/N, for the dashpot C by which a half-space with the network's E and nu and the

@@ -39,7 +39,7 @@ void tensions(const Network& network, std::span<const double> elongation,
 void gather_forces(const Network& network, Kinematics kinematics, const Vector& displacement,
                    std::span<const double> tension, Vector& force);
 
-// The directions of the spring forces: unit vectors; with squared lengths, span over rest length.
+// The directions of the spring forces: unit vectors (linear), or span / rest length (non-linear).
 void directions(const Network& network, Kinematics kinematics, const Vector& displacement,
                 std::span<Vec3> direction);
 
