@@ -11,30 +11,32 @@
 #include "base/index.h"
 #include "base/metis_lock.h"
 #include "base/stop_scope.h"
+#include "base/wide.h"
 
 namespace palpate {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-// The loop is wide whatever the build, with the same bits: no fused products.
-#if defined(__x86_64__)
-#define PALPATE_WIDE __attribute__((target_clones("default", "avx2")))
-#else
-#define PALPATE_WIDE
-#endif
+// Numbers that are computed at once.
+using Four = double __attribute__((vector_size(32)));
+using Eight = double __attribute__((vector_size(64)));
 
-// out = sum over k < depth of a_k b_k^T as four columns of four rows; a_k and b_k are four numbers.
-PALPATE_WIDE void product(const double* a, const double* b, int depth, double* out) {
-  using Four = double __attribute__((vector_size(32)));
-  Four sum[4] = {};
-  for (int k = 0; k < depth; ++k, a += 4, b += 4) {
-    Four row;
-    __builtin_memcpy(&row, a, sizeof row);
-#pragma GCC unroll 4
-    for (int c = 0; c < 4; ++c) sum[c] += row * Four{b[c], b[c], b[c], b[c]};
+// Eight rows by four columns: the sums over k < depth of eight numbers a_k times four numbers b_k,
+// which stand eight apart as well.
+using Tile = double[4][8];
+
+template <class Numbers>
+PALPATE_ALWAYS void multiply(const double* a, const double* b, int depth, Tile& tile) {
+  constexpr int parts = sizeof(Eight) / sizeof(Numbers);
+  Numbers sum[4 * parts] = {};
+  for (int k = 0; k < depth; ++k, a += 8, b += 8) {
+    Numbers rows[parts];
+    for (int p = 0; p < parts; ++p) __builtin_memcpy(&rows[p], a + 8 / parts * p, sizeof rows[p]);
+#pragma GCC unroll 8
+    for (int i = 0; i < 4 * parts; ++i) sum[i] += rows[i % parts] * b[i / parts];
   }
-  __builtin_memcpy(out, sum, sizeof sum);
+  __builtin_memcpy(tile, sum, sizeof sum);
 }
 
 // Neighbours of every node, ascending and without itself.
@@ -147,17 +149,17 @@ std::vector<int> postorder(const std::vector<int>& parent) {
 }
 
 // Rows of a matrix with `height` rows by columns, from row `top`, columns `begin` to `end`: packed
-// by four rows, missing ones zero.
+// by eight rows, missing ones zero.
 void pack(const double* from, int height, int top, int begin, int end, std::vector<double>& to) {
   const int depth = end - begin;
-  const int fours = (height - top + 3) / 4;
-  to.assign(4 * as_index(fours) * as_index(depth), 0.0);
-  for (int g = 0; g < fours; ++g) {
-    double* out = &to[4 * as_index(g) * as_index(depth)];
-    const int rows = std::min(4, height - top - 4 * g);
-    for (int k = begin; k < end; ++k, out += 4)
+  const int eights = (height - top + 7) / 8;
+  to.assign(8 * as_index(eights) * as_index(depth), 0.0);
+  for (int g = 0; g < eights; ++g) {
+    double* out = &to[8 * as_index(g) * as_index(depth)];
+    const int rows = std::min(8, height - top - 8 * g);
+    for (int k = begin; k < end; ++k, out += 8)
       for (int r = 0; r < rows; ++r)
-        out[r] = from[as_index(k) * as_index(height) + as_index(top + 4 * g + r)];
+        out[r] = from[as_index(k) * as_index(height) + as_index(top + 8 * g + r)];
   }
 }
 
@@ -165,21 +167,55 @@ constexpr int block = 64;  // columns that are eliminated together
 constexpr int strip = 8;   // of which so many one by one
 
 // Subtracts A A^T of packed rows from the lower triangle of `to`, of `size` rows and `columns`
-// columns with distance `stride`; its first row is that of the first packed one.
-void subtract(const std::vector<double>& packed, int depth, int size, int columns, double* to,
-              std::size_t stride) {
-  double tile[16];
-  for (int c = 0; c < columns; c += 4)
-    for (int r = c; r < size; r += 4) {
-      product(&packed[as_index(r) * as_index(depth)], &packed[as_index(c) * as_index(depth)], depth,
-              tile);
-      const int wide = std::min(4, columns - c);
-      const int high = std::min(4, size - r);
-      for (int j = 0; j < wide; ++j) {
-        double* column = to + as_index(c + j) * stride + as_index(r);
-        for (int i = r == c ? j : 0; i < high; ++i) column[i] -= tile[4 * j + i];
+// columns with distance `stride`; its first row is that of the first packed one. Every sum is in
+// the order of the packed columns, so that its bits do not depend on the processor.
+struct Update {
+  const double* packed;
+  int depth, size, columns;
+  double* to;
+  std::size_t stride;
+};
+
+template <class Numbers>
+PALPATE_ALWAYS void subtract_by(const Update& by) {
+  const auto depth = as_index(by.depth);
+  for (int c = 0; c < by.columns; c += 4) {
+    const int wide = std::min(4, by.columns - c);
+    const int first = c - c % 8;
+    const double* b = by.packed + as_index(first) * depth + c % 8;
+    for (int r = first; r < by.size; r += 8) {
+      Tile tile;
+      multiply<Numbers>(by.packed + as_index(r) * depth, b, by.depth, tile);
+      double* to = by.to + as_index(c) * by.stride + as_index(r);
+      // Below the diagonal all of it, elsewhere what is on it or below.
+      const bool whole = wide == 4 && r >= c + 3 && r + 8 <= by.size;
+      for (int j = 0; j < wide; ++j, to += by.stride) {
+        const int begin = whole ? 0 : std::max(0, c + j - r);
+        const int end = whole ? 8 : std::min(8, by.size - r);
+        for (int i = begin; i < end; ++i) to[i] -= tile[j][i];
       }
     }
+  }
+}
+
+PALPATE_WIDE void subtract_by_four(const Update& by) { subtract_by<Four>(by); }
+#if defined(__x86_64__)
+__attribute__((target("avx512f"))) void subtract_by_eight(const Update& by) {
+  subtract_by<Eight>(by);
+}
+#endif
+
+void subtract(const Update& by) {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) return subtract_by_eight(by);
+#endif
+  subtract_by_four(by);
+}
+
+// column -= factor * before, from entry `begin` to `end`.
+PALPATE_WIDEST void subtract_column(double* column, const double* before, double factor, int begin,
+                                    int end) {
+  for (int r = begin; r < end; ++r) column[r] -= factor * before[r];
 }
 
 }  // namespace
@@ -326,8 +362,7 @@ bool FrontCholesky::factor(const SparseMatrix& lower) {
           double* column = panel + as_index(c) * high;
           for (int k = low; k < c; ++k) {
             const double* before = panel + as_index(k) * high;
-            const double factor = before[c];
-            for (int r = c; r < height; ++r) column[r] -= factor * before[r];
+            subtract_column(column, before, before[c], c, height);
           }
           const int own = diagonal_[as_index(front.first + c)];
           if (!(column[c] > 1e-14 * std::abs(matrix[own])) || !std::isfinite(column[c]))
@@ -339,18 +374,18 @@ bool FrontCholesky::factor(const SparseMatrix& lower) {
         }
         if (next == end) break;
         pack(panel, height, next, low, next, packed);
-        subtract(packed, next - low, height - next, end - next,
-                 panel + as_index(next) * high + as_index(next), high);
+        subtract({packed.data(), next - low, height - next, end - next,
+                  panel + as_index(next) * high + as_index(next), high});
       }
       if (end == width) break;
       pack(panel, height, end, begin, end, packed);
-      subtract(packed, end - begin, height - end, width - end,
-               panel + as_index(end) * high + as_index(end), high);
+      subtract({packed.data(), end - begin, height - end, width - end,
+                panel + as_index(end) * high + as_index(end), high});
     }
     for (int begin = 0; begin < width && below > 0; begin += 2 * block) {
       const int end = std::min(begin + 2 * block, width);
       pack(panel, height, width, begin, end, packed);
-      subtract(packed, end - begin, below, below, rest, as_index(below));
+      subtract({packed.data(), end - begin, below, below, rest, as_index(below)});
     }
     // The triangle takes the place of those of the children.
     left[f] = children[f].empty() ? top : left[as_index(children[f].front())];
