@@ -42,7 +42,11 @@ Span span_of(const std::vector<double>& values, double start) {
   return span;
 }
 
-[[noreturn]] void refuse(const MeasuredCurve& curve) {
+[[noreturn]] void refuse(const MeasuredCurve& curve, const Span& span) {
+  if (span.up == 0.0 && span.down == 0.0)
+    throw InputError(
+        {curve.file, 0, 0},
+        "`" + curve.y_axis.column + "` is the same at every point; name another column with `--y`");
   throw InputError({curve.file, 0, 0},
                    "`" + curve.y_axis.column +
                        "` both rises and falls from its start, so that "
@@ -58,7 +62,7 @@ bool load_is_negative(const MeasuredCurve& curve) {
   const Span span = span_of(curve.y, along ? curve.y.front() : 0.0);
   if (span.down >= clear * span.up && span.down > 0.0) return true;
   if (span.up >= clear * span.down && span.up > 0.0) return false;
-  refuse(curve);
+  refuse(curve, span);
 }
 
 // Changes the sign of x if it is a length or a strain that decreases while the load grows.

@@ -131,6 +131,21 @@ TEST(Measured, UnitsInOtherForms) {
   EXPECT_DOUBLE_EQ(read("x_nm,force_pN\n1,1\n2,2\n").y[0], 1e-12);
 }
 
+TEST(Measured, NumbersOfOtherPrograms) {
+  // The minus of typesetters and the exponents of Fortran.
+  expect_curve(read("depth_mm,force_N\n1.5,3.0\n2.0,4.25\n\u22121,NaN\n"));
+  EXPECT_EQ(read("d_mm,F_N\n\u22121.5,2e\u22123\n2,4\n").x[0], -1.5e-3);
+  EXPECT_EQ(read("d_mm,F_N\n\u22121.5,2e\u22123\n2,4\n").y[0], 2e-3);
+  expect_curve(read("# depth_m force_N\n 0.15D-02 0.30d+01\n 0.20D-02 0.425D+01\n"));
+  EXPECT_EQ(refusal("d_mm,F_N\n1,2D3\n2,4\n"),
+            "data.csv:2:3: `F_N` holds `2D3`, which is no number; name a column of numbers");
+  // Of two columns one holds no numbers.
+  EXPECT_EQ(
+      refusal("Time,Force (N)\n01:40.050,5\n01:40.150,4\n"),
+      "data.csv:2:1: `Time` holds `01:40.050`, which is a time of day or minutes and seconds; "
+      "write the column in seconds, or name a column of numbers");
+}
+
 TEST(Measured, PartsOfATable) {
   const std::string text =
       "Set,segment,d_mm,F_N\n1,load,1.5,3\n1,load,2,4.25\n1,unload,1,7\n1,load,9,9\n2,load,8,8\n";
