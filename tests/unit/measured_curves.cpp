@@ -314,6 +314,10 @@ TEST(Measured, CompressionThatReadsNegative) {
   curve = read("x_mm,F_N\n0,10\n1,9\n2,6\n", automatic);
   EXPECT_EQ(curve.y, (Numbers{-10, -9, -6}));
   EXPECT_TRUE(read("x_mm,F_N\n0,0\n1,-0.1\n2,4\n", automatic).notes.empty());  // it adheres
+  // A way back ends at rest.
+  curve = read("x_mm,F_N\n0,0\n1,4\n0.5,1\n0,0\n", {.compression = "auto", .segment = "retract"});
+  EXPECT_EQ(curve.y, (Numbers{1, 0}));
+  EXPECT_EQ(curve.x, (Numbers{0.5e-3, 0}));
   // Relaxation begins at its peak, so that the load's own sign tells.
   EXPECT_EQ(read("t_s,F_N\n0,-4\n1,-3\n", automatic).y, (Numbers{4, 3}));
   EXPECT_EQ(read("t_s,F_N\n0,4\n1,3\n", automatic).y, (Numbers{4, 3}));
