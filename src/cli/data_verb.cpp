@@ -95,13 +95,16 @@ std::string quoted(const std::string& word) {
 }
 
 // Contact point, baseline and noise of a force over a length. Both follow from the shape of a
-// paraboloid's curve, whatever its radius; `round` says whether that describes the curve.
+// paraboloid's curve, whatever its radius; `round` says whether that describes the
+// whole curve.
 std::string contact_lines(const measured::MeasuredCurve& curve, bool& round) {
   try {
     const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
     std::string text;
-    round = fit.r2 >= 0.9;
-    if (!round)
+    round = fit.r2 >= 0.9 && std::none_of(fit.notes.begin(), fit.notes.end(), [](const auto& note) {
+              return note.find("falls by over") != std::string::npos;  // the specimen gave way
+            });
+    if (fit.r2 < 0.9)
       return "no round tip gives such a curve (R^2 of its law " + rounded_text(fit.r2, 3) + ")\n";
     if (fit.parameters.size() > 1)
       text += "contact point: " + rounded_text(fit.parameters[1].estimate) +
