@@ -95,11 +95,17 @@ std::string quoted(const std::string& word) {
 }
 
 // Contact point, baseline and noise of a force over a length. Both follow from the shape of a
-// paraboloid's curve, whatever its radius.
-std::string contact_lines(const measured::MeasuredCurve& curve) {
+// paraboloid's curve, whatever its radius; `round` says whether that describes the
+// whole curve.
+std::string contact_lines(const measured::MeasuredCurve& curve, bool& round) {
   try {
     const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
     std::string text;
+    round = fit.r2 >= 0.9 && std::none_of(fit.notes.begin(), fit.notes.end(), [](const auto& note) {
+              return note.find("falls by over") != std::string::npos;  // the specimen gave way
+            });
+    if (fit.r2 < 0.9)
+      return "no round tip gives such a curve (R^2 of its law " + rounded_text(fit.r2, 3) + ")\n";
     if (fit.parameters.size() > 1)
       text += "contact point: " + rounded_text(fit.parameters[1].estimate) +
               " mm, if the tip is round\n";
@@ -115,7 +121,7 @@ std::string contact_lines(const measured::MeasuredCurve& curve) {
 }
 
 // What to type next for the dimensions of the two columns.
-std::string next_line(const Data& command, const measured::MeasuredCurve& curve) {
+std::string next_line(const Data& command, const measured::MeasuredCurve& curve, bool round) {
   std::string line = "palpate fit " + quoted(command.data) + " --x " + quoted(curve.x_axis.column) +
                      " --y " + quoted(curve.y_axis.column);
   for (const std::string& note : curve.notes)
@@ -127,6 +133,8 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve)
   if (!curve.y_axis.has_unit) line += " --y-unit UNIT";
   const Dimension& x = curve.x_axis.dimension;
   const Dimension& y = curve.y_axis.dimension;
+  if (x == unit::mm.dimension && y == unit::N.dimension && !round)
+    return line + " --model modulus --height \"... mm\" --area \"... mm^2\"";
   if (x == unit::mm.dimension && y == unit::N.dimension)
     return line + " --model hertz --radius \"... mm\" --poisson 0.5";
   if (x == unit::mm.dimension && y == unit::mm.dimension &&
@@ -152,6 +160,7 @@ int perform(const Data& command, const Arguments&, const Talk&) {
   for (const std::string& note : table.notes) text += note + "\n";
   for (std::size_t i = 0; i < table.width(); ++i) text += column_line(table, i);
   text += segment_lines(table);
+  bool round = true;
   try {
     const measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
     text += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
@@ -159,8 +168,8 @@ int perform(const Data& command, const Arguments&, const Talk&) {
       if (std::find(table.notes.begin(), table.notes.end(), note) == table.notes.end())
         text += note + "\n";
     if (curve.x_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension)
-      text += contact_lines(curve);
-    text += "next: " + next_line(command, curve) + "\n";
+      text += contact_lines(curve, round);
+    text += "next: " + next_line(command, curve, round) + "\n";
   } catch (const InputError& error) {
     text += std::string("to be decided: ") + error.problems().front().message + "\n";
   }

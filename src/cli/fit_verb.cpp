@@ -227,7 +227,14 @@ int fit_many(const Fit& command, const Talk& talk) {
   return all.empty() ? exit_input : exit_good;
 }
 
+// Residuals below a millionth of the curve are rounding, of the file's digits or the computation's.
+bool is_exact(const fit::Fit& result) { return 1.0 - result.r2 < 1e-12; }
+
 void say_what_is_odd(const fit::Fit& result, const Talk& talk) {
+  if (is_exact(result))
+    talk.say(
+        "note: the curve is met exact to rounding, so that the intervals are no errors of a "
+        "measurement");
   for (const std::string& note : result.notes) talk.say("note: " + note);
   for (const std::string& warning : result.warnings) talk.warn(warning);
   const bool told = std::any_of(result.notes.begin(), result.notes.end(), [](const auto& note) {
@@ -252,7 +259,9 @@ std::string table_for_people(const fit::Fit& result) {
   for (const fit::Estimate& one : result.parameters) {
     text += one.name + std::string(width - one.name.size() + 2, ' ') +
             rounded_text(one.estimate, 5) + (one.unit.empty() ? "" : " " + one.unit);
-    if (std::isfinite(one.ci95_low))
+    if (std::isfinite(one.ci95_low) && is_exact(result))
+      text += "  (exact to rounding)";
+    else if (std::isfinite(one.ci95_low))
       text += "  (95 %: " + rounded_text(one.ci95_low, 5) + " to " +
               rounded_text(one.ci95_high, 5) + ")";
     text += "\n";

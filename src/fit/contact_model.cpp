@@ -109,14 +109,22 @@ class ContactFit {
 
   void take_one_way(std::vector<double>& h, std::vector<double>& f) {
     const OneWay part = one_way(h, test_.way);
-    const std::size_t size = h.size();
-    for (std::vector<double>* each : {&h, &f})
-      *each = {each->begin() + static_cast<std::ptrdiff_t>(part.from),
-               each->begin() + static_cast<std::ptrdiff_t>(part.to)};
-    leave_out(static_cast<int>(size - h.size()),
-              test_.way == Way::approach
-                  ? "the way back from the deepest row; `--segment retract` fits it"
-                  : "the way to the deepest row");
+    const auto keep = [&](std::size_t from, std::size_t to, const char* why) {
+      leave_out(static_cast<int>(h.size() - (to - from)), why);
+      for (std::vector<double>* each : {&h, &f})
+        *each = {each->begin() + static_cast<std::ptrdiff_t>(from),
+                 each->begin() + static_cast<std::ptrdiff_t>(to)};
+    };
+    if (part.loadings > 1)
+      fit_.notes.push_back("the first of " + std::to_string(part.loadings) +
+                           " loadings is taken; `--rows` chooses the rows of another");
+    keep(part.from, part.to,
+         test_.way == Way::retract ? "the way to the deepest row"
+         : part.loadings > 1       ? "the way back, and other loadings"
+                                   : "the way back from the deepest row; `--segment retract` "
+                                     "fits it");
+    if (test_.way == Way::approach)
+      keep(0, rows_before_break(f), "beyond the largest force, from which it falls by over 10 %");
     refuse_few(h.size());
   }
 

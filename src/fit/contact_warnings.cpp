@@ -69,8 +69,8 @@ void warn_of_residuals(Fit& fit) {
          "the interval");
   if (fit.rho > 0.0 && fit.effective_size < 10.0)
     warn(
-        "the points are worth fewer than 10 independent ones, for which the intervals are too "
-        "narrow; record a longer curve");
+        "the points are worth fewer than 10 independent ones, which cannot tell noise from a law "
+        "that does not fit; record a longer curve");
 }
 
 }  // namespace palpate::fit

@@ -182,8 +182,7 @@ Blocks blocks_of(const Rows& rows, const Matrix& inverse) {
 // A process that the residuals may be, with its weight among all.
 struct Process {
   double weight = 0.0;
-  Matrix covariance;     // of the estimates
-  double of_mean = 0.0;  // variance of the mean of all rows
+  Matrix covariance;  // of the estimates
 };
 
 // White noise plus noise that decays or flickers, in shares and times on logarithmic grids.
@@ -215,11 +214,8 @@ std::vector<Process> processes(const Blocks& blocks, const Matrix& inverse, Eige
         // A family counts as much as the other.
         one.weight = -0.5 * judged.minus_two_log - std::log(static_cast<double>(family.size()));
         Matrix product = Matrix::Zero(inverse.rows(), inverse.cols());
-        for (Eigen::Index lag = 0; lag < n; ++lag) {
+        for (Eigen::Index lag = 0; lag < n; ++lag)
           product += covariance[lag] * lagged[as_index(lag)];
-          one.of_mean += (lag == 0 ? 1.0 : 2.0) * static_cast<double>(n - lag) * covariance[lag];
-        }
-        one.of_mean *= judged.variance / static_cast<double>(n * n);
         one.covariance = judged.variance / blocks.kept * (inverse * product * inverse);
       }
   double most = -std::numeric_limits<double>::infinity();
@@ -248,8 +244,9 @@ double half_width(const std::vector<Process>& all, Eigen::Index i,
   return numerics::change({0.0, std::sqrt(most) * students.back()}, 1e-6, exceeded).middle();
 }
 
-}  // namespace
-
+// The covariance that rounding to steps adds: rows of one step in a row share one error, uniform
+// over the step. Empty where the values are not multiples of a step, or differ from row to row.
+//                                                                            docs/theory.md (119)
 std::vector<double> quantised_covariance(std::span<const double> values,
                                          std::span<const double> jacobian,
                                          std::span<const double> inverse) {
@@ -285,9 +282,11 @@ std::vector<double> quantised_covariance(std::span<const double> values,
   return {covariance.data(), covariance.data() + covariance.size()};
 }
 
-std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals,
-                                               std::span<const double> jacobian,
-                                               std::size_t unknowns) {
+}  // namespace
+
+std::optional<ResidualErrors> autocorrelation(std::span<const double> residuals,
+                                              std::span<const double> jacobian,
+                                              std::size_t unknowns) {
   const auto n = static_cast<Eigen::Index>(residuals.size());
   const auto p = static_cast<Eigen::Index>(unknowns);
   if (n < 20 || n <= 2 * p + 2 || jacobian.size() != residuals.size() * unknowns)
@@ -303,7 +302,7 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
 
   const Products products = products_of(rows);
   const auto degrees = static_cast<double>(n - p);
-  Autocorrelation found;
+  ResidualErrors found;
   found.rho = best_rho(products, degrees);
   const Likelihood at = likelihood(products, found.rho, degrees);
   const Likelihood white = likelihood(products, 0.0, degrees);
@@ -315,14 +314,8 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
   const Blocks blocks = blocks_of(rows, inverse);
   const std::vector<Process> all = processes(blocks, inverse, n);
   if (all.empty()) return std::nullopt;
-  const double scatter = rows.col(p).squaredNorm() / degrees;
   Matrix sandwich = Matrix::Zero(p, p);
-  double of_mean = 0.0;
-  for (const Process& one : all) {
-    sandwich += one.weight * one.covariance;
-    of_mean += one.weight * one.of_mean;
-  }
-  found.effective_size = scatter / of_mean;
+  for (const Process& one : all) sandwich += one.weight * one.covariance;
   found.degrees = static_cast<double>(blocks.means.rows() - p);
   constexpr int levels = 400;
   std::vector<double> students;  // |t| at even probabilities
@@ -337,6 +330,32 @@ std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals
   for (Eigen::Index i = 0; i < p; ++i)
     for (Eigen::Index k = 0; k < p; ++k)
       found.covariance[as_index(i * p + k)] = sandwich(i, k) / (scale[i] * scale[k]);
+  return found;
+}
+
+ResidualErrors errors_of(std::span<const double> residuals, std::span<const double> jacobian,
+                         std::span<const double> inverse,
+                         std::span<const std::span<const double>> records) {
+  const std::size_t n = residuals.size();
+  const std::size_t p = jacobian.size() / n;
+  double squares = 0.0;
+  for (const double each : residuals) squares += each * each;
+  ResidualErrors white{.degrees = static_cast<double>(n - p), .covariance = {}};
+  for (const double each : inverse) white.covariance.push_back(each * squares / white.degrees);
+  ResidualErrors found = white;
+  if (squares > 1e-18 * static_cast<double>(n))
+    if (auto correlated = autocorrelation(residuals, jacobian, p)) found = std::move(*correlated);
+  std::size_t from = 0;
+  for (const std::span<const double> values : records) {
+    const auto rounded =
+        quantised_covariance(values, jacobian.subspan(from * p, values.size() * p), inverse);
+    for (std::size_t i = 0; i < rounded.size(); ++i) found.covariance[i] += rounded[i];
+    from += values.size();
+  }
+  double log_sum = 0.0;
+  for (std::size_t i = 0; i < p * p && squares > 0.0; i += p + 1)
+    log_sum += std::log(found.covariance[i] / white.covariance[i]);
+  found.factor = std::exp(log_sum / static_cast<double>(p));
   return found;
 }
 

@@ -7,13 +7,24 @@
 
 namespace palpate::fit {
 
-// Residuals whose neighbours correlate.
-struct Autocorrelation {
-  double rho = 0.0;                // correlation of neighbours, 0 to 0.999
+// What residuals say of the errors of the unknowns.
+struct ResidualErrors {
+  double rho = 0.0;                // correlation of neighbours, 0 to 0.999; 0 if independent
   double degrees = 0.0;            // of freedom, for Student's t
-  double effective_size = 0.0;     // independent rows whose mean is as well known
-  std::vector<double> covariance;  // of the unknowns, by rows: the sandwich of docs/theory.md (101)
+  std::vector<double> covariance;  // of the unknowns, by rows
+  // Geometric mean of their variances over those of independent residuals: n rows are worth n over
+  // this many independent ones.
+  double factor = 1.0;
 };
+
+// Of the residuals of a least-squares fit, with `inverse` = (J^T J)^-1 by rows: the covariance of
+// independent residuals, or that below of correlated ones, and what rounding of `records` to steps
+// adds. The records, one after the other, are the values that were fitted, in the scale of the
+// residuals; residuals below 1e-9 count as independent.
+[[nodiscard]] ResidualErrors errors_of(std::span<const double> residuals,
+                                       std::span<const double> jacobian,
+                                       std::span<const double> inverse,
+                                       std::span<const std::span<const double>> records);
 
 // rho by restricted maximum likelihood, which takes the fitted unknowns into account, and the
 // covariance of the ordinary estimates, with the 95 % intervals of white noise with slow noise of
@@ -21,15 +32,8 @@ struct Autocorrelation {
 // residual, in the order of time. Nothing if the likelihood ratio against independent residuals is
 // below 2.71 (5 %, one-sided), for fewer than 20 residuals, and if the jacobian lacks full rank.
 //                        docs/theory.md (100), (101), (118); Harville 1977, J. Am. Stat. Assoc. 72
-[[nodiscard]] std::optional<Autocorrelation> autocorrelation(std::span<const double> residuals,
-                                                             std::span<const double> jacobian,
-                                                             std::size_t unknowns);
-
-// The covariance that rounding to steps adds: rows of one step in a row share one error, uniform
-// over the step. `values` are those that were fitted, `inverse` is (J^T J)^-1. Empty where they are
-// not multiples of a step, or differ from row to row.                        docs/theory.md (119)
-[[nodiscard]] std::vector<double> quantised_covariance(std::span<const double> values,
-                                                       std::span<const double> jacobian,
-                                                       std::span<const double> inverse);
+[[nodiscard]] std::optional<ResidualErrors> autocorrelation(std::span<const double> residuals,
+                                                            std::span<const double> jacobian,
+                                                            std::size_t unknowns);
 
 }  // namespace palpate::fit

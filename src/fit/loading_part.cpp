@@ -39,14 +39,31 @@ std::vector<Branch> branches_of(std::span<const double> x, double share) {
 }
 
 OneWay one_way(std::span<const double> depth, Way way) {
-  const auto low = std::min_element(depth.begin(), depth.end());
-  const auto high = std::max_element(depth.begin(), depth.end());  // the first of several
-  const double back = *high - 0.1 * (*high - *low);
-  const auto away = [&](double each) { return each < back; };
-  const bool turns = std::any_of(high, depth.end(), away) && std::any_of(depth.begin(), high, away);
-  const auto deepest = static_cast<std::size_t>(high - depth.begin());
-  if (!turns || way == Way::all) return {0, depth.size()};
-  return way == Way::approach ? OneWay{0, deepest + 1} : OneWay{deepest, depth.size()};
+  const auto [low, high] = std::minmax_element(depth.begin(), depth.end());
+  OneWay part{0, depth.size()};
+  const std::vector<Branch> branches = branches_of(depth);
+  for (std::size_t k = 0; k < branches.size(); ++k) {
+    if (!branches[k].up || depth[branches[k].to - 1] < *high - 0.1 * (*high - *low)) continue;
+    if (++part.loadings > 1 || way == Way::all) continue;
+    if (way == Way::approach)
+      part.to = branches[k].to;
+    else if (k + 1 < branches.size())
+      part = {branches[k].to - 1, branches[k + 1].to, part.loadings};
+  }
+  return part;
+}
+
+std::size_t rows_before_break(std::span<const double> force) {
+  if (force.size() < 4) return force.size();
+  const auto [least, peak] = std::minmax_element(force.begin(), force.end());
+  if (*peak - force[0] < 0.5 * (*peak - *least)) return force.size();  // negative in compression
+  const auto beyond = static_cast<std::size_t>(force.end() - peak) - 1;
+  if (beyond < 3) return force.size();
+  double mean = 0.0;
+  for (auto each = peak + 1; each != force.end(); ++each)
+    mean += *each / static_cast<double>(beyond);
+  const double clear = 0.1 * (*peak - force[0]) + 4.0 * noise_of(force);
+  return *peak - mean > clear ? force.size() - beyond : force.size();
 }
 
 std::size_t rows_before_fall(std::span<const double> stress, double share) {

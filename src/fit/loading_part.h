@@ -24,12 +24,17 @@ struct Branch {
 
 enum class Way { approach, retract, all };
 
-// Of a curve that goes in and out, the rows up to the deepest one, or those from there on;
-// otherwise all of them. A curve turns back if its last rows are a tenth of the range above the
-// deepest.
+// Of a curve that goes in and out, the rows up to its first turn within a tenth of the range of the
+// deepest one, or those from there to the next turn; otherwise all of them.
 struct OneWay {
   std::size_t from = 0, to = 0;
+  std::size_t loadings = 0;  // that reach so deep
 };
 [[nodiscard]] OneWay one_way(std::span<const double> depth, Way way);
+
+// The number of rows of a loading up to the largest force, where those beyond are lower on average
+// by more than a tenth of its rise and four deviations of its noise: the specimen gave way.
+// Otherwise all rows.
+[[nodiscard]] std::size_t rows_before_break(std::span<const double> force);
 
 }  // namespace palpate::fit

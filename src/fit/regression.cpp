@@ -72,23 +72,18 @@ void set_errors(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
   const std::size_t count = fit.parameters.size();
   const std::span<const double> scale = scaling.parameters;
   double degrees = fit.n - static_cast<double>(count);
-  const double variance = minimum.squares / degrees;
-  fit.covariance.resize(count * count);
-  for (std::size_t i = 0; i < count * count; ++i)
-    fit.covariance[i] = minimum.inverse_normal[i] * variance;
-  // Residuals of 1e-9 of the curve are rounding.
-  if (scaling.residuals == Residuals::correlated && minimum.squares > 1e-18 * fit.n)
-    if (const auto found = autocorrelation(minimum.residuals, minimum.jacobian, count)) {
-      fit.rho = found->rho;
-      fit.effective_size = found->effective_size;
-      fit.covariance = found->covariance;
-      degrees = found->degrees;
-    }
-  if (scaling.residuals == Residuals::correlated)
-    if (const auto rounded =
-            quantised_covariance(scaling.y, minimum.jacobian, minimum.inverse_normal);
-        !rounded.empty())
-      for (std::size_t i = 0; i < count * count; ++i) fit.covariance[i] += rounded[i];
+  if (scaling.residuals == Residuals::correlated) {
+    const std::span<const double> y(scaling.y);
+    ResidualErrors found =
+        errors_of(minimum.residuals, minimum.jacobian, minimum.inverse_normal, {&y, 1});
+    fit.rho = found.rho;
+    if (found.rho > 0.0) fit.effective_size = fit.n / found.factor;
+    fit.covariance = std::move(found.covariance);
+    degrees = found.degrees;
+  } else {
+    for (const double each : minimum.inverse_normal)
+      fit.covariance.push_back(each * minimum.squares / degrees);
+  }
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) fit.covariance[i * count + j] *= scale[i] * scale[j];
   const double t = numerics::student_t_quantile(0.975, degrees);

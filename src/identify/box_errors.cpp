@@ -16,6 +16,12 @@ constexpr double loose_half_width = 0.5;  // of the box, at 95 %
 constexpr double least_sigma = 1e-5;
 constexpr double least_slope = 1e-6;  // of the steepest direction
 
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+Eigen::Map<const Matrix> slopes_of(std::span<const double> jacobian, std::size_t unknowns) {
+  const std::size_t rows = jacobian.size() / unknowns;
+  return {jacobian.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(unknowns)};
+}
+
 bool has(const std::string& key, const char* ending) { return key.ends_with(ending); }
 
 // d ln p / du, and dp / du with p in the unknown's unit.
@@ -29,13 +35,20 @@ std::string with_exponent(const std::string& text, double exponent) {
 
 }  // namespace
 
+std::vector<double> determined_directions(std::span<const double> jacobian, std::size_t unknowns) {
+  const Eigen::Map<const Matrix> slopes = slopes_of(jacobian, unknowns);
+  if (slopes.rows() <= slopes.cols() || !slopes.allFinite()) return {};
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(slopes, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& sizes = svd.singularValues();
+  const auto count = (sizes.array() > least_slope * sizes[0]).count();
+  const Matrix directions = svd.matrixU().leftCols(count);
+  return {directions.data(), directions.data() + directions.size()};
+}
+
 BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns, double sigma, double t,
                      int weakest) {
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto n = static_cast<Eigen::Index>(unknowns);
-  const Eigen::Map<const Matrix> slopes(jacobian.data(),
-                                        static_cast<Eigen::Index>(jacobian.size() / unknowns), n);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(slopes, Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(slopes_of(jacobian, unknowns), Eigen::ComputeThinV);
   const double noise = std::max(sigma, least_sigma);
   BoxErrors errors;
   errors.tied.assign(unknowns, 0);

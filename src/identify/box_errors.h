@@ -27,6 +27,11 @@ struct BoxErrors {
 [[nodiscard]] BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
                                    double sigma, double t, int weakest = 0);
 
+// The directions of the residuals, of length 1 and one row per point, along which the unknowns of a
+// jacobian change them by more than 1e-6 of the steepest; none where it is not finite.
+[[nodiscard]] std::vector<double> determined_directions(std::span<const double> jacobian,
+                                                        std::size_t unknowns);
+
 // The combination of the tied unknowns that the data determine; nothing unless there is just one.
 [[nodiscard]] std::optional<Combination> combination(const BoxErrors& errors,
                                                      std::span<const Unknown> unknowns,

@@ -11,6 +11,7 @@
 #include "base/numerics.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
+#include "fit/correlated.h"
 #include "fit/residual_tests.h"
 #include "fit/step_origin.h"
 #include "identify/box_errors.h"
@@ -20,7 +21,6 @@
 #include "identify/prepare_curve.h"
 #include "identify/search_starts.h"
 #include "identify/warnings.h"
-#include "identify/widening.h"
 #include "scenario/integrators.h"
 
 namespace palpate::identify {
@@ -333,21 +333,32 @@ class Search {
     return key.ends_with(".young_modulus") || key.ends_with(".poisson_ratio");
   }
 
-  // Correlated residuals: the variance of the residuals is multiplied by the mean ratio of the
-  // variances with and without correlation.                        docs/theory.md (100), (101),
-  // (105)
+  // Correlated residuals, and values rounded to steps: the variance of the residuals is multiplied
+  // by the mean ratio of the variances to those of independent ones, over the directions of the box
+  // that the data determine.                           docs/theory.md (100), (101), (105), (119)
   void widen_for_correlation() {
-    std::vector<double> residuals;
-    for (std::size_t i = 0; i < found_.x.size(); ++i)
+    const std::size_t n = found_.x.size();
+    std::vector<double> residuals, scaled;
+    for (std::size_t i = 0; i < n; ++i) {
       residuals.push_back((found_.model[i] - found_.measured[i]) * weights_[i]);
+      scaled.push_back(found_.measured[i] * weights_[i]);
+    }
     systematic_ = fit::systematic(residuals);  // not by chance
-    found_.effective_size = static_cast<double>(found_.x.size());
-    const auto widened = widening(residuals, best_.jacobian, unknowns_.size());
-    if (!widened) return;
-    found_.rho = widened->rho;
-    found_.effective_size = widened->effective_size;
-    sigma_ *= std::sqrt(widened->factor);
-    t_ = numerics::student_t_quantile(0.975, widened->degrees);
+    found_.effective_size = static_cast<double>(n);
+    const std::vector<double> directions = determined_directions(best_.jacobian, unknowns_.size());
+    if (directions.empty()) return;
+    const std::size_t count = directions.size() / n;
+    std::vector<double> inverse(count * count, 0.0);
+    for (std::size_t i = 0; i < count; ++i) inverse[i * count + i] = 1.0;  // of length 1
+    std::vector<std::span<const double>> records;
+    for (const Part& part : parts_)
+      records.emplace_back(scaled.data() + part.from, part.to - part.from);
+    const fit::ResidualErrors errors = fit::errors_of(residuals, directions, inverse, records);
+    found_.rho = errors.rho;
+    sigma_ *= std::sqrt(std::max(errors.factor, 1.0));
+    if (errors.rho == 0.0) return;
+    found_.effective_size = static_cast<double>(n) / std::max(errors.factor, 1.0);
+    t_ = numerics::student_t_quantile(0.975, errors.degrees);
   }
 
   // Errors of the `moving` unknowns alone; the others get no variance.
@@ -504,6 +515,7 @@ class Search {
     const double range = 1.0 / *std::max_element(weights_.begin(), weights_.end());
     found_.noise = noise_ * std::sqrt(first.rows_each) *
                    (options_.noise == Noise::constant && !joint() ? range : 1.0);
+    found_.threshold = t_ * t_;
     found_.durbin_watson = fit::durbin_watson(weighted);
     found_.runs_z = fit::runs_z(weighted);
     if (options_.model_error) widen_by_model();

@@ -82,10 +82,11 @@ struct Identification {
   std::vector<double> correlation;  // row by row; NaN for unknowns that are tied or at a bound
   std::vector<double> x, measured, model;  // SI, of the points used
   std::vector<ProfilePoint> profile;
-  double rmse = 0.0;   // SI
-  double r2 = 0.0;     // docs/theory.md (53)
-  double noise = 0.0;  // standard deviation, SI; relative noise: a ratio
-  double rho = 0.0;    // correlation of neighbouring residuals; 0 where taken as independent
+  double threshold = 0.0;  // of their `delta`, at the ends of the 95 % intervals
+  double rmse = 0.0;       // SI
+  double r2 = 0.0;         // docs/theory.md (53)
+  double noise = 0.0;      // standard deviation, SI; relative noise: a ratio
+  double rho = 0.0;        // correlation of neighbouring residuals; 0 where taken as independent
   double effective_size = 0.0;        // independent points of the same worth
   std::optional<double> deep_effect;  // relative change of the force by the deep-press factor
   double durbin_watson = 2.0;

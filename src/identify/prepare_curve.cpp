@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "fit/loading_part.h"
 #include "identify/averaged.h"
 #include "identify/fixed_rung.h"
 #include "identify/lengthen.h"
@@ -133,12 +134,19 @@ class Preparation {
     // If the finger withdraws, only the points up to the deepest travel are used.
     std::size_t count = measured_.x.size();
     if (travel && count > 0) {
-      const auto [least, most] = std::minmax_element(measured_.x.begin(), measured_.x.end());
-      const double back = *most - 0.1 * (*most - *least);
-      if (std::any_of(most, measured_.x.end(), [&](double x) { return x < back; }))
-        count = as_index(most - measured_.x.begin()) + 1;
-      note_left_out(static_cast<int>(measured_.x.size() - count),
-                    "the way back from the deepest travel");
+      const auto part = fit::one_way(measured_.x, fit::Way::approach);
+      if (part.loadings == 0)
+        refuse("`" + measured_.x_name +
+               "` falls from its first row to its last: these are rows of the way back, and the "
+               "way in is computed; choose other rows, or fit them by `palpate fit --segment "
+               "retract`");
+      if (part.loadings > 1)
+        found_.notes.push_back("the first of " + std::to_string(part.loadings) +
+                               " loadings is fitted; `--rows` chooses the rows of another");
+      note_left_out(static_cast<int>(count - part.to),
+                    part.loadings > 1 ? "the way back, and other loadings"
+                                      : "the way back from the deepest travel");
+      count = part.to;
     }
     if (kind_ == CurveKind::stress_strain) {
       // A hold, whose strain is noisy, begins within a thousandth of the largest strain.
@@ -147,6 +155,12 @@ class Preparation {
                                      [&](double x) { return x >= 0.999 * most; });
       count = as_index(held - measured_.x.begin()) + 1;
       note_left_out(static_cast<int>(measured_.x.size() - count), "after the largest strain");
+    }
+    if (travel || kind_ == CurveKind::stress_strain) {
+      const auto whole = fit::rows_before_break({measured_.y.data(), count});
+      note_left_out(static_cast<int>(count - whole),
+                    "beyond the largest load, from which it falls by over 10 %");
+      count = whole;
     }
     int beyond = 0;
     int before = 0;

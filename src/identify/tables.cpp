@@ -5,7 +5,6 @@
 #include <cctype>
 #include <cmath>
 
-#include "base/numerics.h"
 #include "base/text.h"
 
 namespace palpate::identify {
@@ -24,8 +23,17 @@ std::string with_unit(double value, const std::string& unit) {
   return rounded_text(value, 4) + (unit.empty() ? "" : " " + unit);
 }
 
-std::string interval_text(const Interval& interval, const Unknown& unknown) {
+// Residuals below a millionth of the curve are rounding, of the file's digits or the computation's.
+bool is_exact(const Identification& found) {
+  const auto [least, most] = std::minmax_element(found.measured.begin(), found.measured.end());
+  return found.rmse < 1e-6 * (*most - *least);
+}
+
+std::string interval_text(const Interval& interval, const Unknown& unknown, bool exact) {
   const std::string unit = unknown.unit_text();
+  if (interval.low && interval.high && exact &&
+      rounded_text(*interval.low, 4) == rounded_text(*interval.high, 4))
+    return "exact to rounding";
   if (interval.low && interval.high)
     return rounded_text(*interval.low, 4) + " to " + with_unit(*interval.high, unit);
   if (interval.high) return "at most " + with_unit(*interval.high, unit);
@@ -134,13 +142,11 @@ record::Table residual_table(const Identification& found) {
 record::Table profile_table(const Identification& found) {
   record::Table table;
   table.columns = {"unknown", "unit", "value", "delta", "threshold"};
-  const double t = numerics::student_t_quantile(
-      0.975, static_cast<double>(found.x.size() - found.unknowns.size()));
   for (const ProfilePoint& point : found.profile) {
     const Unknown& unknown = found.unknowns[point.unknown].unknown;
     const std::string unit = unknown.unit_text();
     table.rows.push_back({unknown.name(), unit.empty() ? Cell() : Cell(unit),
-                          unknown.shown(point.value), point.delta, t * t});
+                          unknown.shown(point.value), point.delta, found.threshold});
   }
   return table;
 }
@@ -155,7 +161,7 @@ std::vector<std::string> identified_sentences(const Identification& found) {
       line += "not determined by itself";
     else
       line += with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()) +
-              "  (95 %: " + interval_text(trusted(one), one.unknown) +
+              "  (95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
               (one.by_profile ? ", by profile)" : ")") +
               (one.at_bound ? "  on the edge of its range" : "");
     lines.push_back(line);

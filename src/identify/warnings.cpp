@@ -25,8 +25,8 @@ std::vector<std::string> warnings_of(const Identification& found,
         " independent ones; the bias of a wrong model is not in them");
   if (found.rho > 0.0 && found.effective_size < 10.0 && residuals.noise > 1e-3)
     warnings.emplace_back(
-        "the points are worth fewer than 10 independent ones, for which the intervals are too "
-        "narrow; record a longer curve");
+        "the points are worth fewer than 10 independent ones, which cannot tell noise from a law "
+        "that does not fit; record a longer curve");
   if (found.r2 < 0.9)
     warnings.push_back("R^2 is " + rounded_text(found.r2, 3) +
                        ", so that the model describes the curve poorly, and the estimates mean "

@@ -24,6 +24,25 @@ std::vector<std::string> names_of(const RawTable& table) {
 
 }  // namespace
 
+std::string why_no_number(const std::string& text) {
+  const std::string word = lower_case(text);
+  const bool digits = text.find_first_of("0123456789") != std::string::npos;
+  const bool only =
+      digits && text.find_first_not_of("0123456789:.,' \u00a0-+/") == std::string::npos;
+  if (only && text.find(':') != std::string::npos)
+    return "which is a time of day or minutes and seconds; write the column in seconds, or name a "
+           "column of numbers";
+  if (only && text.find_first_of(",' ") != std::string::npos)
+    return "whose marks between thousands are no part of a number; save the numbers without them, "
+           "as `1234.5`";
+  for (const char* range :
+       {"over", "ovl", "ovf", "sat", "out of range", "off scale", "under", "o.l", "****", "----"})
+    if (word.find(range) != std::string::npos)
+      return "which says that the instrument was out of its range there; leave such rows out by "
+             "`--rows` or `--where`, or delete them";
+  return "which is no number; name a column of numbers";
+}
+
 std::vector<std::size_t> columns_named(const RawTable& table, const std::string& word) {
   std::vector<std::size_t> found;
   const auto look = [&](const auto& is_it) {
@@ -135,6 +154,11 @@ std::size_t only_column(const RawTable& table, Role role) {
     if (measured_number(table.rows.front().fields[i].text, table.decimal) ||
         measured_number(table.rows.back().fields[i].text, table.decimal))
       numeric.push_back(i);
+  for (std::size_t i = 0; i < names.size() && numeric.size() < 2; ++i)
+    if (const Piece& word = table.rows.front().fields[i];
+        std::find(numeric.begin(), numeric.end(), i) == numeric.end())
+      throw InputError({table.file, table.rows.front().line, word.column},
+                       "`" + names[i] + "` holds `" + word.text + "`, " + why_no_number(word.text));
   if (numeric.size() == 2) {
     const bool turned = is_abscissa(table, numeric[1]) && !is_abscissa(table, numeric[0]);
     return numeric[(role == Role::x) == turned ? 1 : 0];

@@ -34,6 +34,9 @@ enum class Role { x, y };
 [[nodiscard]] std::size_t named_index(const RawTable& table, const std::string& word,
                                       const std::string& asked);
 
+// Why a cell holds no number, with the remedy: "which is a time of day ...; write ...".
+[[nodiscard]] std::string why_no_number(const std::string& text);
+
 // The unit that the file gives to a column.
 [[nodiscard]] std::optional<WrittenUnit> file_unit(const RawTable& table, std::size_t index);
 

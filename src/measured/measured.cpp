@@ -16,33 +16,13 @@
 namespace palpate::measured {
 namespace {
 
-// Why a word is no number, with the remedy.
-std::string reason_of(const std::string& text) {
-  const std::string word = lower_case(text);
-  const bool digits = text.find_first_of("0123456789") != std::string::npos;
-  const bool only =
-      digits && text.find_first_not_of("0123456789:.,' \u00a0-+/") == std::string::npos;
-  if (only && text.find(':') != std::string::npos)
-    return "which is a time of day or minutes and seconds; write the column in seconds, or name a "
-           "column of numbers";
-  if (only && text.find_first_of(",' ") != std::string::npos)
-    return "whose marks between thousands are no part of a number; save the numbers without them, "
-           "as `1234.5`";
-  for (const char* range :
-       {"over", "ovl", "ovf", "sat", "out of range", "off scale", "under", "o.l", "****", "----"})
-    if (word.find(range) != std::string::npos)
-      return "which says that the instrument was out of its range there; leave such rows out by "
-             "`--rows` or `--where`, or delete them";
-  return "which is no number; name a column of numbers";
-}
-
 double number_of(const RawTable& table, const RawRow& row, const Column& column) {
   const Piece& field = row.fields[column.index];
   const auto number = measured_number(field.text, table.decimal);
   const Place place{table.file, row.line, field.column};
   if (!number)
-    throw InputError(place,
-                     "`" + column.name + "` holds `" + field.text + "`, " + reason_of(field.text));
+    throw InputError(
+        place, "`" + column.name + "` holds `" + field.text + "`, " + why_no_number(field.text));
   // The words `inf` and `nan` mean a row without a number; digits beyond all doubles are an error.
   if (std::isinf(*number) && field.text.find_first_of("0123456789") != std::string::npos)
     throw InputError(place, out_of_range_text(field.text));

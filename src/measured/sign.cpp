@@ -42,7 +42,11 @@ Span span_of(const std::vector<double>& values, double start) {
   return span;
 }
 
-[[noreturn]] void refuse(const MeasuredCurve& curve) {
+[[noreturn]] void refuse(const MeasuredCurve& curve, const Span& span) {
+  if (span.up == 0.0 && span.down == 0.0)
+    throw InputError(
+        {curve.file, 0, 0},
+        "`" + curve.y_axis.column + "` is the same at every point; name another column with `--y`");
   throw InputError({curve.file, 0, 0},
                    "`" + curve.y_axis.column +
                        "` both rises and falls from its start, so that "
@@ -51,22 +55,23 @@ Span span_of(const std::vector<double>& values, double start) {
 }
 
 // Whether the load is negative in compression.
-bool load_is_negative(const MeasuredCurve& curve) {
-  // Over a length the load starts at rest; over time it may start at its peak, so that 0 is used.
+bool load_is_negative(const MeasuredCurve& curve, std::size_t rest) {
+  // Over a length the load is at rest at one end; over time it may start at its peak, so that 0 is
+  // used.
   const bool along = curve.x_axis.dimension == length ||
                      (curve.x_axis.has_unit && curve.x_axis.dimension == Dimension{});
-  const Span span = span_of(curve.y, along ? curve.y.front() : 0.0);
+  const Span span = span_of(curve.y, along ? curve.y[rest] : 0.0);
   if (span.down >= clear * span.up && span.down > 0.0) return true;
   if (span.up >= clear * span.down && span.up > 0.0) return false;
-  refuse(curve);
+  refuse(curve, span);
 }
 
 // Changes the sign of x if it is a length or a strain that decreases while the load grows.
-void turn_length(MeasuredCurve& curve) {
+void turn_length(MeasuredCurve& curve, std::size_t rest) {
   const bool strain = curve.x_axis.has_unit && curve.x_axis.dimension == Dimension{};
   if ((curve.x_axis.dimension != length && !strain) || !is_load(curve.y_axis.dimension)) return;
-  const std::size_t peak = span_of(curve.y, curve.y.front()).peak;
-  if (curve.x[peak] >= curve.x.front()) return;
+  const std::size_t peak = span_of(curve.y, curve.y[rest]).peak;
+  if (curve.x[peak] >= curve.x[rest]) return;
   turn(curve.x, curve.x_written);
   curve.notes.push_back("`" + curve.x_axis.column + "` falls as the load grows; sign changed");
 }
@@ -85,12 +90,13 @@ void orient(MeasuredCurve& curve, const DataLayout& layout) {
                                              "` is no load, to which `--compression negative` "
                                              "could apply; name a column of forces with `--y`");
   }
-  const bool negative = said == "negative" || load_is_negative(curve);
+  const std::size_t rest = layout.segment.starts_with("retract") ? curve.y.size() - 1 : 0;
+  const bool negative = said == "negative" || load_is_negative(curve, rest);
   if (negative) {
     turn(curve.y, curve.y_written);
     curve.notes.push_back("`" + curve.y_axis.column + "` is negative in compression; sign changed");
   }
-  turn_length(curve);
+  turn_length(curve, rest);
 }
 
 }  // namespace palpate::measured

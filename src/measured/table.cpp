@@ -33,6 +33,11 @@ std::optional<double> measured_number(std::string_view given, char decimal) {
     if (const auto number = leading_number(given); number && number->rest.empty())
       return number->out_of_range ? std::numeric_limits<double>::infinity() : number->value;
   std::string text(given);
+  for (std::size_t at = 0; (at = text.find("\u2212")) != std::string::npos;)
+    text.replace(at, 3, "-");  // the minus of typesetters
+  if (const auto power = text.find_first_of("Dd");
+      power != std::string::npos && text.find('.') < power && is_digit(text.back()))
+    text[power] = 'e';  // 1.5D+03 of Fortran
   if (says_nothing(text)) return std::numeric_limits<double>::quiet_NaN();
   if (decimal == ',') {
     const std::size_t comma = text.find(',');

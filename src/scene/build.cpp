@@ -282,9 +282,9 @@ double Scene::thickness() const { return specimen ? specimen->height() : choice.
 
 namespace {
 
-void set_layer(Scene& scene, SpecimenShapes& shapes) {
+void set_layer(Scene& scene) {
   const contact::Layer layer = layers_of(scene.scenario, 1.0 - scene.finger.compliance_share);
-  scene.layer = make_layer(scene.scenario, scene.finger, shapes.layer_law(layer));
+  scene.layer = make_layer(scene.scenario, scene.finger, layer_law(layer));
 }
 
 void set_depth_ratio(Scene& scene, const scenario::Family& family) {
@@ -307,7 +307,7 @@ void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& 
   if (!scenario.uniform() && scenario.contact.coupling == contact::Coupling::consistent &&
       std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape) &&
       !scenario.regions.empty() && all_slabs(scenario))
-    set_layer(scene, shapes);
+    set_layer(scene);
   scene.specimen->plan = plan_time(scenario, *scene.specimen, contact_rate(scene));
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);
@@ -367,7 +367,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   refuse_misplaced(scenario, family, shapes);
   switch (scenario.solver.model) {
     case Model::hertz: break;
-    case Model::layer: set_layer(scene, shapes); break;
+    case Model::layer: set_layer(scene); break;
     case Model::mass_spring:
     case Model::coupled_springs: set_specimen(scene, family, shapes); break;
     case Model::solid: scene.solid = make_solid_body(scene, family.folder, shapes); break;

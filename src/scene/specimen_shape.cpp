@@ -199,39 +199,38 @@ std::vector<double> numbers_of(const contact::Layer& layer) {
   return numbers;
 }
 
-// A search that varies nu needs a new layer every time; at this number all tables are removed.
-constexpr std::size_t most_layers = 100;
+// Of the whole process, so that the tests of a joint identification share them. A search that
+// varies nu needs a new layer every time; at this number all are removed.
+template <class Value>
+struct KeptLayers {
+  static constexpr std::size_t most = 100;
+  std::mutex looking_up;
+  std::map<std::vector<double>, std::shared_ptr<const Value>> all;
+
+  // Two threads may make the same one; both have the same bits.
+  std::shared_ptr<const Value> of(const contact::Layer& layer) {
+    const std::vector<double> key = numbers_of(layer);
+    {
+      const std::lock_guard lock(looking_up);
+      if (const auto known = all.find(key); known != all.end()) return known->second;
+    }
+    auto made = std::make_shared<const Value>(layer);
+    const std::lock_guard lock(looking_up);
+    if (all.size() >= most) all.clear();
+    return all.emplace(key, std::move(made)).first->second;
+  }
+};
 
 }  // namespace
 
-contact::LayerLaw SpecimenShapes::layer_law(const contact::Layer& layer) {
-  if (!layer.below.empty()) {
-    const std::vector<double> key = numbers_of(layer);
-    {
-      const std::lock_guard lock(looking_up_layer_);
-      if (const auto known = laws_.find(key); known != laws_.end()) return known->second;
-    }
-    contact::LayerLaw law(layer);  // two threads may build the same one; both have the same bits
-    const std::lock_guard lock(looking_up_layer_);
-    if (laws_.size() >= most_layers) laws_.clear();
-    laws_.emplace(key, law);
-    return law;
-  }
+contact::LayerLaw layer_law(const contact::Layer& layer) {
+  static KeptLayers<contact::LayerLaw> stacks;
+  static KeptLayers<contact::LayerTable> tables;
+  if (!layer.below.empty()) return *stacks.of(layer);
   // Of one layer the table serves every finger and modulus.
   contact::Layer any = layer;
   any.share = 1.0;
-  const std::vector<double> key = numbers_of(any);
-  {
-    const std::lock_guard lock(looking_up_layer_);
-    if (const auto known = tables_.find(key); known != tables_.end())
-      return {known->second, layer.share};
-  }
-  contact::LayerTable table(any);
-  contact::LayerLaw law(table, layer.share);
-  const std::lock_guard lock(looking_up_layer_);
-  if (tables_.size() >= most_layers) tables_.clear();
-  tables_.emplace(key, std::move(table));
-  return law;
+  return {*tables.of(any), layer.share};
 }
 
 }  // namespace palpate::scene

@@ -82,9 +82,6 @@ class SpecimenShapes {
   // The number of shapes.
   [[nodiscard]] std::size_t size();
 
-  // The table of a layer; building it takes as long as a thousand presses.
-  [[nodiscard]] contact::LayerLaw layer_law(const contact::Layer& layer);
-
  private:
   struct Entry {
     std::mutex building;
@@ -102,10 +99,9 @@ class SpecimenShapes {
   std::map<std::string, FileSurface> surfaces_;  // by path, unit, turn and what is asked of it
 
   std::map<std::string, std::pair<std::mutex, std::optional<Numbers>>> numbers_;
-
-  std::mutex looking_up_layer_;
-  std::map<std::vector<double>, contact::LayerLaw> laws_;      // of stacks, by all their numbers
-  std::map<std::vector<double>, contact::LayerTable> tables_;  // of one layer, likewise
 };
+
+// The table of a layer; building it takes as long as a thousand presses.
+[[nodiscard]] contact::LayerLaw layer_law(const contact::Layer& layer);
 
 }  // namespace palpate::scene

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Writes curves with noise into a folder and prints what scipy fits to them, to compare with `palpate fit`:
-`fit_scipy.py FOLDER [PYRHEO NANITE]`, the last two are checkouts of these programs, whose laws scipy then fits too."""
+`fit_scipy.py FOLDER [PYRHEO NANITE]`, the last two are checkouts of these programs, whose laws scipy then fits too.
+The last lines count the words, apart by blanks, that palpate's command and the shortest script with scipy take."""
 
 import sys
 import types
@@ -9,6 +10,33 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq, curve_fit, least_squares
 from scipy.special import gamma
+
+
+COMMANDS = {
+    "spring_pot": "palpate fit spring_pot.csv --model spring_pot",
+    "liquid": "palpate fit liquid.csv --model prony --terms 1 --liquid --origin 0",
+    "hertz": 'palpate fit hertz.csv --model hertz --radius "5 mm" --poisson 0.5 --baseline offset',
+    "jkr": 'palpate fit jkr.csv --model adhesive --radius "2.5 um" --poisson 0.5',
+}
+HEAD = "import numpy as np from scipy.optimize import curve_fit x, y = np.loadtxt('FILE', delimiter=',', skiprows=1).T "
+TAIL = " p, c = curve_fit(law, x, y, p0=START) print(p, np.sqrt(np.diag(c)))"
+SCRIPTS = {
+    "spring_pot": "from scipy.special import gamma law = lambda t, c, b: c * t**-b / gamma(1 - b)",
+    "liquid": "law = lambda t, y, tau: y * np.exp(-t / tau)",
+    "hertz": "law = lambda h, e, c, f: 4 / 3 * e / 0.75 * np.sqrt(5e-3) * np.maximum(h - c, 0) ** 1.5 + f",
+    "jkr": """from scipy.optimize import brentq
+        def law(h, e, w, c, f):
+            s = (np.pi * w * R**2 / 8 / e) ** (1 / 3)
+            d = (h - c) * R / s**2
+            x = [brentq(lambda x: x * x - 4 * np.sqrt(x) - one, 1, 1e3) if one > -3 else 1 for one in d]
+            x = np.array(x)
+            return np.where(np.arange(len(h)) < 301, np.pi * w * R / 6 * (x**3 - 6 * x**1.5), 0) + f""",
+}
+
+
+def words():
+    for name, command in COMMANDS.items():
+        print(f"{name}: {len(command.split())} words by palpate, {len((HEAD + SCRIPTS[name] + TAIL).split())} by scipy")
 
 
 def save(path, names, x, y):
@@ -100,6 +128,7 @@ def main():
     relaxations(folder, rng, others)
     adhesion(folder, rng)
     press(folder, rng, others)
+    words()
 
 
 if __name__ == "__main__":

@@ -164,6 +164,103 @@ TEST(Identify, ProfileOfALinearUnknownIsStudents) {
   EXPECT_FALSE(one.by_profile);
 }
 
+// Where residuals are correlated, Student's t has fewer degrees of freedom, and the line at which a
+// profile ends is that of the intervals.
+TEST(Identify, ProfileEndsAtTheIntervalsThreshold) {
+  IdentifyScene scene = with_unknowns("hertz", {"force_offset=-0.5..0.5 N"});
+  scene.contact_point = 0.0;
+  scene.text.replace(scene.text.find("10 ms"), 5, "1 ms");
+  const auto found = test::identified(scene, test::noisy(test::clean_curve(scene), 0.01, 5, 0.9),
+                                      {}, {"tissue.young_modulus=60 kPa"});
+  const identify::Identified& one = found.unknowns[0];
+  ASSERT_GT(found.rho, 0.5);
+  const double t = (*one.ci95_high - one.estimate) / *one.std_error;
+  EXPECT_NEAR(found.threshold, t * t, 1e-6 * t * t);
+  const auto table = identify::profile_table(found);
+  EXPECT_EQ(std::get<double>(table.rows.at(0).at(4)), found.threshold);
+  // 100 means of neighbours are judged: t of 99 degrees is 1.9842, of 400 1.9659.
+  EXPECT_NEAR(t, 1.9842, 1e-4);
+  // So many independent rows give this error of a mean.
+  EXPECT_NEAR(found.effective_size, std::pow(found.noise / *one.std_error, 2),
+              1e-6 * found.effective_size);
+}
+
+// Of several loadings the first is fitted, a specimen that gives way ends the curve, and a way back
+// alone is refused.
+TEST(Identify, TakesTheFirstLoadingUpToARupture) {
+  IdentifyScene scene = with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa"});
+  scene.contact_point = 0.0;
+  scene.text.replace(scene.text.find("10 ms"), 5, "1 ms");
+  const identify::Measurement clean = test::clean_curve(scene);
+  const auto says = [](const identify::Identification& found, const char* words) {
+    return std::any_of(found.notes.begin(), found.notes.end(), [&](const std::string& note) {
+      return note.find(words) != std::string::npos;
+    });
+  };
+  const auto add_back = [&](identify::Measurement& to, double share) {
+    for (std::size_t i = clean.x.size(); i-- > 0;) {
+      to.x.push_back(clean.x[i]);
+      to.y.push_back(share * clean.y[i]);
+    }
+  };
+  identify::Measurement cycles = clean;
+  add_back(cycles, 0.8);
+  for (std::size_t i = 0; i < clean.x.size(); ++i) {
+    cycles.x.push_back(clean.x[i]);
+    cycles.y.push_back(0.9 * clean.y[i]);
+  }
+  auto found = test::identified(scene, cycles);
+  EXPECT_TRUE(says(found, "the first of 2 loadings is fitted"));
+  EXPECT_NEAR(found.unknowns[0].estimate, 60e3, 60.0);
+  // The intervals contain the model's stated error, without which exact data have none.
+  const auto sentence = [&](bool model_error) {
+    return identify::identified_sentences(
+        test::identified(scene, clean, {.model_error = model_error, .profiles = false}))[0];
+  };
+  EXPECT_NE(sentence(true).find("60 kPa  (95 %: 5"), std::string::npos) << sentence(true);
+  EXPECT_NE(sentence(false).find("exact to rounding"), std::string::npos) << sentence(false);
+
+  identify::Measurement torn = clean;
+  for (std::size_t i = 300; i < torn.y.size(); ++i) torn.y[i] *= 0.3;
+  found = test::identified(scene, torn);
+  EXPECT_TRUE(says(found, "beyond the largest load, from which it falls by over 10 %"));
+  EXPECT_NEAR(found.unknowns[0].estimate, 60e3, 60.0);
+
+  identify::Measurement back = clean;
+  back.x.clear();
+  back.y.clear();
+  add_back(back, 1.0);
+  EXPECT_NE(test::refusal([&] {
+              (void)test::identified(scene, back);
+            }).find("these are rows of the way back"),
+            std::string::npos);
+}
+
+// A force that is rounded to steps of 4 % has no scatter within a step, and an error all the same.
+TEST(Identify, RoundedForcesWidenTheInterval) {
+  IdentifyScene scene = with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa"});
+  scene.contact_point = 0.0;
+  scene.text.replace(scene.text.find("10 ms"), 5, "1 ms");
+  identify::Measurement curve = test::clean_curve(scene);
+  const double step = 0.04 * curve.y.back();
+  for (double& y : curve.y) y = step * std::round(y / step);
+  const auto found = test::identified(scene, curve);
+  const identify::Identified& one = found.unknowns[0];
+  // One error, uniform over a step, for each run of equal rows: the variance of ln E is
+  // step^2/12 sum_runs (sum F)^2 / (sum F^2)^2, with F the model's force.
+  double squares = 0.0, runs = 0.0, run = 0.0;
+  for (std::size_t i = 0; i < curve.y.size(); ++i) {
+    squares += found.model[i] * found.model[i];
+    if (i > 0 && curve.y[i] != curve.y[i - 1]) {
+      runs += run * run;
+      run = 0.0;
+    }
+    run += found.model[i];
+  }
+  runs += run * run;
+  EXPECT_GT(*one.std_error / one.estimate, std::sqrt(step * step / 12.0 * runs) / squares);
+}
+
 // With F = c h^(3/2) over evenly spaced h up to H, least squares give
 // d ln E = dh0 sum F dF/dh / sum F^2 = 3/2 (H^3 / 3) / (H^4 / 4) dh0 = 2 dh0 / H.
 TEST(Identify, ContactPointMovesTheModulus) {
@@ -219,10 +316,10 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
   }
   const auto found = test::identified(scene, curve, {.profiles = false});
   ASSERT_EQ(found.notes.size(), 1U);
-  EXPECT_EQ(found.notes[0], std::to_string(points - 1) +
-                                " points are left out: the way back from the deepest travel");
-  EXPECT_EQ(found.left_out, static_cast<int>(points) - 1);
-  EXPECT_EQ(found.x.size(), points + 1);  // up to 2.2 mm, where the deepest stands twice
+  EXPECT_EQ(found.notes[0],
+            std::to_string(points) + " points are left out: the way back from the deepest travel");
+  EXPECT_EQ(found.left_out, static_cast<int>(points));
+  EXPECT_EQ(found.x.size(), points);  // up to 2.2 mm, where the deepest stands twice
 }
 
 // Of a compression and its hold, over time all points are taken and the programme is long enough;

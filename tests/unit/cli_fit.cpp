@@ -92,6 +92,8 @@ TEST_F(FitVerb, what_has_no_logarithm_is_left_out_and_counted) {
   EXPECT_NEAR(number(fitted, "b", "estimate"), 3.0, 1e-9);
   EXPECT_EQ(cell(fitted, "a", "n"), record::Cell(3.0));
   EXPECT_EQ(ended.err,
+            "note: the curve is met exact to rounding, so that the intervals are no errors of a "
+            "measurement\n"
             "note: 3 points are left out: not finite, or x <= 0 where its logarithm is needed\n");
 }
 

@@ -1,5 +1,5 @@
-// `palpate fit` on the curves of tests/cases/curves, whose truth is known; the file names their
-// ids.
+// `palpate fit`, `data` and `identify` on the curves of tests/cases/curves, whose truth is known;
+// the file names their ids.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,6 +66,20 @@ TEST_F(FitCurves, segments_grams_and_stretches) {
       25.0, 0.15);
   EXPECT_NE(said_.find("is in g, taken as gf"), std::string::npos) << said_;
   EXPECT_NEAR(estimate("08_stretch.csv", "E", {"--model", "ogden"}), 3.6, 0.025);
+}
+
+TEST_F(FitCurves, units_rates_and_titles) {
+  const auto data = [&](const std::string& file) {
+    return palpate(folder_.path(), {"data", PALPATE_SOURCE_DIR "/tests/cases/curves/" + file}).out;
+  };
+  std::string said = data("07_units_row.txt");  // one unknown unit
+  for (const char* line : {"Time: s, a time", "Shear stress: Pa, a pressure", "Viscosity: Pa*s"})
+    EXPECT_NE(said.find(line), std::string::npos) << said;
+  said = data("07b_rate_as_time.txt");
+  EXPECT_NE(said.find("Shear rate: 1/s, a rate, from 0.1 to 100"), std::string::npos) << said;
+  said = data("07c_title.txt");
+  for (const char* line : {"20 rows from line 4 to 23", "Time: min, a time", "Strain: %"})
+    EXPECT_NE(said.find(line), std::string::npos) << said;
 }
 
 }  // namespace

@@ -102,5 +102,17 @@ TEST_F(FitMany, DataSaysWhatIsUnderstood) {
     EXPECT_NE(ended.out.find(line), std::string::npos) << line << "\n" << ended.out;
 }
 
+// A test to rupture is no press by a ball.
+TEST_F(FitMany, DataAdvisesAModulusWhereTheSpecimenGivesWay) {
+  std::string text = "Extension (mm),Load (N)\n";
+  for (int i = 0; i < 80; ++i)
+    text += std::to_string(0.1 * i) + "," + std::to_string(i < 60 ? 0.5 * i : 0.3) + "\n";
+  write_file(folder_ / "torn.csv", text);
+  const Ended ended = palpate(folder_.path(), {"data", "torn.csv"});
+  EXPECT_NE(ended.out.find("20 points are left out: beyond the largest force"), std::string::npos)
+      << ended.out;
+  EXPECT_NE(ended.out.find("--model modulus --height"), std::string::npos) << ended.out;
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "base/index.h"
 #include "fit/step_origin.h"
 #include "fit/uniaxial.h"
 #include "refusal.h"
@@ -164,6 +165,37 @@ TEST(LoadingPart, AToeIsNamedAndTakenOffOnRequest) {
   const Fit off =
       fit_uniaxial(rows.x, rows.y, {.loading = UniaxialTest::Loading::compression, .toe = true});
   EXPECT_NEAR(off.parameters[0].estimate, 20.0 * 0.96, 0.02);  // the knee is found on a grid
+}
+
+TEST(LoadingPart, TheFirstOfSeveralPresses) {
+  std::vector<double> depth, force;
+  const auto add = [&](double from, double to) {
+    for (int i = 0; i < 50; ++i) depth.push_back(from + (to - from) * i / 50.0);
+  };
+  add(0.0, 0.5);  // a short press before
+  add(0.5, 0.1);
+  add(0.1, 1.0);
+  add(1.0, 0.0);
+  add(0.0, 1.0);
+  EXPECT_EQ(one_way(depth, Way::approach).to, 151U);
+  EXPECT_EQ(one_way(depth, Way::approach).loadings, 2U);
+  EXPECT_EQ(one_way(depth, Way::retract).from, 150U);
+  EXPECT_EQ(one_way(depth, Way::retract).to, 201U);
+  EXPECT_EQ(one_way(depth, Way::all).to, depth.size());
+}
+
+TEST(LoadingPart, ABreakEndsAPress) {
+  std::vector<double> force;
+  std::mt19937 engine(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 200; ++i) force.push_back(std::pow(i / 200.0, 1.5) + 0.05 * normal(engine));
+  EXPECT_EQ(rows_before_break(force), 200U);  // noise is no break
+  for (int i = 150; i < 200; ++i) force[as_index(i)] *= 0.4;
+  const std::size_t whole = rows_before_break(force);
+  EXPECT_GT(whole, 140U);
+  EXPECT_LE(whole, 150U);
+  for (double& each : force) each = -each;  // another sign is no break
+  EXPECT_EQ(rows_before_break(force), 200U);
 }
 
 // Tests like those of laboratories: stiffening or not, with noise, slack before, and a rupture that

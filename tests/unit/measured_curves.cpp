@@ -131,6 +131,21 @@ TEST(Measured, UnitsInOtherForms) {
   EXPECT_DOUBLE_EQ(read("x_nm,force_pN\n1,1\n2,2\n").y[0], 1e-12);
 }
 
+TEST(Measured, NumbersOfOtherPrograms) {
+  // The minus of typesetters and the exponents of Fortran.
+  expect_curve(read("depth_mm,force_N\n1.5,3.0\n2.0,4.25\n\u22121,NaN\n"));
+  EXPECT_EQ(read("d_mm,F_N\n\u22121.5,2e\u22123\n2,4\n").x[0], -1.5e-3);
+  EXPECT_EQ(read("d_mm,F_N\n\u22121.5,2e\u22123\n2,4\n").y[0], 2e-3);
+  expect_curve(read("# depth_m force_N\n 0.15D-02 0.30d+01\n 0.20D-02 0.425D+01\n"));
+  EXPECT_EQ(refusal("d_mm,F_N\n1,2D3\n2,4\n"),
+            "data.csv:2:3: `F_N` holds `2D3`, which is no number; name a column of numbers");
+  // Of two columns one holds no numbers.
+  EXPECT_EQ(
+      refusal("Time,Force (N)\n01:40.050,5\n01:40.150,4\n"),
+      "data.csv:2:1: `Time` holds `01:40.050`, which is a time of day or minutes and seconds; "
+      "write the column in seconds, or name a column of numbers");
+}
+
 TEST(Measured, PartsOfATable) {
   const std::string text =
       "Set,segment,d_mm,F_N\n1,load,1.5,3\n1,load,2,4.25\n1,unload,1,7\n1,load,9,9\n2,load,8,8\n";
@@ -299,6 +314,10 @@ TEST(Measured, CompressionThatReadsNegative) {
   curve = read("x_mm,F_N\n0,10\n1,9\n2,6\n", automatic);
   EXPECT_EQ(curve.y, (Numbers{-10, -9, -6}));
   EXPECT_TRUE(read("x_mm,F_N\n0,0\n1,-0.1\n2,4\n", automatic).notes.empty());  // it adheres
+  // A way back ends at rest.
+  curve = read("x_mm,F_N\n0,0\n1,4\n0.5,1\n0,0\n", {.compression = "auto", .segment = "retract"});
+  EXPECT_EQ(curve.y, (Numbers{1, 0}));
+  EXPECT_EQ(curve.x, (Numbers{0.5e-3, 0}));
   // Relaxation begins at its peak, so that the load's own sign tells.
   EXPECT_EQ(read("t_s,F_N\n0,-4\n1,-3\n", automatic).y, (Numbers{4, 3}));
   EXPECT_EQ(read("t_s,F_N\n0,4\n1,3\n", automatic).y, (Numbers{4, 3}));
