@@ -1,7 +1,6 @@
 // A reference solution of a press: the strongest model on several meshes, extrapolated.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,8 +34,8 @@ struct Reference {
 // integrator with inertia, or inertia reaches the tolerance: coupled springs with volumes averaged
 // at nodes on `levels` (2 or more) meshes, by backward differences whose steps shrink with the
 // cells, extrapolated; with `resolved` contact on graded cells if one sphere presses a cuboid of
-// one tissue (only a half or a quarter of it if the scene is symmetric). `told` is called with a
-// sentence before every level. Throws InputError if there is nothing to refine (uniform tests,
+// one tissue (only a half or a quarter of it if the scene is symmetric). Says its level by
+// set_doing(). Throws InputError if there is nothing to refine (uniform tests,
 // half-spaces, slides at a constant force; with inertia ready meshes and steps to a force),
 // Stopped, and like scene::build().
 //                                                                        docs/theory.md (78), (112)
