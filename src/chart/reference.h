@@ -39,8 +39,8 @@ struct Reference {
 // half-spaces, slides at a constant force; with inertia ready meshes and steps to a force),
 // Stopped, and like scene::build().
 //                                                                        docs/theory.md (78), (112)
-[[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
-                              const std::function<void(const std::string&)>& told);
+[[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family,
+                              int levels);
 
 // One row per moment: case, step, time_s, travel_mm, slide_mm, contact_force_N, error_N, order,
 // sphere_over_skin (1 if contact is not resolved), and the forces of the levels, level_1_N...

@@ -92,10 +92,10 @@ TEST_F(Files, AReadErrorIsNoEnd) {
 
 TEST_F(Files, WhatIsNoFileIsRefused) {
   EXPECT_EQ(refused("/dev/zero"),
-            "/dev/zero: has more than 256 MiB, the most that is read; give a smaller file");
+            "/dev/zero: has more than 64 MiB, the most that is read; give a smaller file");
   EXPECT_EQ(
       test::refusal([] { for_each_line("/dev/zero", [](const FileLine&) {}); }),
-      "/dev/zero: has a line of more than 256 MiB, the most that is read; give a smaller file");
+      "/dev/zero: has a line of more than 64 MiB, the most that is read; give a smaller file");
   EXPECT_EQ(refused("/"), "/: is not a file; give the path of a file");
   std::filesystem::create_symlink(path_, path_);
   EXPECT_EQ(refused(path_),
