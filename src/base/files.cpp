@@ -121,6 +121,8 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& temporary, int error) {
   ::unlink(temporary.c_str());
+  if (error == ENAMETOOLONG)
+    throw InputError({path, 0, 0}, "is too long for the name of a file; give a shorter one");
   throw SystemError(path + " cannot be written: " + std::strerror(error));
 }
 

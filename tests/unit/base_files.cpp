@@ -180,6 +180,11 @@ TEST_F(Files, APipeIsWrittenInto) {
 TEST_F(Files, AFolderIsNoFileToWrite) {
   const std::string folder = std::filesystem::path(path_).parent_path().string();
   EXPECT_THROW(write_atomically(folder, "text"), InputError);
+  // Its temporary file has a longer name still.
+  for (const std::size_t letters : {255U, 256U, 5000U})
+    EXPECT_EQ(
+        test::refusal([&] { write_atomically(std::string(letters, 'x'), "text"); }),
+        std::string(letters, 'x') + ": is too long for the name of a file; give a shorter one");
 }
 
 TEST_F(Files, ALinkStaysAndItsFolderIsMade) {

@@ -57,14 +57,14 @@ TEST(TerminatedWrites, LeaveNoTemporaryFile) {
 }
 
 // A chart that was killed at any moment is gone on with by the same call, without `--force`. Every
-// third moment; all of them with PALPATE_EVERY_FAULT=1.
+// seventh moment; all of them with PALPATE_EVERY_FAULT=1.
 TEST(KilledCharts, AreGoneOnWith) {
   const TemporaryFolder folder;
   write_file(folder / "s.toml",
              "[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = \"indent\"\n"
              "to = \"0.1 mm\"\n[output]\nfigures = false\n");
   const Words words{"chart", "s.toml", "--repeats", "1"};
-  const int stride = std::getenv("PALPATE_EVERY_FAULT") != nullptr ? 1 : 3;
+  const int stride = std::getenv("PALPATE_EVERY_FAULT") != nullptr ? 1 : 7;
   for (int call = 1;; call += stride) {
     const Ended ended = run_program({.arguments = words,
                                      .folder = folder.path(),
