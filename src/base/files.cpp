@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <span>
@@ -24,9 +25,10 @@ namespace palpate {
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{2} << 30;           // of a file in memory
-constexpr std::size_t most_stream_bytes = std::size_t{256} << 20;  // of a pipe, a device or a line
-constexpr std::size_t part_bytes = std::size_t{1} << 16;           // that are read at a time
+constexpr std::size_t most_bytes = std::size_t{2} << 30;         // of a file in memory
+constexpr std::size_t most_pipe_bytes = std::size_t{256} << 20;  // which may be a large file's
+constexpr std::size_t most_line_bytes = std::size_t{64} << 20;   // of a line, or of a device
+constexpr std::size_t part_bytes = std::size_t{1} << 16;         // that are read at a time
 constexpr int patience = 10'000;  // ms, for a pipe to which nobody writes
 
 // A file that is read from its start: every read tells an error from the end.
@@ -41,6 +43,7 @@ class Source {
     regular_ = S_ISREG(status.st_mode);
     if (!regular_ && !S_ISFIFO(status.st_mode) && !S_ISCHR(status.st_mode))
       refuse("is not a file; give the path of a file");
+    if (!regular_) most_ = S_ISFIFO(status.st_mode) ? most_pipe_bytes : most_line_bytes;
     size_ = as_index(std::max<off_t>(status.st_size, 0));
   }
   ~Source() { close(); }
@@ -63,7 +66,7 @@ class Source {
 
   // Refuses a file (or a line of it, the `what`) that is too large for the memory.
   void check_size(std::size_t size, const char* what = "") {
-    const std::size_t most = regular_ && *what == 0 ? most_bytes : most_stream_bytes;
+    const std::size_t most = *what == 0 ? most_ : most_line_bytes;
     if (size > most)
       refuse(std::string("has ") + what + "more than " + std::to_string(most >> 20) +
              " MiB, the most that is read; give a smaller file");
@@ -93,7 +96,8 @@ class Source {
   const std::string& path_;
   int file_ = -1;
   bool regular_ = false;
-  std::size_t size_ = 0;  // bytes, 0 if the system does not know it
+  std::size_t size_ = 0;           // bytes, 0 if the system does not know it
+  std::size_t most_ = most_bytes;  // that are read
 };
 
 }  // namespace
@@ -117,12 +121,32 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& temporary, int error) {
   ::unlink(temporary.c_str());
+  if (error == ENAMETOOLONG)
+    throw InputError({path, 0, 0}, "is too long for the name of a file; give a shorter one");
   throw SystemError(path + " cannot be written: " + std::strerror(error));
 }
+
+// While this exists, a signal that ends the program waits, so that no temporary file is left.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ends;
+    ::sigemptyset(&ends);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&ends, signal);
+    ::pthread_sigmask(SIG_BLOCK, &ends, &before_);
+  }
+  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_{};
+};
 
 }  // namespace
 
 void HeldFile::write(const std::string& path, std::string_view content, Disk disk) {
+  const SignalsWait wait;
   const std::string temporary = path + ".part" + std::to_string(::getpid());
   const int file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) fail(path, temporary, errno);

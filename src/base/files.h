@@ -10,7 +10,7 @@
 namespace palpate {
 
 // Returns the content of a file. Throws InputError if it does not exist, if it is larger than 2 GiB
-// (as a pipe or a device, 256 MiB), and if reading fails before the end.
+// (as a pipe 256 MiB, as a device 64 MiB), and if reading fails before the end.
 [[nodiscard]] std::string read_text(const std::string& path);
 
 // Replaces a file whole, by a temporary one on the disk; makes its folder; writes into a device, a
@@ -82,7 +82,7 @@ struct FileLine {
 };
 
 // Calls `see` with every line in order. In memory is at most a part of the file and its longest
-// line, which has at most 256 MiB. Throws InputError as read_text() does.
+// line, which has at most 64 MiB. Throws InputError as read_text() does.
 void for_each_line(const std::string& path, const std::function<void(const FileLine&)>& see);
 
 // A new file for appending: for data too large for the memory, or to be kept if the program dies.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
@@ -103,9 +104,8 @@ class Measurer {
     if (known != journal_.references().end()) {
       chart.truth = truth_of(known->second);
     } else {
-      chart.truth = find_truth(asked_, i, [&](const std::string& level) {
-        told_({one.name + ": reference, " + level});
-      });
+      chart.truth = find_truth(asked_, i);
+      set_doing("");
       journal_.add_reference(name, history_table(chart.truth));
     }
     chart.reference_error = own_error(one.scenario, chart.truth.moments).greatest;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
@@ -230,8 +231,7 @@ void remark(const Refinement& refinement, Reference& reference) {
 }
 
 // A press without inertia: `solid` on all of its meshes.
-Reference at_rest(scenario::Case one, const scenario::Family& family,
-                  const std::function<void(const std::string&)>& told) {
+Reference at_rest(scenario::Case one, const scenario::Family& family) {
   Scenario& scenario = one.scenario;
   for (std::size_t i = 0; i < scenario.steps.size(); ++i)
     if (const auto* slide = std::get_if<scenario::Slide>(&scenario.steps[i]);
@@ -252,7 +252,7 @@ Reference at_rest(scenario::Case one, const scenario::Family& family,
     interval *= std::max(1.0, std::ceil(total / (most_rows * interval)));
   }
   scenario.output.keep_rows_only();
-  told("the solid on three meshes");
+  set_doing("the solid on three meshes");
   const scene::Scene scene = run::build_scene(one, family);
   const record::CaseRecord record = run::run_case(scene);
   Reference reference;
@@ -273,8 +273,7 @@ Reference at_rest(scenario::Case one, const scenario::Family& family,
 
 }  // namespace
 
-Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
-                const std::function<void(const std::string&)>& told) {
+Reference refer(const scenario::Case& one, const scenario::Family& family, int levels) {
   using Direction = scenario::Contact::Direction;
   if (one.scenario.uniform())
     refuse_at(family, "step",
@@ -286,7 +285,7 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
   const scenario::Solver& solver = one.scenario.solver;
   const bool moves = solver.integrator ? about(*solver.integrator).inertia
                                        : choice.expected.inertia >= solver.tolerance;
-  if (!moves) return at_rest(one, family, told);
+  if (!moves) return at_rest(one, family);
 
   Refinement refinement(one, family, choice);
   Reference reference;
@@ -294,8 +293,8 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
   std::vector<double> spacings;
   const auto run_level = [&](int level, Direction direction) {
     const scene::Scene scene = refinement.build(level, direction);
-    told("level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
-         std::to_string(scene.specimen->network.nodes()) + " nodes");
+    set_doing("level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
+              std::to_string(scene.specimen->network.nodes()) + " nodes");
     record::CaseRecord record = run::run_case(scene);
     if (record.outcome != record::Outcome::completed)
       reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;

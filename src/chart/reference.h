@@ -1,7 +1,6 @@
 // A reference solution of a press: the strongest model on several meshes, extrapolated.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,13 +34,13 @@ struct Reference {
 // integrator with inertia, or inertia reaches the tolerance: coupled springs with volumes averaged
 // at nodes on `levels` (2 or more) meshes, by backward differences whose steps shrink with the
 // cells, extrapolated; with `resolved` contact on graded cells if one sphere presses a cuboid of
-// one tissue (only a half or a quarter of it if the scene is symmetric). `told` is called with a
-// sentence before every level. Throws InputError if there is nothing to refine (uniform tests,
+// one tissue (only a half or a quarter of it if the scene is symmetric). Says its level by
+// set_doing(). Throws InputError if there is nothing to refine (uniform tests,
 // half-spaces, slides at a constant force; with inertia ready meshes and steps to a force),
 // Stopped, and like scene::build().
 //                                                                        docs/theory.md (78), (112)
-[[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family, int levels,
-                              const std::function<void(const std::string&)>& told);
+[[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family,
+                              int levels);
 
 // One row per moment: case, step, time_s, travel_mm, slide_mm, contact_force_N, error_N, order,
 // sphere_over_skin (1 if contact is not resolved), and the forces of the levels, level_1_N...

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
@@ -30,14 +31,12 @@ constexpr double most_moments_in_time = 50.0;  // of a press with viscosity or i
 
 class Finder {
  public:
-  Finder(const Asked& asked, std::size_t of_case,
-         const std::function<void(const std::string&)>& told)
+  Finder(const Asked& asked, std::size_t of_case)
       : asked_(asked),
         case_(of_case),
         one_(asked.family.cases[of_case]),
         choice_(run::choose(one_)),
-        scenario_(choice_.chosen),
-        told_(told) {}
+        scenario_(choice_.chosen) {}
 
   Truth find() {
     if (scenario_.uniform()) return uniform();
@@ -126,7 +125,7 @@ class Finder {
     const double wanted =
         scenario::programme_time(scenario) / (in_time ? most_moments_in_time : most_moments);
     interval *= std::max(1.0, std::ceil(wanted / interval));
-    const chart::Reference reference = chart::refer(family.cases.front(), family, 3, told_);
+    const chart::Reference reference = chart::refer(family.cases.front(), family, 3);
     if (reference.diverged) throw MeshError("the reference diverged: " + *reference.diverged);
     Truth truth{"refined", "", {}};
     double turned = 0.0;
@@ -237,7 +236,7 @@ class Finder {
   [[nodiscard]] std::optional<Inertia> inertia_of_press(
       double interval, const std::vector<ReferenceRow>& rows) const {
     if (rows.empty() || rows.back().slide != 0.0) return std::nullopt;
-    told_("effect of inertia");
+    set_doing("effect of inertia");
     const auto on = [&](double factor) {
       return inertia_of([&](const char* integrator) {
         return run({model_setting(scenario::strongest.of), "contact.coupling=consistent",
@@ -296,7 +295,7 @@ class Finder {
       // Where the shape needs so many nodes that `modal` does not take the finest level.
       if (4.0 * coarsest > most_modal_nodes && integrator == std::string("modal"))
         integrator = "tr_bdf2";
-      told_("level " + std::to_string(levels.size() + 1) + " of 3");
+      set_doing("level " + std::to_string(levels.size() + 1) + " of 3");
       levels.push_back(without_starts(scenario_, run_coupled(times * coarsest, integrator)));
       spacings.push_back(spacing());
       coarsest = std::max(coarsest, nodes_ / times);
@@ -327,15 +326,11 @@ class Finder {
   const scenario::Case& one_;
   const scene::Choice choice_;
   const scenario::Resolved& scenario_;
-  const std::function<void(const std::string&)>& told_;
   mutable int nodes_ = 0;  // of the last run
 };
 
 }  // namespace
 
-Truth find_truth(const Asked& asked, std::size_t of_case,
-                 const std::function<void(const std::string&)>& told) {
-  return Finder(asked, of_case, told).find();
-}
+Truth find_truth(const Asked& asked, std::size_t of_case) { return Finder(asked, of_case).find(); }
 
 }  // namespace palpate::chart

@@ -1,7 +1,6 @@
 // The reference solution from which the errors of a chart are computed, with its own error.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -34,10 +33,9 @@ struct Truth {
 //                           what inertia adds to coupled springs if that is not little
 //   any other uniform test  coupled springs on three meshes, extrapolated, and what inertia adds
 //   a ready mesh that moves coupled springs on it; its error is the estimated error of the model
-// `told` is called with the stage. Throws Stopped, like
-// with_settings(), scene::build() and chart::refer(), and MeshError if a run diverges.
-[[nodiscard]] Truth find_truth(const Asked& asked, std::size_t of_case,
-                               const std::function<void(const std::string&)>& told);
+// Says its stage by set_doing(). Throws Stopped, like with_settings(), scene::build() and
+// chart::refer(), and MeshError if a run diverges.
+[[nodiscard]] Truth find_truth(const Asked& asked, std::size_t of_case);
 
 // The reference for errors of time integration: the variant's scenario by `modal` with substeps of
 // 1/4 ms, in uniform tests of half a row, at the rows of coarsest_interval(); its error is the

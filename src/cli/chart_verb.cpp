@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
 
 #include "base/stop_scope.h"
 #include "base/text.h"
@@ -146,12 +147,18 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   const StopScope scope(listen_for_interrupts(exit_resumable));
   std::vector<chart::CaseChart> charts;
   try {
-    charts = chart::measure(
-        asked, {.repeats = command.repeats}, journal,
-        [&](const chart::ChartProgress& progress) { talk.progress(progress_text(progress)); });
-    talk.progress("");
+    std::mutex telling;
+    chart::ChartProgress now;
+    const ProgressLine line(talk, [&](double) {
+      const std::scoped_lock lock(telling);
+      return progress_text(now);
+    });
+    charts = chart::measure(asked, {.repeats = command.repeats}, journal,
+                            [&](const chart::ChartProgress& progress) {
+                              const std::scoped_lock lock(telling);
+                              now = progress;
+                            });
   } catch (const Stopped&) {
-    talk.progress("");
     Talk::error("palpate: interrupted; " + journal.folder() +
                 " keeps the measurements, and the same call continues from there");
     return exit_resumable;

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "base/doing.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/whole_folder.h"
@@ -23,8 +22,8 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
   std::vector<std::pair<std::string, chart::Reference>> found;
   bool diverged = false;
   for (const scenario::Case& one : family.cases) {
-    std::optional<ProgressLine> ticker(std::in_place, talk, [&] { return one.name; });
-    chart::Reference reference = chart::refer(one, family, command.levels, set_doing);
+    std::optional<ProgressLine> ticker(std::in_place, talk, [&](double) { return one.name; });
+    chart::Reference reference = chart::refer(one, family, command.levels);
     ticker.reset();
     for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");
     if (reference.diverged) {

@@ -73,7 +73,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   const std::string started = report::utc_now();
   folder.open();
   std::atomic<std::size_t> done{0};
-  std::optional<ProgressLine> ticker(std::in_place, talk, [&] {
+  std::optional<ProgressLine> ticker(std::in_place, talk, [&](double) {
     return family.name + ": " + std::to_string(done) + " of " + std::to_string(scenes.size()) +
            (scenes.size() == 1 ? " case" : " cases");
   });

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <mutex>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -10,6 +11,7 @@
 #include "cli/program.h"
 #include "cli/sweep_verbs.h"
 #include "sweep/run.h"
+#include "sweep/stopwatch.h"
 
 namespace palpate::cli {
 namespace {
@@ -21,42 +23,16 @@ std::string duration_text(double seconds) {
   return rounded_text(seconds / 3600.0, 3) + " h";
 }
 
-std::string rate_text(const sweep::SweepProgress& now) {
-  std::string text;
-  if (now.done > 0 && now.seconds > 0.0) {
-    const double rate = static_cast<double>(now.done) / now.seconds;
-    text = ", " + rounded_text(rate, 3) + " cases/s, " +
-           duration_text(static_cast<double>(now.all - now.done) / rate) + " left";
+std::string progress_text(const sweep::SweepProgress& now, double seconds) {
+  std::string text = bar(now.done, now.all);
+  if (now.done > 0) {
+    const double rate = static_cast<double>(now.done) / seconds;
+    text += ", " + rounded_text(rate, 3) + " cases/s, " +
+            duration_text(static_cast<double>(now.all - now.done) / rate) + " left";
   }
   if (now.failed > 0) text += ", " + std::to_string(now.failed) + " failed";
   return text;
 }
-
-// Progress: a bar five times per second on a terminal, otherwise one line per minute; with --json
-// one event per second.
-class Ticker {
- public:
-  explicit Ticker(const Talk& talk) : talk_(talk) {}
-
-  void operator()(const sweep::SweepProgress& now) {
-    talk_.progress(bar(now.done, now.all) + rate_text(now));
-    if (!talk_.shows_progress() && now.seconds >= next_line_) {
-      talk_.say(std::to_string(now.done) + " of " + cases_text(now.all) + rate_text(now));
-      next_line_ = now.seconds + 60.0;
-    }
-    if (now.seconds < next_event_ && now.done < now.all) return;
-    next_event_ = now.seconds + 1.0;
-    talk_.event("progress", {{"done", std::to_string(now.done)},
-                             {"all", std::to_string(now.all)},
-                             {"failed", std::to_string(now.failed)},
-                             {"seconds", rounded_text(now.seconds)}});
-  }
-
- private:
-  const Talk& talk_;
-  double next_line_ = 60.0;  // s
-  double next_event_ = 0.0;
-};
 
 }  // namespace
 
@@ -67,15 +43,34 @@ int sweep_run(const Sweep& command, const Talk& talk) {
   const sweep::SweepPlan plan = sweep::read_plan(command.subject, program_identity());
   // From here a second signal ends the program at once, without losing a finished row.
   const std::atomic<bool>& stop = listen_for_interrupts(exit_resumable, {SIGUSR1});
-  Ticker ticker(talk);
+  sweep::SweepProgress now;
+  std::mutex telling;
+  const auto event = [&](double seconds) {
+    const std::scoped_lock lock(telling);
+    talk.event("progress", {{"done", std::to_string(now.done)},
+                            {"all", std::to_string(now.all)},
+                            {"failed", std::to_string(now.failed)},
+                            {"seconds", rounded_text(seconds)}});
+  };
+  const sweep::Clock::time_point start = sweep::Clock::now();
   sweep::SweepEnd end;
   try {
-    end = sweep::run_sweep(plan, task, stop, [&](const sweep::SweepProgress& now) { ticker(now); });
+    const ProgressLine line(
+        talk,
+        [&](double seconds) {
+          const std::scoped_lock lock(telling);
+          return progress_text(now, seconds);
+        },
+        event);
+    end = sweep::run_sweep(plan, task, stop, [&](const sweep::SweepProgress& told) {
+      const std::scoped_lock lock(telling);
+      now = told;
+    });
   } catch (const sweep::PartIsRun& held) {
     Talk::error(held.what());
     return exit_held;
   }
-  talk.progress("");
+  event(sweep::seconds_since(start));
   if (!std::filesystem::exists(command.subject + "/plan.json"))
     throw SystemError(command.subject +
                       " has vanished while its cases ran, and their rows with it; plan anew");

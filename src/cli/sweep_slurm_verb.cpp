@@ -38,30 +38,21 @@ std::string asked(std::vector<std::string> words) {
 
 // Seconds of a limit as Slurm writes it: M, M:S, H:M:S, D-H, D-H:M, D-H:M:S; nothing otherwise.
 std::optional<double> limit_seconds(const std::string& text) {
-  const auto number = [](const std::string& word) -> std::optional<double> {
-    if (word.empty() || word.size() > 9 ||
-        word.find_first_not_of("0123456789") != std::string::npos)
-      return std::nullopt;
-    return std::stod(word);
-  };
   const std::size_t dash = text.find('-');
   const bool days = dash != std::string::npos;
-  std::vector<double> parts;
-  if (days) {
-    const auto first = number(text.substr(0, dash));
-    if (!first) return std::nullopt;
-    parts.push_back(*first);
-  }
-  for (const std::string& word : split(days ? text.substr(dash + 1) : text, ':')) {
-    const auto one = number(word);
-    if (!one) return std::nullopt;
-    parts.push_back(*one);
-  }
-  if (parts.size() > (days ? 4U : 3U)) return std::nullopt;
-  const std::array<double, 4> of_days{86400.0, 3600.0, 60.0, 1.0};
-  const std::size_t first = days ? 0 : parts.size() == 3 ? 1 : 2;
+  std::vector<std::string> words = split(days ? text.substr(dash + 1) : text, ':');
+  const std::size_t zeros = days ? 0 : words.size() == 3 ? 1 : 2;
+  words.insert(words.begin(), zeros, "0");
+  if (days) words.insert(words.begin(), text.substr(0, dash));
+  const std::array<double, 4> units{86400.0, 3600.0, 60.0, 1.0};  // s
+  if (words.size() > units.size()) return std::nullopt;
   double seconds = 0.0;
-  for (std::size_t i = 0; i < parts.size(); ++i) seconds += parts[i] * of_days[first + i];
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].empty() || words[i].size() > 9 ||
+        words[i].find_first_not_of("0123456789") != std::string::npos)
+      return std::nullopt;
+    seconds += units[i] * std::stod(words[i]);
+  }
   return seconds;
 }
 

@@ -76,10 +76,9 @@ void Talk::event(const std::string& name,
   print(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-ProgressLine::ProgressLine(const Talk& talk, std::function<std::string()> text)
-    : talk_(talk), text_(std::move(text)) {
-  if (talk.shows_progress()) thread_ = std::thread([this] { tick(); });
-}
+ProgressLine::ProgressLine(const Talk& talk, std::function<std::string(double)> text,
+                           std::function<void(double)> event)
+    : talk_(talk), text_(std::move(text)), event_(std::move(event)), thread_([this] { tick(); }) {}
 
 ProgressLine::~ProgressLine() {
   {
@@ -87,20 +86,34 @@ ProgressLine::~ProgressLine() {
     ended_ = true;
   }
   end_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
   talk_.progress("");
 }
 
 void ProgressLine::tick() {
   using namespace std::chrono_literals;
+  using Seconds = std::chrono::duration<double>;
   const auto start = std::chrono::steady_clock::now();
+  const bool events = talk_.json() && event_;
+  const bool shown = talk_.shows_progress();
+  const auto pause = events ? 1000ms : shown ? 250ms : 60000ms;
   std::unique_lock lock(mutex_);
-  for (auto wait = 2000ms; !end_.wait_for(lock, wait, [this] { return ended_; }); wait = 250ms) {
-    const auto seconds =
-        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start);
+  for (auto wait = shown ? 2000ms : pause; !end_.wait_for(lock, wait, [this] { return ended_; });
+       wait = pause) {
+    const double seconds = Seconds(std::chrono::steady_clock::now() - start).count();
+    if (events) try {
+        event_(seconds);
+        continue;
+      } catch (const SystemError&) {  // nobody reads stdout any more: the verb's own print says so
+        return;
+      }
     const std::string at = doing();
-    talk_.progress(text_() + (at.empty() ? "" : ", " + at) + ", " +
-                   std::to_string(seconds.count()) + " s");
+    const std::string line = text_(seconds) + (at.empty() ? "" : ", " + at) + ", " +
+                             std::to_string(static_cast<long>(seconds)) + " s";
+    if (shown)
+      talk_.progress(line);
+    else
+      talk_.say(line);
   }
 }
 

@@ -46,11 +46,13 @@ class Talk {
 // "; 2 figures were not drawn", or nothing.
 [[nodiscard]] std::string warn_all(const std::vector<std::string>& warnings, const Talk& talk);
 
-// While this exists, progress() shows `text`, what is being done and the time, from the second
-// second on.
+// While this exists, `text`, what is being done and the time are said: on terminals four times a
+// second from the second second on, elsewhere once a minute. `text` is called with the seconds so
+// far. With --json, `event` is called once a second instead. Both are called from a thread.
 class ProgressLine {
  public:
-  ProgressLine(const Talk& talk, std::function<std::string()> text);
+  ProgressLine(const Talk& talk, std::function<std::string(double)> text,
+               std::function<void(double)> event = {});
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -59,7 +61,8 @@ class ProgressLine {
   void tick();
 
   const Talk& talk_;
-  std::function<std::string()> text_;
+  std::function<std::string(double)> text_;
+  std::function<void(double)> event_;
   std::mutex mutex_;
   std::condition_variable end_;
   bool ended_ = false;

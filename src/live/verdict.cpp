@@ -504,8 +504,6 @@ class Judgement {
         sum += square(force[i] - press.at(rows_.travel[i] - shift));
       return std::sqrt(sum / static_cast<double>(rows_.top - rows_.begin + 1));
     };
-    // Another surface shows in the press: where that agrees as it is, the difference is elsewhere.
-    if (left(0.0) <= found_.allowed) return {};
     constexpr int steps = 200;
     const double deepest = rows_.travel[rows_.top];
     double best = 0.0;

@@ -1,11 +1,14 @@
 // Writes the files of a result.
 #include "report/results.h"
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/stop_scope.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
 #include "record/swept_column.h"
@@ -203,13 +206,25 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
 
   const std::string hash = sha256(echo);
   std::size_t number = 0;
+  std::size_t left_out = 0;
+  // An interrupted run goes on with maps for half a second.
+  std::optional<std::chrono::steady_clock::time_point> until;
   for (const record::CaseRecord& record : records)
     for (const record::PressureMap& map : record.maps) {
+      const auto now = std::chrono::steady_clock::now();
+      if (!until && StopScope::stopped()) until = now + std::chrono::milliseconds(500);
+      if (until && now > *until) {
+        ++left_out;
+        continue;
+      }
       const std::string name = numbered("pressure", ++number, "");
       folder_.write(name + ".exr", exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
       if (family_->base.output.png)
         plot::draw(map_sheet(map, name), folder_, warnings, {.formats = {"png"}});
     }
+  if (left_out > 0)
+    warnings.push_back(std::to_string(left_out) +
+                       " pressure maps were not written; run the scenario again");
   write_tissue(records);
   write_pictures(records);
 
@@ -235,7 +250,7 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
                                   : CaseEntry::State::failed,
                               record.reason,
                               {{"run", record.seconds}}});
-  manifest.complete = records.size() == family_->cases.size();
+  manifest.complete = records.size() == family_->cases.size() && left_out == 0;
   folder_.write("run.json", manifest_text(manifest));
 
   using State = WholeFolder::State;

@@ -36,30 +36,32 @@ std::string part_name(const SweepTask& task) {
 
 class Runner {
  public:
-  Runner(const SweepPlan& plan, const SweepTask& task, const std::atomic<bool>& no_more)
-      : plan_(plan), task_(task), stop_{broken_, no_more}, files_(hashed_inputs(plan.family)) {}
+  Runner(const SweepPlan& plan, const SweepTask& task, const std::atomic<bool>& no_more,
+         const std::function<void(const SweepProgress&)>& told)
+      : plan_(plan),
+        task_(task),
+        stop_{broken_, no_more},
+        files_(hashed_inputs(plan.family)),
+        told_(told) {}
 
   void run(const std::vector<std::uint32_t>& numbers,
-           const std::function<std::uint32_t(std::uint32_t)>& attempt,
-           const std::function<void(const SweepProgress&)>& tick) {
+           const std::function<std::uint32_t(std::uint32_t)>& attempt) {
     if (numbers.empty()) return;
     attempt_ = attempt;
-    all_ = numbers.size();
+    now_.all = numbers.size();
     journal_ =
         std::make_unique<record::Journal>(plan_.folder + "/results", part_name(task_), plan_.hash);
     {
-      const std::jthread ticking([&](const std::stop_token& end) { beat(end, tick); });
+      const std::jthread ticking([&](const std::stop_token& end) { beat(end); });
       const std::size_t block = block_cases * as_index(task_.workers);
       for (std::size_t at = 0; at < numbers.size() && !stop_.no_more(); at += block)
         run_block(std::span(numbers).subspan(at, std::min(block, numbers.size() - at)));
     }
     if (failure_) std::rethrow_exception(failure_);
     journal_->sync();
-    tick(progress());
   }
 
-  [[nodiscard]] std::size_t completed() const { return done_ - failed_; }
-  [[nodiscard]] std::size_t failed() const { return failed_; }
+  [[nodiscard]] const SweepProgress& progress() const { return now_; }
 
  private:
   struct Made {
@@ -69,20 +71,14 @@ class Runner {
     bool tried = false;
   };
 
-  [[nodiscard]] SweepProgress progress() const {
-    return {all_, done_, failed_, seconds_since(start_)};
-  }
-
-  void beat(const std::stop_token& end, const std::function<void(const SweepProgress&)>& tick) {
+  // Rows are on the disk within a second.
+  void beat(const std::stop_token& end) {
     std::mutex waiting;
     std::condition_variable_any woken;
-    int beats = 0;
+    std::unique_lock lock(waiting);
     while (!end.stop_requested()) {
-      std::unique_lock lock(waiting);
-      woken.wait_for(lock, end, std::chrono::milliseconds(200), [] { return false; });
-      if (end.stop_requested()) return;
-      if (++beats % 4 == 0) guarded([&] { journal_->sync(); });
-      tick(progress());
+      woken.wait_for(lock, end, std::chrono::milliseconds(800), [] { return false; });
+      if (!end.stop_requested()) guarded([&] { journal_->sync(); });
     }
   }
 
@@ -113,8 +109,9 @@ class Runner {
     row.attempt = attempt_(number);
     guarded([&] {
       journal_->add(journal_row(row));
-      ++done_;
-      if (row.outcome != SweepOutcome::completed) ++failed_;
+      ++now_.done;
+      if (row.outcome != SweepOutcome::completed) ++now_.failed;
+      told_(now_);
     });
   }
 
@@ -226,16 +223,14 @@ class Runner {
   scene::SinkingStore sinkings_;
   std::mutex writing_;
   std::exception_ptr failure_;
-  std::size_t all_ = 0;
-  std::atomic<std::size_t> done_ = 0;
-  std::atomic<std::size_t> failed_ = 0;
-  const Clock::time_point start_ = Clock::now();
+  SweepProgress now_;
+  const std::function<void(const SweepProgress&)>& told_;
 };
 
 }  // namespace
 
 SweepEnd run_sweep(const SweepPlan& plan, const SweepTask& task, const std::atomic<bool>& no_more,
-                   const std::function<void(const SweepProgress&)>& tick) {
+                   const std::function<void(const SweepProgress&)>& told) {
   const bool again = task.which == SweepTask::Which::failed;
   const FolderLock lock(plan.folder, part_name(task));
   const SweepResults results(plan, task.shard);
@@ -258,12 +253,12 @@ SweepEnd run_sweep(const SweepPlan& plan, const SweepTask& task, const std::atom
       ++end.missing;
   }
   if (task.order == SweepTask::Order::backwards) std::reverse(numbers.begin(), numbers.end());
-  Runner runner(plan, task, no_more);
-  runner.run(
-      numbers, [&](std::uint32_t i) { return again ? results.at(i).head.attempt + 1 : 1; }, tick);
-  end.completed += runner.completed();
-  end.failed += runner.failed();
-  const std::size_t left = numbers.size() - runner.completed() - runner.failed();
+  Runner runner(plan, task, no_more, told);
+  runner.run(numbers, [&](std::uint32_t i) { return again ? results.at(i).head.attempt + 1 : 1; });
+  const SweepProgress& made = runner.progress();
+  end.completed += made.done - made.failed;
+  end.failed += made.failed;
+  const std::size_t left = numbers.size() - made.done;
   (again ? end.failed : end.missing) += left;
   end.interrupted = no_more.load();
   return end;

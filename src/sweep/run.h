@@ -22,7 +22,6 @@ struct SweepProgress {
   std::size_t all = 0;     // cases of this run
   std::size_t done = 0;    // with a row, failed ones too
   std::size_t failed = 0;  // diverged, or could not be built
-  double seconds = 0.0;    // since the run began
 };
 
 struct SweepEnd {
@@ -36,11 +35,11 @@ struct SweepEnd {
 
 // Runs the cases of a shard that have no row or, with Which::failed, those whose row says that they
 // failed. A case that cannot be built or diverges also gets a row. Rows do not depend on workers,
-// order or shards. A separate thread calls `tick` about five times a second. After `no_more`
+// order or shards. `told` is called after every row, by one thread at a time. After `no_more`
 // is set no case begins; running cases are finished and kept. Throws InputError if another process
 // runs this part, and SystemError if a row cannot be written (disk full); earlier rows are kept.
 [[nodiscard]] SweepEnd run_sweep(const SweepPlan& plan, const SweepTask& task,
                                  const std::atomic<bool>& no_more,
-                                 const std::function<void(const SweepProgress&)>& tick);
+                                 const std::function<void(const SweepProgress&)>& told);
 
 }  // namespace palpate::sweep

@@ -5,37 +5,27 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "base/files.h"
 #include "base/text.h"
 
 namespace palpate::sweep {
-namespace {
-
-// The number if the text consists of decimal digits only, otherwise 0.
-std::size_t whole(std::string_view text) {
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : 0;
-}
-
-}  // namespace
 
 std::string Shard::text() const { return std::to_string(number) + "-of-" + std::to_string(of); }
 
 Shard parse_shard(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  Shard shard{0, 0};
-  if (slash != std::string::npos)
-    shard = {whole(std::string_view(text).substr(0, slash)),
-             whole(std::string_view(text).substr(slash + 1))};
-  if (shard.number == 0 || shard.of == 0 || shard.number > shard.of)
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto number = whole_number(text.substr(0, slash));
+  const auto of = whole_number(text.substr(std::min(slash + 1, text.size())));
+  if (!number || !of || *number < 1.0 || *number > *of || std::fmod(*number, 1.0) != 0.0 ||
+      std::fmod(*of, 1.0) != 0.0)
     throw InputError({}, "`--shard` wants a part and the number of parts, got `" + text +
                              "`; write `--shard 3/16`");
-  return shard;
+  return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
 }
 
 FolderLock::FolderLock(const std::string& folder, const std::string& name) {

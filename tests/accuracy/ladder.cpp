@@ -196,7 +196,7 @@ struct Reference {
 // The reference of `palpate chart`.
 Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
   const chart::Asked asked = chart::read_for_chart("scene.toml", scene.text, {});
-  const chart::Truth truth = chart::find_truth(asked, 0, [](const std::string&) {});
+  const chart::Truth truth = chart::find_truth(asked, 0);
   double most = 0.0;
   for (const chart::Moment& moment : truth.moments) most = std::max(most, moment.value);
   return {most, chart::own_error(chosen.scenario, truth.moments).greatest, truth.kind};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -203,6 +204,30 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
   // The emulator's 12 kPa: the start is known to a reading of 50 ms, and the formulas of the two
   // programs differ while the hand withdraws.
   EXPECT_NEAR(modulus->value, 12.0, 0.6);
+}
+
+// By the machine's clock, interrupted after a second and a half.
+TEST(GaugeRun, PollsAreAsOftenAsTheRate) {
+  const TemporaryFolder folder;
+  const Gauge gauge{
+      .style = "mark10", .settings = "mark10_gauge", .baud = "115200", .clock = "real"};
+  LiveEmulator emulator(emulator_of(gauge, folder / "log.csv"));
+  Running running({.arguments = {"run", project_file("scenarios/device_stand.toml"), "--device",
+                                 link_of(gauge, emulator), "--set", "output.figures=false"},
+                   .folder = folder.path()});
+  const auto start = std::chrono::steady_clock::now();
+  (void)running.until(
+      [&] { return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(1500); });
+  running.send(SIGINT);
+  (void)running.wait();
+  emulator.end();
+  const Rows log(record::read_csv((folder / "log.csv").string()));
+  std::vector<double> times;
+  for (std::size_t i = 0; i < log.size(); ++i)
+    if (log.word(i, "kind") == "out") times.push_back(log.number(i, "time_s"));
+  ASSERT_GT(times.size(), 3U);
+  // 20 a second; one that was late may be followed by the next in less than its time.
+  EXPECT_LE(static_cast<double>(times.size()), 20.0 * (times.back() - times.front()) + 3.0);
 }
 
 TEST(GaugeRun, ReadsABalance) {

@@ -174,6 +174,8 @@ def why_bad(code, message, memory):
         return "ended by signal %d" % -code
     if memory and b"the memory does not suffice" in message:
         return ""
+    if code == 1 and b"/dev/full cannot be written: No space left on device" in message:
+        return ""  # as of a disk
     if code not in GOOD:
         return "exit code %d" % code
     for text in FOREIGN:
@@ -182,12 +184,11 @@ def why_bad(code, message, memory):
     return "no sentence" if code in (2, 4, 5, 6, 7, 8) and not message.strip() else ""
 
 
-def verbs_of(program, words=()):
-    """The verbs that the program's help lists, with those below them."""
-    text = subprocess.run([program, *words, "--help"], check=True, capture_output=True, text=True).stdout
-    listed = re.findall(r"^  (\w+)  ", text.partition("Subcommands:")[2], re.M)
-    listed = [word for word in listed if word != "help"]
-    return [verb for word in listed for verb in verbs_of(program, (*words, word))] or [words]
+def verbs_of(program):
+    """The verbs of the program's manual that have none below them."""
+    text = subprocess.run([program, "manual", "commands"], check=True, capture_output=True, text=True).stdout
+    verbs = [tuple(heading.split()) for heading in re.findall(r"^## palpate (.+)", text, re.M)]
+    return [verb for verb in verbs if not any(other[:-1] == verb for other in verbs)]
 
 
 def main():

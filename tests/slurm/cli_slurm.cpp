@@ -9,8 +9,8 @@
 namespace palpate::test {
 namespace {
 
-constexpr int cases = 64;
-constexpr int tasks = 16;
+constexpr int cases = 32;
+constexpr int tasks = 8;
 
 bool installed(const std::string& program) {
   for (const char* folder : {"/usr/sbin/", "/usr/bin/", "/sbin/", "/bin/"})
@@ -204,13 +204,14 @@ TEST_F(Engines, SnakemakeRunsThePartsThatAreNotDone) {
                  std::string(PALPATE_PROGRAM) +
                  "' sweep run out/s_sweep --shard {wildcards.part}/3 --jobs 1 "
                  "--accept-failed --done {output}\"\n");
+  // One part is done already, by hand.
+  ASSERT_EQ(sweep({"run", "out/s_sweep", "--shard", "2/3", "--done", "done/2"}).code, 0);
   const Ended ended = shell("/usr/bin/snakemake --cores 2 all");
   EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.err.find("/3 --jobs 1 --accept-failed --done done/2"), std::string::npos);
   expect_the_whole_table();
-  fs::remove(folder_ / "done/2");
-  const Ended again = shell("/usr/bin/snakemake --cores 2 all");
-  EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_TRUE(read_file(folder_ / "done/2").starts_with("2-of-3 of "));
+  for (const char* part : {"1", "2", "3"})
+    EXPECT_TRUE(read_file(folder_ / "done" / part).starts_with(std::string(part) + "-of-3 of "));
 }
 
 }  // namespace

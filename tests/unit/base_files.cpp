@@ -92,10 +92,10 @@ TEST_F(Files, AReadErrorIsNoEnd) {
 
 TEST_F(Files, WhatIsNoFileIsRefused) {
   EXPECT_EQ(refused("/dev/zero"),
-            "/dev/zero: has more than 256 MiB, the most that is read; give a smaller file");
+            "/dev/zero: has more than 64 MiB, the most that is read; give a smaller file");
   EXPECT_EQ(
       test::refusal([] { for_each_line("/dev/zero", [](const FileLine&) {}); }),
-      "/dev/zero: has a line of more than 256 MiB, the most that is read; give a smaller file");
+      "/dev/zero: has a line of more than 64 MiB, the most that is read; give a smaller file");
   EXPECT_EQ(refused("/"), "/: is not a file; give the path of a file");
   std::filesystem::create_symlink(path_, path_);
   EXPECT_EQ(refused(path_),
@@ -180,6 +180,11 @@ TEST_F(Files, APipeIsWrittenInto) {
 TEST_F(Files, AFolderIsNoFileToWrite) {
   const std::string folder = std::filesystem::path(path_).parent_path().string();
   EXPECT_THROW(write_atomically(folder, "text"), InputError);
+  // Its temporary file has a longer name still.
+  for (const std::size_t letters : {255U, 256U, 5000U})
+    EXPECT_EQ(
+        test::refusal([&] { write_atomically(std::string(letters, 'x'), "text"); }),
+        std::string(letters, 'x') + ": is too long for the name of a file; give a shorter one");
 }
 
 TEST_F(Files, ALinkStaysAndItsFolderIsMade) {

@@ -18,7 +18,7 @@ namespace {
 Asked asked(const std::string& text) { return read_for_chart("scene.toml", text, {}); }
 
 Truth truth(const std::string& text, std::size_t of_case = 0) {
-  return find_truth(asked(text), of_case, [](const std::string&) {});
+  return find_truth(asked(text), of_case);
 }
 
 TEST(ChartReference, AHalfSpaceHasHertz) {
@@ -80,7 +80,7 @@ TEST(ChartReference, CreepIsTheMaterialsLaw) {
 TEST(ChartReference, StoppedItSaysNothing) {
   const std::atomic<bool> stopped = true;
   const StopScope scope(stopped);
-  EXPECT_THROW((void)find_truth(asked(scenario::creep), 0, [](const std::string&) {}), Stopped);
+  EXPECT_THROW((void)find_truth(asked(scenario::creep), 0), Stopped);
 }
 
 }  // namespace

@@ -72,12 +72,12 @@ TEST_F(Figures, StrainsOfFigureSeven) {
 }
 
 TEST_F(Figures, LongNamesStandBelow) {
-  write_file(
-      folder_ / "long.toml",
-      "[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = \"indent\"\nto = \"1 "
-      "mm\"\n[[step]]\nkind = \"hold\"\n[output]\ninterval = \"10 ms\"\npng = true\n[sweep]\n"
-      "\"tissue.young_modulus\" = [\"1.23456789 kPa\", \"1234.56789 kPa\"]\n"
-      "\"tissue.poisson_ratio\" = [0.333333333, 0.444444444]\n");
+  write_file(folder_ / "long.toml",
+             "[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = \"indent\"\nto = \"1 "
+             "mm\"\n[[step]]\nkind = \"hold\"\n[output]\ninterval = \"50 ms\"\npng = "
+             "true\npressure_maps = false\nreport = false\n[sweep]\n"
+             "\"tissue.young_modulus\" = [\"1.23456789 kPa\", \"1234.56789 kPa\"]\n"
+             "\"tissue.poisson_ratio\" = [0.333333333, 0.444444444]\n");
   expect_readable(figures("long.toml"), 2);  // force over indentation, and over time in the hold
   EXPECT_TRUE(fs::exists(folder_ / "out/long/figure_force_time.png"));
 }

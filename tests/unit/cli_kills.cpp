@@ -41,15 +41,30 @@ TEST_P(Kills, LeaveTheOldResultOrTheNewOne) {
 INSTANTIATE_TEST_SUITE_P(Verbs, Kills, testing::ValuesIn(result_verbs()),
                          [](const auto& one) { return std::string(one.param.name); });
 
+// A signal that can be caught waits for the rename of the file that is being written.
+TEST(TerminatedWrites, LeaveNoTemporaryFile) {
+  const TemporaryFolder folder;
+  Running running({.arguments = {"new", "press", "n.toml"},
+                   .folder = folder.path(),
+                   .set = {{"LD_PRELOAD", PALPATE_FILE_FAULTS}, {"PALPATE_TEST_WAIT_MS", "100"}}});
+  ASSERT_TRUE(running.until([&] {
+    const std::set<std::string> names = names_in(folder.path());
+    return !names.empty() && names.begin()->starts_with("n.toml.part");
+  }));
+  running.send(SIGTERM);
+  EXPECT_EQ(running.wait().code, 130);
+  EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"n.toml"});
+}
+
 // A chart that was killed at any moment is gone on with by the same call, without `--force`. Every
-// third moment; all of them with PALPATE_EVERY_FAULT=1.
+// seventh moment; all of them with PALPATE_EVERY_FAULT=1.
 TEST(KilledCharts, AreGoneOnWith) {
   const TemporaryFolder folder;
   write_file(folder / "s.toml",
              "[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = \"indent\"\n"
              "to = \"0.1 mm\"\n[output]\nfigures = false\n");
   const Words words{"chart", "s.toml", "--repeats", "1"};
-  const int stride = std::getenv("PALPATE_EVERY_FAULT") != nullptr ? 1 : 3;
+  const int stride = std::getenv("PALPATE_EVERY_FAULT") != nullptr ? 1 : 7;
   for (int call = 1;; call += stride) {
     const Ended ended = run_program({.arguments = words,
                                      .folder = folder.path(),

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <chrono>
+
 #include "program.h"
 #include "record/csv.h"
 
@@ -86,6 +89,33 @@ TEST_F(RunStops, an_interrupt_does_not_wait_for_a_row) {
   }
 }
 
+// On a slow disk: most maps are left out, and the same call writes them.
+TEST_F(RunStops, an_interrupt_does_not_wait_for_all_maps) {
+  write_file(folder_ / "maps.toml",
+             "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n"
+             "[output]\ninterval = \"50 ms\"\nfigures = false\nreport = false\n[sweep]\n"
+             "\"tissue.young_modulus\" = { from = \"10 kPa\", to = \"20 kPa\", points = 30 }\n");
+  const std::vector<std::string> words{"run", "maps.toml", "--jobs", "1"};
+  const auto maps = [&](const fs::path& folder) {
+    const std::set<std::string> names =
+        fs::exists(folder) ? names_in(folder) : std::set<std::string>();
+    return std::count_if(names.begin(), names.end(),
+                         [](const std::string& name) { return name.ends_with(".exr"); });
+  };
+  Running running({.arguments = words,
+                   .folder = folder_.path(),
+                   .set = {{"LD_PRELOAD", PALPATE_FILE_FAULTS}, {"PALPATE_TEST_WAIT_MS", "20"}}});
+  const fs::path partial = folder_ / ("out/maps.partial-" + std::to_string(running.id()));
+  ASSERT_TRUE(running.until([&] { return maps(partial) > 0; }));
+  running.send(SIGTERM);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_TRUE(says(ended, "pressure maps were not written")) << ended.err;
+  EXPECT_LT(maps(folder_ / "out/maps"), 30);
+  EXPECT_EQ(palpate(folder_.path(), words).code, 0);
+  EXPECT_EQ(maps(folder_ / "out/maps"), 30);
+}
+
 TEST_F(RunStops, an_incomplete_result_is_run_again_without_force) {
   Running running(call({}));
   wait_for_first_case(running);
@@ -115,7 +145,11 @@ class FigureStops : public testing::Test {
          .set = {{"PATH", (folder_ / "bin").string() + ":/usr/bin:/bin"}, {"GNUTERM", "dumb"}}});
     EXPECT_TRUE(running.until([&] { return fs::exists(folder_ / "terminal"); }));
     running.send(SIGTERM);
-    return running.wait();
+    const auto sent = std::chrono::steady_clock::now();
+    Ended ended = running.wait();
+    // The drawing itself would be ended after 30 s.
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(10));
+    return ended;
   }
 
   TemporaryFolder folder_;

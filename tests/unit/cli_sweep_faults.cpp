@@ -156,6 +156,9 @@ TEST_F(SweepFaults, ACorruptRowIsMissingAndSaid) {
   EXPECT_EQ(run.code, 0);
   EXPECT_TRUE(run.err.starts_with(warning)) << run.err;
   EXPECT_EQ(merged(), whole);
+  // A part has one line, whatever its number of files.
+  const std::string parts = sweep({"status", "out/s_sweep"}).out;
+  EXPECT_TRUE(parts.ends_with("files       2\n  1-of-1: 6 rows in 2 files\n")) << parts;
 }
 
 // Its rows went into files that nobody finds any more.

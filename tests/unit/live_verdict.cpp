@@ -253,9 +253,9 @@ TEST(Verdict, TakesTheNoiseFromAllRowsBeforeContact) {
 TEST(Verdict, ALevelForceEndsNowhere) {
   MeasuredCurve curve = run_with(0.0, as_it_is, 1);
   for (std::size_t i = 101; i < curve.measured.size(); ++i)
-    curve.measured[i] = 0.05 + 1e-16 * static_cast<double>(i);
+    curve.measured[i] = i == 130 ? 0.2 : 0.05 - 1e-9 * static_cast<double>(i);
   const std::string said = verdict_sentence(judge(curve, tolerance));
-  EXPECT_EQ(said.find("e+"), std::string::npos) << said;
+  EXPECT_NE(said.find("release at unknown (model "), std::string::npos) << said;
 }
 
 // Another law is none of the causes, and is not made one.
