@@ -174,8 +174,9 @@ class CellFiles : public testing::Test {
 
   std::string folder_ = testing::TempDir() + "palpate_cells" + std::to_string(::getpid());
   std::vector<std::pair<std::string, std::string>> all_{
-      {"a.msh", binary_gmsh()}, {"a.vtk", vtk()},    {"a.vtu", vtu_of_base64()},
-      {"b.vtu", vtu_of_zlib()}, {"a.inp", abaqus()}, {"a.mesh", medit()}};
+      {"a.msh", binary_gmsh()}, {"a.vtk", vtk()},           {"a.vtu", vtu_of_base64()},
+      {"b.vtu", vtu_of_zlib()}, {"b.vtk", vtu_of_base64()}, {"a.inp", abaqus()},
+      {"a.mesh", medit()}};
 };
 
 TEST_F(CellFiles, every_format_gives_the_same_body) {
