@@ -39,6 +39,14 @@ std::string data(const record::ScenePicture& picture) {
   std::string lines, border, labels;
   add(lines, frame.lines);
   add(border, base_border(picture));
+  if (!picture.finger.empty()) {  // the arrow of the press
+    const auto& [centre, radius] = picture.finger.front();
+    const Vec3 tip = centre - 1.1 * radius * picture.towards;
+    const Vec3 tail = tip - 1.5 * radius * picture.towards;
+    const Vec3 neck = 0.75 * tip + 0.25 * tail;
+    const Vec3 side = 0.2 * radius * picture.towards.unitOrthogonal();
+    add(border, {{tail, tip}, {tip, neck + side}, {tip, neck - side}});
+  }
   for (const SceneLabel& one : frame.labels)
     labels += "[" + places(one.at) + ",\"" + one.text + "\"],";
   for (const auto& sphere : picture.finger)
