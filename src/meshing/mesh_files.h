@@ -26,8 +26,7 @@ void write_node_ele(const std::string& path, const geometry::TetMesh& mesh);
 // Whether both files exist and are what write_node_ele() would write. `path` names either file.
 [[nodiscard]] bool holds_node_ele(const std::string& path, const geometry::TetMesh& mesh);
 
-// Reads .node and .ele as above, or a file of cells (see cells.h), as the ending says. Nodes at
-// which tetrahedra only touch, without a face in common, are parted, as the remark says. Throws
+// Reads .node and .ele as above, or a file of cells (see cells.h), as the ending says. Throws
 // InputError for another ending too.
 [[nodiscard]] NamedMesh read_mesh(const std::string& path, double metres_per_unit);
 
