@@ -80,7 +80,8 @@ class GmshReader {
     section_ = "$MeshFormat";
     begin(2);
     const std::string version(lines_.words()[0]);
-    if (version != "4.1" && version != "2.2")
+    if (version != "4.1" && version != "2.2" && version != "2.1" && version != "2.0" &&
+        version != "2")
       lines_.fail_at(
           0, "version `" + version + "` is not read; save it as 4.1 (`gmsh -format msh41`)");
     version_4_ = version == "4.1";

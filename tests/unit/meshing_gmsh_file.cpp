@@ -72,7 +72,9 @@ class GmshFile : public testing::Test {
 };
 
 TEST_F(GmshFile, all_versions_give_the_same_mesh) {
-  for (const std::string& text : {kVersion1, kVersion2, kVersion4}) {
+  std::string short_version = kVersion2;  // as Gmsh wrote it once
+  short_version.replace(short_version.find("2.2"), 3, "2");
+  for (const std::string& text : {kVersion1, short_version, kVersion2, kVersion4}) {
     const geometry::TetMesh mesh = read(text);
     const std::vector<Vec3> nodes{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
     EXPECT_EQ(mesh.nodes, nodes);
@@ -110,7 +112,7 @@ TEST_F(GmshFile, other_formats_are_refused_with_a_remedy) {
   EXPECT_EQ(complaint(""),
             ": the file does not begin with `$MeshFormat`; save it from Gmsh as version 4.1 (`gmsh "
             "-format msh41`)");
-  EXPECT_EQ(complaint("$NOD\n").substr(0, 30), ":1: section `$NOD` ends too ear");
+  EXPECT_EQ(complaint("$NOD\n").substr(0, 29), ":1: section `$NOD` ends too e");
   EXPECT_NE(complaint(kVersion1, "$ENDNOD", "$EndNOD").find("`$ENDNOD` should stand here"),
             std::string::npos);
   EXPECT_EQ(complaint(kVersion4, "4.1 0 8", "4.1 1 8"),
