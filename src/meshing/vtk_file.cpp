@@ -40,7 +40,7 @@ class VtkReader {
       else if (word == "cell_types")
         cell_types_ = array(count(1), "int");
       else if (word == "polygons" || word == "triangle_strips")
-        add_polygons(word == "polygons");
+        add_polygons(word == "triangle_strips");
       else if (word == "vertices" || word == "lines")
         read_lists();
       else if (word == "cell_data" || word == "point_data")
