@@ -106,6 +106,9 @@ void add_options(CLI::App& verb, Run& run) {
 void add_options(CLI::App& verb, Explain& explain) {
   verb.add_option("subject", explain.subject, "Scenario file or key")->required()->type_name("KEY");
   add_settings(verb, explain.settings);
+  verb.add_option("--picture", explain.picture,
+                  "Draw the body, its base and the finger into a .svg, or an .html to turn")
+      ->type_name("FILE");
 }
 
 void add_options(CLI::App& verb, Fit& fit) {

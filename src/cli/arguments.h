@@ -47,6 +47,7 @@ struct Explain {
   static constexpr Word word{"explain", "What a scenario would compute, or what a key means"};
   std::string subject;  // a scenario's path, or a key
   std::vector<std::string> settings;
+  std::string picture;  // file to write, .svg or .html; empty: none
 };
 // The layout of a measured file: --x, --x-unit, --skip ...
 using DataOptions = measured::DataLayout;

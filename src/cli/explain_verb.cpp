@@ -9,12 +9,16 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
+#include "page/page.h"
+#include "report/scene_picture.h"
 #include "run/answer.h"
 #include "run/family.h"
+#include "run/picture.h"
 #include "scenario/family.h"
 #include "scenario/find.h"
 #include "scenario/integrators.h"
@@ -467,6 +471,18 @@ class Explanation {
   std::string text_;
 };
 
+// Writes the scene as it is before anything is computed; `text` explains it on a page.
+void draw(const std::string& file, const scene::Scene& scene, const std::string& title,
+          const std::string& text) {
+  const record::ScenePicture picture = run::picture_of(scene);
+  if (file.ends_with(".svg")) return write_atomically(file, report::scene_svg(picture, title));
+  page::Page page(title, "scene");
+  page.section("Scene", report::scene_view(picture, title));
+  page.script(report::scene_script());
+  page.section("What would be computed", page::element("pre", text));
+  write_atomically(file, page.html());
+}
+
 // What the cases of a sweep cost.
 void tell_cost(const scenario::Family& family, const Talk& talk) {
   const std::optional<sweep::SweepForecast> cost = sweep::forecast(family, false);
@@ -497,18 +513,26 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
       print(scenario::meaning_of_key(command.subject));
     return exit_good;
   }
+  if (!command.picture.empty() && !command.picture.ends_with(".svg") &&
+      !command.picture.ends_with(".html"))
+    throw InputError({command.picture, 0, 0},
+                     "a picture is written as `.svg` or `.html`; give one of these endings");
   const scenario::Family family = scenario::read(command.subject, command.settings);
   for (const Problem& note : family.notes) Talk::error("note: " + note.text());
   const std::vector<scene::Scene> scenes = run::build_all(family, 1);
   for (const scene::Scene& scene : scenes) {
     const run::Expected expected = run::expect(scene);
+    const bool first = &scene == &scenes.front();
+    Explanation explanation(scene, expected);
+    if (first && !command.picture.empty())
+      draw(command.picture, scene, family.title,
+           Explanation(scene, expected).text("", family.title));
     if (talk.json()) {
       print(explain_json(family.name, scene, expected) + "\n");
       continue;
     }
-    if (&scene != &scenes.front()) print("\n");
-    print_text(
-        Explanation(scene, expected).text(scenes.size() > 1 ? scene.name : "", family.title));
+    if (!first) print("\n");
+    print_text(explanation.text(scenes.size() > 1 ? scene.name : "", family.title));
   }
   if (!family.design.empty()) tell_cost(family, talk);
   return exit_good;

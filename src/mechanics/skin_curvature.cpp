@@ -22,14 +22,14 @@ SkinCurvature::SkinCurvature(const MovingPart& part)
       skin_(&part.scene->specimen->surface->surface()),
       stars_(*skin_, part.scene->specimen->surface->neighbours(), curvature_options(*part.scene)),
       number_of_(skin_->triangles.size(), -1) {
-  if (const auto& file = part.scene->specimen->of_file) of_file_.emplace(file->surface());
+  if (const auto& file = part.scene->of_file) of_file_.emplace(file->surface());
 }
 
 // A place near each corner, within the triangle: at a crease the surface has another curvature on
 // either side.
 SkinCurvature::Corners SkinCurvature::on_file(int triangle) const {
   constexpr double inwards = 0.1;
-  const geometry::SmoothSurface& file = *part_->scene->specimen->of_file;
+  const geometry::SmoothSurface& file = *part_->scene->of_file;
   const auto& numbers = skin_->triangles[as_index(triangle)];
   Vec3 middle = Vec3::Zero();
   for (const int number : numbers) middle += skin_->vertices[as_index(number)] / 3.0;

@@ -35,7 +35,7 @@ class SkinCurvature {
   geometry::CurvatureStars stars_;
   std::vector<int> number_of_;                // per triangle: index into known_; -1: not computed
   std::vector<Corners> known_;                // at rest
-  std::optional<geometry::BoxTree> of_file_;  // of Specimen::of_file
+  std::optional<geometry::BoxTree> of_file_;  // of Scene::of_file
   geometry::Surface shape_;                   // the deformed skin
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
 
 namespace palpate::meshing {
@@ -61,7 +62,7 @@ constexpr VtkKind vtk_kinds[] = {
     {28, 4, false, true}, {29, 8, true, true},  {32, 6, true, true},  {33, 8, true, true},
     {34, 3, false, true}, {69, 3, false, true}, {70, 4, false, true}, {71, 4, true, true},
     {72, 8, true, true},  {73, 6, true, true},  {74, 5, true, true}};
-constexpr int vtk_polygon = 7, vtk_pixel = 8, vtk_voxel = 11;
+constexpr int vtk_strip = 6, vtk_polygon = 7, vtk_pixel = 8, vtk_voxel = 11;
 // Points and lines.
 constexpr int vtk_passed_over[] = {0, 1, 2, 3, 4, 21, 35, 68};
 
@@ -124,7 +125,9 @@ bool holds_cells(const std::string& path) {
 Cells read_cells(const std::string& path) {
   const std::string ending = ending_in(path);
   if (ending == ".msh") return read_gmsh_cells(path);
-  if (ending == ".vtk") return read_vtk_cells(path);
+  // Some files with the ending of the older format are XML.
+  if (ending == ".vtk" && !trimmed(read_text(path).substr(0, 200)).starts_with("<"))
+    return read_vtk_cells(path);
   if (ending == ".inp") return read_abaqus_cells(path);
   if (ending == ".mesh") return read_medit_cells(path);
   return read_vtu_cells(path);
@@ -148,6 +151,10 @@ bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells)
     std::swap(corners[2], corners[3]);
     type = 9;
   }
+  if (type == vtk_strip) {
+    std::ranges::copy(triangles_of_strip(corners), std::back_inserter(cells.faces));
+    return true;
+  }
   const auto* const kind = std::find_if(std::begin(vtk_kinds), std::end(vtk_kinds),
                                         [&](const VtkKind& one) { return one.type == type; });
   if (kind == std::end(vtk_kinds) || corners.size() < as_index(kind->corners)) return false;
@@ -161,6 +168,16 @@ bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells)
   std::copy(corners.begin(), corners.end(), cell.nodes.begin());
   cells.solids.push_back(cell);
   return true;
+}
+
+std::vector<std::vector<int>> triangles_of_strip(std::span<const int> corners) {
+  std::vector<std::vector<int>> found;
+  for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+    const int a = corners[i], b = corners[i + 1], c = corners[i + 2];
+    if (a == b || b == c || c == a) continue;
+    found.push_back(i % 2 == 0 ? std::vector<int>{a, b, c} : std::vector<int>{b, a, c});
+  }
+  return found;
 }
 
 void number_by(const std::vector<double>& regions, Cells& cells) {

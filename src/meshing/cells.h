@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,9 @@ struct NamedMesh {
 [[nodiscard]] Cells read_cells(const std::string& path);
 
 // The readers. All numbers of nodes in the result are in range, and all coordinates finite.
-// Gmsh: version 2.2 or 4.1 in ASCII or binary of either byte order, elements of any order; tags of
-// nodes may have gaps. A cell's region is the absolute value of its physical tag, 0 without one.
-// Refused: partitioned meshes, and volumes in several physical groups.
+// Gmsh: version 1 in ASCII, 2.2 or 4.1 in ASCII or binary of either byte order, elements of any
+// order; tags of nodes may have gaps. A cell's region is the absolute value of its physical tag, 0
+// without one. Refused: partitioned meshes, and volumes in several physical groups.
 [[nodiscard]] Cells read_gmsh_cells(const std::string& path);
 // VTK: regions are those of the first array of cells that numbers_parts(). XML files in ASCII or
 // binary, appended or not, plain or compressed by zlib.
@@ -63,6 +64,9 @@ struct NamedMesh {
 // VTK's cells, by their type: adds one with these nodes as a solid or face. `at` is its number in
 // the file, which becomes its region until number_by() replaces it. False for other types.
 [[nodiscard]] bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells);
+// The triangles of a strip of corners, all turned like the first, without those that have a corner
+// twice.
+[[nodiscard]] std::vector<std::vector<int>> triangles_of_strip(std::span<const int> corners);
 // Replaces the numbers by an array with an entry for every cell of the file, or by 0 if it is
 // empty.
 void number_by(const std::vector<double>& regions, Cells& cells);

@@ -35,17 +35,23 @@ class GmshReader {
   explicit GmshReader(const std::string& path) : path_(path), lines_(path) {}
 
   Cells read() {
-    read_format();
-    while (lines_.next()) {
+    bool more = lines_.next();
+    if (more && lines_.words()[0] == "$NOD") {
+      version_1_ = true;
+    } else {
+      read_format(more);
+      more = lines_.next();
+    }
+    for (; more; more = lines_.next()) {
       const std::string section(lines_.words()[0]);
       section_ = section;
       if (section == "$Entities" && version_4_) {
         read_entities();
       } else if (section == "$PhysicalNames") {
         read_names();
-      } else if (section == "$Nodes") {
+      } else if (section == "$Nodes" || (version_1_ && section == "$NOD")) {
         version_4_ ? read_nodes_4() : read_nodes_2();
-      } else if (section == "$Elements") {
+      } else if (section == "$Elements" || (version_1_ && section == "$ELM")) {
         version_4_ ? read_elements_4() : read_elements_2();
       } else if (section == "$PartitionedEntities") {
         lines_.fail_at(0, "the mesh is cut into partitions; save it without them");
@@ -66,15 +72,16 @@ class GmshReader {
   }
 
  private:
-  void read_format() {
-    if (!lines_.next() || lines_.words()[0] != "$MeshFormat")
+  void read_format(bool any) {
+    if (!any || lines_.words()[0] != "$MeshFormat")
       lines_.fail(
           "the file does not begin with `$MeshFormat`; save it from Gmsh as version 4.1 (`gmsh "
           "-format msh41`)");
     section_ = "$MeshFormat";
     begin(2);
     const std::string version(lines_.words()[0]);
-    if (version != "4.1" && version != "2.2")
+    if (version != "4.1" && version != "2.2" && version != "2.1" && version != "2.0" &&
+        version != "2")
       lines_.fail_at(
           0, "version `" + version + "` is not read; save it as 4.1 (`gmsh -format msh41`)");
     version_4_ = version == "4.1";
@@ -148,7 +155,7 @@ class GmshReader {
   }
 
   void expect_end(const std::string& section) {
-    const std::string end = "$End" + section.substr(1);
+    const std::string end = (version_1_ ? "$END" : "$End") + section.substr(1);
     if (!lines_.next() || lines_.words()[0] != end)
       lines_.fail("`" + end + "` should stand here" + save_again);
   }
@@ -278,9 +285,10 @@ class GmshReader {
       if (!binary_) (void)whole("the element's tag");
       const GmshKind& kind = kind_of(whole("the element's type"));
       const auto together = binary_ ? count("the number of elements") : 1;
-      const auto tags = count("the number of tags");
+      // Version 1 has the group, the entity and the number of nodes here.
+      const auto tags = version_1_ ? 3 : count("the number of tags");
       if (together < 1 || together > total - i) fail("more elements follow than are counted");
-      want_words(3 + as_index(static_cast<int>(tags)) + as_index(kind.nodes));
+      want_words(word_ + as_index(static_cast<int>(tags)) + as_index(kind.nodes));
       for (std::int64_t k = 0; k < together; ++k, ++i) {
         if (binary_) (void)whole("the element's tag");
         int region = 0;
@@ -317,7 +325,7 @@ class GmshReader {
   TableLines lines_;
   std::string section_;
   std::size_t word_ = 0;  // the next one of a line
-  bool version_4_ = false, binary_ = false, big_endian_ = false;
+  bool version_1_ = false, version_4_ = false, binary_ = false, big_endian_ = false;
   std::unordered_map<int, int> volume_region_;  // the physical tag of each volume that has one
   std::unordered_map<std::int64_t, int> node_of_tag_;
   Cells cells_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -205,7 +207,50 @@ void write_node_ele(const std::string& path, const geometry::TetMesh& mesh) {
   if (kept) fs::remove(replaced(files), failed);
 }
 
-NamedMesh read_mesh(const std::string& path, double metres_per_unit) {
+namespace {
+
+// Gives tetrahedra nodes of their own where they share no face around a node, only the node or an
+// edge. Returns the number of new nodes, which come last.
+int part_touching(geometry::TetMesh& mesh) {
+  for (const auto& [a, b, c, d] : mesh.tetrahedra)  // refused later
+    if (a == b || a == c || a == d || b == c || b == d || c == d) return 0;
+  // Corners (tetrahedron, local node) at one node are together if a way over faces joins them.
+  std::vector<int> leader(4 * mesh.tetrahedra.size());
+  std::iota(leader.begin(), leader.end(), 0);
+  const auto find = [&](int corner) {
+    while (leader[as_index(corner)] != corner)
+      corner = leader[as_index(corner)] = leader[as_index(leader[as_index(corner)])];
+    return corner;
+  };
+  const auto corner_at = [&](int tetrahedron, int node) {
+    const auto& nodes = mesh.tetrahedra[as_index(tetrahedron)];
+    return 4 * tetrahedron +
+           static_cast<int>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+  };
+  const std::vector<geometry::FaceUse> uses = geometry::face_uses(mesh);
+  for (std::size_t i = 1; i < uses.size(); ++i)
+    for (const int node : uses[i].key)
+      if (uses[i].key == uses[i - 1].key) {
+        const int one = find(corner_at(uses[i].tetrahedron, node));
+        leader[as_index(one)] = find(corner_at(uses[i - 1].tetrahedron, node));
+      }
+  const std::size_t before = mesh.nodes.size();
+  std::vector<int> first(before, -1);
+  std::map<int, int> parted;  // node of a leader
+  for (int corner = 0; corner < static_cast<int>(leader.size()); ++corner) {
+    int& node = mesh.tetrahedra[as_index(corner / 4)][as_index(corner % 4)];
+    const int own = find(corner);
+    int& kept = first[as_index(node)];
+    if (kept < 0) kept = own;
+    if (kept == own) continue;
+    const auto [known, added] = parted.try_emplace(own, static_cast<int>(mesh.nodes.size()));
+    if (added) mesh.nodes.emplace_back(mesh.nodes[as_index(node)]);
+    node = known->second;
+  }
+  return static_cast<int>(mesh.nodes.size() - before);
+}
+
+NamedMesh as_in_file(const std::string& path, double metres_per_unit) {
   const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   if (holds_cells(path)) return tetrahedra_of(read_cells(path), path, metres_per_unit);
   if (ending == ".node" || ending == ".ele") return {read_node_ele(path, metres_per_unit)};
@@ -213,6 +258,17 @@ NamedMesh read_mesh(const std::string& path, double metres_per_unit) {
       {path},
       "a mesh file wants the ending `.msh`, `.vtu`, `.vtk`, `.inp`, `.mesh`, `.node` or "
       "`.ele`; save it as one of them");
+}
+
+}  // namespace
+
+NamedMesh read_mesh(const std::string& path, double metres_per_unit) {
+  NamedMesh read = as_in_file(path, metres_per_unit);
+  if (const int parted = part_touching(read.mesh); parted > 0)
+    read.remark += (read.remark.empty() ? "" : "; ") + std::to_string(parted) +
+                   (parted == 1 ? " node" : " nodes") + " of " + path +
+                   " at which its parts only touch were parted";
+  return read;
 }
 
 }  // namespace palpate::meshing

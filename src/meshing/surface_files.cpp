@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -26,11 +27,10 @@ std::vector<std::array<int, 3>> fan(const std::vector<int>& corners, std::size_t
   return triangles;
 }
 
-// Face `f` as triangles. The polygon may be slightly non-planar, but every triangle must have its
-// orientation.
-std::vector<std::array<int, 3>> triangles(const std::string& path, const Polygons& polygons,
-                                          std::size_t f) {
-  const std::vector<int>& corners = polygons.corners[f];
+// A polygon as triangles, from the corner from which they lie flattest. A polygon that is far from
+// plane or hollow is folded by that; where its triangles cut others, they are mended with them.
+std::vector<std::array<int, 3>> triangles(const Polygons& polygons,
+                                          const std::vector<int>& corners) {
   if (corners.size() == 3) return fan(corners, 0);
   const auto at = [&](int vertex) -> const Vec3& { return polygons.vertices[as_index(vertex)]; };
   const auto normal = [&](const std::array<int, 3>& t) {
@@ -38,16 +38,18 @@ std::vector<std::array<int, 3>> triangles(const std::string& path, const Polygon
   };
   Vec3 mean = Vec3::Zero();
   for (const auto& triangle : fan(corners, 0)) mean += normal(triangle);
-  for (std::size_t start = 0; start < corners.size(); ++start) {
+  std::vector<std::array<int, 3>> best;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t start = 0; start < corners.size() && most <= 0.0; ++start) {
     auto tried = fan(corners, start);
-    if (std::all_of(tried.begin(), tried.end(),
-                    [&](const auto& triangle) { return normal(triangle).dot(mean) > 0.0; }))
-      return tried;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& triangle : tried) least = std::min(least, normal(triangle).dot(mean));
+    if (best.empty() || least > most) {
+      most = least;
+      best = std::move(tried);
+    }
   }
-  fail(path, "face " + std::to_string(f) + " (counting from 0) is a polygon of " +
-                 std::to_string(corners.size()) +
-                 " corners that cannot be cut into triangles from one of them; triangulate the "
-                 "surface in the program it comes from");
+  return best;
 }
 
 // For each vertex, the first one with equal coordinates (0 and -0 are equal).
@@ -101,8 +103,8 @@ geometry::Surface read_surface(const std::string& path, double metres_per_unit) 
   const std::vector<int> representative = welded(polygons.vertices);
   std::vector<int> number(polygons.vertices.size(), -1);
   geometry::Surface surface;
-  for (std::size_t f = 0; f < polygons.corners.size(); ++f)
-    for (std::array<int, 3> triangle : triangles(path, polygons, f)) {
+  for (const std::vector<int>& corners : polygons.corners)
+    for (std::array<int, 3> triangle : triangles(polygons, corners)) {
       for (int& corner : triangle) {
         const auto vertex = as_index(representative[as_index(corner)]);
         if (number[vertex] < 0) {

@@ -13,6 +13,7 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "meshing/binary_numbers.h"
+#include "meshing/cells.h"
 #include "meshing/surface_text.h"
 #include "meshing/table_lines.h"
 
@@ -115,8 +116,9 @@ std::span<const Element> needed(const std::string& path, const Header& header) {
           [&](const Property& p) { return p.name == name && !p.length && !p.type->whole; });
     };
     std::size_t corners = 0;
+    const bool faces = element.name == "face" || element.name == "tristrips";
     for (const Property& property : element.properties) {
-      if (element.name == "face" && property.is_corners() && property.type->whole) ++corners;
+      if (faces && property.is_corners() && property.type->whole) ++corners;
     }
     if (element.name == "vertex") {
       if (!has("x") || !has("y") || !has("z"))
@@ -124,7 +126,7 @@ std::span<const Element> needed(const std::string& path, const Header& header) {
              "its vertices want `x`, `y` and `z` of type `float` or `double`; export it again");
       vertices = true;
     }
-    if (element.name == "face") {
+    if (faces) {
       if (!vertices || corners != 1)
         fail(path,
              "wants vertices first and then faces with one list `vertex_indices`; export it "
@@ -249,13 +251,20 @@ class BinaryBody {
 template <class Body>
 Polygons polygons(Body&& body, std::span<const Element> elements, bool ends_with_faces) {
   Polygons found;
-  for (const Element& element : elements)
+  const auto take = [&](std::vector<int> corners, std::size_t i) {
+    const std::string wrong = wrong_corners(body.face(i), corners, 0, found.vertices.size());
+    if (!wrong.empty()) body.fail(wrong);
+    found.corners.push_back(std::move(corners));
+  };
+  for (const Element& element : elements) {
+    const bool strips = element.name == "tristrips";
+    const bool faces = strips || element.name == "face";
     for (std::size_t i = 0; i < element.count; ++i) {
       body.begin(element, i);
       Vec3 vertex = Vec3::Zero();
       std::vector<int> corners;
       for (const Property& property : element.properties) {
-        if (element.name == "face" && property.is_corners()) {
+        if (faces && property.is_corners()) {
           body.corners(property, corners);
           continue;
         }
@@ -274,12 +283,22 @@ Polygons polygons(Body&& body, std::span<const Element> elements, bool ends_with
                     " (counting from 0) has a coordinate that is not a finite number; export it "
                     "again");
         found.vertices.push_back(vertex);
-      } else if (element.name == "face") {
-        const std::string wrong = wrong_corners(body.face(i), corners, 0, found.vertices.size());
-        if (!wrong.empty()) body.fail(wrong);
-        found.corners.push_back(std::move(corners));
+      } else if (strips) {
+        // A negative number ends a strip.
+        for (std::size_t from = 0; from < corners.size();) {
+          const auto end = std::find_if(corners.begin() + static_cast<std::ptrdiff_t>(from),
+                                        corners.end(), [](int corner) { return corner < 0; });
+          const std::size_t to = static_cast<std::size_t>(end - corners.begin());
+          for (auto& triangle :
+               triangles_of_strip(std::span<const int>(corners).subspan(from, to - from)))
+            take(std::move(triangle), i);
+          from = to + 1;
+        }
+      } else if (faces) {
+        take(std::move(corners), i);
       }
     }
+  }
   if (ends_with_faces) body.end_of_file(elements.back().count);
   return found;
 }

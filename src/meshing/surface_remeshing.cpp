@@ -190,9 +190,11 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
     std::optional<Surface> tried = attempt(surface, spacing, uneven);
     if (!tried || tried->triangles.empty()) continue;
     flatten_sides(surface, spacing, *tried);
-    if (!uneven && tried->triangles.size() >= surface.triangles.size()) return std::nullopt;
+    const std::size_t given = surface.triangles.size();
+    if (tried->triangles.size() >= (uneven ? std::max<std::size_t>(2 * given, 2000) : given))
+      return std::nullopt;
     if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) > looser * most_volume) continue;
-    if (count_needles(*tried) > 0) continue;
+    if (looser <= 1.0 && count_needles(*tried) > 0) continue;
     const double distance =
         std::max(farthest(*tried, original), farthest(surface, geometry::BoxTree(*tried)));
     if (distance <= limit && closed(*tried)) return Remeshed{std::move(*tried), distance};

@@ -39,10 +39,8 @@ class VtkReader {
         cell_nodes_ = read_lists();
       else if (word == "cell_types")
         cell_types_ = array(count(1), "int");
-      else if (word == "polygons")
-        add_polygons();
-      else if (word == "triangle_strips")
-        lines_.fail("strips of triangles are not read; save the surface as triangles");
+      else if (word == "polygons" || word == "triangle_strips")
+        add_polygons(word == "triangle_strips");
       else if (word == "vertices" || word == "lines")
         read_lists();
       else if (word == "cell_data" || word == "point_data")
@@ -190,10 +188,14 @@ class VtkReader {
     return list;
   }
 
-  void add_polygons() {
+  void add_polygons(bool strips) {
     for (const auto& list : read_lists()) {
       if (list.size() < 3) lines_.fail("a polygon wants three corners or more; save it again");
-      cells_.faces.push_back(checked(list));
+      std::vector<int> corners = checked(list);
+      if (strips)
+        std::ranges::copy(triangles_of_strip(corners), std::back_inserter(cells_.faces));
+      else
+        cells_.faces.push_back(std::move(corners));
     }
   }
 

@@ -7,6 +7,8 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/text.h"
@@ -20,6 +22,7 @@ using record::ScenePicture;
 using Colour = std::array<double, 3>;  // red, green, blue, 0 to 255
 
 constexpr double width = 800.0, height = 640.0;  // px, of the page
+constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
 constexpr double margin = 60.0, head = 100.0, foot = 90.0;
 
 // Colours by region: those of skin, muscle and bone, then others.
@@ -29,6 +32,8 @@ constexpr std::array<Colour, 6> palette{{{236, 188, 160},
                                          {96, 140, 190},
                                          {120, 165, 100},
                                          {150, 118, 185}}};
+
+constexpr Colour held_colour{92, 110, 138};
 
 Colour colour(int region) { return palette[as_index(region) % palette.size()]; }
 
@@ -64,15 +69,11 @@ struct Point {
   [[nodiscard]] std::string text() const { return px(x) + " " + px(y); }
 };
 
-// Unit vectors of the page. `towards` points to the eye: 30 degrees above the horizon, and 30
-// degrees from -y to +x.
-const Vec3 right(0.5 * std::sqrt(3.0), 0.5, 0.0);
-const Vec3 up(-0.25, 0.25 * std::sqrt(3.0), 0.5 * std::sqrt(3.0));
-const Vec3 towards = right.cross(up);
-const Vec3 light = Vec3(-0.35, -0.45, 0.82).normalized();  // from behind the eye's left
+const Vec3 light = Vec3(-0.35, -0.45, 0.82).normalized();  // of a page seen from the front
 
 // The projection from space to the page.
 struct View {
+  Vec3 right, up, towards;       // unit vectors of the page; `towards` points to the eye
   double scale = 1.0;            // px/m
   double left = 0.0, top = 0.0;  // m, the page's upper left corner along `right` and `up`
 
@@ -81,21 +82,31 @@ struct View {
   }
 };
 
-View fitting(const ScenePicture& picture) {
+View directions(const SceneAngles& angles) {
+  const double around = angles.around * std::numbers::pi / 180.0;
+  const double tilt = angles.tilt * std::numbers::pi / 180.0;
+  View view;
+  view.right = {std::cos(around), std::sin(around), 0.0};
+  view.up = {-std::sin(tilt) * std::sin(around), std::sin(tilt) * std::cos(around), std::cos(tilt)};
+  view.towards = view.right.cross(view.up);
+  return view;
+}
+
+View fitting(const ScenePicture& picture, const SceneFrame& frame) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   double left = inf, bottom = inf, most_right = -inf, top = -inf;
+  View view = directions(scene_angles(picture));
   const auto take = [&](const Vec3& place, double around) {
-    left = std::min(left, place.dot(right) - around);
-    most_right = std::max(most_right, place.dot(right) + around);
-    bottom = std::min(bottom, place.dot(up) - around);
-    top = std::max(top, place.dot(up) + around);
+    left = std::min(left, place.dot(view.right) - around);
+    most_right = std::max(most_right, place.dot(view.right) + around);
+    bottom = std::min(bottom, place.dot(view.up) - around);
+    top = std::max(top, place.dot(view.up) + around);
   };
-  for (const auto& face : picture.faces)
-    for (const Vec3& corner : face.corners) take(corner, 0.0);
+  for (const auto& [from, to] : frame.lines) take(from, 0.0), take(to, 0.0);
   for (const auto& sphere : picture.finger) take(sphere.centre, sphere.radius);
+  for (const SceneLabel& label : frame.labels) take(label.at, 0.0);
   Vec3 at = picture.touch;
   for (const Vec3& slide : picture.slides) take(at += slide, 0.0);
-  View view;
   view.scale = std::min((width - 2.0 * margin) / (most_right - left),
                         (height - head - foot) / (top - bottom));
   view.left = 0.5 * (left + most_right - width / view.scale);
@@ -114,15 +125,15 @@ std::string painted(const std::vector<const ScenePicture::Face*>& faces, const V
   for (const ScenePicture::Face* face : faces) {
     const auto& [a, b, c] = face->corners;
     const Vec3 normal = (b - a).cross(c - a).normalized();
-    if (normal.dot(towards) <= 0.0) continue;
-    seen.push_back({(a + b + c).dot(towards), face, 0.74 + 0.3 * normal.dot(light)});
+    if (normal.dot(view.towards) <= 0.0) continue;
+    seen.push_back({(a + b + c).dot(view.towards), face, 0.74 + 0.3 * normal.dot(light)});
   }
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& one, const Seen& other) {
     return one.nearness < other.nearness;
   });
   std::string text, before;
   for (const Seen& one : seen) {
-    const Colour base = colour(one.face->region);
+    const Colour base = one.face->held ? held_colour : colour(one.face->region);
     const std::string fill = hex(base, one.brightness);
     if (fill != before) {
       if (!before.empty()) text += "\"/>\n";
@@ -189,8 +200,8 @@ std::string slides(const ScenePicture& picture, const View& view) {
 
 std::string finger(const ScenePicture& picture, const View& view) {
   std::vector<ScenePicture::Sphere> spheres = picture.finger;
-  std::stable_sort(spheres.begin(), spheres.end(), [](const auto& one, const auto& other) {
-    return one.centre.dot(towards) < other.centre.dot(towards);
+  std::stable_sort(spheres.begin(), spheres.end(), [&](const auto& one, const auto& other) {
+    return one.centre.dot(view.towards) < other.centre.dot(view.towards);
   });
   std::string text;
   for (const auto& sphere : spheres) {
@@ -201,17 +212,30 @@ std::string finger(const ScenePicture& picture, const View& view) {
   return text;
 }
 
-// The arrow of the travel, above the finger, not to scale.
+// The arrow of the travel, before the finger, not to scale.
 std::string travel(const ScenePicture& picture, const View& view) {
-  double top = std::numeric_limits<double>::infinity(), x = 0.0;
+  Point ahead{picture.towards.dot(view.right), -picture.towards.dot(view.up)};
+  const double length = std::hypot(ahead.x, ahead.y);
+  ahead = length > 0.05 ? Point{ahead.x / length, ahead.y / length} : Point{0.0, 1.0};
+  Point middle;
   for (const auto& sphere : picture.finger) {
     const Point at = view(sphere.centre);
-    top = std::min(top, at.y - view.scale * sphere.radius);
-    x += at.x / static_cast<double>(picture.finger.size());
+    middle.x += at.x / static_cast<double>(picture.finger.size());
+    middle.y += at.y / static_cast<double>(picture.finger.size());
   }
-  const double tip = top - 5.0, tail = tip - 38.0;
-  return arrow({x, tail}, {x, tip}, 12.0) +
-         label({x + 10.0, tail + 12.0}, " stroke=\"none\"", mm_text(picture.travel));
+  double before = 0.0;  // px, from the middle to where the spheres begin
+  for (const auto& sphere : picture.finger) {
+    const Point at = view(sphere.centre);
+    before = std::max(before, view.scale * sphere.radius + (middle.x - at.x) * ahead.x +
+                                  (middle.y - at.y) * ahead.y);
+  }
+  const auto back = [&](double by) {
+    return Point{middle.x - by * ahead.x, middle.y - by * ahead.y};
+  };
+  const Point tail = back(before + 43.0);
+  return arrow(tail, back(before + 5.0), 12.0) +
+         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)}, " stroke=\"none\"",
+               mm_text(picture.travel));
 }
 
 // Its length is 1, 2 or 5 times a power of ten: the longest that is at most 160 px.
@@ -230,31 +254,53 @@ std::string scale_bar(const View& view) {
                mm_text(length));
 }
 
-std::string axes() {
+std::string axes(const ScenePicture& picture, const View& view) {
   constexpr double length = 34.0;  // px, of an axis parallel to the page
-  const Point origin{width - 100.0, height - 40.0};
+  const Point origin{width - 100.0, height - 48.0};
   std::string text;
-  constexpr std::array<const char*, 3> names{"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
-    const double x = right[axis], y = -up[axis];
+    const Vec3 along = picture.axes.col(axis);
+    const double x = along.dot(view.right), y = -along.dot(view.up);
     text += arrow(origin, {origin.x + length * x, origin.y + length * y}, 7.0);
     text += label({origin.x + (length + 10.0) * x, origin.y + (length + 10.0) * y + 4.5},
-                  " stroke=\"none\" text-anchor=\"middle\"", names[as_index(axis)]);
+                  " stroke=\"none\" text-anchor=\"middle\"", axis_names[as_index(axis)]);
   }
   return text;
+}
+
+std::string lines(const std::vector<std::array<Vec3, 2>>& edges, const View& view,
+                  const std::string& attributes) {
+  std::string path;
+  for (const auto& [from, to] : edges) path += "M" + view(from).text() + "L" + view(to).text();
+  return path.empty() ? path : "<path d=\"" + path + "\" fill=\"none\"" + attributes + "/>\n";
+}
+
+// The edges of the box, behind the body, with the numbers along its axes.
+std::string box(const SceneFrame& frame, const View& view) {
+  std::string labels;
+  for (const SceneLabel& one : frame.labels) {
+    const Point at = view(one.at);
+    labels += label({at.x, at.y + 4.0}, "", one.text);
+  }
+  return lines(frame.lines, view, " stroke=\"#9aa3ad\" stroke-width=\"0.8\"") +
+         "<g font-size=\"11\" fill=\"#444\" text-anchor=\"middle\">\n" + labels + "</g>\n";
 }
 
 std::string legend(const ScenePicture& picture) {
   std::string text;
   double y = 70.0;
-  for (std::size_t i = 0; i < picture.materials.size(); ++i, y += 20.0) {
-    const std::string words = i == 0 ? picture.materials[i]
-                                     : picture.materials[i] + " (region " + std::to_string(i) + ")";
+  const auto entry = [&](const Colour& fill, const std::string& words) {
     text += "<rect x=\"" + px(margin) + "\" y=\"" + px(y - 10.0) +
-            "\" width=\"12\" height=\"12\" fill=\"" + hex(colour(static_cast<int>(i)), 1.0) +
+            "\" width=\"12\" height=\"12\" fill=\"" + hex(fill, 1.0) +
             "\" stroke=\"#777\" stroke-width=\"0.6\"/>\n" +
             label({margin + 19.0, y}, " stroke=\"none\"", words);
-  }
+    y += 20.0;
+  };
+  for (std::size_t i = 0; picture.materials.size() > 1 && i < picture.materials.size(); ++i)
+    entry(colour(static_cast<int>(i)),
+          i == 0 ? picture.materials[i]
+                 : picture.materials[i] + " (region " + std::to_string(i) + ")");
+  if (!picture.base.empty()) entry(held_colour, picture.base);
   return text;
 }
 
@@ -265,27 +311,125 @@ constexpr const char* gradient =
 
 }  // namespace
 
-std::string region_colour(int region) { return hex(colour(region), 1.0); }
+std::vector<std::string> scene_colours(const ScenePicture& picture) {
+  std::vector<std::string> colours;
+  for (std::size_t i = 0; i < picture.materials.size(); ++i)
+    colours.push_back(hex(colour(static_cast<int>(i)), 1.0));
+  colours.push_back(hex(held_colour, 1.0));
+  return colours;
+}
+
+SceneAngles scene_angles(const ScenePicture& picture) {
+  SceneAngles best{30.0, picture.towards.z() > 0.7 ? -30.0 : 30.0};
+  double most = -2.0;
+  for (const double around : {30.0, -60.0, 120.0, -150.0}) {
+    const double facing = -picture.towards.dot(directions({around, 0.0}).towards);
+    if (facing < most + 0.2) continue;
+    most = facing;
+    best.around = around;
+  }
+  return best;
+}
+
+SceneFrame scene_frame(const ScenePicture& picture) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Vec3 low = Vec3::Constant(inf), high = Vec3::Constant(-inf);
+  for (const auto& face : picture.faces)
+    for (const Vec3& corner : face.corners) {
+      const Vec3 own = picture.axes.transpose() * corner;
+      low = low.cwiseMin(own);
+      high = high.cwiseMax(own);
+    }
+  const double size = (high - low).norm();
+  const View view = directions(scene_angles(picture));
+  SceneFrame frame;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int second = (axis + 1) % 3, third = (axis + 2) % 3;
+    // Of the two edges at the rim of the picture the lower one, or the left one of upright axes.
+    double least = inf;
+    Vec3 start = low, outwards = Vec3::Zero();
+    for (const double far : {-1.0, 1.0})
+      for (const double above : {-1.0, 1.0}) {
+        Vec3 corner = low, out = Vec3::Zero();
+        out[second] = far;
+        out[third] = above;
+        if (far > 0.0) corner[second] = high[second];
+        if (above > 0.0) corner[third] = high[third];
+        Vec3 end = corner;
+        end[axis] = high[axis];
+        frame.lines.push_back({picture.axes * corner, picture.axes * end});
+        const auto seen = [&](int side) {
+          return out[side] * picture.axes.col(side).dot(view.towards) > 0.0;
+        };
+        const bool upright = std::abs(picture.axes.col(axis).z()) > 0.7;
+        const double rank = (picture.axes * corner).dot(upright ? view.right : view.up);
+        if (seen(second) == seen(third) || rank >= least) continue;
+        least = rank;
+        start = corner;
+        outwards = out.normalized();
+      }
+    // Three to seven numbers, 1, 2 or 5 times a power of ten apart.
+    const double span = unit::mm.from_si(high[axis] - low[axis]);
+    if (!(span > 0.0)) continue;
+    double step = std::pow(10.0, std::floor(std::log10(span / 3.0)));
+    step *= span / (5.0 * step) >= 3.0 ? 5.0 : span / (2.0 * step) >= 3.0 ? 2.0 : 1.0;
+    const auto at = [&](double along, double away) -> Vec3 {
+      Vec3 place = start + away * size * outwards;
+      place[axis] = along;
+      return picture.axes * place;
+    };
+    for (double i = std::ceil(unit::mm.from_si(low[axis]) / step - 1e-6);
+         i * step <= unit::mm.from_si(high[axis]) + 1e-6 * step; ++i) {
+      const double along = unit::mm.to_si(i * step);
+      frame.lines.push_back({at(along, 0.0), at(along, 0.015)});
+      frame.labels.push_back({at(along, 0.045), rounded_text(i * step + 0.0, 6)});
+    }
+    frame.labels.push_back({at(0.5 * (low[axis] + high[axis]), 0.11),
+                            std::string(axis_names[as_index(axis)]) + " (mm)"});
+  }
+  return frame;
+}
+
+std::vector<std::array<Vec3, 2>> base_border(const ScenePicture& picture) {
+  using Key = std::array<double, 3>;
+  std::map<std::pair<Key, Key>, int> uses;
+  for (const auto& face : picture.faces)
+    for (std::size_t i = 0; face.held && i < 3; ++i) {
+      const Vec3& a = face.corners[i];
+      const Vec3& b = face.corners[(i + 1) % 3];
+      ++uses[std::minmax(Key{a.x(), a.y(), a.z()}, Key{b.x(), b.y(), b.z()})];
+    }
+  std::vector<std::array<Vec3, 2>> border;
+  for (const auto& [edge, count] : uses)
+    if (count == 1)
+      border.push_back({Vec3(edge.first[0], edge.first[1], edge.first[2]),
+                        Vec3(edge.second[0], edge.second[1], edge.second[2])});
+  return border;
+}
 
 std::string scene_svg(const ScenePicture& picture, const std::string& title) {
   assert(!picture.faces.empty());
-  const View view = fitting(picture);
+  const SceneFrame frame = scene_frame(picture);
+  const View view = fitting(picture, frame);
+  const std::vector<std::array<Vec3, 2>> border = base_border(picture);
+  const std::string held = " stroke=\"" + hex(held_colour, 0.8) + "\"";
   const std::string size = "width=\"" + px(width) + "\" height=\"" + px(height) + "\"";
   const std::string ink = "<g fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n";
-  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(width) + " " +
-                     px(height) + "\" " + size +
-                     " font-family=\"sans-serif\" font-size=\"14\">\n<title>" + escaped(title) +
-                     "</title>\n" + gradient + "<rect " + size + " fill=\"#fff\"/>\n" +
-                     specimen(picture, view) + ink + slides(picture, view) + "</g>\n";
+  std::string text =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(width) + " " + px(height) +
+      "\" " + size + " font-family=\"sans-serif\" font-size=\"14\">\n<title>" + escaped(title) +
+      "</title>\n" + gradient + "<rect " + size + " fill=\"#fff\"/>\n" + box(frame, view) +
+      lines(border, view, held + " stroke-width=\"2.4\"") + specimen(picture, view) +
+      lines(border, view, held + " stroke-dasharray=\"4 4\"") + ink + slides(picture, view) +
+      "</g>\n";
   if (!picture.finger.empty())
     text += "<g fill=\"url(#ball)\" stroke=\"#4a5666\" stroke-width=\"0.8\">\n" +
             finger(picture, view) + "</g>\n";
   text += ink;
   if (!picture.finger.empty()) text += travel(picture, view);
-  text += scale_bar(view) + axes() + "</g>\n<g fill=\"#222\">\n" +
+  text += scale_bar(view) + axes(picture, view) + "</g>\n<g fill=\"#222\">\n" +
           label({margin, 40.0}, " font-size=\"18\"", title);
-  if (picture.materials.size() > 1) text += legend(picture);
-  return text + "</g>\n</svg>\n";
+  return text + legend(picture) + "</g>\n</svg>\n";
 }
 
 }  // namespace palpate::report

@@ -11,9 +11,9 @@
 #include "base/units.h"
 #include "mechanics/half_space_contact.h"
 #include "mechanics/pressed_mesh.h"
-#include "record/scene_picture.h"
 #include "run/contact_row.h"
 #include "run/pace.h"
+#include "run/picture.h"
 #include "run/pressure_map.h"
 #include "run/solid_press.h"
 #include "scene/first_touch.h"
@@ -21,52 +21,6 @@
 
 namespace palpate::run {
 namespace {
-
-using Face = record::ScenePicture::Face;
-
-Face face(const geometry::TetMesh& mesh, const geometry::FaceUse& use) {
-  Face result;
-  for (std::size_t i = 0; i < 3; ++i) result.corners[i] = mesh.nodes[as_index(use.nodes[i])];
-  result.region = mesh.region(use.tetrahedron);
-  return result;
-}
-
-std::vector<Face> faces(const geometry::TetMesh& mesh) {
-  std::vector<Face> found;
-  const std::vector<geometry::FaceUse> uses = geometry::face_uses(mesh);
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    Face one = face(mesh, uses[i]);
-    if (i + 1 < uses.size() && uses[i + 1].key == uses[i].key) {
-      // Between two regions, the face belongs to the later one and is seen from the earlier one.
-      Face other = face(mesh, uses[++i]);
-      if (one.region == other.region) continue;
-      if (one.region < other.region) std::swap(one, other);
-      one.within = other.region;
-    }
-    found.push_back(one);
-  }
-  return found;
-}
-
-// The specimen's skin, the surfaces of the regions inside it (counter-clockwise from outside the
-// region), and the finger at its first touch (m), where it touches the skin at `touched` (m).
-record::ScenePicture make_picture(const scene::Scene& scene, std::vector<Face> faces,
-                                  const Vec3& finger, const Vec3& touched) {
-  record::ScenePicture picture;
-  picture.faces = std::move(faces);
-  picture.materials = {scene.scenario.tissue.material};
-  for (const auto& region : scene.scenario.regions) picture.materials.push_back(region.material);
-  for (const Vec3& centre : scene.finger.centres)
-    picture.finger.push_back({finger + centre, scene.finger.sphere_radius});
-  picture.travel = scene::deepest_travel(scene.scenario, scene.law());
-  picture.touch = touched;
-  for (const scenario::Step& step : scene.scenario.steps)
-    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-      const double angle = slide->direction * std::numbers::pi / 180.0;
-      picture.slides.emplace_back(slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0));
-    }
-  return picture;
-}
 
 using scenario::Hold;
 using scenario::Indent;
@@ -116,11 +70,11 @@ class Press {
  public:
   Press(const scene::Scene& scene, record::CaseRecord& record)
       : scene_(scene), record_(record), history_(scene) {
+    if (scene.scenario.output.picture || scene.scenario.output.report)
+      record_.picture = picture_of(scene);
     if (scene.solid) {
       solid_.emplace(scene);
       first_ = touch_.finger = scene.solid->first_touch;
-      if (pictured())
-        record_.picture = make_picture(scene, solid_->faces(), first_, scene.solid->touched);
       return;
     }
     if (!scene.specimen) {
@@ -129,12 +83,8 @@ class Press {
       return;
     }
     mesh_.emplace(scene);
-    const scene::FirstTouch first = scene::first_touch(scene);
-    first_ = touch_.finger = first.finger;
+    first_ = touch_.finger = scene::first_touch(scene).finger;
     if (scene.scenario.output.tissue) record_.mesh = scene.specimen->mesh;
-    if (pictured())
-      record_.picture = make_picture(scene, faces(scene.specimen->mesh), first_,
-                                     scene.specimen->surface->position(first.at));
   }
 
   void run() {
@@ -173,11 +123,11 @@ class Press {
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
     if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
       record_.findings.push_back({"sinking_mm", unit::mm.from_si(deepest_sinking_)});
-    if (!mesh_ && (scene_.scenario.output.tissue || (scene_.scenario.output.picture && !solid_)))
+    if (!mesh_ && scene_.scenario.output.tissue)
       record_.remarks.push_back(
           "`" + std::string(scenario::rung(scene_.scenario.solver.model).word) +
           "` writes no displacements of a mesh; set `solver.model = \"coupled_springs\"` for "
-          "`output.tissue` and `output.picture`");
+          "`output.tissue`");
     if (on_crease_)
       record_.remarks.push_back(
           "the finger touched the specimen at a crease or rim: the curvature there is that of the "
@@ -199,10 +149,6 @@ class Press {
   }
 
  private:
-  [[nodiscard]] bool pictured() const {
-    return scene_.scenario.output.picture || scene_.scenario.output.report;
-  }
-
   Pace begin(const Motion& motion) {
     const Pace pace = std::isfinite(motion.force) ? make_open_pace(scene_, motion.duration)
                                                   : make_pace(scene_, motion.duration);

@@ -74,8 +74,8 @@ std::vector<char> marked(const std::vector<double>& errors, double share, std::s
 class Refining {
  public:
   Refining(const scenario::Case& one, const scenario::Family& family,
-           const scenario::Resolved& scenario)
-      : one_(one), family_(family), mesh_(&scenario.tissue.mesh) {
+           const scenario::Resolved& scenario, scene::SpecimenShapes& shapes)
+      : one_(one), family_(family), shapes_(&shapes), mesh_(&scenario.tissue.mesh) {
     trial_.given = true;
     trial_.chosen = scene::refining_press(scenario);
     most_nodes_ = scenario::refinement(*mesh_).most_nodes;
@@ -86,7 +86,8 @@ class Refining {
 
   [[nodiscard]] scene::SpecimenShape refined() {
     const scenario::Resolved& press = trial_.chosen;
-    scene::SpecimenShape shape = scene::make_shape(press, family_.folder);
+    const auto of_file = reads_surface() ? shapes_->surface(press, family_.folder).must() : nullptr;
+    scene::SpecimenShape shape = scene::make_shape(press, family_.folder, of_file.get());
     // scene_with() takes this mesh as it is.
     scenario::refinement(trial_.chosen.tissue.mesh).refine = false;
     std::vector<double> levels = scene::slab_levels(press);
@@ -122,8 +123,13 @@ class Refining {
   }
 
  private:
+  [[nodiscard]] bool reads_surface() const {
+    return std::holds_alternative<scenario::SurfaceFile>(trial_.chosen.tissue.shape);
+  }
+
   [[nodiscard]] scene::Scene scene_with(const scene::SpecimenShape& shape) const {
     scene::SpecimenShapes shapes;
+    if (reads_surface()) shapes.know_surface(trial_.chosen, family_.folder, *shapes_);
     (void)shapes.shape(trial_.chosen, [&] { return shape; });
     return scene::build(one_, family_, shapes, trial_);
   }
@@ -146,6 +152,7 @@ class Refining {
 
   const scenario::Case& one_;
   const scenario::Family& family_;
+  scene::SpecimenShapes* shapes_;
   const scenario::Mesh* mesh_;
   scene::Choice trial_;
   int most_nodes_ = 0;
@@ -168,7 +175,7 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
   if (scene::refines(choice.chosen)) {
     scene::refuse_misplaced(choice.chosen, family, shapes);
     (void)shapes.shape(choice.chosen,
-                       [&] { return Refining(one, family, choice.chosen).refined(); });
+                       [&] { return Refining(one, family, choice.chosen, shapes).refined(); });
   }
   return scene::build(one, family, shapes, std::move(choice));
 }

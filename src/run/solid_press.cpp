@@ -50,7 +50,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.shape = given.shape;
   body.surface = given.surface.get();
   body.mesh = given.mesh ? &*given.mesh : nullptr;
-  body.region_of = given.substance_of;
+  body.region_of = [&scenario](int part) { return scene::substance_of(scenario, part); };
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
     solid::Inclusion one{.region = static_cast<int>(i) + 1};
     if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
@@ -144,13 +144,6 @@ record::PressureMap SolidPress::map(const mechanics::Touch& touch) {
   if (!touch.contacts.empty()) skin = presses_.back()->skin_at(touch.travel, place);
   const double force = touch.contacts.empty() ? 0.0 : touch.normal_force();
   return draw_map(skin, now_.contact_radius, force, touch.finger);
-}
-
-std::vector<record::ScenePicture::Face> SolidPress::faces() const {
-  std::vector<record::ScenePicture::Face> found;
-  for (const solid::FingerPress::Face& face : presses_.back()->faces())
-    found.push_back({face.corners, face.region, face.beyond});
-  return found;
 }
 
 }  // namespace palpate::run

@@ -8,7 +8,6 @@
 
 #include "mechanics/contacts.h"
 #include "record/record.h"
-#include "record/scene_picture.h"
 #include "scene/scene.h"
 #include "solid/finger_press.h"
 
@@ -38,7 +37,6 @@ class SolidPress {
 
   // On the finest mesh.
   [[nodiscard]] record::PressureMap map(const mechanics::Touch& touch);
-  [[nodiscard]] std::vector<record::ScenePicture::Face> faces() const;
 
  private:
   [[nodiscard]] solid::FingerOrder order(double per_radius) const;

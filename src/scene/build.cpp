@@ -269,8 +269,6 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   }
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height, up);
   specimen->skin = shape.skin;
-  if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape))
-    specimen->of_file = shapes.surface(scenario, folder).surface;
   specimen->remark = shape.remark;
   specimen->surface.emplace(shape.surface);
   return specimen;
@@ -364,13 +362,15 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   refuse_beyond(scene, family);
   refuse_sliding(scene, family);
   if (!scenario.uniform()) set_depth_ratio(scene, family);
+  if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape))
+    scene.of_file = shapes.surface(scenario, family.folder).must();
   refuse_misplaced(scenario, family, shapes);
   switch (scenario.solver.model) {
     case Model::hertz: break;
     case Model::layer: set_layer(scene); break;
     case Model::mass_spring:
     case Model::coupled_springs: set_specimen(scene, family, shapes); break;
-    case Model::solid: scene.solid = make_solid_body(scene, family.folder, shapes); break;
+    case Model::solid: scene.solid = make_solid_body(scene, family.folder); break;
   }
   if (std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape)) {
     if (scene.specimen) refuse_outside(scenario, scene.specimen->surface->surface(), family);

@@ -71,6 +71,21 @@ Vec3 direction_or(const std::string& text, const Vec3& otherwise) {
   return scenario::direction_of(text).value_or(otherwise);
 }
 
+bool from_file(const scenario::Resolved& scenario) {
+  return std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape) ||
+         std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape);
+}
+
+// Of the body in the coordinates of its file.
+Vec3 up_of(const scenario::Resolved& scenario) {
+  const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
+  const auto* meshed = std::get_if<scenario::AsMeshed>(&scenario.tissue.shape);
+  return direction_or(file != nullptr     ? file->up
+                      : meshed != nullptr ? meshed->up
+                                          : "",
+                      Vec3::UnitZ());
+}
+
 // The body's surface as its file gives it; null if it cannot be read.
 std::shared_ptr<const geometry::SmoothSurface> unturned(const scenario::Resolved& scenario,
                                                         const std::string& folder,
@@ -88,10 +103,8 @@ std::shared_ptr<const geometry::SmoothSurface> unturned(const scenario::Resolved
 
 void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
                     SpecimenShapes& shapes) {
-  const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
-  const auto* meshed = std::get_if<scenario::AsMeshed>(&scenario.tissue.shape);
-  if (file == nullptr && meshed == nullptr) return;
-  const Vec3 up = direction_or(file != nullptr ? file->up : meshed->up, Vec3::UnitZ());
+  if (!from_file(scenario)) return;
+  const Vec3 up = up_of(scenario);
   scenario::Resolved::Finger& finger = scenario.finger;
   Vec3 towards = direction_or(finger.towards, -up);
   Vec3 place = Vec3::Zero();
@@ -121,6 +134,8 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
     finger.y = turned.y();
   }
 }
+
+Eigen::Matrix3d standing(const scenario::Resolved& scenario) { return turn_up(up_of(scenario)); }
 
 Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places) {
   const Eigen::Matrix3d back = scenario.tissue.turn.transpose();

@@ -32,6 +32,9 @@ struct Box {
 void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
                     SpecimenShapes& shapes);
 
+// The rotation from the coordinates of the body's file to those where its `up` is z.
+[[nodiscard]] Eigen::Matrix3d standing(const scenario::Resolved& scenario);
+
 // The box of places of the scene in the coordinates of the body's file.
 [[nodiscard]] Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places);
 

@@ -132,8 +132,6 @@ struct Specimen {
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
-  // The surface of the file; null for other shapes. The mesh may have a coarser one.
-  std::shared_ptr<const geometry::SmoothSurface> of_file;
   std::string remark;                      // that of meshing::FileMesh, or empty
   tissue::Uniaxial measured;               // E and nu of the network with the tissue everywhere
   tissue::Uniaxial pressed;                // response to platens, for a uniform test
@@ -153,9 +151,11 @@ struct Scene {
   Finger finger;
   contact::Relaxation relaxation;                  // of the contact's modulus; empty if elastic
   std::optional<contact::DepthRatio> depth_ratio;  // with `contact.depth = "neo_hookean"`
-  std::optional<contact::LayerContact> layer;    // for `layer`, and for `consistent` on flat layers
-  std::unique_ptr<Specimen> specimen;            // null for `hertz`, `layer` and `solid`
-  std::unique_ptr<SolidBody> solid;              // null for the others
+  std::optional<contact::LayerContact> layer;  // for `layer`, and for `consistent` on flat layers
+  std::unique_ptr<Specimen> specimen;          // null for `hertz`, `layer` and `solid`
+  std::unique_ptr<SolidBody> solid;            // null for the others
+  // The surface of the file; null for other shapes. A mesh may have a coarser one.
+  std::shared_ptr<const geometry::SmoothSurface> of_file;
   SinkingStore* sinkings = nullptr;              // of cases that share bodies; outlives the scene
   integrate::KnownModes* known_modes = nullptr;  // of a body that is run again; outlives the scene
 

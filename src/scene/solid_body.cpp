@@ -7,32 +7,32 @@
 #include "scene/first_touch.h"
 #include "scene/places.h"
 #include "scene/specimen_mesh.h"
-#include "scene/specimen_shape.h"
 
 namespace palpate::scene {
-std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string& folder,
-                                           SpecimenShapes& shapes) {
+
+int substance_of(const scenario::Resolved& scenario, int part) {
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i)
+    if (const auto* tagged = std::get_if<scenario::TaggedRegion>(&scenario.regions[i].part))
+      if (tagged->tag == part) return static_cast<int>(i) + 1;
+  return 0;
+}
+
+std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string& folder) {
   constexpr double spacing_over_size = 0.02;  // of shapes, for the first touch alone
   const scenario::Resolved& scenario = scene.scenario;
   auto body = std::make_unique<SolidBody>();
   if (std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
-    body->mesh = specimen_mesh(scenario, folder).mesh;
+    body->mesh = specimen_mesh(scenario, folder, nullptr).mesh;
     body->skin =
         std::make_shared<const geometry::SmoothSurface>(geometry::skin(*body->mesh).surface);
   } else if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape)) {
-    body->surface = body->skin = shapes.surface(scenario, folder).surface;
+    body->surface = body->skin = scene.of_file;
   } else {
     body->shape = parametric(scenario.tissue.shape);
     const double spacing = spacing_over_size * geometry::extent(*body->shape).norm();
     body->skin = std::make_shared<const geometry::SmoothSurface>(
         geometry::sampled(*body->shape, {spacing, spacing}).parts.front().surface);
   }
-  body->substance_of = [regions = scenario.regions](int part) {
-    for (std::size_t i = 0; i < regions.size(); ++i)
-      if (const auto* tagged = std::get_if<scenario::TaggedRegion>(&regions[i].part))
-        if (tagged->tag == part) return static_cast<int>(i) + 1;
-    return 0;
-  };
 
   const geometry::Surface& skin = body->skin->surface();
   const auto [low, high] = box_of(skin.vertices);

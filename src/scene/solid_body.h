@@ -1,7 +1,6 @@
 // The body of a scene for the model `solid`, which makes meshes of its own.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,7 +13,6 @@
 namespace palpate::scene {
 
 struct Scene;
-class SpecimenShapes;
 
 // One of the first three gives the body; lumps and slabs of the scenario come on top.
 struct SolidBody {
@@ -25,14 +23,13 @@ struct SolidBody {
   double base_level = 0.0;          // m; the skin up to this height along `tissue.base_up` is held
   Vec3 first_touch = Vec3::Zero();  // m, the finger's point there
   Vec3 touched = Vec3::Zero();      // m, the place of the skin there
-
-  // The substance of a part of the shape: 0 is the tissue, then the scenario's regions in order.
-  std::function<int(int part)> substance_of;
 };
+
+// The substance of a part of a shape: 0 is the tissue, then the scenario's regions in order.
+[[nodiscard]] int substance_of(const scenario::Resolved& scenario, int part);
 
 // Throws MeshError if the finger passes beside the body, or as specimen_mesh() does.
 [[nodiscard]] std::unique_ptr<SolidBody> make_solid_body(const Scene& scene,
-                                                         const std::string& folder,
-                                                         SpecimenShapes& shapes);
+                                                         const std::string& folder);
 
 }  // namespace palpate::scene

@@ -102,7 +102,8 @@ void refuse_huge(const scenario::Mesh& mesh) {
                     " GB; ask for at most 3.5 million");
 }
 
-SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder) {
+SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
+                      const geometry::Surface* of_file) {
   refuse_huge(scenario.tissue.mesh);
   refuse_covered_lumps(scenario);
   SpecimenMesh made;
@@ -123,13 +124,11 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder) {
     name = "the mirrored mesh";
   } else if (const auto* tetgen = std::get_if<scenario::Tetgen>(&scenario.tissue.mesh)) {
     name = "TetGen's mesh";
-    const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
-    if (file == nullptr) {
+    if (of_file == nullptr) {
       mesh = tetgen_mesh(scenario, *tetgen);
     } else {
       auto [found, remark] =
-          meshing::tetgen_file(surface_of(scenario, folder).surface, numbered_lumps(scenario),
-                               target(*tetgen), meshing_time);
+          meshing::tetgen_file(*of_file, numbered_lumps(scenario), target(*tetgen), meshing_time);
       made = {std::move(found), std::move(remark)};
     }
   } else {
@@ -275,19 +274,18 @@ std::vector<geometry::Lump> lumps_of(const Scenario& scenario) {
 
 meshing::WholeSurface surface_of(const Scenario& scenario, const std::string& folder) {
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
-  meshing::WholeSurface whole = meshing::whole_surface(
+  return meshing::whole_surface(
       meshing::read_surface(path_in(folder, file.file), metres_per(file.unit)), file.file,
       {file.repair, file.part});
-  for (Vec3& vertex : whole.surface.vertices) vertex = scenario.tissue.turn * vertex;
-  return whole;
 }
 
 meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {
   return meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
 }
 
-SpecimenMesh specimen_mesh(const Scenario& scenario, const std::string& folder) {
-  SpecimenMesh made = any_mesh(scenario, folder);
+SpecimenMesh specimen_mesh(const Scenario& scenario, const std::string& folder,
+                           const geometry::Surface* of_file) {
+  SpecimenMesh made = any_mesh(scenario, folder, of_file);
   geometry::TetMesh& mesh = made.mesh;
   if (!scenario.regions.empty() || !mesh.regions.empty()) number_regions(made, scenario);
   const auto shape = parametric(scenario.tissue.shape);

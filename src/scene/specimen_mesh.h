@@ -28,8 +28,8 @@ namespace palpate::scene {
 // hundredth of a lump before it.
 void refuse_covered_lumps(const scenario::Resolved& scenario);
 
-// The surface from the scenario's file, turned. Throws InputError if it cannot be read, MeshError
-// if it bounds no body.
+// The surface from the scenario's file, not turned. Throws InputError if it cannot be read,
+// MeshError if it bounds no body.
 [[nodiscard]] meshing::WholeSurface surface_of(const scenario::Resolved& scenario,
                                                const std::string& folder);
 
@@ -44,9 +44,11 @@ struct SpecimenMesh {
 
 // The mesh with the numbers of its substances: TetMesh::regions are 0 for `tissue.material`, then
 // the scenario's regions in order. For a uniform test, a shape that lies along y is turned to stand
-// on its end. Relative files are looked for in `folder`. Throws MeshError if the shape cannot be
+// on its end. `of_file` is the surface of a SurfaceFile, turned. Relative files are looked for in
+// `folder`. Throws MeshError if the shape cannot be
 // meshed, or if the mesh has no tetrahedron of a region; InputError for a file that cannot be read.
 [[nodiscard]] SpecimenMesh specimen_mesh(const scenario::Resolved& scenario,
-                                         const std::string& folder);
+                                         const std::string& folder,
+                                         const geometry::Surface* of_file);
 
 }  // namespace palpate::scene

@@ -70,8 +70,10 @@ SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
           std::nullopt};
 }
 
-SpecimenShape make_shape(const Scenario& scenario, const std::string& folder) {
-  auto [mesh, remark, names] = specimen_mesh(scenario, folder);
+SpecimenShape make_shape(const Scenario& scenario, const std::string& folder,
+                         const geometry::SmoothSurface* of_file) {
+  auto [mesh, remark, names] =
+      specimen_mesh(scenario, folder, of_file == nullptr ? nullptr : &of_file->surface());
   const double low = reach(mesh).first;
   const double level = base_level(scenario, geometry::skin(mesh).surface);
   if (level > low && !scenario.uniform() && scenario.tissue.held_from_below() &&
@@ -129,7 +131,10 @@ std::size_t SpecimenShapes::size() {
 }
 
 const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const std::string& folder) {
-  return shape(scenario, [&] { return make_shape(scenario, folder); });
+  return shape(scenario, [&] {
+    const bool file = std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape);
+    return make_shape(scenario, folder, file ? surface(scenario, folder).must().get() : nullptr);
+  });
 }
 
 const SpecimenShape& SpecimenShapes::shape(const Scenario& scenario, const Make& make) {
@@ -165,28 +170,64 @@ double SpecimenShapes::seconds(const Scenario& scenario) {
   return known.seconds;
 }
 
-const SpecimenShapes::FileSurface& SpecimenShapes::surface(const Scenario& scenario,
-                                                           const std::string& folder) {
+SpecimenShapes::FileSurface& SpecimenShapes::file_entry(const Scenario& scenario,
+                                                        const std::string& folder) {
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
   std::string key = folder + "\n" + file.file + "\n" + file.unit + (file.repair ? "\nr" : "\n") +
                     std::to_string(file.part.value_or(0));
   for (int i = 0; i < 9; ++i) key += " " + number_text(scenario.tissue.turn(i / 3, i % 3));
-  FileSurface& known = [&]() -> FileSurface& {
-    const std::lock_guard lock(looking_up_);
-    return surfaces_[key];
-  }();
+  const std::lock_guard lock(looking_up_);
+  return surfaces_[key];
+}
+
+void SpecimenShapes::FileSurface::copy(const FileSurface& other) {
+  surface = other.surface;
+  remark = other.remark;
+  fault = other.fault;
+  refusal = other.refusal;
+}
+
+void SpecimenShapes::know_surface(const Scenario& scenario, const std::string& folder,
+                                  SpecimenShapes& from) {
+  FileSurface& known = file_entry(scenario, folder);
+  const std::lock_guard lock(known.reading);
+  known.copy(from.surface(scenario, folder));
+}
+
+const SpecimenShapes::FileSurface& SpecimenShapes::surface(const Scenario& scenario,
+                                                           const std::string& folder) {
+  FileSurface& known = file_entry(scenario, folder);
   const std::lock_guard lock(known.reading);
   if (known.surface || !known.fault.empty()) return known;
+  if (const Eigen::Matrix3d turn = scenario.tissue.turn; turn != Eigen::Matrix3d::Identity()) {
+    Scenario plain = scenario;
+    plain.tissue.turn = Eigen::Matrix3d::Identity();
+    known.copy(surface(plain, folder));
+    if (!known.surface) return known;
+    geometry::Surface turned = known.surface->surface();
+    for (Vec3& vertex : turned.vertices) vertex = turn * vertex;
+    known.surface = std::make_shared<const geometry::SmoothSurface>(std::move(turned));
+    return known;
+  }
+  const auto refuse = [&](const std::exception& error) {
+    known.fault = error.what();
+    known.refusal = std::current_exception();
+  };
   try {
     meshing::WholeSurface whole = surface_of(scenario, folder);
     known.remark = std::move(whole.remark);
     known.surface = std::make_shared<const geometry::SmoothSurface>(std::move(whole.surface));
   } catch (const MeshError& error) {
-    known.fault = error.what();
+    refuse(error);
   } catch (const InputError& error) {
-    known.fault = error.what();
+    refuse(error);
   }
   return known;
+}
+
+const std::shared_ptr<const geometry::SmoothSurface>& SpecimenShapes::FileSurface::must() const {
+  if (refusal) std::rethrow_exception(refusal);
+  return surface;
 }
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -36,8 +37,10 @@ struct SpecimenShape {
 
 // The scenario's mesh, not refined, with its skin. Unless it comes from a file, no edge of the skin
 // crosses the border of the base. Throws what specimen_mesh() throws.
+// `of_file` is the surface of the scenario's file, if it names one.
 [[nodiscard]] SpecimenShape make_shape(const scenario::Resolved& scenario,
-                                       const std::string& folder);
+                                       const std::string& folder,
+                                       const geometry::SmoothSurface* of_file);
 
 // The keys on which a scenario's SpecimenShape depends, with their values: scenarios with equal
 // texts have the same shape, to the bit.
@@ -64,12 +67,20 @@ class SpecimenShapes {
   struct FileSurface {
     std::mutex reading;
     std::shared_ptr<const geometry::SmoothSurface> surface;
-    std::string remark;  // of meshing::WholeSurface
-    std::string fault;
+    std::string remark;          // of meshing::WholeSurface
+    std::string fault;           // why there is no surface
+    std::exception_ptr refusal;  // the same as it was thrown
+    // Throws the refusal, if there is one.
+    [[nodiscard]] const std::shared_ptr<const geometry::SmoothSurface>& must() const;
+    void copy(const FileSurface& other);  // all but the mutex
   };
-  // Of a scenario whose shape is a SurfaceFile, turned as the scenario says.
+  // Of a scenario whose shape is a SurfaceFile, turned as the scenario says; read and mended once.
   [[nodiscard]] const FileSurface& surface(const scenario::Resolved& scenario,
                                            const std::string& folder);
+
+  // Takes over a surface that another object has read.
+  void know_surface(const scenario::Resolved& scenario, const std::string& folder,
+                    SpecimenShapes& from);
 
   // Numbers that follow from a key alone, made by `make` if they are not there yet.
   using Numbers = std::array<double, 3>;
@@ -92,6 +103,8 @@ class SpecimenShapes {
   template <class Part, class Made>
   void fill(Entry& entry, std::unique_ptr<Part>& part, const Made& made);
   [[nodiscard]] Entry& entry(const scenario::Resolved& scenario);
+  [[nodiscard]] FileSurface& file_entry(const scenario::Resolved& scenario,
+                                        const std::string& folder);
 
   std::mutex looking_up_;
   std::map<std::string, Entry> entries_;

@@ -150,51 +150,6 @@ FingerPress::Skin FingerPress::skin_at(double travel, const Vec3& place) {
   return skin;
 }
 
-std::vector<FingerPress::Face> FingerPress::faces() const {
-  const Body& body = press_->body();
-  geometry::TetMesh corners;
-  corners.nodes = body.mesh.nodes;
-  corners.regions = body.mesh.regions;
-  for (const Element& element : body.mesh.elements)
-    corners.tetrahedra.push_back({element[0], element[1], element[2], element[3]});
-  std::vector<Face> found;
-  const double close = 1e-6 * order_.radius;
-  const auto place = [&](const geometry::FaceUse& use) {
-    std::array<Vec3, 3> triangle;
-    for (std::size_t i = 0; i < 3; ++i) triangle[i] = corners.nodes[as_index(use.nodes[i])];
-    return triangle;
-  };
-  const auto in_a_mirror = [&](const std::array<Vec3, 3>& triangle) {
-    for (const int axis : {0, 1})
-      if (body.mirrored[as_index(axis)] &&
-          std::all_of(triangle.begin(), triangle.end(), [&](const Vec3& corner) {
-            return std::abs(corner[axis] - mirror_[axis]) < close;
-          }))
-        return true;
-    return false;
-  };
-  const std::vector<geometry::FaceUse> uses = geometry::face_uses(corners);
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    geometry::FaceUse use = uses[i];
-    int beyond = -1;
-    if (i + 1 < uses.size() && uses[i + 1].key == use.key) {
-      // Between two regions, the face belongs to the later one and is seen from the earlier one.
-      beyond = corners.region(uses[++i].tetrahedron);
-      if (beyond == corners.region(use.tetrahedron)) continue;
-      if (beyond > corners.region(use.tetrahedron)) {
-        beyond = corners.region(use.tetrahedron);
-        use = uses[i];
-      }
-    }
-    const auto triangle = place(use);
-    if (beyond < 0 && in_a_mirror(triangle)) continue;
-    with_copies(triangle, [&](const auto& image) {
-      found.push_back({image, corners.region(use.tetrahedron), beyond});
-    });
-  }
-  return found;
-}
-
 Moment FingerPress::moment_of(const Answer& answer, double force) {
   return {force, std::sqrt(answer.area / std::numbers::pi), answer.peak, answer.touching};
 }

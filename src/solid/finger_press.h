@@ -61,15 +61,6 @@ class FingerPress {
   };
   [[nodiscard]] Skin skin_at(double travel, const Vec3& place);
 
-  // Corners (m) and region of the faces of the body at rest and between its regions, with all
-  // copies; the region beyond is -1 outside.
-  struct Face {
-    std::array<Vec3, 3> corners;
-    int region = 0;
-    int beyond = -1;
-  };
-  [[nodiscard]] std::vector<Face> faces() const;
-
   [[nodiscard]] const Press& press() const { return *press_; }
 
  private:

@@ -1,7 +1,8 @@
 """Runs the commands of the documents and compares what they print: commands.py PALPATE [PAGE...].
 
-Run is every line of a fenced block that begins with `palpate `, with or without `$ ` before it, page by
-page, each page in a folder of its own in which scenarios/ and materials/ are those of the project. The
+Run is every line of a fenced block that begins with `palpate ` or `python3 docs/`, with or without `$ `
+before it, page by page, each page in a folder of its own in which scenarios/, materials/ and docs/ are
+those of the project. The
 exit code must be 0; `; echo $?` behind a command allows another. Compared is a block marked `text`
 behind such a block, with all that its last command prints; a line `...` stands for any lines.
 
@@ -49,7 +50,7 @@ def commands(lines, left_out):
             joined = joined[:-1]
             continue
         command, joined = joined.strip().removeprefix("$ "), ""
-        if command.startswith("palpate ") and not any(command.startswith(skipped) for skipped in left_out):
+        if command.startswith(("palpate ", "python3 docs/")) and not any(command.startswith(skipped) for skipped in left_out):
             yield first, command
 
 
@@ -66,6 +67,7 @@ def run_page(program, page):
         folder = Path(scratch)
         for name in ("scenarios", "materials"):
             shutil.copytree(TOP / name, folder / name)
+        (folder / "docs").symlink_to(TOP / "docs")
         (folder / "bin").mkdir()
         (folder / "bin/palpate").symlink_to(program)
         environment = {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}"}

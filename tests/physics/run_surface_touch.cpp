@@ -1,8 +1,12 @@
 // `hertz` on a surface file against a mesh of the same file, on the top and where it is inclined.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
+#include "base/text.h"
 #include "geometry/shapes.h"
 #include "run_text.h"
 #include "surface_file.h"
@@ -14,7 +18,7 @@ namespace {
 const geometry::Ellipsoid body{{0.8, 0.6, 0.72}};
 
 void write_body(const test::fs::path& path) {
-  test::write_off(path, geometry::sampled(body, {15e-3, 15e-3}).parts.front().surface);
+  test::write_off(path, geometry::sampled(body, {20e-3, 20e-3}).parts.front().surface);
 }
 
 record::CaseRecord pressed(const std::string& shape, const std::string& x,
@@ -70,6 +74,63 @@ TEST(SurfaceFile, HasTheForceOfItsShape) {
             .contact_force;
     EXPECT_NEAR(of_file / of_shape, 1.0, 0.002) << x;  // a per cent of the curvature, in 91/m
   }
+}
+
+// One body in six positions, and pressed against its base and from the side, is one body: a file
+// whose axes are exchanged, with another `up`, and the finger's way with them.
+TEST(SurfaceFile, HasOneForceFromAnySide) {
+  const test::TemporaryFolder folder;
+  geometry::Surface given = geometry::sampled(geometry::Ellipsoid{{0.06, 0.05, 0.04}}, {7e-3, 7e-3})
+                                .parts.front()
+                                .surface;
+  for (Vec3& vertex : given.vertices) vertex -= Vec3(0.02, 0.03, 0.01);
+  const std::string lump =
+      "[[region]]\nkind = \"sphere\"\nyoung_modulus = \"80 kPa\"\nradius = \"5 mm\"\n";
+  struct Standing {
+    std::array<int, 3> axes;  // of the file, for x, y and z of the body
+    std::array<int, 3> signs;
+  };
+  std::map<std::string, std::pair<double, double>> known;  // force and stated error
+  for (const Standing& one : {Standing{{0, 1, 2}, {1, 1, 1}},
+                              {{0, 1, 2}, {1, -1, -1}},
+                              {{1, 2, 0}, {1, 1, 1}},
+                              {{1, 2, 0}, {-1, 1, -1}},
+                              {{2, 0, 1}, {1, 1, 1}},
+                              {{2, 0, 1}, {1, -1, -1}}}) {
+    const auto placed = [&](const Vec3& place) {
+      Vec3 own;
+      for (std::size_t i = 0; i < 3; ++i)
+        own[one.axes[i]] = one.signs[i] * place[static_cast<Eigen::Index>(i)];
+      return own;
+    };
+    const auto named = [&](std::size_t axis, int sign) {
+      return std::string(sign * one.signs[axis] > 0 ? "" : "-") + "xyz"[one.axes[axis]];
+    };
+    geometry::Surface turned = given;
+    for (Vec3& vertex : turned.vertices) vertex = placed(vertex);
+    test::write_off(folder.path() / "body.off", turned);
+    const Vec3 centre = 1e3 * placed(Vec3(0.010, -0.005, 0.016));
+    for (const std::string& way : {named(2, -1), named(0, -1)}) {
+      const bool down = way == named(2, -1);
+      const record::CaseRecord record = test::run_text(
+          "[tissue]\nmaterial = \"muscle\"\nviscosity = \"none\"\nshape = { file = \"" +
+          (folder.path() / "body.off").string() + "\", unit = \"mm\", up = \"" + named(2, 1) +
+          "\" }\nmesh = { kind = \"tetgen\", nodes = 400 }\n[finger]\nradius = \"5 mm\"\n" +
+          "towards = \"" + way + "\"\n[output]\npressure_maps = false\n[solver]\n" +
+          "model = \"coupled_springs\"\nintegrator = \"quasi_static\"\ntolerance = 0.3\n" + lump +
+          "centre = [\"" + number_text(centre.x()) + " mm\", \"" + number_text(centre.y()) +
+          " mm\", \"" + number_text(centre.z()) +
+          " mm\"]\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\nrate = \"5 mm/s\"\n");
+      ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+      const std::pair now{record.contact.back().contact_force,
+                          std::get<double>(test::finding(record, "stated_error"))};
+      const auto [first, added] = known.try_emplace(down ? "down" : "side", now);
+      // The meshes differ, and each is within what it states.
+      EXPECT_NEAR(now.first / first->second.first, 1.0, now.second + first->second.second) << way;
+      EXPECT_LT(now.second, 0.15);
+    }
+  }
+  EXPECT_GT(std::abs(known["down"].first / known["side"].first - 1.0), 0.2) << "two presses";
 }
 
 // The contact force as the derivative of its energy: the work of the vertical travel is what the

@@ -12,6 +12,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "geometry/half_edges.h"
+#include "geometry/surface.h"
 #include "meshing/mesh_check.h"
 #include "meshing/mesh_files.h"
 #include "meshing/surface_files.h"
@@ -174,8 +176,9 @@ class CellFiles : public testing::Test {
 
   std::string folder_ = testing::TempDir() + "palpate_cells" + std::to_string(::getpid());
   std::vector<std::pair<std::string, std::string>> all_{
-      {"a.msh", binary_gmsh()}, {"a.vtk", vtk()},    {"a.vtu", vtu_of_base64()},
-      {"b.vtu", vtu_of_zlib()}, {"a.inp", abaqus()}, {"a.mesh", medit()}};
+      {"a.msh", binary_gmsh()}, {"a.vtk", vtk()},           {"a.vtu", vtu_of_base64()},
+      {"b.vtu", vtu_of_zlib()}, {"b.vtk", vtu_of_base64()}, {"a.inp", abaqus()},
+      {"a.mesh", medit()}};
 };
 
 TEST_F(CellFiles, every_format_gives_the_same_body) {
@@ -191,6 +194,34 @@ TEST_F(CellFiles, every_format_gives_the_same_body) {
       if (read.mesh.region(t) == part) right += geometry::signed_volume(read.mesh, t);
     EXPECT_NEAR(right, 1.0, 1e-12);  // rounding
     EXPECT_TRUE(read.remark.find("were cut into tetrahedra") != std::string::npos);
+  }
+}
+
+// Two cubes that share a node, and two that share an edge: the boundary of each is a surface then.
+TEST_F(CellFiles, what_only_touches_is_parted) {
+  for (const bool edge : {false, true}) {
+    SCOPED_TRACE(edge);
+    std::string text = "MeshVersionFormatted 2\nDimension 3\nVertices\n16\n";
+    for (int cube = 0; cube < 2; ++cube)
+      for (int k = 0; k < 8; ++k)
+        text += std::to_string((k & 1) + cube) + " " + std::to_string((k >> 1 & 1) + cube) + " " +
+                std::to_string((k >> 2) + (edge ? 0 : cube)) + " 0\n";
+    // The second cube takes the first one's corners where they meet.
+    const auto node = [&](int cube, int k) {
+      if (cube == 1 && k == 0) return edge ? 4 : 8;
+      if (cube == 1 && edge && k == 4) return 8;
+      return 8 * cube + k + 1;
+    };
+    text += "Hexahedra\n2\n";
+    for (int cube = 0; cube < 2; ++cube) {
+      for (const int k : {0, 1, 3, 2, 4, 5, 7, 6}) text += std::to_string(node(cube, k)) + " ";
+      text += "0\n";
+    }
+    const NamedMesh read = read_mesh(written("touch.mesh", text + "End\n"), 1.0);
+    EXPECT_EQ(read.mesh.nodes.size(), 16u);
+    EXPECT_NE(read.remark.find(edge ? "2 nodes of" : "1 node of"), std::string::npos)
+        << read.remark;
+    EXPECT_FALSE(geometry::joints(geometry::skin(read.mesh).surface).refused);
   }
 }
 

@@ -320,6 +320,35 @@ TEST_F(SurfaceFiles, a_dart_is_cut_from_its_hollow_corner) {
   EXPECT_DOUBLE_EQ(geometry::area(surface), 8.0);
 }
 
+// Twice the area of the dart's hull is 16; no fan from one corner has all triangles turned alike.
+TEST_F(SurfaceFiles, a_polygon_that_no_corner_sees_whole_is_cut_all_the_same) {
+  const geometry::Surface surface =
+      read("z.off", "OFF\n6 1 0\n0 0 0\n4 0 0\n1 1 0\n4 4 0\n0 4 0\n3 3 0\n6 0 1 2 3 4 5\n");
+  ASSERT_EQ(surface.triangles.size(), 4u);
+  double sum = 0.0;
+  for (int t = 0; t < 4; ++t) sum += 0.5 * geometry::twice_area(surface, t).z();
+  EXPECT_DOUBLE_EQ(sum, 4.0);  // what is folded over counts against it
+}
+
+TEST_F(SurfaceFiles, strips_are_triangles_turned_one_way) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  const std::string places = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
+  const geometry::Surface ply = read(
+      "a.ply", head + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
+                   places + "8 0 1 2 3 -1 2 3 4\n");
+  ASSERT_EQ(ply.triangles.size(), 3u);
+  for (int t = 0; t < 3; ++t) EXPECT_EQ(geometry::twice_area(ply, t).z(), 1.0);
+  const geometry::Surface vtk = read("a.vtk",
+                                     "# vtk DataFile Version 3.0\nstrips\nASCII\nDATASET POLYDATA\n"
+                                     "POINTS 5 float\n" +
+                                         places + "TRIANGLE_STRIPS 1 6\n5 0 1 2 3 4\n");
+  ASSERT_EQ(vtk.triangles.size(), 3u);
+  EXPECT_EQ(geometry::area(vtk), 1.5);
+  for (int t = 0; t < 3; ++t) EXPECT_EQ(geometry::twice_area(vtk, t).z(), 1.0);
+}
+
 TEST_F(SurfaceFiles, a_hundred_thousand_faces) {
   const geometry::Surface want = egg(200, 251);
   ASSERT_GT(want.triangles.size(), 99000u);

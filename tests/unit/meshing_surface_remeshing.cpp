@@ -86,8 +86,8 @@ TEST(FineSurface, KeepsItsFlatSidesFlat) {
 }
 
 TEST(FineSurface, BecomesCoarserWithTheSameVolume) {
-  const Surface fine = sampled(geometry::Ellipsoid{}, 1.6e-3);
-  ASSERT_GT(fine.triangles.size(), 100000u);
+  const Surface fine = sampled(geometry::Ellipsoid{}, 2.5e-3);
+  ASSERT_GT(fine.triangles.size(), 40000u);
   for (const double spacing : {20e-3, 10e-3}) {
     const auto coarse = remeshed(fine, spacing);
     ASSERT_TRUE(coarse.has_value());
@@ -157,6 +157,35 @@ TEST(FineSurface, IsTheSameToTheBitAgain) {
   EXPECT_EQ(first->distance, again->distance);
 }
 
+// One needle among few triangles must not cost thousands of them.
+TEST(CoarseSurface, KeepsAFewNeedles) {
+  Surface knobs = sampled(geometry::Ellipsoid{{0.06, 0.05, 0.04}}, 12e-3);
+  for (std::size_t v = 0; v < knobs.vertices.size(); v += 3)  // details that need short edges
+    knobs.vertices[v] += 0.25 * (knobs.vertices[v] - Vec3(0.03, 0.025, 0.02));
+  const auto split = knobs.triangles.front();  // a vertex in an edge's middle makes needles
+  knobs.vertices.push_back(0.98 * knobs.vertices[as_index(split[0])] +
+                           0.02 * knobs.vertices[as_index(split[1])]);
+  const int middle = static_cast<int>(knobs.vertices.size()) - 1;
+  std::vector<std::array<int, 3>> faces;
+  for (const auto& triangle : knobs.triangles) {
+    auto one = triangle, other = triangle;
+    bool both = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int a = triangle[i], b = triangle[(i + 1) % 3];
+      if (!((a == split[0] && b == split[1]) || (a == split[1] && b == split[0]))) continue;
+      one[(i + 1) % 3] = other[i] = middle;
+      both = true;
+    }
+    faces.push_back(one);
+    if (both) faces.push_back(other);
+  }
+  knobs.triangles = faces;
+  check_closed(knobs, "knobs");
+  ASSERT_GT(count_needles(knobs), 0u);
+  const auto made = remeshed(knobs, 15e-3);
+  EXPECT_TRUE(!made || made->surface.triangles.size() < 2000u);
+}
+
 TEST(CoarseSurface, IsNotMadeFiner) {
   EXPECT_FALSE(remeshed(sampled(geometry::Cuboid{}, 10e-3), 5e-3).has_value());
 }
@@ -205,7 +234,7 @@ TEST(Cells, GiveAboutAsManyNodesAsAskedFor) {
 }
 
 TEST(FileMesh, OfAFineSurfaceHasTheNodesAskedForAndSaysWhatItDid) {
-  const Surface fine = sampled(geometry::Ellipsoid{}, 1.6e-3);
+  const Surface fine = sampled(geometry::Ellipsoid{}, 3e-3);
   for (const int nodes : {728, 3000}) {
     const FileMesh made = tetgen_file(fine, {}, {.nodes = nodes}, time_given);
     EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / nodes, 1.0, 0.03);

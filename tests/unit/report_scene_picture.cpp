@@ -90,6 +90,52 @@ TEST(ScenePicture, shows_a_region_through_the_one_around_it) {
   EXPECT_LT(svg.find("<path fill="), svg.find("opacity=")) << "first the lump, then the glass";
 }
 
+TEST(ScenePicture, shows_what_is_held_with_its_border) {
+  ScenePicture picture = flat();
+  EXPECT_EQ(occurrences(scene_svg(picture, ""), "bonded"), 0U);
+  picture.faces[0].held = true;
+  picture.base = "bonded base";
+  EXPECT_EQ(base_border(picture).size(), 3U);
+  const std::string svg = scene_svg(picture, "");
+  EXPECT_EQ(occurrences(svg, ">bonded base<"), 1U);
+  EXPECT_EQ(occurrences(svg, "<path fill=\"#"), 2U) << "held and free skin have two colours";
+  EXPECT_EQ(occurrences(svg, "stroke-dasharray=\"4 4\""), 1U) << "the border through the body";
+  picture.faces[1].held = true;
+  EXPECT_EQ(base_border(picture).size(), 4U) << "not the diagonal";
+}
+
+TEST(ScenePicture, has_numbers_along_the_axes_of_the_scenario) {
+  ScenePicture picture = flat();  // x and y 0 to 20 mm
+  const auto text_at = [&](const std::string& text) {
+    for (const SceneLabel& one : scene_frame(picture).labels)
+      if (one.text == text) return Vec3(1e3 * one.at);
+    return Vec3(Vec3::Constant(NAN));
+  };
+  // At the lower edges, outside of the box.
+  EXPECT_NEAR(text_at("x (mm)").x(), 10.0, 1e-9);
+  EXPECT_LT(text_at("x (mm)").y(), 0.0);
+  EXPECT_NEAR(text_at("y (mm)").y(), 10.0, 1e-9);
+  EXPECT_GT(text_at("y (mm)").x(), 20.0);
+  EXPECT_TRUE(std::isnan(text_at("z (mm)").x())) << "a flat has no height";
+  // A body that stands on its side: the file's y is up.
+  picture.axes << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  EXPECT_NEAR(text_at("z (mm)").y(), 10.0, 1e-9);
+  EXPECT_GT(text_at("z (mm)").x(), 20.0);
+}
+
+TEST(ScenePicture, is_seen_from_where_the_finger_comes) {
+  ScenePicture picture = flat();
+  EXPECT_EQ(scene_angles(picture).around, 30.0);
+  EXPECT_EQ(scene_angles(picture).tilt, 30.0);
+  for (const double angle : {-150.0, -60.0, 30.0, 120.0}) {
+    const double turn = angle * M_PI / 180.0;
+    picture.towards = {-std::sin(turn), std::cos(turn), 0.0};
+    EXPECT_EQ(scene_angles(picture).around, angle);
+  }
+  picture.towards = Vec3::UnitZ();
+  EXPECT_EQ(scene_angles(picture).tilt, -30.0) << "from below";
+}
+
 TEST(ScenePicture, follows_slides_one_after_the_other) {
   ScenePicture picture = flat();
   EXPECT_EQ(occurrences(scene_svg(picture, ""), "stroke-dasharray"), 0U);

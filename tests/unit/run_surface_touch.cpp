@@ -37,7 +37,12 @@ class SurfaceFiles : public testing::Test {
            "[[step]]\nkind = \"indent\"\nto = \"2 mm\"\n" + more;
   }
   [[nodiscard]] SurfaceTouch touch(const std::string& finger) const {
-    return run::choose(scenario::read_case(text(finger))).touch;
+    return touch_of(text(finger));
+  }
+  [[nodiscard]] static SurfaceTouch touch_of(const std::string& text) {
+    SpecimenShapes shapes;
+    return surface_touch(scenario::resolve(scenario::read_case(text), scenario::strongest.of), "",
+                         shapes);
   }
   [[nodiscard]] std::string refused(const std::string& finger, const std::string& more) const {
     return test::refusal([&] { return test::scene_of(text(finger, hertz + more)); });
@@ -54,11 +59,8 @@ TEST_F(SurfaceFiles, AreTouchedWhereTheShapeIs) {
       const std::string place = "x = \"" + std::string(x) + "\"\ny = \"80 mm\"\n";
       const SurfaceTouch file = touch(place);
       const SurfaceTouch shape =
-          run::choose(
-              scenario::read_case("[tissue]\nmaterial = \"skin\"\nshape = { kind = \"ellipsoid\" "
-                                  "}\n[finger]\n" +
-                                  place + "[[step]]\nkind = \"indent\"\n"))
-              .touch;
+          touch_of("[tissue]\nmaterial = \"skin\"\nshape = { kind = \"ellipsoid\" }\n[finger]\n" +
+                   place + "[[step]]\nkind = \"indent\"\n");
       ASSERT_TRUE(file.known() && shape.known()) << file.cannot;
       EXPECT_NEAR(file.curvature.kappa_1 / shape.curvature.kappa_1, 1.0, 0.01);
       EXPECT_NEAR(file.curvature.kappa_2 / shape.curvature.kappa_2, 1.0, 0.01);
@@ -123,7 +125,7 @@ TEST_F(SurfaceFiles, KnowTheirNearestEdge) {
   const std::string bar =
       "[tissue]\nmaterial = \"skin\"\nshape = { kind = \"cylinder\" }\n"
       "[finger]\ny = \"3 mm\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
-  EXPECT_NEAR(run::choose(scenario::read_case(bar)).touch.to_edge, 0.003, 1e-9);
+  EXPECT_NEAR(touch_of(bar).to_edge, 0.003, 1e-9);
 }
 
 TEST_F(SurfaceFiles, MayHaveSlabs) {

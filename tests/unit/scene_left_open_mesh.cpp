@@ -11,7 +11,7 @@ namespace {
 
 SpecimenShape shape_of_text(const std::string& text) {
   const auto family = scenario::parse(text, "test.toml", {});
-  return make_shape(scenario::resolve(family.cases.front(), scenario::strongest.of), "");
+  return make_shape(scenario::resolve(family.cases.front(), scenario::strongest.of), "", nullptr);
 }
 
 // The surfaces of this limb alone have more than the 728 nodes of TetGen's default.

@@ -1,0 +1,196 @@
+// Collects the faces of a scene's body, its base and its finger.
+#include "run/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "geometry/body.h"
+#include "scene/first_touch.h"
+#include "scene/places.h"
+#include "scene/specimen_mesh.h"
+
+namespace palpate::run {
+namespace {
+
+using Face = record::ScenePicture::Face;
+
+Face face(const geometry::TetMesh& mesh, const geometry::FaceUse& use) {
+  Face result;
+  for (std::size_t i = 0; i < 3; ++i) result.corners[i] = mesh.nodes[as_index(use.nodes[i])];
+  result.region = mesh.region(use.tetrahedron);
+  return result;
+}
+
+std::vector<Face> faces(const geometry::TetMesh& mesh) {
+  std::vector<Face> found;
+  const std::vector<geometry::FaceUse> uses = geometry::face_uses(mesh);
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    Face one = face(mesh, uses[i]);
+    if (i + 1 < uses.size() && uses[i + 1].key == uses[i].key) {
+      // Between two regions, the face belongs to the later one and is seen from the earlier one.
+      Face other = face(mesh, uses[++i]);
+      if (one.region == other.region) continue;
+      if (one.region < other.region) std::swap(one, other);
+      one.within = other.region;
+    }
+    found.push_back(one);
+  }
+  return found;
+}
+
+geometry::Surface ball(const scenario::Lump& lump) {
+  const Vec3 radius = Vec3::Constant(lump.radius);
+  geometry::Surface surface =
+      geometry::sampled(geometry::Ellipsoid{2.0 * radius}, {0.4 * lump.radius, 0.4 * lump.radius})
+          .parts.front()
+          .surface;
+  for (Vec3& vertex : surface.vertices)
+    vertex += Vec3(lump.centre[0], lump.centre[1], lump.centre[2]) - radius;
+  return surface;
+}
+
+// The body of a scene without a mesh: its shape, or a piece of a half-space, with its lumps.
+geometry::Body given_body(const scene::Scene& scene) {
+  const scenario::Resolved& scenario = scene.scenario;
+  geometry::Body body;
+  if (scene.of_file) {
+    body.parts.push_back({scene.of_file->surface(), 0});
+  } else if (const auto shape = scene::parametric(scenario.tissue.shape)) {
+    const double spacing = 0.04 * geometry::extent(*shape).norm();
+    body = geometry::sampled(*shape, {spacing, spacing});
+    for (geometry::Part& part : body.parts)
+      part.region = scene::substance_of(scenario, part.region);
+  } else {
+    const double size = 8.0 * scenario.finger.radius;
+    body = geometry::sampled(geometry::Cuboid{{size, size, 0.4 * size}}, {0.1 * size, 0.1 * size});
+    const Vec3 corner = scene::pressed_place(scene) - Vec3(0.5 * size, 0.5 * size, 0.4 * size);
+    for (Vec3& vertex : body.parts.front().surface.vertices) vertex += corner;
+  }
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i)
+    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
+      body.parts.push_back({ball(*lump), static_cast<int>(i) + 1});
+  return body;
+}
+
+std::vector<Face> faces(const geometry::Body& body, const scenario::Resolved& scenario) {
+  std::vector<Face> found;
+  for (const geometry::Part& part : body.parts)
+    for (const auto& triangle : part.surface.triangles) {
+      Face one;
+      for (std::size_t i = 0; i < 3; ++i)
+        one.corners[i] = part.surface.vertices[as_index(triangle[i])];
+      one.region = part.region;
+      const bool skin = &part == &body.parts.front();
+      if (!skin) one.within = 0;
+      const double height = (one.corners[0] + one.corners[1] + one.corners[2]).z() / 3.0;
+      for (std::size_t i = 0; skin && i < scenario.regions.size(); ++i)
+        if (const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part))
+          if (height > slab->bottom && height < slab->top) one.region = static_cast<int>(i) + 1;
+      found.push_back(one);
+    }
+  return found;
+}
+
+// Joins corners that lie in one cell of a lattice, the coarser the more faces there are.
+std::vector<Face> thinned(std::vector<Face> all) {
+  constexpr std::size_t most = 6000;
+  if (all.size() <= most) return all;
+  Vec3 low = all.front().corners[0], high = low;
+  for (const Face& face : all)
+    for (const Vec3& corner : face.corners) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+  std::vector<Face> fewer;
+  for (double cell = (high - low).norm() / 90.0; fewer.empty() || fewer.size() > most;
+       cell *= 1.25) {
+    fewer.clear();
+    std::map<std::array<int, 4>, Vec3> joined;
+    for (Face face : all) {
+      for (Vec3& corner : face.corners) {
+        const Vec3 at = (corner - low) / cell;
+        corner = joined
+                     .try_emplace({static_cast<int>(at.x()), static_cast<int>(at.y()),
+                                   static_cast<int>(at.z()), face.region},
+                                  corner)
+                     .first->second;
+      }
+      const auto& [a, b, c] = face.corners;
+      if (a != b && b != c && c != a) fewer.push_back(face);
+    }
+  }
+  return fewer;
+}
+
+// Marks the skin up to the base's level.
+void mark_held(const scenario::Resolved& scenario, std::vector<Face>& all) {
+  geometry::Surface skin;
+  for (const Face& face : all) {
+    if (face.within >= 0) continue;
+    const int next = static_cast<int>(skin.vertices.size());
+    skin.triangles.push_back({next, next + 1, next + 2});
+    skin.vertices.insert(skin.vertices.end(), face.corners.begin(), face.corners.end());
+  }
+  const scene::Box box = scene::box_of(skin.vertices);
+  const double level = scene::base_level(scenario, skin) + 1e-9 * (box.high - box.low).norm();
+  for (Face& face : all) {
+    const Vec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
+    face.held = face.within < 0 && middle.dot(scenario.tissue.base_up) <= level;
+  }
+}
+
+}  // namespace
+
+record::ScenePicture picture_of(const scene::Scene& scene) {
+  const scenario::Resolved& scenario = scene.scenario;
+  record::ScenePicture picture;
+  picture.faces = scene.specimen                     ? faces(scene.specimen->mesh)
+                  : scene.solid && scene.solid->mesh ? faces(*scene.solid->mesh)
+                                                     : faces(given_body(scene), scenario);
+  if (!std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape)) {
+    mark_held(scenario, picture.faces);
+    picture.base =
+        scenario.tissue.base == tissue::Base::bonded ? "held (bonded base)" : "on a table (slides)";
+  }
+  picture.faces = thinned(std::move(picture.faces));
+  picture.materials = {scenario.tissue.material};
+  for (const auto& region : scenario.regions) picture.materials.push_back(region.material);
+
+  // From the scene, where the finger comes down, to the body as it stands.
+  picture.axes = scene::standing(scenario);
+  const Eigen::Matrix3d upright = picture.axes * scenario.tissue.turn.transpose();
+  picture.towards = -upright.col(2);
+  for (Face& face : picture.faces)
+    for (Vec3& corner : face.corners) corner = upright * corner;
+  if (scenario.uniform()) return picture;
+  Vec3 finger = scene::pressed_place(scene);
+  picture.touch = finger;
+  if (scene.solid) {
+    finger = scene.solid->first_touch;
+    picture.touch = scene.solid->touched;
+  } else if (scene.specimen) {
+    const scene::FirstTouch first = scene::first_touch(scene);
+    finger = first.finger;
+    picture.touch = scene.specimen->surface->position(first.at);
+  } else {
+    finger.z() += scene.finger.sphere_radius;
+  }
+  picture.touch = upright * picture.touch;
+  for (const Vec3& centre : scene.finger.centres)
+    picture.finger.push_back({upright * (finger + centre), scene.finger.sphere_radius});
+  picture.travel = scene::deepest_travel(scenario, scene.law());
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
+      const double angle = slide->direction * std::numbers::pi / 180.0;
+      picture.slides.emplace_back(upright *
+                                  (slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0)));
+    }
+  return picture;
+}
+
+}  // namespace palpate::run
