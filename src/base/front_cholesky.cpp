@@ -19,6 +19,7 @@ namespace {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Numbers that are computed at once.
+using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
@@ -198,18 +199,20 @@ PALPATE_ALWAYS void subtract_by(const Update& by) {
   }
 }
 
-PALPATE_WIDE void subtract_by_four(const Update& by) { subtract_by<Four>(by); }
 #if defined(__x86_64__)
 __attribute__((target("avx512f"))) void subtract_by_eight(const Update& by) {
   subtract_by<Eight>(by);
 }
+
+__attribute__((target("avx2"))) void subtract_by_four(const Update& by) { subtract_by<Four>(by); }
 #endif
 
 void subtract(const Update& by) {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f")) return subtract_by_eight(by);
+  if (__builtin_cpu_supports("avx2")) return subtract_by_four(by);
 #endif
-  subtract_by_four(by);
+  subtract_by<Two>(by);
 }
 
 // column -= factor * before, from entry `begin` to `end`.
