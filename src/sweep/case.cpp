@@ -20,8 +20,9 @@ HashedNames hashed_inputs(const scenario::Family& family) {
 std::uint64_t case_id(const scenario::Case& one, const HashedNames& files) {
   // What only says how results are shown, or is left open, and did not exist when the first plans
   // were made, changes no id: a plan goes on with a newer version.
-  constexpr std::array<std::string_view, 6> later{
-      "paper = ", "png = ", "regression = ", "report = ", "tissue_at = ", "size = \"auto\""};
+  constexpr std::array<std::string_view, 7> later{
+      "paper = ",  "picture = ",   "png = ",         "regression = ",
+      "report = ", "tissue_at = ", "size = \"auto\""};
   std::string text;
   for (const std::string& line : split(scenario::spelled_out(one), '\n'))
     if (std::none_of(later.begin(), later.end(),

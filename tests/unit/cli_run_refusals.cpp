@@ -134,9 +134,9 @@ TEST_F(RunRefusals, a_write_that_fails_keeps_the_old_result) {
 TEST_F(RunRefusals, a_full_disk_keeps_the_old_result) {
   const std::string disk = (folder_ / "disk").string();
   fs::create_directory(disk);
-  // Room for one result (about 110 kB), not for two.
+  // Room for one result (about 250 kB), not for two.
   const std::string script =
-      "mount -t tmpfs -o size=160k none '" + disk + "' || exit 99; '" + PALPATE_PROGRAM +
+      "mount -t tmpfs -o size=400k none '" + disk + "' || exit 99; '" + PALPATE_PROGRAM +
       "' run press.toml --out '" + disk + "' --quiet || exit 98; echo old > '" + disk +
       "/press/mark'; '" + PALPATE_PROGRAM + "' run press.toml --out '" + disk +
       "' --force; code=$?; ls '" + disk + "' '" + disk + "/press'; exit $code";

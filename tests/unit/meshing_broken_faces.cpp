@@ -118,9 +118,9 @@ TEST_F(BrokenSurfaces, a_polygon_that_no_corner_sees_whole) {
   EXPECT_EQ(complaint("a.off",
                       "OFF\n12 1 0\n0 0 0\n5 0 0\n5 5 0\n4 5 0\n4 1 0\n3 1 0\n3 5 0\n2 5 0\n"
                       "2 1 0\n1 1 0\n1 5 0\n0 5 0\n12 0 1 2 3 4 5 6 7 8 9 10 11\n"),
-            "mesh: a.off: face 0 (counting from 0) is a polygon of 12 corners that cannot be cut "
-            "into triangles from one of them; triangulate the surface in the program it comes "
-            "from");
+            "mesh: surface `paw`: face 2 (0, 3, 4) near (30, 10, 0) mm has no area: its height is "
+            "below 1e-6 of its longest edge (20 mm); merge its close vertices or swap its longest "
+            "edge");
 }
 
 TEST_F(BrokenSurfaces, ply_headers) {
