@@ -203,6 +203,7 @@ void remark_on_error(Reference& reference) {
   const auto worst = std::max_element(
       reference.rows.begin(), reference.rows.end(),
       [](const ReferenceRow& a, const ReferenceRow& b) { return a.force < b.force; });
+  if (!(worst->force > 0.0)) return;
   reference.remarks.push_back("further refinement may change the greatest force, " +
                               rounded_text(worst->force) + " N, by " +
                               percent_text(worst->error / worst->force));
