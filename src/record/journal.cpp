@@ -87,7 +87,8 @@ std::vector<std::string> JournalFile::warnings() const {
     return {path + " belongs to another plan, chart or version and is ignored"};
   if (corrupt > 0)
     sentences.push_back(path + " has " + std::to_string(corrupt) +
-                        " corrupt lines; their rows count as missing");
+                        (corrupt == 1 ? " corrupt line; its row counts as missing"
+                                      : " corrupt lines; their rows count as missing"));
   if (torn) sentences.push_back(path + " ends with an incomplete line; its row counts as missing");
   return sentences;
 }

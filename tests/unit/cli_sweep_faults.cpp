@@ -147,7 +147,7 @@ TEST_F(SweepFaults, ACorruptRowIsMissingAndSaid) {
   text[text.find("completed")] = 'x';
   write_file(file, text);
   const std::string warning = "warning: out/s_sweep/results/" + file.filename().string() +
-                              " has 1 corrupt lines; their rows count as missing\n";
+                              " has 1 corrupt line; its row counts as missing\n";
   const Ended status = sweep({"status", "out/s_sweep"});
   EXPECT_EQ(status.code, 7);
   EXPECT_NE(status.out.find("missing     1  ("), std::string::npos);

@@ -175,9 +175,9 @@ TEST_F(JournalOnDisk, ARowThatIsNotUnderstoodIsCorrupt) {
   const auto [numbers, file] = numbers_in(journal.path());
   EXPECT_EQ(numbers, (Numbers{1.0, 3.0}));
   EXPECT_EQ(file.corrupt, 1U);
-  EXPECT_EQ(file.warnings(),
-            std::vector<std::string>{journal.path() +
-                                     " has 1 corrupt lines; their rows count as missing"});
+  EXPECT_EQ(
+      file.warnings(),
+      std::vector<std::string>{journal.path() + " has 1 corrupt line; its row counts as missing"});
 }
 
 TEST_F(JournalOnDisk, RowsOfSomebodyElseCountForNothing) {
