@@ -167,9 +167,8 @@ void pack(const double* from, int height, int top, int begin, int end, std::vect
 constexpr int block = 64;  // columns that are eliminated together
 constexpr int strip = 8;   // of which so many one by one
 
-// Subtracts A A^T of packed rows from the lower triangle of `to`, of `size` rows and `columns`
-// columns with distance `stride`; its first row is that of the first packed one. Every sum is in
-// the order of the packed columns, so that its bits do not depend on the processor.
+// Packed rows A, and a lower triangle of `size` rows and `columns` columns with distance `stride`,
+// whose first row is that of the first packed one.
 struct Update {
   const double* packed;
   int depth, size, columns;
@@ -177,6 +176,8 @@ struct Update {
   std::size_t stride;
 };
 
+// Subtracts A A^T from the triangle. Every sum is in the order of the packed columns, so that its
+// bits do not depend on the processor.
 template <class Numbers>
 PALPATE_ALWAYS void subtract_by(const Update& by) {
   const auto depth = as_index(by.depth);
