@@ -140,25 +140,27 @@ Vec3 outline_point(const Sweep& sweep, const Section& section, const Vec3& point
   return Vec3(sweep.x + end, point.y(), sweep.z) + section.radius / distance * away;
 }
 
+// The place on a round surface, or on the nearest one, and its number.
 struct Onto {
   const Vec3& point;
+  std::optional<int> surface = {};
 
-  Vec3 operator()(const Cuboid&) const { return point; }
-  Vec3 operator()(const Ellipsoid& ellipsoid) const {
+  std::pair<Vec3, int> operator()(const Cuboid&) const { return {point, 0}; }
+  std::pair<Vec3, int> operator()(const Ellipsoid& ellipsoid) const {
     const Vec3 half = 0.5 * ellipsoid.size;
     const Vec3 away = point - half;
-    return half + away / away.cwiseQuotient(half).norm();
+    return {half + away / away.cwiseQuotient(half).norm(), 0};
   }
   template <class Bar>
-  Vec3 operator()(const Bar& bar) const {
+  std::pair<Vec3, int> operator()(const Bar& bar) const {
     const Sweep sweep = sweep_of(bar);
-    Vec3 nearest = point;
+    std::pair<Vec3, int> nearest{point, 0};
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& section : sweep.sections) {
-      const Vec3 there = outline_point(sweep, section(point.y()), point);
-      if ((there - point).norm() >= least) continue;
+    for (int s = 0; s < static_cast<int>(sweep.sections.size()); ++s) {
+      const Vec3 there = outline_point(sweep, sweep.sections[as_index(s)](point.y()), point);
+      if ((surface && s != *surface) || (there - point).norm() >= least) continue;
       least = (there - point).norm();
-      nearest = there;
+      nearest = {there, s};
     }
     return nearest;
   }
@@ -190,7 +192,15 @@ Body sampled(const Shape& shape, const Spacing& spacing) {
   return std::visit(Sampler{spacing}, shape);
 }
 
-Vec3 onto(const Shape& shape, const Vec3& point) { return std::visit(Onto{point}, shape); }
+Vec3 onto(const Shape& shape, const Vec3& point) { return std::visit(Onto{point}, shape).first; }
+
+Vec3 onto(const Shape& shape, const Vec3& point, int surface) {
+  return std::visit(Onto{point, surface}, shape).first;
+}
+
+int nearest_surface(const Shape& shape, const Vec3& point) {
+  return std::visit(Onto{point}, shape).second;
+}
 
 std::optional<Sweep> outer_sweep(const Shape& shape) { return std::visit(OuterSweep{}, shape); }
 

@@ -65,6 +65,11 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, Lay
 // which is near that surface and not on the axis of a bar. Flat ends and cuboids give `point`.
 [[nodiscard]] Vec3 onto(const Shape& shape, const Vec3& point);
 
+// The same on one of a bar's round surfaces, which are numbered from outside; the number of the one
+// that is nearest to a point. Other shapes have one.
+[[nodiscard]] Vec3 onto(const Shape& shape, const Vec3& point, int surface);
+[[nodiscard]] int nearest_surface(const Shape& shape, const Vec3& point);
+
 // The outermost surface of a shape along y as a sweep; empty for a cuboid and an ellipsoid.
 [[nodiscard]] std::optional<Sweep> outer_sweep(const Shape& shape);
 

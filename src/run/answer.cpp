@@ -305,8 +305,8 @@ class LeftOuts {
 
   void ball() {
     if (rung_.solid || e_.ball <= 0.2 * tolerance()) return;
-    omit("the size of the finger, which yields as a ball", -e_.ball, would(-e_.ball),
-         "set `solver.model = \"solid\"`");
+    omit("the size of the finger, a ball that yields less than a half-space", e_.ball,
+         would(e_.ball), "set `solver.model = \"solid\"`");
   }
 
   // By how much a half-space under `series` is too soft.                    docs/theory.md (10)

@@ -343,18 +343,19 @@ record::PressureMap draw_map(const solid::FingerPress::Skin& skin, double reach,
   if (skin.triangles.empty() || !(reach > 0.0)) return map;
   Vec3 low = Vec3::Constant(outside);
   Vec3 high = -low;
-  for (const solid::Ball& ball : skin.balls) {
-    low = low.cwiseMin(ball.centre - Vec3::Constant(margin * reach));
-    high = high.cwiseMax(ball.centre + Vec3::Constant(margin * reach));
+  for (const solid::Indenter& indenter : skin.finger) {
+    low = low.cwiseMin(indenter.pole - Vec3::Constant(margin * reach));
+    high = high.cwiseMax(indenter.pole + Vec3::Constant(margin * reach));
   }
-  lay_out(low, high, skin.balls.front().centre.z() - skin.balls.front().radius, map);
+  lay_out(low, high, skin.finger.front().pole.z(), map);
   const auto pixels = as_index(map.width * map.height);
   const int across = map.width * samples;
   std::vector<char> taken(as_index(across * map.height * samples), 0);
   std::vector<double> sums(pixels, 0.0);
   std::vector<Vec3> tractions(pixels, Vec3::Zero());
   map.gap.assign(pixels, std::numeric_limits<float>::infinity());
-  for (const std::array<Vec3, 3>& triangle : skin.triangles) {
+  for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
+    const std::array<Vec3, 3>& triangle = skin.triangles[t];
     const Vec3 twice = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     if (twice.z() <= 0.0) continue;
     raster(triangle, map, [&](int i, int j, const std::array<double, 3>& weights) {
@@ -362,18 +363,23 @@ record::PressureMap draw_map(const solid::FingerPress::Skin& skin, double reach,
       if (mark != 0) return;
       mark = 1;
       const auto pixel = as_index(j / samples * map.width + i / samples);
-      const Vec3 place =
-          weights[0] * triangle[0] + weights[1] * triangle[1] + weights[2] * triangle[2];
-      for (const solid::Ball& ball : skin.balls) {
-        const Vec3 from = place - ball.centre;
-        const double overlap = ball.radius - from.norm();
-        const double wide = ball.radius * ball.radius - from.head<2>().squaredNorm();
-        if (from.z() >= 0.0 || wide <= 0.0) continue;
-        const double gap = std::max(0.0, -std::sqrt(wide) - from.z());
-        map.gap[pixel] = std::min(map.gap[pixel], static_cast<float>(gap));
+      Vec3 place = Vec3::Zero();
+      double lift = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        place += weights[k] * triangle[k];
+        lift += weights[k] * skin.lifts[t][k];
+      }
+      for (const solid::Indenter& indenter : skin.finger) {
+        const auto here = indenter.at(place);
+        const auto gap = indenter.gap(place);
+        if (!here || !gap) continue;
+        const double s = indenter.share;
+        map.gap[pixel] = std::min(map.gap[pixel],
+                                  static_cast<float>(std::max(0.0, s * *gap - (1.0 - s) * lift)));
+        const double overlap = s * here->depth + (1.0 - s) * lift;
         if (overlap <= 0.0) continue;
         sums[pixel] += overlap;
-        tractions[pixel] += overlap / -from.z() * from;
+        tractions[pixel] -= overlap / here->normal.z() * here->normal;
       }
     });
   }

@@ -21,17 +21,6 @@ std::size_t meshes_for(double tolerance) {
   return tolerance >= solid::error_of_two_meshes ? 2 : 3;
 }
 
-// Where slides begin and end, m beside the first touch, from there on.
-std::vector<Vec3> corners_of(const scenario::Resolved& scenario) {
-  std::vector<Vec3> corners{Vec3::Zero()};
-  for (const scenario::Step& step : scenario.steps)
-    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-      const double angle = slide->direction * std::numbers::pi / 180.0;
-      corners.push_back(corners.back() + slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0));
-    }
-  return corners;
-}
-
 }  // namespace
 
 SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
@@ -77,9 +66,20 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
     order.share = 1.0 - finger.compliance_share;
   }
   order.deepest = scene::deepest_travel(scenario, finger.whole);
-  order.first_touch = given.first_touch;
-  order.touched = given.touched;
-  order.corners = corners_of(scenario);
+  order.touch = {given.first_touch, given.touched};
+  order.beside = [&](const Vec3& place) -> std::optional<solid::Touch> {
+    const auto found = scene::touch_beside(given, finger, place);
+    if (!found) return std::nullopt;
+    return solid::Touch{found->first, found->second};
+  };
+  if (const scene::SurfaceTouch& touch = scene_->choice.touch; touch.known()) {
+    const geometry::Curvature& own = touch.curvature;
+    const Vec3 along_y = own.normal.cross(Vec3::UnitX()).normalized();
+    const std::array<Vec3, 2> axes{along_y.cross(own.normal), along_y};
+    for (std::size_t i = 0; i < 2; ++i)  // Euler's formula
+      order.curvatures[i] = own.kappa_1 * std::pow(own.direction_1.dot(axes[i]), 2) +
+                            own.kappa_2 * std::pow(own.direction_2.dot(axes[i]), 2);
+  }
   return order;
 }
 

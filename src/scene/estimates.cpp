@@ -155,8 +155,8 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
     found.size = found.thickness;
   }
   if (found.contact_radius > 0.0) found.edge = edge_bound(touch.to_edge / found.contact_radius);
-  // A ball that is held at its equator yields 1/4 a/R of the depth more than a half-space of its
-  // rubber, and the force goes with the power 3/2 of the depth.
+  // A ball that is held at its equator yields 1/4 a/R of the depth less than a half-space of its
+  // rubber, which has a far field, and the force goes with the power 3/2 of the depth.
   found.ball =
       1.5 * 0.25 * (1.0 - found.tissue_share) * found.contact_radius / scenario.finger.radius;
   press_deep(scenario, touch, law, found);

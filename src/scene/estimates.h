@@ -24,7 +24,7 @@ struct Estimates {
   double size_error = 0.0;       // the mesh's own, a fraction of the body's force
   bool measured = false;         // whether there was a mesh, and a solution on it
   double edge = 0.0;             // bound where an edge is nearer than two contact radii; (69a)
-  double ball = 0.0;             // what a ball in place of a half-space yields more; (69b)
+  double ball = 0.0;             // what a ball in place of a half-space adds to the force; (69b)
   double deep = 0.0;             // change in neo-Hookean tissue by `depth_ratio`; (62)
   double deep_error = 0.0;       // of that, or a bound where there is none
   double viscous = 0.0;          // increase by the tissue's viscosity

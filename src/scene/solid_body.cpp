@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "geometry/surface.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"
@@ -53,6 +54,24 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
   body->first_touch = first.finger;
   body->touched = body->skin->position(first.at);
   return body;
+}
+
+std::optional<std::pair<Vec3, Vec3>> touch_beside(const SolidBody& body, const Finger& finger,
+                                                  const Vec3& place) {
+  const double top = box_of(body.skin->surface().vertices).high.z();
+  const auto lowered = [&](const Vec3& beside) {
+    const Vec3 from = body.first_touch + beside;
+    return lowered_onto(*body.skin, {from.x(), from.y(), top},
+                        {finger.centres, finger.sphere_radius});
+  };
+  try {
+    const FirstTouch there = lowered(place);
+    // What a sampled skin misses of the body's own touch it misses beside it as well.
+    const Vec3 missed = (body.first_touch - lowered(Vec3::Zero()).finger).z() * Vec3::UnitZ();
+    return std::pair(there.finger + missed, body.skin->position(there.at) + missed);
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace palpate::scene

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "geometry/shapes.h"
 #include "geometry/smooth_surface.h"
@@ -12,6 +13,7 @@
 
 namespace palpate::scene {
 
+struct Finger;
 struct Scene;
 
 // One of the first three gives the body; lumps and slabs of the scenario come on top.
@@ -27,6 +29,12 @@ struct SolidBody {
 
 // The substance of a part of a shape: 0 is the tissue, then the scenario's regions in order.
 [[nodiscard]] int substance_of(const scenario::Resolved& scenario, int part);
+
+// The finger's point and the place of the skin (m) at first touch, with the finger at a place (m)
+// beside that of the body; nothing where it passes beside the body.
+[[nodiscard]] std::optional<std::pair<Vec3, Vec3>> touch_beside(const SolidBody& body,
+                                                                const Finger& finger,
+                                                                const Vec3& place);
 
 // Throws MeshError if the finger passes beside the body, or as specimen_mesh() does.
 [[nodiscard]] std::unique_ptr<SolidBody> make_solid_body(const Scene& scene,

@@ -171,10 +171,11 @@ Body make_body(const BodyOrder& order) {
   return body;
 }
 
-Body make_ball(double radius, double travel, const tissue::Isotropic& material, double per_radius) {
+Body make_ball(double radius, double depth, double travel, const tissue::Isotropic& material,
+               double per_radius) {
   // The upper half of an ellipsoid whose lower half is cut off: a mirror that is held in height
   // alone is a frictionless base.
-  const double a = std::sqrt(radius * travel);
+  const double a = std::sqrt(radius * depth);
   const Vec3 centre = Vec3::Constant(radius);
   MeshOrder wanted{
       .shape = geometry::Ellipsoid{Vec3::Constant(2.0 * radius)},

@@ -37,8 +37,9 @@ struct BodyOrder {
 [[nodiscard]] Body make_body(const BodyOrder& order);
 
 // The lower half of an elastic ball, turned up: its equator lies on a plane on which it slides, its
-// pole is at (0, 0, radius). A quarter is meshed.
-[[nodiscard]] Body make_ball(double radius, double travel, const tissue::Isotropic& material,
-                             double per_radius);
+// pole is at (0, 0, radius). A quarter is meshed, for a contact radius of sqrt(radius depth), m, in
+// which the ball takes `travel` (m) of the depth.
+[[nodiscard]] Body make_ball(double radius, double depth, double travel,
+                             const tissue::Isotropic& material, double per_radius);
 
 }  // namespace palpate::solid

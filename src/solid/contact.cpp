@@ -52,6 +52,38 @@ const std::array<FacePoint, 7>& rule() {
 
 }  // namespace
 
+std::optional<Indenter::Meeting> Indenter::at(const Vec3& place) const {
+  const auto& [c_1, c_2] = curvature;
+  const double c = 0.5 * (c_1 + c_2);
+  const Vec3 own = place - pole;
+  const double upright = 1.0 - c * own.z();
+  if (upright <= 0.0) return std::nullopt;
+  const Vec3 down(c_1 * own.x(), c_2 * own.y(), -upright);
+  const double inside =
+      2.0 * own.z() - c_1 * own.x() * own.x() - c_2 * own.y() * own.y() - c * own.z() * own.z();
+  const double length = down.norm();
+  return Meeting{inside / (length + (c_1 == c_2 ? 1.0 : length)), down / length, c / length};
+}
+
+std::optional<double> Indenter::gap(const Vec3& place) const {
+  const auto& [c_1, c_2] = curvature;
+  const Vec3 own = place - pole;
+  const double q = c_1 * own.x() * own.x() + c_2 * own.y() * own.y();
+  const double root = 1.0 - 0.5 * (c_1 + c_2) * q;
+  if (root < 0.0) return std::nullopt;
+  return q / (1.0 + std::sqrt(root)) - own.z();
+}
+
+bool Indenter::near(const Vec3& place, double reach) const {
+  const auto& [c_1, c_2] = curvature;
+  const Vec3 own = place - pole;
+  const double least = std::min(c_1, c_2);
+  const double aside = own.head<2>().norm() + (least > 0.0 ? -reach : reach);
+  const double lowest = least > 0.0 ? 0.5 * least * std::max(0.0, aside) * std::max(0.0, aside)
+                                    : least * aside * aside;
+  return own.z() + reach > lowest;
+}
+
 Contact::Contact(const Elements& elements, std::span<const OuterFace> faces, double stiffness)
     : stiffness_(stiffness) {
   const std::vector<Vec3>& nodes = elements.mesh().nodes;
@@ -70,7 +102,9 @@ Contact::Contact(const Elements& elements, std::span<const OuterFace> faces, dou
         first += at.along_1[a] * node(a);
         second += at.along_2[a] * node(a);
       }
-      own.areas[q] = at.weight * first.cross(second).norm();
+      const Vec3 across = first.cross(second);
+      own.areas[q] = at.weight * across.norm();
+      own.normals[q] = across.normalized();
     }
     std::size_t k = 0;
     for (std::size_t r = 0; r < 18; ++r)
@@ -85,63 +119,55 @@ Contact::Contact(const Elements& elements, std::span<const OuterFace> faces, dou
   }
 }
 
-std::optional<Contact::Overlap> Contact::overlap(const Vec3& place, const Ball& ball) {
-  const Vec3 from = place - ball.centre;
-  // Only the lower half of a ball is met, of a cup its upper half.
-  if (ball.hollow ? from.z() <= 0.0 : from.z() >= 0.0) return std::nullopt;
-  const double distance = from.norm();
-  const double depth = ball.hollow ? distance - ball.radius : ball.radius - distance;
-  if (depth <= 0.0) return std::nullopt;
-  const double sign = ball.hollow ? -1.0 : 1.0;
-  return Overlap{depth, sign / distance * from, sign / distance};
-}
-
 template <class Visit>
-void Contact::for_each(const Vector& displacement, std::span<const Ball> balls,
+void Contact::for_each(const Vector& displacement, std::span<const Indenter> indenters,
                        const Visit& visit) const {
   for (const Own& face : faces_) {
     std::array<Vec3, 6> moved;
-    Vec3 middle = face.middle;
     double most = 0.0;
     for (std::size_t a = 0; a < 6; ++a) {
       moved[a] = displacement.segment<3>(3 * face.nodes[a]);
       most = std::max(most, moved[a].norm());
     }
-    for (std::size_t b = 0; b < balls.size(); ++b) {
-      const double far = (middle - balls[b].centre).norm();
-      if (balls[b].hollow ? far + face.reach + most < balls[b].radius
-                          : far > balls[b].radius + face.reach + most)
-        continue;
+    for (std::size_t i = 0; i < indenters.size(); ++i) {
+      if (!indenters[i].near(face.middle, face.reach + most)) continue;
       for (std::size_t q = 0; q < face_points; ++q) {
-        Vec3 place = face.places[q];
-        for (std::size_t a = 0; a < 6; ++a) place += rule()[q].values[a] * moved[a];
-        if (const auto found = overlap(place, balls[b])) visit(face, q, place, b, *found);
+        Vec3 change = Vec3::Zero();
+        for (std::size_t a = 0; a < 6; ++a) change += rule()[q].values[a] * moved[a];
+        const auto found = indenters[i].at(face.places[q] + change);
+        if (!found) continue;
+        const double s = indenters[i].share;
+        const double depth = s * found->depth + (1.0 - s) * face.normals[q].dot(change);
+        if (depth <= 0.0) continue;
+        visit(face, q, i,
+              Overlap{depth, s * found->normal - (1.0 - s) * face.normals[q], found->normal,
+                      s * found->bend});
       }
     }
   }
 }
 
-void Contact::add(const Vector& displacement, std::span<const Ball> balls, double steepest,
+void Contact::add(const Vector& displacement, std::span<const Indenter> indenters, double steepest,
                   Vector& force, Eigen::SparseMatrix<double>& stiffness,
                   std::vector<Met>& met) const {
-  met.assign(balls.size(), {});
+  met.assign(indenters.size(), {});
   double* values = stiffness.valuePtr();
-  for_each(displacement, balls,
-           [&](const Own& face, std::size_t q, const Vec3&, std::size_t b, const Overlap& here) {
+  for_each(displacement, indenters,
+           [&](const Own& face, std::size_t q, std::size_t i, const Overlap& here) {
              const double pressure = stiffness_ * here.depth;
              const double area = face.areas[q];
-             Met& own = met[b];
-             own.force += area * pressure * here.normal;
+             Met& own = met[i];
+             own.force += area * pressure * here.push;
              own.work += area * pressure * here.depth;
              own.area += area;
              own.peak = std::max(own.peak, pressure);
              const std::array<double, 6>& n = rule()[q].values;
              for (std::size_t a = 0; a < 6; ++a)
-               force.segment<3>(3 * face.nodes[a]) -= n[a] * area * pressure * here.normal;
+               force.segment<3>(3 * face.nodes[a]) -= n[a] * area * pressure * here.push;
              const double bend = area * std::min(pressure, steepest) * here.bend;
              const Eigen::Matrix3d change =
-                 (area * stiffness_ + bend) * here.normal * here.normal.transpose() -
-                 bend * Eigen::Matrix3d::Identity();
+                 area * stiffness_ * here.push * here.push.transpose() +
+                 bend * (here.normal * here.normal.transpose() - Eigen::Matrix3d::Identity());
              const int* entry = face.entries.data();
              for (std::size_t r = 0; r < 18; ++r)
                for (std::size_t c = 0; c <= r; ++c, ++entry)
@@ -152,10 +178,10 @@ void Contact::add(const Vector& displacement, std::span<const Ball> balls, doubl
            });
 }
 
-double Contact::energy(const Vector& displacement, std::span<const Ball> balls) const {
+double Contact::energy(const Vector& displacement, std::span<const Indenter> indenters) const {
   double sum = 0.0;
-  for_each(displacement, balls,
-           [&](const Own& face, std::size_t q, const Vec3&, std::size_t, const Overlap& here) {
+  for_each(displacement, indenters,
+           [&](const Own& face, std::size_t q, std::size_t, const Overlap& here) {
              sum += 0.5 * face.areas[q] * stiffness_ * here.depth * here.depth;
            });
   return sum;

@@ -16,8 +16,9 @@ namespace {
 using Pairs =
     std::vector<std::pair<double, double>>;  // of a travel and another quantity, ascending
 
-// The parabola through the three points nearest to x in logarithms. Below the first its slope there
-// goes over to `power`, that of the smallest contacts.
+// The parabola through the three points nearest to x in logarithms. Below the first point its slope
+// there goes over to `power`, that of the smallest contacts; beyond the last one it goes on
+// straight.
 double between(const Pairs& points, double x, double power) {
   if (!(x > 0.0)) return 0.0;
   const auto parabola = [&](double at) {
@@ -35,11 +36,15 @@ double between(const Pairs& points, double x, double power) {
     return sum;
   };
   const auto& [begin, value] = points.front();
-  if (points.size() > 1 && x >= begin) return std::exp(parabola(x));
+  const auto& [end, last] = points.back();
+  if (points.size() == 1) return value * std::pow(x / begin, power);
+  if (x >= begin && x <= end) return std::exp(parabola(x));
   constexpr double aside = 1e-3;
-  const double slope = points.size() > 1 ? (parabola(begin * (1.0 + aside)) - std::log(value)) /
-                                               std::log(1.0 + aside)
-                                         : power;
+  if (x > end) {
+    const double slope = (std::log(last) - parabola(end * (1.0 - aside))) / -std::log(1.0 - aside);
+    return last * std::pow(x / end, slope);
+  }
+  const double slope = (parabola(begin * (1.0 + aside)) - std::log(value)) / std::log(1.0 + aside);
   return value * std::pow(x / begin, power) * std::exp((slope - power) * (x / begin - 1.0));
 }
 
@@ -59,94 +64,110 @@ FingerPress::FingerPress(FingerOrder order) : order_(std::move(order)) {
   BodyOrder body = order_.body;
   body.radius = order_.radius / order_.share;
   body.travel = order_.deepest * order_.share;
-  // Where the spheres meet the body on their way.
-  const std::vector<Vec3>& corners = order_.corners;
-  const bool several = order_.centres.size() > 1;
-  std::optional<geometry::BoxTree> tree;
-  if (several || corners.size() > 1) tree.emplace(order_.skin->surface());
-  const double step = 0.5 * std::sqrt(order_.radius * order_.deepest);
-  // A plane of symmetry passes through the finger's point, not through one of its spheres.
-  body.touched = {order_.touched};
-  if (several) body.touched.front().head<2>() = order_.first_touch.head<2>();
-  for (const Vec3& centre : order_.centres)
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (i == 0 && !several) continue;
-      const Vec3 from = corners[i == 0 ? 0 : i - 1];
-      const int parts = std::max(1, static_cast<int>(std::ceil((corners[i] - from).norm() / step)));
-      for (int k = 1; k <= parts; ++k) {
-        const Vec3 place = order_.first_touch + centre + from +
-                           (corners[i] - from) * (static_cast<double>(k) / parts);
-        body.touched.push_back(order_.skin->foot(place, tree->nearest(place)).position);
-      }
+  body.touched = {order_.touch.touched};
+  if (order_.centres.size() > 1) {
+    // A plane of symmetry passes through the finger's point, not through one of its spheres.
+    body.touched.front().head<2>() = order_.touch.finger.head<2>();
+    const geometry::BoxTree tree(order_.skin->surface());
+    for (const Vec3& centre : order_.centres) {
+      const Vec3 place = order_.touch.finger + centre;
+      body.touched.push_back(order_.skin->foot(place, tree.nearest(place)).position);
     }
-  const double near = 1e-6 * order_.radius;
+  }
   for (const int axis : {0, 1})
     body.mirrored[as_index(axis)] =
-        body.mirrored[as_index(axis)] && mirrored(order_.centres, axis, near) &&
-        std::all_of(corners.begin(), corners.end(),
-                    [&](const Vec3& at) { return std::abs(at[axis]) < near; });
+        body.mirrored[as_index(axis)] && mirrored(order_.centres, axis, 1e-6 * order_.radius);
   mirror_ = body.touched.front();
   press_ = std::make_unique<Press>(make_body(body));
-  std::vector<Ball> balls;
+  std::vector<Indenter> finger;
   for (const Vec3& centre : order_.centres)
-    balls.push_back({centre + (body.radius - order_.radius) * Vec3::UnitZ(), body.radius, false});
-  press_->set_finger(std::move(balls));
-  press_->begin(order_.first_touch);
-  if (order_.ball) find_ball();
+    finger.push_back(Indenter::sphere(centre, order_.radius, order_.share));
+  press_->set_finger(std::move(finger));
+  press_->begin(order_.touch.finger);
 }
 
-// The ball under a cup whose curvature is the tissue's share of 1/R.
-void FingerPress::find_ball() {
+FingerPress* FingerPress::at(const Vec3& place) {
+  if (place == Vec3::Zero()) return this;
+  if (place_ == place) return beside_.get();
+  place_ = place;
+  beside_.reset();
+  const auto touch = order_.beside(place);
+  if (!touch) return nullptr;
+  FingerOrder there = order_;
+  there.deepest += touch->finger.z() - order_.touch.finger.z();
+  there.touch = *touch;
+  if (there.deepest > 0.0) beside_ = std::make_unique<FingerPress>(std::move(there));
+  return beside_.get();
+}
+
+// Presses the ball of an elastic finger until it bears a force (N), by the undeformed tissue. Says
+// in reason() where no equilibrium was found.
+void FingerPress::press_ball(double force) {
   const double part = (1.0 - order_.share) * order_.deepest;
-  Press press(make_ball(order_.radius, order_.deepest, *order_.ball, order_.body.per_radius));
-  const double cup = order_.radius / std::max(order_.share, 1e-4);
-  press.set_finger({{Vec3(0.0, 0.0, order_.radius - cup), cup, true}});
-  press.begin(Vec3::Zero());
-  for (const double times : {0.25, 0.5, 1.0}) {
-    const double travel = times * part;
-    const auto found = press.go(-travel * Vec3::UnitZ());
-    if (!found) {
+  if (!ball_press_) {
+    ball_press_ = std::make_unique<Press>(
+        make_ball(order_.radius, order_.deepest, part, *order_.ball, order_.body.per_radius));
+    ball_press_->set_finger({{.pole = order_.radius * Vec3::UnitZ(),
+                              .curvature = order_.curvatures,
+                              .share = 1.0 - order_.share}});
+    ball_press_->begin(Vec3::Zero());
+  }
+  while (reason_.empty() && (ball_.points.size() < 3 || ball_.points.back().force < force)) {
+    const double next = ball_.points.empty()   ? 0.25 * part
+                        : ball_.reached < part ? 2.0 * ball_.reached
+                                               : 1.5 * ball_.reached;
+    const auto found = ball_press_->go(-next / (1.0 - order_.share) * Vec3::UnitZ());
+    if (!found || !(found->normal() > 0.0)) {
       reason_ = "the solid finds no equilibrium of the finger's ball beyond a travel of " +
-                quantity_text(travel, unit::mm) + "; press less deep";
+                quantity_text(ball_.reached, unit::mm) + "; press less deep";
       return;
     }
-    ball_.push_back({travel - found->lost, found->normal(), {}});
-  }
-}
-
-template <class Add>
-void FingerPress::with_copies(const std::array<Vec3, 3>& triangle, const Add& add) const {
-  const std::array<bool, 2>& mirrored = press_->body().mirrored;
-  for (int copy = 0; copy < 4; ++copy) {
-    const bool across_x = (copy & 1) != 0, across_y = (copy & 2) != 0;
-    if ((across_x && !mirrored[0]) || (across_y && !mirrored[1])) continue;
-    std::array<Vec3, 3> image = triangle;
-    for (Vec3& corner : image) {
-      if (across_x) corner.x() = 2.0 * mirror_.x() - corner.x();
-      if (across_y) corner.y() = 2.0 * mirror_.y() - corner.y();
-    }
-    if (across_x != across_y) std::swap(image[1], image[2]);
-    add(image);
+    ball_.reached = next;
+    ball_.points.push_back({next - found->lost, found->normal(), {}});
   }
 }
 
 FingerPress::Skin FingerPress::skin_at(double travel, const Vec3& place) {
-  const Vec3 finger = order_.first_touch + place - order_.share * travel * Vec3::UnitZ();
   Skin skin;
+  FingerPress* const there = at(place);
+  if (there == nullptr) return skin;
+  if (there != this)
+    return there->skin_at(travel + there->order_.touch.finger.z() - order_.touch.finger.z(),
+                          Vec3::Zero());
+  const Vec3 finger = order_.touch.finger - travel * Vec3::UnitZ();
   const auto moved = press_->look(finger);
   if (!moved) return skin;
-  skin.balls = press_->balls();
-  for (Ball& ball : skin.balls) ball.centre += finger;
+  skin.finger = press_->finger_at(finger);
   const Body& body = press_->body();
-  const auto at = [&](int node) -> Vec3 {
-    return body.mesh.nodes[as_index(node)] + moved->segment<3>(3 * node);
-  };
   constexpr std::array<std::array<std::size_t, 3>, 4> parts{
       {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
   for (const OuterFace& face : body.met)
-    for (const auto& part : parts)
-      with_copies({at(face.nodes[part[0]]), at(face.nodes[part[1]]), at(face.nodes[part[2]])},
-                  [&](const auto& image) { skin.triangles.push_back(image); });
+    for (const auto& part : parts) {
+      std::array<Vec3, 3> corners, changes;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int node = face.nodes[part[i]];
+        corners[i] = body.mesh.nodes[as_index(node)];
+        changes[i] = moved->segment<3>(3 * node);
+      }
+      const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+      std::array<double, 3> lifts{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        lifts[i] = normal.dot(changes[i]);
+        corners[i] += changes[i];
+      }
+      for (int copy = 0; copy < 4; ++copy) {
+        const std::array<bool, 2> across{(copy & 1) != 0, (copy & 2) != 0};
+        if ((across[0] && !body.mirrored[0]) || (across[1] && !body.mirrored[1])) continue;
+        std::array<Vec3, 3> image = corners;
+        for (Vec3& corner : image)
+          for (const int axis : {0, 1})
+            if (across[as_index(axis)]) corner[axis] = 2.0 * mirror_[axis] - corner[axis];
+        const bool turned = across[0] != across[1];
+        if (turned) std::swap(image[1], image[2]);
+        skin.triangles.push_back(image);
+        skin.lifts.push_back({lifts[0], lifts[turned ? 2 : 1], lifts[turned ? 1 : 2]});
+      }
+    }
   return skin;
 }
 
@@ -154,119 +175,120 @@ Moment FingerPress::moment_of(const Answer& answer, double force) {
   return {force, std::sqrt(answer.area / std::numbers::pi), answer.peak, answer.touching};
 }
 
-std::optional<Answer> FingerPress::go(const Vec3& place, double travel) {
-  set_doing(std::to_string(press_->body().mesh.nodes.size()) + " nodes, press to " +
+std::optional<Answer> FingerPress::go(double travel) {
+  set_doing(order_.part + std::to_string(press_->body().mesh.nodes.size()) + " nodes, press to " +
             quantity_text(travel / order_.share, unit::mm) + " of " +
             quantity_text(order_.deepest, unit::mm));
-  auto found = press_->go(order_.first_touch + place - travel * Vec3::UnitZ());
+  auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
   if (!found) {
-    const double reached = (order_.first_touch.z() - press_->reached().z()) / order_.share;
+    const double reached = order_.touch.finger.z() - press_->reached().z();
     reason_ = "the solid finds no equilibrium beyond a travel of " +
               quantity_text(reached, unit::mm) + ": the tissue folds there; press less deep";
   }
   return found;
 }
 
-// The curve at a place, with points at a quarter and half of the order's travel and there, and
-// beyond it by up to half more at a time: a curve does not depend on what was asked first. Null
-// where no equilibrium was found.
-FingerPress::Curve* FingerPress::curve_at(const Vec3& place, double travel) {
-  if (!reason_.empty()) return nullptr;
-  auto found = std::find_if(curves_.begin(), curves_.end(),
-                            [&](const Curve& one) { return one.place == place; });
-  if (found == curves_.end()) found = curves_.insert(found, {.place = place});
-  Curve& curve = *found;
+// Points at a quarter and half of the order's travel and there, and beyond it by up to half more at
+// a time: the curve does not depend on what was asked first.
+bool FingerPress::reach(double travel) {
   const double deepest = order_.share * order_.deepest;
-  if (curve.points.empty()) press_->begin(order_.first_touch + place);
-  while (curve.reached < std::max(deepest, travel)) {
-    double next = curve.points.empty() ? 0.25 * deepest : 2.0 * curve.reached;
-    if (curve.reached >= deepest) next = std::min(next, 1.5 * curve.reached);
-    const auto answer = go(place, next);
-    if (!answer) return nullptr;
-    curve.reached = next;
+  while (reason_.empty() && tissue_.reached < std::max(deepest, travel)) {
+    double next = tissue_.reached > 0.0 ? 2.0 * tissue_.reached : 0.25 * deepest;
+    if (tissue_.reached >= deepest) next = std::min(next, 1.5 * tissue_.reached);
+    const auto answer = go(next);
+    if (!answer) break;
+    tissue_.reached = next;
     if (answer->normal() > 0.0)
-      curve.points.push_back(
+      tissue_.points.push_back(
           {next - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
   }
-  return &curve;
+  return reason_.empty();
 }
 
-// The tissue's part of the finger's travel: the ball takes the rest at the same force.
-double FingerPress::tissue_travel(const Curve& tissue, double travel) const {
-  if (ball_.empty()) return order_.share * travel;
-  Pairs of_tissue;
-  Pairs of_ball;
-  for (const Point& point : tissue.points) of_tissue.emplace_back(point.travel, point.force);
-  for (const Point& point : ball_) of_ball.emplace_back(point.travel, point.force);
-  double low = 0.0;
-  double high = travel;
-  constexpr int halvings = 60;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (between(of_tissue, middle, 1.5) < between(of_ball, travel - middle, 1.5) ? low : high) =
-        middle;
+// The tissue's part of the finger's travel: the ball takes the rest at the same force. Both curves
+// are found as far as that takes.
+double FingerPress::tissue_travel(double travel) {
+  const double expected = order_.share * travel;
+  if (!reach(expected) || !order_.ball || tissue_.points.empty()) return expected;
+  // The ball is pressed along the normal, the finger straight down.
+  const double upright = (order_.touch.finger - order_.touch.touched).z() / order_.radius;
+  for (;;) {
+    press_ball(tissue_.points.back().force / upright);
+    if (!reason_.empty()) return expected;
+    Pairs of_tissue;
+    Pairs of_ball;
+    for (const Point& point : tissue_.points) of_tissue.emplace_back(point.travel, point.force);
+    for (const Point& point : ball_.points)
+      of_ball.emplace_back(point.travel / upright, point.force * upright);
+    double low = 0.0;
+    double high = travel;
+    constexpr int halvings = 60;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (between(of_tissue, middle, 1.5) < between(of_ball, travel - middle, 1.5) ? low : high) =
+          middle;
+    }
+    const double own = 0.5 * (low + high);
+    if (own <= tissue_.reached || !reach(own)) return own;
   }
-  return 0.5 * (low + high);
 }
 
 std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
+  FingerPress* const there = at(place);
+  if (there == nullptr) return Moment{};
+  if (there != this) {
+    auto found = there->at_travel(travel + there->order_.touch.finger.z() - order_.touch.finger.z(),
+                                  Vec3::Zero());
+    reason_ = there->reason_;
+    return found;
+  }
   if (!(travel > 0.0)) return Moment{};
-  const Curve* curve = curve_at(place, order_.share * travel);
-  if (curve == nullptr) return std::nullopt;
-  if (curve->points.empty()) return Moment{};
-  const double own = tissue_travel(*curve, travel);
+  const double own = tissue_travel(travel);
+  if (!reason_.empty()) return std::nullopt;
+  if (tissue_.points.empty()) return Moment{};
   Pairs force;
   Pairs radius;
   Pairs pressure;
-  for (const Point& point : curve->points) {
+  for (const Point& point : tissue_.points) {
     force.emplace_back(point.travel, point.force);
     radius.emplace_back(point.travel, point.moment.contact_radius);
     pressure.emplace_back(point.travel, point.moment.peak_pressure);
   }
-  const auto nearest = std::find_if(curve->points.begin(), curve->points.end(),
+  const auto nearest = std::find_if(tissue_.points.begin(), tissue_.points.end(),
                                     [&](const Point& point) { return point.travel >= own; });
-  const Point& at = nearest == curve->points.end() ? curve->points.back() : *nearest;
+  const Point& near = nearest == tissue_.points.end() ? tissue_.points.back() : *nearest;
   return Moment{between(force, own, 1.5), between(radius, own, 0.5), between(pressure, own, 0.5),
-                at.moment.touching};
+                near.moment.touching};
 }
 
 std::optional<Moment> FingerPress::at_slide(double travel, const Vec3& start, const Vec3& end,
                                             double slid) {
   const double length = (end - start).norm();
   if (slid_.empty() || slide_start_ != start || slide_end_ != end || slide_travel_ != travel) {
-    const Curve* curve = travel > 0.0 ? curve_at(start, order_.share * travel) : nullptr;
-    if (curve == nullptr || curve->points.empty()) {
-      if (reason_.empty()) return Moment{};
-      return std::nullopt;
-    }
     std::tie(slide_start_, slide_end_, slide_travel_) = std::tuple(start, end, travel);
     slid_.clear();
-    const double own = tissue_travel(*curve, travel);
-    const double step = 0.5 * std::sqrt(order_.radius * travel);
-    const int parts = std::clamp(static_cast<int>(std::ceil(length / step)), 4, 60);
-    // The exponent of the force at this depth, by which the penalty's depth is taken out.
-    const std::vector<Point>& points = curve->points;
-    const Point& last = points.back();
-    const double power = points.size() > 1
-                             ? std::log(last.force / points[points.size() - 2].force) /
-                                   std::log(last.travel / points[points.size() - 2].travel)
-                             : 1.5;
+    const double step = std::sqrt(order_.radius * std::max(travel, 0.0));
+    const int parts =
+        std::clamp(static_cast<int>(std::ceil(length / std::max(step, 1e-3 * length))), 4, 60);
     for (int k = 0; k <= parts; ++k) {
       const double share = static_cast<double>(k) / parts;
-      const auto found = go(start + share * (end - start), own);
+      order_.part = "place " + std::to_string(k + 1) + " of " + std::to_string(parts + 1) + ", ";
+      const auto found = at_travel(travel, start + share * (end - start));
+      order_.part.clear();
       if (!found) return std::nullopt;
-      slid_.emplace_back(share * length,
-                         moment_of(*found, found->normal() * (1.0 + power * found->lost / own)));
+      slid_.emplace_back(share * length, *found);
     }
   }
-  // The parabola through the three nearest points.
+  // The cubic through the four nearest points.
+  constexpr std::size_t count = 4;
   std::size_t first = 0;
-  while (first + 3 < slid_.size() && slid_[first + 1].first + slid_[first + 2].first < 2.0 * slid)
+  while (first + count < slid_.size() &&
+         slid_[first + 1].first + slid_[first + 2].first < slid * 2.0)
     ++first;
   Moment sum;
-  for (std::size_t i = first; i < first + 3; ++i) {
+  for (std::size_t i = first; i < first + count; ++i) {
     double weight = 1.0;
-    for (std::size_t j = first; j < first + 3; ++j)
+    for (std::size_t j = first; j < first + count; ++j)
       if (j != i) weight *= (slid - slid_[j].first) / (slid_[i].first - slid_[j].first);
     sum.force += weight * slid_[i].second.force;
     sum.contact_radius += weight * slid_[i].second.contact_radius;

@@ -1,7 +1,9 @@
 // A finger on a solid: the force at any travel and on the way of slides.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,19 +12,27 @@
 
 namespace palpate::solid {
 
+// Where the finger comes down: its point at travel 0, and the place of the body that it touches, m.
+struct Touch {
+  Vec3 finger = Vec3::Zero();
+  Vec3 touched = Vec3::Zero();
+};
+
 // A press: the body, the finger and its way.
 struct FingerOrder {
   // Its radius, travel, touched places and mirrors are set by FingerPress.
   BodyOrder body;
-  const geometry::SmoothSurface* skin = nullptr;  // of the body, for slides and several spheres
+  const geometry::SmoothSurface* skin = nullptr;  // of the body, for several spheres
   std::vector<Vec3> centres{Vec3::Zero()};        // m, of the spheres, from the finger's point
   double radius = 0.0;                            // m, of each
   std::optional<tissue::Isotropic> ball = {};     // an elastic finger's; of one sphere
   double share = 1.0;    // of the tissue in the compliance of the contact; 1 if the finger is rigid
   double deepest = 0.0;  // m, travel of the finger
-  Vec3 first_touch = Vec3::Zero();          // m, the finger's point at travel 0
-  Vec3 touched = Vec3::Zero();              // m, the place of the body that it touches there
-  std::vector<Vec3> corners{Vec3::Zero()};  // m, beside it, where slides begin and end
+  Touch touch;
+  std::array<double, 2> curvatures{};  // 1/m, of the body there along x and y, above 0 if convex
+  // The touch with the finger at a place beside it (m); nothing where it passes beside the body.
+  std::function<std::optional<Touch>(const Vec3& place)> beside = {};
+  std::string part = {};  // of a longer way, for the progress of the run
 };
 
 // Force over travel or slide by a few equilibria and what lies between them.
@@ -36,8 +46,9 @@ struct Moment {
 // Nothing depends on time, so that a press is one curve of force over travel: Newton's method finds
 // its points at a quarter and half of the deepest travel and there, and the logarithm of the force
 // is a parabola of that of the travel between them. An elastic finger is a ball of its own radius:
-// both bodies meet at a sphere whose curvature is their shares of 1/R, ball and tissue are pressed
-// by that sphere alone, and their travels at equal forces add.           docs/theory.md (112)
+// each body takes its share of the curvature of the gap between them, ball and tissue are pressed
+// by the rigid surface between their shares, and their travels at equal forces add.
+//                                                                        docs/theory.md (112)
 class FingerPress {
  public:
   // What the order points to must outlive the call. Throws MeshError.
@@ -47,17 +58,19 @@ class FingerPress {
   // says why. Throws Stopped.
   [[nodiscard]] std::optional<Moment> at_travel(double travel, const Vec3& place = Vec3::Zero());
   // At one travel after `slid` m of a slide from `start` to `end`, which are places beside the
-  // first touch (m). The points of the slide are found with the first call for it.
+  // first touch (m): presses at places a contact radius apart, and cubics between them. They are
+  // found with the first call.
   [[nodiscard]] std::optional<Moment> at_slide(double travel, const Vec3& start, const Vec3& end,
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
   // The skin that may be met at a place beside the first touch, displaced, with all copies that the
-  // mirrors make, m; faces are quadratic and come in four parts. With the balls there. Empty where
+  // mirrors make, m; faces are quadratic and come in four parts. With the finger there. Empty where
   // no equilibrium is found.
   struct Skin {
     std::vector<std::array<Vec3, 3>> triangles;
-    std::vector<Ball> balls;
+    std::vector<std::array<double, 3>> lifts;  // m, of the corners along the undeformed normal
+    std::vector<Indenter> finger;
   };
   [[nodiscard]] Skin skin_at(double travel, const Vec3& place);
 
@@ -69,26 +82,30 @@ class FingerPress {
     double force = 0.0;   // N
     Moment moment;
   };
-  // The force on the tissue over its part of the travel, at one place.
+  // The force on the tissue, or on the ball, over its part of the travel.
   struct Curve {
-    Vec3 place = Vec3::Zero();
     std::vector<Point> points = {};
-    double reached = 0.0;  // m, travel of the tissue at the last of them, with what is lost
+    double reached = 0.0;  // m, travel at the last of them, with what is lost
   };
-  [[nodiscard]] Curve* curve_at(const Vec3& place, double travel);
-  [[nodiscard]] std::optional<Answer> go(const Vec3& place, double travel);
+  // Finds the curve of the tissue up to a travel of its own (m); false where there is no
+  // equilibrium.
+  [[nodiscard]] bool reach(double travel);
+  [[nodiscard]] std::optional<Answer> go(double travel);
   [[nodiscard]] static Moment moment_of(const Answer& answer, double force);
-  void find_ball();
-  // Adds a triangle and its images in the mirrors, counter-clockwise like itself.
-  template <class Add>
-  void with_copies(const std::array<Vec3, 3>& triangle, const Add& add) const;
-  [[nodiscard]] double tissue_travel(const Curve& tissue, double travel) const;
+  // The press at a place beside the touch, made when it is first asked for; null where the finger
+  // passes beside the body.
+  [[nodiscard]] FingerPress* at(const Vec3& place);
+  void press_ball(double force);
+  [[nodiscard]] double tissue_travel(double travel);
 
   FingerOrder order_;
   Vec3 mirror_ = Vec3::Zero();  // m, a point of the planes of symmetry
   std::unique_ptr<Press> press_;
-  std::vector<Curve> curves_;
-  std::vector<Point> ball_;  // of an elastic finger
+  Curve tissue_;
+  std::unique_ptr<Press> ball_press_;  // of an elastic finger
+  Curve ball_;
+  Vec3 place_ = Vec3::Zero();  // m, of the last press beside the touch
+  std::unique_ptr<FingerPress> beside_;
   std::string reason_;
   // The slide at hand.
   Vec3 slide_start_ = Vec3::Zero(), slide_end_ = Vec3::Zero();

@@ -21,8 +21,8 @@ namespace {
 constexpr double time_limit = 300.0;  // s
 constexpr double growth = 0.35;
 
-// Numbers of faces: flat ones, the shape's round ones, those of a file, then lumps, then planes.
-enum Number { flat = 1, round_side = 2, of_file = 3, first_lump = 10, first_plane = 1000 };
+// Numbers of faces: flat ones, those of a file, the shape's round ones, then lumps, then planes.
+enum Number { flat = 1, of_file = 2, first_round = 3, first_lump = 10, first_plane = 1000 };
 
 // Whether a point is inside a closed surface, by the winding number.
 bool inside(const geometry::Surface& surface, const Vec3& point) {
@@ -141,14 +141,16 @@ class Mesher {
   // Of a triangle of the sampled shape.
   [[nodiscard]] int number_of(const std::array<int, 3>& triangle) const {
     if (std::holds_alternative<geometry::Cuboid>(*order_.shape)) return flat;
-    if (std::holds_alternative<geometry::Ellipsoid>(*order_.shape)) return round_side;
+    if (std::holds_alternative<geometry::Ellipsoid>(*order_.shape)) return first_round;
     const double length = geometry::extent(*order_.shape).y();
     for (const double end : {0.0, length})
       if (std::all_of(triangle.begin(), triangle.end(), [&](int v) {
             return std::abs(faces_.vertices[as_index(v)].y() - end) < 1e-9 * length;
           }))
         return flat;
-    return round_side;
+    // All corners are on the surface; those at an end may be on two.
+    return first_round +
+           geometry::nearest_surface(*order_.shape, faces_.vertices[as_index(triangle[0])]);
   }
 
   // The place on the first of these faces that is not flat.
@@ -159,7 +161,8 @@ class Mesher {
         return lump.centre + lump.radius * (point - lump.centre).normalized();
       }
     for (const int number : numbers) {
-      if (number == round_side) return geometry::onto(*order_.shape, point);
+      if (number >= first_round && number < first_lump)
+        return geometry::onto(*order_.shape, point, number - first_round);
       if (number == of_file) {
         const geometry::Near near = tree_->nearest(point);
         return smooth_ ? order_.surface->foot(point, near).position

@@ -67,9 +67,14 @@ bool Press::factor() {
   }
 }
 
+std::vector<Indenter> Press::finger_at(const Vec3& place) const {
+  std::vector<Indenter> moved = indenters_;
+  for (Indenter& one : moved) one.pole += place;
+  return moved;
+}
+
 std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
-  std::vector<Ball> balls = balls_;
-  for (Ball& ball : balls) ball.centre += finger;
+  const std::vector<Indenter> indenters = finger_at(finger);
   Vector u = now_.displacement;
   std::vector<double> pressures = now_.pressures;
   if (extrapolate) {
@@ -88,7 +93,7 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
   for (int i = 0; i < most_steps; ++i) {
     const double least = elements_.assemble(u, force, stiffness_);
     if (!(least > -1.0)) return std::nullopt;
-    contact_.add(u, balls, hardest_, force, stiffness_, met);
+    contact_.add(u, indenters, hardest_, force, stiffness_, met);
     for (int d = 0; d < static_cast<int>(u.size()); ++d)
       if (const int unknown = elements_.unknown(d); unknown >= 0) right[unknown] = -force[d];
     if (!factor()) return std::nullopt;
@@ -103,7 +108,7 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
     if (most > last_step * body_.travel) continue;
     const double folded = elements_.assemble(u, force, stiffness_);
     if (!(folded > 0.0)) return std::nullopt;
-    contact_.add(u, balls, hardest_, force, stiffness_, met);
+    contact_.add(u, indenters, hardest_, force, stiffness_, met);
     Answer answer;
     double work = 0.0;
     for (const Met& one : met) {

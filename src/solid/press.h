@@ -1,4 +1,4 @@
-// A solid under rigid balls, in equilibrium.
+// A solid under rigid indenters, in equilibrium.
 #pragma once
 
 #include <functional>
@@ -26,12 +26,12 @@ struct Body {
 
 // The force on the finger at one place, of all copies.
 struct Answer {
-  std::vector<double> forces;  // N, upwards, one per ball
+  std::vector<double> forces;  // N, upwards, one per indenter
   Vec3 force = Vec3::Zero();   // N, on the finger; sideways parts that mirrors cancel are left out
   double lost = 0.0;           // m, depth that the penalty lets through, mean weighted by pressure
   double area = 0.0;           // m^2, in contact
   double peak = 0.0;           // Pa
-  int touching = 0;            // balls in contact
+  int touching = 0;            // indenters in contact
 
   [[nodiscard]] double normal() const;  // N, sum of `forces`
 };
@@ -44,8 +44,8 @@ class Press {
   Press(const Press&) = delete;
   Press& operator=(const Press&) = delete;
 
-  // Balls around the finger's point.
-  void set_finger(std::vector<Ball> balls) { balls_ = std::move(balls); }
+  // With the finger's point at 0.
+  void set_finger(std::vector<Indenter> indenters) { indenters_ = std::move(indenters); }
   // Puts the finger at a place (m) where it touches nothing, and the body at rest.
   void begin(const Vec3& finger);
 
@@ -58,7 +58,7 @@ class Press {
   // The state stays as it is, so that later answers do not depend on this.
   [[nodiscard]] std::optional<Vector> look(const Vec3& finger);
 
-  [[nodiscard]] const std::vector<Ball>& balls() const { return balls_; }
+  [[nodiscard]] std::vector<Indenter> finger_at(const Vec3& place) const;  // m
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] int factorisations() const { return factorisations_; }
 
@@ -76,7 +76,7 @@ class Press {
   Contact contact_;
   FrontCholesky factors_;
   Eigen::SparseMatrix<double> stiffness_, linear_;
-  std::vector<Ball> balls_;
+  std::vector<Indenter> indenters_;
   double hardest_ = 0.0;  // Pa, largest Young's modulus
   State now_, before_;
   bool has_before_ = false;

@@ -157,8 +157,10 @@ TEST(SolidContact, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForce) {
   const Isotropic tissue{50e3, 0.4};
   Elements solid(mesh, {&tissue, 1}, free_of(mesh));
   const Contact contact(solid, mesh.boundary, 1e8);
-  const std::vector<Ball> balls{{Vec3(0.008, 0.007, 0.0185), 0.009, false},
-                                {Vec3(0.012, 0.007, 0.0), 0.0102, true}};
+  const std::vector<Indenter> balls{Indenter::sphere(Vec3(0.008, 0.007, 0.0185), 0.009),
+                                    {.pole = Vec3(0.012, 0.007, 0.0102),
+                                     .curvature = {-1.0 / 0.0102, -1.0 / 0.0102},
+                                     .share = 0.7}};
   const Vector at = 0.1 * bent(mesh);
   Eigen::SparseMatrix<double> stiffness, other;
   Vector none, before, after;

@@ -50,7 +50,7 @@ TEST(SolidPress, HasHertzsForceOnALargeBlock) {
   Body body = block(half, {9, 9, 9}, 20.0, tissue);
   body.travel = depth;
   Press press(std::move(body));
-  press.set_finger({{Vec3(0.0, 0.0, half + radius), radius, false}});
+  press.set_finger({Indenter::sphere(Vec3(0.0, 0.0, half + radius), radius)});
   press.begin(Vec3::Zero());
   const auto found = press.go(Vec3(0.0, 0.0, -depth));
   ASSERT_TRUE(found);
@@ -76,7 +76,7 @@ TEST(SolidPress, CompressesABlockAsTheLawSays) {
   }
   Press press(std::move(body));
   const double flat = 1e3;  // m
-  press.set_finger({{Vec3(0.0, 0.0, 10e-3 - flat), flat, true}});
+  press.set_finger({{.pole = Vec3(0.0, 0.0, 10e-3), .curvature = {-1.0 / flat, -1.0 / flat}}});
   press.begin(Vec3::Zero());
   const double depth = 3e-3;
   const auto found = press.go(Vec3(0.0, 0.0, -depth));
@@ -105,7 +105,7 @@ TEST(SolidPress, StandsIncompressibility) {
   int i = 0;
   for (const double nu : {0.499, 0.4999}) {
     Press press(block(15e-3, {5, 5, 5}, 6.0, {10e3, nu}));
-    press.set_finger({{Vec3(0.0, 0.0, 25e-3), 10e-3, false}});
+    press.set_finger({Indenter::sphere(Vec3(0.0, 0.0, 25e-3), 10e-3)});
     press.begin(Vec3::Zero());
     const double depth = 1e-3;
     const auto found = press.go(Vec3(0.0, 0.0, -depth));
