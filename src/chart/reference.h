@@ -38,7 +38,7 @@ struct Reference {
 // set_doing(). Throws InputError if there is nothing to refine (uniform tests,
 // half-spaces, slides at a constant force; with inertia ready meshes and steps to a force),
 // Stopped, and like scene::build().
-//                                                                        docs/theory.md (78), (112)
+//                                                     docs/theory.md [extrapolation], [solid_force]
 [[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family,
                               int levels);
 

@@ -10,7 +10,7 @@ namespace palpate::contact {
 
 // Size of the wide patch in semi-axes of the contact, and its least size in spacings of the skin.
 // At this size the mesh is finer than its load, and its static compliance is below that of the
-// contact, as docs/theory.md (74) requires.
+// contact, as docs/theory.md [inertia] requires.
 inline constexpr double wide_semi_axes = 3.0;
 inline constexpr double wide_spacings = 1.5;
 

@@ -31,7 +31,7 @@ struct ResidualErrors {
 // many kinds, each by its likelihood. `jacobian` has one row of `unknowns` derivatives per
 // residual, in the order of time. Nothing if the likelihood ratio against independent residuals is
 // below 2.71 (5 %, one-sided), for fewer than 20 residuals, and if the jacobian lacks full rank.
-//                        docs/theory.md (100), (101), (118); Harville 1977, J. Am. Stat. Assoc. 72
+//   docs/theory.md [correlated], [covariance], [slow_noise]; Harville 1977, J. Am. Stat. Assoc. 72
 [[nodiscard]] std::optional<ResidualErrors> autocorrelation(std::span<const double> residuals,
                                                             std::span<const double> jacobian,
                                                             std::size_t unknowns);

@@ -41,7 +41,7 @@ struct UniaxialTest {
 // its first fall by 10 %. Rows on both sides of strain 0 are tension and compression of one law and
 // are fitted together. Throws InputError for fewer than 4 rows, stretches of 0 or less, a loading
 // that is not known and matters, several loadings of which none is chosen, and a stress that falls.
-//                                                             docs/theory.md (103), (104), (114)
+//                                             docs/theory.md [stretch], [bonded], [loading_part]
 [[nodiscard]] Fit fit_uniaxial(std::span<const double> strain, std::span<const double> stress,
                                const UniaxialTest& test);
 

@@ -47,7 +47,7 @@ Curvature principal(const Vec3& normal, const std::array<double, 3>& matrix) {
 }
 
 Curvature turned_to(const Curvature& curvature, const Vec3& normal) {
-  // A tangent t at n becomes t - (n' . t) (n + n') / (1 + n . n') at n'.     docs/theory.md (22)
+  // A tangent t at n becomes t - (n' . t) (n + n') / (1 + n . n') at n'.  docs/theory.md [between]
   const Vec3 middle = (normal + curvature.normal) / (1.0 + normal.dot(curvature.normal));
   Curvature turned = curvature;
   turned.normal = normal;

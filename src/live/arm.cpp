@@ -32,7 +32,7 @@ device::ArmRules rules_of(const LiveLoop& loop) {
 }
 
 // Largest ratio of force to depth, N/m, that the device can render by Colgate and Brown's bound
-// (84) with a delay of one frame. The slope of Hertz's law is 3/2 of this ratio.
+// [passive] with a delay of one frame. The slope of Hertz's law is 3/2 of this ratio.
 double stiffest_of(const device::ArmRules& rules) {
   return 2.0 / 3.0 *
          contact::passive_stiffness(

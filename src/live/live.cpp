@@ -65,7 +65,7 @@ std::string limit_sentence(const device::Limits& limits) {
 }
 
 // A sentence on the depth at which the device begins to generate energy, by Colgate and Brown's
-// bound (84) with a delay of one frame.
+// bound [passive] with a delay of one frame.
 std::string passivity_sentence(const scene::Scene& scene, double frame) {
   const double damping = scene.scenario.device.damping.value_or(device::ArmRules{}.damping);
   contact::PointLaw law;

@@ -16,7 +16,7 @@ namespace palpate::mechanics {
 // EnergyCoupling::beyond() is evaluated for a few radii at the first touch and at vertices of the
 // skin, each when it is first needed, and interpolated: over the radius by a cubic polynomial, over
 // the skin linearly within a triangle. Where the finger first touches there is no interpolation.
-//                                                                        docs/theory.md (13)
+//                                                                    docs/theory.md [energy]
 class BodySinking {
  public:
   // The references must outlive this. `deepest` (m) is the largest depth of a contact.

@@ -1,5 +1,5 @@
 // Steps of a mesh under a finger, from the coupling that knows nothing of the mesh to those that
-// solve for both together; the compliances C_ij of docs/theory.md (15).
+// solve for both together; the compliances C_ij of docs/theory.md [contacts].
 #include "mechanics/couplings.h"
 
 #include <algorithm>
@@ -116,7 +116,7 @@ BodySinking::Value Consistent::joint_sinking(const KeptList<SphereContact>& cont
   return sum;
 }
 
-// The contact radius a is the one that stores the most energy, docs/theory.md (13):
+// The contact radius a is the one that stores the most energy, docs/theory.md [energy]:
 //   F = F_Hertz(a) / (1 - (5/3) E* a^2 s'(a)),   travel = a^2 / R + (s + a s') F.
 // Both take the form of the contact equations: the law times a factor, and a compliance.
 void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance) {
@@ -423,7 +423,7 @@ void Series::find_sinking(const KeptList<SphereContact>& contacts, Eigen::Matrix
 }
 
 // A node in contact takes any force, and a force that is linear in each step would oscillate about
-// the correct one.                                                       docs/theory.md, below (73)
+// the correct one.                                                    docs/theory.md, below [cells]
 std::optional<std::string> Resolved::step(const StepTo& to) {
   const auto find = [&](const Vector& displacement, Touch& now) {
     return contact_.find(to.finger, displacement, influence, now);

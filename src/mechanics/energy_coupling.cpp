@@ -161,7 +161,7 @@ class EnergyCoupling::Loads {
   // plane: beyond the half-space's stress it carries stress grad z - z grad p in the plane. The
   // work of the second term on a shape function N is p (z grad N + N grad z), integrated by parts.
   // `r` is the distance from the centre, 0 to 1; an ellipse counts as a circle of its area.
-  //                                 docs/theory.md (12a); K. L. Johnson 1985, eq. (3.41)-(3.43)
+  //                              docs/theory.md [curved]; K. L. Johnson 1985, eq. (3.41)-(3.43)
   void press_curved(const Face& face, const std::array<Vec3, 3>& corners,
                     const std::array<Vec3, 3>& weights, const Vec3& shares, const Vec3& point,
                     const Vec3& normal, double r, double area) {

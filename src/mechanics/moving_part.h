@@ -68,7 +68,7 @@ struct MovingPart {
   SymmetricSolver statics;        // of the stiffness at rest, when first needed
   double time_step = 0.0;         // s
   // How a step moves a linear body on whose motion the forces do not depend: in modal coordinates
-  // alone (41), or, without inertia, by keeping only the load whose static displacement it is.
+  // alone [modes], or, without inertia, by keeping only the load whose static displacement it is.
   bool in_modes = false;
   bool still = false;
   // This load, if `still`, or if modal steps drop modes that follow it without inertia.

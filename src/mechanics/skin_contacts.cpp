@@ -168,7 +168,7 @@ void SkinContacts::approach_moved_skin(const Vec3& finger, SphereContact& contac
 }
 
 // Contacts at the same place share its force, without a jump as they come together: `part` is
-// 1 / (1 + sum_j (1 - 2 s_ij / max(a_i, a_j))^2).                    docs/theory.md, below (15)
+// 1 / (1 + sum_j (1 - 2 s_ij / max(a_i, a_j))^2).              docs/theory.md, below [contacts]
 void SkinContacts::share_places(KeptList<SphereContact>& contacts) {
   parts_.assign(contacts.size(), 1.0);
   for (std::size_t i = 0; i < contacts.size(); ++i)

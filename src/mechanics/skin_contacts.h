@@ -40,7 +40,7 @@ class SkinContacts {
   [[nodiscard]] std::optional<std::string> find(const Vec3& finger, Touch& touch,
                                                 const Solve& solve, BodySinking* beyond = nullptr);
 
-  // Solves the contact equations (15) and recomputes the patches until their radii do not change,
+  // Solves [contacts] and recomputes the patches until their radii do not change,
   // or only once for `passes` = 1. complete(approaches, compliance) fills the compliance (m/N),
   // whose first rows and columns belong to the contacts and are 0 at first, may change the
   // approaches (m), and returns the compliance to solve with.
@@ -50,7 +50,7 @@ class SkinContacts {
 
   // First guess for a single contact at rest, with the compliance of the previous step.
   static void guess_depth(KeptList<SphereContact>& contacts);
-  // Fills the contact's wide patch.                                        docs/theory.md (74)
+  // Fills the contact's wide patch.                                   docs/theory.md [inertia]
   void spread_wide(SphereContact& contact);
 
   // Allocates the memory, also of `touch`, for up to four contacts per sphere.
@@ -84,8 +84,8 @@ class SkinContacts {
   std::vector<contact::PointLaw> laws_;
   std::vector<double> approaches_;  // m
   std::vector<double> depths_;      // m
-  std::vector<double> parts_;       // divisors of the forces, docs/theory.md below (15)
-  Eigen::MatrixXd compliance_;      // m/N, C of docs/theory.md (15), and spare memory
+  std::vector<double> parts_;       // divisors of the forces, docs/theory.md below [contacts]
+  Eigen::MatrixXd compliance_;      // m/N, C of docs/theory.md [contacts], and spare memory
 };
 
 template <class Solve>

@@ -22,9 +22,9 @@ struct ContactRow {
   double time = 0.0;            // s
   double travel = 0.0;          // of the finger below the undeformed surface, m
   double indentation = 0.0;     // h of eq. (2), m
-  double force = 0.0;           // on the hand along z, docs/theory.md (6), N
+  double force = 0.0;           // on the hand along z, docs/theory.md [hand_force], N
   double contact_force = 0.0;   // F_c along z, N
-  double friction = 0.0;        // F_m = mu (F_c + W), the friction limit (7), N
+  double friction = 0.0;        // F_m = mu (F_c + W), the friction limit [friction], N
   double ambient = 0.0;         // F_a, N
   double contact_radius = 0.0;  // m
   double peak_pressure = 0.0;   // Pa

@@ -309,7 +309,7 @@ class LeftOuts {
          "set `solver.model = \"solid\"`");
   }
 
-  // By how much a half-space under `series` is too soft.                    docs/theory.md (10)
+  // By how much a half-space under `series` is too soft.                 docs/theory.md [depth]
   void double_counting() {
     if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
     const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;

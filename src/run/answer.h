@@ -44,7 +44,7 @@ struct Expected {
 
 // The mesh's own error in the static force at the deepest travel of the programme, a fraction of
 // it. Nothing without a finger on a mesh with `consistent`, or where the contact has no solution.
-//                                                                        docs/theory.md (12)
+//                                                                   docs/theory.md [sinking]
 [[nodiscard]] std::optional<double> mesh_error(const scene::Scene& scene);
 
 }  // namespace palpate::run

@@ -14,7 +14,7 @@
 namespace palpate::run {
 
 // On one mesh; where `solver.tolerance` is below what it states, on two or three, extrapolated.
-//                                                                        docs/theory.md (112)
+//                                                                docs/theory.md [solid_force]
 class SolidPress {
  public:
   // The scene must outlive this. Throws MeshError.

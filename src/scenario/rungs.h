@@ -39,7 +39,7 @@ struct Rung {
   bool eq_2 = false;       // its elastic force on a flat is exactly eq. (2)
   bool solid = false;      // finite strain on a mesh of its own, made for the press
 
-  // Measured against converged elasticity (docs/accuracy.md).               docs/theory.md (69)
+  // Measured against converged elasticity (docs/accuracy.md).           docs/theory.md [choice]
   double waves = 0.0;   // share of the effect of inertia that a mesh misses
   double uneven = 0.0;  // error of the strain in a uniform test that is not uniform
   Cost cost = {};

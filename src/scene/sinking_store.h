@@ -15,7 +15,7 @@
 namespace palpate::scene {
 
 // For contacts of four radii. Values are for a tissue of E = 1 Pa: divided by its modulus they are
-// in m/N.                                                                   docs/theory.md (13)
+// in m/N.                                                               docs/theory.md [energy]
 struct SunkPlace {
   static constexpr std::size_t radii = 4;
   std::array<double, radii> sinking{};         // 1/m, s + e

@@ -39,7 +39,7 @@ struct SurfaceTouch {
 
   // The indentation (m) and the normal after the finger has gone down vertically by `travel` (m),
   // on the quadric with these curvatures: exact on a flat, else to second order in the travel.
-  //                                                                        docs/theory.md (96)
+  //                                                                  docs/theory.md [inclined]
   struct Pressed {
     double depth;
     Vec3 normal;

@@ -27,7 +27,7 @@ struct Met {
 
 // A penalty pushes every integration point of a face (seven, exact to degree five) out of a ball,
 // along the normal of the ball at the displaced point: pressure = stiffness * overlap.
-//                                                                        docs/theory.md (110)
+//                                                                    docs/theory.md [penalty]
 class Contact {
  public:
   // `faces` are those that may be met, `stiffness` (Pa/m) is the penalty. `elements` must outlive

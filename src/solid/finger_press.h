@@ -37,7 +37,7 @@ struct Moment {
 // its points at a quarter and half of the deepest travel and there, and the logarithm of the force
 // is a parabola of that of the travel between them. An elastic finger is a ball of its own radius:
 // both bodies meet at a sphere whose curvature is their shares of 1/R, ball and tissue are pressed
-// by that sphere alone, and their travels at equal forces add.           docs/theory.md (112)
+// by that sphere alone, and their travels at equal forces add.   docs/theory.md [solid_force]
 class FingerPress {
  public:
   // What the order points to must outlive the call. Throws MeshError.
@@ -97,14 +97,14 @@ class FingerPress {
 };
 
 // What the meshes of SolidPress state at least, a fraction of the force: counted on the bodies of
-// docs/accuracy.md.                                                      docs/theory.md (112)
+// docs/accuracy.md.                                              docs/theory.md [solid_force]
 inline constexpr double error_of_one_mesh = 0.03;
 inline constexpr double error_of_two_meshes = 0.01;
 inline constexpr double error_of_three_meshes = 0.005;
 
 // A force on finer and finer meshes: that of an infinitely fine one, with its error, N. Errors fall
 // with the square of the elements' size; `per_radius` are the numbers of elements in a contact
-// radius, ascending, one per force.                                      docs/theory.md (112)
+// radius, ascending, one per force.                              docs/theory.md [solid_force]
 struct Extrapolated {
   double force = 0.0;
   double error = 0.0;

@@ -68,7 +68,7 @@ PALPATE_ALWAYS Stretched stretch(const Springs springs, const Node* nodes, std::
     product[j] = change * ((rest + rest) + change);
     now.span[j] = rest + change;
   }
-  // As in springs.cpp.                                                   docs/theory.md (33)
+  // As in springs.cpp.                                           docs/theory.md [elongation]
   const Four squares = sums(product);
   const Four rest = load(springs.rest_length + first);
   if (springs.squared) {
