@@ -8,7 +8,7 @@
 namespace palpate::run {
 
 // Pressure, traction and gap around the contacts, seen from above, without time, step and case. The
-// integral of the pressure is Touch::normal_force().        docs/theory.md, below [pressure]
+// integral of the pressure is Touch::normal_force().        docs/theory.md, below [half_space]
 [[nodiscard]] record::PressureMap draw_map(const scene::Scene& scene,
                                            const mechanics::Touch& touch);
 
