@@ -338,7 +338,7 @@ std::string neglected(const record::Answer& answer) {
   std::string text = first_statement(answer.left_out);
   if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
   int others = 0;
-  const std::string_view other = " Also left out: ";
+  const std::string_view other = " Also neglected: ";
   for (std::size_t at = answer.left_out.find(other); at != std::string::npos;
        at = answer.left_out.find(other, at + 1))
     ++others;

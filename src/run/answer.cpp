@@ -54,7 +54,7 @@ class Words {
     std::string uncounted;
     for (const LeftOut& one : left_out)
       if (!one.beside.empty()) uncounted += (uncounted.empty() ? "" : " and ") + one.beside;
-    std::string text = "an error of " + error_text(*error) + " (asked " +
+    std::string text = "an error of " + error_text(*error) + " (tolerance " +
                        percent_text(scene_.scenario.solver.tolerance);
     if (scene_.choice.given || *error <= scene_.scenario.solver.tolerance)
       text += ")";
@@ -66,11 +66,11 @@ class Words {
 
   [[nodiscard]] static std::string left_out(const std::vector<LeftOut>& all, double tolerance) {
     if (all.empty())
-      return "Left out: nothing that would add more than " + percent_text(0.2 * tolerance) +
+      return "Neglected: nothing that would add more than " + percent_text(0.2 * tolerance) +
              " to this error.";
     std::string text;
     for (const LeftOut& one : all)
-      text += (text.empty() ? "Left out: " : " Also left out: ") + one.what + ", " + one.when +
+      text += (text.empty() ? "Neglected: " : " Also neglected: ") + one.what + ", " + one.when +
               (one.remedy.empty() ? "" : "; " + one.remedy) + ".";
     return text;
   }
