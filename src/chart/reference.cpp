@@ -30,7 +30,7 @@ using scenario::Scenario;
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
 constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
 constexpr double tolerance_of_solid = 0.005;  // asks for all of its meshes
-constexpr double most_rows = 40.0;            // of a programme without memory
+constexpr double most_rows = 40.0;            // of a loading history without memory
 
 // The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
 enum class Part { whole, half, quarter };

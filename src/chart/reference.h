@@ -19,7 +19,7 @@ struct ReferenceRow {
   double force = 0.0;               // N, extrapolated
   double error = 0.0;               // N, bound of the change by further refinement
   double order = 0.0;               // observed order of convergence; 0: none
-  double by_sphere = 1.0;           // force along the sphere's normals over that along the skin's
+  double by_sphere = 1.0;           // force along the sphere's normals over the surface's
 };
 
 struct Reference {

@@ -19,8 +19,8 @@
 namespace palpate::cli {
 namespace {
 
-// The programme begins at time 0. A record whose clock begins later either leaves its beginning out
-// or counts from elsewhere, and only the user knows.
+// The loading history begins at time 0. A record whose clock begins later either leaves its
+// beginning out or counts from elsewhere, and only the user knows.
 void begin_with_programme(const Identify& command, measured::MeasuredCurve& curve) {
   const bool time = curve.x_axis.dimension == Dimension{0, 0, 1};
   if (command.x_origin) {

@@ -1,4 +1,4 @@
-// The typical size of the triangles of a skin.
+// The typical size of the triangles of a surface.
 #pragma once
 
 #include <vector>

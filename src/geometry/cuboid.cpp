@@ -1,4 +1,5 @@
-// Places nodes on a lattice, and cuts each cell into one tetrahedron for each order of the axes.
+// Places nodes on a structured mesh, and cuts each cell into one tetrahedron for each order of the
+// axes.
 #include "geometry/cuboid.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A lattice: a box of cells, each cut into six tetrahedra.
+// A structured mesh: a box of cells, each cut into six tetrahedra.
 #pragma once
 
 #include <array>

@@ -67,11 +67,11 @@ struct GivenPart {
 
 // `pairs` is empty for one measurement. For several, each has its own curve, model and scenario
 // there, x, measured and model are those of all pairs one after the other, and what belongs to a
-// single curve (kind, scenario, rung, contact_shift) is that of the first.
+// single curve (kind, scenario, model, contact_shift) is that of the first.
 struct Identification {
   std::vector<Identification> pairs;
   CurveKind kind = CurveKind::force_travel;
-  scenario::Scenario scenario;  // whole programme, every `auto` resolved, with the estimates
+  scenario::Scenario scenario;  // whole loading history, every `auto` resolved, with the estimates
   scenario::Model rung = scenario::Model::hertz;
   bool given = false;                     // the scenario names the model
   std::optional<double> predicted_error;  // estimated relative error of the model at the estimates

@@ -81,8 +81,9 @@ class Preparation {
     return as_index(one - unknowns_.data());
   }
 
-  // Whether the rows beyond the programme can belong to its last step. A finger that withdraws
-  // after a hold leaves half to one and a half times the force at the end of the programme.
+  // Whether the rows beyond the loading history can belong to its last step. A finger that
+  // withdraws after a hold leaves half to one and a half times the force at the end of the loading
+  // history.
   [[nodiscard]] bool still_in_the_last_step(const scenario::Scenario& scenario) const {
     if (kind_ != CurveKind::force_time) return true;
     const auto end = duration(scenario);
@@ -110,8 +111,8 @@ class Preparation {
                            " left out: " + why);
   }
 
-  // Takes the points up to the end of the programme, which is run at the first of the search's
-  // starts where it can be (the middle of the box, if possible).
+  // Takes the points up to the end of the loading history, which is run at the first of the
+  // search's starts where it can be (the middle of the box, if possible).
   void choose_points() {
     std::optional<ScenarioCurve::Rows> rows;
     std::vector<double> first;

@@ -1,4 +1,4 @@
-// What the body sinks beyond a half-space at any place of the skin and for any contact radius.
+// What the body sinks beyond a half-space at any place of the surface and for any contact radius.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,9 @@
 namespace palpate::mechanics {
 
 // EnergyCoupling::beyond() is evaluated for a few radii at the first touch and at vertices of the
-// skin, each when it is first needed, and interpolated: over the radius by a cubic polynomial, over
-// the skin linearly within a triangle. Where the finger first touches there is no interpolation.
+// surface, each when it is first needed, and interpolated: over the radius by a cubic polynomial,
+// over the surface linearly within a triangle. Where the finger first touches there is no
+// interpolation.
 //                                                                    docs/theory.md [energy]
 class BodySinking {
  public:

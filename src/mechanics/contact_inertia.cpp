@@ -1,4 +1,4 @@
-// The terms of the mesh's motion and of the radiated waves.
+// The terms of the mesh's motion and of the radiation.
 #include "mechanics/contact_inertia.h"
 
 #include <Eigen/LU>

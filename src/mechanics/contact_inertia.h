@@ -23,7 +23,7 @@ class ContactInertia {
   // The part must outlive this.
   explicit ContactInertia(MovingPart& part);
 
-  // s of [inertia]: the mean sinking of the skin under a contact's wide patch, m.
+  // s of [inertia]: the mean sinking of the surface under a contact's wide patch, m.
   [[nodiscard]] double sunk(const integrate::Vector& displacement,
                             const SphereContact& contact) const;
 

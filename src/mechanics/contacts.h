@@ -17,13 +17,13 @@ class BodySinking;
 struct NodalContact {
   std::vector<Vec3> push;      // per newton of the contact's force: one per vertex of its `load`
   double peak_pressure = 0.0;  // Pa, largest nodal pressure, docs/theory.md [nodal_pressure]
-  std::vector<int> vertices;   // of the skin near the sphere, ascending
+  std::vector<int> vertices;   // of the surface near the sphere, ascending
   std::vector<double> gap;     // m, between these vertices and the sphere
 
   void renew();  // clears all, but keeps the memory of the lists
 };
 
-// The contact of one sphere at one place of the skin.
+// The contact of one sphere at one place of the surface.
 struct SphereContact {
   int sphere = 0;
   contact::Patch patch;

@@ -23,8 +23,8 @@ double radius_per_root(const contact::ContactLaw& law) {
   return layer != nullptr ? law.radius_share * std::sqrt(layer->radius) : std::sqrt(law.a * law.b);
 }
 
-// How far from its first touch the programme lets the finger press, with room for a hand that does
-// not follow it closely, m.
+// How far from its first touch the loading history lets the finger press, with room for a hand that
+// does not follow it closely, m.
 double farthest_reach(const scene::Scene& scene) {
   double path = 4.0 * contact::hertz::contact_radius(
                           scene::deepest_travel(scene.scenario, scene.law()), scene.law().radius);
@@ -189,7 +189,7 @@ MemoryRule memory_rule(const scene::Scene& scene) {
              : MemoryRule::exact;
 }
 
-// The largest displacement of any node of the skin, m.
+// The largest displacement of any node of the surface, m.
 double rise(const MovingPart& part, const Vector& displacement) {
   double most = 0.0;
   for (const int node : part.nodes)
@@ -231,8 +231,8 @@ void ConsistentWithInertia::set_stage(double duration) {
 }
 
 std::optional<std::string> ConsistentWithInertia::find(const Motion& motion, const StepTo& to) {
-  // Oscillating skin may reach a finger that does not touch it at rest. Places that the finger
-  // touches neither on the skin at rest nor on the moving skin are left out.
+  // An oscillating surface may reach a finger that does not touch it at rest. Places that the
+  // finger touches neither on the surface at rest nor on the moving surface are left out.
   skin->detect(to.finger, nullptr, rise(*part, motion.displacement))
       .erase_if([&](SphereContact& contact) {
         if (contact.approach > 0.0) return false;

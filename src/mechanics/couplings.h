@@ -143,8 +143,8 @@ class FromMesh : public OnMesh {
   integrate::Vector reached_, moved_;  // m, before and after it
 };
 
-// `series`: h = approach to the displaced skin. In explicit steps over the patches of the previous
-// step, which change by less than a step's travel.
+// `series`: h = approach to the displaced surface. In explicit steps over the patches of the
+// previous step, which change by less than a step's travel.
 class Series : public FromMesh {
  public:
   using FromMesh::FromMesh;

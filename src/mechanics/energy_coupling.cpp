@@ -69,7 +69,7 @@ class EnergyCoupling::Loads {
   }
 
   integrate::Vector nodal;   // N/N, g
-  integrate::Vector curved;  // N/N, of a curved skin under the patch
+  integrate::Vector curved;  // N/N, of a curved surface under the patch
   double known = 0.0;        // m/N, c
 
  private:
@@ -157,8 +157,8 @@ class EnergyCoupling::Loads {
     }
   }
 
-  // What a skin that is curved under the patch changes to the first order in its height z above the
-  // plane: beyond the half-space's stress it carries stress grad z - z grad p in the plane. The
+  // What a surface that is curved under the patch changes to the first order in its height z above
+  // the plane: beyond the half-space's stress it carries stress grad z - z grad p in the plane. The
   // work of the second term on a shape function N is p (z grad N + N grad z), integrated by parts.
   // `r` is the distance from the centre, 0 to 1; an ellipse counts as a circle of its area.
   //                              docs/theory.md [curved]; K. L. Johnson 1985, eq. (3.41)-(3.43)
@@ -354,7 +354,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
   struct Case {
     int region;
     Vector loads;         // N/N, g
-    Vector curved;        // N/N, of a curved skin under the patch
+    Vector curved;        // N/N, of a curved surface under the patch
     double known;         // m/N, c
     Vector interpolated;  // m/N, of the half-space in other tissues
     Vector held_by;       // m/N, w on supports: minus the half-space's

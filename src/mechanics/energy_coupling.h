@@ -67,12 +67,12 @@ class EnergyCoupling {
   struct Face {
     std::array<int, 3> nodes{};
     Vec3 normal = Vec3::Zero();    // unit, outwards
-    int triangle = -1;             // of the skin; -1 within the body
+    int triangle = -1;             // of the surface; -1 within the body
     std::array<int, 3> corners{};  // of that triangle, one per node
     std::array<bool, 3> held{};    // per axis: at all three nodes
     bool interface = false;
     int tetrahedron = 0;   // of the tissue
-    double cut_off = 0.0;  // m^3, between the face and the smooth skin
+    double cut_off = 0.0;  // m^3, between the face and the smooth surface
   };
   // What depends on the tissue at the contact.
   struct Home {
@@ -107,7 +107,7 @@ class EnergyCoupling {
   const geometry::SmoothSurface* skin_;
   std::vector<std::array<int, 3>> skin_triangles_;  // nodes of the part, ascending
   std::map<std::array<int, 3>, int> triangle_of_;   // of the same nodes
-  std::vector<int> part_node_;                      // per vertex of the skin
+  std::vector<int> part_node_;                      // per vertex of the surface
   std::vector<Tissue> tissues_;                     // per region
   std::vector<Element> elements_;
   std::vector<std::optional<Home>> homes_;  // per region

@@ -55,7 +55,7 @@ struct MovingPart {
 
   const scene::Scene* scene;
   tissue::Part part;
-  std::vector<int> nodes;  // of the part, one per vertex of the skin; -1: outside
+  std::vector<int> nodes;  // of the part, one per vertex of the surface; -1: outside
   std::optional<scene::SpringBody> body;
   std::optional<Stepper> stepper;
   std::optional<EnergyMonitor> monitor;

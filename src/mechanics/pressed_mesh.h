@@ -20,7 +20,7 @@ class PressedMesh {
 
   // Allocates and solves beforehand, so that steps with `touch` allocate nothing wherever the
   // finger goes; its definition lists the exceptions. Call at rest, after set_step(). Solves for
-  // all loads on the skin, which takes seconds on thousands of nodes.
+  // all loads on the surface, which takes seconds on thousands of nodes.
   void make_ready(Touch& touch);
 
   // One step, at the end of which, `time` (s), the finger's point is at `finger` (m). Returns a

@@ -1,4 +1,4 @@
-// Geometry of the skin's nodes that a sphere may press: area, normal, offset of the facets.
+// Geometry of the surface's nodes that a sphere may press: area, normal, offset of the facets.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct Ball {
   double radius = 0.0;         // m
 };
 
-// A vertex of the skin under a sphere.     docs/theory.md [unilateral], [gap], [nodal_pressure]
+// A vertex of the surface under a sphere.     docs/theory.md [unilateral], [gap], [nodal_pressure]
 struct PressedNode {
   int vertex = 0;
   int sphere = 0;

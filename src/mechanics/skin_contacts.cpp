@@ -156,7 +156,7 @@ void SkinContacts::load_nearest_node(SphereContact& contact) const {
   contact.load.shares.assign(1, 1.0);
 }
 
-// The approach of the sphere, minus the mean displacement under its patch, to the skin at rest.
+// The approach of the sphere, minus the mean displacement under its patch, to the surface at rest.
 void SkinContacts::approach_moved_skin(const Vec3& finger, SphereContact& contact) const {
   Vec3 mean = Vec3::Zero();
   for (std::size_t k = 0; k < contact.load.vertices.size(); ++k)

@@ -1,5 +1,5 @@
-// Where the finger's spheres touch the skin, with which laws and patches, and their equations: what
-// all couplings but `resolved` share.
+// Where the finger's spheres touch the surface, with which laws and patches, and their equations:
+// what all couplings but `resolved` share.
 #pragma once
 
 #include <limits>
@@ -26,8 +26,8 @@ class SkinContacts {
   // The part must outlive this.
   explicit SkinContacts(const MovingPart& part);
 
-  // Finds the places of the skin that lie in a sphere of the finger at `finger` (m), or are less
-  // than `beyond` (m) away from it: on the skin under `displacement` (m), or at rest if that is
+  // Finds the places of the surface that lie in a sphere of the finger at `finger` (m), or are less
+  // than `beyond` (m) away from it: on the surface under `displacement` (m), or at rest if that is
   // null. find() takes the places that are left in the list.
   KeptList<SphereContact>& detect(const Vec3& finger, const integrate::Vector* displacement,
                                   double beyond = 0.0);

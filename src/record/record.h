@@ -57,7 +57,7 @@ struct TissueFrame {
   double time = 0.0;                     // s
   std::vector<Vec3> displacement;        // m, one per node
   std::vector<double> contact_pressure;  // Pa, one per node: its share of the contact forces
-                                         // divided by its share of the skin's area
+                                         // divided by its share of the surface's area
 };
 
 // A named number (or word); the name ends with the unit.
@@ -90,7 +90,7 @@ struct CaseRecord {
   // When the first row after the start had been computed; nothing before.
   std::optional<std::chrono::steady_clock::time_point> first_row;
 
-  // Adds a row, and notes that moment. The other rows are those of the same programme.
+  // Adds a row, and notes that moment. The other rows are those of the same loading history.
   void add(const ContactRow& row) { note(contact.size()), contact.push_back(row); }
   void add(const StrainRow& row) { note(strain.size()), strain.push_back(row); }
 

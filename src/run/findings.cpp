@@ -384,7 +384,7 @@ class KnownFailures {
            percent_text(stiffening) + "; give more `solver.rings`, or \"all\"");
   }
 
-  // Mean static displacement of the skin under a Hertz pressure of 1 N, m/N; 0 if not rigid.
+  // Mean static displacement of the surface under a Hertz pressure of 1 N, m/N; 0 if not rigid.
   [[nodiscard]] double sinking(const tissue::Network& network) const {
     const scene::Specimen& specimen = *scene_.specimen;
     SymmetricSolver solver;

@@ -1,4 +1,4 @@
-// Moves the finger through the loading programme and writes a row at every output interval.
+// Moves the finger through the loading history and writes a row at every output interval.
 #include "run/press.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using scenario::Indent;
 using scenario::Retract;
 using scenario::Slide;
 
-// A step of the programme as travel and slide over time.
+// A step of the loading history as travel and slide over time.
 struct Motion {
   double from = 0.0, to = 0.0;                             // m, travel
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();           // m, sideways

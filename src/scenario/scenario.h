@@ -176,7 +176,7 @@ struct PlainFinger {
   finger::Calibration calibration = finger::Calibration::force;
   std::optional<double> x, y;  // m, position; empty: the middle of the specimen
   std::vector<double> at;      // m, three; or empty: `x` and `y` count
-  std::string towards;         // the direction of the press; empty: down, or into the skin at `at`
+  std::string towards;         // direction of the press; empty: down, or into the surface at `at`
   Weight weight = Weight::in_contact;
 
   [[nodiscard]] bool rigid() const { return material == "rigid"; }

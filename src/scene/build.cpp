@@ -50,8 +50,9 @@ PressedNodes contact_frequency_squared(const Scene& scene, double depth, double 
           sum};
 }
 
-// The rate at the deepest contact of the programme for `series`. With inertia, the largest rate on
-// the way there, because the wide patch narrows as the contact becomes softer [contact_limit].
+// The rate at the deepest contact of the loading history for `series`. With inertia, the largest
+// rate on the way there, because the wide patch narrows as the contact becomes softer
+// [contact_limit].
 ContactRate contact_rate(const Scene& scene) {
   if (scene.scenario.uniform()) return {};
   const double deepest = deepest_travel(scene.scenario, scene.law());

@@ -9,8 +9,8 @@
 
 namespace palpate::scene {
 
-// All effects are relative to the force at the programme's deepest travel and fastest rate. See
-// docs/theory.md [estimates] for their equations and docs/accuracy.md for measurements.
+// All effects are relative to the force at the loading history's deepest travel and fastest rate.
+// See docs/theory.md [estimates] for their equations and docs/accuracy.md for measurements.
 struct Estimates {
   double travel = 0.0;          // m, the deepest
   double rate = 0.0;            // m/s, the fastest

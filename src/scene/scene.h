@@ -108,7 +108,7 @@ struct Finger {
 
 [[nodiscard]] Finger make_finger(const scenario::Resolved& scenario);
 
-// The deepest travel of the programme, m; a force is converted into Hertz's depth.
+// The deepest travel of the loading history, m; a force is converted into Hertz's depth.
 [[nodiscard]] double deepest_travel(const scenario::Resolved& scenario,
                                     const contact::SphereLaw& law);
 
@@ -127,7 +127,7 @@ struct Specimen {
   tissue::ViscousLaw law;
   tissue::Kinematics kinematics = tissue::Kinematics::linear;
   tissue::Base base = tissue::Base::bonded;
-  double base_height = 0.0;  // m; the skin up to this height is the base
+  double base_height = 0.0;  // m; the surface up to this height is the base
   Vec3 low = Vec3::Zero();   // m, corners of the bounding box
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
@@ -184,7 +184,7 @@ struct Scene {
 [[nodiscard]] contact::Relaxation contact_relaxation(const scenario::Resolved& scenario,
                                                      const Finger& finger);
 
-// Whether all regions are slabs; true without regions.
+// Whether all regions are layers; true without regions.
 [[nodiscard]] bool all_slabs(const scenario::Resolved& scenario);
 
 // Whether a region has another Young's modulus or Poisson's ratio than the tissue.

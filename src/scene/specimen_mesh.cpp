@@ -1,4 +1,4 @@
-// Makes meshes from lattices, by TetGen, or from files.
+// Makes meshes from structured meshes, by TetGen, or from files.
 #include "scene/specimen_mesh.h"
 
 #include <algorithm>
@@ -28,11 +28,11 @@ using Scenario = scenario::Resolved;
 
 constexpr double meshing_time = 120.0;  // s, time limit for TetGen
 
-// Lumps and slabs have region numbers from here on, which no shape or file uses.
+// Inclusions and layers have region numbers from here on, which no shape or file uses.
 constexpr int first_own = 1'000'000'000;
 
-// Assigns tetrahedra to slabs by their centres; none crosses the face of a slab. Later regions lie
-// over earlier ones, so that a slab leaves a later lump as it is.
+// Assigns tetrahedra to layers by their centres; none crosses the face of a layer. Later regions
+// lie over earlier ones, so that a layer leaves a later inclusion as it is.
 void number_slabs(geometry::TetMesh& mesh, const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
     const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part);

@@ -55,7 +55,7 @@ struct SurfaceTouch {
                                                             const scenario::Resolved& scenario);
 
 // The touch of one sphere of `finger.radius` at `finger.x`, `finger.y`: in closed form for a
-// parametric shape; for a file, on the file's triangles, with the quadric fit of the skin of a
+// parametric shape; for a file, on the file's triangles, with the quadric fit of the surface of a
 // mesh. Nothing is meshed. Relative files are looked for in `folder`.
 [[nodiscard]] SurfaceTouch surface_touch(const scenario::Resolved& scenario,
                                          const std::string& folder, SpecimenShapes& shapes);

@@ -25,7 +25,7 @@ struct Uniaxial {
                                      Base base, double top, double area,
                                      Base platen = Base::frictionless);
 
-// The same for a body of any shape, under tractions on its whole skin that stretch it uniformly
+// The same for a body of any shape, under tractions on its whole surface that stretch it uniformly
 // along z. Modulus and ratio follow from the mean strain; the other members are left empty. Throws
 // MeshError if the network is not rigid.                              docs/theory.md [traction]
 [[nodiscard]] Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh);
