@@ -17,9 +17,9 @@ struct ResidualErrors {
   double factor = 1.0;
 };
 
-// Of the residuals of a least-squares fit, with `inverse` = (J^T J)^-1 by rows: the covariance of
-// independent residuals, or that below of correlated ones, and what rounding of `records` to steps
-// adds. The records, one after the other, are the values that were fitted, in the scale of the
+// The errors of a least-squares fit, with `inverse` = (J^T J)^-1 by rows: the covariance for
+// independent residuals, or for correlated ones as below, and the part of rounding `records` to
+// steps. The records, one after the other, are the values that were fitted, in the scale of the
 // residuals; residuals below 1e-9 count as independent.
 [[nodiscard]] ResidualErrors errors_of(std::span<const double> residuals,
                                        std::span<const double> jacobian,

@@ -22,7 +22,7 @@ struct UniaxialTest {
   Loading loading = Loading::unknown;
   std::optional<double> from = {};  // strain, as a positive number in compression too
   std::optional<double> to = {};
-  // Of bonded platens: diameter over 4 heights, the loaded area over the free area of a cylinder.
+  // With bonded platens: diameter over 4 heights, the loaded over the free area of a cylinder.
   std::optional<double> shape_factor = {};
   int cycle = 0;     // of several loadings, from 1; 0: there is one only
   bool toe = false;  // strain counts from where the line through the stress begins

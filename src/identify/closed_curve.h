@@ -104,7 +104,7 @@ inline double compression_time(const ClosedCurve& curve, double x) {
   return curve.over_strain ? x / curve.load * curve.load_time : x;
 }
 
-// Of a strain that grows for `load_time` and stays: sigma = E (strain + tau strain')
+// The stress under a strain that grows for `load_time` and stays: sigma = E (strain + tau strain')
 //                                                             docs/theory.md [kelvin_voigt]
 template <class T>
 T voigt_compression(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p,

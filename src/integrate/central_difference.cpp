@@ -11,7 +11,7 @@
 namespace palpate::integrate {
 namespace {
 
-// Of solutions with dashpots, in the energy norm, far below the error of a step.
+// Relative error of solutions with dashpots, in the energy norm: far below that of a step.
 constexpr double tolerance = 1e-10;
 
 void clear_held(std::span<const char> held, Vector& vector) {

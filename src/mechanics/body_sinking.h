@@ -1,4 +1,4 @@
-// What the body sinks beyond a half-space at any place of the surface and for any contact radius.
+// The surface displacement beyond a half-space's at any place and for any contact radius.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class BodySinking {
     double error = 0.0;    // m/N, e
     double doubt = 0.0;    // m/N, BeyondHalfSpace::doubt
   };
-  // Of the patch; of an ellipse as of a circle of the same area.
+  // The value under the patch; an ellipse counts as a circle of the same area.
   [[nodiscard]] Value at(const contact::Patch& patch);
 
   // The same of tangential loads: the displacement (m/N) in the patch's plane beyond the

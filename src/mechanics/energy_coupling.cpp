@@ -19,7 +19,8 @@ using integrate::Vector;
 
 namespace {
 
-// Of solutions, in the energy norm. The sinking is an energy: its error is the square.
+// Relative error of solutions in the energy norm. The sinking is an energy: its error is the
+// square.
 constexpr double tolerance = 3e-4;
 
 // Under the patch itself nothing is left over, because the finger's pressure acts there.
@@ -525,7 +526,7 @@ void EnergyCoupling::find_errors(const contact::Patch& patch, const Vector& inte
   }
 }
 
-// Of a curved triangle, by three points.
+// The volume between a face and the smooth surface over it, by three points.
 double EnergyCoupling::cut_off(const Face& face) const {
   const auto& corners = skin_->surface().triangles[as_index(face.triangle)];
   const auto vertex = [&](std::size_t k) -> const Vec3& {

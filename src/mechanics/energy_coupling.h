@@ -1,4 +1,4 @@
-// What a body sinks under a contact beyond a half-space, and the mesh's own error in it.
+// The surface displacement under a contact beyond a half-space's, and the mesh's own error in it.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ class Words {
     return text + ". " + why();
   }
 
-  // Of the force at its largest, or of the strain.
+  // The sentence's part on the error of the largest force, or of the strain.
   [[nodiscard]] std::string error(std::optional<double> error,
                                   const std::vector<LeftOut>& left_out) const {
     if (!error) return "an error that is not estimated";

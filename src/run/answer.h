@@ -1,4 +1,4 @@
-// What a case computes, how good it is and what it leaves out, in plain sentences.
+// What a case computes, how good it is and what it neglects, in plain sentences.
 #pragma once
 
 #include <optional>

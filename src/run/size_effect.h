@@ -13,7 +13,7 @@ class SpecimenShapes;
 
 namespace palpate::run {
 
-// Of the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger
+// By the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger
 // of one sphere at the deepest travel.                             docs/theory.md [estimates]
 struct SizeEffect {
   double change = 0.0;  // of the formula's force, relative

@@ -18,7 +18,7 @@ struct Estimates {
   double tissue_share = 1.0;    // lambda_2 / (lambda_1 + lambda_2)
   double chi = 0.0;             // sqrt(R h) / H, H down to the base
   double thickness = 0.0;       // change by the thickness of flat layers, exact for wide ones
-  // Of a coarse mesh of the body; run::choose() measures them.
+  // Measured by run::choose() on a coarse mesh of the body.
   double sides = 0.0;            // change of a flat layer's force by its sides
   double size = 0.0;             // change of a half-space's force by the whole body
   double size_error = 0.0;       // the mesh's own, a fraction of the body's force

@@ -76,7 +76,7 @@ bool from_file(const scenario::Resolved& scenario) {
          std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape);
 }
 
-// Of the body in the coordinates of its file.
+// The body's upward direction in the coordinates of its file.
 Vec3 up_of(const scenario::Resolved& scenario) {
   const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
   const auto* meshed = std::get_if<scenario::AsMeshed>(&scenario.tissue.shape);

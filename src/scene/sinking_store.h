@@ -30,8 +30,8 @@ struct SunkPlace {
 // Thread-safe. A place has the same bits whoever computed it.
 class SinkingStore {
  public:
-  // Of the body with this key at a vertex of its surface (-1: at the first touch), under a patch
-  // with this normal.
+  // The place of the body with this key at a vertex of its surface (-1: at the first contact),
+  // under a patch with this normal; nothing if it is not kept.
   [[nodiscard]] std::optional<SunkPlace> find(const std::string& body, int vertex,
                                               const Vec3& normal);
   // Drops all places before it would take more than 200 MB.

@@ -241,7 +241,7 @@ std::vector<double> numbers_of(const contact::Layer& layer) {
   return numbers;
 }
 
-// Of the whole process, so that the tests of a joint identification share them. A search that
+// Shared by the whole process, for the tests of a joint identification. A search that
 // varies nu needs a new layer every time; at this number all are removed.
 template <class Value>
 struct KeptLayers {
@@ -269,7 +269,7 @@ contact::LayerLaw layer_law(const contact::Layer& layer) {
   static KeptLayers<contact::LayerLaw> stacks;
   static KeptLayers<contact::LayerTable> tables;
   if (!layer.below.empty()) return *stacks.of(layer);
-  // Of one layer the table serves every finger and modulus.
+  // The table of a single layer serves every finger and modulus.
   contact::Layer any = layer;
   any.share = 1.0;
   return {*tables.of(any), layer.share};

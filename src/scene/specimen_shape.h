@@ -74,7 +74,8 @@ class SpecimenShapes {
     [[nodiscard]] const std::shared_ptr<const geometry::SmoothSurface>& must() const;
     void copy(const FileSurface& other);  // all but the mutex
   };
-  // Of a scenario whose shape is a SurfaceFile, turned as the scenario says; read and mended once.
+  // The surface of a scenario whose shape is a SurfaceFile, turned as the scenario says; read and
+  // mended once.
   [[nodiscard]] const FileSurface& surface(const scenario::Resolved& scenario,
                                            const std::string& folder);
 

@@ -128,7 +128,7 @@ PALPATE_WIDE void pass_elongations(const Springs springs, const Node* nodes, dou
     store(elongation + first, stretch(springs, nodes, first).elongation);
 }
 
-// Of the velocities in place of the nodes' forces.
+// The rates of elongation, from velocities that stand in place of the nodes' forces.
 PALPATE_WIDE void pass_rates(const Springs springs, const Node* nodes, double* rate) {
   for (std::size_t first = 0; first < springs.count; first += 4) {
     const Stretched now = stretch(springs, nodes, first);
