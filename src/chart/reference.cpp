@@ -225,7 +225,7 @@ void remark(const Refinement& refinement, Reference& reference) {
     turned = std::max(turned, std::abs(row.by_sphere - 1.0));
   reference.remarks.push_back(
       "linear elasticity does not determine the direction of the pressure in a deep contact: it is "
-      "taken along the normals of the undeformed skin, and along those of the sphere the force "
+      "taken along the normals of the undeformed surface, and along those of the sphere the force "
       "differs by up to " +
       percent_text(turned) +
       " (column sphere_over_skin; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");

@@ -213,8 +213,8 @@ std::vector<std::string> Live::plan(const std::string& file) {
                                 "`solver.integrator = \"modal\"` or `solver.model = \"hertz\"`");
   if (real && cost_.p99 > 0.8 * limits.period) lines.push_back("some frames will be late: " + cost);
   if (identity.kind == Kind::stand && cost_.force > most_force(*options_, Kind::stand))
-    throw InputError(place, "the programme is predicted to press with " + newtons(cost_.force) +
-                                ", beyond the ceiling of " +
+    throw InputError(place, "the loading history is predicted to press with " +
+                                newtons(cost_.force) + ", beyond the ceiling of " +
                                 newtons(most_force(*options_, Kind::stand)) +
                                 "; press less deep, or give `--max-force`");
   return lines;

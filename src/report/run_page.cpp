@@ -427,7 +427,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
       "How it was made",
       page::making({.command = "palpate run scenario.toml",
                     .remark = live ? "A live run follows its device, so that this command repeats "
-                                     "the programme and not the motion of the device."
+                                     "the loading history and not the motion of the device."
                                    : ""},
                    inputs, folder),
       folded);

@@ -422,7 +422,7 @@ class KnownFailures {
     constexpr double most = 1.25;  // meshes that do not lock differ by up to 12 % (nu = 0.45)
     if (locked > most)
       remark("volumes of single tetrahedra lock at nu " + rounded_text(ratio) +
-             ": under the finger the mesh sinks " + rounded_text(locked, 2) +
+             ": under the finger the mesh moves " + rounded_text(locked, 2) +
              " times less than with volumes averaged at nodes; write `solver.volume = \"nodal\"`");
   }
 
@@ -433,7 +433,7 @@ class KnownFailures {
     for (const record::Finding& finding : record_.findings)
       if (finding.name == "sinking_mm") sunk = unit::mm.to_si(std::get<double>(finding.value));
     remark("all of the force is on one node, which has sunk by " + millimetres(sunk) +
-           ": it would sink about twice as deep on a mesh of half the cells' size; write "
+           ": it would move about twice as far on a mesh of half the cells' size; write "
            "`contact.spread = \"pressure\"`");
   }
 

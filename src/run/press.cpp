@@ -130,7 +130,8 @@ class Press {
           "`output.tissue`");
     if (on_crease_)
       record_.remarks.push_back(
-          "the finger touched the specimen at a crease or rim: the curvature there is that of the "
+          "the finger touched the specimen at a sharp edge or rim: the curvature there is that of "
+          "the "
           "side it touched");
     if (folded_at_ >= 0.0)
       record_.remarks.push_back(
@@ -144,7 +145,7 @@ class Press {
           "grows wide compared with the sphere, and Hertz's law is inaccurate");
     if (one_sided_)
       record_.remarks.push_back(
-          "near a boundary or crease the curvature was estimated from one side only, to first "
+          "near a boundary or sharp edge the curvature was estimated from one side only, to first "
           "order");
   }
 

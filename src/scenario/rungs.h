@@ -90,8 +90,8 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .cost = {.set_ups = 1.0}},
     {.of = Model::solid,
      .word = "solid",
-     .meaning =
-         "quadratic tetrahedra of its own with large strains, at rest: depth, edges, layers, lumps",
+     .meaning = "quadratic tetrahedra of its own with large strains, at rest: depth, edges, "
+                "layers, inclusions",
      .springs = Rung::Springs::none,
      .thickness = true,
      .sides = true,

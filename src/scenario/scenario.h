@@ -145,7 +145,7 @@ struct TaggedRegion {
   std::string name = {};  // of a group in the mesh file; if it is empty, `tag` counts
 };
 struct Lump {
-  static constexpr Word word{"sphere", "A lump inside the specimen."};
+  static constexpr Word word{"sphere", "An inclusion inside the specimen."};
   std::array<double, 3> centre{0.030, 0.030, 0.022};  // m
   double radius = 0.005;                              // m
 };

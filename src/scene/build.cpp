@@ -324,12 +324,13 @@ void refuse_sliding(const Scene& scene, const scenario::Family& family) {
       scenario::rung(scene.scenario.solver.model).formula() || !touch.known() ||
       touch.inclination() <= steepest)
     return;
-  throw InputError(place_of(family.document, "tissue.base"),
-                   "the finger presses on skin that is inclined by " +
-                       rounded_text(touch.inclination(), 2) +
-                       " degrees, and on a frictionless base nothing keeps the specimen from "
-                       "sliding away; set `tissue.base = \"bonded\"`, or press where the skin is "
-                       "level");
+  throw InputError(
+      place_of(family.document, "tissue.base"),
+      "the finger presses on a surface that is inclined by " +
+          rounded_text(touch.inclination(), 2) +
+          " degrees, and on a frictionless base nothing keeps the specimen from "
+          "sliding away; set `tissue.base = \"bonded\"`, or press where the surface is "
+          "level");
 }
 
 // Refuses a model that cannot compute the scene, and names the most complete model that can.

@@ -146,7 +146,7 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
     mesh = meshing::cut_at(std::move(mesh), height, false, parametric(scenario.tissue.shape));
   if (!heights.empty()) {
     number_slabs(mesh, scenario);
-    meshing::check(mesh, name + ", cut at the slabs,", volume);
+    meshing::check(mesh, name + ", cut at the layers,", volume);
   }
   return made;
 }
@@ -189,7 +189,7 @@ void number_regions(SpecimenMesh& made, const Scenario& scenario) {
     if (used[i] == 0)
       throw MeshError("the specimen's mesh has no tetrahedron of `[[region]]` " +
                       std::to_string(i + 1) +
-                      "; check its `tag` against the mesh, or mesh a lump finer");
+                      "; check its `tag` against the mesh, or mesh an inclusion finer");
   if (std::all_of(mesh.regions.begin(), mesh.regions.end(), [](int r) { return r == 0; }))
     mesh.regions.clear();
 }
@@ -256,10 +256,10 @@ void refuse_covered_lumps(const Scenario& scenario) {
       if (lump == nullptr || slab == nullptr) continue;
       const double taken = below(*lump, slab->top) - below(*lump, slab->bottom);
       if (taken > 0.01)
-        throw MeshError("`[[region]]` " + std::to_string(j + 1) + ", a slab, covers " +
-                        percent_text(taken) + " of the lump of `[[region]]` " +
+        throw MeshError("`[[region]]` " + std::to_string(j + 1) + ", a layer, covers " +
+                        percent_text(taken) + " of the inclusion of `[[region]]` " +
                         std::to_string(i + 1) +
-                        "; write the lump after the slab, so that it lies over it");
+                        "; write the inclusion after the layer, so that it lies over it");
     }
 }
 
