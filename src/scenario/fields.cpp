@@ -121,7 +121,7 @@ void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& u
 
 void device_fields(FieldVisitor& visitor, Device& device) {
   visitor.quantity(
-      {"damping", "The device's own; if given, findings say what it displays passively."},
+      {"damping", "The device's own; if given, findings.csv says what it displays passively."},
       device.damping, unit::N_s_per_m, at_least(0));
   visitor.quantity({"frame",
                     "Time from one force to the next.",
@@ -188,11 +188,12 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
 void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use) {
   visitor.quantity({"interval", "Time between rows of the CSV files."}, output.interval, unit::ms,
                    above(0));
-  visitor.quantity_list({"force_at",
-                         "Indentations at which the force of the first `indent` is a finding, such "
-                         "as `force_at_1_mm_N`.",
-                         use.finger},
-                        output.force_at, unit::mm, above(0));
+  visitor.quantity_list(
+      {"force_at",
+       "Depths at which the force of the first `indent` is written to findings.csv, such "
+       "as `force_at_1_mm_N`.",
+       use.finger},
+      output.force_at, unit::mm, above(0));
   visitor.flag({"pressure_maps",
                 "An EXR map at the end of every step.",
                 {use.finger.used, use.finger.when, Use::Otherwise::note}},
@@ -273,14 +274,14 @@ static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
                 "finger: `x`, `-y`, or three numbers such as `0 0.2 1`."},
                shape.up);
   visitor.flag({"repair",
-                "Whether small faults are mended, which is said: vertices in one place, doubled "
+                "Whether small faults are mended, with a note: vertices in one place, doubled "
                 "triangles, sheets that share a vertex, triangles that face inwards, and holes and "
                 "crossing triangles with at most 2 % of the area."},
                shape.repair);
   visitor.count_or("auto",
                    {"part",
                     "Which of several closed parts the body is, by falling volume; `auto`: the "
-                    "largest, which is said."},
+                    "largest, with a note."},
                    shape.part, between(1, 1e6));
 }
 static void fields(FieldVisitor& visitor, AsMeshed& shape) {
