@@ -264,10 +264,10 @@ TEST(DocsCheck, CatchesACitationOfNothing) {
 }
 
 TEST(DocsCheck, CatchesANameInADocumentThatIsNeitherEquationNorTable) {
-  const std::vector<Text> documents{
+  const std::vector<Text> pages{
       {"docs/a.md", "See `[spring]`, `[tissue]`, `[sweep]` and `[c]`.\n```\n[tissue]\n```\n"},
       {"docs/b.md", "# B\n## `[sweep]`\n"}};
-  EXPECT_EQ(joined(bracket_faults(documents, made_up_theory)),
+  EXPECT_EQ(joined(bracket_faults(pages, made_up_theory)),
             "docs/a.md: there is no equation and no table [c]\n");
 }
 
