@@ -10,8 +10,8 @@ from pathlib import Path
 STYLE = """
 .back{fill:#fff} text{fill:#1b1f24;font:14px sans-serif} .axis{stroke:#57606a;fill:none} .grid{stroke:#d8dee4;fill:none}
 .line{fill:none;stroke-width:2.2} .soft{fill:#f3d9c9;stroke:none} .thin{stroke:#57606a;fill:none;stroke-width:1}
-.a{stroke:#0b57b7} .b{stroke:#b3261e} .c{stroke:#1a7335} .d{stroke:#7a3fd1} .e{stroke:#57606a} .dash{stroke-dasharray:7 5}
-text.a,text.b,text.c,text.d,text.e{stroke:none} text.a{fill:#0b57b7} text.b{fill:#b3261e} text.c{fill:#1a7335} text.d{fill:#7a3fd1} text.e{fill:#57606a}
+.a{stroke:#0b57b7} .b{stroke:#b3261e} .c{stroke:#166a30} .d{stroke:#7a3fd1} .e{stroke:#57606a} .dash{stroke-dasharray:7 5}
+text.a,text.b,text.c,text.d,text.e{stroke:none} text.a{fill:#0b57b7} text.b{fill:#b3261e} text.c{fill:#166a30} text.d{fill:#7a3fd1} text.e{fill:#57606a}
 .mark{fill:#57606a;stroke:none}
 @media (prefers-color-scheme: dark){.back{fill:#14181d} text{fill:#e6edf3} .axis{stroke:#9aa4af} .grid{stroke:#30363d}
 .soft{fill:#4a3529} .thin{stroke:#9aa4af} .a{stroke:#6cb0ff} .b{stroke:#ff8a80} .c{stroke:#6fdc8c} .d{stroke:#c4a7ff} .e{stroke:#9aa4af}
