@@ -26,7 +26,7 @@ inline double flat_punch_factor(double ratio, const contact::Layer& layer) {
 }
 
 // c_1 of F / F_Hertz = 1 + c_1 chi + 7/6 c_1^2 chi^2 + ..., the thickness to first order:
-//   c_1 = 2/pi share int_0^inf M(u) du                                     docs/theory.md (58)
+//   c_1 = 2/pi share int_0^inf M(u) du                           docs/theory.md [layer_series]
 inline double layer_first_coefficient(const contact::Layer& layer) {
   double sum = 0.0;
   const int count = layer.below.empty() ? 64 : 256;

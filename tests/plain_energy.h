@@ -1,4 +1,4 @@
-// Energies of springs as the formulas are written, for comparison.         docs/theory.md (43)
+// Energies of springs as the formulas are written, for comparison.    docs/theory.md [balance]
 #pragma once
 
 #include <span>

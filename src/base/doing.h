@@ -5,7 +5,7 @@
 
 namespace palpate {
 
-// Of several threads the last one to say something is heard. Thread-safe.
+// Thread-safe; doing() is what any thread set last.
 void set_doing(std::string text);
 [[nodiscard]] std::string doing();
 

@@ -25,7 +25,7 @@ struct ChartOptions {
 struct Timing {
   double build = 0.0;      // building the scene
   double first_row = 0.0;  // until the first row after the start: factorisations, modes, tables
-  double whole = 0.0;      // the whole programme
+  double whole = 0.0;      // the whole loading history
 };
 
 enum class Status { measured, diverged, cannot, not_run };
@@ -40,7 +40,7 @@ struct Measurement {
   double substep = 0.0;  // s, of the solver; 0 without a mesh
   int substeps = 0;      // per time step
   int nodes = 0, tetrahedra = 0;
-  double simulated = 0.0;               // s, duration of the programme
+  double simulated = 0.0;               // s, duration of the loading history
   double first_simulated = 0.0;         // s, until its first row
   std::optional<Deviation> error;       // from the reference
   std::optional<Deviation> time_error;  // from exact_in_time(), on the same mesh

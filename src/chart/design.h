@@ -3,10 +3,10 @@
 // Groups of variants (not every combination):
 //   base                    what palpate chooses where model, mesh, coupling, integrator, steps and
 //                           rings are left open, and the scenario unchanged if that differs
-//   rung x mesh             every model but `solid`; those with a mesh on the scenario's mesh and
+//   model x mesh             every model but `solid`; those with a mesh on the scenario's mesh and
 //                           on meshes with a quarter and four times its nodes (a ready mesh is not
 //                           changed)
-//   rung x coupling         models with a mesh, with every coupling, on the scenario's mesh; one
+//   model x coupling         models with a mesh, with every coupling, on the scenario's mesh; one
 //                           sphere on a cuboid of one tissue also `resolved` on graded cells
 //   integrator x time step  every integrator with its default step and with 1/4, 1 and 4 ms in one
 //                           substep each; explicit ones also at half their stability limit
@@ -39,7 +39,7 @@ struct Variant {
                                           scene::SpecimenShapes& shapes);
 
 // The longest output interval of all variants, s. At these times all variants have rows if the
-// steps of the programme are multiples of it.
+// steps of the loading history are multiples of it.
 [[nodiscard]] double coarsest_interval(const scenario::PlainScenario& scenario);
 
 // The integrator of variants that do not name one: the scenario's, else `quasi_static` for a press

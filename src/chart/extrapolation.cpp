@@ -1,4 +1,4 @@
-// The observed order, then the extrapolation (docs/theory.md (78)).
+// The observed order, then the extrapolation (docs/theory.md [extrapolation]).
 #include "chart/extrapolation.h"
 
 #include <algorithm>

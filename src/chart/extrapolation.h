@@ -15,7 +15,7 @@ struct Extrapolated {
 // observed order, but at least 1/2. The error is the correction of the finest value, but at least
 // half the last change. If the values oscillate or converge faster than p = 3, the value is the
 // finest one, and the error their spread. Two values are extrapolated with p = 1 and twice the
-// error; one value gets an infinite error. docs/theory.md (78)
+// error; one value gets an infinite error. docs/theory.md [extrapolation]
 [[nodiscard]] Extrapolated extrapolate(std::span<const double> spacings,
                                        std::span<const double> values);
 

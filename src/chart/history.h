@@ -9,8 +9,8 @@
 
 namespace palpate::chart {
 
-// One moment of one step of the programme: a press's contact force (N), a creep's strain, or a
-// relaxation's stress (Pa).
+// One moment of one step of the loading history: a press's contact force (N), a creep's strain, or
+// a relaxation's stress (Pa).
 struct Moment {
   int step = 0;       // counted from 1
   double time = 0.0;  // s
@@ -33,7 +33,7 @@ using History = std::vector<Moment>;
 // Differences divided by the largest value of the reference in steps of the same kind.
 struct Deviation {
   double greatest = 0.0;  // largest over the moments of the reference
-  double at_end = 0.0;    // of the programme
+  double at_end = 0.0;    // of the loading history
   double rms = 0.0;       // over the moments
 };
 

@@ -22,7 +22,7 @@ struct Tradeoff {
 // the chord between its first and last choice, in logarithms of cost and error. Before the knee a
 // little cost buys much accuracy, after it much cost buys little. The result does not depend on
 // units, because scaling the axes keeps the order of the distances from a chord. Nothing if the
-// front has fewer than three choices or none below the chord. docs/theory.md (86)
+// front has fewer than three choices or none below the chord. docs/theory.md [knee]
 [[nodiscard]] std::optional<std::size_t> knee(std::span<const Tradeoff> front);
 
 }  // namespace palpate::chart

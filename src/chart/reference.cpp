@@ -30,7 +30,7 @@ using scenario::Scenario;
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
 constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
 constexpr double tolerance_of_solid = 0.005;  // asks for all of its meshes
-constexpr double most_rows = 40.0;            // of a programme without memory
+constexpr double most_rows = 40.0;            // of a loading history without memory
 
 // The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
 enum class Part { whole, half, quarter };
@@ -225,7 +225,7 @@ void remark(const Refinement& refinement, Reference& reference) {
     turned = std::max(turned, std::abs(row.by_sphere - 1.0));
   reference.remarks.push_back(
       "linear elasticity does not determine the direction of the pressure in a deep contact: it is "
-      "taken along the normals of the undeformed skin, and along those of the sphere the force "
+      "taken along the normals of the undeformed surface, and along those of the sphere the force "
       "differs by up to " +
       percent_text(turned) +
       " (column sphere_over_skin; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");

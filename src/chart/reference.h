@@ -19,7 +19,7 @@ struct ReferenceRow {
   double force = 0.0;               // N, extrapolated
   double error = 0.0;               // N, bound of the change by further refinement
   double order = 0.0;               // observed order of convergence; 0: none
-  double by_sphere = 1.0;           // force along the sphere's normals over that along the skin's
+  double by_sphere = 1.0;           // force along the sphere's normals over the surface's
 };
 
 struct Reference {
@@ -38,7 +38,7 @@ struct Reference {
 // set_doing(). Throws InputError if there is nothing to refine (uniform tests,
 // half-spaces, slides at a constant force; with inertia ready meshes and steps to a force),
 // Stopped, and like scene::build().
-//                                                                        docs/theory.md (78), (112)
+//                                                     docs/theory.md [extrapolation], [solid_force]
 [[nodiscard]] Reference refer(const scenario::Case& one, const scenario::Family& family,
                               int levels);
 

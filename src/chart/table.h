@@ -15,8 +15,8 @@ inline constexpr double comparison_error = 1e-4;
 // The cost of a variant that takes as long as the time that it simulates, us per simulated ms.
 inline constexpr double real_time_cost = 1000.0;
 
-// The comparison of the rows of a case. Costs are medians, errors the largest over the programme,
-// but at least `floor`. Rows are given by index.
+// The comparison of the rows of a case. Costs are medians, errors the largest over the loading
+// history, but at least `floor`. Rows are given by index.
 struct Verdict {
   double floor = 0.0;              // the smallest error that is claimed, relative
   std::vector<double> cost;        // us per simulated ms, by row; 0 if it was not measured

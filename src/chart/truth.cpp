@@ -212,7 +212,7 @@ class Finder {
     return even() ? material() : extrapolated("quasi_static");
   }
 
-  // Of the nodes in the mesh of the last run(), relative to the specimen's size.
+  // The spacing of the nodes in the mesh of the last run(), relative to the specimen's size.
   [[nodiscard]] double spacing() const { return 1.0 / std::cbrt(static_cast<double>(nodes_)); }
 
   // What inertia adds to the values of coupled springs on a mesh, and the largest change, relative

@@ -333,7 +333,7 @@ void add_options(CLI::App& verb, Identify& identify) {
       ->type_name("DATA SCENARIO");
   add_data(verb, identify.columns);
   verb.add_option("--origin", identify.x_origin,
-                  "Subtracted from every x: where the programme begins");
+                  "Subtracted from every x: where the loading history begins");
   verb.add_option("--noise", identify.noise, "Noise of the measurement")
       ->capture_default_str()
       ->check(CLI::IsMember({"constant", "relative"}));

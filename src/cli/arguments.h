@@ -30,7 +30,7 @@ struct RunDevice {
   bool expect = false;
   std::string surface;     // a length; empty: found by a press, or assumed
   std::string most_force;  // a force; empty: the default of the safety rules
-  double seconds = 0.0;    // s; 0: until the programme ends
+  double seconds = 0.0;    // s; 0: until the loading history ends
   std::string clock = "real";
 };
 struct Run {
@@ -202,7 +202,7 @@ struct Identify {
   std::vector<std::string> unknowns;                      // KEY=LOW..HIGH
   std::vector<std::string> givens;                        // KEY=VALUE +- SD
   std::string noise = "constant";                         // or relative
-  std::optional<double> x_origin;  // where the programme begins, in the unit of x
+  std::optional<double> x_origin;  // where the loading history begins, in the unit of x
   std::vector<std::string> settings;
   std::string out = "out";
   bool force = false;

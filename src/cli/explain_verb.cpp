@@ -236,7 +236,7 @@ class Explanation {
     const std::string& side = scenario.tissue.base_side;
     line("  base         " +
          (level > low
-              ? "the skin up to a height of " + rounded_text(unit::mm.from_si(level)) + " mm"
+              ? "the surface up to a height of " + rounded_text(unit::mm.from_si(level)) + " mm"
               : std::string("the lowest plane")) +
          (side.empty() ? "" : " on the side towards " + side) +
          (scenario.tissue.base == tissue::Base::bonded ? " is fixed, " : " slides on the table, ") +
@@ -373,8 +373,9 @@ class Explanation {
       case contact::Coupling::consistent:
         line(scene_.layer
                  ? "  coupling     consistent: the exact law of the flat layer; the travel is "
-                   "reduced by the mesh's further sinking"
-                 : "  coupling     consistent: the travel is reduced by the sinking of the mesh "
+                   "reduced by the mesh's further displacement"
+                 : "  coupling     consistent: the travel is reduced by the displacement of the "
+                   "mesh "
                    "that Hertz's law lacks");
         break;
       case contact::Coupling::resolved:

@@ -19,8 +19,8 @@
 namespace palpate::cli {
 namespace {
 
-// The programme begins at time 0. A record whose clock begins later either leaves its beginning out
-// or counts from elsewhere, and only the user knows.
+// The loading history begins at time 0. A record whose clock begins later either leaves its
+// beginning out or counts from elsewhere, and only the user knows.
 void begin_with_programme(const Identify& command, measured::MeasuredCurve& curve) {
   const bool time = curve.x_axis.dimension == Dimension{0, 0, 1};
   if (command.x_origin) {
@@ -38,9 +38,10 @@ void begin_with_programme(const Identify& command, measured::MeasuredCurve& curv
   const std::string begins = rounded_text(curve.x_written.front());
   throw InputError({curve.file, 0, 0},
                    "its first row is at " + begins + " " + curve.x_axis.unit +
-                       ", and the programme of the scenario begins at 0; give `--origin " + begins +
+                       ", and the loading history of the scenario begins at 0; give `--origin " +
+                       begins +
                        "` if it begins with that row, or `--origin 0` if the clock is that of the "
-                       "programme and the rows before are missing");
+                       "loading history and the rows before are missing");
 }
 
 identify::Measurement read_measurement(const Identify& command, const std::string& data,

@@ -66,7 +66,7 @@ int code_of(live::LiveEnd::Why why) {
 // The scenario with the steps that the stand carried out, for `palpate identify`.
 std::string as_moved_text(scenario::Family family, std::vector<scenario::Step> steps) {
   family.base.steps = family.cases.front().scenario.steps = std::move(steps);
-  return "# The programme as the stand carried it out, read from its travel: for `palpate "
+  return "# The loading history as the stand carried it out, read from its travel: for `palpate "
          "identify`, "
          "with\n# `step.1.time`, the moment at which it set off, among the unknowns.\n" +
          scenario::echo(family);

@@ -11,9 +11,9 @@
 namespace palpate::contact {
 
 // Force of a contact as a function of its depth, 0 for h <= 0: either
-//   coefficient * h^(3/2)                                                   docs/theory.md (3)
+//   coefficient * h^(3/2)                                               docs/theory.md [hertz]
 // or the force of a flat layer times `share`; both times `part`, which is below 1 where several
-// contacts share one place, and is the factor (62) in a deep press.
+// contacts share one place, and is the factor [deep] in a deep press.
 struct PointLaw {
   double coefficient = 0.0;  // N/m^(3/2)
   const LayerContact* layer =
@@ -28,13 +28,13 @@ struct PointLaw {
 
 // The depth h >= 0 (m) with h + compliance * F(h) = approach (m). `compliance` (m/N) is negative if
 // the body is stiffer than the half-space that the law assumes. Empty if there is no solution, or
-// only one beyond last_depth().                               docs/theory.md (14)
+// only one beyond last_depth().                      docs/theory.md [one_contact]
 [[nodiscard]] std::optional<double> penetration(const PointLaw& law, double approach,
                                                 double compliance);
 
 // The depths h_i (m) with h_i + sum_j C_ij F_j(h_j) = approach_i where h_i > 0; h_i = 0 where the
 // left side would exceed the approach. `compliance` is n x n, m/N; `depths` is a first guess and
-// receives the solution. Returns false if there is none.           docs/theory.md (15)
+// receives the solution. Returns false if there is none.     docs/theory.md [contacts]
 [[nodiscard]] bool balance(std::span<const PointLaw> laws, std::span<const double> approaches,
                            const Eigen::Ref<const Eigen::MatrixXd>& compliance,
                            std::span<double> depths);

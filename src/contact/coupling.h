@@ -4,8 +4,8 @@
 namespace palpate::contact {
 
 // `h` is the depth in the contact law, `travel` the displacement of the finger below the undeformed
-// surface (docs/theory.md (9)-(14), (70)-(76)). one_way: h = travel. series: h = travel - u,
-// where u is the pressure-weighted displacement of the mesh under the contact. consistent: h =
+// surface (theory.md [depth], [unilateral], [inertia]). one_way: h = travel. series: h = travel -
+// u, where u is the pressure-weighted displacement of the mesh under the contact. consistent: h =
 // travel - v, where v is what the body sinks beyond the law's half-space, from the energy of the
 // rest of the field; where inertia reaches the force, the deviation of the mesh from statics is
 // subtracted too. resolved: no contact law; the finger presses nodes of

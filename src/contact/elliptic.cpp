@@ -44,7 +44,7 @@ Integrals integrals(double q) {
 }
 
 // The ratio q = b/a of the axes for r = B/A >= 1, the ratio of the relative curvatures:
-//   q^2 r (1/2 + t) = 1/2 - t                                            docs/theory.md (23)
+//   q^2 r (1/2 + t) = 1/2 - t                                          docs/theory.md [axes]
 double axis_ratio(double r) {
   // d(ln r)/d(ln q) goes from -3/2 at the circle to -2, so q is between r^(-2/3) and r^(-1/2), and
   // a fortiori above 1/(2 r).
@@ -62,7 +62,7 @@ double axis_ratio(double r) {
 }  // namespace
 
 double EllipticLaw::force(double depth) const {
-  // F = (2 pi / 3) E* a h / K                                            docs/theory.md (25)
+  // F = (2 pi / 3) E* a h / K                                 docs/theory.md [ellipse_force]
   return hertz::force(depth, force_radius, modulus);
 }
 
@@ -98,7 +98,7 @@ std::optional<EllipticLaw> elliptic_law(double modulus, double sphere_radius, do
   if (!finite || least <= 0.0) return std::nullopt;
   const double q = axis_ratio(greatest / least);
   const auto [mean, t, slope] = integrals(q);
-  // a^2 / h = (1/2 + t) / A = (1 + 2 t) / (2 A)                          docs/theory.md (24)
+  // a^2 / h = (1/2 + t) / A = (1 + 2 t) / (2 A)                     docs/theory.md [ellipse]
   const double along_radius = (1.0 + 2.0 * t) / least;
   return EllipticLaw{.modulus = modulus,
                      .force_radius = mean * mean * along_radius,

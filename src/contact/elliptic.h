@@ -32,7 +32,7 @@ struct EllipticLaw {
 // positive, in any order). Empty if the surfaces conform, 1/R_1 + kappa <= 0 in a direction, or a
 // number is not finite. Accurate to rounding until 1/R_1 + kappa in one direction is 1e-30 of that
 // in the other. As it goes to 0 the ellipse becomes a line and the force grows without bound,
-// although the half-space is no longer valid; see nearly_conforming(). docs/theory.md (23)-(25)
+// although the half-space is no longer valid; see nearly_conforming(). docs/theory.md [axes]
 [[nodiscard]] std::optional<EllipticLaw> elliptic_law(double modulus, double sphere_radius,
                                                       double kappa_1, double kappa_2);
 
@@ -43,7 +43,7 @@ struct EllipticLaw {
 // Effective radii for `hertz::force` from both curvatures, m: by their mean (Chen 2007) and by the
 // geometric mean. They require R_1 kappa > -1 in both directions. Compared with the ellipse the
 // force is 4 % and 1 % low if the ratio of the relative curvatures is 1:2, and 18 % and 5 % at 1:5.
-//                                                                      docs/theory.md (26)
+//                                                                 docs/theory.md [circles]
 [[nodiscard]] double mean_radius(double sphere_radius, double kappa_1,
                                  double kappa_2);  // Chen 2007
 [[nodiscard]] double geometric_radius(double sphere_radius, double kappa_1, double kappa_2);

@@ -8,7 +8,7 @@ namespace palpate::contact {
 
 // The sinking (m) at the distance `r` (m) from the centre of a contact of radius `a` (m; 0 for a
 // point load) that carries `force` (N), on a half-space with E' = E / (1 - nu^2) (Pa).
-//                                               K. L. Johnson 1985, eq. (3.42); docs/theory.md (16)
+//                                       K. L. Johnson 1985, eq. (3.42); docs/theory.md [half_space]
 [[nodiscard]] inline double half_space_sinking(double r, double force, double a,
                                                double plane_modulus) {
   if (a <= 0.0) return force / (std::numbers::pi * plane_modulus * r);

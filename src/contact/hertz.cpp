@@ -20,7 +20,7 @@ double effective_radius(double sphere_radius, double curvature) {
 
 double force(double depth, double radius, double modulus) {
   if (depth <= 0.0) return 0.0;
-  // F = 4/3 E* sqrt(R) h^(3/2)                       Chen 2007 eq. (2); docs/theory.md (3)
+  // F = 4/3 E* sqrt(R) h^(3/2)                   Chen 2007 eq. (2); docs/theory.md [hertz]
   return 4.0 / 3.0 * modulus * std::sqrt(radius) * depth * std::sqrt(depth);
 }
 
@@ -42,7 +42,7 @@ double contact_radius(double depth, double radius) {
 
 double peak_pressure(double force, double contact_radius) {
   if (contact_radius <= 0.0) return 0.0;
-  // P_0 = 3 F / (2 pi a^2)                           Chen 2007 eq. (3); docs/theory.md (5)
+  // P_0 = 3 F / (2 pi a^2)                    Chen 2007 eq. (3); docs/theory.md [pressure]
   return 1.5 * force / (std::numbers::pi * contact_radius * contact_radius);
 }
 

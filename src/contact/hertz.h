@@ -8,7 +8,7 @@ struct Elastic {
   double young_modulus = 0.0;  // Pa; infinite for a rigid body
   double poisson_ratio = 0.0;
 
-  // lambda = (1 - nu^2) / E, in 1/Pa                 Chen 2007 eq. (2); docs/theory.md (1)
+  // lambda = (1 - nu^2) / E, in 1/Pa           Chen 2007 eq. (2); docs/theory.md [modulus]
   [[nodiscard]] double compliance() const;
 };
 
@@ -19,10 +19,10 @@ namespace hertz {
 
 // 1/R = 1/R_1 + kappa: a sphere of radius R_1 (m) on a surface of curvature kappa (1/m, convex
 // positive, 0 on a flat). Requires R_1 kappa > -1; otherwise the surfaces conform and Hertz's
-// theory does not hold. docs/theory.md (2)
+// theory does not hold. docs/theory.md [radius]
 [[nodiscard]] double effective_radius(double sphere_radius, double curvature);
 
-// F = 4/3 E* sqrt(R) h^(3/2), N, for h (m), R (m), E* (Pa); 0 for h <= 0.      docs/theory.md (3)
+// F = 4/3 E* sqrt(R) h^(3/2), N, for h (m), R (m), E* (Pa); 0 for h <= 0.  docs/theory.md [hertz]
 [[nodiscard]] double force(double depth, double radius, double modulus);
 
 // The depth (m) for a force (N): the inverse of `force`.

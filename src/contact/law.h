@@ -17,7 +17,7 @@ struct SphereLaw {
 };
 
 // How the tissue's two principal curvatures enter: exactly, by the geometric mean of the relative
-// curvatures, or by their mean (Chen 2007). docs/theory.md (23)-(26)
+// curvatures, or by their mean (Chen 2007). docs/theory.md [ellipse_force], [circles]
 enum class CurvatureLaw { elliptic, geometric, mean };
 
 // The force `point` over an ellipse whose semi-axes grow with sqrt(h), or over a layer's circle.

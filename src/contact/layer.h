@@ -32,7 +32,8 @@ class LayerTable {
 // has to refuse such a deep press into a thin layer. Construction takes about 5 ms, from a table
 // half a millisecond, for several layers up to 0.5 s; the functions allocate nothing and use + - *
 // / and sqrt only.
-//                                                                         docs/theory.md (57)-(59)
+//
+//                                                            docs/theory.md [layer], [layer_series]
 class LayerLaw {
  public:
   explicit LayerLaw(const Layer& layer);

@@ -30,7 +30,7 @@ constexpr double last_wave = 20.0;
 //   bonded        L = (2K sinh 2u - 4u) / (2K cosh 2u + 1 + K^2 + 4u^2)
 //   frictionless  L = (cosh 2u - 1) / (sinh 2u + 2u)
 // written with q = exp(-2u), so that nothing overflows and M keeps its digits as L goes to 1.
-//                                                                       docs/theory.md (56)
+//                                                              docs/theory.md [layer_waves]
 double missing_sinking(double u, const Layer& layer) {
   if (!layer.below.empty()) return 1.0 - stack_sinking(u, layer);
   const double q = std::exp(-2.0 * u);

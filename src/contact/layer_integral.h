@@ -41,7 +41,7 @@ struct LayerResolution {
 
 // p(r) of a sphere divided by its mean F / (pi a^2), so that the mean over the disc is 1:
 //   p = sqrt(z) sum_k c_k T_k(2z - 1),   z = 1 - (r/a)^2,   T_k Chebyshev polynomials
-// On a half-space it is Hertz's 3/2 sqrt(z).                                   docs/theory.md (59)
+// On a half-space it is Hertz's 3/2 sqrt(z).                       docs/theory.md [layer_pressure]
 struct PressureProfile {
   // Truncation error below 1e-8 up to a/H = 6, the thinnest layers in a LayerLaw.
   static constexpr std::size_t terms = 20;
@@ -81,7 +81,7 @@ class LayerSystem {
 
 // The integral equation of one layer, prepared for any ratio a/H:
 //   g(s) - int_0^1 Q(s,t) g(t) dt = D - s^2,   g(1) = 0,   0 <= s <= 1
-// Hayes and others 1972, J. Biomech. 5, 541-551; docs/theory.md (56), (57). Solved by Nystrom's
+// Hayes and others 1972, J. Biomech. 5; docs/theory.md [layer_waves], [layer]. Solved by Nystrom's
 // method; one solution takes a quarter of a millisecond at the resolution of a/H = 6.
 class LayerEquation {
  public:

@@ -19,7 +19,7 @@ struct Face {
 
 // The waves (U, W) = (e, e) and ((kz - K) e, kz e), e = exp(-kz), K = 3 - 4 nu, and their mirror
 // images at the layer's middle. `kz` and `kd` are the wave number times depth and thickness. They
-// satisfy G (lap u + grad div u / (1 - 2 nu)) = 0, also at nu = 1/2.       docs/theory.md (79)
+// satisfy G (lap u + grad div u / (1 - 2 nu)) = 0, also at nu = 1/2.  docs/theory.md [layer_stack]
 Face face(double kz, double kd, double stiffness, double nu) {
   const double big_k = 3.0 - 4.0 * nu;
   const double e = std::exp(-kz);

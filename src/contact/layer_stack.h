@@ -10,7 +10,7 @@ namespace palpate::contact {
 // that decay from its top and two from its bottom. Displacements and tractions are continuous
 // between layers, the surface has no shear, and the base is that of layer.base. Exact for any nu up
 // to 1/2, except for rounding of 1e-16 / u^3 near u = 0, where the waves become linearly dependent.
-//                                                    Mindlin's solutions; docs/theory.md (79)
+//                                           Mindlin's solutions; docs/theory.md [layer_stack]
 [[nodiscard]] double stack_sinking(double u, const Layer& layer);
 
 }  // namespace palpate::contact

@@ -14,7 +14,7 @@ struct SampledDevice {
 };
 
 // The damping that a device needs to render a wall of `stiffness` (N/m) passively, N s/m:
-//   b > K (T/2 + T_d) + |B|          J. E. Colgate and J. M. Brown, ICRA 1994; docs/theory.md (84)
+//   b > K (T/2 + T_d) + |B|     J. E. Colgate and J. M. Brown, ICRA 1994; docs/theory.md [passive]
 [[nodiscard]] double needed_damping(double stiffness, const SampledDevice& device);
 
 // The largest stiffness that this bound allows, N/m; 0 if the device's damping is not above |B|.

@@ -27,7 +27,7 @@ struct Quadrature {
 };
 
 // With s = sqrt(1 - r^2/a^2) the force p r dr becomes s^2 ds on [0, 1]: Gauss-Legendre points in s
-// and equal angles.                                                          docs/theory.md (9)
+// and equal angles.                                                     docs/theory.md [shares]
 Quadrature make_quadrature() {
   const numerics::GaussRule& rule = numerics::gauss_rule(static_cast<int>(ring_count));
   Quadrature found{};

@@ -45,7 +45,7 @@ class Spreader {
   // triangle that it meets along the normal. If the straight way from the centre to one of two
   // opposite points leaves the surface, or comes to a crease or to a triangle turned away, both are
   // moved back to that place. For a = b = 0 the triangle under the centre gets everything.
-  // docs/theory.md (9)
+  // docs/theory.md [shares]
   void spread(const Patch& patch, Spread& spread);
 
  private:

@@ -25,7 +25,7 @@ struct FieldValue {
 // The field of an elliptic patch on the plane z = 0 of a half-space z <= 0, whose traction has the
 // shape of Hertz's pressure. It is replaced by point loads, the more of them the nearer the point
 // is: Boussinesq's along -z, Cerruti's in the plane. Points above the plane count as points on it.
-//         K. L. Johnson 1985, eq. (3.18)-(3.19), (3.75)-(3.76); docs/theory.md (11)
+//      K. L. Johnson 1985, eq. (3.18)-(3.19), (3.75)-(3.76); docs/theory.md [split]
 class PatchField {
  public:
   // Semi-axes along x and y, m, above 0. The unit vector `along` is the traction's direction: -z,

@@ -13,7 +13,7 @@ struct Branch {
 
 // E(t) / E_inf of a tissue with constant Poisson's ratio: elastic (no branches, no retardation
 // time), with Maxwell branches (one makes a standard linear solid),
-//   E(t) = E_inf (1 + sum_k b_k exp(-t / tau_k)),                           docs/theory.md (63)
+//   E(t) = E_inf (1 + sum_k b_k exp(-t / tau_k)),                   docs/theory.md [relaxation]
 // or Kelvin-Voigt, E(t) = E_inf (1 + tau delta(t)). Not both; times above 0, ratios at least 0.
 struct Relaxation {
   std::vector<Branch> branches;   // tau_k and b_k, in any order
@@ -23,7 +23,7 @@ struct Relaxation {
   // E(t) / E_inf for t >= 0 (s); 1 for Kelvin-Voigt, without the impulse at t = 0.
   [[nodiscard]] double modulus_ratio(double time) const;
   // Stress over E_inf at `time` (s) after the start of a strain that grows at `rate` (1/s) for
-  // `ramp_time` (s) and then stays.                                         docs/theory.md (52a)
+  // `ramp_time` (s) and then stays.                                 docs/theory.md [compression]
   [[nodiscard]] double ramp_response(double rate, double ramp_time, double time) const;
 };
 

@@ -1,4 +1,4 @@
-// The typical size of the triangles of a skin.
+// The typical size of the triangles of a surface.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ class SkinSpacing {
  public:
   explicit SkinSpacing(const geometry::SmoothSurface& surface);
 
-  // Of the patch's part; on a crease between those of both sides.
+  // The spacing (m) of the patch's part; on a sharp edge between those of both sides.
   [[nodiscard]] double at(const Patch& patch) const;
 
  private:

@@ -29,7 +29,7 @@ enum class ContactEdge {
 // ring of level c at the depth c. Displaced by w (h - c in contact), the ring pushes back with q
 // per unit of its stiffness phi''(c); it is free where q would become tensile:
 //   F = integral over 0 < c < b of q(c, t) phi''(c) dc,    q(b, t) = 0 at the contact's edge b.
-//                          Ting 1966, 1968; Argatov and Popov 2016; docs/theory.md (64)
+//                     Ting 1966, 1968; Argatov and Popov 2016; docs/theory.md [viscous]
 // At the end of each step a ring is stored at the contact's edge; between rings q is linear in c
 // and phi in h^(3/2). The error is of second order in the time step while it is below the branches'
 // times; for longer steps, and for Kelvin-Voigt, whose rate is the mean of the step, of first

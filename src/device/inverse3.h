@@ -26,7 +26,7 @@ class Unanswered {
   // The time of the oldest message, which a reply at this moment answers; nothing if none waits.
   [[nodiscard]] std::optional<double> answered();
   [[nodiscard]] std::uint64_t given_up() const { return given_up_; }  // messages
-  // Of the messages that wait, whether a later one than the oldest does.
+  // Whether more than one message waits.
   [[nodiscard]] bool several() const { return count_ > 1; }
 
  private:

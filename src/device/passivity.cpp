@@ -1,4 +1,4 @@
-// Time-domain passivity: observer and controller, docs/theory.md (93).
+// Time-domain passivity: observer and controller, docs/theory.md [arm].
 #include "device/passivity.h"
 
 #include <algorithm>

@@ -8,7 +8,7 @@ namespace palpate::device {
 
 // Energy from the hand minus energy returned to the hand, J; for a passive wall never below zero:
 //   E_k = E_k-1 - F_k-1 . (x_k - x_k-1)
-// B. Hannaford and J.-H. Ryu, IEEE TRA 18 (2002); docs/theory.md (93)
+// B. Hannaford and J.-H. Ryu, IEEE TRA 18 (2002); docs/theory.md [arm]
 class PassivityObserver {
  public:
   // Adds the work of `force` (N), which has acted from the last position to this one (m).
@@ -27,10 +27,10 @@ class PassivityObserver {
 };
 
 // Dissipates a deficit (E < 0) by a damping on the hand, in the frame after it was observed:
-//   F = F - alpha v,  alpha = min(most, -E / (v . v dt))            docs/theory.md (93)
+//   F = F - alpha v,  alpha = min(most, -E / (v . v dt))           docs/theory.md [arm]
 class PassivityController {
  public:
-  // `most` (N s/m): a damping that the device renders stably, below b of Colgate's bound (84).
+  // `most` (N s/m): a damping that the device renders stably, below b of Colgate's bound [passive].
   explicit PassivityController(double most) : most_(most) {}
   // Returns the force to add (N), for the velocity v (m/s) of this frame and its length dt (s).
   Vec3 step(const PassivityObserver& observer, const Vec3& velocity, double dt);

@@ -97,7 +97,7 @@ struct Limits {
   double period = 0.0;          // s, planned time between samples
   double stale_after = 0.0;     // s without a new sample
   double lost_after = 0.0;      // s without a new sample
-  // N, of a gauge without travel: the force that tells that the programme has begun.
+  // N, of a gauge without travel: the force that tells that the loading history has begun.
   std::optional<double> start_force = {};
 };
 

@@ -69,7 +69,7 @@ void list_faults(const char* link, std::span<const FaultKind> kinds) {
   for (const FaultKind& kind : kinds) std::printf("%s\t%s\t%s\n", link, kind.name, kind.what);
 }
 
-// Of a device on a serial line.
+// The arguments of a device on a serial line.
 template <class Settings>
 struct LineArguments {
   Common common = {};

@@ -10,7 +10,7 @@
 namespace emulator {
 namespace {
 
-// Of both devices on a serial line. A reply of the gauge is a line that it sends.
+// The faults of both devices on a serial line. A reply of the gauge is a line that it sends.
 constexpr std::array line_kinds{
     FaultKind{"unplug", Life::moment, "the port is gone; with `duration` it comes back"},
     FaultKind{"stall", Life::lasting, "nothing is sent; replies come afterwards, at once"},

@@ -216,7 +216,7 @@ double Layer::mass() const {
 Layer pack(const geometry::Surface& fingertip, double density, int count) {
   assert(count >= 1 && count <= most_spheres);
   const geometry::Enclosed inside = geometry::enclosed(geometry::with_closed_base(fingertip));
-  // m_i = M/n = rho 4/3 pi r^3                       Chen 2007 eq. (5); docs/theory.md (28)
+  // m_i = M/n = rho 4/3 pi r^3                  Chen 2007 eq. (5); docs/theory.md [spheres]
   const double radius = std::cbrt(0.75 * inside.volume / (std::numbers::pi * count));
   Layer layer{radius, density, {}};
   for (const Point& point : spread_out(outline(fingertip, inside.centroid), radius, count))
@@ -225,7 +225,7 @@ Layer pack(const geometry::Surface& fingertip, double density, int count) {
 }
 
 double modulus_factor(Calibration calibration, int count) {
-  // n (r/n^(1/3))^(1/2) = n^(5/6) r^(1/2)                        docs/theory.md (29)
+  // n (r/n^(1/3))^(1/2) = n^(5/6) r^(1/2)               docs/theory.md [calibration]
   return calibration == Calibration::force ? std::pow(count, -5.0 / 6.0) : 1.0;
 }
 

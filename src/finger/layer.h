@@ -25,7 +25,7 @@ inline constexpr int most_spheres = 64;
 // the spheres inside where they fit. Spheres overlap, because spheres of the whole mass do not fit
 // side by side. `fingertip` is a surface as from geometry::fingertip: pad facing -z, symmetric in
 // y, convex seen along z, open at one rim or closed. `density` in kg/m^3.
-//                                                         Chen 2007 eq. (5); docs/theory.md (28)
+//                                                    Chen 2007 eq. (5); docs/theory.md [spheres]
 [[nodiscard]] Layer pack(const geometry::Surface& fingertip, double density, int count);
 
 // Which property several spheres share with the single sphere that they replace.
@@ -34,7 +34,7 @@ enum class Calibration {
   force,  // the total force on a flat equals that of the single sphere at the same depth
 };
 
-// The factor on E* of each of `count` spheres.                        docs/theory.md (29)
+// The factor on E* of each of `count` spheres.               docs/theory.md [calibration]
 [[nodiscard]] double modulus_factor(Calibration calibration, int count);
 
 }  // namespace palpate::finger

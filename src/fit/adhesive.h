@@ -23,7 +23,7 @@ struct AdhesiveForce {
 [[nodiscard]] AdhesiveForce adhesive_force(Adhesion law, double radius, double modulus, double work,
                                            double depth);
 
-// mu = (R w^2 / (E*^2 z_0^3))^(1/3), z_0 (m) the distance of atoms at rest.   docs/theory.md (123)
+// mu = (R w^2 / (E*^2 z_0^3))^(1/3), z_0 (m) the distance of atoms at rest.  docs/theory.md [tabor]
 //                                                      Tabor 1977, J. Colloid Interface Sci. 58
 [[nodiscard]] double tabor_number(double radius, double modulus, double work, double distance);
 
@@ -36,7 +36,7 @@ struct AdhesiveTest {
 // row of the pull-off: rows in contact follow the law, rows after it the baseline, which is an
 // offset where three rows are free (none, and a tilt, on request). Parameters: E in kPa, w in
 // mJ/m^2, h_0 in mm, F_0 in N, tilt in N/mm. `by_tabor` takes JKR above mu = 0.7, in the middle of
-// the transition from 0.1 to 5 on a logarithmic scale, and says so.   docs/theory.md (122), (123)
+// the transition from 0.1 to 5 on a logarithmic scale, and says so.  docs/theory.md [jkr], [tabor]
 // Throws InputError for a curve without a pull-off clear of its scatter, and like fit_contact().
 [[nodiscard]] Fit fit_adhesive(std::span<const double> depth, std::span<const double> force,
                                const ContactTest& test, const AdhesiveTest& adhesion);

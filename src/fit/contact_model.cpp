@@ -320,7 +320,7 @@ class ContactFit {
     fitted(unknowns);
     const Minimum minimum = minimise(rows_.force, curve, unknowns, 200);
 
-    // E = E* (1 - nu^2) for a rigid tip                  Chen 2007 eq. (2); docs/theory.md (1)
+    // E = E* (1 - nu^2) for a rigid tip            Chen 2007 eq. (2); docs/theory.md [modulus]
     const double young = guess.factor * scale_ * (1.0 - test_.poisson_ratio * test_.poisson_ratio);
     std::vector<double> scale{unit::kPa.from_si(young), unit::mm.from_si(range), scale_,
                               scale_ / unit::mm.from_si(range)};

@@ -49,7 +49,7 @@ struct ContactTest {
 // Throws InputError for fewer than 4 points, for fewer than 3 beyond the contact point, for a
 // single depth, for a curve in which the load does not grow with depth or that shows no contact,
 // and for data deeper than the law of a thin layer permits.
-// docs/theory.md (57)-(59), (98), (99), (102)
+// docs/theory.md [layer], [tips], [tip_sphere], [contact_point]
 [[nodiscard]] Fit fit_contact(std::span<const double> depth, std::span<const double> force,
                               const ContactTest& test);
 

@@ -44,7 +44,7 @@ struct ContactGuess {
 // range before the first row, otherwise it lies within the rows. More than 4000 rows are averaged
 // to 2000 for the search. Nothing if no contact point serves. This is the search by goodness of fit
 // of Lin, Dimitriadis and Horkay 2007, J. Biomech. Eng. 129, with the baseline as a part of the
-// model.                                  docs/theory.md (102)
+// model.                        docs/theory.md [contact_point]
 struct SearchLimits {
   double deepest;           // largest depth of the law, m
   bool within_rows = true;  // the contact lies within the rows wherever there is a baseline
@@ -58,7 +58,7 @@ struct SearchLimits {
 // offset and a tilt are compared by n ln(SSE / n) + k ln n (Schwarz 1978, Ann. Stat. 6). Where the
 // rows before contact determine a tilt (ten over a fifth of the depth in contact, whose own slope
 // agrees with it), offset and tilt are fitted; where three of them do not rise, an offset; else
-// neither.                                                                    docs/theory.md (115)
+// neither.                                                               docs/theory.md [baseline]
 struct ContactChoice {
   Baseline baseline = Baseline::none;
   ContactGuess guess;

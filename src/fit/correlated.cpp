@@ -246,7 +246,7 @@ double half_width(const std::vector<Process>& all, Eigen::Index i,
 
 // The covariance that rounding to steps adds: rows of one step in a row share one error, uniform
 // over the step. Empty where the values are not multiples of a step, or differ from row to row.
-//                                                                            docs/theory.md (119)
+//                                                                       docs/theory.md [rounding]
 std::vector<double> quantised_covariance(std::span<const double> values,
                                          std::span<const double> jacobian,
                                          std::span<const double> inverse) {

@@ -17,9 +17,9 @@ struct ResidualErrors {
   double factor = 1.0;
 };
 
-// Of the residuals of a least-squares fit, with `inverse` = (J^T J)^-1 by rows: the covariance of
-// independent residuals, or that below of correlated ones, and what rounding of `records` to steps
-// adds. The records, one after the other, are the values that were fitted, in the scale of the
+// The errors of a least-squares fit, with `inverse` = (J^T J)^-1 by rows: the covariance for
+// independent residuals, or for correlated ones as below, and the part of rounding `records` to
+// steps. The records, one after the other, are the values that were fitted, in the scale of the
 // residuals; residuals below 1e-9 count as independent.
 [[nodiscard]] ResidualErrors errors_of(std::span<const double> residuals,
                                        std::span<const double> jacobian,
@@ -31,7 +31,7 @@ struct ResidualErrors {
 // many kinds, each by its likelihood. `jacobian` has one row of `unknowns` derivatives per
 // residual, in the order of time. Nothing if the likelihood ratio against independent residuals is
 // below 2.71 (5 %, one-sided), for fewer than 20 residuals, and if the jacobian lacks full rank.
-//                        docs/theory.md (100), (101), (118); Harville 1977, J. Am. Stat. Assoc. 72
+//   docs/theory.md [correlated], [covariance], [slow_noise]; Harville 1977, J. Am. Stat. Assoc. 72
 [[nodiscard]] std::optional<ResidualErrors> autocorrelation(std::span<const double> residuals,
                                                             std::span<const double> jacobian,
                                                             std::size_t unknowns);

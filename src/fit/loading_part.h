@@ -24,8 +24,8 @@ struct Branch {
 
 enum class Way { approach, retract, all };
 
-// Of a curve that goes in and out, the rows up to its first turn within a tenth of the range of the
-// deepest one, or those from there to the next turn; otherwise all of them.
+// The rows of one way of a curve that goes in and out: up to its first turn within a tenth of the
+// range of the deepest one, or from there to the next turn; all rows of other curves.
 struct OneWay {
   std::size_t from = 0, to = 0;
   std::size_t loadings = 0;  // that reach so deep

@@ -84,7 +84,7 @@ Points usable(std::span<const double> x, std::span<const double> y, const PronyS
   return points;
 }
 
-// The terms at all points: those of a relaxation, or H minus them in creep. docs/theory.md (92)
+// The terms at all points: those of a relaxation, or H minus them in creep. docs/theory.md [prony]
 class Basis {
  public:
   Basis(const Points& points, const PronySeries& series)

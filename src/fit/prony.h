@@ -25,7 +25,7 @@ constexpr int most_terms = 60;
 // Least squares as in regress(). Parameters: y_inf (or y_0), then y_k and tau_k > 0 in the order of
 // increasing tau. A liquid has no y_inf in relaxation, and in creep y_flow after y_0, the rate of
 // y_0 + y_flow int H dx + sum (Burgers 1935 with one term). Intervals are Student's, that of tau
-// from the error of ln tau, docs/theory.md (92). With more than 5 terms, the times are spaced
+// from the error of ln tau, docs/theory.md [prony]. With more than 5 terms, the times are spaced
 // evenly in their logarithm from the distance of two points to the length of the record, and the
 // y_k >= 0 follow by non-negative least squares, without intervals; terms of 0 are left out. Values
 // refer to the largest of the history. Throws InputError for fewer than 2 * terms + 2 usable points

@@ -23,7 +23,7 @@ struct BasisColumn {
 // phi(t) = integral from 0 to t of e^(-(t-s)/tau) dH/ds ds, Boltzmann's superposition of the
 // history H, for the times `t` in ascending order from the start of the loading. Step: e^(-t/tau).
 // Ramp of duration T: tau/T (1 - e^(-t/tau)), and from T on tau/T (e^(-(t-T)/tau) - e^(-t/tau)).
-//                                                                             docs/theory.md (107)
+//                                                                            docs/theory.md [ramp]
 [[nodiscard]] BasisColumn relaxing(std::span<const double> t, double tau,
                                    const LoadingHistory& history);
 

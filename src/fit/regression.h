@@ -34,7 +34,7 @@ struct Estimate {
 };
 
 // How the intervals take the residuals: as independent, or as correlated from row to row where they
-// are (docs/theory.md (100), (101)).
+// are (docs/theory.md [correlated], [covariance]).
 enum class Residuals { independent, correlated };
 
 struct Fit {

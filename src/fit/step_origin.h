@@ -24,7 +24,7 @@ enum class AfterStep {
 // the step where it lies within one row's distance of it, and where the times are spaced by a
 // constant factor; otherwise the step is at that row. `ramp` is the duration of a loading ramp that
 // ends there: the origin is its start. Throws InputError for a creep from zero whose first row is
-// not near zero, since it began before the record.                        docs/theory.md (113)
+// not near zero, since it began before the record.                docs/theory.md [time_origin]
 [[nodiscard]] StepOrigin step_origin(std::span<const double> x, std::span<const double> y,
                                      AfterStep shape, double ramp);
 

@@ -25,7 +25,7 @@ struct TipForce {
   double force, stiffness;
 };
 
-// With a the contact radius and E* = 1 Pa:                              docs/theory.md (98), (99)
+// With a the contact radius and E* = 1 Pa:                    docs/theory.md [tips], [tip_sphere]
 //   paraboloid  F = 4/3 sqrt(R) h^(3/2)                               Hertz 1881; Sneddon 1965
 //   sphere      F = (a^2 + R^2) artanh(a/R) - a R, h = a artanh(a/R)              Sneddon 1965
 //   cone        F = 2/pi tan(alpha) h^2                                           Sneddon 1965

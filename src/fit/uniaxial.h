@@ -22,7 +22,7 @@ struct UniaxialTest {
   Loading loading = Loading::unknown;
   std::optional<double> from = {};  // strain, as a positive number in compression too
   std::optional<double> to = {};
-  // Of bonded platens: diameter over 4 heights, the loaded area over the free area of a cylinder.
+  // With bonded platens: diameter over 4 heights, the loaded over the free area of a cylinder.
   std::optional<double> shape_factor = {};
   int cycle = 0;     // of several loadings, from 1; 0: there is one only
   bool toe = false;  // strain counts from where the line through the stress begins
@@ -41,7 +41,7 @@ struct UniaxialTest {
 // its first fall by 10 %. Rows on both sides of strain 0 are tension and compression of one law and
 // are fitted together. Throws InputError for fewer than 4 rows, stretches of 0 or less, a loading
 // that is not known and matters, several loadings of which none is chosen, and a stress that falls.
-//                                                             docs/theory.md (103), (104), (114)
+//                                             docs/theory.md [stretch], [bonded], [loading_part]
 [[nodiscard]] Fit fit_uniaxial(std::span<const double> strain, std::span<const double> stress,
                                const UniaxialTest& test);
 

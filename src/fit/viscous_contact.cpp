@@ -95,7 +95,7 @@ class History {
   }
 
  private:
-  // Of piece j, from knot j - 1 to knot j.
+  // The slope of `values` in piece j, from knot j - 1 to knot j.
   [[nodiscard]] double rate(const std::vector<double>& values, std::size_t j) const {
     const bool begins = j == first_ + 1;
     const double from = begins ? start_ : knots_.time[j - 1];

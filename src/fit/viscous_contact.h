@@ -22,7 +22,7 @@ enum class Viscous {
 // E_inf, E_0 (kPa) and tau (s); then h_0 in mm and F_0 in N where three rows lie before contact or
 // an offset is asked for. More than 400 rows are averaged to 400 for the history; the force between
 // these is linear. Throws InputError like fit_contact(), and for times that do not ascend.
-//                                                                             docs/theory.md (124)
+//                                                                            docs/theory.md [ting]
 [[nodiscard]] Fit fit_viscous(std::span<const double> time, std::span<const double> depth,
                               std::span<const double> force, const ContactTest& test,
                               Viscous model);

@@ -38,7 +38,7 @@ double distance_to(const Surface& surface, const Vec3& point) {
 }
 
 std::string named(const Lump& lump) {
-  std::string text = "the lump of radius " + rounded_text(1e3 * lump.radius) + " mm about (";
+  std::string text = "the inclusion of radius " + rounded_text(1e3 * lump.radius) + " mm about (";
   for (int axis = 0; axis < 3; ++axis)
     text += (axis ? ", " : "") + rounded_text(1e3 * lump.centre[axis]);
   return text + ") mm ";

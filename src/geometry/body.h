@@ -27,10 +27,10 @@ struct Lump {
   int region = 0;
 };
 
-// Adds a lump as the body's last part. Its surface has edges of about `spacing` (m), at most 0.55
-// of its radius, and encloses the sphere's volume. Nested lumps are added from the outside inwards.
-// Throws MeshError if the lump is not wholly inside the body, or touches the surface of another
-// part.
+// Adds an inclusion as the body's last part. Its surface has edges of about `spacing` (m), at most
+// 0.55 of its radius, and encloses the sphere's volume. Nested inclusions are added from the
+// outside inwards. Throws MeshError if the inclusion is not wholly inside the body, or touches the
+// surface of another part.
 void add_lump(Body& body, const Lump& lump, double spacing);
 
 // All triangles of the body's surfaces, shared ones only once: the input for TetGen.

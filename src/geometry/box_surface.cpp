@@ -7,7 +7,7 @@ namespace palpate::geometry {
 
 Surface box_surface(const Vec3& size, const std::array<int, 3>& cells) {
   Surface surface;
-  std::map<std::array<int, 3>, int> numbers;  // of the lattice points in use
+  std::map<std::array<int, 3>, int> numbers;  // of the structured mesh points in use
   const auto number = [&](const std::array<int, 3>& at) {
     const auto [entry, fresh] = numbers.try_emplace(at, static_cast<int>(surface.vertices.size()));
     if (fresh)

@@ -1,4 +1,5 @@
-// Places nodes on a lattice, and cuts each cell into one tetrahedron for each order of the axes.
+// Places nodes on a structured mesh, and cuts each cell into one tetrahedron for each order of the
+// axes.
 #include "geometry/cuboid.h"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ double root(int count, double target) {
 // The ends of `count` cells that cover a `length` (m) together, from the finest end on. Cells with
 // lengths proportional to sqrt(1 + d^2 / core^2) at the distance d end at d_i = core sinh(i theta):
 //   d_i = length (q^i - q^-i) / (q^count - q^-count),  (q^count - q^-count) / 2 = length / core
-//                                                                             docs/theory.md (73)
+//                                                                          docs/theory.md [cells]
 std::vector<double> growing(double length, int count, double core) {
   const double steepness = length / core;
   const double target = steepness + std::sqrt(1.0 + steepness * steepness);

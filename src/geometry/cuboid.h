@@ -1,4 +1,4 @@
-// A lattice: a box of cells, each cut into six tetrahedra.
+// A structured mesh: a box of cells, each cut into six tetrahedra.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ enum class CellPattern {
 // along each axis, eventually geometrically, to `ratio` (at least 1) times that size at the
 // farthest end of an axis. With 1 all cells are equal. A larger number of cells divides the same
 // size function, so that the meshes of one grading form one family.
-// docs/theory.md (73)
+// docs/theory.md [cells]
 struct Grading {
   double ratio = 1.0;
   Vec3 finest = Vec3::Zero();

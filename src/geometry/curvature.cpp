@@ -8,9 +8,10 @@ namespace palpate::geometry {
 std::string_view explanation(StarStatus status) {
   switch (status) {
     case StarStatus::full: return "neighbours all around";
-    case StarStatus::one_sided: return "a boundary or a crease cuts the neighbours off on one side";
+    case StarStatus::one_sided:
+      return "a boundary or a sharp edge cuts the neighbours off on one side";
     case StarStatus::on_crease:
-      return "the vertex lies on a crease; say by a triangle which side is meant";
+      return "the vertex lies on a sharp edge; say by a triangle which side is meant";
     case StarStatus::too_few: return "too few neighbours; refine the surface or take more rings";
     case StarStatus::degenerate:
       return "the neighbours do not span a surface; mend the triangles there";
@@ -47,7 +48,7 @@ Curvature principal(const Vec3& normal, const std::array<double, 3>& matrix) {
 }
 
 Curvature turned_to(const Curvature& curvature, const Vec3& normal) {
-  // A tangent t at n becomes t - (n' . t) (n + n') / (1 + n . n') at n'.     docs/theory.md (22)
+  // A tangent t at n becomes t - (n' . t) (n + n') / (1 + n . n') at n'.  docs/theory.md [between]
   const Vec3 middle = (normal + curvature.normal) / (1.0 + normal.dot(curvature.normal));
   Curvature turned = curvature;
   turned.normal = normal;

@@ -97,7 +97,7 @@ class CurvatureStars {
 };
 
 // The weighted mean of three shape tensors, each rotated by the shortest rotation to the mean
-// normal: continuous over the surface, and exact on a sphere.                  docs/theory.md (22)
+// normal: continuous over the surface, and exact on a sphere.             docs/theory.md [between]
 [[nodiscard]] Curvature between(const std::array<Curvature, 3>& corners,
                                 const std::array<double, 3>& weights);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double smallest_pivot = 1e-4;
 constexpr double smallest_cubic_pivot = 3e-3;
 
-// Least squares with n unknowns by normal equations.                          docs/theory.md (20)
+// Least squares with n unknowns by normal equations.                     docs/theory.md [quadric]
 template <std::size_t n>
 class Fit {
  public:
@@ -78,7 +78,7 @@ std::optional<std::array<double, n>> fit(std::size_t count, const Offset& offset
     // radius (r^2 + z^2) / (2 z). z r^2/(r^2 + z^2) is the height of the parabola with this
     // curvature; with it the fit is exact on a sphere, where z itself has terms of fourth order.
     // Near neighbours weigh more: there, omitted terms are smaller.
-    // docs/theory.md (20)
+    // docs/theory.md [quadric]
     const double square = x * x + y * y;
     const double distance = square + z * z;
     fit.add(terms<n>(x, y), z * square / distance, 1.0 / distance);

@@ -35,7 +35,7 @@ CurvatureEstimate CurvatureStars::taubin(const Surface& now, int side) const {
   if (star_of(side).size() < 3) return {.status = StarStatus::too_few, .curvature = {}};
   if (!(weights > 0.0) || !std::isfinite(vote[0] + vote[1] + vote[2]))
     return {.status = StarStatus::degenerate, .curvature = {}};
-  // k_1 = 3 m_1 - m_2 and k_2 = 3 m_2 - m_1: the matrix 4 M - trace(M) I.   docs/theory.md (21)
+  // k_1 = 3 m_1 - m_2 and k_2 = 3 m_2 - m_1: the matrix 4 M - trace(M) I.  docs/theory.md [taubin]
   const double trace = vote[0] + vote[2];
   const double scale = 1.0 / weights;
   return {.status = status_of(side),

@@ -40,7 +40,7 @@ std::array<Ring, 7> rings() {
 // The vertex of a ring at `angle` from the pad's middle line, counter-clockwise seen from the tip.
 Vec3 on_ring(const Ring& ring, double angle) {
   // The outline from above and the nail side are ellipses. The pad side and the pad's middle line
-  // are flatter: |y|^4 + |z|^4 = 1 and |x|^4 + |z|^4 = 1. docs/theory.md (27)
+  // are flatter: |y|^4 + |z|^4 = 1 and |x|^4 + |z|^4 = 1. docs/theory.md [fingertip]
   const double square = ring.cosine * ring.cosine;
   const double round = std::sqrt(1.0 - square);
   const double flat = std::sqrt(std::sqrt(1.0 - square * square));

@@ -10,7 +10,7 @@ namespace palpate::geometry {
 // It is scaled so that it encloses `volume` (m^3, above 0) with the base closed. The proportions
 // are 18 mm breadth to 15 mm depth to 26 mm length. The breadth is the middle of the 16 to 20 mm
 // that K. Dandekar, B. I. Raju and M. A. Srinivasan give for human fingertips (J. Biomech. Eng.
-// 125, 2003); depth and length are assumed. Shape: docs/theory.md (27).
+// 125, 2003); depth and length are assumed. Shape: docs/theory.md [fingertip].
 [[nodiscard]] Surface fingertip(double volume);
 
 // The surface with its rim closed by triangles around a new vertex at the mean of the rim; flat if

@@ -67,7 +67,7 @@ struct Lowered {
 };
 
 // f = |(d, z)| - r with d = |x - x_0| - s beside the straight part, else f = z - r.
-//                                                                          docs/theory.md (95)
+//                                                                  docs/theory.md [from_above]
 ShapeTouch on_side(const Lowered& sphere, double at) {
   const Sweep& sweep = sphere.sweep;
   const Slopes section(sweep, at);

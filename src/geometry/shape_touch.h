@@ -17,12 +17,12 @@ struct ShapeTouch {
 
 // Lowers a sphere of `radius` (m) vertically at (x, y) onto the outermost surface of a shape. The
 // result's position and curvature are without meaning on an edge. Empty if the sphere passes beside
-// the shape.                                                                docs/theory.md (95)
+// the shape.                                                        docs/theory.md [from_above]
 [[nodiscard]] std::optional<ShapeTouch> touch_from_above(const Shape& shape, double x, double y,
                                                          double radius);
 
 // The curvature of the surface f = 0 from the gradient of f, which points outwards, and its second
-// derivatives.                                                              docs/theory.md (94)
+// derivatives.                                                       docs/theory.md [level_set]
 [[nodiscard]] Curvature level_curvature(const Vec3& gradient, const Eigen::Matrix3d& second);
 
 }  // namespace palpate::geometry

@@ -88,7 +88,7 @@ Vec3 SmoothSurface::flat_position(const SurfacePoint& point) const {
 }
 
 Vec3 SmoothSurface::position(const SurfacePoint& point) const {
-  // p + 1/2 sum_i w_i [(v_i - p) . n_i] n_i                              docs/theory.md (17)
+  // p + 1/2 sum_i w_i [(v_i - p) . n_i] n_i                          docs/theory.md [smooth]
   const Vec3 flat = flat_position(point);
   Vec3 smooth = flat;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -160,7 +160,8 @@ struct SmoothSurface::Crease {
 };
 
 // The crease's curve. Each of the two sides displaces the edge by s (1 - s) / 2 times a vector; the
-// curve has the components of both vectors along the normals of their sides.  docs/theory.md (17)
+// curve has the components of both vectors along the normals of their sides.
+//                                                                           docs/theory.md [smooth]
 SmoothSurface::Crease SmoothSurface::nearest_on_crease(const Vec3& point, int triangle,
                                                        std::size_t edge, double start) const {
   const auto& corners = surface_.triangles[as_index(triangle)];

@@ -20,7 +20,8 @@ inline constexpr double crease_cosine = 0.766044443118978;  // 40 degrees
 
 // Normals vary linearly over a triangle between those of its corners, and points are displaced
 // accordingly: Phong tessellation (Boubekeur & Alexa 2008) with the factor 1/2, which follows a
-// quadratic surface to second order. Flat parts are identical to the triangles. docs/theory.md (17)
+// quadratic surface to second order. Flat parts are identical to the triangles.
+//                                                                           docs/theory.md [smooth]
 class SmoothSurface {
  public:
   explicit SmoothSurface(Surface surface);

@@ -38,7 +38,7 @@ Enclosed enclosed(const Surface& surface) {
   Enclosed inside;
   if (surface.vertices.empty()) return inside;
   // Tetrahedra from one vertex to every triangle: V = sum a . (b x c) / 6, with centroids that are
-  // a quarter of the sum of their corners. docs/theory.md (18)
+  // a quarter of the sum of their corners. docs/theory.md [volume]
   const Vec3 apex = surface.vertices.front();
   Vec3 moment = Vec3::Zero();
   for (const auto& triangle : surface.triangles) {

@@ -28,7 +28,8 @@ struct Skin {
 
 [[nodiscard]] double area(const Surface& surface);  // m^2
 
-// The interior of a closed surface; volume < 0 if the triangles face inwards. docs/theory.md (18)
+// The interior of a closed surface; volume < 0 if the triangles face inwards.
+//                                                                           docs/theory.md [volume]
 struct Enclosed {
   double volume = 0.0;           // m^3
   Vec3 centroid = Vec3::Zero();  // m, for uniform density

@@ -16,7 +16,7 @@ struct AveragedRows {
 // Means of neighbouring rows in 1500 blocks, of which those are halved again and again within
 // which y is no straight line over the rows: where its mean in the middle half differs from that in
 // the outer quarters by more than four standard errors and 1e-4 of the range. For white noise
-// nothing is lost.                                                          docs/theory.md (125)
+// nothing is lost.                                                     docs/theory.md [averages]
 [[nodiscard]] AveragedRows averaged(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace palpate::identify

@@ -22,7 +22,8 @@ struct BoxErrors {
   }
 };
 // `jacobian`: derivatives of the weighted residuals with respect to u, one row per point. `sigma`:
-// standard deviation of these residuals. `t`: Student's quantile.    docs/theory.md (89), (90)
+// standard deviation of these residuals. `t`: Student's quantile.
+//                                                                docs/theory.md [interval], [loose]
 // The `weakest` directions count as loose in any case.
 [[nodiscard]] BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
                                    double sigma, double t, int weakest = 0);

@@ -21,7 +21,7 @@ struct Profile {
 
 // The interval of unknown `i` ends where (squares - best.squares) / sigma^2 = t^2, on each side of
 // the best fit. For normal noise of unknown variance and a linear model it is Student's interval.
-// `covariance` of u, row by row, gives the first guesses.                     docs/theory.md (91)
+// `covariance` of u, row by row, gives the first guesses.                docs/theory.md [profile]
 [[nodiscard]] Profile profile(const BoxProblem& problem, const BoxMinimum& best, std::size_t i,
                               std::span<const double> covariance, double sigma, double t);
 

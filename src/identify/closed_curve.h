@@ -48,7 +48,7 @@ T from_unit(const Unknown& unknown, const T& u) {
 }
 
 // F = 4/3 E* sqrt(R) h^(3/2), 1/E* = lambda_1 + (1 - nu^2) / E, h = x - contact point
-//                                                        Chen 2007 eq. (2); docs/theory.md (1), (2)
+//                                             Chen 2007 eq. (2); docs/theory.md [modulus], [radius]
 template <class T>
 T hertz_press(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p, double x) {
   using std::sqrt;
@@ -61,7 +61,8 @@ T hertz_press(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>&
 }
 
 // Strain under a stress from time 0 to `load_time`, by superposition: unloading adds the opposite
-// stress. `creep(t)` is the creep compliance J(t), 1/Pa.                docs/theory.md (50), (51)
+// stress. `creep(t)` is the creep compliance J(t), 1/Pa.
+//                                                        docs/theory.md [fit_creep], [fit_recovery]
 template <class T, class Creep>
 T loaded_and_freed(const ClosedCurve& curve, double t, const Creep& creep) {
   T strain = curve.load * creep(t);
@@ -69,7 +70,8 @@ T loaded_and_freed(const ClosedCurve& curve, double t, const Creep& creep) {
   return strain;
 }
 
-// Kelvin-Voigt, tau = eta / E: J(t) = (1 - e^(-t/tau)) / E              docs/theory.md (36), (50)
+// Kelvin-Voigt, tau = eta / E: J(t) = (1 - e^(-t/tau)) / E
+//                                                        docs/theory.md [kelvin_voigt], [fit_creep]
 template <class T>
 T voigt_creep(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p, double x) {
   using std::exp;
@@ -79,7 +81,7 @@ T voigt_creep(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>&
 }
 
 // Standard linear solid with the moduli E (relaxed) and r E (instantaneous):
-// J(t) = 1/E - (1/E - 1/(r E)) e^(-t/tau_c), tau_c = r tau              docs/theory.md (37)
+// J(t) = 1/E - (1/E - 1/(r E)) e^(-t/tau_c), tau_c = r tau        docs/theory.md [branches]
 template <class T>
 T solid_creep(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p, double x) {
   using std::exp;
@@ -89,7 +91,7 @@ T solid_creep(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>&
   });
 }
 
-// sigma(t) = strain E (1 + (r - 1) e^(-t/tau))                          docs/theory.md (37), (52)
+// sigma(t) = strain E (1 + (r - 1) e^(-t/tau))        docs/theory.md [branches], [fit_relaxation]
 template <class T>
 T solid_relaxation(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p, double x) {
   using std::exp;
@@ -102,8 +104,8 @@ inline double compression_time(const ClosedCurve& curve, double x) {
   return curve.over_strain ? x / curve.load * curve.load_time : x;
 }
 
-// Of a strain that grows for `load_time` and stays: sigma = E (strain + tau strain')
-//                                                                       docs/theory.md (36)
+// The stress under a strain that grows for `load_time` and stays: sigma = E (strain + tau strain')
+//                                                             docs/theory.md [kelvin_voigt]
 template <class T>
 T voigt_compression(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p,
                     double x) {
@@ -113,7 +115,8 @@ T voigt_compression(const ClosedCurve& curve, const std::array<T, ClosedCurve::s
   return p[ClosedCurve::modulus] * rate * (t + p[ClosedCurve::time]);
 }
 
-// The same by superposition of solid_relaxation(); elastic where r = 1.  docs/theory.md (37), (52)
+// The same by superposition of solid_relaxation(); elastic where r = 1.
+//                                                       docs/theory.md [branches], [fit_relaxation]
 template <class T>
 T solid_compression(const ClosedCurve& curve, const std::array<T, ClosedCurve::slots>& p,
                     double x) {

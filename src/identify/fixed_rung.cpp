@@ -99,7 +99,7 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
   return fixed;
 }
 
-// 1 / (omega_1 tau)^2, omega_1 = pi sqrt(E / rho) / (2 H)                     docs/theory.md (55)
+// 1 / (omega_1 tau)^2, omega_1 = pi sqrt(E / rho) / (2 H)                docs/theory.md [damping]
 std::optional<double> inertia_of_flow(const scenario::Resolved& scenario) {
   const scenario::Resolved::Tissue& tissue = scenario.tissue;
   const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);

@@ -31,14 +31,14 @@ struct FixedRung {
                                  std::span<const Unknown> unknowns);
 
 // Relative change of a specimen's flow by its lowest axial wave, 1 / (omega_1 tau)^2 with omega_1
-// of docs/theory.md (55). Nothing unless a cuboid of Kelvin-Voigt or SLS tissue is between platens.
+// of theory.md [damping]. Nothing unless a cuboid of Kelvin-Voigt or SLS tissue is between platens.
 [[nodiscard]] std::optional<double> inertia_of_flow(const scenario::Resolved& scenario);
 
 // Estimated relative error of the model that this case names; nothing if there is no estimate.
 [[nodiscard]] std::optional<double> predicted_error(const scenario::Case& fixed);
 
 // Relative change of the force at the deepest travel by the factor of deep presses (docs/theory.md
-// (62)); nothing where the case does not use it.
+// [deep]); nothing where the case does not use it.
 [[nodiscard]] std::optional<double> deep_effect(const scenario::Case& fixed);
 
 }  // namespace palpate::identify

@@ -35,7 +35,7 @@ std::string echo_of(const identify::Identification& found, const scenario::Famil
   return text + scenario::echo(one);
 }
 
-// Of the files of pair k.
+// The ending of the names of pair k's files.
 std::string suffix_of(const Identification& found, std::size_t k) {
   return found.pairs.empty() ? "" : "_" + std::to_string(k + 1);
 }

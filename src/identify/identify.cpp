@@ -248,7 +248,7 @@ class Search {
   // Two properties of the scenario that correlate by more than 0.95, or any two keys that do
   // where the points are worth fewer than ten independent ones, have no numbers of their own: what
   // tells them apart is as small as the model's own error. The weakest direction counts as not
-  // determined.                                                               docs/theory.md (116)
+  // determined.                                                       docs/theory.md [correlation]
   void tie_what_correlates() {
     const std::size_t n = unknowns_.size();
     const bool few = found_.effective_size < 10.0 && noise_ > 1e-3 && systematic_;
@@ -296,7 +296,8 @@ class Search {
 
   // Whether the pairs change by more than the stated errors of their models along the direction of
   // unknowns i and j that changes them least: a_k = sum J F w / sum (F w)^2, the relative change of
-  // the curve of pair k as a whole. One pair has such a direction always. docs/theory.md (126)
+  // the curve of pair k as a whole. One pair has such a direction always.
+  //                                                                     docs/theory.md [told_apart]
   [[nodiscard]] bool told_apart(std::size_t i, std::size_t j) const {
     const std::size_t n = unknowns_.size();
     double ii = 0.0, ij = 0.0, jj = 0.0;
@@ -335,7 +336,7 @@ class Search {
 
   // Correlated residuals, and values rounded to steps: the variance of the residuals is multiplied
   // by the mean ratio of the variances to those of independent ones, over the directions of the box
-  // that the data determine.                           docs/theory.md (100), (101), (105), (119)
+  // that the data determine.  docs/theory.md [correlated], [covariance], [sample_size], [rounding]
   void widen_for_correlation() {
     const std::size_t n = found_.x.size();
     std::vector<double> residuals, scaled;
@@ -570,7 +571,7 @@ class Search {
 
   // The stated error of the model is a bound on a bias: a force that is wrong by so much everywhere
   // moves u by (J^T J)^-1 J^T (error F w), which is added to each side of the intervals.
-  //                                                                          docs/theory.md (117)
+  //                                                                  docs/theory.md [model_error]
   void widen_by_model() {
     const std::size_t n = unknowns_.size();
     std::vector<double> moved(n, 0.0);  // by every pair, whose errors may differ in sign

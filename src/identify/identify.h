@@ -31,7 +31,7 @@ struct Identified {
   bool at_bound = false;  // the best fit is on the edge of its range
   double estimate = 0.0;  // the best fit; needed for tied unknowns too, to repeat the curve
   std::optional<double> std_error;
-  std::optional<double> ci95_low, ci95_high;        // Student's t, docs/theory.md (89)
+  std::optional<double> ci95_low, ci95_high;        // Student's t, docs/theory.md [interval]
   std::optional<double> profile_low, profile_high;  // nothing: the interval is open on this side
   bool by_profile = false;                          // trusted() returns the profile's interval
   std::optional<double> moved_down, moved_up;  // change if x = 0 moves down, up by contact_shift
@@ -67,11 +67,11 @@ struct GivenPart {
 
 // `pairs` is empty for one measurement. For several, each has its own curve, model and scenario
 // there, x, measured and model are those of all pairs one after the other, and what belongs to a
-// single curve (kind, scenario, rung, contact_shift) is that of the first.
+// single curve (kind, scenario, model, contact_shift) is that of the first.
 struct Identification {
   std::vector<Identification> pairs;
   CurveKind kind = CurveKind::force_travel;
-  scenario::Scenario scenario;  // whole programme, every `auto` resolved, with the estimates
+  scenario::Scenario scenario;  // whole loading history, every `auto` resolved, with the estimates
   scenario::Model rung = scenario::Model::hertz;
   bool given = false;                     // the scenario names the model
   std::optional<double> predicted_error;  // estimated relative error of the model at the estimates
@@ -84,7 +84,7 @@ struct Identification {
   std::vector<ProfilePoint> profile;
   double threshold = 0.0;  // of their `delta`, at the ends of the 95 % intervals
   double rmse = 0.0;       // SI
-  double r2 = 0.0;         // docs/theory.md (53)
+  double r2 = 0.0;         // docs/theory.md [errors]
   double noise = 0.0;      // standard deviation, SI; relative noise: a ratio
   double rho = 0.0;        // correlation of neighbouring residuals; 0 where taken as independent
   double effective_size = 0.0;        // independent points of the same worth
@@ -112,7 +112,7 @@ struct Pair {
 // read_unknowns). Every pair is weighted by the scatter of its own rows, from their second
 // differences, but at least 1e-3 of its range. Two moduli that correlate by more than 0.95 are told
 // apart only where the pairs change with them by more than their models' stated errors.
-//                                                                             docs/theory.md (126)
+//                                                                      docs/theory.md [told_apart]
 [[nodiscard]] Identification identify(const std::vector<Pair>& pairs,
                                       const std::vector<Unknown>& unknowns,
                                       const IdentifyOptions& options = {});

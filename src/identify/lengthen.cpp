@@ -1,4 +1,4 @@
-// The programme is lengthened where its end alone would leave rows of the measurement out.
+// The loading history is lengthened where its end alone would leave rows of the measurement out.
 #include "identify/lengthen.h"
 
 #include <cmath>

@@ -66,8 +66,9 @@ class Preparation {
     const bool goes_on = still_in_the_last_step(asked.scenario);
     if (goes_on && lengthen(kind_, asked.scenario, end)) {
       const CurveWords& words = words_of(kind_);
-      found_.notes.push_back("the programme is shorter than the measurement and is lengthened to " +
-                             rounded_text(words.x.from_si(end)) + " " + words.x.symbol);
+      found_.notes.push_back(
+          "the loading history is shorter than the measurement and is lengthened to " +
+          rounded_text(words.x.from_si(end)) + " " + words.x.symbol);
     }
     const FixedRung rung = fix_rung(asked, family_.document, unknowns_);
     found_.given = rung.given;
@@ -81,8 +82,9 @@ class Preparation {
     return as_index(one - unknowns_.data());
   }
 
-  // Whether the rows beyond the programme can belong to its last step. A finger that withdraws
-  // after a hold leaves half to one and a half times the force at the end of the programme.
+  // Whether the rows beyond the loading history can belong to its last step. A finger that
+  // withdraws after a hold leaves half to one and a half times the force at the end of the loading
+  // history.
   [[nodiscard]] bool still_in_the_last_step(const scenario::Scenario& scenario) const {
     if (kind_ != CurveKind::force_time) return true;
     const auto end = duration(scenario);
@@ -110,8 +112,8 @@ class Preparation {
                            " left out: " + why);
   }
 
-  // Takes the points up to the end of the programme, which is run at the first of the search's
-  // starts where it can be (the middle of the box, if possible).
+  // Takes the points up to the end of the loading history, which is run at the first of the
+  // search's starts where it can be (the middle of the box, if possible).
   void choose_points() {
     std::optional<ScenarioCurve::Rows> rows;
     std::vector<double> first;
@@ -176,10 +178,10 @@ class Preparation {
       }
     }
     const CurveWords& words = words_of(kind_);
-    note_left_out(beyond, "beyond the programme, which ends at " +
+    note_left_out(beyond, "beyond the loading history, which ends at " +
                               rounded_text(words.x.from_si(rows->x.back())) + " " + words.x.symbol +
                               " (its last step ends at a force, or the force leaves it)");
-    note_left_out(before, "before the programme begins, at 0 " + std::string(words.x.symbol));
+    note_left_out(before, "before the loading history begins, at 0 " + std::string(words.x.symbol));
     refuse_poor_data();
   }
 

@@ -185,7 +185,7 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
       add(row.strain, row.stress);
   }
   if (rows.x.size() < 2) {
-    failure_ = "the programme gives fewer than two rows of this curve";
+    failure_ = "the loading history gives fewer than two rows of this curve";
     return std::nullopt;
   }
   return rows;
@@ -216,7 +216,7 @@ bool ScenarioCurve::evaluate(std::span<const double> u, std::span<double> out) {
     }
     const double end = x.back() + 1e-9 * std::abs(x.back()) + std::abs(shift_);  // 1e-9: rounding
     if (at > end) {
-      failure_ = "the programme ends before the measured points do";
+      failure_ = "the loading history ends before the measured points do";
       return false;
     }
     // The last pair whose left row is not beyond `at`; of two rows at the same x the later counts.

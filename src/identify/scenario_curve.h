@@ -56,7 +56,7 @@ class ScenarioCurve {
                 std::span<const Unknown> unknowns);
 
   void set_points(std::vector<double> x) { x_ = std::move(x); }
-  // From now on every run of the programme reaches this x of the measurement (SI).
+  // From now on every run of the loading history reaches this x of the measurement (SI).
   void set_farthest(double farthest) { farthest_ = farthest; }
   // Shifts the contact point, or time zero, to a later x by `shift` (SI). Points that then lie
   // beyond the last row are extrapolated from the last two rows.

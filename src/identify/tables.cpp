@@ -52,7 +52,8 @@ std::string change(double moved, const Identified& one) {
 std::string combination_sentence(const Identification& found, const Combination& one) {
   std::vector<std::string> names;
   for (const std::size_t i : one.of) names.push_back("`" + found.unknowns[i].unknown.name() + "`");
-  return joined(names, " and ") + " are tied: these data cannot tell them apart. Determined is " +
+  return joined(names, " and ") +
+         " are not separately identifiable: these data cannot tell them apart. Determined is " +
          one.text + " = " + with_unit(one.estimate, one.unit) + ", 95 % " +
          rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4) +
          "; set one of them by `--set`.";

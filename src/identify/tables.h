@@ -21,7 +21,7 @@ namespace palpate::identify {
 [[nodiscard]] record::Table residual_table(const Identification& found);
 
 // unknown, unit, value, delta, threshold: the profile likelihood, delta = (SSE - least SSE) / s^2,
-// threshold = t^2.                                                            docs/theory.md (91)
+// threshold = t^2.                                                       docs/theory.md [profile]
 [[nodiscard]] record::Table profile_table(const Identification& found);
 
 // The 95 % interval to trust, in the unknown's unit; nothing: open on that side.

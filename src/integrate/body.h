@@ -13,7 +13,7 @@ using Vector = Eigen::VectorXd;
 
 // How the viscous memory is advanced in a step: exactly for an elongation that is linear in time,
 // exactly for a load that is constant, by implicit Euler, by explicit Euler (branches only, at a
-// constant elongation), or not at all (a jump that takes no time).       docs/theory.md (35)
+// constant elongation), or not at all (a jump that takes no time).   docs/theory.md [memory]
 enum class MemoryRule { exact, held, first_order, forward, at_once };
 
 struct TimeStep {
@@ -22,7 +22,7 @@ struct TimeStep {
   bool operator==(const TimeStep&) const = default;
 };
 
-// Damping and memory that are proportional to mass or stiffness, which modal coordinates need (41).
+// Damping and memory that are proportional to mass or stiffness, which modes need [modes].
 struct Proportional {
   struct Branch {
     double time = 0.0;   // s, relaxation time

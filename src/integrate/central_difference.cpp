@@ -11,7 +11,7 @@
 namespace palpate::integrate {
 namespace {
 
-// Of solutions with dashpots, in the energy norm, far below the error of a step.
+// Relative error of solutions with dashpots, in the energy norm: far below that of a step.
 constexpr double tolerance = 1e-10;
 
 void clear_held(std::span<const char> held, Vector& vector) {
@@ -36,7 +36,7 @@ CentralDifference::CentralDifference(const Body& body, double time_step, Start s
   right_rate_ = 2.0 * time_step - left_rate_;
   const Vector twice = 2.0 * body.mass();
   keep_ = twice - right_rate_ * body.drag();
-  // (39): the damping of the start velocity is in the matrix on the left, unless it is lagged.
+  // [first_step]: the start velocity's damping is in the matrix on the left, unless it is lagged.
   keep_first_ = velocity == lagged ? Vector(twice - time_step * body.drag()) : twice;
   diagonal_ = twice + left_rate_ * body.drag();
   inverse_ = diagonal_.cwiseInverse();
@@ -102,7 +102,8 @@ void CentralDifference::solve_turned(const Vector& displacement) {
 
 void CentralDifference::step(State& state, const Vector& load) {
   // (2 M + D dt) w = 2 dt^2 (F - f(u)) + (2 M - D dt) (u - u_before)   Chen 2007 eq. (12) in
-  // increments; the consistent first one is dt^2 (F - f) + 2 M dt v   docs/theory.md (38), (39)
+  // increments; the consistent first one is dt^2 (F - f) + 2 M dt v
+  //                                                          docs/theory.md [central], [first_step]
   // With `ahead` the velocity of the state is that of the previous step, also in a first step.
   const bool begins = first_ && velocity_ != DampingVelocity::ahead;
   const bool consistent = begins && start_ == Start::consistent;

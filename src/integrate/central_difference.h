@@ -8,11 +8,11 @@ namespace palpate::integrate {
 
 // The first step. paper: U(-dt) = U(0), first order. consistent: second order; without damping it
 // is U(-dt) = U0 - dt V0 + dt^2 A0 / 2; under heavy damping, where that formula would overshoot, it
-// is the trapezoidal rule.                                                  docs/theory.md (39)
+// is the trapezoidal rule.                                          docs/theory.md [first_step]
 enum class Start { consistent, paper };
 
 // The velocity with which drag and dashpots act in a step: the mean of this step's and the previous
-// step's (eq. 12), the previous step's, or this step's. The last two are of first order (80).
+// step's (eq. 12), the previous step's, or this step's. The last two: order 1 [semi_implicit].
 enum class DampingVelocity { centred, lagged, ahead };
 
 // The fastest mode of a body.
@@ -27,14 +27,14 @@ struct FastestMode {
 //   lagged:  w < 2 (sqrt(1 + zeta^2) - zeta)
 //   ahead:   w < 2 (sqrt(1 + zeta^2) + zeta)
 // At the limit a mode changes its sign in each step, u_n = (-1)^n:
-//   dt^2 omega^2 + dt (forces +- 2 rate) = 4       docs/theory.md (81)
+//   dt^2 omega^2 + dt (forces +- 2 rate) = 4  docs/theory.md [explicit_limit]
 [[nodiscard]] double explicit_limit(DampingVelocity velocity, const FastestMode& mode);
 
 // The integrator is of second order. With a centred velocity it is stable for dt < 2 / omega_max
 // with any damping, because mass, drag and dashpots are in the matrix on the left. It is inverted
 // by division if it is diagonal, and by a SymmetricSolver if dashpots join nodes. If these rotate
 // with the body, that solver is a preconditioner, which is renewed after a step that needs more
-// than a dozen iterations.                                             docs/theory.md (38)
+// than a dozen iterations.                                        docs/theory.md [central]
 class CentralDifference {
  public:
   CentralDifference(const Body& body, double time_step, Start start,
@@ -72,7 +72,7 @@ class CentralDifference {
 // with the forces at the start of the step. It is of first order: without damping it is a central
 // difference whose velocities are assigned to a time half a step too late. It is stable for
 // dt omega < 2 (sqrt(1 + zeta^2) + zeta), because the damping is in the matrix on the left, which
-// is inverted as that of CentralDifference.                         docs/theory.md (80), (81)
+// is inverted as that of CentralDifference.  docs/theory.md [semi_implicit], [explicit_limit]
 class SemiImplicitEuler {
  public:
   SemiImplicitEuler(const Body& body, double time_step)

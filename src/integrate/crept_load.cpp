@@ -24,13 +24,13 @@ void CreptLoad::pass(const Vector& load) {
     memory_.assign(steps_.size(), crept_);
   }
   if (law_.branches.empty()) {
-    // tau J' + J = L; the memory is the load before.                       docs/theory.md (35)
+    // tau J' + J = L; the memory is the load before.                   docs/theory.md [memory]
     const tissue::MemoryStep& step = steps_.front();
     crept_ = step.keep * crept_ + step.begin * memory_.front() + step.end * load;
     memory_.front() = load;
     return;
   }
-  // L_1 = J_1 + sum b (J_1 - q_1),  q_1 = keep q_0 + begin J_0 + end J_1   docs/theory.md (37)
+  // L_1 = J_1 + sum b (J_1 - q_1),  q_1 = keep q_0 + begin J_0 + end J_1  docs/theory.md [branches]
   double stiffness = 1.0;
   right_ = load;
   for (std::size_t k = 0; k < steps_.size(); ++k) {

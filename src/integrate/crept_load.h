@@ -11,7 +11,7 @@ namespace palpate::integrate {
 // All springs relax by the same function, so that K (1 + sum b_k) u - K sum b_k q_k = L has the
 // solution u = K^-1 J[L], where J[L] is the creep of L, degree of freedom by degree of freedom.
 // With Kelvin-Voigt's dashpots J[L] obeys tau J' + J = L, and in elastic bodies it is L.
-//                                                 docs/theory.md, inertia in the contact; (37)
+//                                           docs/theory.md, inertia in the contact; [branches]
 class CreptLoad {
  public:
   // `rule` is the memory rule of the mesh; any other than `first_order` is taken as `exact`.

@@ -13,7 +13,7 @@ bool Implicit::linearise(const Vector& displacement, const Vector& load) {
   const bool moving = inertia_ == Inertia::backward_difference && dt > 0.0;
   if (!has_factors_ || !body_->linear() || !(factored_ == step_)) {
     SplitMatrix matrix = body_->step_stiffness(displacement, state_->memory, step_);
-    // M / dt^2 + D / dt + K                              docs/theory.md (40)
+    // M / dt^2 + D / dt + K                        docs/theory.md [implicit]
     if (moving) matrix.local.diagonal() += body_->mass() / (dt * dt) + body_->drag() / dt;
     if (!factors_.factor(matrix)) return false;
     factored_ = step_;

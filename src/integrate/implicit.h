@@ -6,7 +6,7 @@
 
 namespace palpate::integrate {
 
-// One implicit step (40) for callers that solve a contact in it: linearised about a displacement,
+// A step of [implicit] for callers that solve a contact in it: linearised about a displacement,
 // the displacement at the end of the step is  base + response(load)  for any additional load (N).
 class Implicit {
  public:

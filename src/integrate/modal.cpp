@@ -165,7 +165,7 @@ void Modal::find_all(KnownModes* known) {
 }
 
 // Block Lanczos iterations with full orthogonalisation: the basis grows by a block until the modes
-// that are asked for have converged.                                      docs/theory.md (108)
+// that are asked for have converged.                             docs/theory.md [lowest_modes]
 void Modal::find_lowest(Eigen::Index count) {
   constexpr double residual = 1e-5;  // of an eigenvector, as a fraction of its eigenvalue
   Softness softness(body_->mass(), free_, *statics_);
@@ -234,7 +234,7 @@ void Modal::prepare(double time_step) {
   propagators_.damping = none;
   for (Eigen::Index i = 0; i < omega_.size(); ++i) {
     // x = (q, q'/omega, z_1, ...): q'' + (drag + retardation omega^2) q' + omega^2 q
-    //   + sum of ratio omega^2 (q - z_i) = f,  z_i' = (q - z_i) / time_i     docs/theory.md (41)
+    //   + sum of ratio omega^2 (q - z_i) = f,  z_i' = (q - z_i) / time_i  docs/theory.md [modes]
     const double omega = std::max(omega_[i], 1e-9 * omega_[omega_.size() - 1]);
     const double damping = p.drag_rate + p.retardation_time * omega * omega;
     const auto inner = static_cast<Eigen::Index>(p.branches.size());

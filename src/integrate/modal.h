@@ -22,10 +22,11 @@ struct KnownModes {
 
 // Has the same interface as Implicit: the displacement at the end of a step is base +
 // response(load). If the load is known in advance, press() and pass() advance the modes alone, and
-// show() computes the displacement when it is needed.                   docs/theory.md (41)
+// show() computes the displacement when it is needed.                docs/theory.md [modes]
 //
 // Where only the lowest modes are kept, all displacements, velocities and energies here are those
-// of these modes; dropped() is the static displacement of the others.   docs/theory.md (108)
+// of these modes; dropped() is the static displacement of the others.
+//                                                                     docs/theory.md [lowest_modes]
 class Modal {
  public:
   // Solves K phi = omega^2 M phi for all modes of the body at rest by a dense solver, whose time

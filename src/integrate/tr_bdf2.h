@@ -9,7 +9,7 @@ namespace palpate::integrate {
 // step has two stages: the trapezoidal rule to t + gamma dt, and a backward difference from t and
 // t + gamma dt to t + dt. With gamma = 2 - sqrt(2), both are implicit Euler steps of length
 // gamma dt / 2 from different past values, and share one matrix.
-//          R. E. Bank and others, IEEE Trans. CAD 4(4), 1985; docs/theory.md (83)
+//     R. E. Bank and others, IEEE Trans. CAD 4(4), 1985; docs/theory.md [tr_bdf2]
 //
 // Each stage has the interface of Implicit: a step is begin() ... finish() twice. Contacts are
 // solved in both stages, because stiff contacts oscillate if the load is only interpolated at

@@ -23,7 +23,7 @@ void add_products(std::size_t size, const double* a, const double* b, double* su
 [[nodiscard]] double work(std::size_t size, const double* force_before, const double* force_after,
                           const double* before, const double* after);
 
-// One step of central differences at every degree of freedom:                docs/theory.md (38)
+// One step of central differences at every degree of freedom:           docs/theory.md [central]
 //   w = inverse (square (external - internal) + keep w),  u = u + w,  v = rate w
 struct Advance {
   double square = 0.0;               // s^2

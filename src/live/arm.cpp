@@ -32,7 +32,7 @@ device::ArmRules rules_of(const LiveLoop& loop) {
 }
 
 // Largest ratio of force to depth, N/m, that the device can render by Colgate and Brown's bound
-// (84) with a delay of one frame. The slope of Hertz's law is 3/2 of this ratio.
+// [passive] with a delay of one frame. The slope of Hertz's law is 3/2 of this ratio.
 double stiffest_of(const device::ArmRules& rules) {
   return 2.0 / 3.0 *
          contact::passive_stiffness(
@@ -99,7 +99,7 @@ class ArmLoop {
     now_ = loop_.clock.now() - start_;
     loop_.health.count(now_, sample_);
     if (recording_ && sample_.arrival == Arrival::lost) {
-      // The rest of the programme was not recorded.
+      // The rest of the loading history was not recorded.
       end_.why = guide_.done() ? LiveEnd::Why::done : LiveEnd::Why::too_long;
       end_.sentence = "the recording ended in step " + std::to_string(guide_.step());
       return false;
@@ -179,7 +179,7 @@ class ArmLoop {
   void note_state() {
     LinkState state = safety_.armed() ? LinkState::armed : LinkState::open;
     if (safety_.freshness() == device::Staleness::State::stale) state = LinkState::stale;
-    // The end of the programme disarms the arm, which is no trip.
+    // The end of the loading history disarms the arm, which is no trip.
     if (safety_.tripped() != Trip::none && safety_.tripped() != Trip::by_hand)
       state = LinkState::tripped;
     if (sample_.arrival == Arrival::lost) state = LinkState::lost;

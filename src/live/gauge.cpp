@@ -115,7 +115,7 @@ class GaugeLoop {
     return std::isfinite(sample.device_time) ? sample.device_time : sample.received;
   }
 
-  // Without travel the time of the programme begins with the contact: where a line through
+  // Without travel the time of the loading history begins with the contact: where a line through
   // F^(2/3) of the first readings is 0, as for a sphere that is pressed at a constant speed. Three
   // readings make a line; with fewer, contact began after the last reading without force.
   // Forces are those above the mean of the readings at rest, which is what a gauge shows that is
@@ -201,7 +201,7 @@ class GaugeLoop {
   Guide guide_;
   device::Staleness staleness_;
   double surface_;           // m, in the gauge's z
-  double planned_;           // s, of the programme
+  double planned_;           // s, of the loading history
   bool begun_;               // the rows have begun
   double start_ = 0.0;       // s, of the clock
   double first_time_ = 0.0;  // s, of the first row or of the contact

@@ -1,4 +1,5 @@
-// Guides a person at the arm through the programme: instructions, and the step being carried out.
+// Guides a person at the arm through the loading history: instructions, and the step being carried
+// out.
 #pragma once
 
 #include <string>

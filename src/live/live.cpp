@@ -65,7 +65,7 @@ std::string limit_sentence(const device::Limits& limits) {
 }
 
 // A sentence on the depth at which the device begins to generate energy, by Colgate and Brown's
-// bound (84) with a delay of one frame.
+// bound [passive] with a delay of one frame.
 std::string passivity_sentence(const scene::Scene& scene, double frame) {
   const double damping = scene.scenario.device.damping.value_or(device::ArmRules{}.damping);
   contact::PointLaw law;
@@ -213,8 +213,8 @@ std::vector<std::string> Live::plan(const std::string& file) {
                                 "`solver.integrator = \"modal\"` or `solver.model = \"hertz\"`");
   if (real && cost_.p99 > 0.8 * limits.period) lines.push_back("some frames will be late: " + cost);
   if (identity.kind == Kind::stand && cost_.force > most_force(*options_, Kind::stand))
-    throw InputError(place, "the programme is predicted to press with " + newtons(cost_.force) +
-                                ", beyond the ceiling of " +
+    throw InputError(place, "the loading history is predicted to press with " +
+                                newtons(cost_.force) + ", beyond the ceiling of " +
                                 newtons(most_force(*options_, Kind::stand)) +
                                 "; press less deep, or give `--max-force`");
   return lines;

@@ -38,7 +38,7 @@ struct LiveOptions {
   static constexpr double below_hand = 0.020;                // m
 };
 
-// Readings of the gauge out of contact, before the programme: the first ones.
+// Readings of the gauge out of contact, before the loading history: the first ones.
 struct FreeReadings {
   std::array<double, 256> force{};  // N
   std::size_t count = 0;
@@ -67,7 +67,7 @@ struct LiveLoop {
 // How a loop ended.
 struct LiveEnd {
   enum class Why {
-    done,         // the programme is over
+    done,         // the loading history is over
     too_long,     // LiveOptions::longest, or the end of a recording
     interrupted,  // by a signal
     link,         // lost, or stopped for safety
@@ -77,16 +77,16 @@ struct LiveEnd {
   std::string sentence;  // the reason, without a full stop; may be empty if done
 };
 
-// Runs an arm until its person has carried out the programme: the hand moves, the model follows,
-// and the model's force is sent. A recording is followed likewise, without sending.
+// Runs an arm until its person has carried out the loading history: the hand moves, the model
+// follows, and the model's force is sent. A recording is followed likewise, without sending.
 [[nodiscard]] LiveEnd run_arm(LiveLoop& loop);
 
 // Runs a gauge: a person moves it, and the model follows the travel in its lines. Without travel
 // only the forces are written: from the contact on, which Limits::start_force tells, for the time
-// that the programme takes.
+// that the loading history takes.
 [[nodiscard]] LiveEnd run_gauge(LiveLoop& loop);
 
-// Runs a stand: the programme moves it, and the model follows its measured position.
+// Runs a stand: the loading history moves it, and the model follows its measured position.
 [[nodiscard]] LiveEnd run_stand(LiveLoop& loop);
 
 // The ceiling of the force, N: LiveOptions::most_force, or the default for this kind of device.

@@ -58,11 +58,11 @@ class LiveModel {
 struct FrameCost {
   double median = 0.0;               // s
   double p99 = 0.0;                  // s, 99th percentile
-  double force = 0.0;                // N, at the deepest travel of the programme
+  double force = 0.0;                // N, at the deepest travel of the loading history
   std::optional<std::string> wrong;  // why the model ended before; empty if it did not
 };
 
-// Presses the model, which is at its start, to the deepest travel of the scene's programme in
+// Presses the model, which is at its start, to the deepest travel of the scene's loading history in
 // 2 `frames` frames of `frame` s; the second half of them is timed.
 [[nodiscard]] FrameCost predict_cost(const scene::Scene& scene, LiveModel& model, double frame,
                                      int frames);

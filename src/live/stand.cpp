@@ -292,7 +292,7 @@ class StandLoop {
     const double noise = std::sqrt(std::max(0.0, squares / quiet_readings - mean * mean) *
                                    quiet_readings / (quiet_readings - 1));
     SurfaceSearch search(loop_.scene.relaxation);
-    // No deeper than the programme presses: to the force of relaxed tissue there.
+    // No deeper than the loading history presses: to the force of relaxed tissue there.
     const contact::SphereLaw& law = loop_.scene.law();
     const double deep = contact::hertz::force(deepest_, law.radius, law.modulus);
     const Until until{.force = std::max(feel_to, std::min(noise_to * noise, deep)),
@@ -325,7 +325,7 @@ class StandLoop {
     high_ = std::max(surface_ + free_way, last_.position.z());
     if (!allow_range(low_, high_)) return false;
     if (felt_ && !go(surface_ + free_way, travel_speed, {})) return false;
-    if (low_ < surface_ - deepest_) {  // the search went deeper than the programme
+    if (low_ < surface_ - deepest_) {  // the search went deeper than the loading history
       low_ = surface_ - deepest_;
       if (!allow_range(low_, high_)) return false;
     }
@@ -336,7 +336,7 @@ class StandLoop {
     return there;
   }
 
-  // The time of the programme begins with its first motion.
+  // The time of the loading history begins with its first motion.
   void start_programme() {
     waiting_ = false;
     programme_start_ = now();
@@ -408,8 +408,8 @@ class StandLoop {
   bool felt_ = false;
   bool halted_ = false;
   bool reaching_ = false;   // on the way to the surface from above it
-  bool waiting_ = false;    // for the programme's first motion
-  bool programme_ = false;  // the programme is running
+  bool waiting_ = false;    // for the loading history's first motion
+  bool programme_ = false;  // the loading history is running
   bool over_ = false;
   bool trip_noted_ = false;  // among the states of device_health.json
   LiveEnd end_;

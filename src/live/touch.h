@@ -24,7 +24,7 @@ class TouchLine {
 };
 
 // The surface from all readings of a slow press, those out of contact as well, so that noise
-// averages: least squares of F = a + c p(t), where p is Lee and Radok's integral (64) of
+// averages: least squares of F = a + c p(t), where p is Lee and Radok's integral [viscous] of
 // h^(3/2), h = z_0 - z, with the relaxation of the contact's modulus; of Kelvin-Voigt tissue the
 // elastic part. a, c and z_0 are free.
 class SurfaceSearch {

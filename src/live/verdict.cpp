@@ -11,7 +11,7 @@ namespace palpate::live {
 namespace {
 
 constexpr double barely = 1e-3;       // of the model's largest force: no contact
-constexpr double least_depth = 0.95;  // of the travel that the programme asks for
+constexpr double least_depth = 0.95;  // of the travel that the loading history asks for
 
 double median(std::vector<double> values) {
   if (values.empty()) return Verdict::unknown;

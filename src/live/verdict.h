@@ -20,11 +20,11 @@ struct MeasuredCurve {
   std::vector<double> model = {};     // N, computed at that travel
   std::vector<double> measured = {};  // N, compression positive; NaN where nothing was measured
   std::vector<double> free = {};      // N, readings out of contact before the first row
-  double asked = 0.0;                 // m, deepest travel of the programme; 0: none is asked
+  double asked = 0.0;                 // m, deepest travel of the loading history; 0: none is asked
 };
 
-// The columns of a record until a time (s), with the readings before its programme and the deepest
-// travel of `steps`.
+// The columns of a record until a time (s), with the readings before its loading history and the
+// deepest travel of `steps`.
 [[nodiscard]] MeasuredCurve measured_curve(const record::CaseRecord& record,
                                            const std::vector<scenario::Step>& steps,
                                            std::span<const double> free, double until);
@@ -42,7 +42,7 @@ enum class Cause {
   lag,              // the force is shown late
   lost_force,       // from a time on the gauge shows no force
   overload,         // the gauge shows no more than a largest force
-  short_press,      // the press ends above the travel that the programme asks for
+  short_press,      // the press ends above the travel that the loading history asks for
   noise,            // the gauge scatters so much that less could not be told
 };
 
@@ -69,7 +69,7 @@ struct Verdict {
   double lost_at = unknown;   // s, from which on no force is shown
   double ceiling = unknown;   // N, the largest force that is shown
   double deepest = 0.0;       // m, of the travel
-  double asked = 0.0;         // m, by the programme
+  double asked = 0.0;         // m, by the loading history
   // Energy lost in the press over energy put in.
   double hysteresis = unknown, hysteresis_model = unknown;
   // m, travel at which the force begins and ends: where F^(2/3), extrapolated, is zero.

@@ -134,7 +134,7 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
       beyond.doubt = 0.5 * std::abs(beyond.doubt - slides.doubt);
       place.sinking[k] = beyond.sinking;
     } else {
-      // 3/(5 E' a) is the half-space's own sinking, docs/theory.md (13).
+      // 3/(5 E' a) is the half-space's own sinking, docs/theory.md [energy].
       place.sinking[k] = corrected(beyond, least_corrected * 0.6 / (plane_modulus_ * patch.a));
     }
     place.error[k] = beyond.error;
@@ -262,7 +262,7 @@ Eigen::Matrix3d BodySinking::shear(const contact::Patch& patch) {
   if (!rubs_) return sum;
   at_radius(patch, [&](const Place& place, std::size_t k, double weight, double product,
                        double slope, double fading) {
-    // The shortest rotation between the normals.                         docs/theory.md (22)
+    // The shortest rotation between the normals.                    docs/theory.md [between]
     const Eigen::Matrix3d turn =
         Eigen::Matrix3d::Identity() - (patch.normal + place.normal) * patch.normal.transpose() /
                                           (1.0 + patch.normal.dot(place.normal));

@@ -1,4 +1,4 @@
-// What the body sinks beyond a half-space at any place of the skin and for any contact radius.
+// The surface displacement beyond a half-space's at any place and for any contact radius.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,10 @@
 namespace palpate::mechanics {
 
 // EnergyCoupling::beyond() is evaluated for a few radii at the first touch and at vertices of the
-// skin, each when it is first needed, and interpolated: over the radius by a cubic polynomial, over
-// the skin linearly within a triangle. Where the finger first touches there is no interpolation.
-//                                                                        docs/theory.md (13)
+// surface, each when it is first needed, and interpolated: over the radius by a cubic polynomial,
+// over the surface linearly within a triangle. Where the finger first touches there is no
+// interpolation.
+//                                                                    docs/theory.md [energy]
 class BodySinking {
  public:
   // The references must outlive this. `deepest` (m) is the largest depth of a contact.
@@ -29,7 +30,7 @@ class BodySinking {
     double error = 0.0;    // m/N, e
     double doubt = 0.0;    // m/N, BeyondHalfSpace::doubt
   };
-  // Of the patch; of an ellipse as of a circle of the same area.
+  // The value under the patch; an ellipse counts as a circle of the same area.
   [[nodiscard]] Value at(const contact::Patch& patch);
 
   // The same of tangential loads: the displacement (m/N) in the patch's plane beyond the

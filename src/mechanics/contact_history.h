@@ -8,7 +8,7 @@
 
 namespace palpate::mechanics {
 
-// Treats all contacts as one press, docs/theory.md (64): phi is the sum of their elastic forces,
+// Treats all contacts as one press, theory.md [viscous]: phi is the sum of their elastic forces,
 // Lee and Radok's or Ting's integral gives the total force, and each contact keeps its proportion.
 // Forces on elastic tissue are not changed.
 class ContactHistory {

@@ -1,4 +1,4 @@
-// The terms of the mesh's motion and of the radiated waves.
+// The terms of the mesh's motion and of the radiation.
 #include "mechanics/contact_inertia.h"
 
 #include <Eigen/LU>
@@ -111,7 +111,7 @@ void ContactInertia::begin(const Motion& motion, const KeptList<SphereContact>& 
   }
 }
 
-// theta of (74): 1, or less where the mesh would soften the contact by more than
+// theta of [inertia]: 1, or less where the mesh would soften the contact by more than
 //   theta sum_j c_ij <= 0.47 / F_i' + C_ii,  F_i' at the travel (negative C_ij included).
 // h - c F(h) grows until c F' = 1 and is h/3 there. For F ~ h^(3/2) and c F' = 0.47 at the travel
 // this is 1.5 times the travel, so that a solution exists however little the mesh has moved.
@@ -133,7 +133,7 @@ double ContactInertia::part_of_motion(const KeptList<SphereContact>& contacts,
 }
 
 // Fills damping and delay of near_: the radiation of waves shorter than the wide patch by Lysmer's
-// analogue, without the part that the mesh radiates.                          docs/theory.md (75)
+// analogue, without the part that the mesh radiates.                   docs/theory.md [radiation]
 void ContactInertia::find_near_field(const Motion& motion, const KeptList<SphereContact>& contacts,
                                      const Eigen::MatrixXd& known, double part) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
@@ -183,7 +183,7 @@ const Eigen::MatrixXd& ContactInertia::complete(const Motion& motion,
   double fastest = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const NearField& near = near_[as_index(i)];
-    // Q_1 = (Q_0 + x P) / (1 + x),  x = dt / T                                docs/theory.md (75)
+    // Q_1 = (Q_0 + x P) / (1 + x),  x = dt / T                         docs/theory.md [radiation]
     const double kept = near.delay / (near.delay + motion.time_step);
     whole_compliance_(i, i) += part * kept * still_by_force_(i, i);
     approaches[as_index(i)] = contacts[as_index(i)].approach -

@@ -1,4 +1,4 @@
-// What the mesh's motion adds to the contact equations of `consistent`: docs/theory.md (74), (75).
+// What the mesh's motion adds to the equations of `consistent`: theory.md [inertia], [radiation].
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ class ContactInertia {
   // The part must outlive this.
   explicit ContactInertia(MovingPart& part);
 
-  // s of (74): the mean sinking of the skin under a contact's wide patch, m.
+  // s of [inertia]: the mean sinking of the surface under a contact's wide patch, m.
   [[nodiscard]] double sunk(const integrate::Vector& displacement,
                             const SphereContact& contact) const;
 
@@ -44,7 +44,7 @@ class ContactInertia {
 
   void make_room(std::size_t contacts);
 
-  Influence statics;   // c_ij and the static displacement of (74)
+  Influence statics;   // c_ij and the static displacement of [inertia]
   Influence response;  // of the step
 
  private:
@@ -52,13 +52,13 @@ class ContactInertia {
     int sphere = 0;
     Vec3 position = Vec3::Zero();        // m
     double approach = 0.0, depth = 0.0;  // m
-    double spread = 0.0;                 // N, the delayed load Q of docs/theory.md (75)
+    double spread = 0.0;                 // N, the delayed load Q of docs/theory.md [radiation]
     double elastic = 0.0, force = 0.0;   // N
   };
   struct NearField {
     Past past;
-    double damping = 0.0;  // N s/m, C_L of docs/theory.md (75)
-    double delay = 0.0;    // s, T of docs/theory.md (75)
+    double damping = 0.0;  // N s/m, C_L of docs/theory.md [radiation]
+    double delay = 0.0;    // s, T of docs/theory.md [radiation]
   };
   [[nodiscard]] double sunk_by(Influence& by, const SphereContact& own,
                                const SphereContact& pressed) const;
@@ -71,12 +71,12 @@ class ContactInertia {
   void damp(double time_step, const Eigen::MatrixXd& known, std::vector<double>& approaches);
 
   const MovingPart* part_;
-  double radiation_;          // m s/N, D of docs/theory.md (75)
+  double radiation_;          // m s/N, D of docs/theory.md [radiation]
   std::vector<int> pressed_;  // degrees of freedom under the wide patches
   // Only the leading entries, one per contact, are valid; the memory is kept between steps.
-  Eigen::VectorXd motion_;            // m, `m` of docs/theory.md (74)
+  Eigen::VectorXd motion_;            // m, `m` of docs/theory.md [inertia]
   Eigen::MatrixXd moving_by_force_;   // m/N, response at the end of the step
-  Eigen::MatrixXd still_by_force_;    // m/N, static response c_ij of docs/theory.md (74)
+  Eigen::MatrixXd still_by_force_;    // m/N, static response c_ij of docs/theory.md [inertia]
   Eigen::MatrixXd whole_compliance_;  // m/N, with the terms of the mesh's motion
   Eigen::VectorXd softness_;          // m/N, diagonal of whole_compliance_ before damp()
   std::vector<NearField> near_;

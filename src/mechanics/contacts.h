@@ -16,33 +16,33 @@ class BodySinking;
 // The nodal forces and gaps of a contact with the coupling `resolved`.
 struct NodalContact {
   std::vector<Vec3> push;      // per newton of the contact's force: one per vertex of its `load`
-  double peak_pressure = 0.0;  // Pa, largest nodal pressure, docs/theory.md (72)
-  std::vector<int> vertices;   // of the skin near the sphere, ascending
+  double peak_pressure = 0.0;  // Pa, largest nodal pressure, docs/theory.md [nodal_pressure]
+  std::vector<int> vertices;   // of the surface near the sphere, ascending
   std::vector<double> gap;     // m, between these vertices and the sphere
 
   void renew();  // clears all, but keeps the memory of the lists
 };
 
-// The contact of one sphere at one place of the skin.
+// The contact of one sphere at one place of the surface.
 struct SphereContact {
   int sphere = 0;
   contact::Patch patch;
   contact::ContactLaw law;
-  double approach = 0.0;        // m, A of docs/theory.md (14): the sphere below the surface
+  double approach = 0.0;        // m, A of theory.md [one_contact]: the sphere below the surface
   double depth = 0.0;           // m, h of eq. (2)
   double force = 0.0;           // N, along the patch's normal
   double elastic = 0.0;         // N, the part of `force` that the law gives for relaxed tissue
   double radiated = 0.0;        // N, the part of `force` for waves that the mesh cannot resolve
-  double deep = 1.0;            // the factor (62) of a deep press, in the law's `part` too
-  double compliance = 0.0;      // m/N, C_ii of docs/theory.md (15)
-  double sinking_error = 0.0;   // m/N, e of docs/theory.md (12)
+  double deep = 1.0;            // the factor [deep] of a deep press, in the law's `part` too
+  double compliance = 0.0;      // m/N, C_ii of docs/theory.md [contacts]
+  double sinking_error = 0.0;   // m/N, e of docs/theory.md [sinking]
   double sinking_doubt = 0.0;   // m/N, BeyondHalfSpace::doubt
   double stiffness = 0.0;       // N/m, derivative of `force` with respect to `depth`; where inertia
                                 // reaches the force, to the finger's position, within a step
   Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue
   Vec3 stretch = Vec3::Zero();  // m, of the finger relative to the tissue since the last slip
   contact::Spread load;         // of the pressure
-  contact::Spread wide;         // over the wide patch (74), which then loads the mesh; or empty
+  contact::Spread wide;         // over the wide patch [inertia], which loads the mesh; or empty
   NodalContact nodal;           // with `resolved`; otherwise empty
   bool on_crease = false;
   bool one_sided = false;  // its curvature has StarStatus::one_sided
@@ -54,11 +54,11 @@ struct SphereContact {
 };
 
 // The pressure in the middle of the contact, Pa: for Hertz 3/2 of the mean, for a layer from its
-// law (59), with `resolved` the largest nodal pressure.
+// law [layer_pressure], with `resolved` the largest nodal pressure.
 [[nodiscard]] double peak_pressure(const SphereContact& contact);
 
 // The mesh's own error in the contact's force, a fraction of it; 0 where the law alone gives it.
-//                                                                        docs/theory.md (12)
+//                                                                   docs/theory.md [sinking]
 [[nodiscard]] double mesh_error(const SphereContact& contact);
 
 // Position of the finger and the state of its contacts at one moment.
@@ -78,7 +78,7 @@ struct Touch {
 // Friction of all contacts after the finger has moved by `move` (m). The stretch grows by the
 // tangential part of `move`, and Cattaneo and Mindlin's partial slip gives the drag, at most mu F;
 // with `contact.slip = "coulomb"` the drag is mu F along `move`. `beyond` renews the contacts'
-// `shear`; without it they keep it.                                          docs/theory.md (8)
+// `shear`; without it they keep it.                                      docs/theory.md [stick]
 void rub(const scene::Scene& scene, const Vec3& move, Touch& touch, BodySinking* beyond = nullptr);
 
 // Why Hertz's law does not apply to tissue of the curvature `kappa_2` (1/m).

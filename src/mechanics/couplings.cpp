@@ -1,5 +1,5 @@
 // Steps of a mesh under a finger, from the coupling that knows nothing of the mesh to those that
-// solve for both together; the compliances C_ij of docs/theory.md (15).
+// solve for both together; the compliances C_ij of docs/theory.md [contacts].
 #include "mechanics/couplings.h"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ double radius_per_root(const contact::ContactLaw& law) {
   return layer != nullptr ? law.radius_share * std::sqrt(layer->radius) : std::sqrt(law.a * law.b);
 }
 
-// How far from its first touch the programme lets the finger press, with room for a hand that does
-// not follow it closely, m.
+// How far from its first touch the loading history lets the finger press, with room for a hand that
+// does not follow it closely, m.
 double farthest_reach(const scene::Scene& scene) {
   double path = 4.0 * contact::hertz::contact_radius(
                           scene::deepest_travel(scene.scenario, scene.law()), scene.law().radius);
@@ -116,7 +116,7 @@ BodySinking::Value Consistent::joint_sinking(const KeptList<SphereContact>& cont
   return sum;
 }
 
-// The contact radius a is the one that stores the most energy, docs/theory.md (13):
+// The contact radius a is the one that stores the most energy, docs/theory.md [energy]:
 //   F = F_Hertz(a) / (1 - (5/3) E* a^2 s'(a)),   travel = a^2 / R + (s + a s') F.
 // Both take the form of the contact equations: the law times a factor, and a compliance.
 void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance) {
@@ -189,7 +189,7 @@ MemoryRule memory_rule(const scene::Scene& scene) {
              : MemoryRule::exact;
 }
 
-// The largest displacement of any node of the skin, m.
+// The largest displacement of any node of the surface, m.
 double rise(const MovingPart& part, const Vector& displacement) {
   double most = 0.0;
   for (const int node : part.nodes)
@@ -231,8 +231,8 @@ void ConsistentWithInertia::set_stage(double duration) {
 }
 
 std::optional<std::string> ConsistentWithInertia::find(const Motion& motion, const StepTo& to) {
-  // Oscillating skin may reach a finger that does not touch it at rest. Places that the finger
-  // touches neither on the skin at rest nor on the moving skin are left out.
+  // An oscillating surface may reach a finger that does not touch it at rest. Places that the
+  // finger touches neither on the surface at rest nor on the moving surface are left out.
   skin->detect(to.finger, nullptr, rise(*part, motion.displacement))
       .erase_if([&](SphereContact& contact) {
         if (contact.approach > 0.0) return false;
@@ -423,7 +423,7 @@ void Series::find_sinking(const KeptList<SphereContact>& contacts, Eigen::Matrix
 }
 
 // A node in contact takes any force, and a force that is linear in each step would oscillate about
-// the correct one.                                                       docs/theory.md, below (73)
+// the correct one.                                                    docs/theory.md, below [cells]
 std::optional<std::string> Resolved::step(const StepTo& to) {
   const auto find = [&](const Vector& displacement, Touch& now) {
     return contact_.find(to.finger, displacement, influence, now);

@@ -51,7 +51,7 @@ class OneWay : public OnMesh {
   [[nodiscard]] std::optional<std::string> step(const StepTo& to);
 };
 
-// `consistent` in statics: h = approach - C F.                            docs/theory.md (13)
+// `consistent` in statics: h = approach - C F.                        docs/theory.md [energy]
 class Consistent : public OnMesh {
  public:
   Consistent(SkinContacts& contacts, MovingPart& moving) : OnMesh(contacts, moving) {
@@ -63,7 +63,7 @@ class Consistent : public OnMesh {
   void begin_part(const std::vector<Eigen::Index>& from);
   void make_ready();
 
-  // Fills `compliance` (m/N) and the contacts' factors and errors of (13).
+  // Fills `compliance` (m/N) and the contacts' factors and errors of [energy].
   void find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance);
   [[nodiscard]] BodySinking* body() { return &*beyond_; }
   // The error of the sinking under a contact per tetrahedron of the part, m/N.
@@ -83,7 +83,7 @@ class Consistent : public OnMesh {
 };
 
 // `consistent` where inertia reaches the force, which then also follows from the mesh's deviation
-// from its static displacement.                                           docs/theory.md (74)
+// from its static displacement.                                      docs/theory.md [inertia]
 class ConsistentWithInertia : public OnMesh {
  public:
   ConsistentWithInertia(SkinContacts& contacts, MovingPart& moving);
@@ -143,8 +143,8 @@ class FromMesh : public OnMesh {
   integrate::Vector reached_, moved_;  // m, before and after it
 };
 
-// `series`: h = approach to the displaced skin. In explicit steps over the patches of the previous
-// step, which change by less than a step's travel.
+// `series`: h = approach to the displaced surface. In explicit steps over the patches of the
+// previous step, which change by less than a step's travel.
 class Series : public FromMesh {
  public:
   using FromMesh::FromMesh;

@@ -19,7 +19,8 @@ using integrate::Vector;
 
 namespace {
 
-// Of solutions, in the energy norm. The sinking is an energy: its error is the square.
+// Relative error of solutions in the energy norm. The sinking is an energy: its error is the
+// square.
 constexpr double tolerance = 3e-4;
 
 // Under the patch itself nothing is left over, because the finger's pressure acts there.
@@ -69,7 +70,7 @@ class EnergyCoupling::Loads {
   }
 
   integrate::Vector nodal;   // N/N, g
-  integrate::Vector curved;  // N/N, of a curved skin under the patch
+  integrate::Vector curved;  // N/N, of a curved surface under the patch
   double known = 0.0;        // m/N, c
 
  private:
@@ -157,11 +158,11 @@ class EnergyCoupling::Loads {
     }
   }
 
-  // What a skin that is curved under the patch changes to the first order in its height z above the
-  // plane: beyond the half-space's stress it carries stress grad z - z grad p in the plane. The
+  // What a surface that is curved under the patch changes to the first order in its height z above
+  // the plane: beyond the half-space's stress it carries stress grad z - z grad p in the plane. The
   // work of the second term on a shape function N is p (z grad N + N grad z), integrated by parts.
   // `r` is the distance from the centre, 0 to 1; an ellipse counts as a circle of its area.
-  //                                 docs/theory.md (12a); K. L. Johnson 1985, eq. (3.41)-(3.43)
+  //                              docs/theory.md [curved]; K. L. Johnson 1985, eq. (3.41)-(3.43)
   void press_curved(const Face& face, const std::array<Vec3, 3>& corners,
                     const std::array<Vec3, 3>& weights, const Vec3& shares, const Vec3& point,
                     const Vec3& normal, double r, double area) {
@@ -354,7 +355,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
   struct Case {
     int region;
     Vector loads;         // N/N, g
-    Vector curved;        // N/N, of a curved skin under the patch
+    Vector curved;        // N/N, of a curved surface under the patch
     double known;         // m/N, c
     Vector interpolated;  // m/N, of the half-space in other tissues
     Vector held_by;       // m/N, w on supports: minus the half-space's
@@ -525,7 +526,7 @@ void EnergyCoupling::find_errors(const contact::Patch& patch, const Vector& inte
   }
 }
 
-// Of a curved triangle, by three points.
+// The volume between a face and the smooth surface over it, by three points.
 double EnergyCoupling::cut_off(const Face& face) const {
   const auto& corners = skin_->surface().triangles[as_index(face.triangle)];
   const auto vertex = [&](std::size_t k) -> const Vec3& {

@@ -1,4 +1,4 @@
-// What a body sinks under a contact beyond a half-space, and the mesh's own error in it.
+// The surface displacement under a contact beyond a half-space's, and the mesh's own error in it.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ namespace palpate::mechanics {
 // The difference between the body and a half-space of the tissue at the contact, both loaded by
 // 1 N, with the shape of Hertz's pressure, over the patch.
 struct BeyondHalfSpace {
-  double sinking = 0.0;        // m/N: s of docs/theory.md (12), along the load, averaged with it
-  double error = 0.0;          // m/N: e of (12); s + e is the better value
+  double sinking = 0.0;        // m/N: s of theory.md [sinking], along the load, averaged with it
+  double error = 0.0;          // m/N: e of [sinking]; s + e is the better value
   double doubt = 0.0;          // m/N: what the flat faces of a round boundary may cost in s, and
                                // what wide tetrahedra may cost that e does not see
   std::vector<double> errors;  // m/N, both per tetrahedron of the part
@@ -32,7 +32,7 @@ struct BeyondHalfSpace {
 // The displacement under a contact is the half-space's, known in closed form, plus a rest that is
 // smooth under the contact; only the rest is solved for, with the linear finite elements of the
 // mesh, which coupled springs are. It is loaded and read through the same nodal loads.
-//                                                              docs/theory.md (11)-(12)
+//                                                      docs/theory.md [split], [sinking]
 class EnergyCoupling {
  public:
   // `held` has the supports' flags, one per degree of freedom of the part. Moduli are
@@ -67,12 +67,12 @@ class EnergyCoupling {
   struct Face {
     std::array<int, 3> nodes{};
     Vec3 normal = Vec3::Zero();    // unit, outwards
-    int triangle = -1;             // of the skin; -1 within the body
+    int triangle = -1;             // of the surface; -1 within the body
     std::array<int, 3> corners{};  // of that triangle, one per node
     std::array<bool, 3> held{};    // per axis: at all three nodes
     bool interface = false;
     int tetrahedron = 0;   // of the tissue
-    double cut_off = 0.0;  // m^3, between the face and the smooth skin
+    double cut_off = 0.0;  // m^3, between the face and the smooth surface
   };
   // What depends on the tissue at the contact.
   struct Home {
@@ -107,7 +107,7 @@ class EnergyCoupling {
   const geometry::SmoothSurface* skin_;
   std::vector<std::array<int, 3>> skin_triangles_;  // nodes of the part, ascending
   std::map<std::array<int, 3>, int> triangle_of_;   // of the same nodes
-  std::vector<int> part_node_;                      // per vertex of the skin
+  std::vector<int> part_node_;                      // per vertex of the surface
   std::vector<Tissue> tissues_;                     // per region
   std::vector<Element> elements_;
   std::vector<std::optional<Home>> homes_;  // per region

@@ -62,9 +62,9 @@ class Influence {
     }
   }
 
-  // Computes the columns of all nodes of the skin, so that loads on the skin allocate and solve
-  // nothing until forget(). Columns that would take more than 1 GB together are left to be computed
-  // when needed.
+  // Computes the columns of all nodes of the surface, so that loads on the surface allocate and
+  // solve nothing until forget(). Columns that would take more than 1 GB together are left to be
+  // computed when needed.
   void ask_all() {
     constexpr double most_bytes = 1e9;
     const std::vector<int>& nodes = part_->nodes;

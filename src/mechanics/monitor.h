@@ -1,4 +1,4 @@
-// The energy balance of a mesh, docs/theory.md (43), which also detects instability.
+// The energy balance of a mesh, docs/theory.md [balance], which also detects instability.
 #pragma once
 
 #include <optional>
@@ -44,7 +44,7 @@ class EnergyMonitor {
   // dissipated energy, and stored plus kinetic energy now.
   void take_over(double work, double lost, double held);
 
-  // The energy imbalance of docs/theory.md (43), a fraction; 0 if no energy was ever put in.
+  // The energy imbalance of docs/theory.md [balance], a fraction; 0 if no energy was ever put in.
   [[nodiscard]] double imbalance() const;
 
  private:

@@ -55,7 +55,7 @@ struct MovingPart {
 
   const scene::Scene* scene;
   tissue::Part part;
-  std::vector<int> nodes;  // of the part, one per vertex of the skin; -1: outside
+  std::vector<int> nodes;  // of the part, one per vertex of the surface; -1: outside
   std::optional<scene::SpringBody> body;
   std::optional<Stepper> stepper;
   std::optional<EnergyMonitor> monitor;
@@ -68,7 +68,7 @@ struct MovingPart {
   SymmetricSolver statics;        // of the stiffness at rest, when first needed
   double time_step = 0.0;         // s
   // How a step moves a linear body on whose motion the forces do not depend: in modal coordinates
-  // alone (41), or, without inertia, by keeping only the load whose static displacement it is.
+  // alone [modes], or, without inertia, by keeping only the load whose static displacement it is.
   bool in_modes = false;
   bool still = false;
   // This load, if `still`, or if modal steps drop modes that follow it without inertia.

@@ -1,4 +1,4 @@
-// The contacts that forces on single nodes of the skin make up.
+// The contacts that forces on single nodes of the surface make up.
 #pragma once
 
 #include <vector>

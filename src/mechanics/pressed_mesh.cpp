@@ -50,7 +50,7 @@ void PressedMesh::set_step(double time_step) {
 // - for `resolved`: the equations of the nodes in contact;
 // - for `solver.rings`: the new part and its influences when another part starts to move;
 // - influences, once per node in contact, if all of them are too large for Influence::ask_all();
-// - where a hand presses far beside the programme's path, once per vertex of the skin;
+// - where a hand presses far beside the loading history's path, once per vertex of the surface;
 // - contacts beyond four per sphere, once each.
 void PressedMesh::make_ready(Touch& touch) {
   const scene::Scene& scene = *part_.scene;

@@ -20,7 +20,7 @@ class PressedMesh {
 
   // Allocates and solves beforehand, so that steps with `touch` allocate nothing wherever the
   // finger goes; its definition lists the exceptions. Call at rest, after set_step(). Solves for
-  // all loads on the skin, which takes seconds on thousands of nodes.
+  // all loads on the surface, which takes seconds on thousands of nodes.
   void make_ready(Touch& touch);
 
   // One step, at the end of which, `time` (s), the finger's point is at `finger` (m). Returns a
@@ -36,14 +36,14 @@ class PressedMesh {
   [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
 
   // The mesh's error in what it sinks under such a contact, per tetrahedron of the moving part,
-  // m/N; for `consistent`.                                              docs/theory.md (12)
+  // m/N; for `consistent`.                                         docs/theory.md [sinking]
   [[nodiscard]] std::vector<double> errors(const SphereContact& contact);
 
   // One step of the mesh alone, under the forces of `touch`; public for timing.
   [[nodiscard]] std::optional<std::string> move(const Touch& touch) { return part_.move(touch); }
 
   // The displacement of all nodes of the specimen, m. Where the mesh is loaded through wide
-  // patches, the static difference to the actual patches is added, docs/theory.md (74).
+  // patches, the static difference to the actual patches is added, docs/theory.md [inertia].
   [[nodiscard]] integrate::Vector displacement();
 
   // Whether a tetrahedron is inverted.
@@ -64,7 +64,7 @@ class PressedMesh {
 
   // `count` modes are kept. `dropped_share` is the static displacement of the dropped modes under
   // the finger over its travel, 0 if the mesh's motion does not reach the force.
-  //                                                                        docs/theory.md (108)
+  //                                                               docs/theory.md [lowest_modes]
   struct KeptModes {
     Eigen::Index count = 0;
     double dropped_share = 0.0;

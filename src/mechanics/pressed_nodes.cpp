@@ -63,7 +63,7 @@ std::optional<PressedNode> SkinNodes::facing(int vertex, const Ball& ball) const
     normal += triangle.area * surface_->corner_normal(t, corner);
     // A sphere of radius R through the ends of a straight side s is |s|^2 / (2 R) x_1 x_2 above it,
     // with linear weights x. Above a triangle the heights of the sides add up, and the mean of
-    // x_1 x_2 is 1/12. The skin's curvature adds dn . s to |s|^2 / R, docs/theory.md (71).
+    // x_1 x_2 is 1/12. The surface's curvature adds dn . s to |s|^2 / R, docs/theory.md [gap].
     node.facets += triangle.area * (triangle.squares / ball.radius + triangle.turns) / 24.0;
     node.own += triangle.own[corner];
   }

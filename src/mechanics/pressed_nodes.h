@@ -1,4 +1,4 @@
-// Geometry of the skin's nodes that a sphere may press: area, normal, offset of the facets.
+// Geometry of the surface's nodes that a sphere may press: area, normal, offset of the facets.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ struct Ball {
   double radius = 0.0;         // m
 };
 
-// A vertex of the skin under a sphere.                                    docs/theory.md (70)-(72)
+// A vertex of the surface under a sphere.     docs/theory.md [unilateral], [gap], [nodal_pressure]
 struct PressedNode {
   int vertex = 0;
   int sphere = 0;
   Vec3 place = Vec3::Zero();    // m, at rest
   Vec3 normal = Vec3::UnitZ();  // unit, outwards, at rest: of the triangles that face the sphere
   double area = 0.0;            // m^2, a third of the area of these triangles
-  double facets = 0.0;          // m, o_j of (71): mean height of the sphere above flat triangles
+  double facets = 0.0;          // m, o_j of [gap]: mean height of the sphere above flat triangles
   double own = 0.0;             // 1/m: a half-space sinks by own / (pi E') per newton on this node
 };
 

@@ -1,4 +1,4 @@
-// Solves for the nodes in contact and their forces, docs/theory.md (70)-(72).
+// Solves for the nodes in contact and their forces, docs/theory.md [unilateral], [gap].
 #include "mechanics/resolved_contact.h"
 
 #include <algorithm>
@@ -114,7 +114,7 @@ Eigen::Matrix3Xd ResolvedContact::answer(Influence& influence, const Candidate& 
   return moved;
 }
 
-// Solves (70) for the present gaps and directions. Columns of A are computed only for nodes that
+// Solves [unilateral] for the present gaps. Columns of A are computed only for nodes that
 // overlap, and for those that overlap under the resulting forces, until no further node overlaps.
 std::optional<std::string> ResolvedContact::solve(Influence& influence) {
   const auto count = static_cast<Index>(candidates_.size());
@@ -177,7 +177,7 @@ std::optional<std::string> ResolvedContact::solve(Influence& influence) {
   }
 }
 
-// Solves (70), repeatedly if the directions are the sphere's normals, which turn as the nodes move.
+// Solves [unilateral], again and again if the directions turn with the nodes (sphere's normals).
 std::optional<std::string> ResolvedContact::press(Influence& influence) {
   constexpr int most_turns = 100;
   const double settled = 1e-12 * scene_->finger.sphere_radius;

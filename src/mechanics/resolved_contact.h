@@ -10,8 +10,8 @@
 
 namespace palpate::mechanics {
 
-// Every node of the skin near a sphere has a gap g_j >= 0 and a force f_j >= 0, one of which is
-// zero, docs/theory.md (70)-(72). They are related by the compliance of the mesh and, for an
+// Every node of the surface near a sphere has a gap g_j >= 0 and a force f_j >= 0, one of which is
+// zero, docs/theory.md [unilateral]. They are related by the compliance of the mesh and, for an
 // elastic finger, of a half-space. Friction is not part of this problem; it acts on the resultant.
 class ResolvedContact {
  public:

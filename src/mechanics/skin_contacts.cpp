@@ -156,7 +156,7 @@ void SkinContacts::load_nearest_node(SphereContact& contact) const {
   contact.load.shares.assign(1, 1.0);
 }
 
-// The approach of the sphere, minus the mean displacement under its patch, to the skin at rest.
+// The approach of the sphere, minus the mean displacement under its patch, to the surface at rest.
 void SkinContacts::approach_moved_skin(const Vec3& finger, SphereContact& contact) const {
   Vec3 mean = Vec3::Zero();
   for (std::size_t k = 0; k < contact.load.vertices.size(); ++k)
@@ -168,7 +168,7 @@ void SkinContacts::approach_moved_skin(const Vec3& finger, SphereContact& contac
 }
 
 // Contacts at the same place share its force, without a jump as they come together: `part` is
-// 1 / (1 + sum_j (1 - 2 s_ij / max(a_i, a_j))^2).                    docs/theory.md, below (15)
+// 1 / (1 + sum_j (1 - 2 s_ij / max(a_i, a_j))^2).              docs/theory.md, below [contacts]
 void SkinContacts::share_places(KeptList<SphereContact>& contacts) {
   parts_.assign(contacts.size(), 1.0);
   for (std::size_t i = 0; i < contacts.size(); ++i)

@@ -1,5 +1,5 @@
-// Where the finger's spheres touch the skin, with which laws and patches, and their equations: what
-// all couplings but `resolved` share.
+// Where the finger's spheres touch the surface, with which laws and patches, and their equations:
+// what all couplings but `resolved` share.
 #pragma once
 
 #include <limits>
@@ -26,8 +26,8 @@ class SkinContacts {
   // The part must outlive this.
   explicit SkinContacts(const MovingPart& part);
 
-  // Finds the places of the skin that lie in a sphere of the finger at `finger` (m), or are less
-  // than `beyond` (m) away from it: on the skin under `displacement` (m), or at rest if that is
+  // Finds the places of the surface that lie in a sphere of the finger at `finger` (m), or are less
+  // than `beyond` (m) away from it: on the surface under `displacement` (m), or at rest if that is
   // null. find() takes the places that are left in the list.
   KeptList<SphereContact>& detect(const Vec3& finger, const integrate::Vector* displacement,
                                   double beyond = 0.0);
@@ -40,7 +40,7 @@ class SkinContacts {
   [[nodiscard]] std::optional<std::string> find(const Vec3& finger, Touch& touch,
                                                 const Solve& solve, BodySinking* beyond = nullptr);
 
-  // Solves the contact equations (15) and recomputes the patches until their radii do not change,
+  // Solves [contacts] and recomputes the patches until their radii do not change,
   // or only once for `passes` = 1. complete(approaches, compliance) fills the compliance (m/N),
   // whose first rows and columns belong to the contacts and are 0 at first, may change the
   // approaches (m), and returns the compliance to solve with.
@@ -50,7 +50,7 @@ class SkinContacts {
 
   // First guess for a single contact at rest, with the compliance of the previous step.
   static void guess_depth(KeptList<SphereContact>& contacts);
-  // Fills the contact's wide patch.                                        docs/theory.md (74)
+  // Fills the contact's wide patch.                                   docs/theory.md [inertia]
   void spread_wide(SphereContact& contact);
 
   // Allocates the memory, also of `touch`, for up to four contacts per sphere.
@@ -84,8 +84,8 @@ class SkinContacts {
   std::vector<contact::PointLaw> laws_;
   std::vector<double> approaches_;  // m
   std::vector<double> depths_;      // m
-  std::vector<double> parts_;       // divisors of the forces, docs/theory.md below (15)
-  Eigen::MatrixXd compliance_;      // m/N, C of docs/theory.md (15), and spare memory
+  std::vector<double> parts_;       // divisors of the forces, docs/theory.md below [contacts]
+  Eigen::MatrixXd compliance_;      // m/N, C of docs/theory.md [contacts], and spare memory
 };
 
 template <class Solve>

@@ -79,7 +79,7 @@ std::optional<std::string> SkinCurvature::find(const geometry::SurfacePoint& at,
   const geometry::CurvatureEstimate found =
       geometry::between(corners, {at.weights[0], at.weights[1], at.weights[2]});
   if (!found.known())
-    return "the skin's curvature at the contact cannot be estimated: " +
+    return "the surface's curvature at the contact cannot be estimated: " +
            std::string(geometry::explanation(found.status)) + "; use a finer mesh";
   one_sided = one_sided || found.status == geometry::StarStatus::one_sided;
   here = found.curvature;

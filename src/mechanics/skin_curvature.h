@@ -1,4 +1,4 @@
-// The skin's curvature at a point, at rest or as the mesh deforms it.
+// The surface's curvature at a point, at rest or as the mesh deforms it.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ class SkinCurvature {
   // The part must outlive this.
   explicit SkinCurvature(const MovingPart& part);
 
-  // Sets `here` (1/m) to the curvature at a point: of the mesh's skin or, for a surface file, of
+  // Sets `here` (1/m) to the curvature at a point: of the mesh's surface or, for a surface file, of
   // its triangles where they suffice, which a mesh may have coarsened. With `contact.curvature_on =
   // "deformed"` it is that of the displaced skin. Sets `one_sided` if its estimate is
   // StarStatus::one_sided. Returns a sentence if it cannot be estimated.
@@ -36,7 +36,7 @@ class SkinCurvature {
   std::vector<int> number_of_;                // per triangle: index into known_; -1: not computed
   std::vector<Corners> known_;                // at rest
   std::optional<geometry::BoxTree> of_file_;  // of Scene::of_file
-  geometry::Surface shape_;                   // the deformed skin
+  geometry::Surface shape_;                   // the deformed surface
 };
 
 }  // namespace palpate::mechanics

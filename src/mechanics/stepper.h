@@ -36,7 +36,7 @@ class Stepper {
   void set_step(double time_step);
 
   // Advances `state` by one step, with the load (N) `load_before` at its start and `load_after` at
-  // its end. `rule` is the memory rule (35) for Implicit and Modal; the other methods ignore it.
+  // its end. `rule` is the rule of [memory] for Implicit and Modal; the other methods ignore it.
   // Returns a sentence if the equations do not converge.
   [[nodiscard]] std::optional<std::string> step(integrate::State& state,
                                                 const integrate::Vector& load_before,

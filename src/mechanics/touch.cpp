@@ -12,11 +12,11 @@ namespace palpate::mechanics {
 namespace {
 
 // The error that is stated after the correction s + e: half of e, and more where e is not small.
-// Measured on the bodies of docs/accuracy.md.                        docs/theory.md (12)
+// Measured on the bodies of docs/accuracy.md.                   docs/theory.md [sinking]
 constexpr double stated_share = 0.5;
 
-// What a mesh leaves open even where e is zero: the curvature read from its skin, the quadrature of
-// the loads and the interpolation over contact radii.
+// What a mesh leaves open even where e is zero: the curvature read from its surface, the quadrature
+// of the loads and the interpolation over contact radii.
 constexpr double stated_least = 1e-3;
 
 // A group of spheres that represents one shears like it, under the friction of all, which is shared

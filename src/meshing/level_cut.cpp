@@ -25,7 +25,7 @@ enum class Freedom { everywhere, skin, crease, fixed };
 
 struct Borders {
   std::vector<Freedom> freedom;                 // per node
-  std::map<std::array<int, 2>, Freedom> edges;  // of the boundary: skin or crease
+  std::map<std::array<int, 2>, Freedom> edges;  // of the boundary: surface or crease
 };
 
 Borders borders_of(const geometry::TetMesh& mesh) {
@@ -83,7 +83,7 @@ void snap(geometry::TetMesh& mesh, double z, bool outer_only,
       const double share = (z - start.z()) / way.z();
       Move& move = moves[as_index(from)];
       const Freedom own = borders.freedom[as_index(from)];
-      // On the boundary a node moves along its skin, on a crease along that crease.
+      // On the boundary a node moves along its surface, on a crease along that crease.
       if (!(share > 0.0 && share < move.share) || own == Freedom::fixed || along < own) continue;
       move = {share, start + share * way, true};
       if (shape && own == Freedom::skin) {

@@ -20,7 +20,7 @@ constexpr double largest = 10.0;   // m: larger than any tissue
 // In single precision a normal is meaningless below about 1e-7 of the longest edge.
 constexpr double needle = 1e-6;
 
-// Of a body of a strange size (m).
+// A guess of the unit for a body of a strange size (m).
 std::string unit_guess(double size) {
   constexpr double least = 0.005, most = 2.0;  // m, of what is usually pressed
   for (const auto& [factor, words] :

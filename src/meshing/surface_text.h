@@ -40,7 +40,7 @@ void no_comma(const TableLines& lines);
 [[nodiscard]] std::string wrong_corners(const std::string& face, const std::vector<int>& corners,
                                         int first, std::size_t vertices);
 
-// Of a line with so many corners.
+// The message on a line with so many corners.
 [[nodiscard]] std::string too_few_corners(std::size_t corners);
 
 }  // namespace palpate::meshing

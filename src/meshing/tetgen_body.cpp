@@ -216,7 +216,7 @@ class Search {
   Found best_;
 };
 
-// A shape with lumps, sampled at different spacings.
+// A shape with inclusions, sampled at different spacings.
 struct Sampling {
   const geometry::Shape& shape;
   std::span<const geometry::Lump> lumps;

@@ -32,9 +32,9 @@ struct TooFewNodes : MeshError {
 [[nodiscard]] geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target,
                                             double time_limit);
 
-// The mesh of a shape with lumps. The sampling of the surfaces is also adapted to the target, so
-// that the counts are within 3 % for most targets. Fewer tetrahedra with the same number of nodes
-// mean a finer surface and a coarser interior.
+// The mesh of a shape with inclusions. The sampling of the surfaces is also adapted to the target,
+// so that the counts are within 3 % for most targets. Fewer tetrahedra with the same number of
+// nodes mean a finer surface and a coarser interior.
 [[nodiscard]] geometry::TetMesh tetgen_shape(const geometry::Shape& shape,
                                              std::span<const geometry::Lump> lumps,
                                              const Target& target, double time_limit);

@@ -26,7 +26,7 @@ constexpr double fair_grid_miss = 0.03;   // keep this grid
 constexpr double worst_grid_miss = 0.25;  // refuse beyond
 constexpr int tries_per_grid = 8;
 // A maximum volume of 0.22 h^3 gives edges inside of about the mean of the grid's edges h and
-// sqrt(2) h; the body then has about 1.1 times the nodes of a lattice with cells of side h.
+// sqrt(2) h; the body then has about 1.1 times the nodes of a structured mesh with cells of side h.
 constexpr double grid_volume_per_cube = 0.22;
 constexpr double nodes_per_lattice = 1.1;
 

@@ -1,4 +1,4 @@
-// Places of nodes on shapes, on smooth surfaces, and on lumps.
+// Places of nodes on shapes, on smooth surfaces, and on inclusions.
 #include "meshing/true_boundary.h"
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 namespace palpate::meshing {
 namespace {
 
-// A node is on a lump if its distance from the centre differs from the radius by less than this.
+// A node is on an inclusion if its distance from the centre differs from the radius by less than
+// this.
 constexpr double near_lump = 0.15;
 
 }  // namespace
@@ -136,8 +137,8 @@ void TrueBoundary::restore_lumps(geometry::TetMesh& mesh) {
       for (const int node : mesh.tetrahedra[t])
         sides[as_index(node)] |= mesh.region(static_cast<int>(t)) == lump.region ? 1 : 2;
     const double wanted = 4.0 / 3.0 * std::numbers::pi * lump.radius * lump.radius * lump.radius;
-    // All nodes of the lump move, so that nothing inside turns inside out; around it the move is
-    // taken back in part where something would.
+    // All nodes of the inclusion move, so that nothing inside turns inside out; around it the move
+    // is taken back in part where something would.
     const double wider = std::cbrt(wanted / volume());
     const std::vector<Vec3> before = mesh.nodes;
     for (const double share : {1.0, 0.5, 0.25, 0.0}) {

@@ -16,8 +16,8 @@ class TrueBoundary {
  public:
   // `start` is the mesh before the first refinement. Its outer nodes, and those between the regions
   // of `shape`, lie on the shape; without a shape the smooth surface through the outer nodes counts
-  // (geometry/smooth_surface.h), and boundaries between regions other than lumps stay as they are.
-  // Nodes on edges at one of the heights `levels` (m) stay at that height.
+  // (geometry/smooth_surface.h), and boundaries between regions other than inclusions stay as they
+  // are. Nodes on edges at one of the heights `levels` (m) stay at that height.
   TrueBoundary(const geometry::TetMesh& start, std::optional<geometry::Shape> shape,
                std::span<const geometry::Lump> lumps, std::span<const double> levels);
 
@@ -25,8 +25,8 @@ class TrueBoundary {
   // before, so that this sees all nodes in their order.
   [[nodiscard]] Vec3 place(const Bisection::Middle& edge);
 
-  // Gives every lump its volume again, by moving its nodes along its radii; the regions' numbers
-  // are those of `lumps`.
+  // Gives every inclusion its volume again, by moving its nodes along its radii; the regions'
+  // numbers are those of `lumps`.
   void restore_lumps(geometry::TetMesh& mesh);
 
  private:

@@ -51,7 +51,7 @@ using Attributes = std::vector<std::pair<std::string_view, std::string>>;
 // These columns of a table, in this order; those that are there.
 [[nodiscard]] record::Table columns_of(const record::Table& content,
                                        const std::vector<std::string>& names);
-// Of a large table the first `most` rows, with a link to the file that holds all of them.
+// The first `most` rows of a large table, with a link to the file that holds all of them.
 [[nodiscard]] Markup table_of_file(const std::string& caption, const record::Table& content,
                                    const std::string& file, std::size_t most);
 

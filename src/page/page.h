@@ -69,7 +69,7 @@ struct Making {
 // A long text, folded up.
 [[nodiscard]] Markup folded(const std::string& summary, const std::string& content);
 
-// Of a page that write() made, as plain text; empty where there is none.
+// Parts of a page that write() made, as plain text; empty where there is none.
 struct Summary {
   std::string title = {};
   std::string answer = {};                 // its first line

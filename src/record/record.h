@@ -22,9 +22,9 @@ struct ContactRow {
   double time = 0.0;            // s
   double travel = 0.0;          // of the finger below the undeformed surface, m
   double indentation = 0.0;     // h of eq. (2), m
-  double force = 0.0;           // on the hand along z, docs/theory.md (6), N
+  double force = 0.0;           // on the hand along z, docs/theory.md [hand_force], N
   double contact_force = 0.0;   // F_c along z, N
-  double friction = 0.0;        // F_m = mu (F_c + W), the friction limit (7), N
+  double friction = 0.0;        // F_m = mu (F_c + W), the friction limit [friction], N
   double ambient = 0.0;         // F_a, N
   double contact_radius = 0.0;  // m
   double peak_pressure = 0.0;   // Pa
@@ -57,7 +57,7 @@ struct TissueFrame {
   double time = 0.0;                     // s
   std::vector<Vec3> displacement;        // m, one per node
   std::vector<double> contact_pressure;  // Pa, one per node: its share of the contact forces
-                                         // divided by its share of the skin's area
+                                         // divided by its share of the surface's area
 };
 
 // A named number (or word); the name ends with the unit.
@@ -90,7 +90,7 @@ struct CaseRecord {
   // When the first row after the start had been computed; nothing before.
   std::optional<std::chrono::steady_clock::time_point> first_row;
 
-  // Adds a row, and notes that moment. The other rows are those of the same programme.
+  // Adds a row, and notes that moment. The other rows are those of the same loading history.
   void add(const ContactRow& row) { note(contact.size()), contact.push_back(row); }
   void add(const StrainRow& row) { note(strain.size()), strain.push_back(row); }
 

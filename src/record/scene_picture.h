@@ -13,7 +13,7 @@ struct ScenePicture {
   struct Face {
     std::array<Vec3, 3> corners;  // m, counter-clockwise from outside
     int region = 0;               // on the inner side of the face
-    int within = -1;              // region on the outer side; -1: the face is part of the skin
+    int within = -1;              // region on the outer side; -1: the face is part of the surface
     bool held = false;            // by the base
   };
   struct Sphere {

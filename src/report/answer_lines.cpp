@@ -40,7 +40,7 @@ std::optional<double> number(const record::CaseRecord& record, std::string_view 
   return value == nullptr ? std::nullopt : std::optional(*value);
 }
 
-// Of the cases for which `value_of` has a value; nothing if there is none.
+// The range over all cases for which `value_of` has a value; nothing if there is none.
 template <class ValueOf>
 std::optional<Range> range_of(const std::vector<record::CaseRecord>& records,
                               const ValueOf& value_of) {

@@ -17,8 +17,8 @@ struct NamedSentence {
 // the number of others: `10 kPa, and so in 2 more cases: ...`.
 [[nodiscard]] std::vector<std::string> said_once(const std::vector<NamedSentence>& all);
 
-// Of one case the three sentences of its answer. Of several: the models, the range of the largest
-// force (or strain) with its errors, and one line per kind of what is left out.
+// One case: the three sentences of its answer. Several: the models, the range of the largest force
+// (or strain) with its errors, and one line per kind of neglected effect.
 [[nodiscard]] std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& records);
 
 }  // namespace palpate::report

@@ -338,7 +338,7 @@ std::string neglected(const record::Answer& answer) {
   std::string text = first_statement(answer.left_out);
   if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
   int others = 0;
-  const std::string_view other = " Also left out: ";
+  const std::string_view other = " Also neglected: ";
   for (std::size_t at = answer.left_out.find(other); at != std::string::npos;
        at = answer.left_out.find(other, at + 1))
     ++others;
@@ -427,7 +427,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
       "How it was made",
       page::making({.command = "palpate run scenario.toml",
                     .remark = live ? "A live run follows its device, so that this command repeats "
-                                     "the programme and not the motion of the device."
+                                     "the loading history and not the motion of the device."
                                    : ""},
                    inputs, folder),
       folded);

@@ -12,8 +12,8 @@ namespace palpate::report {
 
 // Draws the specimen as shaded triangles in parallel projection, seen from 30 degrees above the
 // horizon (below it, where the press comes from below) and from the quarter that the finger comes
-// from, with z of the picture upwards; the held skin and its border, also where the body hides it;
-// the finger at its first touch; arrows for travel and slides, the box of the body with numbers
+// from, with z of the picture upwards; the held surface and its border, also where the body hides
+// it; the finger at its first touch; arrows for travel and slides, the box of the body with numbers
 // along its axes, and a scale bar, in mm. A region that contains another one is translucent. Faces
 // are painted in the order of their distance, the farthest first, which may be wrong where large
 // triangles surround small ones. The picture must have at least one face; the text has about 60
@@ -42,10 +42,10 @@ struct SceneFrame {
 };
 [[nodiscard]] SceneFrame scene_frame(const record::ScenePicture& picture);
 
-// The edges between held and free skin, m.
+// The edges between held and free surface, m.
 [[nodiscard]] std::vector<std::array<Vec3, 2>> base_border(const record::ScenePicture& picture);
 
-// The colours of the regions, as `#ecbca0`, then that of the held skin.
+// The colours of the regions, as `#ecbca0`, then that of the held surface.
 [[nodiscard]] std::vector<std::string> scene_colours(const record::ScenePicture& picture);
 
 }  // namespace palpate::report

@@ -47,14 +47,14 @@ class Words {
     return text + ". " + why();
   }
 
-  // Of the force at its largest, or of the strain.
+  // The sentence's part on the error of the largest force, or of the strain.
   [[nodiscard]] std::string error(std::optional<double> error,
                                   const std::vector<LeftOut>& left_out) const {
     if (!error) return "an error that is not estimated";
     std::string uncounted;
     for (const LeftOut& one : left_out)
       if (!one.beside.empty()) uncounted += (uncounted.empty() ? "" : " and ") + one.beside;
-    std::string text = "an error of " + error_text(*error) + " (asked " +
+    std::string text = "an error of " + error_text(*error) + " (tolerance " +
                        percent_text(scene_.scenario.solver.tolerance);
     if (scene_.choice.given || *error <= scene_.scenario.solver.tolerance)
       text += ")";
@@ -66,11 +66,11 @@ class Words {
 
   [[nodiscard]] static std::string left_out(const std::vector<LeftOut>& all, double tolerance) {
     if (all.empty())
-      return "Left out: nothing that would add more than " + percent_text(0.2 * tolerance) +
+      return "Neglected: nothing that would add more than " + percent_text(0.2 * tolerance) +
              " to this error.";
     std::string text;
     for (const LeftOut& one : all)
-      text += (text.empty() ? "Left out: " : " Also left out: ") + one.what + ", " + one.when +
+      text += (text.empty() ? "Neglected: " : " Also neglected: ") + one.what + ", " + one.when +
               (one.remedy.empty() ? "" : "; " + one.remedy) + ".";
     return text;
   }
@@ -309,7 +309,7 @@ class LeftOuts {
          would(e_.ball), "set `solver.model = \"solid\"`");
   }
 
-  // By how much a half-space under `series` is too soft.                    docs/theory.md (10)
+  // By how much a half-space under `series` is too soft.                 docs/theory.md [depth]
   void double_counting() {
     if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
     const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;

@@ -1,4 +1,4 @@
-// What a case computes, how good it is and what it leaves out, in plain sentences.
+// What a case computes, how good it is and what it neglects, in plain sentences.
 #pragma once
 
 #include <optional>
@@ -42,9 +42,10 @@ struct Expected {
 // Whether the force of a press comes from a mesh that states its own error in every row.
 [[nodiscard]] bool states_mesh_error(const scene::Scene& scene);
 
-// The mesh's own error in the static force at the deepest travel of the programme, a fraction of
-// it. Nothing without a finger on a mesh with `consistent`, or where the contact has no solution.
-//                                                                        docs/theory.md (12)
+// The mesh's own error in the static force at the deepest travel of the loading history, a fraction
+// of it. Nothing without a finger on a mesh with `consistent`, or where the contact has no
+// solution.
+//                                                                   docs/theory.md [sinking]
 [[nodiscard]] std::optional<double> mesh_error(const scene::Scene& scene);
 
 }  // namespace palpate::run

@@ -34,7 +34,7 @@ class Stages {
                                    FrameTime& time) {
     std::optional<std::string> wrong;
     const bool follows = mesh_.forces_follow_finger();
-    // Forces that follow the finger use contacts with the skin at rest.
+    // Forces that follow the finger use contacts with the surface at rest.
     const auto* const deformed = follows ? nullptr : &mesh_.state().displacement;
     mechanics::Touch touch = before;
     for (int k = 1; k <= substeps_ && !wrong; ++k) {

@@ -12,7 +12,7 @@ namespace palpate::run {
 // Run times of one frame, that is one time step of the scenario, in all of its substeps together.
 // All in s.
 struct FrameTime {
-  double collision = 0.0;  // detection, with the refit of the boxes where the deformed skin is seen
+  double collision = 0.0;  // detection, with the refit of the boxes if it sees the deformed surface
   double force = 0.0;      // laws, curvatures, patches and contact equations, no detection
   double deformation = 0.0;  // the mesh alone, under given forces
   double whole = 0.0;        // the frame as in `palpate run`: contacts, mesh, energy
@@ -29,9 +29,9 @@ struct Bench {
   std::optional<std::string> wrong;  // why the press ended early; empty if it did not
 };
 
-// Presses to the deepest travel of the scene's programme in equal time steps on one thread: 50
-// frames that are not counted, then `frames`, with the scene's coupling, integrator and rings. The
-// stages are timed afterwards on a second mesh under the same forces; with `solver.rings` its
+// Presses to the deepest travel of the scene's loading history in equal time steps on one thread:
+// 50 frames that are not counted, then `frames`, with the scene's coupling, integrator and rings.
+// The stages are timed afterwards on a second mesh under the same forces; with `solver.rings` its
 // moving part stays that of the first touch. All results but the times are reproducible. The scene
 // must have a specimen and a finger.
 [[nodiscard]] Bench bench(const scene::Scene& scene, int frames);

@@ -14,7 +14,7 @@ enum class Models { all, quick };
 // The cheapest model whose stated error is within `solver.tolerance`, or else the one with the
 // least error, and the reasons for it. What size, base and sides of the body change is measured on
 // one coarse mesh of it, size_effect(); `shapes` keeps meshes and measurements.
-//                                                                        docs/theory.md (69)
+//                                                                    docs/theory.md [choice]
 [[nodiscard]] scene::Choice choose(const scenario::Case& one, scene::SpecimenShapes& shapes,
                                    Models models = Models::all);
 [[nodiscard]] scene::Choice choose(const scenario::Case& one);

@@ -26,8 +26,9 @@ struct Stop {
 // A record with the case's name and the values chosen for `auto`, without rows.
 [[nodiscard]] record::CaseRecord begin_case(const scene::Scene& scene);
 
-// Runs the steps of a scene's programme and adds rows, maps and frames to `record`. Of the findings
-// it adds only those that need the state of the mesh. A stopped StopScope ends it as interrupted.
+// Runs the steps of a scene's loading history and adds rows, maps and frames to `record`. Of the
+// findings it adds only those that need the state of the mesh. A stopped StopScope ends it as
+// interrupted.
 void run_programme(const scene::Scene& scene, record::CaseRecord& record);
 
 // Runs one scene to its end, with findings.

@@ -133,7 +133,7 @@ class Findings {
            "`output.interval` to a tenth of the period");
   }
 
-  // Of the lowest axial mode of a bar on a fixed base, 1/s.                  docs/theory.md (55)
+  // Of the lowest axial mode of a bar on a fixed base, 1/s.             docs/theory.md [damping]
   double lowest_frequency(const scene::Specimen& specimen) const {
     const double speed =
         std::sqrt(specimen.measured.young_modulus / scene_.scenario.tissue.density);
@@ -165,7 +165,8 @@ class Findings {
     add("depth_ratio", peak.indentation / radius);
     add("contact_radius_ratio", peak.contact_radius / radius);
     add("thickness_ratio", peak.contact_radius / thickness);
-    // JKR pull-off 1.5 pi w R at w = 0.05 J/m^2, of the order of wet skin    docs/theory.md (44)
+    // JKR pull-off 1.5 pi w R at w = 0.05 J/m^2, of the order of wet skin
+    //                                                                     docs/theory.md [adhesion]
     const double pull_off = 1.5 * std::numbers::pi * 0.05 * radius;
     add("force_over_pull_off", peak.contact_force / pull_off);
     if (states_mesh_error(scene_)) {
@@ -208,7 +209,7 @@ class Findings {
       map_error = std::max(map_error, std::abs(force / map.contact_force - 1.0));
       const double mu = scene_.scenario.contact.friction;
       if (mu <= 0.0) continue;
-      // eq. (4): mu P integrated over the map, plus mu times the weight W of docs/theory.md (6)
+      // eq. (4): mu P integrated over the map, plus mu times the weight W of [hand_force]
       const auto row = std::find_if(
           record_.contact.rbegin(), record_.contact.rend(),
           [&](const auto& one) { return one.step == map.step && one.time <= map.time; });
@@ -356,7 +357,7 @@ class KnownFailures {
   [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
 
   // A fixed edge at the distance rho acts like a bonded base there, which raises the force by the
-  // factor 1 + c sqrt(R h) / rho, c = 0.86 at nu = 0.27 to 1.13 at 1/2.    docs/theory.md (85)
+  // factor 1 + c sqrt(R h) / rho, c = 0.86 at nu = 0.27 to 1.13 at 1/2.  docs/theory.md [failures]
   void edge() {
     if (!scene_.scenario.solver.rings) return;
     double share = 0.0;
@@ -383,7 +384,7 @@ class KnownFailures {
            percent_text(stiffening) + "; give more `solver.rings`, or \"all\"");
   }
 
-  // Mean static displacement of the skin under a Hertz pressure of 1 N, m/N; 0 if not rigid.
+  // Mean static displacement of the surface under a Hertz pressure of 1 N, m/N; 0 if not rigid.
   [[nodiscard]] double sinking(const tissue::Network& network) const {
     const scene::Specimen& specimen = *scene_.specimen;
     SymmetricSolver solver;
@@ -421,7 +422,7 @@ class KnownFailures {
     constexpr double most = 1.25;  // meshes that do not lock differ by up to 12 % (nu = 0.45)
     if (locked > most)
       remark("volumes of single tetrahedra lock at nu " + rounded_text(ratio) +
-             ": under the finger the mesh sinks " + rounded_text(locked, 2) +
+             ": under the finger the mesh moves " + rounded_text(locked, 2) +
              " times less than with volumes averaged at nodes; write `solver.volume = \"nodal\"`");
   }
 
@@ -432,7 +433,7 @@ class KnownFailures {
     for (const record::Finding& finding : record_.findings)
       if (finding.name == "sinking_mm") sunk = unit::mm.to_si(std::get<double>(finding.value));
     remark("all of the force is on one node, which has sunk by " + millimetres(sunk) +
-           ": it would sink about twice as deep on a mesh of half the cells' size; write "
+           ": it would move about twice as far on a mesh of half the cells' size; write "
            "`contact.spread = \"pressure\"`");
   }
 

@@ -1,4 +1,4 @@
-// Divides a step of the programme into rows and solver steps; ends a case early.
+// Divides a step of the loading history into rows and solver steps; ends a case early.
 #pragma once
 
 #include <string>

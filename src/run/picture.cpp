@@ -54,7 +54,7 @@ geometry::Surface ball(const scenario::Lump& lump) {
   return surface;
 }
 
-// The body of a scene without a mesh: its shape, or a piece of a half-space, with its lumps.
+// The body of a scene without a mesh: its shape, or a piece of a half-space, with its inclusions.
 geometry::Body given_body(const scene::Scene& scene) {
   const scenario::Resolved& scenario = scene.scenario;
   geometry::Body body;
@@ -96,7 +96,7 @@ std::vector<Face> faces(const geometry::Body& body, const scenario::Resolved& sc
   return found;
 }
 
-// Joins corners that lie in one cell of a lattice, the coarser the more faces there are.
+// Joins corners that lie in one cell of a grid, the coarser the more faces there are.
 std::vector<Face> thinned(std::vector<Face> all) {
   constexpr std::size_t most = 6000;
   if (all.size() <= most) return all;
@@ -127,7 +127,7 @@ std::vector<Face> thinned(std::vector<Face> all) {
   return fewer;
 }
 
-// Marks the skin up to the base's level.
+// Marks the surface up to the base's level.
 void mark_held(const scenario::Resolved& scenario, std::vector<Face>& all) {
   geometry::Surface skin;
   for (const Face& face : all) {

@@ -1,4 +1,4 @@
-// Moves the finger through the loading programme and writes a row at every output interval.
+// Moves the finger through the loading history and writes a row at every output interval.
 #include "run/press.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using scenario::Indent;
 using scenario::Retract;
 using scenario::Slide;
 
-// A step of the programme as travel and slide over time.
+// A step of the loading history as travel and slide over time.
 struct Motion {
   double from = 0.0, to = 0.0;                             // m, travel
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();           // m, sideways
@@ -130,7 +130,8 @@ class Press {
           "`output.tissue`");
     if (on_crease_)
       record_.remarks.push_back(
-          "the finger touched the specimen at a crease or rim: the curvature there is that of the "
+          "the finger touched the specimen at a sharp edge or rim: the curvature there is that of "
+          "the "
           "side it touched");
     if (folded_at_ >= 0.0)
       record_.remarks.push_back(
@@ -144,7 +145,7 @@ class Press {
           "grows wide compared with the sphere, and Hertz's law is inaccurate");
     if (one_sided_)
       record_.remarks.push_back(
-          "near a boundary or crease the curvature was estimated from one side only, to first "
+          "near a boundary or sharp edge the curvature was estimated from one side only, to first "
           "order");
   }
 

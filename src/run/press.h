@@ -1,4 +1,4 @@
-// Runs the loading programme of a press.
+// Runs the loading history of a press.
 #pragma once
 
 #include "record/record.h"

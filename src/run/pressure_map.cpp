@@ -28,7 +28,7 @@ double seen_from_above(const geometry::Surface& skin, std::size_t triangle) {
   return std::max(0.0, geometry::twice_area(skin, static_cast<int>(triangle)).z());
 }
 
-// Values of one contact at all vertices of the skin.
+// Values of one contact at all vertices of the surface.
 struct Nodes {
   std::vector<Vec3> force;   // N, on the tissue, with friction
   std::vector<double> down;  // N, vertical component of the normal force

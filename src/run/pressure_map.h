@@ -8,12 +8,12 @@
 namespace palpate::run {
 
 // Pressure, traction and gap around the contacts, seen from above, without time, step and case. The
-// integral of the pressure is Touch::normal_force().               docs/theory.md, below (5)
+// integral of the pressure is Touch::normal_force().        docs/theory.md, below [half_space]
 [[nodiscard]] record::PressureMap draw_map(const scene::Scene& scene,
                                            const mechanics::Touch& touch);
 
-// The same of a solid. The pressure goes with the overlap of the balls and the displaced skin, as
-// the solid's own does, and integrates to `force` (N); `reach` (m) is the radius of the contact.
+// The same of a solid. The pressure goes with the overlap of the balls and the displaced surface,
+// as the solid's own does, and integrates to `force` (N); `reach` (m) is the radius of the contact.
 [[nodiscard]] record::PressureMap draw_map(const solid::FingerPress::Skin& skin, double reach,
                                            double force, const Vec3& finger);
 

@@ -13,8 +13,8 @@ class SpecimenShapes;
 
 namespace palpate::run {
 
-// Of the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger
-// of one sphere at the deepest travel.                                    docs/theory.md (68)
+// By the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger
+// of one sphere at the deepest travel.                             docs/theory.md [estimates]
 struct SizeEffect {
   double change = 0.0;  // of the formula's force, relative
   double error = 0.0;   // the mesh's own, a fraction of its force
@@ -25,7 +25,7 @@ struct SizeEffect {
 [[nodiscard]] std::vector<Vec3> finger_way(const scenario::Resolved& scenario);
 
 // The formula is Hertz's where the surface's curvature is known, else the change is 0; on a cuboid
-// of several flat layers it is their exact law (61), so that the change is that of the sides. At
+// of several flat layers it is their exact law [sides], so that the change is that of the sides. At
 // the place that changes most along slides. Kept in `shapes` for travels and Poisson's ratios
 // nearby: travels are rounded up by less than sqrt(2), and ratios are interpolated.
 [[nodiscard]] SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& folder,

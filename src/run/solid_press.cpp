@@ -25,6 +25,7 @@ std::size_t meshes_for(double tolerance) {
 
 SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
   const std::size_t count = meshes_for(scene.scenario.solver.tolerance);
+  deepest_ = scene::deepest_travel(scene.scenario, scene.finger.whole);
   per_radius_.assign(per_radius.begin(), per_radius.begin() + static_cast<std::ptrdiff_t>(count));
   for (const double number : per_radius_)
     presses_.push_back(std::make_unique<solid::FingerPress>(order(number)));
@@ -65,7 +66,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
     order.ball = tissue::Isotropic{modulus, std::min(ratio, scene::most_poisson_ratio)};
     order.share = 1.0 - finger.compliance_share;
   }
-  order.deepest = scene::deepest_travel(scenario, finger.whole);
+  order.deepest = deepest_;
   order.touch = {given.first_touch, given.touched};
   order.beside = [&](const Vec3& place) -> std::optional<solid::Touch> {
     const auto found = scene::touch_beside(given, finger, place);
@@ -98,7 +99,9 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
     if (auto wrong = take(*press)) return wrong;
   const solid::Extrapolated best = solid::extrapolated(per_radius_, forces);
   now_.force = best.force;
+  // The meshes are made for the deepest travel; their elements are larger beside smaller contacts.
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
+  if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
   touch.finger = scene_->solid->first_touch + way.start - touch.travel * Vec3::UnitZ();
   if (way.start != way.end) touch.finger += way.along * (way.end - way.start).normalized();
   touch.contacts.resize(now_.force > 0.0 ? 1 : 0);

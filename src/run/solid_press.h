@@ -14,7 +14,7 @@
 namespace palpate::run {
 
 // On one mesh; where `solver.tolerance` is below what it states, on two or three, extrapolated.
-//                                                                        docs/theory.md (112)
+//                                                                docs/theory.md [solid_force]
 class SolidPress {
  public:
   // The scene must outlive this. Throws MeshError.
@@ -44,6 +44,7 @@ class SolidPress {
   const scene::Scene* scene_;
   std::vector<std::unique_ptr<solid::FingerPress>> presses_;  // coarsest mesh first
   std::vector<double> per_radius_;
+  double deepest_ = 0.0;  // m, travel
   solid::Moment now_;
   double error_ = 0.0;  // of the last force, a fraction of it
 };

@@ -96,7 +96,7 @@ class UniformTest {
   }
 
   // Without inertia, and where springs do not turn, the specimen keeps the shape of statics and
-  // follows its law of time, which is one for all its springs.            docs/theory.md (52a)
+  // follows its law of time, which is one for all its springs.    docs/theory.md [compression]
   [[nodiscard]] bool keeps_shape() const {
     return !about(scene_.scenario.solver.integrator).inertia &&
            specimen_.kinematics == tissue::Kinematics::linear;
@@ -122,7 +122,7 @@ class UniformTest {
   }
 
   // The creep function of the law under the load, less that of the unloading after it.
-  //                                                                     docs/theory.md (50), (51)
+  //                                                    docs/theory.md [fit_creep], [fit_recovery]
   bool creep_in_shape(const Creep& creep) {
     const scene::SpringBody elastic(specimen_.network, specimen_.kinematics, {}, specimen_.held);
     state_ = {};
@@ -157,7 +157,7 @@ class UniformTest {
   }
 
   // The stress is the relaxed modulus times the law's response to the strain.
-  //                                                                         docs/theory.md (52a)
+  //                                                                 docs/theory.md [compression]
   bool compress(const Compress& compress) {
     const contact::Relaxation law = scene::relaxation_of(specimen_.law);
     return follow(compress.strain, {compress.ramp_time(), compress.hold_time}, [&](double after) {
@@ -166,7 +166,7 @@ class UniformTest {
     });
   }
 
-  // A strain that is applied at once and kept.                          docs/theory.md (37), (52)
+  // A strain that is applied at once and kept.        docs/theory.md [branches], [fit_relaxation]
   bool relax_in_shape(const Relax& relax) {
     const contact::Relaxation law = scene::relaxation_of(specimen_.law);
     return follow(relax.strain, {relax.time}, [&](double after) {
@@ -234,7 +234,7 @@ class UniformTest {
     const int beginnings = stepper_->beginnings();
     stepper_->set_step(pace.step());
     // Central differences that continue through a jump of the load take the mean of both loads
-    // in the next step, which preserves their order.         docs/theory.md, below (39) and (81)
+    // in the next step, which preserves their order.  docs/theory.md, below [first_step]
     bool met_by_mean =
         stage.jumps && stepper_->beginnings() == beginnings &&
         scene_.scenario.solver.integrator == scenario::Solver::Integrator::central_difference;

@@ -130,8 +130,8 @@ struct Sources {
 // mesh of specimens that are not cuboids, the viscosity of the contact.
 void complete(Scenario& scenario, const Node& document);
 
-// The mesh of a scenario that gives none, refined where needed: a lattice for a cuboid without
-// lumps, else TetGen's.
+// The mesh of a scenario that gives none, refined where needed: a structured mesh for a cuboid
+// without inclusions, else TetGen's.
 [[nodiscard]] Mesh mesh_left_open(const Scenario& scenario);
 
 // Looks up the materials, and reads the geometry files of the scenario. Adds to `problems`, with

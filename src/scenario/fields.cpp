@@ -121,7 +121,7 @@ void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& u
 
 void device_fields(FieldVisitor& visitor, Device& device) {
   visitor.quantity(
-      {"damping", "The device's own; if given, findings say what it displays passively."},
+      {"damping", "The device's own; if given, findings.csv says what it displays passively."},
       device.damping, unit::N_s_per_m, at_least(0));
   visitor.quantity({"frame",
                     "Time from one force to the next.",
@@ -130,8 +130,8 @@ void device_fields(FieldVisitor& visitor, Device& device) {
 }
 
 void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use) {
-  visitor.choice_or(auto_models, {"model", "A rung of the ladder of models."}, solver.model,
-                    models);
+  visitor.choice_or(auto_models, {"model", "The model; `auto` takes the cheapest that serves."},
+                    solver.model, models);
   visitor.number({"tolerance", "Relative error of the force that `auto` accepts."},
                  solver.tolerance,
                  {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false});
@@ -188,11 +188,12 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
 void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use) {
   visitor.quantity({"interval", "Time between rows of the CSV files."}, output.interval, unit::ms,
                    above(0));
-  visitor.quantity_list({"force_at",
-                         "Indentations at which the force of the first `indent` is a finding, such "
-                         "as `force_at_1_mm_N`.",
-                         use.finger},
-                        output.force_at, unit::mm, above(0));
+  visitor.quantity_list(
+      {"force_at",
+       "Depths at which the force of the first `indent` is written to findings.csv, such "
+       "as `force_at_1_mm_N`.",
+       use.finger},
+      output.force_at, unit::mm, above(0));
   visitor.flag({"pressure_maps",
                 "An EXR map at the end of every step.",
                 {use.finger.used, use.finger.when, Use::Otherwise::note}},
@@ -273,14 +274,14 @@ static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
                 "finger: `x`, `-y`, or three numbers such as `0 0.2 1`."},
                shape.up);
   visitor.flag({"repair",
-                "Whether small faults are mended, which is said: vertices in one place, doubled "
+                "Whether small faults are mended, with a note: vertices in one place, doubled "
                 "triangles, sheets that share a vertex, triangles that face inwards, and holes and "
                 "crossing triangles with at most 2 % of the area."},
                shape.repair);
   visitor.count_or("auto",
                    {"part",
                     "Which of several closed parts the body is, by falling volume; `auto`: the "
-                    "largest, which is said."},
+                    "largest, with a note."},
                    shape.part, between(1, 1e6));
 }
 static void fields(FieldVisitor& visitor, AsMeshed& shape) {
@@ -389,14 +390,14 @@ static void fields(FieldVisitor& visitor, Lump& region) {
                       "In the coordinates of the file that gives the body, or from the lowest "
                       "corner of a shape that "
                       "palpate makes; `palpate explain SCENARIO` prints the body's box. 99 % of "
-                      "the lump must lie in "
+                      "the inclusion must lie in "
                       "the body."},
                      region.centre, unit::mm, {});
-  visitor.quantity({"radius", "Of the lump."}, region.radius, unit::mm, above(0));
+  visitor.quantity({"radius", "Of the inclusion."}, region.radius, unit::mm, above(0));
 }
 static void fields(FieldVisitor& visitor, Slab& region) {
-  visitor.quantity({"bottom", "Height where it begins, like `centre` of a lump."}, region.bottom,
-                   unit::mm, {});
+  visitor.quantity({"bottom", "Height where it begins, like `centre` of an inclusion."},
+                   region.bottom, unit::mm, {});
   visitor.quantity({"top", "Height where it ends; the top of the body is `tissue`."}, region.top,
                    unit::mm, {});
 }
@@ -479,13 +480,14 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                 "Default: the underside.",
                 use.mesh.used ? use.finger : use.mesh},
                tissue.base_side);
-  visitor.quantity_or("auto",
-                      {"base_height",
-                       "The skin up to this height, in the coordinates of the body, is its base; "
-                       "`auto`: the underside where it is flat, else the lowest tenth of the "
-                       "specimen.",
-                       use.mesh.used ? use.finger : use.mesh},
-                      tissue.base_height, unit::mm, {});
+  visitor.quantity_or(
+      "auto",
+      {"base_height",
+       "The surface up to this height, in the coordinates of the body, is its base; "
+       "`auto`: the underside where it is flat, else the lowest tenth of the "
+       "specimen.",
+       use.mesh.used ? use.finger : use.mesh},
+      tissue.base_height, unit::mm, {});
 }
 
 }  // namespace
@@ -523,7 +525,7 @@ void fields(FieldVisitor& visitor, Scenario& scenario) {
   visitor.table({"solver", "Model, integrator and time step."},
                 [&](FieldVisitor& inner) { solver_fields(inner, scenario.solver, use); });
   visitor.tables(
-      {"step", "The loading programme, in order."}, static_cast<int>(scenario.steps.size()),
+      {"step", "The loading history, in order."}, static_cast<int>(scenario.steps.size()),
       [&](int size) { scenario.steps.resize(as_index(size)); },
       [&](FieldVisitor& inner, int i) { inner.alternatives(scenario.steps[as_index(i)]); });
   visitor.table({"output", "What is written."},

@@ -53,7 +53,7 @@ static_assert(is_complete<Solver::Integrator>(integrator_table), "every integrat
 inline constexpr int default_modes = 128;
 
 // Whether modal steps may keep the lowest modes only, because the force takes the statics of the
-// others from elsewhere or does not depend on the mesh's motion.          docs/theory.md (108)
+// others from elsewhere or does not depend on the mesh's motion.  docs/theory.md [lowest_modes]
 [[nodiscard]] inline bool lowest_modes_serve(const Resolved& scenario) {
   using contact::Coupling;
   using tissue::Viscosity;

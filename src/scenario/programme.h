@@ -1,4 +1,4 @@
-// The duration of a loading programme, and the places to which it moves the finger.
+// The duration of a loading history, and the places to which it moves the finger.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ namespace palpate::scenario {
 [[nodiscard]] std::optional<std::string> compression_problem(const Scenario& scenario,
                                                              const Compress& compress);
 
-// Whether the programme begins with a `compress`, which has no inertia.
+// Whether the loading history begins with a `compress`, which has no inertia.
 [[nodiscard]] bool compresses(const PlainScenario& scenario);
 
 // How the upper platen of a uniform test holds the specimen.

@@ -1,4 +1,4 @@
-// The ladder of models: name, requirements, abilities, error and cost of each rung, in one table
+// The ladder of models: name, requirements, abilities, error and cost of each model, in one table
 // for the choice, `explain`, checks and the manual.
 #pragma once
 
@@ -25,12 +25,12 @@ struct Rung {
   const char* word;  // in scenarios
   const char* meaning;
 
-  // What it needs: the springs of a mesh, for any body of finite size. A rung without springs is a
+  // What it needs: the springs of a mesh, for any body of finite size. A model without springs is a
   // closed form, for the scenarios that scene::beyond() accepts.
   Springs springs;
   tissue::Volume volume = tissue::Volume::none;  // the default of `solver.volume`
 
-  // What it represents. Every rung represents both curvatures and the viscosity of the tissue.
+  // What it represents. Every model represents both curvatures and the viscosity of the tissue.
   bool thickness = false;  // of the specimen, and its base
   bool sides = false;      // of the specimen: any shape
   bool inertia = false;    // of the tissue
@@ -39,7 +39,7 @@ struct Rung {
   bool eq_2 = false;       // its elastic force on a flat is exactly eq. (2)
   bool solid = false;      // finite strain on a mesh of its own, made for the press
 
-  // Measured against converged elasticity (docs/accuracy.md).               docs/theory.md (69)
+  // Measured against converged elasticity (docs/accuracy.md).           docs/theory.md [choice]
   double waves = 0.0;   // share of the effect of inertia that a mesh misses
   double uneven = 0.0;  // error of the strain in a uniform test that is not uniform
   Cost cost = {};
@@ -90,8 +90,8 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .cost = {.set_ups = 1.0}},
     {.of = Model::solid,
      .word = "solid",
-     .meaning =
-         "quadratic tetrahedra of its own with large strains, at rest: depth, edges, layers, lumps",
+     .meaning = "quadratic tetrahedra of its own with large strains, at rest: depth, edges, "
+                "layers, inclusions",
      .springs = Rung::Springs::none,
      .thickness = true,
      .sides = true,
@@ -103,10 +103,10 @@ static_assert(is_complete<Model>(ladder), "the ladder has a row for every model,
 
 [[nodiscard]] constexpr const Rung& rung(Model model) { return ladder[as_index(model)]; }
 
-// The most complete rung of any scenario, with which the others are compared.
+// The most complete model of any scenario, with which the others are compared.
 inline constexpr const Rung& strongest = rung(Model::coupled_springs);
 
-// The rungs for any scenario that satisfy `serves`, as part of a sentence: `solver.model = "a"` or
+// The models for any scenario that satisfy `serves`, as part of a sentence: `solver.model = "a"` or
 // `"b"`.
 template <class Serves>
 [[nodiscard]] std::string models_that(const Serves& serves) {

@@ -145,7 +145,7 @@ struct TaggedRegion {
   std::string name = {};  // of a group in the mesh file; if it is empty, `tag` counts
 };
 struct Lump {
-  static constexpr Word word{"sphere", "A lump inside the specimen."};
+  static constexpr Word word{"sphere", "An inclusion inside the specimen."};
   std::array<double, 3> centre{0.030, 0.030, 0.022};  // m
   double radius = 0.005;                              // m
 };
@@ -176,7 +176,7 @@ struct PlainFinger {
   finger::Calibration calibration = finger::Calibration::force;
   std::optional<double> x, y;  // m, position; empty: the middle of the specimen
   std::vector<double> at;      // m, three; or empty: `x` and `y` count
-  std::string towards;         // the direction of the press; empty: down, or into the skin at `at`
+  std::string towards;         // direction of the press; empty: down, or into the surface at `at`
   Weight weight = Weight::in_contact;
 
   [[nodiscard]] bool rigid() const { return material == "rigid"; }

@@ -114,13 +114,13 @@ interval = "50 ms"
 )";
 
 constexpr std::string_view organ = R"(#:schema ./palpate.schema.json
-# A body with a stiff lump, pressed from above. Give your own surface or mesh in place of the ellipsoid:
+# A body with a stiff inclusion, pressed from above. Give your own surface or mesh in place of the ellipsoid:
 #   shape = { file = "organ.stl", unit = "mm" }      a closed surface: .stl .obj .ply .off
 #   mesh  = { file = "organ.msh", unit = "mm" }      tetrahedra: .msh of Gmsh, .node of TetGen; its
 #                                                    parts are `tagged` regions in place of the sphere
 # `palpate mesh organ.stl --unit mm` checks such a file; z points up.
 schema = 1
-title  = "An organ with a lump"
+title  = "An organ with an inclusion"
 
 [tissue]
 material      = "muscle"
@@ -221,7 +221,7 @@ constexpr std::array all{
     Starter{{"creep", "a constant stress: strain over time"}, creep},
     Starter{{"relax", "a constant strain: stress over time"}, relax},
     Starter{{"compress", "a strain that grows: stress over strain"}, compress},
-    Starter{{"organ", "a body of its own shape, with a stiff lump"}, organ},
+    Starter{{"organ", "a body of its own shape, with a stiff inclusion"}, organ},
     Starter{{"sweep", "a family of cases"}, sweep},
     Starter{{"live", "a press by a test stand"}, live},
 };

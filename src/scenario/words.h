@@ -71,7 +71,7 @@ inline constexpr auto depths = words_of<Contact::Depth>(
 inline constexpr Word auto_directions{
     "auto", "`skin` with linear kinematics, `sphere` with nonlinear ones"};
 inline constexpr auto directions = words_of<Contact::Direction>(
-    {{"skin", "the skin's normals at rest, consistent with small strains"},
+    {{"skin", "the surface's normals at rest, consistent with small strains"},
      {"sphere", "the sphere's normals at the displaced nodes"}});
 inline constexpr Word auto_models{
     "auto", "the cheapest model that meets `tolerance`, one for all cases of a sweep"};

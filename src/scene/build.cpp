@@ -50,8 +50,9 @@ PressedNodes contact_frequency_squared(const Scene& scene, double depth, double 
           sum};
 }
 
-// The rate at the deepest contact of the programme for `series`. With inertia, the largest rate on
-// the way there, because the wide patch becomes narrower as the contact becomes softer (76).
+// The rate at the deepest contact of the loading history for `series`. With inertia, the largest
+// rate on the way there, because the wide patch narrows as the contact becomes softer
+// [contact_limit].
 ContactRate contact_rate(const Scene& scene) {
   if (scene.scenario.uniform()) return {};
   const double deepest = deepest_travel(scene.scenario, scene.law());
@@ -60,8 +61,9 @@ ContactRate contact_rate(const Scene& scene) {
     return {.squared = contact_frequency_squared(scene, deepest, 0.0).frequency_squared};
   }
   // The mesh reduces the compliance of the contact by up to 0.47 of its value at the travel, and a
-  // contact whose surface lags by half the travel has 1 / sqrt(1.5) (0.82) of that value (76). A
-  // sixth of the dashpot C = D k^2 acts on the mesh: 0.4^2 from the wide patch's three radii.
+  // contact whose surface lags by half the travel has 1 / sqrt(1.5) (0.82) of that value
+  // [contact_limit]. A sixth of the dashpot C = D k^2 acts on the mesh: 0.4^2 from the wide patch's
+  // three radii.
   constexpr double stiffened = 3.0;
   constexpr double damped = 1.2;
   const double spacing = contact::SkinSpacing(*scene.specimen->surface)
@@ -194,7 +196,7 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
   const bool fitted = maker.scenario->solver.stiffness == tissue::StiffnessRule::fitted;
   if (fitted) {
     // The fit makes neighbourhoods isotropic; the factor gives the specimen as a whole the modulus
-    // that its springs should have in uniaxial compression (31).
+    // that its springs should have in uniaxial compression [fitted].
     const double wanted = maker.volume() == tissue::Volume::none
                               ? tissues.front().young_modulus
                               : tissue::spring_modulus(tissues.front());
@@ -322,12 +324,13 @@ void refuse_sliding(const Scene& scene, const scenario::Family& family) {
       scenario::rung(scene.scenario.solver.model).formula() || !touch.known() ||
       touch.inclination() <= steepest)
     return;
-  throw InputError(place_of(family.document, "tissue.base"),
-                   "the finger presses on skin that is inclined by " +
-                       rounded_text(touch.inclination(), 2) +
-                       " degrees, and on a frictionless base nothing keeps the specimen from "
-                       "sliding away; set `tissue.base = \"bonded\"`, or press where the skin is "
-                       "level");
+  throw InputError(
+      place_of(family.document, "tissue.base"),
+      "the finger presses on a surface that is inclined by " +
+          rounded_text(touch.inclination(), 2) +
+          " degrees, and on a frictionless base nothing keeps the specimen from "
+          "sliding away; set `tissue.base = \"bonded\"`, or press where the surface is "
+          "level");
 }
 
 // Refuses a model that cannot compute the scene, and names the most complete model that can.

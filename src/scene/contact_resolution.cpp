@@ -1,4 +1,4 @@
-// Measures the skin's triangles under the finger along the loading programme.
+// Measures the surface's triangles under the finger along the loading history.
 #include "scene/contact_resolution.h"
 
 #include <algorithm>

@@ -108,7 +108,7 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
 // The share of Hertz's pressure beyond an edge at x contact radii from the centre is
 // (1 - x)^2 (2 + x) / 4; the force, which has none there, is lower by about its square. Up to two
 // radii a free end changes the force of a body by up to 31 % more than a coarse mesh sees: counted
-// on bars and blocks.                                                    docs/theory.md (69a)
+// on bars and blocks.                                                   docs/theory.md [edge]
 double edge_bound(double x) {
   constexpr double counted = 0.35;
   if (x >= 2.0) return 0.0;
@@ -208,7 +208,7 @@ double bonded_mesh_error(const scenario::Resolved& scenario) {
   const double nu = scenario.tissue.poisson_ratio;
   const double stiffening = bonded_stiffening(scenario, nu);
   if (stiffening == 1.0) return 0.0;
-  // Fitted to tests/bench/bonded_platens.py.                      docs/theory.md, below (52a)
+  // Fitted to tests/bench/bonded_platens.py.              docs/theory.md, below [compression]
   const bool lattice = std::holds_alternative<scenario::Kuhn>(scenario.tissue.mesh) ||
                        std::holds_alternative<scenario::Mirrored>(scenario.tissue.mesh);
   const double as_dense = lattice ? 260.0 : 700.0;

@@ -9,8 +9,8 @@
 
 namespace palpate::scene {
 
-// All effects are relative to the force at the programme's deepest travel and fastest rate. See
-// docs/theory.md (68) for their equations and docs/accuracy.md for measurements.
+// All effects are relative to the force at the loading history's deepest travel and fastest rate.
+// See docs/theory.md [estimates] for their equations and docs/accuracy.md for measurements.
 struct Estimates {
   double travel = 0.0;          // m, the deepest
   double rate = 0.0;            // m/s, the fastest
@@ -18,14 +18,14 @@ struct Estimates {
   double tissue_share = 1.0;    // lambda_2 / (lambda_1 + lambda_2)
   double chi = 0.0;             // sqrt(R h) / H, H down to the base
   double thickness = 0.0;       // change by the thickness of flat layers, exact for wide ones
-  // Of a coarse mesh of the body; run::choose() measures them.
+  // Measured by run::choose() on a coarse mesh of the body.
   double sides = 0.0;            // change of a flat layer's force by its sides
   double size = 0.0;             // change of a half-space's force by the whole body
   double size_error = 0.0;       // the mesh's own, a fraction of the body's force
   bool measured = false;         // whether there was a mesh, and a solution on it
-  double edge = 0.0;             // bound where an edge is nearer than two contact radii; (69a)
-  double ball = 0.0;             // what a ball in place of a half-space adds to the force; (69b)
-  double deep = 0.0;             // change in neo-Hookean tissue by `depth_ratio`; (62)
+  double edge = 0.0;             // bound where an edge is nearer than two contact radii; [edge]
+  double ball = 0.0;             // what a ball in place of a half-space adds to the force; [ball]
+  double deep = 0.0;             // change in neo-Hookean tissue by `depth_ratio`; [deep]
   double deep_error = 0.0;       // of that, or a bound where there is none
   double viscous = 0.0;          // increase by the tissue's viscosity
   double inertia = 0.0;          // increase by the waves that the contact radiates
@@ -38,7 +38,7 @@ struct Estimates {
 
 // By how much of the final strain a specimen rings about its law of time in steps with inertia: by
 // what it strains at once under a load that jumps. Relaxation starts in its static shape and does
-// not ring, nor does nodal drag, whose motion is the law.                docs/theory.md (68)
+// not ring, nor does nodal drag, whose motion is the law.         docs/theory.md [estimates]
 [[nodiscard]] double uniform_ringing(const scenario::Resolved& scenario);
 
 // Meshes that follow their error are refined until this share of `solver.tolerance` is stated.
@@ -47,7 +47,7 @@ inline constexpr double refined_share = 0.5;
 // How much stiffer bonded ends make a prism between platens, for a Poisson's ratio below 1/2: 1 + 2
 // S^2 of an incompressible one (Gent and Lindley 1959), S its loaded over its free surface, in
 // series with the modulus of uniaxial strain. One bonded end is the middle of a body of twice the
-// height. Within 15 % of solutions by refined meshes.                 docs/theory.md, below (52a)
+// height. Within 15 % of solutions by refined meshes.         docs/theory.md, below [compression]
 [[nodiscard]] double bonded_stiffening(const scenario::Resolved& scenario, double poisson_ratio);
 
 // The error of its modulus by a mesh with the tissue's elasticity, relative.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double gravity = 9.80665;  // m/s^2, standard
 
-// (2 - nu) / G of one body, 1/Pa.                                            docs/theory.md (54)
+// (2 - nu) / G of one body, 1/Pa.                                      docs/theory.md [cattaneo]
 double shear_term(const contact::Elastic& body) {
   return (2.0 - body.poisson_ratio) * 2.0 * (1.0 + body.poisson_ratio) / body.young_modulus;
 }

@@ -1,4 +1,4 @@
-// The shapes and programmes to which closed forms apply.
+// The shapes and loading histories to which closed forms apply.
 #include <algorithm>
 
 #include "base/text.h"

@@ -76,7 +76,7 @@ bool from_file(const scenario::Resolved& scenario) {
          std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape);
 }
 
-// Of the body in the coordinates of its file.
+// The body's upward direction in the coordinates of its file.
 Vec3 up_of(const scenario::Resolved& scenario) {
   const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
   const auto* meshed = std::get_if<scenario::AsMeshed>(&scenario.tissue.shape);
@@ -187,7 +187,7 @@ BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& 
 }
 
 double share_inside(const geometry::Surface& body, const geometry::Lump& lump) {
-  // Vertical lines through a lattice on the lump's disc; its offset avoids vertices and edges.
+  // Vertical lines through a grid on the inclusion's disc; its offset avoids vertices and edges.
   constexpr int lines = 41;
   constexpr double offset = 0.4142;
   const double step = 2.0 * lump.radius / lines;

@@ -27,8 +27,8 @@ struct Box {
 [[nodiscard]] std::string coordinates_text(const scenario::Resolved& scenario);
 
 // Sets `tissue.turn` and `tissue.base_up`, and turns the scenario's places with the body: centres
-// of lumps, and `finger.at`, which becomes `finger.x` and `finger.y`. Throws MeshError if a mesh
-// that the finger's place depends on cannot be read.
+// of inclusions, and `finger.at`, which becomes `finger.x` and `finger.y`. Throws MeshError if a
+// mesh that the finger's place depends on cannot be read.
 void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
                     SpecimenShapes& shapes);
 
@@ -38,8 +38,9 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
 // The box of places of the scene in the coordinates of the body's file.
 [[nodiscard]] Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places);
 
-// The height (m) along `tissue.base_up` to which the skin is the base: `tissue.base_height`, or the
-// lowest plane of a body with a flat underside, or a tenth of its height above its lowest point.
+// The height (m) along `tissue.base_up` to which the surface is the base: `tissue.base_height`, or
+// the lowest plane of a body with a flat underside, or a tenth of its height above its lowest
+// point.
 [[nodiscard]] double base_level(const scenario::Resolved& scenario, const geometry::Surface& body);
 
 // The part of the surface's area that is the base, and how much of the base's area seen from above
@@ -51,11 +52,11 @@ struct BaseArea {
 [[nodiscard]] BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& body,
                                  const Vec3& place, double radius);
 
-// The part of a lump that lies inside a closed surface, 0 to 1; error below 0.002.
+// The part of an inclusion that lies inside a closed surface, 0 to 1; error below 0.002.
 [[nodiscard]] double share_inside(const geometry::Surface& body, const geometry::Lump& lump);
 
-// Throws InputError with both boxes for a lump of which less than 99 % lies inside the body, a slab
-// of which less than 99 % lies in its height, and a base above or below the body.
+// Throws InputError with both boxes for an inclusion of which less than 99 % lies inside the body,
+// a layer of which less than 99 % lies in its height, and a base above or below the body.
 void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface& body,
                     const scenario::Family& family);
 

@@ -102,13 +102,13 @@ struct Finger {
   contact::SphereLaw whole;       // the single sphere that they replace: radius and E*
   double weight = 0.0;            // N, if friction counts it besides the contact force; else 0
   double compliance_share = 0.0;  // lambda_1 / (lambda_1 + lambda_2)
-  double shear_compliance = 0.0;  // 1/Pa, q of Cattaneo and Mindlin; docs/theory.md (54)
+  double shear_compliance = 0.0;  // 1/Pa, q of Cattaneo and Mindlin; docs/theory.md [cattaneo]
   double force_factor = 1.0;      // force of all spheres over that of `whole`, on a flat
 };
 
 [[nodiscard]] Finger make_finger(const scenario::Resolved& scenario);
 
-// The deepest travel of the programme, m; a force is converted into Hertz's depth.
+// The deepest travel of the loading history, m; a force is converted into Hertz's depth.
 [[nodiscard]] double deepest_travel(const scenario::Resolved& scenario,
                                     const contact::SphereLaw& law);
 
@@ -117,7 +117,7 @@ constexpr double most_poisson_ratio = 0.4995;  // in a mesh; larger values are r
 // has no solution at nu = 1/2, so that nu is at most most_poisson_ratio.
 [[nodiscard]] std::vector<tissue::Isotropic> tissues_of(const scenario::Resolved& scenario);
 
-constexpr double own_share = 0.05;  // bulk modulus of single tetrahedra over shear modulus; (66)
+constexpr double own_share = 0.05;  // bulk over shear modulus of a tetrahedron; [nodal_volume]
 
 // The specimen as springs, with all data that its steps need.
 struct Specimen {
@@ -127,7 +127,7 @@ struct Specimen {
   tissue::ViscousLaw law;
   tissue::Kinematics kinematics = tissue::Kinematics::linear;
   tissue::Base base = tissue::Base::bonded;
-  double base_height = 0.0;  // m; the skin up to this height is the base
+  double base_height = 0.0;  // m; the surface up to this height is the base
   Vec3 low = Vec3::Zero();   // m, corners of the bounding box
   Vec3 high = Vec3::Zero();
   std::vector<int> skin;  // the node of every vertex of `surface`
@@ -177,21 +177,21 @@ struct Scene {
                                                 const scenario::Resolved& scenario,
                                                 const SurfaceTouch& touch);
 
-// The relaxation of the contact's modulus: the tissue's branches behind an elastic finger (63);
+// The relaxation of the contact's modulus: the tissue's behind an elastic finger [relaxation];
 // empty (elastic) if the contact does not include viscosity.
 // A tissue's law as that of its modulus.
 [[nodiscard]] contact::Relaxation relaxation_of(const tissue::ViscousLaw& law);
 [[nodiscard]] contact::Relaxation contact_relaxation(const scenario::Resolved& scenario,
                                                      const Finger& finger);
 
-// Whether all regions are slabs; true without regions.
+// Whether all regions are layers; true without regions.
 [[nodiscard]] bool all_slabs(const scenario::Resolved& scenario);
 
 // Whether a region has another Young's modulus or Poisson's ratio than the tissue.
 [[nodiscard]] bool several_tissues(const scenario::Resolved& scenario);
 
 // The flat layers of a cuboid, with the tissue on top. `share` as in contact::Layer.
-//                                                                        docs/theory.md (79)
+//                                                               docs/theory.md [layer_stack]
 [[nodiscard]] contact::Layer layers_of(const scenario::Resolved& scenario, double share);
 
 // The contact of the finger with a flat layer as thick as the specimen.

@@ -1,5 +1,5 @@
-// What bodies of a unit modulus sink under contacts at places of their skin, for cases that share
-// them.
+// What bodies of a unit modulus sink under contacts at places of their surface, for cases that
+// share them.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 namespace palpate::scene {
 
 // For contacts of four radii. Values are for a tissue of E = 1 Pa: divided by its modulus they are
-// in m/N.                                                                   docs/theory.md (13)
+// in m/N.                                                               docs/theory.md [energy]
 struct SunkPlace {
   static constexpr std::size_t radii = 4;
   std::array<double, radii> sinking{};         // 1/m, s + e
@@ -30,8 +30,8 @@ struct SunkPlace {
 // Thread-safe. A place has the same bits whoever computed it.
 class SinkingStore {
  public:
-  // Of the body with this key at a vertex of its skin (-1: at the first touch), under a patch with
-  // this normal.
+  // The place of the body with this key at a vertex of its surface (-1: at the first contact),
+  // under a patch with this normal; nothing if it is not kept.
   [[nodiscard]] std::optional<SunkPlace> find(const std::string& body, int vertex,
                                               const Vec3& normal);
   // Drops all places before it would take more than 200 MB.

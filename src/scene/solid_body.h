@@ -16,15 +16,15 @@ namespace palpate::scene {
 struct Finger;
 struct Scene;
 
-// One of the first three gives the body; lumps and slabs of the scenario come on top.
+// One of the first three gives the body; inclusions and layers of the scenario come on top.
 struct SolidBody {
   std::optional<geometry::Shape> shape;
   std::shared_ptr<const geometry::SmoothSurface> surface;  // of a file
   std::optional<geometry::TetMesh> mesh;                   // with the numbers of substances
   std::shared_ptr<const geometry::SmoothSurface> skin;     // the surface of any of them
-  double base_level = 0.0;          // m; the skin up to this height along `tissue.base_up` is held
+  double base_level = 0.0;          // m; the surface up to here along `tissue.base_up` is held
   Vec3 first_touch = Vec3::Zero();  // m, the finger's point there
-  Vec3 touched = Vec3::Zero();      // m, the place of the skin there
+  Vec3 touched = Vec3::Zero();      // m, the place of the surface there
 };
 
 // The substance of a part of a shape: 0 is the tissue, then the scenario's regions in order.

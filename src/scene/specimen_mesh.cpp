@@ -1,4 +1,4 @@
-// Makes meshes from lattices, by TetGen, or from files.
+// Makes meshes from structured meshes, by TetGen, or from files.
 #include "scene/specimen_mesh.h"
 
 #include <algorithm>
@@ -28,11 +28,11 @@ using Scenario = scenario::Resolved;
 
 constexpr double meshing_time = 120.0;  // s, time limit for TetGen
 
-// Lumps and slabs have region numbers from here on, which no shape or file uses.
+// Inclusions and layers have region numbers from here on, which no shape or file uses.
 constexpr int first_own = 1'000'000'000;
 
-// Assigns tetrahedra to slabs by their centres; none crosses the face of a slab. Later regions lie
-// over earlier ones, so that a slab leaves a later lump as it is.
+// Assigns tetrahedra to layers by their centres; none crosses the face of a layer. Later regions
+// lie over earlier ones, so that a layer leaves a later inclusion as it is.
 void number_slabs(geometry::TetMesh& mesh, const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
     const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part);
@@ -146,7 +146,7 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
     mesh = meshing::cut_at(std::move(mesh), height, false, parametric(scenario.tissue.shape));
   if (!heights.empty()) {
     number_slabs(mesh, scenario);
-    meshing::check(mesh, name + ", cut at the slabs,", volume);
+    meshing::check(mesh, name + ", cut at the layers,", volume);
   }
   return made;
 }
@@ -189,7 +189,7 @@ void number_regions(SpecimenMesh& made, const Scenario& scenario) {
     if (used[i] == 0)
       throw MeshError("the specimen's mesh has no tetrahedron of `[[region]]` " +
                       std::to_string(i + 1) +
-                      "; check its `tag` against the mesh, or mesh a lump finer");
+                      "; check its `tag` against the mesh, or mesh an inclusion finer");
   if (std::all_of(mesh.regions.begin(), mesh.regions.end(), [](int r) { return r == 0; }))
     mesh.regions.clear();
 }
@@ -256,10 +256,10 @@ void refuse_covered_lumps(const Scenario& scenario) {
       if (lump == nullptr || slab == nullptr) continue;
       const double taken = below(*lump, slab->top) - below(*lump, slab->bottom);
       if (taken > 0.01)
-        throw MeshError("`[[region]]` " + std::to_string(j + 1) + ", a slab, covers " +
-                        percent_text(taken) + " of the lump of `[[region]]` " +
+        throw MeshError("`[[region]]` " + std::to_string(j + 1) + ", a layer, covers " +
+                        percent_text(taken) + " of the inclusion of `[[region]]` " +
                         std::to_string(i + 1) +
-                        "; write the lump after the slab, so that it lies over it");
+                        "; write the inclusion after the layer, so that it lies over it");
     }
 }
 

@@ -18,14 +18,14 @@ namespace palpate::scene {
 // The shape as a parametric one; nothing for half-spaces and shapes from files.
 [[nodiscard]] std::optional<geometry::Shape> parametric(const scenario::Shape& shape);
 
-// The heights (m) of the interfaces between slabs and tissue, ascending.
+// The heights (m) of the interfaces between layers and tissue, ascending.
 [[nodiscard]] std::vector<double> slab_levels(const scenario::Resolved& scenario);
 
-// The scenario's lumps; their regions' numbers are those of specimen_mesh().
+// The scenario's inclusions; their regions' numbers are those of specimen_mesh().
 [[nodiscard]] std::vector<geometry::Lump> lumps_of(const scenario::Resolved& scenario);
 
-// Regions are laid in their order, later over earlier. Throws MeshError if a slab takes more than a
-// hundredth of a lump before it.
+// Regions are laid in their order, later over earlier. Throws MeshError if a layer takes more than
+// a hundredth of an inclusion before it.
 void refuse_covered_lumps(const scenario::Resolved& scenario);
 
 // The surface from the scenario's file, not turned. Throws InputError if it cannot be read,

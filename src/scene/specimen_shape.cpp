@@ -1,4 +1,4 @@
-// A cache of meshes, skins and fits, with the text of the keys on which they depend as its key.
+// A cache of meshes, surfaces and fits, with the text of the keys on which they depend as its key.
 #include "scene/specimen_shape.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using Scenario = scenario::Resolved;
 
-// The area of the skin's triangles that lie in the plane at height `z`, m^2.
+// The area of the surface's triangles that lie in the plane at height `z`, m^2.
 double flat_area(const geometry::Skin& skin, double z, double tolerance) {
   double sum = 0.0;
   for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
@@ -44,7 +44,8 @@ std::pair<double, double> reach(const geometry::TetMesh& mesh) {
   return {low, high};
 }
 
-// Whether the mesh depends on the finger's position: graded lattices are finer under the finger.
+// Whether the mesh depends on the finger's position: graded structured meshes are finer under the
+// finger.
 bool knows_finger(const scenario::Mesh& mesh) {
   if (const auto* kuhn = std::get_if<scenario::Kuhn>(&mesh)) return kuhn->grading != 1.0;
   if (const auto* mirrored = std::get_if<scenario::Mirrored>(&mesh))
@@ -240,7 +241,7 @@ std::vector<double> numbers_of(const contact::Layer& layer) {
   return numbers;
 }
 
-// Of the whole process, so that the tests of a joint identification share them. A search that
+// Shared by the whole process, for the tests of a joint identification. A search that
 // varies nu needs a new layer every time; at this number all are removed.
 template <class Value>
 struct KeptLayers {
@@ -268,7 +269,7 @@ contact::LayerLaw layer_law(const contact::Layer& layer) {
   static KeptLayers<contact::LayerLaw> stacks;
   static KeptLayers<contact::LayerTable> tables;
   if (!layer.below.empty()) return *stacks.of(layer);
-  // Of one layer the table serves every finger and modulus.
+  // The table of a single layer serves every finger and modulus.
   contact::Layer any = layer;
   any.share = 1.0;
   return {*tables.of(any), layer.share};

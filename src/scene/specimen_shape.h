@@ -28,16 +28,16 @@ struct SpecimenShape {
   geometry::SmoothSurface surface;
   double top_area = 0.0;     // m^2, of the flat upper end; 0 if there is none
   double bottom_area = 0.0;  // m^2
-  double base_level = 0.0;   // m, absolute; the skin up to this height is the base
+  double base_level = 0.0;   // m, absolute; the surface up to this height is the base
   std::string remark;        // of SpecimenMesh
   std::optional<Refined> refined = {};
 };
 
 [[nodiscard]] SpecimenShape shape_of(geometry::TetMesh mesh, double base_level);
 
-// The scenario's mesh, not refined, with its skin. Unless it comes from a file, no edge of the skin
-// crosses the border of the base. Throws what specimen_mesh() throws.
-// `of_file` is the surface of the scenario's file, if it names one.
+// The scenario's mesh, not refined, with its surface. Unless it comes from a file, no edge of the
+// surface crosses the border of the base. Throws what specimen_mesh() throws. `of_file` is the
+// surface of the scenario's file, if it names one.
 [[nodiscard]] SpecimenShape make_shape(const scenario::Resolved& scenario,
                                        const std::string& folder,
                                        const geometry::SmoothSurface* of_file);
@@ -74,7 +74,8 @@ class SpecimenShapes {
     [[nodiscard]] const std::shared_ptr<const geometry::SmoothSurface>& must() const;
     void copy(const FileSurface& other);  // all but the mutex
   };
-  // Of a scenario whose shape is a SurfaceFile, turned as the scenario says; read and mended once.
+  // The surface of a scenario whose shape is a SurfaceFile, turned as the scenario says; read and
+  // mended once.
   [[nodiscard]] const FileSurface& surface(const scenario::Resolved& scenario,
                                            const std::string& folder);
 

@@ -14,7 +14,7 @@ namespace palpate::scene {
 // All springs have one viscous law. With E the linear map from elongations to tensions, and q_k the
 // elongations that the branches remember, the tensions are  E (e + sum_k b_k (e - q_k)).  Where
 // springs do not turn, this is  f = K (u + sum_k b_k (u - z_k))  for the whole body, with one
-// matrix and the memory z_k of its nodes.                                docs/theory.md (37)
+// matrix and the memory z_k of its nodes.                          docs/theory.md [branches]
 class SpringBody final : public integrate::Body {
  public:
   using Vector = integrate::Vector;
@@ -57,7 +57,7 @@ class SpringBody final : public integrate::Body {
   void inherit(std::span<const double> other, std::size_t count, std::size_t from, std::size_t to,
                std::vector<double>& memory) const;
 
-  // Energies of a state, J, and the energy dissipated between two states.   docs/theory.md (43)
+  // Energies of a state, J, and the energy dissipated between two states.  docs/theory.md [balance]
   [[nodiscard]] double stored(const integrate::State& state) const;
   [[nodiscard]] double kinetic(const integrate::State& state) const;
   [[nodiscard]] double dissipated(const integrate::State& before,

@@ -39,7 +39,7 @@ struct SurfaceTouch {
 
   // The indentation (m) and the normal after the finger has gone down vertically by `travel` (m),
   // on the quadric with these curvatures: exact on a flat, else to second order in the travel.
-  //                                                                        docs/theory.md (96)
+  //                                                                  docs/theory.md [inclined]
   struct Pressed {
     double depth;
     Vec3 normal;
@@ -55,7 +55,7 @@ struct SurfaceTouch {
                                                             const scenario::Resolved& scenario);
 
 // The touch of one sphere of `finger.radius` at `finger.x`, `finger.y`: in closed form for a
-// parametric shape; for a file, on the file's triangles, with the quadric fit of the skin of a
+// parametric shape; for a file, on the file's triangles, with the quadric fit of the surface of a
 // mesh. Nothing is meshed. Relative files are looked for in `folder`.
 [[nodiscard]] SurfaceTouch surface_touch(const scenario::Resolved& scenario,
                                          const std::string& folder, SpecimenShapes& shapes);

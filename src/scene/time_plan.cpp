@@ -13,7 +13,7 @@ namespace {
 
 using integrate::DampingVelocity;
 
-// The limit for the specimen's highest mode, on which damping acts most (42), (76), (81).
+// The limit for the specimen's highest mode, on which damping acts most: [limit], [explicit_limit].
 double limit_of_explicit_steps(const scenario::Resolved::Solver& solver,
                                const tissue::ViscousLaw& law, double squared,
                                const ContactRate& contact) {
@@ -25,7 +25,7 @@ double limit_of_explicit_steps(const scenario::Resolved::Solver& solver,
       integrate::explicit_limit(velocity, {.squared = squared + contact.squared,
                                            .rate = dashpots ? law.time * squared : law.drag,
                                            .forces = contact.damping});
-  // With `ahead`, dashpots stabilise all spring modes in steps below 2 tau (81), but no contact.
+  // With `ahead`, dashpots stabilise spring modes, but no contact, below 2 tau [explicit_limit].
   if (velocity != DampingVelocity::ahead || !dashpots || limit >= 2.0 * law.time) return limit;
   return integrate::explicit_limit(velocity,
                                    {.squared = contact.squared, .forces = contact.damping});

@@ -11,14 +11,15 @@ struct Scene;
 struct Specimen;
 
 // The addition to the fastest motion by a contact that acts back on the mesh: its stiffness k and
-// damping C, times sum_j w_j^2 / m_j over the loaded nodes.            docs/theory.md (42), (76)
+// damping C, times sum_j w_j^2 / m_j over the loaded nodes.
+//                                                           docs/theory.md [limit], [contact_limit]
 struct ContactRate {
   double squared = 0.0;  // 1/s^2
   double damping = 0.0;  // 1/s
 };
 
 // The time step (s) below which the chosen method is stable if it is explicit, or else central
-// differences.                                                              docs/theory.md (42)
+// differences.                                                           docs/theory.md [limit]
 [[nodiscard]] double stability_limit(const scenario::Resolved& scenario, const Specimen& specimen,
                                      const ContactRate& contact);
 
@@ -34,7 +35,7 @@ struct TimePlan {
 
 // Substeps of a time step: for explicit methods as many as keep it below 0.9 of the stability
 // limit; for implicit Euler and TR-BDF2 as many as keep its error below 1 % after one viscous time;
-// else one. `solver.substeps` overrides this.                              docs/theory.md (42)
+// else one. `solver.substeps` overrides this.                           docs/theory.md [limit]
 [[nodiscard]] TimePlan plan_time(const scenario::Resolved& scenario, const Specimen& specimen,
                                  const ContactRate& contact);
 
@@ -42,13 +43,13 @@ struct TimePlan {
 // for `consistent`, in steps with inertia, if the static displacement of the mesh under its loads
 // is known, so that the rest of its motion is due to inertia. False with non-linear kinematics,
 // where the contact neglects the viscosity of the mesh, and with Kelvin-Voigt, whose dashpot would
-// need the force that it determines. docs/theory.md (74)
+// need the force that it determines. docs/theory.md [inertia]
 [[nodiscard]] bool inertia_reaches_force(const scenario::Resolved& scenario);
 
 // D = C / F'^2, m s/N, for the dashpot C by which a half-space with the network's E and nu and the
 // tissue's density acts on a contact of stiffness F'. It is the same for every radius:
 //   C = 3.4 a^2 sqrt(rho G) / (1 - nu),  F' = 4 G a / (1 - nu)
-//                             Lysmer's analogue, Lysmer and Richart 1966; docs/theory.md (75)
+//                      Lysmer's analogue, Lysmer and Richart 1966; docs/theory.md [radiation]
 [[nodiscard]] double radiation_compliance(const Scene& scene);
 
 }  // namespace palpate::scene

@@ -28,7 +28,8 @@ Extent extent_of(const BodyOrder& order) {
   return found;
 }
 
-// Around the touched places, through the layers under them, and in balls.  docs/theory.md (111)
+// Around the touched places, through the layers under them, and in balls.
+//                                                                       docs/theory.md [solid_mesh]
 Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
   Sizes sizes;
   const double a = std::sqrt(order.radius * order.travel);

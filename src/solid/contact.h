@@ -50,7 +50,7 @@ struct Met {
 // A penalty pushes every integration point of a face (seven, exact to degree five) out of an
 // indenter, along its normal at the displaced point: pressure = stiffness * overlap. Of an indenter
 // with a share s, overlap = s depth + (1 - s) n . u, with the normal n of the undeformed face.
-//                                                                        docs/theory.md (110)
+//                                                                        docs/theory.md [penalty]
 class Contact {
  public:
   // `faces` are those that may be met, `stiffness` (Pa/m) is the penalty. `elements` must outlive

@@ -134,7 +134,7 @@ int Elements::entry(int row, int column) const {
 
 // Per point, with h_a = F^-T G_a, f_a = F G_a, c = mu J^(-2/3) and t, s the parts of the pressure:
 //   K_ab = c ((G_a . G_b) 1 - 2/3 (f_a h_b^T + h_a f_b^T) + 2/9 I1 h_a h_b^T + I1/3 h_b h_a^T)
-//          + t h_a h_b^T - s h_b h_a^T                                     docs/theory.md (109)
+//          + t h_a h_b^T - s h_b h_a^T                                   docs/theory.md [solid]
 double Elements::assemble(const Vector& displacement, Vector& force,
                           Eigen::SparseMatrix<double>& stiffness) {
   if (stiffness.nonZeros() != pattern_.nonZeros()) stiffness = pattern_;

@@ -16,7 +16,7 @@ using Vector = Eigen::VectorXd;
 // every element. Where a tissue has nu above 0.46, J in the second term is the mean of the element,
 // so that it does not lock. The stiffness is taken at a pressure p of its own, which becomes kappa
 // (J - 1) by advance(): Newton's method then converges near nu = 1/2 as well.
-//                                                                        docs/theory.md (109)
+//                                                                      docs/theory.md [solid]
 class Elements {
  public:
   static constexpr double mean_above = 0.46;

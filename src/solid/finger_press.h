@@ -48,7 +48,8 @@ struct Moment {
 // is a parabola of that of the travel between them. An elastic finger is a ball of its own radius:
 // each body takes its share of the curvature of the gap between them, ball and tissue are pressed
 // by the rigid surface between their shares, and their travels at equal forces add.
-//                                                                        docs/theory.md (112)
+//                                                                        docs/theory.md
+//                                                                        [solid_force]
 class FingerPress {
  public:
   // What the order points to must outlive the call. Throws MeshError.
@@ -114,14 +115,16 @@ class FingerPress {
 };
 
 // What the meshes of SolidPress state at least, a fraction of the force: counted on the bodies of
-// docs/accuracy.md.                                                      docs/theory.md (112)
+// docs/accuracy.md.                                                      docs/theory.md
+// [solid_force]
 inline constexpr double error_of_one_mesh = 0.03;
 inline constexpr double error_of_two_meshes = 0.01;
 inline constexpr double error_of_three_meshes = 0.005;
 
 // A force on finer and finer meshes: that of an infinitely fine one, with its error, N. Errors fall
 // with the square of the elements' size; `per_radius` are the numbers of elements in a contact
-// radius, ascending, one per force.                                      docs/theory.md (112)
+// radius, ascending, one per force.                                      docs/theory.md
+// [solid_force]
 struct Extrapolated {
   double force = 0.0;
   double error = 0.0;

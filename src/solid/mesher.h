@@ -26,7 +26,7 @@ struct Sizes {
   double largest = 0.0;    // m, up to `calm` from the centres of spots
   double calm = HUGE_VAL;  // m
 
-  // m; 0.35 of the distance is added.                                    docs/theory.md (111)
+  // m; 0.35 of the distance is added.                             docs/theory.md [solid_mesh]
   [[nodiscard]] double at(const Vec3& place) const;
 };
 

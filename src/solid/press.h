@@ -37,7 +37,7 @@ struct Answer {
 };
 
 // Newton's method from the place before, with a start extrapolated from the last two places; where
-// it fails the way is halved.                                            docs/theory.md (110)
+// it fails the way is halved.                                        docs/theory.md [penalty]
 class Press {
  public:
   explicit Press(Body body);

@@ -112,7 +112,7 @@ std::string agreement(const stability::StabilityMap& map) {
                     std::to_string(curve.marker) + " linecolor rgb '#" + curve.colour +
                     "' title '" + curve.label + "'");
   }
-  return panel(map, "rung", Scale::logarithmic, "Every rung and damping", "limit by theory, µs") +
+  return panel(map, "rung", Scale::logarithmic, "Every model and damping", "limit by theory, µs") +
          "set key at screen 0.5, screen 0.955 center top vertical maxrows 1 Left reverse samplen 1 "
          "font ',12'\n"
          "plot \\\n  " +

@@ -11,7 +11,7 @@
 namespace palpate::stability {
 
 // Central differences whose damping force uses the velocity of the previous step; otherwise the
-// same as integrate::CentralDifference.                             `lagged` in docs/theory.md (80)
+// same as integrate::CentralDifference.                  `lagged` in docs/theory.md [semi_implicit]
 class LaggedDifference {
  public:
   LaggedDifference(const integrate::Body& body, double time_step)

@@ -20,7 +20,7 @@ double alternating_ratio(const tissue::ViscousLaw& law, double time_step) {
   return ratio;
 }
 
-// The left side of docs/theory.md (81), with (82), minus 4; negative if the time step is stable.
+// docs/theory.md [explicit_limit] with [branch_limit], left side minus 4; negative if stable.
 // `side` is s / 2: 0 for centred damping, 1 if the velocity lags, -1 if it is the new one.
 double excess(double time_step, double side, double frequency, const tissue::ViscousLaw& law) {
   const double damping = law.drag + law.time * frequency * frequency;

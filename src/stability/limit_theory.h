@@ -39,7 +39,7 @@ inline constexpr Method lagged{.lags = true};
 // (2 / x) tanh(x / 2) of its stiffness, x = dt / time, as its memory is exact for linear courses:
 //   dt^2 omega^2 (1 + sum of ratio (2 / x) tanh(x / 2)) + ... = 4 + ...
 // The limit thus lies between those of the unrelaxed and of the relaxed tissue.
-// Nothing for methods without a limit.                                    docs/theory.md (81), (82)
+// Nothing for methods without a limit.              docs/theory.md [explicit_limit], [branch_limit]
 [[nodiscard]] std::optional<double> limit_theory(const Method& method, double frequency,
                                                  const tissue::ViscousLaw& law);
 
@@ -48,7 +48,7 @@ inline constexpr Method lagged{.lags = true};
 
 // |A|, the factor by which one step changes the amplitude of an undamped mode, x = omega dt: 1 for
 // methods that only shift its phase, 1 / sqrt(1 + x^2) for implicit Euler, |R(i x)| for TR-BDF2.
-// Nothing for methods without inertia and beyond a limit.                       docs/theory.md (83)
+// Nothing for methods without inertia and beyond a limit.                  docs/theory.md [tr_bdf2]
 [[nodiscard]] std::optional<double> amplification(Integrator integrator, double omega_step);
 
 // The factor by which one step of central differences beyond the limit, x = omega dt > 2, increases

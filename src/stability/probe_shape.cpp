@@ -15,7 +15,7 @@ namespace {
 using integrate::Vector;
 using scenario::Solver;
 
-// The node of the skin nearest to the middle of the top that is free to move vertically.
+// The node of the surface nearest to the middle of the top that is free to move vertically.
 int top_node(const ProbedBody& probed) {
   const scene::Specimen& specimen = *probed.scene.specimen;
   Vec3 middle = 0.5 * (specimen.low + specimen.high);

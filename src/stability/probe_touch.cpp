@@ -35,14 +35,14 @@ void probe_tunnelling(Survey& survey, double depth) {
   row.failure = Failure::tunnelling;
   row.rung = "any";
   row.setting = 1e3 * rate;
-  row.setting_unit = "mm/s, the programme's rate";
+  row.setting_unit = "mm/s, the rate of loading";
   row.measure = "rate above which a press to the deepest travel falls between two frames, mm/s";
   const auto seen = [&](double speed) { return !slips_through(depth, speed, frame); };
   row.theory = 1e3 * 2.0 * depth / frame;
   if (const auto limit = bisect_limit(seen, 0.01 * depth / frame, 1e3 * depth / frame, 1e-4))
     row.measured = 1e3 * *limit;
   row.reached = slips_through(depth, rate, frame);
-  row.note = "a press of the programme lasts " +
+  row.note = "a press of the loading history lasts " +
              std::to_string(std::lround(2.0 * depth / rate / frame)) + " frames, in and out";
   survey.map.failures.push_back(std::move(row));
 }

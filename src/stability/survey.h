@@ -17,7 +17,7 @@ struct Survey {
   int done = 0;     // measurements
   int planned = 1;  // estimated number of measurements
 
-  // For a large mesh other rungs are measured without damping only, and axes with fewer settings.
+  // For a large mesh other models are measured without damping only, and axes with fewer settings.
   [[nodiscard]] bool large() const { return own->nodes() > 200; }
 
   // Call before every measurement: reports `what` to `told`. Throws Stopped.

@@ -55,7 +55,7 @@ class Trial {
   Trial(const scenario::Family& family, bool keeps_curves)
       : family_(family), keeps_curves_(keeps_curves), files_(hashed_inputs(family)) {}
 
-  // Of all cases, s; nothing if a case does not end as it should.
+  // The time of all cases, s; nothing if a case does not end as it should.
   std::optional<double> seconds() {
     constexpr double most = 8.0;           // cases
     constexpr double most_nodes = 2000.0;  // of all cases, because a set-up cannot be interrupted
@@ -127,7 +127,7 @@ class Trial {
   scene::SinkingStore sinkings_;
 };
 
-// Of this process so far, bytes: it has held more cases at once than a worker does.
+// The largest memory of this process so far, bytes: it has had more cases at once than a worker.
 double most_memory() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);

@@ -29,7 +29,7 @@ constexpr std::size_t block_cases = 16;  // of a worker; larger blocks spend tim
 constexpr double block_nodes = 50000.0;  // about the most in memory, of all scenes together
 constexpr std::size_t most_shapes = 32;  // kept meshes; if there are more, all are discarded
 
-// Of a lock and of files of rows: 3-of-16, or retry-3-of-16.
+// The part in names of locks and of files of rows: 3-of-16, or retry-3-of-16.
 std::string part_name(const SweepTask& task) {
   return (task.which == SweepTask::Which::failed ? "retry-" : "") + task.shard.text();
 }

@@ -33,7 +33,7 @@ struct BootstrapOptions {
 // order by Saltelli and others 2010, Comput. Phys. Commun. 181, 259, table 2 (b), of outputs minus
 // their mean; total by Jansen 1999, Comput. Phys. Commun. 117, 35. Intervals are percentiles of
 // resampled blocks, somewhat too wide for a Sobol sequence. NaN if the values do not vary.
-//                                                                         docs/theory.md (87), (88)
+//                                                       docs/theory.md [first_index], [total_index]
 [[nodiscard]] std::vector<Indices> saltelli_indices(std::span<const double> values,
                                                     std::size_t factors,
                                                     const BootstrapOptions& options = {});

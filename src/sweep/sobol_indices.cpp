@@ -49,7 +49,7 @@ BlockSums block_sums(std::span<const double> values, std::size_t factors) {
 // S_i  = mean((f(B) - c) (f(A_B^i) - f(A))) / V           Saltelli 2010, table 2 (b)
 // S_Ti = mean((f(A) - f(A_B^i))^2) / (2 V)                Jansen 1999
 // V is the variance of A and B together, c the mean of all values; without c a large mean would
-// dominate S_i.                                                     docs/theory.md (87), (88)
+// dominate S_i.                                   docs/theory.md [first_index], [total_index]
 struct Estimates {
   std::vector<double> first, total;
 };

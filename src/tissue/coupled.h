@@ -25,11 +25,11 @@ enum class Volume { none, tetrahedron, nodal };
 [[nodiscard]] double bulk_modulus(const Isotropic& tissue);
 
 // The Young's modulus with which independent springs, whose nu is 1/4, have the tissue's mu:
-// 5/4 E / (1 + nu), Pa.                                                    docs/theory.md (66)
+// 5/4 E / (1 + nu), Pa.                                          docs/theory.md [nodal_volume]
 [[nodiscard]] double spring_modulus(const Isotropic& tissue);
 
 // The volume stiffness that such springs lack, Pa; negative where nu < 1/4:
-// lambda - mu = E (4 nu - 1) / (2 (1 + nu) (1 - 2 nu)).                    docs/theory.md (66)
+// lambda - mu = E (4 nu - 1) / (2 (1 + nu) (1 - 2 nu)).          docs/theory.md [nodal_volume]
 [[nodiscard]] double volume_modulus(const Isotropic& tissue);
 
 // Couples the six springs of every tetrahedron so that they are its linear finite element;
@@ -39,13 +39,14 @@ enum class Volume { none, tetrahedron, nodal };
 // separately for every region that meets there. (With a fraction of K instead, the mesh would lock
 // again as nu nears 1/2.) With Volume::none there is no bulk modulus. The tetrahedra must have
 // positive volume, and the network must be made of this mesh. After Delingette 2008 (the element in
-// terms of its edges) and Bonet and Burton 1998 (the average).      docs/theory.md (65), (66)
+// terms of its edges) and Bonet and Burton 1998 (the average).
+//                                                          docs/theory.md [coupled], [nodal_volume]
 void couple(Network& network, const geometry::TetMesh& mesh, std::span<const Isotropic> tissues,
             Volume volume, double own_share);
 
 // Adds a volume term to independent springs: volume_modulus() times the change of each
 // tetrahedron's volume, or of the volume averaged as above. Regions with nu = 1/4 need none. The
-// stiffness of the springs does not change.                                docs/theory.md (66)
+// stiffness of the springs does not change.                      docs/theory.md [nodal_volume]
 void add_volume(Network& network, const geometry::TetMesh& mesh, std::span<const Isotropic> tissues,
                 Volume volume);
 

@@ -12,7 +12,7 @@
 namespace palpate::tissue {
 
 // The six springs of a tetrahedron if they are coupled: their tensions are this matrix times their
-// elongations.                                                            docs/theory.md (65)
+// elongations.                                                       docs/theory.md [coupled]
 struct CoupledSprings {
   std::array<int, 6> springs{};
   Eigen::Matrix<double, 6, 6> stiffness;  // N/m, symmetric
@@ -20,7 +20,7 @@ struct CoupledSprings {
 
 // A pressure against the change of a volume that is averaged over the tetrahedra around a node:
 // the energy is 1/2 stiffness (sum of dilation * elongation over its springs)^2.
-//                                                                         docs/theory.md (66)
+//                                                               docs/theory.md [nodal_volume]
 struct SharedVolume {
   std::vector<int> springs;
   std::vector<double> dilation;  // 1/m, one per spring
@@ -33,7 +33,7 @@ struct SharedVolume {
 // spring is its stiffness times its elongation plus the terms of its tetrahedra and volumes.
 struct Network {
   std::vector<Vec3> rest;                // m, one per node
-  std::vector<double> node_mass;         // kg; docs/theory.md (32)
+  std::vector<double> node_mass;         // kg; docs/theory.md [masses]
   std::vector<std::array<int, 2>> ends;  // nodes of a spring, the lower number first
   std::vector<double> rest_length;       // m
   std::vector<Vec3> direction;           // unit vector from the first end to the second, at rest
@@ -51,7 +51,7 @@ struct Network {
                                    std::vector<double> stiffness);
 
 // For each node a quarter of the volume (m^3) of every tetrahedron at it, each multiplied by the
-// weight of the tetrahedron's region.                                      docs/theory.md (32)
+// weight of the tetrahedron's region.                                  docs/theory.md [masses]
 [[nodiscard]] std::vector<double> node_volumes(const geometry::TetMesh& mesh,
                                                std::span<const double> weight);
 

@@ -68,7 +68,7 @@ PALPATE_ALWAYS Stretched stretch(const Springs springs, const Node* nodes, std::
     product[j] = change * ((rest + rest) + change);
     now.span[j] = rest + change;
   }
-  // As in springs.cpp.                                                   docs/theory.md (33)
+  // As in springs.cpp.                                           docs/theory.md [elongation]
   const Four squares = sums(product);
   const Four rest = load(springs.rest_length + first);
   if (springs.squared) {
@@ -128,7 +128,7 @@ PALPATE_WIDE void pass_elongations(const Springs springs, const Node* nodes, dou
     store(elongation + first, stretch(springs, nodes, first).elongation);
 }
 
-// Of the velocities in place of the nodes' forces.
+// The rates of elongation, from velocities that stand in place of the nodes' forces.
 PALPATE_WIDE void pass_rates(const Springs springs, const Node* nodes, double* rate) {
   for (std::size_t first = 0; first < springs.count; first += 4) {
     const Stretched now = stretch(springs, nodes, first);

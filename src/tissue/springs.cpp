@@ -20,7 +20,7 @@ struct Stretched {
 };
 
 // |r|^2 - l^2 = d . (2 r_0 + d) does not cancel for a small change d of the span r, which is r_0 at
-// rest. With one division, 1 / ((|r| + l) |r|):                               docs/theory.md (33)
+// rest. With one division, 1 / ((|r| + l) |r|):                       docs/theory.md [elongation]
 //   nonlinear  e = (|r|^2 - l^2) / (|r| + l),  n = r / |r|
 //   squared    e = (|r|^2 - l^2) / (2 l),      n = r / l
 // Inlined, because returning vectors through memory took five times as long.

@@ -11,15 +11,15 @@
 namespace palpate::tissue {
 
 // linear: elongations and forces along the directions at rest (Chen 2007 eq. 11-12).
-// nonlinear: with current lengths and directions (eq. 10).                   docs/theory.md (33)
-// squared: e = (|r|^2 - l^2) / (2 l), of which a tetrahedron's six make up Green's strain (65).
+// nonlinear: with current lengths and directions (eq. 10).           docs/theory.md [elongation]
+// squared: e = (|r|^2 - l^2) / (2 l), a tetrahedron's six make up Green's strain [coupled].
 enum class Kinematics { linear, nonlinear, squared };
 
 using Vector = Eigen::VectorXd;
 
 // Displacements and forces are vectors with three entries (x, y, z) per node.
 
-// The elongations e_s (m) under a displacement u (m).                        docs/theory.md (33)
+// The elongations e_s (m) under a displacement u (m).                docs/theory.md [elongation]
 void elongations(const Network& network, Kinematics kinematics, const Vector& displacement,
                  std::span<double> elongation);
 
@@ -52,7 +52,7 @@ struct ElementPulls {
 [[nodiscard]] ElementPulls element_pulls(const Network& network, const CoupledSprings& six,
                                          std::span<const Vec3> direction);
 
-// The tangent matrix (34), N/m, without supports: a change of elongations changes the tensions by
+// The matrix of [tangent], N/m, without supports: a change of elongations changes the tensions by
 // `factor` times its tensions(). Unless kinematics are linear, which need neither `displacement`
 // nor `tension` (N), the latter adds the geometric term of stretched springs; compressed springs
 // add none, so that the matrix stays positive definite.

@@ -149,8 +149,8 @@ double largest_frequency_squared(const Network& network, std::span<const char> h
   const BlockMatrix stiffness = stiffness_matrix(network);
   const double safe = safe_frequency_squared(network);
   constexpr std::size_t most_steps = 1000;
-  // Of the eigenvalue: it shortens the step by half as much. On large bodies the last digits take
-  // most of the iterations.
+  // Relative error of the eigenvalue; the step's is half of it. On large bodies the last digits
+  // take most of the iterations.
   constexpr Eigen::Index large = 6000;
   const double enough = size < large ? 1e-6 : 1e-4;
   std::vector<double> alpha;

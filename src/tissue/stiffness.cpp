@@ -100,7 +100,7 @@ SpringFit fit_springs(const geometry::TetMesh& mesh) {
   for (std::size_t e = 0; e < edges.size(); ++e) add(e, y[e]);
 
   // Projected coordinate descent: each y_e in turn is set to its best value. The weak second term
-  // of (31) makes the problem strictly convex, so that the sweeps converge to its only solution.
+  // of [fitted] makes the problem strictly convex: the sweeps converge to its only solution.
   constexpr double pull = 1e-3;
   constexpr double least = 0.1;  // of Van Gelder's: without it flat cells lose springs and rigidity
   constexpr int most_sweeps = 2000;

@@ -11,7 +11,8 @@ namespace palpate::tissue {
 
 enum class StiffnessRule { van_gelder, fitted };
 
-// k_e = sum(E_t V_t) / l_e^2 over the tetrahedra at the edge. Van Gelder 1998; docs/theory.md (30)
+// k_e = sum(E_t V_t) / l_e^2 over the tetrahedra at the edge. Van Gelder 1998;
+//                                                                       docs/theory.md [van_gelder]
 [[nodiscard]] std::vector<double> van_gelder_stiffness(const geometry::TetMesh& mesh,
                                                        std::span<const double> young_modulus);
 
@@ -21,7 +22,7 @@ enum class StiffnessRule { van_gelder, fitted };
 // weak second term prefers Van Gelder's values where this leaves a choice. The fit is that of one
 // tissue; a spring between tissues gets the mean modulus of the volume around it. (A fit across a
 // stiff interface would soften the soft side's springs to make up for the stiff side.)
-//                                                                           docs/theory.md (31)
+//                                                                       docs/theory.md [fitted]
 [[nodiscard]] std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
                                                    std::span<const double> young_modulus);
 

@@ -17,8 +17,8 @@ inline constexpr const char* not_held =
     "`tissue.base_height`, and whether all parts of the mesh share nodes";
 
 // One flag per degree of freedom, 1 where it is held. The base is the lowest plane or, if
-// `base_height` (m) is positive, the skin up to this height above it. With a frictionless base one
-// node is kept from sliding and a second one from turning the body about the first. Heights are
+// `base_height` (m) is positive, the surface up to this height above it. With a frictionless base
+// one node is kept from sliding and a second one from turning the body about the first. Heights are
 // along `up`, a unit vector; another one than z needs a bonded base.
 [[nodiscard]] std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base,
                                              double base_height = 0.0,

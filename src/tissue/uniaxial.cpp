@@ -85,7 +85,8 @@ Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh) {
   }
   // The tractions balance, so that the supports bear nothing.
   const Vector displacement = solve(stiffness_matrix(network), held, load);
-  // mean strain = 1/V sum over the skin of (mean displacement) x (area vector)  docs/theory.md (46)
+  // mean strain = 1/V sum over the surface of (mean displacement) x (area vector)
+  //                                                                       docs/theory.md [traction]
   Vec3 stretch = Vec3::Zero();
   for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
     const Vec3 face = 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t));

@@ -20,14 +20,14 @@ struct Uniaxial {
 
 // `area` (m^2) is that of the flat top at height `top` (m). The upper platen holds the body as
 // `platen` says, the lower one as `base` does. Throws MeshError if the network is not rigid.
-// docs/theory.md (45)
+// docs/theory.md [uniaxial]
 [[nodiscard]] Uniaxial uniaxial_test(const Network& network, const geometry::TetMesh& mesh,
                                      Base base, double top, double area,
                                      Base platen = Base::frictionless);
 
-// The same for a body of any shape, under tractions on its whole skin that stretch it uniformly
+// The same for a body of any shape, under tractions on its whole surface that stretch it uniformly
 // along z. Modulus and ratio follow from the mean strain; the other members are left empty. Throws
-// MeshError if the network is not rigid.                                    docs/theory.md (46)
+// MeshError if the network is not rigid.                              docs/theory.md [traction]
 [[nodiscard]] Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh);
 
 }  // namespace palpate::tissue

@@ -54,7 +54,8 @@ std::size_t memory_size(const ViscousLaw& law) {
 
 namespace {
 
-// Kelvin-Voigt: e_1 = keep e_0 + begin s_0/k + end s_1/k, solved for s_1/k   docs/theory.md (36)
+// Kelvin-Voigt: e_1 = keep e_0 + begin s_0/k + end s_1/k, solved for s_1/k
+//                                                                     docs/theory.md [kelvin_voigt]
 double kelvin_voigt(const MemoryStep& step, double before, double effective, double elongation) {
   // A dashpot stretched in no time only transmits an impulse; afterwards it carries no force.
   if (step.end == 0.0) return elongation;
@@ -74,7 +75,7 @@ void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> st
   }
   std::copy(elongation.begin(), elongation.end(), effective.begin());
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    // s/k = e + sum of k_i/k (e - q_1)                                     docs/theory.md (37)
+    // s/k = e + sum of k_i/k (e - q_1)                               docs/theory.md [branches]
     const double* const inner = &memory[(1 + i) * count];
     const double ratio = law.branches[i].ratio;
     const auto [keep, begin, end] = steps[i];

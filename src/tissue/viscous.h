@@ -28,7 +28,7 @@ struct ViscousLaw {
 };
 
 // Coefficients of one step of  tau q' = e - q  or, solved for its input, of  tau e' = s/k - e:
-//   q_1 = keep q_0 + begin e_0 + end e_1.                                  docs/theory.md (35)
+//   q_1 = keep q_0 + begin e_0 + end e_1.                              docs/theory.md [memory]
 // exact: exact if e is linear in the step. held: exact if e has its final value during the whole
 // step. first_order: implicit Euler. forward: explicit Euler of q at a constant e. at_once: a step
 // that takes no time, in which q stays and a Kelvin-Voigt spring is elastic.
@@ -53,7 +53,7 @@ struct MemoryStep {
 
 // The effective elongations (m) at the end of a step to `elongation`. A spring has the tension that
 // an elastic spring with its effective elongation would have. This holds for coupled springs too,
-// because all springs have the same times.                            docs/theory.md (36), (37)
+// because all springs have the same times.            docs/theory.md [kelvin_voigt], [branches]
 void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> steps,
                            std::span<const double> memory, std::span<const double> elongation,
                            std::span<double> effective);

@@ -41,7 +41,8 @@ void bodies_table() {
   std::printf(
       "\n## Discs, domes and lumps\n\nThe largest error at depths of up to a tenth of the finger's "
       "radius and of the thickness, in percent of the nearer edge of\nthe band, and in brackets "
-      "what the mesh states (12). The band is that of linear elasticity and of a neo-Hookean "
+      "what the mesh states (theory.md `[sinking]`). The band is that of linear elasticity and of "
+      "a neo-Hookean "
       "solid\n([tests/cases/bodies.csv](../tests/cases/bodies.csv)). All bodies are surface files; "
       "the default mesh is refined where its\nerror comes from. `lump-x20` has a ball of 5 mm, 20 "
       "times as stiff, 10 mm deep, and `lump-x1` the same ball of the same\ntissue.\n\n"

@@ -4,7 +4,7 @@
     tests/accuracy/calculix.py PALPATE [--seed N] [--count N] [--kind KIND] [--model MODEL]
 
 Nothing of palpate is in the truth: Gmsh meshes the body with ten-node tetrahedra, about three to a contact radius
-under the finger, and CalculiX (C3D10, NLGEOM, the neo-Hookean law of docs/theory.md (109)) presses a rigid ball into
+under the finger, and CalculiX (C3D10, NLGEOM, the neo-Hookean law of docs/theory.md [solid]) presses a rigid ball into
 it, by a penalty that lets through some 0.2 % of the travel. Needs the Debian packages calculix-ccx, gmsh and
 python3-gmsh. Every scene takes one to five minutes. Prints Markdown; without --seed, the draw is new each time.
 """

@@ -2,7 +2,7 @@
 
 Scene i of two families is drawn with the seed i. `unseen` presses body 500 + i of
 tests/elasticity/unseen_bodies.csv to one of its four depths; its truth is the neo-Hookean force of
-that independent program, in viscous scenes integrated over time by theory.md (64). `blocks` presses
+that independent program, in viscous scenes integrated over time by theory.md [viscous]. `blocks` presses
 bodies that are none of revolution, and its truth is `palpate reference`, which shares the factor of
 a deep press with what it judges. A scene has the defaults, a model or mesh of its own, or viscosity.
 

@@ -150,7 +150,7 @@ TEST(ThinDisc, IsPressedByWideContacts) {
   EXPECT_NEAR(1e3 * last.contact_force / 1097.86, 1.0, 0.04);
 }
 
-// A press of shapes of theory.md (68); lengths in mm.
+// A press of shapes of theory.md [estimates]; lengths in mm.
 struct ShapePress {
   const char* shape;
   double poisson_ratio, radius;

@@ -184,7 +184,7 @@ TEST(Shear, OfSpheresThatRepresentOneIsItsOwn) {
     EXPECT_NEAR(contact.shear(0, 0) * contact.force / all.pressed(), want, 0.1 * std::abs(want));
 }
 
-// The law (8) against a layer solved for its traction. The contact sticks where the traction
+// The law [stick] against a layer solved for its traction. The contact sticks where the traction
 // stores the least energy among sums of Hertz's shapes of twelve radii; it begins to slip
 // everywhere when its middle has moved as far as the finger.
 TEST(Shear, LawOfALayerIsThatOfItsOwnTraction) {

@@ -176,7 +176,7 @@ TEST_F(Failure, ThinLayer) {
   const std::string name = "09_thin_layer";
   ASSERT_EQ(run_without_fault(name).code, 0);
   EXPECT_EQ(cell(name, "model"), record::Cell("solid"));
-  expect_failure(name, 0, "Left out: the size of the body, which would add 420 % to the force");
+  expect_failure(name, 0, "Neglected: the size of the body, which would add 420 % to the force");
   EXPECT_NEAR(found(name, "thickness_ratio"), 2.0, 1e-9);  // of the travel's digits
   // The layer's integral equation gives 5.209.
   EXPECT_NEAR(1.0 + found(name, "thickness_effect"), 5.209, 1e-3);

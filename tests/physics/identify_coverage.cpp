@@ -103,7 +103,7 @@ void expect_covered(const char* name, int repeats) {
     }
     // Four standard errors of a mean of deviations of nu degrees, 1 / sqrt(2 nu) each; and 0.15
     // for what the linearised width leaves out, which is a curved model and the widening by
-    // residuals that are correlated by chance, docs/theory.md (105): up to 0.12 and 0.18 since slow
+    // residuals that are correlated by chance, [sample_size]: up to 0.12 and 0.18 since slow
     // noise of many kinds is weighed.
     const double width = unknowns[i].shown(expected.widths[i]) - unknowns[i].shown(0.0);
     EXPECT_NEAR(covered[i].width / width, 1.0,

@@ -356,7 +356,7 @@ TEST(Identify, AShortProgrammeIsLengthened) {
   EXPECT_NEAR(found.unknowns[0].estimate, 60e3, 1e-6 * 60e3);  // exact data
   ASSERT_FALSE(found.notes.empty());
   EXPECT_TRUE(
-      found.notes[0].starts_with("the programme is shorter than the measurement and is "
+      found.notes[0].starts_with("the loading history is shorter than the measurement and is "
                                  "lengthened to "))
       << found.notes[0];
 }

@@ -1,4 +1,4 @@
-// The documents against the source: equation numbers, functions, names of results, links, length.
+// The documents against the source: names of equations, functions, names of results, links, length.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,45 +42,62 @@ std::string joined(const std::vector<std::string>& faults) {
   return text;
 }
 
-// The numbers that stand at the end of a line in a fenced block.
-std::vector<int> equation_numbers(const std::string& markdown) {
-  static const std::regex numbered(R"(\s\((\d+)\)\s*$)");
-  std::vector<int> numbers;
+// The names in brackets that stand at the end of a line in a fenced block.
+std::vector<std::string> equation_names(const std::string& markdown) {
+  static const std::regex named(R"(\s\[(\w+)\]\s*$)");
+  std::vector<std::string> names;
   bool fenced = false;
   for (const std::string& line : lines_of(markdown)) {
     if (line.starts_with("```")) fenced = !fenced;
     std::smatch match;
-    if (fenced && std::regex_search(line, match, numbered)) numbers.push_back(std::stoi(match[1]));
+    if (fenced && std::regex_search(line, match, named)) names.push_back(match[1]);
   }
-  return numbers;
+  return names;
 }
 
-// What is wrong with the numbers of a document: they run from 1, each once, in order.
-std::vector<std::string> numbering_faults(const std::string& markdown) {
+// Names that two equations have.
+std::vector<std::string> name_faults(const std::string& markdown) {
   std::vector<std::string> faults;
-  int expected = 1;
-  for (const int number : equation_numbers(markdown)) {
-    if (number != expected)
-      faults.push_back("equation (" + std::to_string(number) + ") stands where (" +
-                       std::to_string(expected) + ") should");
-    expected = number + 1;
+  std::set<std::string> before;
+  for (const std::string& name : equation_names(markdown))
+    if (!before.insert(name).second) faults.push_back("two equations are named [" + name + "]");
+  return faults;
+}
+
+// Citations such as `theory.md [central], [first_step]` of equations that are not there, or by
+// number.
+std::vector<std::string> citation_faults(const std::vector<Text>& files,
+                                         const std::string& theory) {
+  static const std::regex cited(R"(theory\.md,?(?: below)? ((?:\[\w+\](?:, | and )?)+))");
+  static const std::regex numbered(R"(theory\.md,?(?: below)? (\(\d+\w?\)))");
+  static const std::regex name(R"(\[(\w+)\])");
+  const std::vector<std::string> there = equation_names(theory);
+  std::vector<std::string> faults;
+  for (const Text& file : files) {
+    for (const std::string& list : all_of(file.text, cited))
+      for (const std::string& one : all_of(list, name))
+        if (std::find(there.begin(), there.end(), one) == there.end())
+          faults.push_back(file.path + ": theory.md has no equation [" + one + "]");
+    for (const std::string& number : all_of(file.text, numbered))
+      faults.push_back(file.path + ": equations of theory.md have names, not " + number);
   }
   return faults;
 }
 
-// Citations such as `theory.md (38), (39)` or `theory.md (9)-(14)` of equations that are not
-// there.
-std::vector<std::string> citation_faults(const std::vector<Text>& files,
-                                         const std::string& theory) {
-  static const std::regex cited(R"(theory\.md ((?:\(\d+\)(?:, |-)?)+))");
-  static const std::regex number(R"(\((\d+)\))");
-  const std::vector<int> there = equation_numbers(theory);
+// Names in documents, `[name]` in back-quotes, that neither an equation has nor a table of a
+// scenario, which begins a line of some document or is a heading.
+std::vector<std::string> bracket_faults(const std::vector<Text>& files, const std::string& theory) {
+  static const std::regex quoted(R"(`\[([a-z0-9_]+)\]`)");
+  static const std::regex table(R"(\n(?:## `)?\[(\w+)\])");
+  std::set<std::string> known;
+  for (const std::string& name : equation_names(theory)) known.insert(name);
+  for (const Text& file : files)
+    for (const std::string& name : all_of(file.text, table)) known.insert(name);
   std::vector<std::string> faults;
   for (const Text& file : files)
-    for (const std::string& list : all_of(file.text, cited))
-      for (const std::string& one : all_of(list, number))
-        if (std::find(there.begin(), there.end(), std::stoi(one)) == there.end())
-          faults.push_back(file.path + ": theory.md has no equation (" + one + ")");
+    for (const std::string& name : all_of(file.text, quoted))
+      if (!known.contains(name))
+        faults.push_back(file.path + ": there is no equation and no table [" + name + "]");
   return faults;
 }
 
@@ -181,14 +198,16 @@ std::vector<Text> documents() {
   return all;
 }
 
-TEST(Docs, EquationsAreNumberedInOrder) {
+TEST(Docs, EveryEquationHasANameOfItsOwn) {
   const std::string theory = read("docs/theory.md").text;
-  EXPECT_GE(equation_numbers(theory).size(), 30U);
-  EXPECT_EQ(joined(numbering_faults(theory)), "");
+  EXPECT_GE(equation_names(theory).size(), 30U);
+  EXPECT_EQ(joined(name_faults(theory)), "");
 }
 
-TEST(Docs, EveryNumberThatTheSourceCitesIsThere) {
-  EXPECT_EQ(joined(citation_faults(source(), read("docs/theory.md").text)), "");
+TEST(Docs, EveryEquationThatTheSourceOrADocumentCitesIsThere) {
+  const std::string theory = read("docs/theory.md").text;
+  EXPECT_EQ(joined(citation_faults(source(), theory)), "");
+  EXPECT_EQ(joined(bracket_faults(documents(), theory)), "");
 }
 
 TEST(Docs, EveryFileAndFunctionOfTheTheoryIsThere) {
@@ -221,27 +240,35 @@ TEST(Docs, ReadmeIsShort) {
 
 // The checks themselves, on made-up texts: each fault is found, and nothing else is.
 const std::string made_up_theory =
-    "Force (7).\n```\nF = k u    (1)\nm a = F\nf (3) = 0  (2)\n```\n";
+    "Force [c].\n```\nF = k u    [spring]\nm a = F\nf [c] = 0  [rest]\n```\n";
 const std::vector<Text> made_up_source{
     {"src/contact/hertz.cpp", "namespace hertz {\ndouble force(double depth) {}\n}\n"}};
 
-TEST(DocsCheck, ReadsNumbersAtTheEndOfFencedLinesOnly) {
-  EXPECT_EQ(equation_numbers(made_up_theory), (std::vector<int>{1, 2}));
-  EXPECT_EQ(joined(numbering_faults(made_up_theory)), "");
-  EXPECT_EQ(joined(numbering_faults("```\na (1)\nb (1)\n```\n")),
-            "equation (1) stands where (2) should\n");
-  EXPECT_EQ(joined(numbering_faults("```\na (1)\nb (3)\n```\n")),
-            "equation (3) stands where (2) should\n");
+TEST(DocsCheck, ReadsNamesAtTheEndOfFencedLinesOnly) {
+  EXPECT_EQ(equation_names(made_up_theory), (std::vector<std::string>{"spring", "rest"}));
+  EXPECT_EQ(joined(name_faults(made_up_theory)), "");
+  EXPECT_EQ(joined(name_faults("```\na [one]\nb [one]\n```\n")), "two equations are named [one]\n");
 }
 
 TEST(DocsCheck, CatchesACitationOfNothing) {
   const auto faults = [](const std::string& comment) {
     return joined(citation_faults({{"src/a.cpp", comment}}, made_up_theory));
   };
-  EXPECT_EQ(faults("// F = k u; docs/theory.md (1)\n// theory.md (1), (2)\n// eq. (9)\n"), "");
-  EXPECT_EQ(faults("// docs/theory.md (3)\n"), "src/a.cpp: theory.md has no equation (3)\n");
-  EXPECT_EQ(faults("// docs/theory.md (2), (4)\n"), "src/a.cpp: theory.md has no equation (4)\n");
-  EXPECT_EQ(faults("// theory.md (1)-(5).\n"), "src/a.cpp: theory.md has no equation (5)\n");
+  EXPECT_EQ(
+      faults("// F = k u; docs/theory.md [spring]\n// theory.md [spring], [rest]\n// x [c]\n"), "");
+  EXPECT_EQ(faults("// docs/theory.md [c]\n"), "src/a.cpp: theory.md has no equation [c]\n");
+  EXPECT_EQ(faults("// theory.md, below [rest], [c]\n"),
+            "src/a.cpp: theory.md has no equation [c]\n");
+  EXPECT_EQ(faults("// theory.md (12a).\n"),
+            "src/a.cpp: equations of theory.md have names, not (12a)\n");
+}
+
+TEST(DocsCheck, CatchesANameInADocumentThatIsNeitherEquationNorTable) {
+  const std::vector<Text> pages{
+      {"docs/a.md", "See `[spring]`, `[tissue]`, `[sweep]` and `[c]`.\n```\n[tissue]\n```\n"},
+      {"docs/b.md", "# B\n## `[sweep]`\n"}};
+  EXPECT_EQ(joined(bracket_faults(pages, made_up_theory)),
+            "docs/a.md: there is no equation and no table [c]\n");
 }
 
 TEST(DocsCheck, CatchesAFileOrFunctionThatIsGone) {

@@ -69,9 +69,9 @@ TEST_F(RunSurfaces, slide_from_under_an_inclined_press_where_the_base_has_no_fri
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(
       says(ended,
-           "press.toml:9:8: the finger presses on skin that is inclined by 4.2 degrees, and "
+           "press.toml:9:8: the finger presses on a surface that is inclined by 4.2 degrees, and "
            "on a frictionless base nothing keeps the specimen from sliding away; set "
-           "`tissue.base = \"bonded\"`, or press where the skin is level"))
+           "`tissue.base = \"bonded\"`, or press where the surface is level"))
       << ended.err;
   EXPECT_EQ(run("31").code, 0);
 }

@@ -39,7 +39,7 @@ TEST_F(RunTalk, what_all_cases_share_is_said_once) {
              "[output]\ninterval = \"100 ms\"\nfigures = false\n[sweep]\n"
              "\"tissue.young_modulus\" = [\"10 kPa\", \"20 kPa\", \"30 kPa\"]\n");
   const std::string said = run({}).err;
-  const std::string remark = "Left out: ";
+  const std::string remark = "Neglected: ";
   const auto first = said.find(remark);
   ASSERT_NE(first, std::string::npos) << said;
   EXPECT_EQ(said.find(remark, first + 1), std::string::npos) << said;

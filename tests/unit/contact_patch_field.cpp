@@ -127,7 +127,7 @@ TEST(PatchField, IsSymmetricBetweenLoads) {
 }
 
 // The mean displacement along the traction that loads it is 3 (2 - nu) / (20 G a), and that of the
-// middle 3 (2 - nu) / (16 G a).                                 docs/theory.md (8), below (13)
+// middle 3 (2 - nu) / (16 G a).                docs/theory.md [stick], tangential loads
 TEST(PatchField, MovesAsMindlinsContactOnTheAverage) {
   constexpr double a = 2e-3;
   const PatchField field(a, a, soft, 6, Vec3::UnitX());

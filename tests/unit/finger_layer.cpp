@@ -86,7 +86,7 @@ TEST_P(EachCount, stays_inside_the_outline) {
 }
 
 // n spheres at equal depth press like the one of radius r n^(1/3), times n^(5/6) where only the
-// mass is kept.                                                      docs/theory.md (29)
+// mass is kept.                                             docs/theory.md [calibration]
 TEST_P(EachCount, presses_a_flat_as_calibrated) {
   const int n = GetParam();
   const double modulus = 70e3;

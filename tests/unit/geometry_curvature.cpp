@@ -21,7 +21,7 @@ CurvatureStars stars(const Surface& surface, const CurvatureOptions& options = {
   return CurvatureStars(surface, Neighbours(surface), options);
 }
 
-// kappa_1 t_1 t_1^T + kappa_2 t_2 t_2^T, 1/m.                                docs/theory.md (19)
+// kappa_1 t_1 t_1^T + kappa_2 t_2 t_2^T, 1/m.                         docs/theory.md [curvature]
 Eigen::Matrix3d shape_tensor(const Curvature& curvature) {
   const auto& [kappa_1, kappa_2, t_1, t_2, normal] = curvature;
   return kappa_1 * t_1 * t_1.transpose() + kappa_2 * t_2 * t_2.transpose();

@@ -81,7 +81,7 @@ TEST(TouchLine, FindsWhereAHertzContactBegan) {
 }
 
 // A press at 0.5 mm/s on tissue that relaxes, with pauses, from 1 mm above the surface: a line
-// through F^(2/3) would be 0.1 mm off. The truth is summed directly from (64), step by step.
+// through F^(2/3) would be 0.1 mm off. The truth is summed directly from [viscous], step by step.
 TEST(SurfaceSearch, FindsTheSurfaceOfRelaxingTissueInNoise) {
   const contact::Relaxation relaxation{.branches = {{0.5, 1.5}}};
   constexpr double surface = -2e-3;  // m

@@ -155,16 +155,20 @@ TEST(TetGenBody, refuses_lumps_that_are_not_wholly_inside) {
   const auto refusal = [](const geometry::Shape& shape, const std::vector<geometry::Lump>& lumps) {
     return mesh_complaint([&] { (void)shape_mesh(shape, {.nodes = 800}, lumps); });
   };
-  EXPECT_EQ(refusal(geometry::Cylinder{}, {{{0.03, 0.04, 0.05}, 0.012, 1}}),
-            "the lump of radius 12 mm about (30, 40, 50) mm does not lie wholly inside the body; "
-            "move it inwards or make it smaller");
-  EXPECT_TRUE(refusal(geometry::Cylinder{}, {{{0.03, 0.04, 0.20}, 0.012, 1}})
-                  .starts_with("the lump of radius 12 mm about (30, 40, 200) mm does not lie "));
-  EXPECT_TRUE(refusal(geometry::Cylinder{}, {{{0.03, 0.04, 0.03}, 0.5, 1}})
-                  .starts_with("the lump of radius 500 mm about (30, 40, 30) mm does not lie "));
-  EXPECT_EQ(refusal(geometry::LayeredLimb{}, {{{0.158, 0.175, 0.090}, 0.005, 3}}),
-            "the lump of radius 5 mm about (158, 175, 90) mm touches the boundary of region 1; "
-            "move it away from there or make it smaller");
+  EXPECT_EQ(
+      refusal(geometry::Cylinder{}, {{{0.03, 0.04, 0.05}, 0.012, 1}}),
+      "the inclusion of radius 12 mm about (30, 40, 50) mm does not lie wholly inside the body; "
+      "move it inwards or make it smaller");
+  EXPECT_TRUE(
+      refusal(geometry::Cylinder{}, {{{0.03, 0.04, 0.20}, 0.012, 1}})
+          .starts_with("the inclusion of radius 12 mm about (30, 40, 200) mm does not lie "));
+  EXPECT_TRUE(
+      refusal(geometry::Cylinder{}, {{{0.03, 0.04, 0.03}, 0.5, 1}})
+          .starts_with("the inclusion of radius 500 mm about (30, 40, 30) mm does not lie "));
+  EXPECT_EQ(
+      refusal(geometry::LayeredLimb{}, {{{0.158, 0.175, 0.090}, 0.005, 3}}),
+      "the inclusion of radius 5 mm about (158, 175, 90) mm touches the boundary of region 1; "
+      "move it away from there or make it smaller");
   EXPECT_TRUE(refusal(geometry::Cylinder{},
                       {{{0.03, 0.03, 0.03}, 0.008, 1}, {{0.03, 0.04, 0.03}, 0.008, 2}})
                   .find("touches the boundary of region 1") != std::string::npos);

@@ -56,7 +56,7 @@ TEST(EnergyCoupling, AFinerQuadratureChangesNothing) {
   }
 }
 
-// Tetrahedra of another region but of the same tissue are treated by interpolation (11).
+// Tetrahedra of another region but of the same tissue are treated by interpolation [split].
 TEST(EnergyCoupling, ALumpOfTheSameTissueIsNone) {
   const scene::Scene scene = test::scene_of(lump + solver + press);
   const std::vector<int> regions = scene.specimen->mesh.regions;

@@ -82,9 +82,8 @@ TEST(FingerPress, AnElasticFingerIsABallOfItsOwnSize) {
   EXPECT_NEAR(found->force, 2965.6e-3, 0.03 * 2965.6e-3);  // finger_2050_061
 }
 
-// A shaft that hardly yields, and small contacts: Hertz's ellipse, and what a ball that is held at
-// its equator yields less than a half-space, 0.375 a/R of the force [of a flat end: docs/theory.md
-// (69b)].
+// A shaft that hardly yields, and small contacts: Hertz's ellipse, and what a ball that is held at its
+// equator yields less than a half-space: docs/theory.md [ball].
 TEST(FingerPress, AnElasticFingerOnAStiffShaftHasHertzsForce) {
   FingerOrder order = plain();
   const double shaft = 14e-3;

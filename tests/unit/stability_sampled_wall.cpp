@@ -34,7 +34,7 @@ double stiffness_of(const Tissue& tissue) {
 // a root of (z - 1) (z - E) + K (c_1 z + c_0) leaves the unit circle, with E = exp(-b T / m), c_1 =
 // (T - (m/b)(1 - E)) / b, c_0 = ((m/b)(1 - E) - T E) / b. For b T << m it is (2 b / T) (1 + b T /
 // (6 m)), slightly above the bound of Colgate and Brown, which holds for any passive hand.
-// docs/theory.md (84)
+// docs/theory.md [passive]
 double wall_stiffness_limit(const Device& device) {
   const double b = device.sampled.damping;
   const double time = device.sampled.frame;
