@@ -13,6 +13,8 @@
 namespace palpate::solid {
 namespace {
 
+constexpr double aside = 1e-3;  // for slopes
+
 using Pairs =
     std::vector<std::pair<double, double>>;  // of a travel and another quantity, ascending
 
@@ -39,7 +41,6 @@ double between(const Pairs& points, double x, double power) {
   const auto& [end, last] = points.back();
   if (points.size() == 1) return value * std::pow(x / begin, power);
   if (x >= begin && x <= end) return std::exp(parabola(x));
-  constexpr double aside = 1e-3;
   if (x > end) {
     const double slope = (std::log(last) - parabola(end * (1.0 - aside))) / -std::log(1.0 - aside);
     return last * std::pow(x / end, slope);
@@ -100,8 +101,13 @@ FingerPress* FingerPress::at(const Vec3& place) {
   return beside_.get();
 }
 
-// Presses the ball of an elastic finger until it bears a force (N), by the undeformed tissue. Says
-// in reason() where no equilibrium was found.
+// The ball is pressed along the normal, the finger straight down.
+double FingerPress::upright() const {
+  return (order_.touch.finger - order_.touch.touched).z() / order_.radius;
+}
+
+// Presses the ball of an elastic finger, by the undeformed tissue, until it bears a force (N,
+// upwards). Says in reason() where no equilibrium was found.
 void FingerPress::press_ball(double force) {
   const double part = (1.0 - order_.share) * order_.deepest;
   if (!ball_press_) {
@@ -112,7 +118,8 @@ void FingerPress::press_ball(double force) {
                               .share = 1.0 - order_.share}});
     ball_press_->begin(Vec3::Zero());
   }
-  while (reason_.empty() && (ball_.points.size() < 3 || ball_.points.back().force < force)) {
+  while (reason_.empty() &&
+         (ball_.points.size() < 3 || ball_.points.back().force * upright() < force)) {
     const double next = ball_.points.empty()   ? 0.25 * part
                         : ball_.reached < part ? 2.0 * ball_.reached
                                                : 1.5 * ball_.reached;
@@ -131,9 +138,7 @@ FingerPress::Skin FingerPress::skin_at(double travel, const Vec3& place) {
   Skin skin;
   FingerPress* const there = at(place);
   if (there == nullptr) return skin;
-  if (there != this)
-    return there->skin_at(travel + there->order_.touch.finger.z() - order_.touch.finger.z(),
-                          Vec3::Zero());
+  if (there != this) return there->skin_at(travel + higher(*there), Vec3::Zero());
   const Vec3 finger = order_.touch.finger - travel * Vec3::UnitZ();
   const auto moved = press_->look(finger);
   if (!moved) return skin;
@@ -205,32 +210,47 @@ bool FingerPress::reach(double travel) {
   return reason_.empty();
 }
 
-// The tissue's part of the finger's travel: the ball takes the rest at the same force. Both curves
-// are found as far as that takes.
+double FingerPress::shared(const Curve& tissue, double travel, double power) const {
+  Pairs of_tissue;
+  Pairs of_ball;
+  for (const Point& point : tissue.points) of_tissue.emplace_back(point.travel, point.force);
+  for (const Point& point : ball_.points)
+    of_ball.emplace_back(point.travel / upright(), point.force * upright());
+  double low = 0.0;
+  double high = travel;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (between(of_tissue, middle, power) < between(of_ball, travel - middle, 1.5) ? low : high) =
+        middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// Both curves are found as far as that takes.
 double FingerPress::tissue_travel(double travel) {
   const double expected = order_.share * travel;
   if (!reach(expected) || !order_.ball || tissue_.points.empty()) return expected;
-  // The ball is pressed along the normal, the finger straight down.
-  const double upright = (order_.touch.finger - order_.touch.touched).z() / order_.radius;
   for (;;) {
-    press_ball(tissue_.points.back().force / upright);
+    press_ball(tissue_.points.back().force);
     if (!reason_.empty()) return expected;
-    Pairs of_tissue;
-    Pairs of_ball;
-    for (const Point& point : tissue_.points) of_tissue.emplace_back(point.travel, point.force);
-    for (const Point& point : ball_.points)
-      of_ball.emplace_back(point.travel / upright, point.force * upright);
-    double low = 0.0;
-    double high = travel;
-    constexpr int halvings = 60;
-    for (int i = 0; i < halvings; ++i) {
-      const double middle = 0.5 * (low + high);
-      (between(of_tissue, middle, 1.5) < between(of_ball, travel - middle, 1.5) ? low : high) =
-          middle;
-    }
-    const double own = 0.5 * (low + high);
+    const double own = shared(tissue_, travel, 1.5);
     if (own <= tissue_.reached || !reach(own)) return own;
   }
+}
+
+std::optional<Moment> FingerPress::once(double travel, double power) {
+  if (!(travel > 0.0)) return Moment{};
+  const double own = order_.share * travel;
+  const auto answer = go(own);
+  if (!answer) return std::nullopt;
+  if (!(answer->normal() > 0.0)) return Moment{};
+  Curve alone;
+  alone.points.push_back({own - answer->lost, answer->normal(), {}});
+  if (order_.ball) press_ball(answer->normal());
+  if (!reason_.empty()) return std::nullopt;
+  const double met = order_.ball ? shared(alone, travel, power) : own;
+  return moment_of(*answer, between({{own - answer->lost, answer->normal()}}, met, power));
 }
 
 std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
@@ -270,12 +290,25 @@ std::optional<Moment> FingerPress::at_slide(double travel, const Vec3& start, co
     const double step = std::sqrt(order_.radius * std::max(travel, 0.0));
     const int parts =
         std::clamp(static_cast<int>(std::ceil(length / std::max(step, 1e-3 * length))), 4, 60);
-    for (int k = 0; k <= parts; ++k) {
+    const auto begun = at_travel(travel, start);
+    if (!begun) return std::nullopt;
+    slid_.emplace_back(0.0, *begun);
+    // The exponent of the force at this depth.
+    double power = 1.5;
+    if (const auto less = at_travel((1.0 - aside) * travel, start); less && begun->force > 0.0)
+      power = std::log(less->force / begun->force) / std::log(1.0 - aside);
+    for (int k = 1; k <= parts; ++k) {
       const double share = static_cast<double>(k) / parts;
       order_.part = "place " + std::to_string(k + 1) + " of " + std::to_string(parts + 1) + ", ";
-      const auto found = at_travel(travel, start + share * (end - start));
+      FingerPress* const there = at(start + share * (end - start));
       order_.part.clear();
-      if (!found) return std::nullopt;
+      const auto found = there == nullptr ? std::optional(Moment{})
+                         : there == this  ? at_travel(travel, Vec3::Zero())
+                                          : there->once(travel + higher(*there), power);
+      if (!found) {
+        reason_ = there->reason_;
+        return std::nullopt;
+      }
       slid_.emplace_back(share * length, *found);
     }
   }

@@ -96,8 +96,18 @@ class FingerPress {
   // The press at a place beside the touch, made when it is first asked for; null where the finger
   // passes beside the body.
   [[nodiscard]] FingerPress* at(const Vec3& place);
+  // How much higher the finger first touches there than here, m.
+  [[nodiscard]] double higher(const FingerPress& there) const {
+    return there.order_.touch.finger.z() - order_.touch.finger.z();
+  }
   void press_ball(double force);
+  [[nodiscard]] double upright() const;
+  // The tissue's part of a travel with which both bodies have one force. A curve of one point goes
+  // on with `power`.
   [[nodiscard]] double tissue_travel(double travel);
+  [[nodiscard]] double shared(const Curve& tissue, double travel, double power) const;
+  // The force at one travel alone, with the exponent of the force there.
+  [[nodiscard]] std::optional<Moment> once(double travel, double power);
 
   FingerOrder order_;
   Vec3 mirror_ = Vec3::Zero();  // m, a point of the planes of symmetry
