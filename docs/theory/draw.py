@@ -9,12 +9,12 @@ from pathlib import Path
 
 STYLE = """
 .back{fill:#fff} text{fill:#1b1f24;font:14px sans-serif} .axis{stroke:#57606a;fill:none} .grid{stroke:#d8dee4;fill:none}
-.line{fill:none;stroke-width:2.2} .soft{fill:#f3d9c9;stroke:none} .thin{stroke:#57606a;fill:none;stroke-width:1}
+.line{fill:none;stroke-width:2.2} .soft{fill:#f3d9c9;stroke:none} .thin{stroke:#57606a;fill:none;stroke-width:1} .thin.soft{fill:#f3d9c9} .thin.core{fill:#d9a58a}
 .a{stroke:#0b57b7} .b{stroke:#b3261e} .c{stroke:#166a30} .d{stroke:#7a3fd1} .e{stroke:#57606a} .dash{stroke-dasharray:7 5}
 text.a,text.b,text.c,text.d,text.e{stroke:none} text.a{fill:#0b57b7} text.b{fill:#b3261e} text.c{fill:#166a30} text.d{fill:#7a3fd1} text.e{fill:#57606a}
 .mark{fill:#57606a;stroke:none}
 @media (prefers-color-scheme: dark){.back{fill:#14181d} text{fill:#e6edf3} .axis{stroke:#9aa4af} .grid{stroke:#30363d}
-.soft{fill:#4a3529} .thin{stroke:#9aa4af} .a{stroke:#6cb0ff} .b{stroke:#ff8a80} .c{stroke:#6fdc8c} .d{stroke:#c4a7ff} .e{stroke:#9aa4af}
+.soft,.thin.soft{fill:#4a3529} .thin.core{fill:#7a4a35} .thin{stroke:#9aa4af} .a{stroke:#6cb0ff} .b{stroke:#ff8a80} .c{stroke:#6fdc8c} .d{stroke:#c4a7ff} .e{stroke:#9aa4af}
 text.a{fill:#6cb0ff} text.b{fill:#ff8a80} text.c{fill:#6fdc8c} text.d{fill:#c4a7ff} text.e{fill:#9aa4af} .mark{fill:#9aa4af}}
 """
 WIDTH, HEIGHT = 760, 380
@@ -187,6 +187,39 @@ def solid(folder):
     save(folder, "solid", "Force by large and by small strains against depth", axes.parts)
 
 
+def mesh(folder):
+    """The section of a solid's mesh through the finger and an inclusion: the triangles on its plane of symmetry."""
+    scene = folder / "mesh.toml"
+    scene.write_text(
+        'schema = 1\n[tissue]\nmaterial = "muscle"\nshape = { size = ["60 mm", "40 mm", "26 mm"] }\n'
+        '[[region]]\nkind = "sphere"\ncentre = ["38 mm", "20 mm", "16 mm"]\nradius = "5 mm"\nmaterial = "ligament"\n'
+        '[finger]\nmaterial = "rigid"\nradius = "8 mm"\n[solver]\nmodel = "solid"\n'
+        '[[step]]\nkind = "indent"\nto = "2 mm"\nrate = "2 mm/s"\n')
+    node = folder / "mesh.node"
+    subprocess.run(["palpate", "mesh", scene, "--out", node, "--force"], check=True, capture_output=True)
+    rows = [line.split() for line in node.read_text().splitlines()[1:] if line and line[0] != "#"]
+    places = {row[0]: [1e3 * float(x) for x in row[1:4]] for row in rows if len(row) > 3}
+    cells = [line.split() for line in node.with_suffix(".ele").read_text().splitlines()[1:] if line and line[0] != "#"]
+    scale, left, floor = 10.0, 80, 350
+
+    def at(x, z):
+        return left + scale * x, floor - scale * z
+
+    parts = []
+    for row in cells:
+        corners = [places[name] for name in row[1:5]]
+        flat = [corner for corner in corners if abs(corner[1] - 20.0) < 1e-6]
+        if len(flat) != 3:
+            continue
+        inside = all(math.dist(corner, (38, 20, 16)) < 5.01 for corner in flat)
+        points = [at(corner[0], corner[2]) for corner in flat]
+        parts.append(path(points + points[:1], "thin core" if inside else "thin soft"))
+    ball = [at(30 + 8 * math.sin(i / 40), 34 - 8 * math.cos(i / 40)) for i in range(-50, 51)]
+    parts.append(path(ball, "line a"))
+    parts += [text(*at(39, 29), "finger, radius 8 mm", "a"), text(*at(0, -2.2), "muscle, 60 x 40 x 26 mm, and a ball of ligament")]
+    save(folder, "mesh", "Section of a mesh of the solid under the finger", parts)
+
+
 def viscosity(folder):
     """A press, hold and retract on a half-space with E_0 = 2 E_inf and tau = 0.3 s."""
     steps = '[[step]]\nkind = "hold"\ntime = "1 s"\n[[step]]\nkind = "retract"\nrate = "4 mm/s"'
@@ -234,5 +267,5 @@ def time(folder):
 if __name__ == "__main__":
     out = Path(sys.argv[1])
     out.mkdir(parents=True, exist_ok=True)
-    for draw in (contact, layers, coupling, solid, viscosity, time):
+    for draw in (contact, layers, coupling, mesh, solid, viscosity, time):
         draw(out)

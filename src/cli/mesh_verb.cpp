@@ -25,6 +25,7 @@
 #include "report/vtu.h"
 #include "run/choose.h"
 #include "run/refined_mesh.h"
+#include "run/solid_press.h"
 #include "scene/scene.h"
 
 namespace palpate::cli {
@@ -163,7 +164,7 @@ scene::Scene scene_of(const Mesh& command, const Talk& talk) {
   scene::SpecimenShapes shapes;
   scene::Scene scene =
       run::build_scene(first, family, shapes, run::choose(first, shapes, run::Models::quick));
-  if (!scene.specimen)
+  if (!scene.specimen && !scene.solid)
     throw InputError(place_of(family.document, "solver.model"),
                      "the scenario is computed by `" +
                          std::string(scenario::rung(scene.scenario.solver.model).word) +
@@ -280,13 +281,21 @@ int perform(const Mesh& command, const Arguments&, const Talk& talk) {
   geometry::TetMesh mesh;
   if (kind == Kind::scenario) {
     const scene::Scene scene = scene_of(command, talk);
-    if (!scene.specimen->remark.empty()) talk.say("note: " + scene.specimen->remark);
-    mesh = scene.specimen->mesh;
-    report.mesh(mesh, &scene.scenario);
-    report.count("springs", as_index(scene.specimen->network.springs()));
-    report.add("stable_step_ms",
-               unit::ms.from_si(scene::stability_limit(scene.scenario, *scene.specimen,
-                                                       scene.specimen->plan.contact)));
+    if (scene.solid) {
+      talk.say(
+          "note: the elements of `solid` have ten nodes; this is the mesh of their corners, and "
+          "of a half or a quarter of the body where mirrors make it whole");
+      mesh = run::SolidPress(scene).corners();
+      report.mesh(mesh, &scene.scenario);
+    } else {
+      if (!scene.specimen->remark.empty()) talk.say("note: " + scene.specimen->remark);
+      mesh = scene.specimen->mesh;
+      report.mesh(mesh, &scene.scenario);
+      report.count("springs", as_index(scene.specimen->network.springs()));
+      report.add("stable_step_ms",
+                 unit::ms.from_si(scene::stability_limit(scene.scenario, *scene.specimen,
+                                                         scene.specimen->plan.contact)));
+    }
   } else {
     if (kind == Kind::surface) {
       mesh = mesh_of_surface(command, talk);

@@ -140,6 +140,25 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("factorisations", static_cast<double>(finest.factorisations()));
 }
 
+geometry::TetMesh SolidPress::corners() const {
+  const solid::Mesh& whole = presses_.back()->press().body().mesh;
+  geometry::TetMesh mesh;
+  mesh.regions = whole.regions;
+  std::vector<int> names(whole.nodes.size(), -1);
+  for (const solid::Element& element : whole.elements) {
+    auto& corners = mesh.tetrahedra.emplace_back();
+    for (std::size_t i = 0; i < 4; ++i) {
+      int& name = names[as_index(element[i])];
+      if (name < 0) {
+        name = static_cast<int>(mesh.nodes.size());
+        mesh.nodes.push_back(whole.nodes[as_index(element[i])]);
+      }
+      corners[i] = name;
+    }
+  }
+  return mesh;
+}
+
 record::PressureMap SolidPress::map(const mechanics::Touch& touch) {
   Vec3 place = touch.finger - scene_->solid->first_touch;
   place.z() = 0.0;

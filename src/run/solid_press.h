@@ -35,6 +35,10 @@ class SolidPress {
 
   void add_findings(record::CaseRecord& record) const;
 
+  // The finest mesh without the middles of edges, m: of the part of the body that mirrors make
+  // whole.
+  [[nodiscard]] geometry::TetMesh corners() const;
+
   // On the finest mesh.
   [[nodiscard]] record::PressureMap map(const mechanics::Touch& touch);
 

@@ -159,6 +159,18 @@ TEST_F(MeshVerb, NamesAndMeasuresRegions) {
             report["region_1_tetrahedra"]);
 }
 
+// A plain block is pressed on a quarter of it.
+TEST_F(MeshVerb, ShowsTheCornersOfTheSolidsMesh) {
+  const std::string block = project_file("scenarios/quickstart.toml");
+  const Ended ended = mesh({block, "--set", "solver.model=solid", "--out", "quarter.vtu"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.err.find("a half or a quarter of the body"), std::string::npos) << ended.err;
+  auto report = numbers(ended.out);
+  EXPECT_NEAR(4.0 * report["volume_mm3"], 108e3, 1e-6 * 108e3);  // 60 x 60 x 30 mm
+  EXPECT_EQ(report.count("springs"), 0);
+  EXPECT_EQ(quality({"quarter.vtu", "--unit", "m"})["tetrahedra"], report["tetrahedra"]);
+}
+
 TEST_F(MeshVerb, RefusesWhatCannotServe) {
   expect_refused(5, {"open.off", "--unit", "mm", "--out", "a.vtu"}, "open.off");
   expect_refused(2, {"cube.off"}, "lacks the unit of the coordinates in cube.off");
