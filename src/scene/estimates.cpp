@@ -85,7 +85,10 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   const bool flat = touch.known() && !touch.curved() && !touch.tilted() &&
                     (std::holds_alternative<scenario::Cuboid>(tissue.shape) ||
                      std::holds_alternative<scenario::HalfSpace>(tissue.shape));
-  if (flat && !several_tissues(scenario) && found.edge == 0.0) {
+  // Spheres that stand for one have its law, others each their own.
+  const bool several =
+      scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::mass;
+  if (flat && !several && !several_tissues(scenario) && found.edge == 0.0) {
     const contact::Layer layer = layers_of(scenario, found.tissue_share);
     found.depth_ratio = contact::depth_ratio({.radius = scenario.finger.radius,
                                               .thickness = touch.thickness,
@@ -101,7 +104,8 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   }
   double ratio = tissue.poisson_ratio;
   for (const auto& region : scenario.regions) ratio = std::min(ratio, region.poisson_ratio);
-  found.deep_error = contact::depth_bound(found.tissue_share * found.travel, law.radius,
+  const double radius = several ? make_finger(scenario).sphere_radius : law.radius;
+  found.deep_error = contact::depth_bound(found.tissue_share * found.travel, radius,
                                           softest_thickness(scenario, touch), ratio);
 }
 

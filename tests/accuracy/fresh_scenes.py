@@ -131,7 +131,7 @@ def draw(seed, number):
     if kind == "elastic finger":
         scene["finger"] = [scene["young"] * 10 ** rng.uniform(-0.3, 1.3), rng.uniform(0.3, 0.47)]
     if kind == "several spheres":
-        scene["spheres"] = rng.randint(2, 8)
+        scene["spheres"] = rng.randint(2, 4)
     if kind == "viscous hold":  # time constant, instantaneous over relaxed modulus, hold
         scene["time"] = rng.uniform(0.2, 2)
         scene["viscous"] = [scene["time"] * 10 ** rng.uniform(-1, 1), rng.uniform(1.2, 4), rng.uniform(0.3, 2)]
@@ -166,7 +166,9 @@ def text_of(scene):
         top, ratio = scene["layer"]
         lines += ["[[region]]", 'kind = "slab"', 'bottom = "0 mm"', f'top = "{top!r} mm"', *tissue(ratio)]
     lines += ["[finger]", f'radius = "{scene["radius"]!r} mm"', f'x = "{scene["at"][0]!r} mm"',
-              f'y = "{scene["at"][1]!r} mm"', f'spheres = {scene["spheres"]}']
+              f'y = "{scene["at"][1]!r} mm"']
+    if scene["spheres"] > 1:  # by mass, because otherwise they stand for one, and nothing else knows their force
+        lines += [f'spheres = {scene["spheres"]}', 'calibration = "mass"']
     if scene["finger"]:
         lines += ['material = "skin"', f'young_modulus = "{1e3 * scene["finger"][0]!r} kPa"',
                   f'poisson_ratio = {scene["finger"][1]!r}']
@@ -210,8 +212,8 @@ def solid_of(scene):
         return next(tag for dim, tag in occ.extrude([(2, face)], 0, size[1], 0) if dim == 3)
     if body in ("shell", "tube"):
         outer, wall = size[:2]
-        if body == "shell":
-            parts = [occ.addSphere(0, 0, outer, r) for r in (outer, outer - wall)]
+        if body == "shell":  # open below
+            parts = [occ.addSphere(0, 0, 0, r, angle1=0) for r in (outer, outer - wall)]
         else:
             parts = [occ.addCylinder(0, 0, outer, 0, size[2], 0, r) for r in (outer, outer - wall)]
         return occ.cut([(3, parts[0])], [(3, parts[1])])[0][0][1]
@@ -245,7 +247,7 @@ def height(scene, x, y):
         return size[2] * math.sqrt(inside) if inside >= 0 else -math.inf
     if body == "shell":
         inside = size[0] ** 2 - x * x - y * y
-        return size[0] + math.sqrt(inside) if inside >= 0 else -math.inf
+        return math.sqrt(inside) if inside >= 0 else -math.inf
     if body == "frustum":
         away = math.hypot(x, y)
         if away > size[0]:
@@ -264,7 +266,7 @@ def height(scene, x, y):
 
 def base_of(scene):
     """The skin up to this height (mm) is held: a flat underside, or the lowest tenth."""
-    tall = {"cylinder": 2 * scene["size"][0], "tube": 2 * scene["size"][0], "shell": 2 * scene["size"][0],
+    tall = {"cylinder": 2 * scene["size"][0], "tube": 2 * scene["size"][0],
             "ellipsoid": scene["size"][-1]}
     return 0.1 * tall.get(scene["body"], 0.0)
 
