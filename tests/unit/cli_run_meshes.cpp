@@ -320,6 +320,18 @@ TEST_F(RunMeshes, hertz_refuses_what_only_a_mesh_knows) {
   EXPECT_EQ(run(hertz + "[[step]]\nkind = \"slide\"\nby = \"29 mm\"\n").code, 0);
 }
 
+TEST_F(RunMeshes, a_body_that_is_not_held_below_the_press_is_said_to_bend) {
+  const auto bends = [&](const std::string& shape) {
+    const Ended ended = run("[tissue]\nmaterial = \"skin\"\nshape = { " + shape +
+                            " }\n[[step]]\nkind = \"indent\"\nto = \"0.3 mm\"\n[output]\nfigures = "
+                            "false\n[solver]\nmodel = \"solid\"\n");
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return (ended.out + ended.err).find("the body bends or turns there") != std::string::npos;
+  };
+  EXPECT_FALSE(bends("size = [\"60 mm\", \"60 mm\", \"7 mm\"]"));  // wide and thin
+  EXPECT_TRUE(bends("kind = \"bone_shaft\""));                     // it lies on its ends
+}
+
 // Their modulus is lowered so that a contact law gives the force of one: eight bodies press harder.
 TEST_F(RunMeshes, a_solid_refuses_spheres_that_stand_for_one) {
   const std::string spheres =
