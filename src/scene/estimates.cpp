@@ -109,6 +109,15 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                                           softest_thickness(scenario, touch), ratio);
 }
 
+// The way from an edge to the nearest of the finger's spheres, m; 0 where one hangs over it.
+double nearest_to_edge(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+  double farthest = 0.0;
+  if (scenario.finger.spheres > 1)
+    for (const Vec3& centre : make_finger(scenario).centres)
+      farthest = std::max(farthest, centre.head<2>().norm());
+  return std::max(0.0, touch.to_edge - farthest);
+}
+
 // The share of Hertz's pressure beyond an edge at x contact radii from the centre is
 // (1 - x)^2 (2 + x) / 4; the force, which has none there, is lower by about its square. Up to two
 // radii a free end changes the force of a body by up to 31 % more than a coarse mesh sees: counted
@@ -158,7 +167,8 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
       found.thickness = infinite;
     found.size = found.thickness;
   }
-  if (found.contact_radius > 0.0) found.edge = edge_bound(touch.to_edge / found.contact_radius);
+  if (found.contact_radius > 0.0)
+    found.edge = edge_bound(nearest_to_edge(scenario, touch) / found.contact_radius);
   // A ball that is held at its equator yields 1/4 a/R of the depth less than a half-space of its
   // rubber, which has a far field, and the force goes with the power 3/2 of the depth.
   found.ball =
