@@ -283,7 +283,7 @@ def relaxing(scene, forces):
 
 
 def by_calculix(scene, folder, per_radius=3.0, seconds=300):
-    """Forces (N) at the ends of ramp and hold, nodes of the body; RuntimeError where CalculiX finds none."""
+    """Forces (N) at the ends of ramp and hold; RuntimeError where CalculiX finds none."""
     made = mesh(scene, per_radius)
     pathlib.Path(folder, "press.inp").write_text(deck(scene, made), encoding="utf-8")
     with open(folder / "ccx.log", "w", encoding="utf-8") as log:
@@ -297,5 +297,4 @@ def by_calculix(scene, folder, per_radius=3.0, seconds=300):
     forces = [(0.0, 0.0)] + [(float(one[0]), abs(float(one[3]))) for one in totals]
     if forces[-1][0] < 0.999:
         raise RuntimeError("CalculiX did not reach the end")
-    found = relaxing(scene, forces) if scene["viscous"] else [forces[-1][1]]
-    return found, len(made["nodes"])
+    return relaxing(scene, forces) if scene["viscous"] else [forces[-1][1]]

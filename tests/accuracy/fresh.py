@@ -82,7 +82,7 @@ def measure(program, seed, number, by):
         before = processor()
         try:
             truths = truth_of(by, program, scene, folder)
-        except RuntimeError as wrong:
+        except Exception as wrong:  # of Gmsh, which has no class of its own
             return row | {"note": f"{by}: {wrong}", "truth_seconds": f"{processor() - before:.1f}"}
     largest = max(truth for truth, _ in truths)
     force, (truth, doubt) = max(zip(forces, truths), key=lambda pair: abs(pair[0] - pair[1][0]))
