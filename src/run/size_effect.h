@@ -17,9 +17,8 @@ namespace palpate::run {
 // nothing of the dents that they make for each other.
 [[nodiscard]] bool each_presses(const scenario::Resolved& scenario);
 
-// Of the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger at the
-// deepest travel; of one sphere, unless each presses.                     docs/theory.md
-// [estimates]
+// By the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger at the
+// deepest travel; of one sphere, unless each presses.              docs/theory.md [estimates]
 struct SizeEffect {
   double change = 0.0;  // of the formula's force, relative
   double error = 0.0;   // the mesh's own, a fraction of its force

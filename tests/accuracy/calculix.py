@@ -1,9 +1,9 @@
 """The force of a drawn scene by CalculiX on a mesh of Gmsh: a truth in which nothing is palpate's.
 
 Gmsh meshes the body of fresh_scenes.py with ten-node tetrahedra, about three to a contact radius under the finger, and
-CalculiX (C3D10, NLGEOM, the neo-Hookean law of docs/theory.md (109)) presses a rigid ball into it, by a penalty that
+CalculiX (C3D10, NLGEOM, the neo-Hookean law of docs/theory.md [solid]) presses a rigid ball into it, by a penalty that
 lets through some 0.2 % of the travel; an elastic finger is half a ball, moved at its equator and free to spread there.
-A viscous hold is the elastic force of its increments and (64). On one block a mesh a third finer gave 0.28 % less.
+A viscous hold is the elastic force of its increments and [viscous]. On one block a mesh a third finer gave 0.28 % less.
 """
 import math
 import os
@@ -260,7 +260,7 @@ def pinned(numbers, nodes):
 
 
 def relaxing(scene, forces):
-    """Elastic forces at shares of the travel as those of docs/theory.md (64): at the end of the ramp and of the hold."""
+    """Elastic forces at shares of the travel as those of docs/theory.md [viscous]: at the end of the ramp and of the hold."""
     constant, ratio, hold = scene["viscous"]
     ramp, steps = scene["time"], 2000
 

@@ -2,7 +2,7 @@
 
 Every body of tests/elasticity/unseen_bodies.csv is pressed to one of its four depths, drawn with its number as the seed;
 the truth is the neo-Hookean force of that independent program, in viscous scenes integrated over time by theory.md
-(64). A scene has the defaults, a model or mesh of its own, or viscosity. fresh.py counts other bodies.
+[viscous]. A scene has the defaults, a model or mesh of its own, or viscosity. fresh.py counts other bodies.
 
     coverage.py PALPATE RESULTS.csv      prints Markdown; a stopped run goes on
 """
