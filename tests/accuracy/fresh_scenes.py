@@ -129,7 +129,7 @@ def draw(seed, number):
               "nu": rng.uniform(0.2, 0.47), "finger": None, "spheres": 1, "viscous": None, "time": travel,
               "base": "frictionless" if kind == "block" and rng.random() < 0.3 else "bonded"}
     if kind == "elastic finger":
-        scene["finger"] = [scene["young"] * 10 ** rng.uniform(-0.3, 1.3), rng.uniform(0.3, 0.47)]
+        scene["finger"] = [scene["young"] * 10 ** rng.uniform(-0.3, 2.5), rng.uniform(0.3, 0.47)]
     if kind == "several spheres":
         scene["spheres"] = rng.randint(2, 4)
     if kind == "viscous hold":  # time constant, instantaneous over relaxed modulus, hold
