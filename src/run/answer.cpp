@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "mechanics/pressed_mesh.h"
+#include "run/size_effect.h"
 #include "scenario/integrators.h"
 #include "scene/first_touch.h"
 
@@ -158,7 +159,10 @@ class Words {
       return off + ": large strains change the force by " + (e_.depth_ratio ? "" : "up to ") +
              percent_text(deep) + ".";
     return would + percent_text(std::abs(size)) + (size < 0.0 ? " low" : " high") + ": " +
-           (thickness ? "the sides" : "size, base and sides of the body") + " change the force.";
+           (thickness                       ? "the sides"
+            : each_presses(scene_.scenario) ? "dents of the other spheres and size of the body"
+                                            : "size, base and sides of the body") +
+           " change the force.";
   }
 
   const scene::Scene& scene_;

@@ -237,7 +237,7 @@ class Chooser {
     // What free sides change fades with exp(-1.2 b/H) at least, the slowest of the fields in a
     // layer that is held below and free above: 0.8 % of it is left at four thicknesses.
     constexpr double far = 4.0;
-    if (formula && scene::refines(asked_) &&
+    if (formula && scene::refines(asked_) && !each_presses(asked_) &&
         std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape) &&
         choice_.touch.to_edge >= far * choice_.touch.thickness) {
       e.measured = true;

@@ -86,7 +86,8 @@ class Findings {
         scene::base_area(scenario, skin->surface(), touch.position, height);
     if (base.under_press < least_under)
       remark("only " + percent_text(base.under_press) +
-             " of the base lies under the press: the body bends or turns on it; see the base in "
+             " of the underside below the press is held: the body bends or turns there; see the "
+             "base in "
              "`palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it is held "
              "elsewhere");
   }

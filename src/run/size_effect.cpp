@@ -53,7 +53,7 @@ scenario::Resolved trial_of(const scenario::Resolved& scenario, const scene::Sur
   scenario::Resolved trial = scene::refining_press(scenario);
   trial.tissue.mesh = coarse(scenario, touch);
   trial.tissue.poisson_ratio = ratio;
-  trial.finger.spheres = 1;
+  if (!each_presses(scenario)) trial.finger.spheres = 1;
   const contact::CurvatureLaw law = trial.contact.law;
   trial.contact = {};
   trial.contact.law = law;
@@ -94,7 +94,8 @@ double formula(const scene::Scene& scene, const scene::SurfaceTouch& touch, doub
                                         touch.curvature, scene.layer ? &*scene.layer : nullptr);
   if (!law) return 0.0;
   const auto [depth, normal] = touch.pressed(scene.finger.sphere_radius, travel);
-  return depth > law->point.last_depth() ? 0.0 : normal.z() * law->point.force(depth);
+  if (depth > law->point.last_depth()) return 0.0;
+  return static_cast<double>(scene.finger.centres.size()) * normal.z() * law->point.force(depth);
 }
 
 SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
@@ -129,6 +130,10 @@ SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
 }
 
 }  // namespace
+
+bool each_presses(const scenario::Resolved& scenario) {
+  return scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::mass;
+}
 
 std::vector<Vec3> finger_way(const scenario::Resolved& scenario) {
   std::vector<Vec3> found{Vec3::Zero()};

@@ -13,8 +13,12 @@ class SpecimenShapes;
 
 namespace palpate::run {
 
-// By the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger
-// of one sphere at the deepest travel.                             docs/theory.md [estimates]
+// Whether the finger has several spheres that each press with their own force. Hertz's law knows
+// nothing of the dents that they make for each other.
+[[nodiscard]] bool each_presses(const scenario::Resolved& scenario);
+
+// By the energy coupling on some 150 nodes, or on the mesh of a file, under a rigid finger at the
+// deepest travel; of one sphere, unless each presses.              docs/theory.md [estimates]
 struct SizeEffect {
   double change = 0.0;  // of the formula's force, relative
   double error = 0.0;   // the mesh's own, a fraction of its force

@@ -341,6 +341,11 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family) {
   const auto reason = beyond(scenario.solver.model, scenario, touch);
   if (!reason) return;
   if (touch.nowhere) throw MeshError(*reason);
+  if (scenario::rung(scenario.solver.model).solid && scenario.finger.spheres > 1 &&
+      scenario.finger.calibration == finger::Calibration::force)
+    throw InputError(place_of(family.document, "finger.spheres"),
+                     "`solid` and `palpate reference` press with every sphere, but " + *reason +
+                         "; write `calibration = \"mass\"`, or `spheres = 1`");
   const scenario::Rung* remedy = &scenario::strongest;
   for (const scenario::Rung& other : scenario::ladder)
     if (!other.solid && !beyond(other.of, scenario, touch)) remedy = &other;

@@ -85,7 +85,10 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   const bool flat = touch.known() && !touch.curved() && !touch.tilted() &&
                     (std::holds_alternative<scenario::Cuboid>(tissue.shape) ||
                      std::holds_alternative<scenario::HalfSpace>(tissue.shape));
-  if (flat && !several_tissues(scenario) && found.edge == 0.0) {
+  // Spheres that stand for one have its law, others each their own.
+  const bool several =
+      scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::mass;
+  if (flat && !several && !several_tissues(scenario) && found.edge == 0.0) {
     const contact::Layer layer = layers_of(scenario, found.tissue_share);
     found.depth_ratio = contact::depth_ratio({.radius = scenario.finger.radius,
                                               .thickness = touch.thickness,
@@ -101,8 +104,18 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   }
   double ratio = tissue.poisson_ratio;
   for (const auto& region : scenario.regions) ratio = std::min(ratio, region.poisson_ratio);
-  found.deep_error = contact::depth_bound(found.tissue_share * found.travel, law.radius,
+  const double radius = several ? make_finger(scenario).sphere_radius : law.radius;
+  found.deep_error = contact::depth_bound(found.tissue_share * found.travel, radius,
                                           softest_thickness(scenario, touch), ratio);
+}
+
+// The way from an edge to the nearest of the finger's spheres, m; 0 where one hangs over it.
+double nearest_to_edge(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+  double farthest = 0.0;
+  if (scenario.finger.spheres > 1)
+    for (const Vec3& centre : make_finger(scenario).centres)
+      farthest = std::max(farthest, centre.head<2>().norm());
+  return std::max(0.0, touch.to_edge - farthest);
 }
 
 // The share of Hertz's pressure beyond an edge at x contact radii from the centre is
@@ -154,7 +167,8 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
       found.thickness = infinite;
     found.size = found.thickness;
   }
-  if (found.contact_radius > 0.0) found.edge = edge_bound(touch.to_edge / found.contact_radius);
+  if (found.contact_radius > 0.0)
+    found.edge = edge_bound(nearest_to_edge(scenario, touch) / found.contact_radius);
   // A ball that is held at its equator yields 1/4 a/R of the depth less than a half-space of its
   // rubber, which has a far field, and the force goes with the power 3/2 of the depth.
   found.ball =

@@ -51,9 +51,12 @@ std::optional<std::string> beyond(scenario::Model model, const scenario::Resolve
       if (scenario.finger.spheres > 1) return "several spheres share one layer";
       if (!all_slabs(scenario) && several_tissues(scenario)) return has_regions;
       return beyond_half_space(scenario, touch);
+    case scenario::Model::solid:
+      if (scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::force)
+        return "several spheres with `finger.calibration = \"force\"` stand for one";
+      [[fallthrough]];
     case scenario::Model::mass_spring:
     case scenario::Model::coupled_springs:
-    case scenario::Model::solid:
       if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
         return "a `half_space` is infinite and cannot be meshed";
   }

@@ -172,18 +172,19 @@ BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& 
   const Vec3& up = scenario.tissue.base_up;
   const Box box = box_of(body.vertices);
   const double level = base_level(scenario, body) + 1e-9 * (box.high - box.low).norm();
-  double base = 0.0, above = 0.0, near = 0.0;
+  double base = 0.0, below = 0.0, held = 0.0;
   for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
     Vec3 middle = Vec3::Zero();
     for (const int vertex : body.triangles[as_index(t)])
       middle += body.vertices[as_index(vertex)] / 3.0;
-    if (middle.dot(up) > level) continue;
     const Vec3 area = 0.5 * geometry::twice_area(body, t);
-    base += area.norm();
-    above += std::abs(area.z());
-    if ((middle - place).head<2>().norm() <= radius) near += std::abs(area.z());
+    const bool fixed = middle.dot(up) <= level;
+    if (fixed) base += area.norm();
+    if (area.z() >= 0.0 || (middle - place).head<2>().norm() > radius) continue;
+    below -= area.z();
+    if (fixed) held -= area.z();
   }
-  return {base / geometry::area(body), above > 0.0 ? near / above : 0.0};
+  return {base / geometry::area(body), below > 0.0 ? held / below : 0.0};
 }
 
 double share_inside(const geometry::Surface& body, const geometry::Lump& lump) {

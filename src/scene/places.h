@@ -43,8 +43,8 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
 // point.
 [[nodiscard]] double base_level(const scenario::Resolved& scenario, const geometry::Surface& body);
 
-// The part of the surface's area that is the base, and how much of the base's area seen from above
-// lies within a radius (m) around a place.
+// The part of the surface's area that is the base, and how much of the underside within a radius
+// (m) around a place, seen from above, belongs to it.
 struct BaseArea {
   double of_surface = 0.0;
   double under_press = 0.0;

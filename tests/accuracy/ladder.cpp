@@ -1,4 +1,4 @@
-// Writes docs/accuracy.md to stdout: every rung's error on blocks, in uniform tests and on the
+// Prints tables of docs/accuracy.md: every rung's error on blocks, in uniform tests and on the
 // scenes of `auto`. No test: it takes minutes. `./dev accuracy` runs it.
 #include <algorithm>
 #include <cmath>
@@ -252,10 +252,6 @@ void auto_table() {
 int main(int count, char** arguments) {
   const std::string only = count > 2 ? arguments[2] : "";
   const auto wanted = [&](const char* table) { return only.empty() || only == table; };
-  if (only.empty())
-    std::printf(
-        "# Accuracy of each model\n\n`./dev accuracy` computes every number on this page and "
-        "writes the page.\n\n");
   if (wanted("blocks")) {
     palpate::blocks_table();
     if (count > 1) palpate::figure(arguments[1]);

@@ -227,6 +227,28 @@ TEST(EightSpheres, OnHertzAreTheOneTheyReplace) {
   EXPECT_NEAR(by_mass / one, std::pow(8.0, 5.0 / 6.0), 1e-13);
 }
 
+// Four spheres make dents for each other, deep in a wide block too.
+TEST(EightSpheres, ByMassHertzStatesWhatTheirDentsChange) {
+  const Settings four{"tissue.shape={ size = [\"120 mm\", \"120 mm\", \"80 mm\"] }",
+                      "finger.radius=8 mm", "finger.material=rigid", "finger.spheres=4",
+                      "finger.calibration=mass"};
+  const std::string text =
+      "schema = 1\n[tissue]\nmaterial = \"skin\"\nviscosity = \"none\"\n[[step]]\n"
+      "kind = \"indent\"\nto = \"0.1 mm\"\nrate = \"1 mm/s\"\n";
+  EXPECT_EQ(build(four, text).scenario.solver.model, scenario::Model::coupled_springs);
+  const auto press = [&](const std::string& model) {
+    Settings settings = four;
+    settings.push_back("solver.model=" + model);
+    return run_press(settings, text);
+  };
+  const record::CaseRecord simple = press("hertz");
+  const double truth = press("solid").contact.back().contact_force;
+  const double wrong = simple.contact.back().contact_force / truth - 1.0;
+  EXPECT_GT(wrong, 0.2);
+  ASSERT_TRUE(simple.answer.stated_error.has_value());
+  EXPECT_NEAR(*simple.answer.stated_error, wrong, 0.06);  // 26 % for 23
+}
+
 // Over all pixels: of the pressure, and of the traction along each axis, N.
 struct Integrals {
   double pressure;

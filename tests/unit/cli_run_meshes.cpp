@@ -320,6 +320,34 @@ TEST_F(RunMeshes, hertz_refuses_what_only_a_mesh_knows) {
   EXPECT_EQ(run(hertz + "[[step]]\nkind = \"slide\"\nby = \"29 mm\"\n").code, 0);
 }
 
+TEST_F(RunMeshes, a_body_that_is_not_held_below_the_press_is_said_to_bend) {
+  const auto bends = [&](const std::string& shape) {
+    const Ended ended = run("[tissue]\nmaterial = \"skin\"\nshape = { " + shape +
+                            " }\n[[step]]\nkind = \"indent\"\nto = \"0.3 mm\"\n[output]\nfigures = "
+                            "false\n[solver]\nmodel = \"solid\"\n");
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return (ended.out + ended.err).find("the body bends or turns there") != std::string::npos;
+  };
+  EXPECT_FALSE(bends("size = [\"60 mm\", \"60 mm\", \"7 mm\"]"));  // wide and thin
+  EXPECT_TRUE(bends("kind = \"bone_shaft\""));                     // it lies on its ends
+}
+
+// Their modulus is lowered so that a contact law gives the force of one: eight bodies press harder.
+TEST_F(RunMeshes, a_solid_refuses_spheres_that_stand_for_one) {
+  const std::string spheres =
+      "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n[output]\nfigures = false\n"
+      "[finger]\nspheres = 8\n";
+  expect_refused(spheres + "[solver]\nmodel = \"solid\"\n", 2,
+                 "press.toml:7:11: `solid` and `palpate reference` press with every sphere, but "
+                 "several spheres with `finger.calibration = \"force\"` stand for one; write "
+                 "`calibration = \"mass\"`, or `spheres = 1`");
+  // Near an edge too, where `auto` would take `solid`.
+  const Ended ended = run(spheres + "x = \"2 mm\"\n");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE((ended.out + ended.err).find("coupled_springs"), std::string::npos)
+      << ended.out << ended.err;
+}
+
 TEST_F(RunMeshes, auto_is_hertz_on_a_half_space) {
   const std::string half =
       "[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = "
