@@ -145,10 +145,7 @@ class Search {
     found_.closed_form = first.closed_form;
     if (joint()) weigh_pairs();
     for (const Part& part : parts_)
-      for (const std::string& note : part.found.notes)
-        found_.notes.push_back(
-            (joint() ? "pair " + std::to_string(&part - parts_.data() + 1) + ": " : std::string()) +
-            note);
+      for (const std::string& text : part.found.notes) note(part, text);
     problem_.unknowns = unknowns_.size();
     problem_.curve = [this](std::span<const double> u, std::span<double> values) {
       return std::all_of(parts_.begin(), parts_.end(), [&](Part& part) {
@@ -544,6 +541,11 @@ class Search {
                     scenario::resolve(first.curve->at(estimates_of(first)), found_.rung));
   }
 
+  void note(const Part& part, const std::string& text) {
+    const std::string pair = std::to_string(&part - parts_.data() + 1);
+    found_.notes.push_back((joint() ? "pair " + pair + ": " : "") + text);
+  }
+
   // The curve, the fit and the scenario of one pair.
   void conclude_part(Part& part) {
     Identification& found = part.found;
@@ -566,6 +568,8 @@ class Search {
     found.r2 = 1.0 - squares / total;
     found.unknowns = part.own(std::span<const Identified>(found_.unknowns));
     const std::vector<double> values = estimates_of(part);
+    if (const std::string body = default_body(*part.curve, *part.family, values); !body.empty())
+      note(part, body);
     const bool press = found.kind == CurveKind::force_travel || found.kind == CurveKind::force_time;
     if (press) found.deep_effect = deep_effect(part.curve->at(values));
     found.scenario = scenario::answered(part.family->cases.front(), part.curve->fixed());

@@ -207,12 +207,12 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   const std::string hash = sha256(echo);
   std::size_t number = 0;
   std::size_t left_out = 0;
-  // An interrupted run goes on with maps for half a second.
+  // An interrupted run goes on with maps for a fifth of a second.
   std::optional<std::chrono::steady_clock::time_point> until;
   for (const record::CaseRecord& record : records)
     for (const record::PressureMap& map : record.maps) {
       const auto now = std::chrono::steady_clock::now();
-      if (!until && StopScope::stopped()) until = now + std::chrono::milliseconds(500);
+      if (!until && StopScope::stopped()) until = now + std::chrono::milliseconds(200);
       if (until && now > *until) {
         ++left_out;
         continue;
