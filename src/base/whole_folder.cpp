@@ -368,7 +368,9 @@ std::vector<std::string> WholeFolder::put(State content, std::vector<std::string
   std::string list = first_line(kind_, content) + origin_line_;
   if (const auto old = list_of(path_); old && may_replace(path_)) list += replaces_line(*old);
   for (const HashedFile& one : files_) list += file_line(one);
-  for (const HashedFile& one : files_) sync_file(file(one.path));
+  // An interrupted run does not wait for the disk: the same call replaces what it leaves.
+  if (content == State::complete)
+    for (const HashedFile& one : files_) sync_file(file(one.path));
   list_.write(file(list_name), list);
   listed_ = true;
   for (const std::string& name : remove_unlisted(partial_, list))
