@@ -63,7 +63,9 @@ std::string column_line(const RawTable& table, std::size_t index) {
   }
   if (low <= high) line += ", from " + rounded_text(low) + " to " + rounded_text(high);
   if (missing > 0) line += ", " + std::to_string(missing) + " missing";
-  if (words > 0) line += ", " + std::to_string(words) + " words such as `" + word + "`";
+  if (words > 0)
+    line +=
+        ", " + std::to_string(words) + (words == 1 ? " word, `" : " words such as `") + word + "`";
   return line + "\n";
 }
 
@@ -152,7 +154,8 @@ int perform(const Data& command, const Arguments&, const Talk&) {
   const RawTable table =
       measured::raw_table(read_text(command.data), command.data, command.columns);
   std::string text = command.data + ": " + form_of(table) + ", " +
-                     std::to_string(table.rows.size()) + " rows from line " +
+                     std::to_string(table.rows.size()) +
+                     (table.rows.size() == 1 ? " row" : " rows") + " from line " +
                      std::to_string(table.rows.front().line) + " to " +
                      std::to_string(table.rows.back().line) + "\n";
   for (const std::string& note : table.notes) text += note + "\n";
