@@ -178,6 +178,15 @@ TEST(MeasuredFormats, TriosSteps) {
   EXPECT_EQ(curve.x_axis.unit, "s");
 }
 
+// A row of units with more cells than the names above it: the columns are those of the units.
+TEST(MeasuredFormats, ARowOfUnitsMayBeWiderThanThatOfNames) {
+  const MeasuredCurve curve = parse_measured("Time\tForce\ns\tN\tmm\n1\t2\t3\n2\t3\t4\n3\t4\t5\n",
+                                             "t.txt", {.x = "1", .y = "3"});
+  EXPECT_EQ(curve.x_axis.unit, "s");
+  EXPECT_EQ(curve.y_axis.unit, "mm");
+  EXPECT_EQ(curve.y.size(), 3U);
+}
+
 // LabVIEW's .lvm: units in the heading of each table, a column of comments that are not there.
 TEST(MeasuredFormats, LabViewMeasurement) {
   const std::string first =
