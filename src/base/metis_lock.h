@@ -5,9 +5,7 @@
 
 namespace palpate {
 
-inline std::mutex& metis_lock() {
-  static std::mutex one_at_a_time;
-  return one_at_a_time;
-}
+// Held by whoever calls METIS.
+std::mutex& metis_lock();
 
 }  // namespace palpate

@@ -291,6 +291,9 @@ bool WholeFolder::has_same_origin(const std::string& folder) const {
 }
 
 void WholeFolder::refuse_what_is_there() const {
+  std::error_code error;
+  if ((void)fs::status(partial_, error); error == std::errc::filename_too_long)
+    throw InputError({path_, 0, 0}, "is too long for the name of a folder; give a shorter one");
   const State there = state();
   if (there == State::complete && replace_ == Replace::incomplete) {
     const bool same = has_same_origin(path_);
@@ -317,8 +320,6 @@ void WholeFolder::open() {
   const std::string stem = partial_;
   for (int i = 2; !opened_; ++i) {
     const bool made = fs::create_directory(partial_, error);
-    if (error == std::errc::filename_too_long)
-      throw InputError({path_, 0, 0}, "is too long for the name of a folder; give a shorter one");
     if (error) throw SystemError(partial_ + " cannot be made: " + error.message());
     if (made) try {
         list_.write(file(list_name), "");
@@ -367,7 +368,9 @@ std::vector<std::string> WholeFolder::put(State content, std::vector<std::string
   std::string list = first_line(kind_, content) + origin_line_;
   if (const auto old = list_of(path_); old && may_replace(path_)) list += replaces_line(*old);
   for (const HashedFile& one : files_) list += file_line(one);
-  for (const HashedFile& one : files_) sync_file(file(one.path));
+  // An interrupted run does not wait for the disk: the same call replaces what it leaves.
+  if (content == State::complete)
+    for (const HashedFile& one : files_) sync_file(file(one.path));
   list_.write(file(list_name), list);
   listed_ = true;
   for (const std::string& name : remove_unlisted(partial_, list))

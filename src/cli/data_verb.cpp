@@ -63,7 +63,9 @@ std::string column_line(const RawTable& table, std::size_t index) {
   }
   if (low <= high) line += ", from " + rounded_text(low) + " to " + rounded_text(high);
   if (missing > 0) line += ", " + std::to_string(missing) + " missing";
-  if (words > 0) line += ", " + std::to_string(words) + " words such as `" + word + "`";
+  if (words > 0)
+    line +=
+        ", " + std::to_string(words) + (words == 1 ? " word, `" : " words such as `") + word + "`";
   return line + "\n";
 }
 
@@ -101,9 +103,7 @@ std::string contact_lines(const measured::MeasuredCurve& curve, bool& round) {
   try {
     const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
     std::string text;
-    round = fit.r2 >= 0.9 && std::none_of(fit.notes.begin(), fit.notes.end(), [](const auto& note) {
-              return note.find("falls by over") != std::string::npos;  // the specimen gave way
-            });
+    round = fit.r2 >= 0.9 && !fit.gave_way;
     if (fit.r2 < 0.9)
       return "no round tip gives such a curve (R^2 of its law " + rounded_text(fit.r2, 3) + ")\n";
     if (fit.parameters.size() > 1)
@@ -154,7 +154,8 @@ int perform(const Data& command, const Arguments&, const Talk&) {
   const RawTable table =
       measured::raw_table(read_text(command.data), command.data, command.columns);
   std::string text = command.data + ": " + form_of(table) + ", " +
-                     std::to_string(table.rows.size()) + " rows from line " +
+                     std::to_string(table.rows.size()) +
+                     (table.rows.size() == 1 ? " row" : " rows") + " from line " +
                      std::to_string(table.rows.front().line) + " to " +
                      std::to_string(table.rows.back().line) + "\n";
   for (const std::string& note : table.notes) text += note + "\n";

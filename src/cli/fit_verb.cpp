@@ -174,7 +174,7 @@ void say_population(const std::vector<Population>& all, const std::vector<Row>& 
     else
       talk.warn(text);
   }
-  if (all.empty()) return;
+  if (all.empty() || all.front().sorted.size() < 2) return;
   const Population& first = all.front();
   talk.say(first.name + ": median " + rounded_text(quantile(first.sorted, 0.5)) + ", quartiles " +
            rounded_text(quantile(first.sorted, 0.25)) + " and " +

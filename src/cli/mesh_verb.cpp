@@ -115,9 +115,6 @@ void check_outputs(const Mesh& command, Kind kind) {
     if (is_surface_file(out) && kind != Kind::surface)
       throw InputError({out, 0, 0}, "is for surfaces; write a mesh as `.node` or `.vtu`");
     for (const std::string& file : files_of(out)) {
-      const fs::path folder = fs::absolute(file).parent_path();
-      if (!fs::is_directory(folder))
-        throw InputError({file, 0, 0}, "is in a folder that does not exist; make it first");
       if (!fs::exists(file)) continue;
       if (fs::is_directory(file)) throw InputError({file, 0, 0}, "is a folder; name a file");
       std::error_code unrelated;

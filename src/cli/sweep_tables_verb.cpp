@@ -62,8 +62,11 @@ std::string status_text(const sweep::SweepTotals& totals, const sweep::SweepResu
        totals.missing > 0 ? "  (numbers " + totals.missing_numbers + ")" : "");
   line("corrupt", results.corrupt());
   line("files", results.files().size());
-  // A part that was continued has several files: one line a part.
-  std::map<std::string, std::pair<std::size_t, std::size_t>> parts;  // files and rows by part
+  // A part that was continued has several files: one line a part, 10 behind 2.
+  using ByLength = decltype([](const std::string& a, const std::string& b) {
+    return std::pair(a.size(), a) < std::pair(b.size(), b);
+  });
+  std::map<std::string, std::pair<std::size_t, std::size_t>, ByLength> parts;  // files and rows
   for (const record::JournalFile& file : results.files()) {
     const std::string name = std::filesystem::path(file.path).filename().string();
     auto& [files, rows] = parts[name.substr(0, name.find('_'))];

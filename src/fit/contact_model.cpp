@@ -123,8 +123,11 @@ class ContactFit {
          : part.loadings > 1       ? "the way back, and other loadings"
                                    : "the way back from the deepest row; `--segment retract` "
                                      "fits it");
-    if (test_.way == Way::approach)
-      keep(0, rows_before_break(f), "beyond the largest force, from which it falls by over 10 %");
+    if (test_.way == Way::approach) {
+      const std::size_t whole = rows_before_break(f);
+      fit_.gave_way = whole < f.size();
+      keep(0, whole, "beyond the largest force, from which it falls by over 10 %");
+    }
     refuse_few(h.size());
   }
 

@@ -17,9 +17,11 @@ constexpr double least_sigma = 1e-5;
 constexpr double least_slope = 1e-6;  // of the steepest direction
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-Eigen::Map<const Matrix> slopes_of(std::span<const double> jacobian, std::size_t unknowns) {
-  const std::size_t rows = jacobian.size() / unknowns;
-  return {jacobian.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(unknowns)};
+using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
+Svd svd_of(std::span<const double> jacobian, std::size_t unknowns) {
+  const auto rows = static_cast<Eigen::Index>(jacobian.size() / unknowns);
+  const Eigen::Map<const Matrix> slopes(jacobian.data(), rows, static_cast<Eigen::Index>(unknowns));
+  return Svd(slopes, Eigen::ComputeThinU | Eigen::ComputeThinV);
 }
 
 bool has(const std::string& key, const char* ending) { return key.ends_with(ending); }
@@ -36,36 +38,35 @@ std::string with_exponent(const std::string& text, double exponent) {
 }  // namespace
 
 std::vector<double> determined_directions(std::span<const double> jacobian, std::size_t unknowns) {
-  const Eigen::Map<const Matrix> slopes = slopes_of(jacobian, unknowns);
-  if (slopes.rows() <= slopes.cols() || !slopes.allFinite()) return {};
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(slopes, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Svd svd = svd_of(jacobian, unknowns);
   const Eigen::VectorXd& sizes = svd.singularValues();
   const auto count = (sizes.array() > least_slope * sizes[0]).count();
   const Matrix directions = svd.matrixU().leftCols(count);
   return {directions.data(), directions.data() + directions.size()};
 }
 
-BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns, double sigma, double t,
-                     int weakest) {
+BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
+                     std::span<const double> noise, double t, int weakest) {
   const auto n = static_cast<Eigen::Index>(unknowns);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(slopes_of(jacobian, unknowns), Eigen::ComputeThinV);
-  const double noise = std::max(sigma, least_sigma);
+  const Svd svd = svd_of(jacobian, unknowns);
+  const auto count = static_cast<Eigen::Index>(std::lround(std::sqrt(noise.size())));
+  const Eigen::Map<const Matrix> along(noise.data(), count, count);
   BoxErrors errors;
   errors.tied.assign(unknowns, 0);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n, count);  // of u to the directions
   std::vector<Eigen::VectorXd> loose;
   for (Eigen::Index k = 0; k < n; ++k) {
     const double slope = svd.singularValues()[k];
-    const Eigen::VectorXd direction = svd.matrixV().col(k);
-    // Var of u along the direction: (sigma / slope)^2.
-    if (k >= n - weakest || slope <= least_slope * svd.singularValues()[0] ||
-        t * noise > loose_half_width * slope) {
-      loose.push_back(direction);
+    if (k >= n - weakest || k >= count ||
+        t * std::max(std::sqrt(along(k, k)), least_sigma) > loose_half_width * slope) {
+      loose.emplace_back(svd.matrixV().col(k));
       continue;
     }
     ++errors.determined;
-    covariance += direction * direction.transpose() * (sigma * sigma / (slope * slope));
+    response.col(k) = svd.matrixV().col(k) / slope;
   }
+  const Matrix covariance = response * along * response.transpose();
+  const Matrix of_one = response * response.transpose();
   for (const Eigen::VectorXd& direction : loose) {
     errors.loose.emplace_back(direction.data(), direction.data() + n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -74,9 +75,8 @@ BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns, dou
       if (moved > std::max(own, 1e-3)) errors.tied[as_index(i)] = 1;
     }
   }
-  errors.covariance.resize(unknowns * unknowns);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) errors.covariance[as_index(i * n + j)] = covariance(i, j);
+  errors.covariance.assign(covariance.data(), covariance.data() + covariance.size());
+  errors.of_one.assign(of_one.data(), of_one.data() + of_one.size());
   return errors;
 }
 

@@ -13,6 +13,7 @@ namespace palpate::identify {
 // it by more than its error. The covariance is that of the directions which are determined.
 struct BoxErrors {
   std::vector<double> covariance;          // of u, row by row
+  std::vector<double> of_one;              // the same of independent residuals of variance 1
   std::vector<char> tied;                  // one per unknown
   std::vector<std::vector<double>> loose;  // unit vectors
   int determined = 0;                      // number of directions that are not loose
@@ -21,15 +22,15 @@ struct BoxErrors {
     return covariance[i * tied.size() + j];
   }
 };
-// `jacobian`: derivatives of the weighted residuals with respect to u, one row per point. `sigma`:
-// standard deviation of these residuals. `t`: Student's quantile.
-//                                                                docs/theory.md [interval], [loose]
+// `jacobian`: derivatives of the weighted residuals with respect to u, one row per point. `noise`:
+// covariance of these residuals along the determined directions, by rows. `t`: Student's quantile.
 // The `weakest` directions count as loose in any case.
+//                                       docs/theory.md [interval], [loose], [sample_size]
 [[nodiscard]] BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
-                                   double sigma, double t, int weakest = 0);
+                                   std::span<const double> noise, double t, int weakest = 0);
 
 // The directions of the residuals, of length 1 and one row per point, along which the unknowns of a
-// jacobian change them by more than 1e-6 of the steepest; none where it is not finite.
+// jacobian change them by more than 1e-6 of the steepest.
 [[nodiscard]] std::vector<double> determined_directions(std::span<const double> jacobian,
                                                         std::size_t unknowns);
 

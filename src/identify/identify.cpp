@@ -145,10 +145,7 @@ class Search {
     found_.closed_form = first.closed_form;
     if (joint()) weigh_pairs();
     for (const Part& part : parts_)
-      for (const std::string& note : part.found.notes)
-        found_.notes.push_back(
-            (joint() ? "pair " + std::to_string(&part - parts_.data() + 1) + ": " : std::string()) +
-            note);
+      for (const std::string& text : part.found.notes) note(part, text);
     problem_.unknowns = unknowns_.size();
     problem_.curve = [this](std::span<const double> u, std::span<double> values) {
       return std::all_of(parts_.begin(), parts_.end(), [&](Part& part) {
@@ -217,11 +214,9 @@ class Search {
   void judge() {
     const std::size_t n = unknowns_.size();
     const double degrees = static_cast<double>(found_.x.size() - n);
-    sigma_ = std::max(std::sqrt(best_.squares / degrees), 1e-12);
-    noise_ = sigma_;
-    t_ = numerics::student_t_quantile(0.975, degrees);
-    widen_for_correlation();
-    errors_ = box_errors(best_.jacobian, n, sigma_, t_);
+    noise_ = std::max(std::sqrt(best_.squares / degrees), 1e-12);
+    judge_residuals();
+    errors_ = box_errors(best_.jacobian, n, along_, t_);
     std::vector<char> moving(n, 1);
     for (std::size_t i = 0; i < n; ++i) {
       Identified one;
@@ -268,7 +263,7 @@ class Search {
                                           " independent ones"
                                     : std::string()) +
                                ": they have no numbers of their own");
-        errors_ = box_errors(best_.jacobian, n, sigma_, t_, 1);
+        errors_ = box_errors(best_.jacobian, n, along_, t_, 1);
         for (std::size_t k = 0; k < n; ++k) {
           Identified& one = found_.unknowns[k];
           one.tied = errors_.tied[k] != 0;
@@ -334,31 +329,34 @@ class Search {
     return key.ends_with(".young_modulus") || key.ends_with(".poisson_ratio");
   }
 
-  // Correlated residuals, and values rounded to steps: the variance of the residuals is multiplied
-  // by the mean ratio of the variances to those of independent ones, over the directions of the box
-  // that the data determine.  docs/theory.md [correlated], [covariance], [sample_size], [rounding]
-  void widen_for_correlation() {
+  // What the residuals say of the errors along the directions of the box that a jacobian
+  // determines, and of values rounded to steps.
+  //                       docs/theory.md [correlated], [covariance], [sample_size], [rounding]
+  [[nodiscard]] fit::ResidualErrors errors_along(std::span<const double> jacobian,
+                                                 std::size_t unknowns) const {
     const std::size_t n = found_.x.size();
-    std::vector<double> residuals, scaled;
-    for (std::size_t i = 0; i < n; ++i) {
-      residuals.push_back((found_.model[i] - found_.measured[i]) * weights_[i]);
-      scaled.push_back(found_.measured[i] * weights_[i]);
-    }
-    systematic_ = fit::systematic(residuals);  // not by chance
-    found_.effective_size = static_cast<double>(n);
-    const std::vector<double> directions = determined_directions(best_.jacobian, unknowns_.size());
-    if (directions.empty()) return;
-    const std::size_t count = directions.size() / n;
-    std::vector<double> inverse(count * count, 0.0);
-    for (std::size_t i = 0; i < count; ++i) inverse[i * count + i] = 1.0;  // of length 1
+    std::vector<double> scaled;
+    for (std::size_t i = 0; i < n; ++i) scaled.push_back(found_.measured[i] * weights_[i]);
     std::vector<std::span<const double>> records;
     for (const Part& part : parts_)
       records.emplace_back(scaled.data() + part.from, part.to - part.from);
-    const fit::ResidualErrors errors = fit::errors_of(residuals, directions, inverse, records);
+    const std::vector<double> directions = determined_directions(jacobian, unknowns);
+    const std::size_t count = directions.size() / n;
+    std::vector<double> inverse(count * count, 0.0);
+    for (std::size_t i = 0; i < count; ++i) inverse[i * count + i] = 1.0;  // of length 1
+    return fit::errors_of(residuals_, directions, inverse, records);
+  }
+
+  void judge_residuals() {
+    for (std::size_t i = 0; i < found_.x.size(); ++i)
+      residuals_.push_back((found_.model[i] - found_.measured[i]) * weights_[i]);
+    systematic_ = fit::systematic(residuals_);  // not by chance
+    fit::ResidualErrors errors = errors_along(best_.jacobian, unknowns_.size());
+    along_ = std::move(errors.covariance);
+    factor_ = std::max(errors.factor, 1.0);
     found_.rho = errors.rho;
-    sigma_ *= std::sqrt(std::max(errors.factor, 1.0));
-    if (errors.rho == 0.0) return;
-    found_.effective_size = static_cast<double>(n) / std::max(errors.factor, 1.0);
+    found_.effective_size =
+        static_cast<double>(found_.x.size()) / (errors.rho > 0.0 ? factor_ : 1.0);
     t_ = numerics::student_t_quantile(0.975, errors.degrees);
   }
 
@@ -369,17 +367,20 @@ class Search {
     for (std::size_t i = 0; i < n; ++i)
       if (moving[i] != 0) places.push_back(i);
     BoxErrors all;
-    all.covariance.assign(n * n, 0.0);
+    all.covariance = all.of_one = std::vector<double>(n * n, 0.0);
     all.tied.assign(n, 0);
     if (places.empty()) return all;
     std::vector<double> slopes;
     for (std::size_t row = 0; row < found_.x.size(); ++row)
       for (const std::size_t i : places) slopes.push_back(best_.jacobian[row * n + i]);
-    const BoxErrors some = box_errors(slopes, places.size(), sigma_, t_);
+    const BoxErrors some =
+        box_errors(slopes, places.size(), errors_along(slopes, places.size()).covariance, t_);
     for (std::size_t a = 0; a < places.size(); ++a) {
       all.tied[places[a]] = some.tied[a];
-      for (std::size_t b = 0; b < places.size(); ++b)
+      for (std::size_t b = 0; b < places.size(); ++b) {
         all.covariance[places[a] * n + places[b]] = some.covariance[a * places.size() + b];
+        all.of_one[places[a] * n + places[b]] = some.of_one[a * places.size() + b];
+      }
     }
     for (const std::vector<double>& direction : some.loose) {
       all.loose.emplace_back(n, 0.0);
@@ -429,15 +430,21 @@ class Search {
   }
 
   void profiles() {
-    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+    const std::size_t n = unknowns_.size();
+    for (std::size_t i = 0; i < n; ++i) {
       Identified& one = found_.unknowns[i];
+      // The standard deviation of independent residuals that would give this unknown its error.
+      const double sigma =
+          one.tied || one.at_bound
+              ? noise_ * std::sqrt(factor_)
+              : std::max(std::sqrt(errors_.variance(i, i) / errors_.of_one[i * n + i]), 1e-12);
       const Profile got = one.tied ? profile_over_box(problem_, best_, i)
-                                   : profile(problem_, best_, i, errors_.covariance, sigma_, t_);
+                                   : profile(problem_, best_, i, errors_.covariance, sigma, t_);
       StopScope::end_if_stopped();
       found_.evaluations += got.evaluations;
       for (const Profile::Point& point : got.points)
         found_.profile.push_back({i, unknowns_[i].value(point.u), point.squares,
-                                  (point.squares - best_.squares) / (sigma_ * sigma_)});
+                                  (point.squares - best_.squares) / (sigma * sigma)});
       if (one.tied) valley_.insert(valley_.end(), got.points.begin(), got.points.end());
       if (one.tied) continue;
       if (got.low) one.profile_low = unknowns_[i].value(*got.low);
@@ -534,6 +541,11 @@ class Search {
                     scenario::resolve(first.curve->at(estimates_of(first)), found_.rung));
   }
 
+  void note(const Part& part, const std::string& text) {
+    const std::string pair = std::to_string(&part - parts_.data() + 1);
+    found_.notes.push_back((joint() ? "pair " + pair + ": " : "") + text);
+  }
+
   // The curve, the fit and the scenario of one pair.
   void conclude_part(Part& part) {
     Identification& found = part.found;
@@ -556,6 +568,8 @@ class Search {
     found.r2 = 1.0 - squares / total;
     found.unknowns = part.own(std::span<const Identified>(found_.unknowns));
     const std::vector<double> values = estimates_of(part);
+    if (const std::string body = default_body(*part.curve, *part.family, values); !body.empty())
+      note(part, body);
     const bool press = found.kind == CurveKind::force_travel || found.kind == CurveKind::force_time;
     if (press) found.deep_effect = deep_effect(part.curve->at(values));
     found.scenario = scenario::answered(part.family->cases.front(), part.curve->fixed());
@@ -584,8 +598,7 @@ class Search {
           product[i] += best_.jacobian[row * n + i] * error * found_.model[row] * weights_[row];
       std::vector<double> change(n, 0.0);
       for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j)
-          change[i] += errors_.variance(i, j) / (sigma_ * sigma_) * product[j];
+        for (std::size_t j = 0; j < n; ++j) change[i] += errors_.of_one[i * n + j] * product[j];
         moved[i] += std::abs(change[i]);
       }
       for (std::size_t k = 0; k < combined.size(); ++k) {
@@ -616,7 +629,7 @@ class Search {
   // their ranges, because the curve there differs by no more than noise and the model's error, its
   // value there is part of the interval.
   void widen_along_the_valley() {
-    double allowed = t_ * t_ * sigma_ * sigma_;
+    double allowed = t_ * t_ * noise_ * noise_ * factor_;
     for (const Part& part : parts_)
       for (std::size_t row = part.from; row < part.to; ++row) {
         const double of_model =
@@ -649,9 +662,11 @@ class Search {
   BoxProblem problem_;
   BoxMinimum best_;
   BoxErrors errors_;
-  double noise_ = 0.0;       // standard deviation of the weighted residuals
-  double sigma_ = 0.0;       // the same, widened where they are correlated
-  bool systematic_ = false;  // the residuals are correlated by both tests
+  std::vector<double> residuals_;  // weighted
+  std::vector<double> along_;      // their covariance along the determined directions, by rows
+  double noise_ = 0.0;             // their standard deviation
+  double factor_ = 1.0;            // mean ratio of the variances to those of independent residuals
+  bool systematic_ = false;        // the residuals are correlated by both tests
   double t_ = 0.0;
   Identification found_;
 };

@@ -2,6 +2,7 @@
 #include "identify/warnings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "fit/residual_tests.h"
@@ -56,6 +57,31 @@ std::vector<std::string> warnings_of(const Identification& found,
                        percent_text(*waves) +
                        " and are left out; set `solver.integrator = \"central_difference\"`");
   return warnings;
+}
+
+std::string default_body(ScenarioCurve& curve, const scenario::Family& family,
+                         std::span<const double> values) {
+  const auto* box = std::get_if<scenario::Cuboid>(&curve.fixed().tissue.shape);
+  const Member* tissue = family.document.find("tissue");
+  const bool named = tissue != nullptr && tissue->value.find("shape") != nullptr;
+  if (box == nullptr || named || curve.fixed().uniform()) return "";
+  std::string text =
+      "the scenario names no `tissue.shape`, so that the body is the default block, ";
+  for (std::size_t i = 0; i < 3; ++i)
+    text += (i > 0 ? " by " : "") + rounded_text(unit::mm.from_si(box->size[i]));
+  text += " mm";
+  FixedRung half{.one = curve.at(values)};
+  half.one.scenario.tissue.shape = scenario::HalfSpace{};
+  half.one.scenario.solver.model = scenario::Model::hertz;
+  const auto on_block = curve.rows(values);
+  const auto on_half = ScenarioCurve(curve.kind(), std::move(half), family, {}).rows({});
+  if (on_block && on_half && on_half->y.back() > 0.0) {
+    const double more = on_block->y.back() / on_half->y.back() - 1.0;
+    if (std::abs(more) > 0.02)
+      text += ", on which the force at the deepest is " + percent_text(std::abs(more)) +
+              (more > 0.0 ? " larger" : " smaller") + " than on a half-space";
+  }
+  return text + "; set it to that of the specimen";
 }
 
 }  // namespace palpate::identify

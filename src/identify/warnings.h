@@ -22,4 +22,9 @@ struct WeightedResiduals {
                                                    const WeightedResiduals& residuals,
                                                    const scenario::Resolved& with);
 
+// On the default block where the scenario of a press names no body, and by how much a half-space
+// would change the force at the deepest, with these values of the unknowns (SI). Empty otherwise.
+[[nodiscard]] std::string default_body(ScenarioCurve& curve, const scenario::Family& family,
+                                       std::span<const double> values);
+
 }  // namespace palpate::identify

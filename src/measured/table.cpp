@@ -366,6 +366,57 @@ RawTable main_table(std::span<const Line> lines, std::vector<TableRow> rows,
 
 }  // namespace
 
+namespace {
+
+// LabVIEW's .lvm: headings from `Channels` to `***End_of_Header***`, one before each table, with
+// the units of the columns. Takes the headings out of the lines and returns their cells of units
+// and of dimensions.
+struct LvmCells {
+  std::vector<Piece> units, dimensions;
+};
+LvmCells take_lvm_headings(std::vector<Line>& lines, const std::string& file) {
+  LvmCells cells;
+  bool heading = true;
+  std::erase_if(lines, [&](const Line& line) {
+    if (line.text.starts_with("Channels\t")) heading = true;
+    if (line.text.starts_with("Y_Unit_Label\t")) cells.units = pieces_of(line, '\t', file);
+    if (line.text.starts_with("X_Dimension\t")) cells.dimensions = pieces_of(line, '\t', file);
+    const bool ends = line.text.starts_with("***End_of_Header***");
+    if (!ends) return heading;
+    heading = false;
+    return true;
+  });
+  std::ptrdiff_t tabs = 0;  // of the names; rows without a comment have one less
+  for (Line& line : lines) {
+    const auto here = std::count(line.text.begin(), line.text.end(), '\t');
+    if (line.text.starts_with("X_Value\t")) tabs = here;
+    if (here > 0 && here < tabs) line.text.append(as_index(tabs - here), '\t');
+  }
+  return cells;
+}
+
+// Gives the columns their units; a column without any value, as of comments, is none.
+void finish_lvm(RawTable& table, const LvmCells& cells) {
+  const auto cell = [](const std::vector<Piece>& of, std::size_t i) {
+    return i < of.size() ? of[i].text : std::string();
+  };
+  if (table.names.empty()) return;
+  table.units.assign(table.width(), "");
+  for (std::size_t i = table.width(); i-- > 0;) {
+    const bool time = table.names[i] == "X_Value" && cell(cells.dimensions, i + 1) == "Time";
+    table.units[i] = time ? "s" : i > 0 ? cell(cells.units, i) : "";
+    if (!std::all_of(table.rows.begin(), table.rows.end(),
+                     [&](const RawRow& row) { return row.fields[i].text.empty(); }))
+      continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    table.names.erase(table.names.begin() + at);
+    table.units.erase(table.units.begin() + at);
+    for (RawRow& row : table.rows) row.fields.erase(row.fields.begin() + at);
+  }
+}
+
+}  // namespace
+
 RawTable raw_table(std::string_view bytes, const std::string& file, const DataLayout& layout) {
   std::vector<Line> lines = lines_of(bytes, file);
   const std::size_t skipped = as_index(std::max(layout.skip, 0));
@@ -375,10 +426,14 @@ RawTable raw_table(std::string_view bytes, const std::string& file, const DataLa
   const RawTable::Kind kind = kind_of(lines);
   if (is_febio_log(lines)) return febio_table(lines, file);
   if (is_jpk_text(lines)) return jpk_table(lines, file);
-  const std::span<const Line> kept = std::span<const Line>(lines).subspan(skipped);
+  lines.erase(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(skipped));
+  const bool lvm = !lines.empty() && lines.front().text.starts_with("LabVIEW Measurement");
+  const LvmCells cells = lvm ? take_lvm_headings(lines, file) : LvmCells();
+  const std::span<const Line> kept = lines;
   const Shape shape = shape_of(kept, file, layout);
   RawTable table = main_table(kept, rows_of(kept, shape, file), file, shape, layout);
   table.kind = kind;
+  if (lvm) finish_lvm(table, cells);
   return table;
 }
 

@@ -137,7 +137,9 @@ std::vector<std::string> ResultFolder::rows_left_beside() const {
 }
 
 void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
-  if (record.outcome == record::Outcome::interrupted) return;
+  // To write and remove three files takes longer than to compute such a case again.
+  constexpr double worth_keeping = 0.01;  // s
+  if (record.outcome == record::Outcome::interrupted || record.seconds < worth_keeping) return;
   const std::string name = numbered("case", index + 1, "");
   const std::string folder = folder_.file(name);
   if (!cases_kept_) folder_.keep(name + "/findings.csv");  // written last
@@ -207,12 +209,12 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   const std::string hash = sha256(echo);
   std::size_t number = 0;
   std::size_t left_out = 0;
-  // An interrupted run goes on with maps for half a second.
+  // An interrupted run goes on with maps for a tenth of a second.
   std::optional<std::chrono::steady_clock::time_point> until;
   for (const record::CaseRecord& record : records)
     for (const record::PressureMap& map : record.maps) {
       const auto now = std::chrono::steady_clock::now();
-      if (!until && StopScope::stopped()) until = now + std::chrono::milliseconds(500);
+      if (!until && StopScope::stopped()) until = now + std::chrono::milliseconds(100);
       if (until && now > *until) {
         ++left_out;
         continue;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/stop_scope.h"
+#include "base/text.h"
 #include "identify/givens.h"
 #include "identify_scenes.h"
 #include "record/csv.h"
@@ -183,6 +184,33 @@ TEST(Identify, ProfileEndsAtTheIntervalsThreshold) {
   // So many independent rows give this error of a mean.
   EXPECT_NEAR(found.effective_size, std::pow(found.noise / *one.std_error, 2),
               1e-6 * found.effective_size);
+}
+
+// A press whose scenario names no body is judged with the default block, which is said, with what a
+// half-space would change.
+TEST(Identify, SaysWhichBodyItTakesUnasked) {
+  const IdentifyScene unnamed{
+      "block",
+      "[tissue]\nviscosity = \"none\"\n" + test::rigid + test::press_2mm + test::rows_10ms,
+      {"tissue.young_modulus=60 kPa"},
+      {"tissue.young_modulus=1..500 kPa"},
+      {60e3},
+      identify::CurveKind::force_travel};
+  IdentifyScene half = unnamed;
+  half.text.replace(0, 9, "[tissue]\nshape = { kind = \"half_space\" }\n");
+  half.truth.emplace_back("contact.depth=neo_hookean");  // as the block takes it by itself
+  const identify::Measurement on_block = test::clean_curve(unnamed);
+  const double more = on_block.y.back() / test::clean_curve(half).y.back() - 1.0;
+  ASSERT_GT(more, 0.02);
+  const auto said = [](const identify::Identification& found) { return joined(found.notes, "\n"); };
+  const auto found = test::identified(unnamed, on_block, {.profiles = false});
+  EXPECT_NE(said(found).find("the default block, 60 by 60 by 30 mm, on which the force at the "
+                             "deepest is " +
+                             percent_text(more) + " larger than on a half-space"),
+            std::string::npos)
+      << said(found);
+  EXPECT_EQ(said(test::identified(half, on_block, {.profiles = false})).find("default block"),
+            std::string::npos);
 }
 
 // Of several loadings the first is fitted, a specimen that gives way ends the curve, and a way back

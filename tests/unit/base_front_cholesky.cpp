@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <csignal>
 
 namespace palpate {
 namespace {
@@ -52,6 +53,20 @@ TEST(FrontCholesky, SolvesAsDenseAlgebraDoes) {
   EXPECT_LT((x - want).norm(), 1e-13 * want.norm());  // rounding of 400 unknowns
   factors.solve(b, b);
   EXPECT_EQ(b, x);
+}
+
+// METIS, which orders the unknowns, would put a handler back for one signal only.
+TEST(FrontCholesky, LeavesTheProgramsSignalsAlone) {
+  struct sigaction ours {};
+  ours.sa_handler = [](int) {};
+  struct sigaction before {};
+  ::sigaction(SIGTERM, &ours, &before);
+  const Lattice made = lattice(4);
+  FrontCholesky().analyse(made.lower, made.first);
+  struct sigaction after {};
+  ::sigaction(SIGTERM, &before, &after);
+  EXPECT_EQ(after.sa_handler, ours.sa_handler);
+  EXPECT_EQ(after.sa_flags & static_cast<int>(SA_RESETHAND), 0);
 }
 
 TEST(FrontCholesky, RefusesWhatIsNotPositiveDefinite) {

@@ -55,6 +55,17 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
   EXPECT_EQ(other.code, 2) << "other figures do not replace these unasked";
 }
 
+TEST_F(SweepVerb, StatusHasPartTenBehindPartTwo) {
+  plan(quick_sweep, {"--set", "sweep.tissue.poisson_ratio=[0.3, 0.35, 0.4, 0.45]"});
+  for (const char* part : {"10/10", "2/10", "1/10"})
+    ASSERT_EQ(sweep({"run", "out/s_sweep", "--shard", part}).code, 0);
+  const std::string out = sweep({"status", "out/s_sweep"}).out;
+  const auto place = [&](const std::string& part) { return out.find("\n  " + part); };
+  EXPECT_LT(place("1-of-10:"), place("2-of-10:")) << out;
+  EXPECT_LT(place("2-of-10:"), place("10-of-10:")) << out;
+  EXPECT_LT(place("10-of-10:"), out.size());
+}
+
 // A row of a sweep is the case of `palpate run`.
 TEST_F(SweepVerb, NumbersAreThoseOfRun) {
   plan(quick_sweep, {"--curves"});

@@ -14,10 +14,13 @@ Unknown unknown(const std::string& key, double low, double high, Unknown::Scale 
   return {.key = key, .scale = scale, .unit = std::nullopt, .low = low, .high = high};
 }
 
+// The covariance of independent residuals along two directions, by rows.
+std::vector<double> white(double sigma) { return {sigma * sigma, 0.0, 0.0, sigma * sigma}; }
+
 // Two columns: sums of squares 4 and 1, orthogonal.
 TEST(BoxErrors, AreThoseOfLinearLeastSquares) {
   const std::vector<double> slopes{2.0, 0.0, 0.0, 1.0};
-  const BoxErrors errors = box_errors(slopes, 2, 0.1, 2.0);
+  const BoxErrors errors = box_errors(slopes, 2, white(0.1), 2.0);
   EXPECT_EQ(errors.determined, 2);
   EXPECT_NEAR(errors.variance(0, 0), 0.01 / 4.0, 1e-15);  // rounding
   EXPECT_NEAR(errors.variance(1, 1), 0.01, 1e-15);
@@ -28,15 +31,26 @@ TEST(BoxErrors, AreThoseOfLinearLeastSquares) {
 TEST(BoxErrors, CorrelatedColumnsShareTheirError) {
   // J^T J = [[2, 1], [1, 1]], its inverse [[1, -1], [-1, 2]].
   const std::vector<double> slopes{1.0, 0.0, 1.0, 1.0};
-  const BoxErrors errors = box_errors(slopes, 2, 0.1, 2.0);
+  const BoxErrors errors = box_errors(slopes, 2, white(0.1), 2.0);
   EXPECT_NEAR(errors.variance(0, 0), 0.01, 1e-15);  // rounding
   EXPECT_NEAR(errors.variance(0, 1), -0.01, 1e-15);
   EXPECT_NEAR(errors.variance(1, 1), 0.02, 1e-15);
 }
 
+// Noise that is larger along one direction reaches the unknown that this direction moves.
+TEST(BoxErrors, FollowTheNoiseOfEachDirection) {
+  const std::vector<double> slopes{2.0, 0.0, 0.0, 1.0};
+  const BoxErrors errors = box_errors(slopes, 2, std::vector{0.01, 0.003, 0.003, 0.04}, 2.0);
+  EXPECT_NEAR(errors.variance(0, 0), 0.01 / 4.0, 1e-15);  // rounding
+  EXPECT_NEAR(errors.variance(1, 1), 0.04, 1e-15);
+  EXPECT_NEAR(std::abs(errors.variance(0, 1)), 0.003 / 2.0, 1e-15);
+  EXPECT_NEAR(errors.of_one[0], 1.0 / 4.0, 1e-15);
+  EXPECT_NEAR(errors.of_one[3], 1.0, 1e-15);
+}
+
 TEST(BoxErrors, ADirectionWiderThanHalfTheBoxIsATie) {
   const auto tied = [](double slope) {
-    return box_errors(std::vector<double>{1.0, 0.0, 0.0, slope}, 2, 0.1, 2.0).tied;
+    return box_errors(std::vector<double>{1.0, 0.0, 0.0, slope}, 2, white(0.1), 2.0).tied;
   };
   // 2 sigma / slope is 0.5 at 0.4
   EXPECT_EQ(tied(0.41), (std::vector<char>{0, 0}));
@@ -49,7 +63,7 @@ TEST(BoxErrors, OfAProductOnlyTheProductIsDetermined) {
   const std::vector<Unknown> unknowns{unknown("a", 1.0, range, Unknown::Scale::logarithmic),
                                       unknown("b", 1.0, range, Unknown::Scale::logarithmic)};
   const std::vector<double> slopes{2.0, 4.0, 4.0, 8.0, 6.0, 12.0};
-  const BoxErrors errors = box_errors(slopes, 2, 0.01, 2.0);
+  const BoxErrors errors = box_errors(slopes, 2, std::vector{1e-4}, 2.0);
   EXPECT_EQ(errors.determined, 1);
   EXPECT_EQ(errors.tied, (std::vector<char>{1, 1}));
   const auto found = combination(errors, unknowns, std::vector{0.5, 0.25}, 2.0);

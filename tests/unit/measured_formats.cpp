@@ -178,6 +178,38 @@ TEST(MeasuredFormats, TriosSteps) {
   EXPECT_EQ(curve.x_axis.unit, "s");
 }
 
+// A row of units with more cells than the names above it: the columns are those of the units.
+TEST(MeasuredFormats, ARowOfUnitsMayBeWiderThanThatOfNames) {
+  const MeasuredCurve curve = parse_measured("Time\tForce\ns\tN\tmm\n1\t2\t3\n2\t3\t4\n3\t4\t5\n",
+                                             "t.txt", {.x = "1", .y = "3"});
+  EXPECT_EQ(curve.x_axis.unit, "s");
+  EXPECT_EQ(curve.y_axis.unit, "mm");
+  EXPECT_EQ(curve.y.size(), 3U);
+}
+
+// LabVIEW's .lvm: units in the heading of each table, a column of comments that are not there.
+TEST(MeasuredFormats, LabViewMeasurement) {
+  const std::string first =
+      "LabVIEW Measurement\t\r\nWriter_Version\t2\r\nSeparator\tTab\r\nX_Columns\tOne\r\n"
+      "Date\t2023/05/04\r\nTime\t10:11:12.5\r\n***End_of_Header***\t\r\n\t\r\n";
+  const std::string heading =
+      "Channels\t2\t\t\r\nSamples\t3\t3\t\r\nY_Unit_Label\tmm\tmN\t\r\n"
+      "X_Dimension\tTime\tTime\t\r\nX0\t0.0E+0\t0.0E+0\t\r\nDelta_X\t0.1\t0.1\t\r\n"
+      "***End_of_Header***\t\t\t\r\nX_Value\tTravel\tForce\tComment\r\n";
+  const std::string rows = "0.0\t0.1\t1\r\n0.1\t0.2\t2\r\n0.2\t0.3\t4\r\n";
+  MeasuredCurve curve = parse_measured(first + heading + rows, "a.lvm", {});
+  EXPECT_EQ(curve.x_axis.column, "Travel");
+  EXPECT_EQ(curve.y, (Numbers{1e-3, 2e-3, 4e-3}));
+  EXPECT_NEAR(curve.x[2], 3e-4, 1e-18);
+  curve = parse_measured(first + heading + rows, "a.lvm", {.x = "X_Value", .y = "Force"});
+  EXPECT_EQ(curve.x_axis.unit, "s");
+  // Each table of several has its heading.
+  curve = parse_measured(first + heading + rows + "\r\n" + heading + rows, "a.lvm",
+                         {.x = "Travel", .y = "Force", .segment = "2"});
+  EXPECT_EQ(curve.y, (Numbers{1e-3, 2e-3, 4e-3}));
+  EXPECT_EQ(curve.x_axis.unit, "mm");
+}
+
 // A text export of Anton Paar's Bioindenter: penetration depth and normal force.
 TEST(MeasuredFormats, BioindenterDepthAndForce) {
   const std::string text =
