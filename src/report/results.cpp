@@ -139,7 +139,8 @@ std::vector<std::string> ResultFolder::rows_left_beside() const {
 void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
   // To write and remove three files takes longer than to compute such a case again.
   constexpr double worth_keeping = 0.01;  // s
-  if (record.outcome == record::Outcome::interrupted || record.seconds < worth_keeping) return;
+  const bool quick = record.seconds > 0.0 && record.seconds < worth_keeping;
+  if (record.outcome == record::Outcome::interrupted || quick) return;
   const std::string name = numbered("case", index + 1, "");
   const std::string folder = folder_.file(name);
   if (!cases_kept_) folder_.keep(name + "/findings.csv");  // written last

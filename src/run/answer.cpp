@@ -309,7 +309,7 @@ class LeftOuts {
 
   void ball() {
     if (rung_.solid || e_.ball <= 0.2 * tolerance()) return;
-    omit("the size of the finger, a ball that yields less than a half-space", e_.ball,
+    omit("the size of the finger, a ball that is stiffer than Hertz's law has it", e_.ball,
          would(e_.ball), "set `solver.model = \"solid\"`");
   }
 

@@ -157,26 +157,40 @@ TEST(LiveVerdict, ALateStandIsIdentifiedByTheProgrammeThatItCarriedOut) {
     call.insert(call.end(), more.begin(), more.end());
     return test::palpate(live.folder(), call);
   };
-  // As planned, the lateness is in the residuals, which are no noise: no number is claimed.
+  // Of scenarios/emulator/stand_tissue.toml.
+  const std::map<std::string, double> truth{{"tissue.young_modulus", 12.0},
+                                            {"tissue.relaxation_time", 0.5},
+                                            {"tissue.instantaneous_ratio", 2.5}};
+  // As planned, the lateness is in the residuals, which are no noise: wide intervals, and a
+  // warning.
   const test::Ended planned = identified(test::project_file("scenarios/device_stand.toml"), {});
-  EXPECT_EQ(planned.code, 2);
-  EXPECT_TRUE(has(planned.err, "cannot tell any of the unknowns")) << planned.err;
+  ASSERT_EQ(planned.code, 0) << planned.err;
+  EXPECT_TRUE(has(planned.err, "worth fewer than 10 independent ones")) << planned.err;
+  const test::Rows wide(
+      record::read_csv((live.folder() / "out/device_stand_identified/identified.csv").string()));
+  ASSERT_EQ(wide.size(), truth.size());
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    const double own = truth.at(wide.word(i, "unknown"));
+    EXPECT_LT(wide.number(i, "ci95_low"), own) << wide.word(i, "unknown");
+    EXPECT_GT(wide.number(i, "ci95_high"), own) << wide.word(i, "unknown");
+  }
   const test::Ended ended =
       identified("out/device_stand/as_moved.toml", {"--unknown", "step.1.time=0.1 ms..100 ms"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   const test::Rows moved(
       record::read_csv((live.folder() / "out/as_moved_identified/identified.csv").string()));
-  const auto off = [](const test::Rows& found, const std::string& unknown, double truth) {
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (found.word(i, "unknown") == unknown) return found.number(i, "estimate") / truth - 1.0;
+  const auto off = [&](const char* unknown) {
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      if (moved.word(i, "unknown") == unknown)
+        return moved.number(i, "estimate") / truth.at(unknown) - 1.0;
     ADD_FAILURE() << "no " << unknown;
     return 0.0;
   };
-  // Of scenarios/emulator/stand_tissue.toml. Three standard deviations of the sessions of
+  // Three standard deviations of the sessions of
   // tests/bench/live_identify.py.
-  EXPECT_NEAR(off(moved, "tissue.young_modulus", 12.0), 0.0, 0.03);
-  EXPECT_NEAR(off(moved, "tissue.relaxation_time", 0.5), 0.0, 0.08);
-  EXPECT_NEAR(off(moved, "tissue.instantaneous_ratio", 2.5), 0.0, 0.02);
+  EXPECT_NEAR(off("tissue.young_modulus"), 0.0, 0.03);
+  EXPECT_NEAR(off("tissue.relaxation_time"), 0.0, 0.08);
+  EXPECT_NEAR(off("tissue.instantaneous_ratio"), 0.0, 0.02);
 }
 
 }  // namespace

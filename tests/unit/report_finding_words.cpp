@@ -15,7 +15,7 @@ TEST(FindingWords, KnowEveryFindingOfTheDocuments) {
   const std::string text = read_text(std::string(PALPATE_SOURCE_DIR) + "/docs/results.md");
   const std::string table =
       text.substr(text.find("## findings.csv"),
-                  text.find("Remarks on validity") - text.find("## findings.csv"));
+                  text.find("Warnings on validity") - text.find("## findings.csv"));
   const std::size_t last = finding_groups().size() - 1;
   std::size_t count = 0;
   std::istringstream lines(table);
