@@ -240,6 +240,9 @@ Reference at_rest(scenario::Case one, const scenario::Family& family) {
       refuse_at(family, "step." + std::to_string(i + 1) + ".keep",
                 "the reference slides at a depth; write `keep = \"travel\"`");
   const bool flows = scenario::viscous_contact(scenario);
+  const bool one_for_all =
+      scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::force;
+  if (one_for_all) scenario.finger.spheres = 1;
   scenario.solver = {};
   scenario.solver.model = scenario::Model::solid;
   scenario.solver.tolerance = tolerance_of_solid;
@@ -268,6 +271,9 @@ Reference at_rest(scenario::Case one, const scenario::Family& family) {
   reference.remarks.push_back(
       std::string("`solid` on three meshes, extrapolated, without inertia; ") +
       (flows ? "viscosity by the contact's law of time" : "the force of the relaxed tissue"));
+  if (one_for_all)
+    reference.remarks.emplace_back(
+        "spheres by `calibration = \"force\"` stand for one, which is pressed");
   remark_on_error(reference);
   return reference;
 }

@@ -104,8 +104,11 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
   std::vector<double> stress = curve.y;
   if (const bool negative = is_strain_below(strain); curve.x_axis.stretch && !negative) {
     for (double& each : strain) each -= 1.0;
-    if (test.loading == fit::UniaxialTest::Loading::unknown)
-      test.loading = fit::UniaxialTest::Loading::tension;  // of stretches the sign tells
+    const auto far = [](double one, double other) { return std::abs(one) < std::abs(other); };
+    const double most = *std::max_element(strain.begin(), strain.end(), far);
+    if (test.loading == fit::UniaxialTest::Loading::unknown)  // of stretches the sign tells
+      test.loading = most < 0.0 ? fit::UniaxialTest::Loading::compression
+                                : fit::UniaxialTest::Loading::tension;
   }
   if (curve.x_axis.dimension == unit::mm.dimension) {
     if (command.height.empty())
@@ -288,7 +291,7 @@ void refuse_long_times(const fit::Fit& result) {
 
 // Where time begins for the model: as asked, or at the step that the curve shows.
 fit::StepOrigin origin_of(const Fit& command, const measured::MeasuredCurve& curve) {
-  if (command.x_origin) return {*command.x_origin, {}};
+  if (command.x_origin) return {*command.x_origin, {}, *command.x_origin};
   if (!command.history.empty()) return {};  // only differences of the times count
   using fit::AfterStep;
   if (is_one_of(command.model, {"fractional_zener"})) {
@@ -380,8 +383,9 @@ FittedCurve fit_curve(const Fit& command, const std::string& path) {
   try {
     result = fitted(command, curve);
     refuse_unconverged(result);
-    refuse_long_times(result);
-    if (result.law.empty() || is_one_of(result.name, {"prony", "prony_creep"}))
+    if (curve.x_axis.dimension == unit::s.dimension) refuse_long_times(result);
+    if (result.law.empty() || is_one_of(result.name, {"prony", "prony_creep", "spring_pot",
+                                                      "spring_pot_creep", "fractional_zener"}))
       fit::warn_of_residuals(result);
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();

@@ -69,15 +69,24 @@ std::size_t row_of_peak(const Record& record, double noise) {
   return far;
 }
 
-// The last row of the first level: the first from which y goes on to differ from it. Only a level
-// of at least three rows is one.
+// The last row of the first level, from whose mean y goes on to differ in at least three rows. Only
+// a level of at least three rows is one.
 std::size_t row_of_departure(const Record& record, double noise) {
   const auto [least, most] = std::minmax_element(record.y.begin(), record.y.end());
   const double clear = std::max(5.0 * noise, 0.02 * (*most - *least));
+  const std::size_t size = record.y.size();
+  double sum = record.y[0];
   std::size_t i = 1;
-  while (i < record.y.size() && std::abs(record.y[i] - record.y[0]) <= clear) ++i;
+  for (; i < size; ++i) {
+    const double level = sum / static_cast<double>(i);
+    const auto differs = [&](std::size_t k) {
+      return k >= size || std::abs(record.y[k] - level) > clear;
+    };
+    if (differs(i) && differs(i + 1) && differs(i + 2)) break;
+    sum += record.y[i];
+  }
   // y rises after the step by as much in a few rows if the record begins with it.
-  return i < 4 || i == record.y.size() ? 0 : i - 1;
+  return i < 4 || i == size ? 0 : i - 1;
 }
 
 // Whether a slow start, and no level, lies before the departure.
@@ -100,6 +109,10 @@ StepOrigin step_origin(std::span<const double> given_x, std::span<const double> 
   } else {
     row = row_of_departure(record, noise);
     if (row > 0 && rises_from_the_first_row(record, row)) row = 0;
+    // A jump lies after the last row of the level, which is none of the response.
+    if (shape == AfterStep::rises && row > 0 &&
+        std::abs(record.y[row + 1] - record.y[row]) > 10.0 * noise)
+      ++row;
   }
   const double at = record.x[row] - ramp;
   const double first =

@@ -76,10 +76,15 @@ class UniaxialFit {
     cut();
     take_loading();
     end_at_fall();
-    before_toe_ = toe();
-    if (test_.toe) take_off_toe();
+    if (test_.toe)
+      take_off_toe();
+    else if (const auto found = toe())
+      end_of_toe_ = found->strain;
     keep_range();
   }
+
+  // m/m, where there is one and it stays.
+  [[nodiscard]] std::optional<double> end_of_toe() const { return end_of_toe_; }
 
   Fit all() {
     fit_.n = static_cast<int>(strain_.size());
@@ -94,7 +99,6 @@ class UniaxialFit {
       throw InputError({},
                        "the stress does not grow with the strain in this range; name other "
                        "columns, or give another `--from` and `--to`");
-    warn_of_toe();
     platens();
     warn_of_residuals(fit_);
     return std::move(fit_);
@@ -332,7 +336,8 @@ class UniaxialFit {
     return best;
   }
 
-  // Counts strain and stress from the end of the toe: a specimen is as high as it is there.
+  // Counts strain and stress from the end of the toe; the height stays as given, as in
+  // the toe compensation of ASTM D638 and D695.
   void take_off_toe() {
     const auto found = toe();
     if (!found) {
@@ -341,26 +346,12 @@ class UniaxialFit {
     }
     const std::size_t size = strain_.size();
     keep([&](std::size_t i) { return strain_[i] >= found->strain; });
-    const double sign = loading_ == UniaxialTest::Loading::tension ? 1.0 : -1.0;
-    for (double& each : strain_) each = (each - found->strain) / (1.0 + sign * found->strain);
+    for (double& each : strain_) each -= found->strain;
     for (double& each : stress_) each -= found->stress;
     fit_.notes.push_back("a toe up to a strain of " + rounded_text(found->strain) +
                          " is taken off: strain and stress count from there");
     leave_out(size - strain_.size(), "in the toe");
     refuse_few();
-  }
-
-  void warn_of_toe() {
-    if (test_.toe || !before_toe_) return;
-    const double young = unit::kPa.from_si(before_toe_->slope);
-    const double now = fit_.parameters[0].estimate;
-    const double change = young * (1.0 - before_toe_->strain) / now - 1.0;
-    if (std::abs(change) < 0.02) return;
-    fit_.warnings.push_back("the curve has a toe up to a strain of " +
-                            rounded_text(before_toe_->strain) +
-                            "; to take it off, by `--toe`, "
-                            "would change the modulus by about " +
-                            percent_text(change));
   }
 
   // sigma = sigma_0 + E_tangent epsilon
@@ -529,7 +520,7 @@ class UniaxialFit {
   std::vector<double> stretch_;
   bool both_ = false;        // compression and tension in one curve
   std::size_t outside_ = 0;  // rows beyond `to`
-  std::optional<Toe> before_toe_;
+  std::optional<double> end_of_toe_;
   double first_strain_ = 0.0;
   double first_stress_ = 0.0;  // Pa
   double scale_ = 0.0;         // Pa
@@ -542,7 +533,23 @@ double gent_lindley(double shape_factor) { return 1.0 + 2.0 * shape_factor * sha
 Fit fit_uniaxial(std::span<const double> strain, std::span<const double> stress,
                  const UniaxialTest& test) {
   assert(strain.size() == stress.size());
-  return UniaxialFit(strain, stress, test).all();
+  UniaxialFit whole(strain, stress, test);
+  const auto toe = whole.end_of_toe();
+  Fit fit = whole.all();
+  if (!toe || fit.termination == Termination::failed) return fit;
+  UniaxialTest without = test;
+  without.toe = true;
+  try {
+    const Fit other = UniaxialFit(strain, stress, without).all();
+    const double change = other.parameters[0].estimate / fit.parameters[0].estimate - 1.0;
+    if (std::abs(change) >= 0.02)
+      fit.warnings.insert(fit.warnings.begin(),
+                          "the curve has a toe up to a strain of " + rounded_text(*toe) +
+                              "; to take it off, by `--toe`, would change the modulus by " +
+                              percent_text(change));
+  } catch (const InputError&) {  // too few rows are left
+  }
+  return fit;
 }
 
 }  // namespace palpate::fit

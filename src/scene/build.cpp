@@ -344,7 +344,7 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family) {
   if (scenario::rung(scenario.solver.model).solid && scenario.finger.spheres > 1 &&
       scenario.finger.calibration == finger::Calibration::force)
     throw InputError(place_of(family.document, "finger.spheres"),
-                     "`solid` and `palpate reference` press with every sphere, but " + *reason +
+                     "`solid` presses with every sphere, but " + *reason +
                          "; write `calibration = \"mass\"`, or `spheres = 1`");
   const scenario::Rung* remedy = &scenario::strongest;
   for (const scenario::Rung& other : scenario::ladder)

@@ -1,5 +1,6 @@
 // What a chart measures by: which reference serves what, and that it says its own error.
 #include "base/stop_scope.h"
+#include "chart/reference.h"
 #include "chart/truth.h"
 
 #include <gtest/gtest.h>
@@ -75,6 +76,19 @@ TEST(ChartReference, CreepIsTheMaterialsLaw) {
       EXPECT_NEAR(moment.value, law, moment.error + 1e-12) << moment.time;
     }
   }
+}
+
+// Spheres by `calibration = "force"` are one by their law; bodies in a mesh cannot be.
+TEST(ChartReference, SpheresThatStandForOneHaveItsForce) {
+  const auto greatest = [](const char* spheres) {
+    const Asked one = asked(
+        "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n[tissue]\nshape = { kind = \"cuboid\", "
+        "size = [\"30 mm\", \"30 mm\", \"15 mm\"] }\n[contact]\nviscosity = \"none\"\n"
+        "[finger]\nmaterial = \"rigid\"\nspheres = " +
+        std::string(spheres) + "\n");
+    return refer(one.family.cases.front(), one.family, 3).rows.back().force;
+  };
+  EXPECT_EQ(greatest("8"), greatest("1"));
 }
 
 TEST(ChartReference, StoppedItSaysNothing) {

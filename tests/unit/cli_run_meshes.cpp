@@ -338,7 +338,7 @@ TEST_F(RunMeshes, a_solid_refuses_spheres_that_stand_for_one) {
       "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n[output]\nfigures = false\n"
       "[finger]\nspheres = 8\n";
   expect_refused(spheres + "[solver]\nmodel = \"solid\"\n", 2,
-                 "press.toml:7:11: `solid` and `palpate reference` press with every sphere, but "
+                 "press.toml:7:11: `solid` presses with every sphere, but "
                  "several spheres with `finger.calibration = \"force\"` stand for one; write "
                  "`calibration = \"mass\"`, or `spheres = 1`");
   // Near an edge too, where `auto` would take `solid`.

@@ -143,7 +143,10 @@ class FigureStops : public testing::Test {
         {.arguments = arguments,
          .folder = folder_.path(),
          .set = {{"PATH", (folder_ / "bin").string() + ":/usr/bin:/bin"}, {"GNUTERM", "dumb"}}});
-    EXPECT_TRUE(running.until([&] { return fs::exists(folder_ / "terminal"); }));
+    EXPECT_TRUE(running.until([&] {
+      std::error_code none;
+      return fs::file_size(folder_ / "terminal", none) > 0 && !none;  // made, and written
+    }));
     running.send(SIGTERM);
     const auto sent = std::chrono::steady_clock::now();
     Ended ended = running.wait();
