@@ -173,6 +173,23 @@ TEST(LoadingPart, AToeIsNamedAndTakenOffOnRequest) {
   EXPECT_NEAR(off.parameters[0].estimate, 20.0, 0.02);  // the knee is found on a grid
 }
 
+// A creep with a jump on a row: that row is the first of the response, and single rows of a noisy
+// level do not begin it.
+TEST(StepOrigin, OfAJumpIsTheFirstRowAfterIt) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.04);
+  std::vector<double> time, strain;
+  for (int i = 0; i < 300; ++i) {
+    time.push_back(0.2 * i);
+    strain.push_back(noise(random) +
+                     (i < 50 ? 0.0 : 8.0 + 9.0 * (1.0 - std::exp((50 - i) / 40.0))));
+  }
+  strain[20] = 1.0;
+  const StepOrigin found = step_origin(time, strain, AfterStep::rises, 0.0);
+  EXPECT_EQ(found.time, time[50]);
+  EXPECT_EQ(found.first, time[50]);
+}
+
 TEST(LoadingPart, TheFirstOfSeveralPresses) {
   std::vector<double> depth, force;
   const auto add = [&](double from, double to) {
