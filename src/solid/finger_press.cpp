@@ -101,8 +101,10 @@ FingerPress* FingerPress::at(const Vec3& place) {
   return beside_.get();
 }
 
-// The ball is pressed along the normal, the finger straight down.
+// The ball is pressed along the normal, the finger straight down; spheres of several are taken as
+// pressed straight down.
 double FingerPress::upright() const {
+  if (order_.centres.size() > 1) return 1.0;
   return (order_.touch.finger - order_.touch.touched).z() / order_.radius;
 }
 
@@ -213,7 +215,10 @@ bool FingerPress::reach(double travel) {
 double FingerPress::shared(const Curve& tissue, double travel, double power) const {
   Pairs of_tissue;
   Pairs of_ball;
-  for (const Point& point : tissue.points) of_tissue.emplace_back(point.travel, point.force);
+  // Every sphere in contact at the deepest bears its part.
+  const double spheres = std::max(1, tissue.points.back().moment.touching);
+  for (const Point& point : tissue.points)
+    of_tissue.emplace_back(point.travel, point.force / spheres);
   for (const Point& point : ball_.points)
     of_ball.emplace_back(point.travel / upright(), point.force * upright());
   double low = 0.0;
@@ -232,7 +237,8 @@ double FingerPress::tissue_travel(double travel) {
   const double expected = order_.share * travel;
   if (!reach(expected) || !order_.ball || tissue_.points.empty()) return expected;
   for (;;) {
-    press_ball(tissue_.points.back().force);
+    const Point& last = tissue_.points.back();
+    press_ball(last.force / std::max(1, last.moment.touching));
     if (!reason_.empty()) return expected;
     const double own = shared(tissue_, travel, 1.5);
     if (own <= tissue_.reached || !reach(own)) return own;
@@ -246,8 +252,9 @@ std::optional<Moment> FingerPress::once(double travel, double power) {
   if (!answer) return std::nullopt;
   if (!(answer->normal() > 0.0)) return Moment{};
   Curve alone;
-  alone.points.push_back({own - answer->lost, answer->normal(), {}});
-  if (order_.ball) press_ball(answer->normal());
+  alone.points.push_back(
+      {own - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
+  if (order_.ball) press_ball(answer->normal() / std::max(1, answer->touching));
   if (!reason_.empty()) return std::nullopt;
   const double met = order_.ball ? shared(alone, travel, power) : own;
   return moment_of(*answer, between({{own - answer->lost, answer->normal()}}, met, power));

@@ -67,6 +67,18 @@ bool Press::factor() {
   }
 }
 
+// Of an indenter with its pole there, in the mirrors through the finger's point: 0 beyond one,
+// where it is the image of another.
+int Press::images_of(const Vec3& pole) const {
+  const double near = 1e-6 * body_.size;
+  int images = 1;
+  for (const int axis : {0, 1}) {
+    if (!body_.mirrored[as_index(axis)] || std::abs(pole[axis]) < near) continue;
+    images *= pole[axis] > 0.0 ? 2 : 0;
+  }
+  return images;
+}
+
 std::vector<Indenter> Press::finger_at(const Vec3& place) const {
   std::vector<Indenter> moved = indenters_;
   for (Indenter& one : moved) one.pole += place;
@@ -111,13 +123,14 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
     contact_.add(u, indenters, hardest_, force, stiffness_, met);
     Answer answer;
     double work = 0.0;
-    for (const Met& one : met) {
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      const Met& one = met[i];
       answer.forces.push_back(-body_.copies * one.force.z());
       answer.force -= body_.copies * one.force;
       work += body_.copies * one.work;
       answer.area += body_.copies * one.area;
       answer.peak = std::max(answer.peak, one.peak);
-      if (one.area > 0.0) ++answer.touching;
+      if (one.area > 0.0) answer.touching += images_of(indenters_[i].pole);
     }
     for (int axis = 0; axis < 2; ++axis)
       if (body_.mirrored[as_index(axis)]) answer.force[axis] = 0.0;

@@ -70,6 +70,7 @@ class Press {
   };
   [[nodiscard]] std::optional<Answer> settle(const Vec3& finger, bool extrapolate);
   [[nodiscard]] bool factor();
+  [[nodiscard]] int images_of(const Vec3& pole) const;
 
   Body body_;
   Elements elements_;

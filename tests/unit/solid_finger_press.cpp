@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "contact/elliptic.h"
+#include "contact/hertz.h"
 
 namespace palpate::solid {
 namespace {
@@ -80,6 +81,38 @@ TEST(FingerPress, AnElasticFingerIsABallOfItsOwnSize) {
   const auto found = press.at_travel(0.61e-3);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->force, 2965.6e-3, 0.03 * 2965.6e-3);  // finger_2050_061
+}
+
+// Of four elastic spheres every ball bears a quarter of the force, and yields by its share of
+// Hertz's depth under it. A quarter of the body is meshed, which only one of the spheres is above.
+TEST(FingerPress, SeveralElasticSpheresShareTheForce) {
+  FingerOrder order = plain();
+  order.radius = 4e-3;
+  order.centres.clear();
+  for (const double x : {-5e-3, 5e-3})
+    for (const double y : {-5e-3, 5e-3}) order.centres.emplace_back(x, y, 0.0);
+  touch(order, Vec3(0.024, 0.022, 0.024));
+  const geometry::SmoothSurface skin(
+      geometry::sampled(*order.body.shape, {0.004, 0.004}).parts.front().surface);
+  order.skin = &skin;
+  order.ball = tissue::Isotropic{100e3, 0.4995};
+  const double softer = (1.0 - 0.4995 * 0.4995) / 100e3;
+  const double tissue = (1.0 - 0.44 * 0.44) / 16.3e3;
+  order.share = tissue / (tissue + softer);
+  FingerPress elastic(order);
+  const auto found = elastic.at_travel(0.83e-3);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->touching, 4);
+  EXPECT_EQ(elastic.press().body().copies, 4);
+  const double together = 1.0 / (tissue + softer);
+  const double depth = contact::hertz::depth(0.25 * found->force, order.radius, together);
+  const double ball = (1.0 - order.share) * depth * (1.0 - 0.25 * std::sqrt(depth / order.radius));
+  order.ball.reset();
+  order.radius /= order.share;
+  order.share = 1.0;
+  touch(order, Vec3(0.024, 0.022, 0.024));
+  FingerPress rigid(order);
+  EXPECT_NEAR(rigid.at_travel(0.83e-3 - ball)->force, found->force, 0.02 * found->force);
 }
 
 // A shaft that hardly yields, and small contacts: Hertz's ellipse, and what a ball that is held at
