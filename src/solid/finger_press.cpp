@@ -232,7 +232,7 @@ double FingerPress::shared(const Curve& tissue, double travel, double power) con
   return 0.5 * (low + high);
 }
 
-// Both curves are found as far as that takes.
+// Both curves are found as far as that takes; the last few per cent go on straight.
 double FingerPress::tissue_travel(double travel) {
   const double expected = order_.share * travel;
   if (!reach(expected) || !order_.ball || tissue_.points.empty()) return expected;
@@ -241,7 +241,8 @@ double FingerPress::tissue_travel(double travel) {
     press_ball(last.force / std::max(1, last.moment.touching));
     if (!reason_.empty()) return expected;
     const double own = shared(tissue_, travel, 1.5);
-    if (own <= tissue_.reached || !reach(own)) return own;
+    constexpr double straight = 1.05;
+    if (own <= straight * tissue_.reached || !reach(own)) return own;
   }
 }
 
