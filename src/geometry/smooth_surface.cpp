@@ -27,23 +27,22 @@ Exit first_exit(const Vec3& weights, const Vec3& move) {
 
 }  // namespace
 
-SmoothSurface::SmoothSurface(Surface surface)
+SmoothSurface::SmoothSurface(Surface surface, double least)
     : surface_(std::move(surface)),
       neighbours_(surface_),
       crease_(surface_.triangles.size()),
       normals_(surface_.triangles.size()),
       vertex_normals_(vertex_normals(surface_)) {
-  find_creases();
+  find_creases(least);
   find_normals();
 }
 
-void SmoothSurface::find_creases() {
+void SmoothSurface::find_creases(double least) {
   for (std::size_t t = 0; t < crease_.size(); ++t) {
     const Vec3 own = twice_area(surface_, static_cast<int>(t)).normalized();
     for (std::size_t edge = 0; edge < 3; ++edge) {
       const int other = neighbours_.across(static_cast<int>(t))[edge];
-      crease_[t][edge] =
-          other < 0 || own.dot(twice_area(surface_, other).normalized()) < crease_cosine;
+      crease_[t][edge] = other < 0 || own.dot(twice_area(surface_, other).normalized()) < least;
     }
   }
 }

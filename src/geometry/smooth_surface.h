@@ -24,7 +24,8 @@ inline constexpr double crease_cosine = 0.766044443118978;  // 40 degrees
 //                                                                           docs/theory.md [smooth]
 class SmoothSurface {
  public:
-  explicit SmoothSurface(Surface surface);
+  // With `least` above 1 every edge is a crease, so that the surface is its triangles.
+  explicit SmoothSurface(Surface surface, double least = crease_cosine);
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
   [[nodiscard]] const Neighbours& neighbours() const { return neighbours_; }
@@ -70,7 +71,7 @@ class SmoothSurface {
                                  std::size_t edge) const;
   [[nodiscard]] Foot at(const Vec3& point, const SurfacePoint& where) const;
   [[nodiscard]] Vec3 pseudo_normal(const SurfacePoint& point) const;
-  void find_creases();
+  void find_creases(double least);
   void find_normals();
 
   Surface surface_;

@@ -17,7 +17,6 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -246,14 +245,33 @@ Mending::Hole fill(Mesh& mesh, Mesh::Halfedge_index border) {
   return hole;
 }
 
-double crossing_area(const Mesh& mesh) {
+std::set<Mesh::Face_index> crossing(const Mesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   processing::self_intersections(mesh, std::back_inserter(pairs));
   std::set<Mesh::Face_index> faces;
   for (const auto& [one, other] : pairs) faces.insert({one, other});
-  double area = 0.0;
-  for (const auto face : faces) area += processing::face_area(face, mesh);
-  return area;
+  return faces;
+}
+
+// Replaces triangles that cross, with more and more of their neighbours, by those of filled holes.
+void replace_crossing(Mesh& mesh) {
+  constexpr int most_rounds = 7;
+  for (int round = 0; round < most_rounds; ++round) {
+    std::set<Mesh::Face_index> faces = crossing(mesh);
+    if (faces.empty()) return;
+    for (int ring = 0; ring < round; ++ring) {
+      const std::set<Mesh::Face_index> inner = faces;
+      for (const auto face : inner)
+        for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+          for (const auto beside : mesh.faces_around_target(mesh.halfedge(vertex)))
+            if (beside != Mesh::null_face()) faces.insert(beside);
+    }
+    for (const auto face : faces) CGAL::Euler::remove_face(mesh.halfedge(face), mesh);
+    processing::duplicate_non_manifold_vertices(mesh);
+    std::vector<Mesh::Halfedge_index> borders;
+    processing::extract_boundary_cycles(mesh, std::back_inserter(borders));
+    for (const auto border : borders) fill(mesh, border);
+  }
 }
 
 }  // namespace
@@ -281,10 +299,8 @@ Mending mended(const geometry::Surface& surface) {
   processing::extract_boundary_cycles(mesh, std::back_inserter(borders));
   for (const auto border : borders) made.holes.push_back(fill(mesh, border));
   made.area = processing::area(mesh);
-  made.crossing = crossing_area(mesh);
-  if (made.crossing > 0.0)
-    processing::experimental::remove_self_intersections(mesh,
-                                                        CGAL::parameters::preserve_genus(false));
+  for (const auto face : crossing(mesh)) made.crossing += processing::face_area(face, mesh);
+  replace_crossing(mesh);
   if (CGAL::is_closed(mesh)) processing::orient(mesh);
   mesh.collect_garbage();
   for (const auto vertex : mesh.vertices())

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "run/pressure_map.h"
@@ -27,18 +28,50 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
   const std::size_t count = meshes_for(scene.scenario.solver.tolerance);
   deepest_ = scene::deepest_travel(scene.scenario, scene.finger.whole);
   per_radius_.assign(per_radius.begin(), per_radius.begin() + static_cast<std::ptrdiff_t>(count));
-  for (const double number : per_radius_)
-    presses_.push_back(std::make_unique<solid::FingerPress>(order(number)));
+  make();
+}
+
+void SolidPress::make() {
+  constexpr double finer = 1.07;
+  constexpr int most_tries = 3;  // with sizes a little different, as TetGen may fail by bad luck
+  const bool retries = scene_->solid->surface != nullptr;
+  presses_.clear();
+  try {
+    for (double& number : per_radius_)
+      for (int tries = 1;; ++tries) {
+        try {
+          presses_.push_back(std::make_unique<solid::FingerPress>(order(number)));
+          break;
+        } catch (const MeshError&) {
+          if (!retries || tries == most_tries) throw;
+          number *= finer;
+        }
+      }
+  } catch (const MeshError&) {
+    if (!simpler()) throw;
+    make();
+  }
+}
+
+// The smooth surface through the vertices of a file may cut itself where the body is thin beside
+// their distance, and so may a coarser one. All meshes have one surface, or no force could be
+// extrapolated from theirs.
+bool SolidPress::simpler() {
+  if (!scene_->solid->surface || surface_ == Surface::unchanged) return false;
+  surface_ = surface_ == Surface::smooth ? Surface::flat : Surface::unchanged;
+  if (!flat_) flat_ = scene::flattened(*scene_->solid, *scene_);
+  return true;
 }
 
 solid::FingerOrder SolidPress::order(double per_radius) const {
   const scenario::Resolved& scenario = scene_->scenario;
-  const scene::SolidBody& given = *scene_->solid;
+  const scene::SolidBody& given = body();
   const scene::Finger& finger = scene_->finger;
   solid::FingerOrder order;
   solid::BodyOrder& body = order.body;
   body.shape = given.shape;
   body.surface = given.surface.get();
+  body.coarser = surface_ != Surface::unchanged;
   body.mesh = given.mesh ? &*given.mesh : nullptr;
   body.region_of = [&scenario](int part) { return scene::substance_of(scenario, part); };
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
@@ -68,12 +101,12 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   }
   order.deepest = deepest_;
   order.touch = {given.first_touch, given.touched};
-  order.beside = [&](const Vec3& place) -> std::optional<solid::Touch> {
-    const auto found = scene::touch_beside(given, finger, place);
+  order.beside = [this, &finger](const Vec3& place) -> std::optional<solid::Touch> {
+    const auto found = scene::touch_beside(this->body(), finger, place);
     if (!found) return std::nullopt;
     return solid::Touch{found->first, found->second};
   };
-  if (const scene::SurfaceTouch& touch = scene_->choice.touch; touch.known()) {
+  if (const scene::SurfaceTouch& touch = scene_->choice.touch; touch.known() && !flat_) {
     const geometry::Curvature& own = touch.curvature;
     const Vec3 along_y = own.normal.cross(Vec3::UnitX()).normalized();
     const std::array<Vec3, 2> axes{along_y.cross(own.normal), along_y};
@@ -95,14 +128,20 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
     forces.push_back(found->force);
     return std::nullopt;
   };
-  for (const auto& press : presses_)
-    if (auto wrong = take(*press)) return wrong;
+  try {
+    for (const auto& press : presses_)
+      if (auto wrong = take(*press)) return wrong;
+  } catch (const MeshError&) {  // at a place of a slide
+    if (!simpler()) throw;
+    make();
+    return find(way, touch);
+  }
   const solid::Extrapolated best = solid::extrapolated(per_radius_, forces);
   now_.force = best.force;
   // The meshes are made for the deepest travel; their elements are larger beside smaller contacts.
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
-  touch.finger = scene_->solid->first_touch + way.start - touch.travel * Vec3::UnitZ();
+  touch.finger = body().first_touch + way.start - touch.travel * Vec3::UnitZ();
   if (way.start != way.end) touch.finger += way.along * (way.end - way.start).normalized();
   touch.contacts.resize(now_.force > 0.0 ? 1 : 0);
   if (now_.force > 0.0) {
@@ -138,6 +177,11 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("mirrored_copies", static_cast<double>(finest.body().copies));
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
+  if (flat_)
+    record.remarks.push_back(
+        "the smooth surface through the vertices of the file cannot be meshed, so that its "
+        "triangles "
+        "are taken as they are; a finer surface has less of a difference between the two");
 }
 
 geometry::TetMesh SolidPress::corners() const {
@@ -160,7 +204,7 @@ geometry::TetMesh SolidPress::corners() const {
 }
 
 record::PressureMap SolidPress::map(const mechanics::Touch& touch) {
-  Vec3 place = touch.finger - scene_->solid->first_touch;
+  Vec3 place = touch.finger - body().first_touch;
   place.z() = 0.0;
   solid::FingerPress::Skin skin;
   if (!touch.contacts.empty()) skin = presses_.back()->skin_at(touch.travel, place);

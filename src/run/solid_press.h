@@ -43,9 +43,19 @@ class SolidPress {
   [[nodiscard]] record::PressureMap map(const mechanics::Touch& touch);
 
  private:
+  // The surface of a file as the mesh takes it.
+  enum class Surface { smooth, flat, unchanged };
+  // Makes the presses; again with flat triangles, and at last with those of the file alone, where
+  // no mesh can be made.
+  void make();
+  // Whether there is a next kind of surface, which is then taken.
+  [[nodiscard]] bool simpler();
+  [[nodiscard]] const scene::SolidBody& body() const { return flat_ ? *flat_ : *scene_->solid; }
   [[nodiscard]] solid::FingerOrder order(double per_radius) const;
 
   const scene::Scene* scene_;
+  Surface surface_ = Surface::smooth;
+  std::optional<scene::SolidBody> flat_;
   std::vector<std::unique_ptr<solid::FingerPress>> presses_;  // coarsest mesh first
   std::vector<double> per_radius_;
   double deepest_ = 0.0;  // m, travel

@@ -16,6 +16,7 @@ struct Conditions {
   Use pressed_mesh;  // keys of a mesh under a finger, ignored without one
   Use springs;       // of independent springs
   Use based;         // of specimens with a base: a mesh or a layer
+  Use held;          // where the base of a pressed body is: of models that know its sides
   Use formula;       // keys of models without a mesh, which are ignored with one
 
   explicit Conditions(const Scenario& scenario);
@@ -41,6 +42,7 @@ Conditions::Conditions(const Scenario& scenario) {
   const bool presses = !std::all_of(scenario.steps.begin(), scenario.steps.end(), loads_end_faces);
   finger = {presses || scenario.steps.empty(),
             "by steps with a finger (indent, hold, retract, slide)"};
+  held = (model ? rung(*model).sides : meshed) ? finger : mesh;
   pressed_mesh = meshed ? Use{finger.used, finger.when, Use::Otherwise::note} : mesh;
 }
 
@@ -478,7 +480,7 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                 "The side of a body from a file that is held, a direction in its coordinates, as "
                 "`up` of `tissue.shape`; `base_height` is then along the opposite direction. "
                 "Default: the underside.",
-                use.mesh.used ? use.finger : use.mesh},
+                use.held},
                tissue.base_side);
   visitor.quantity_or(
       "auto",
@@ -486,7 +488,7 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
        "The surface up to this height, in the coordinates of the body, is its base; "
        "`auto`: the underside where it is flat, else the lowest tenth of the "
        "specimen.",
-       use.mesh.used ? use.finger : use.mesh},
+       use.held},
       tissue.base_height, unit::mm, {});
 }
 

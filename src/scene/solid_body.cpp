@@ -18,6 +18,21 @@ int substance_of(const scenario::Resolved& scenario, int part) {
   return 0;
 }
 
+namespace {
+
+void find_touch(SolidBody& body, const Scene& scene) {
+  const scenario::PlainFinger& finger = scene.scenario.finger;
+  const auto [low, high] = box_of(body.skin->surface().vertices);
+  const Vec3 middle = 0.5 * (low + high);
+  const Vec3 place(finger.x.value_or(middle.x()), finger.y.value_or(middle.y()), high.z());
+  const FirstTouch first =
+      lowered_onto(*body.skin, place, {scene.finger.centres, scene.finger.sphere_radius});
+  body.first_touch = first.finger;
+  body.touched = body.skin->position(first.at);
+}
+
+}  // namespace
+
 std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string& folder) {
   constexpr double spacing_over_size = 0.02;  // of shapes, for the first touch alone
   const scenario::Resolved& scenario = scene.scenario;
@@ -36,7 +51,6 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
   }
 
   const geometry::Surface& skin = body->skin->surface();
-  const auto [low, high] = box_of(skin.vertices);
   body->base_level = base_level(scenario, skin);
 
   refuse_covered_lumps(scenario);
@@ -46,14 +60,17 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
     body->touched = touch.position;
     return body;
   }
-  const Vec3 middle = 0.5 * (low + high);
-  const Vec3 place(scenario.finger.x.value_or(middle.x()), scenario.finger.y.value_or(middle.y()),
-                   high.z());
-  const FirstTouch first =
-      lowered_onto(*body->skin, place, {scene.finger.centres, scene.finger.sphere_radius});
-  body->first_touch = first.finger;
-  body->touched = body->skin->position(first.at);
+  find_touch(*body, scene);
   return body;
+}
+
+SolidBody flattened(const SolidBody& body, const Scene& scene) {
+  constexpr double no_cosine = 2.0;  // every edge is a crease
+  SolidBody flat = body;
+  flat.surface = flat.skin =
+      std::make_shared<const geometry::SmoothSurface>(body.surface->surface(), no_cosine);
+  find_touch(flat, scene);
+  return flat;
 }
 
 std::optional<std::pair<Vec3, Vec3>> touch_beside(const SolidBody& body, const Finger& finger,

@@ -36,6 +36,10 @@ struct SolidBody {
                                                                 const Finger& finger,
                                                                 const Vec3& place);
 
+// With the triangles of a file's surface as they are, and their first touch. Throws MeshError if
+// the finger passes beside the body.
+[[nodiscard]] SolidBody flattened(const SolidBody& body, const Scene& scene);
+
 // Throws MeshError if the finger passes beside the body, or as specimen_mesh() does.
 [[nodiscard]] std::unique_ptr<SolidBody> make_solid_body(const Scene& scene,
                                                          const std::string& folder);

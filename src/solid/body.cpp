@@ -157,6 +157,7 @@ Body make_body(const BodyOrder& order) {
   const std::vector<Plane> mirrors = mirrors_of(order, extent);
   MeshOrder wanted{.shape = order.shape,
                    .surface = order.surface,
+                   .coarser = order.coarser,
                    .mesh = order.mesh,
                    .region_of = order.region_of,
                    .inclusions = order.inclusions,

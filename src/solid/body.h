@@ -15,6 +15,7 @@ struct BodyOrder {
   // One of the three gives the body, as in MeshOrder.
   std::optional<geometry::Shape> shape = {};
   const geometry::SmoothSurface* surface = nullptr;
+  bool coarser = true;  // as there
   const geometry::TetMesh* mesh = nullptr;
   std::function<int(int)> region_of = {};
   std::vector<Inclusion> inclusions = {};

@@ -44,26 +44,7 @@ class Mesher {
     if (order.surface != nullptr) tree_.emplace(order.surface->surface());
   }
 
-  // The smooth surface through the vertices of a file may cut itself where the body is thin beside
-  // their distance, and so may a coarser one.
   [[nodiscard]] Mesh made() {
-    for (const bool smooth : {true, false}) {
-      smooth_ = smooth;
-      try {
-        return tried();
-      } catch (const MeshError&) {
-        if (order_.surface == nullptr) throw;
-      }
-    }
-    coarser_ = false;
-    return tried();
-  }
-
- private:
-  [[nodiscard]] Mesh tried() {
-    body_ = {};
-    numbers_.clear();
-    levels_.clear();
     sample();
     SurfaceNet net(
         std::move(faces_), std::move(numbers_),
@@ -92,6 +73,7 @@ class Mesher {
     return curved(filled);
   }
 
+ private:
   void add_level(double level) {
     for (const Plane& before : levels_)
       if (before.at == level) return;
@@ -110,7 +92,7 @@ class Mesher {
       for (const auto& triangle : faces_.triangles) numbers_.push_back(number_of(triangle));
     } else {
       const geometry::Surface& given = order_.surface->surface();
-      auto coarse = coarser_ ? meshing::remeshed(given, spacing, 4.0) : std::nullopt;
+      auto coarse = order_.coarser ? meshing::remeshed(given, spacing, 4.0) : std::nullopt;
       body_.parts.push_back({coarse ? std::move(coarse->surface) : given, 0});
       faces_ = body_.parts.front().surface;
       numbers_.assign(faces_.triangles.size(), of_file);
@@ -165,8 +147,7 @@ class Mesher {
         return geometry::onto(*order_.shape, point, number - first_round);
       if (number == of_file) {
         const geometry::Near near = tree_->nearest(point);
-        return smooth_ ? order_.surface->foot(point, near).position
-                       : order_.surface->flat_position({near.triangle, near.weights});
+        return order_.surface->foot(point, near).position;
       }
     }
     return point;
@@ -352,8 +333,7 @@ class Mesher {
 
   const MeshOrder& order_;
   std::optional<geometry::BoxTree> tree_;
-  bool coarser_ = true, smooth_ = true;  // of a file's surface
-  geometry::Body body_;                  // as sampled, without lumps
+  geometry::Body body_;  // as sampled, without lumps
   geometry::Surface faces_;
   std::vector<int> numbers_;
   std::vector<Plane> levels_;

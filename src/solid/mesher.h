@@ -41,6 +41,7 @@ struct MeshOrder {
   // One of the three gives the body.
   std::optional<geometry::Shape> shape;
   const geometry::SmoothSurface* surface = nullptr;
+  bool coarser = true;                      // whether that may get larger triangles far away
   const geometry::TetMesh* mesh = nullptr;  // with its regions; is only refined
   // Regions of the shape's own parts, by their numbers there.
   std::function<int(int)> region_of = {};

@@ -69,6 +69,25 @@ TEST(SmoothSurface, IsTheFlatItselfOnFlats) {
     }
 }
 
+// Distance from the nearest point of the triangles is all that a foot on them has.
+TEST(SmoothSurface, IsItsTrianglesWhereEveryEdgeIsACrease) {
+  const Surface ball = geometry::ellipsoid_surface(Vec3::Zero(), Vec3::Constant(2.0), 0.6);
+  const SmoothSurface flat(ball, 2.0);
+  const SmoothSurface smooth(ball);
+  const BoxTree tree(ball);
+  Dice dice(3);
+  double most = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 point =
+        1.2 * Vec3(dice.roll() - 0.5, dice.roll() - 0.5, dice.roll() - 0.5).normalized();
+    const geometry::Near near = tree.nearest(point);
+    const Vec3 own = flat.flat_position({near.triangle, near.weights});
+    EXPECT_NEAR((flat.foot(point, near).position - own).norm(), 0.0, 1e-6);
+    most = std::max(most, (smooth.foot(point, near).position - own).norm());
+  }
+  EXPECT_GT(most, 0.01);  // which the smooth surface is not
+}
+
 // A foot's errors over points near the surface: the greatest in height, the mean in the normal.
 struct Errors {
   double height = 0.0, normal = 0.0;

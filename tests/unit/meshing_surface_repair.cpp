@@ -84,6 +84,19 @@ TEST(SurfaceRepair, vertices_in_one_place_are_joined) {
   EXPECT_NE(told(apart, 1e-5).find("joined to another in the same place"), std::string::npos);
 }
 
+TEST(SurfaceRepair, triangles_that_cross_are_replaced) {
+  // A vertex beside the tip that lies outside on the other side.
+  for (const Vec3& shift : {Vec3(0.0, 0.0, -0.011), Vec3(0.002, 0.001, -0.012)}) {
+    Surface folded = body();
+    *std::max_element(folded.vertices.begin(), folded.vertices.end(),
+                      [](const Vec3& a, const Vec3& b) {
+                        return a.x() + 0.4 * a.z() < b.x() + 0.4 * b.z();
+                      }) += shift;
+    const std::string text = told(folded, 0.01);
+    EXPECT_NE(text.find("triangles that cut each other replaced, "), std::string::npos) << text;
+  }
+}
+
 TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   const std::string speck = told(with(body(), body(), Vec3(0.1, 0, 0), 0.02, false), rounding);
   EXPECT_NE(speck.find("part 1 of 2 is taken, and 1 speck left out"), std::string::npos) << speck;

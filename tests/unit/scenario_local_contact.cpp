@@ -106,6 +106,8 @@ TEST(LocalContact, IsLeftUnreadWithANoteWhereNothingUsesIt) {
             "press.toml:12:1: `base_height" + mesh + "press.toml:8:1: `curvature" + mesh +
                 "press.toml:9:1: `curvature_on" + mesh + "press.toml:10:1: `curvature_rings" +
                 mesh + "press.toml:6:1: `rings" + mesh + "press.toml:14:1: `tissue" + mesh);
+  EXPECT_EQ(notes(press + "[solver]\nmodel = \"solid\"\n[tissue]\nbase_height = \"1 mm\"\n"), "")
+      << "the base of a solid is where it is said";
   const std::string finger =
       "` is left unread: it is used only by steps with a finger (indent, hold, retract, slide)\n";
   EXPECT_EQ(notes(creep + "[solver]\nrings = 3\n[output]\ntissue = true\npicture = "
