@@ -196,7 +196,7 @@ def mesh(folder):
         '[finger]\nmaterial = "rigid"\nradius = "8 mm"\n[solver]\nmodel = "solid"\n'
         '[[step]]\nkind = "indent"\nto = "2 mm"\nrate = "2 mm/s"\n')
     node = folder / "mesh.node"
-    subprocess.run(["palpate", "mesh", scene, "--out", node, "--force"], check=True, capture_output=True)
+    subprocess.run(["palpate", "convert", scene, "--out", node, "--force"], check=True, capture_output=True)
     rows = [line.split() for line in node.read_text().splitlines()[1:] if line and line[0] != "#"]
     places = {row[0]: [1e3 * float(x) for x in row[1:4]] for row in rows if len(row) > 3}
     cells = [line.split() for line in node.with_suffix(".ele").read_text().splitlines()[1:] if line and line[0] != "#"]

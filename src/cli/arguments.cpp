@@ -183,10 +183,6 @@ void add_options(CLI::App& verb, Compare& compare) {
   add_check_options(verb, compare.options);
 }
 
-void add_options(CLI::App& verb, Index& index) {
-  verb.add_option("folder", index.folder, "Folder with result folders below it")->required();
-}
-
 void add_options(CLI::App& all, Golden& golden) {
   all.require_subcommand(1);
   all.fallthrough();
@@ -199,33 +195,48 @@ void add_options(CLI::App& all, Golden& golden) {
   verb->add_option("scenario", golden.subjects, "Scenario files")->required();
   add_jobs(*verb, golden.jobs);
   verb->add_flag("--force", golden.force, "Replace the kept results");
+  verb->add_option("--reason", golden.reason,
+                   "Why they may change: kept beside them, with commit and compiler");
   verb = add("check", Golden::Act::check, "Run scenarios and compare with the kept results");
   verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
   add_jobs(*verb, golden.jobs);
   add_check_options(*verb, golden.options);
   verb = add("list", Golden::Act::list, "The scenarios whose results are kept");
   verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
-  verb = add("bless", Golden::Act::bless,
-             "Of palpate itself: replace golden/NAME/expected, with a reason");
-  verb->add_option("name", golden.subjects, "Folders below golden/")->required();
-  verb->add_option("--reason", golden.reason, "Why they may change")->required();
 }
 
-void add_options(CLI::App& verb, Mesh& mesh) {
-  verb.add_option("subject", mesh.subject,
-                  "Surface (.stl .obj .ply .off), mesh (.node .ele .msh) or scenario (.toml)")
+void add_options(CLI::App& verb, Convert& convert) {
+  constexpr const char* of_bodies = "Of surfaces, meshes and scenarios";
+  constexpr const char* of_results = "Of results";
+  verb.add_option(
+          "subject", convert.subject,
+          "Surface (.stl .obj .ply .off .vtp), mesh (.msh .vtu .vtk .inp .mesh .node .ele), "
+          "scenario (.toml), or a result folder or CSV file")
       ->required();
-  verb.add_option("--unit", mesh.unit, "Unit of coordinates, as mm; not for scenarios");
-  CLI::Option* nodes = verb.add_option("--nodes", mesh.nodes, "For a surface: about so many nodes")
-                           ->check(CLI::Range(4, 1000000));
-  verb.add_option("--edge", mesh.edge, "For a surface: about this edge length, as \"3 mm\"")
-      ->excludes(nodes);
-  verb.add_option("--out", mesh.out, "File to write: .node, .ele (both, in metres) or .vtu")
+  verb.add_option(
+          "--out", convert.out,
+          "File to write: .vtu, .node or .ele (both, in metres), of a surface .off or .stl; "
+          "of results the folder")
       ->allow_extra_args(false);
-  verb.add_option("--set", mesh.settings, "Set a scenario's key")
+  verb.add_flag("--force", convert.force, "Replace files");
+  verb.add_option("--unit", convert.unit, "Unit of coordinates, as mm; not for scenarios")
+      ->group(of_bodies);
+  CLI::Option* nodes =
+      verb.add_option("--nodes", convert.nodes, "For a surface: about so many nodes")
+          ->check(CLI::Range(4, 1000000))
+          ->group(of_bodies);
+  verb.add_option("--edge", convert.edge, "For a surface: about this edge length, as \"3 mm\"")
+      ->excludes(nodes)
+      ->group(of_bodies);
+  verb.add_option("--set", convert.settings, "Set a scenario's key")
       ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  verb.add_flag("--force", mesh.force, "Replace files");
+      ->allow_extra_args(false)
+      ->group(of_bodies);
+  std::vector<std::string> formats;
+  for (const report::ExportFormat& format : report::export_formats())
+    formats.emplace_back(format.name);
+  verb.add_option("--to", convert.format, "Format")->type_name(any_of(formats))->group(of_results);
+  verb.add_option("--case", convert.case_name, "Only this case")->group(of_results);
 }
 
 void add_options(CLI::App& verb, Reference& reference) {
@@ -240,24 +251,22 @@ void add_options(CLI::App& verb, Reference& reference) {
   verb.add_flag("--force", reference.force, "Replace that file");
 }
 
-void add_options(CLI::App& verb, Bench& bench) {
-  verb.add_option("scenario", bench.scenarios, "Scenario files; none: the paper's four models")
-      ->type_name("SCENARIO");
-  add_settings(verb, bench.settings);
-  verb.add_option("--frames", bench.frames, "Number of frames of 1 ms")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  verb.add_option("--report", bench.report, "Write the times as a page to this file");
-}
-
 void add_options(CLI::App& verb, Chart& chart) {
-  verb.add_option("scenario", chart.scenario, "Scenario file")->required()->type_name("SCENARIO");
+  verb.add_option("scenario", chart.scenario,
+                  "Scenario file; with --frames also none: the paper's four models")
+      ->type_name("SCENARIO");
   add_settings(verb, chart.settings);
   add_out(verb, chart.out);
   verb.add_option("--repeats", chart.repeats, "Timings of every variant")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   verb.add_flag("--force", chart.force, "Start again, and replace a finished or partial chart");
+  CLI::Option* frames =
+      verb.add_option("--frames", chart.frames,
+                      "Only time so many frames of 1 ms of a press: the paper's Table 2")
+          ->check(CLI::Range(1, 1000000));
+  verb.add_option("--report", chart.report, "Write the times of frames as a page to this file")
+      ->needs(frames);
 }
 
 void add_options(CLI::App& verb, Stability& stability) {
@@ -349,19 +358,6 @@ void add_options(CLI::App& verb, Identify& identify) {
   verb.add_flag("--force", identify.force, "Replace a finished result");
 }
 
-void add_options(CLI::App& verb, Export& export_to) {
-  verb.add_option("result", export_to.result, "Result folder, or one of its CSV files")->required();
-  std::vector<std::string> formats;
-  for (const report::ExportFormat& format : report::export_formats())
-    formats.emplace_back(format.name);
-  verb.add_option("--to", export_to.format, "Format")->required()->type_name(any_of(formats));
-  verb.add_option("--case", export_to.case_name, "Only this case");
-  verb.add_option("--out", export_to.out, "Folder to write into")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  verb.add_flag("--force", export_to.force, "Replace files");
-}
-
 void add_options(CLI::App& all, Device& device) {
   all.require_subcommand(1);
   all.fallthrough();
@@ -392,7 +388,9 @@ void add_options(CLI::App& verb, New& starter) {
 }
 
 void add_options(CLI::App& verb, Open& open) {
-  verb.add_option("result", open.result, "Result folder")->required()->type_name("FOLDER");
+  verb.add_option("result", open.result, "Result folder, or a folder of such folders")
+      ->required()
+      ->type_name("FOLDER");
 }
 
 void add_options(CLI::App& verb, Manual& manual) {

@@ -115,29 +115,29 @@ struct Compare {
   std::string report;  // path of a page
   CheckOptions options;
 };
-struct Index {
-  static constexpr Word word{"report", "Write a page that shows the reports of a folder"};
-  std::string folder;
-};
 struct Golden {
   static constexpr Word word{"golden", "Keep results of scenarios, and check that they stay"};
-  enum class Act { add, check, list, bless };
+  enum class Act { add, check, list };
   Act act = Act::check;
-  std::vector<std::string> subjects;  // scenarios or folders; of `bless` folders below golden/
-  std::string reason;                 // of `bless`
+  std::vector<std::string> subjects;  // scenarios or folders
+  std::string reason;                 // why results are replaced; empty: none is kept
   CheckOptions options{.junit = {}, .annotations = {}, .headed = true};
   int jobs = 0;
   bool force = false;
 };
-struct Mesh {
-  static constexpr Word word{"mesh", "Check and mesh a surface, a mesh or a scenario's specimen"};
-  std::string subject;  // a surface, a ready mesh or a scenario, by its ending
-  std::string unit;     // of a surface's or mesh's coordinates
-  int nodes = 0;        // 0: given by `edge`
-  std::string edge;     // empty: the mean edge of the surface's triangles
-  std::vector<std::string> out;
-  std::vector<std::string> settings;
+struct Convert {
+  static constexpr Word word{"convert", "Check and mesh a body, or write results, for other tools"};
+  std::string subject;           // a surface, a mesh, a scenario or results, by its ending
+  std::vector<std::string> out;  // files; of results a folder; empty: none, of results this folder
   bool force = false;
+  // Of bodies.
+  std::string unit;  // of a surface's or mesh's coordinates
+  int nodes = 0;     // 0: given by `edge`
+  std::string edge;  // empty: the mean edge of the surface's triangles
+  std::vector<std::string> settings;
+  // Of results: a folder, or one of its CSV files.
+  std::string format;
+  std::string case_name;
 };
 struct Reference {
   static constexpr Word word{"reference",
@@ -148,21 +148,16 @@ struct Reference {
   std::string out;  // a folder; empty: no file is written
   bool force = false;
 };
-struct Bench {
-  static constexpr Word word{"bench", "Time the frames of a press: the paper's Table 2"};
-  std::vector<std::string> scenarios;  // none: the paper's four models
-  std::vector<std::string> settings;
-  int frames = 1000;
-  std::string report;  // path of a page
-};
 struct Chart {
   static constexpr Word word{"chart",
                              "Measure run time and error of every model, mesh and time step"};
-  std::string scenario;
+  std::string scenario;  // with `frames` also empty: the paper's four models
   std::vector<std::string> settings;
   std::string out = "out";
   int repeats = 5;  // timings per variant
   bool force = false;
+  int frames = 0;      // above 0: frames of 1 ms are timed instead
+  std::string report;  // path of a page of these times
 };
 struct Stability {
   static constexpr Word word{"stability", "Measure where methods fail, and compare with theory"};
@@ -207,14 +202,6 @@ struct Identify {
   std::string out = "out";
   bool force = false;
 };
-struct Export {
-  static constexpr Word word{"export", "Write results in the formats of other tools"};
-  std::string result;  // a result folder, or one of its CSV files
-  std::string format;
-  std::string out = ".";
-  std::string case_name;
-  bool force = false;
-};
 struct Device {
   static constexpr Word word{"device", "Identify, monitor or stop a live device"};
   enum class Act { probe, monitor, stop };
@@ -229,7 +216,7 @@ struct New {
   bool force = false;
 };
 struct Open {
-  static constexpr Word word{"open", "Show the page or the first figure of a result"};
+  static constexpr Word word{"open", "Show the page of a result, or of all results in a folder"};
   std::string result;
 };
 struct Manual {
@@ -246,9 +233,8 @@ struct Completion {
 };
 
 // Every verb. It needs `word`, add_options() in arguments.cpp and perform() in verbs.h to compile.
-using Verb =
-    std::variant<Run, Explain, Fit, Data, Compare, Index, Golden, Mesh, Reference, Bench, Chart,
-                 Stability, Sweep, Identify, Export, Device, New, Open, Manual, Schema, Completion>;
+using Verb = std::variant<New, Explain, Run, Sweep, Compare, Golden, Data, Fit, Identify, Device,
+                          Chart, Stability, Reference, Convert, Open, Manual, Schema, Completion>;
 
 struct Arguments {
   Manner manner;

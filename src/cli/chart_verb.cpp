@@ -133,6 +133,11 @@ void write_page(const scenario::Family& family, const std::string& text, const r
 }  // namespace
 
 int perform(const Chart& command, const Arguments&, const Talk& talk) {
+  if (command.frames > 0) return time_frames(command, talk);
+  if (command.scenario.empty())
+    refuse(
+        "`palpate chart` lacks `scenario`; name one, or give `--frames 1000` to time the paper's "
+        "models");
   const chart::Asked asked = chart::read_for_chart(command.scenario, command.settings);
   const scenario::Family& family = asked.family;
   for (const Problem& note : family.notes) talk.say("note: " + note.text());

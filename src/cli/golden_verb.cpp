@@ -1,4 +1,4 @@
-// `palpate golden`: keeps results of scenarios, compares with them, and blesses palpate's own.
+// `palpate golden`: keeps results of scenarios and compares with them.
 #include <fcntl.h>
 
 #include <algorithm>
@@ -29,12 +29,14 @@ namespace palpate::cli {
 namespace {
 
 // A scenario with its kept results. Those of NAME.toml are in NAME.expected/ beside it, with their
-// tolerances in NAME.tolerances.toml; `scenario.toml`, which is called after its folder, has them
-// in expected/ and tolerances.toml.
+// tolerances in NAME.tolerances.toml and the reason of the last change in NAME.baseline.toml;
+// `scenario.toml`, which is called after its folder, has them in expected/, tolerances.toml and
+// baseline.toml.
 struct KeptResult {
   std::string scenario;    // path
   std::string expected;    // folder
   std::string tolerances;  // path of a file that need not exist
+  std::string baseline;    // likewise
 
   [[nodiscard]] static KeptResult of(const std::string& scenario);
   [[nodiscard]] bool is_kept() const;
@@ -62,7 +64,8 @@ KeptResult KeptResult::of(const std::string& scenario) {
   const std::string before = stem == "scenario" ? "" : stem + ".";
   return {.scenario = path.string(),
           .expected = (path.parent_path() / (before + "expected")).string(),
-          .tolerances = (path.parent_path() / (before + "tolerances.toml")).string()};
+          .tolerances = (path.parent_path() / (before + "tolerances.toml")).string(),
+          .baseline = (path.parent_path() / (before + "baseline.toml")).string()};
 }
 
 bool KeptResult::is_kept() const {
@@ -137,63 +140,27 @@ void keep(const report::CsvFiles& files, const std::string& folder) {
   fs::rename(fresh, folder);
 }
 
-namespace fs = std::filesystem;
-
-std::string git(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "git");
-  const ChildResult result = run_process({.argv = arguments});
-  if (!result.good()) refuse("blessing needs the project's git history; run it in a checkout");
-  return result.output;
-}
-
-// The files that git lists as changed, except expected results that were just blessed.
-std::string uncommitted() {
-  std::string changed;
-  for (const std::string& line : split(git({"status", "--porcelain", "-uall"}), '\n')) {
-    const bool blessed = line.find(" golden/") != std::string::npos &&
-                         (line.find("/expected/") != std::string::npos ||
-                          line.find("/blessed.toml") != std::string::npos);
-    if (!line.empty() && !blessed) changed += (changed.empty() ? "" : ", ") + trimmed(line);
-  }
-  return changed;
-}
-
 void refuse_to_machines() {
   if (const char* ci = std::getenv("CI"); ci != nullptr && *ci != '\0')
     refuse(
-        "`CI` is set, and a machine must not bless its own results; "
+        "`CI` is set, and a machine must not replace what it is checked against; "
         "run this by hand");
 }
 
-void refuse_dirty_tree() {
-  if (const std::string changed = uncommitted(); !changed.empty())
-    refuse("the tree has uncommitted changes (" + changed +
-           "); commit them first, so that the blessing names the code");
+// The commit of the folder's git checkout, with `-dirty` where files differ from it; empty outside
+// of one.
+std::string commit_of(const std::string& folder) {
+  const ChildResult result =
+      run_process({.argv = {"git", "-C", folder.empty() ? "." : folder, "describe", "--always",
+                            "--dirty", "--abbrev=40", "--exclude=*"}});
+  return result.good() ? trimmed(result.output) : "";
 }
 
-void bless_one(const std::string& name, const std::string& reason) {
-  const std::string folder = "golden/" + name;
-  keep(compute(folder + "/scenario.toml", 1), folder + "/expected");
-  const report::Build build = report::this_build();
-  write_atomically(folder + "/blessed.toml", "reason = " + toml_text(reason) + "\ncommit = \"" +
-                                                 trimmed(git({"rev-parse", "HEAD"})) +
-                                                 "\"\ncompiler = \"" + build.compiler + "\"\n");
-}
-
-int bless(const Golden& command, const Talk& talk) {
-  if (trimmed(command.reason).empty())
-    refuse("`--reason` is empty; say why the results may change");
-  for (const std::string& name : command.subjects)
-    if (!fs::exists("golden/" + name + "/scenario.toml"))
-      throw InputError({"golden/" + name + "/scenario.toml", 0, 0},
-                       "is not there; name a folder below golden/ from the project's top");
-  refuse_to_machines();
-  refuse_dirty_tree();
-  for (const std::string& name : command.subjects) {
-    bless_one(name, command.reason);
-    talk.say("golden/" + name + ": blessed; commit it");
-  }
-  return exit_good;
+// What is kept beside results that were replaced for a reason.
+std::string baseline_text(const std::string& reason, const std::string& commit) {
+  return "reason = " + toml_text(reason) + "\n" +
+         (commit.empty() ? "" : "commit = \"" + commit + "\"\n") + "compiler = \"" +
+         report::this_build().compiler + "\"\n";
 }
 
 int add(const Golden& command, const Talk& talk) {
@@ -204,9 +171,15 @@ int add(const Golden& command, const Talk& talk) {
                        "holds the kept result of " + scenario +
                            "; see what differs by `palpate golden check`, and give `--force` to "
                            "replace it");
-  for (const std::string& scenario : command.subjects) {
-    const KeptResult kept = KeptResult::of(scenario);
+  std::vector<std::string> commits;  // before any file changes
+  for (const std::string& scenario : command.subjects)
+    commits.push_back(
+        command.reason.empty() ? "" : commit_of(fs::path(scenario).parent_path().string()));
+  for (std::size_t i = 0; i < command.subjects.size(); ++i) {
+    const KeptResult kept = KeptResult::of(command.subjects[i]);
     keep(compute(kept.scenario, worker_count(command.jobs)), kept.expected);
+    if (!command.reason.empty())
+      write_atomically(kept.baseline, baseline_text(command.reason, commits[i]));
     talk.say(kept.expected + ": kept");
   }
   return exit_good;
@@ -276,10 +249,9 @@ int perform(const Golden& command, const Arguments&, const Talk& talk) {
   switch (command.act) {
     case Golden::Act::add: return add(command, talk);
     case Golden::Act::check: return check(command, talk);
-    case Golden::Act::list: return list(command, talk);
-    case Golden::Act::bless: break;
+    case Golden::Act::list: break;
   }
-  return bless(command, talk);
+  return list(command, talk);
 }
 
 }  // namespace palpate::cli

@@ -1,27 +1,121 @@
-// `palpate open`: shows a result in the desktop's browser, or says where its page is.
+// `palpate open`: shows the page of a result, or a page of all results below a folder, in the
+// desktop's browser, or says where it is.
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
+#include <system_error>
+#include <vector>
 
 #include "base/child_process.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
+#include "page/page.h"
 
 namespace palpate::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// report.html, or the first figure. Throws InputError if there is neither.
-std::string page_of(const std::string& result) {
-  const fs::path report = fs::path(result) / "report.html";
-  if (fs::exists(report)) return report.string();
-  for (const std::string& file : entries_of(result))
+// The reports below a folder, relative to it, by name. Partial folders of running or killed
+// processes have a dot in their names and are left out.
+std::vector<std::string> reports_below(const fs::path& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator
+           at(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       !error && at != end; at.increment(error)) {
+    if (at->is_directory() && at->path().filename().string().find(".partial") != std::string::npos)
+      at.disable_recursion_pending();
+    else if (at->path().filename() == page::file_name)
+      found.push_back(fs::relative(at->path(), folder).generic_string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// A relative link to a path: no letter of it is read as a scheme, a query or a fragment.
+std::string link_of(const std::string& path) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string link = "./";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       std::string_view("/._-~").find(c) != std::string_view::npos;
+    if (plain)
+      link += c;
+    else
+      link += {'%', digits[byte >> 4], digits[byte & 15]};
+  }
+  return link;
+}
+
+// The first figure of a report; nothing where it has none, or one that is large for a page of many.
+page::Markup picture(const fs::path& file, const std::string& report, const std::string& words) {
+  constexpr std::uintmax_t most = 400000;  // bytes
+  std::error_code error;
+  if (file.extension() != ".svg" || fs::file_size(file, error) > most || error) return {};
+  std::string prefix;
+  for (const char c : report + file.stem().string())
+    prefix += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return page::element(
+      "figure", page::element("div", page::inline_svg(read_text(file.string()), prefix, words),
+                              {{"class", "sheet plot"}}));
+}
+
+// Writes index.html of the reports below a folder and returns its path.
+std::string index_of(const fs::path& folder, const std::vector<std::string>& reports,
+                     const Talk& talk) {
+  page::Page page("Results", "index");
+  page.answer({std::to_string(reports.size()) + (reports.size() == 1 ? " report." : " reports.")});
+  page::Markup items;
+  std::set<std::string> headings;
+  for (const std::string& report : reports) {
+    const page::Summary summary = page::summary_of(read_text((folder / report).string()));
+    const std::string title = summary.title.empty() ? report : summary.title;
+    page::Markup shown;
+    for (const std::string& name : summary.pictures)
+      if (shown.empty() || !summary.paper.empty())
+        shown += picture((folder / report).parent_path() / name, report, title);
+    std::string heading = title.substr(0, title.find(" – palpate"));
+    if (!headings.insert(heading).second) heading += ", " + report;
+    if (!summary.paper.empty())  // a result beside the paper's text is shown whole
+      page.section(
+          heading,
+          page::element("div",
+                        shown + page::Markup::ready(summary.paper) +
+                            page::element("p", page::link(link_of(report), "All of this result")),
+                        {{"class", "whole"}}));
+    else
+      items +=
+          page::element("section", shown + page::element("h3", page::link(link_of(report), title)) +
+                                       page::element("p", summary.answer));
+  }
+  if (!items.empty()) page.section("Reports", page::element("div", items, {{"class", "cards"}}));
+  const std::string index = (folder / "index.html").string();
+  write_atomically(index, page.html());
+  talk.say(index + ": " + std::to_string(reports.size()) +
+           (reports.size() == 1 ? " report" : " reports"));
+  return index;
+}
+
+// The report of a result, an index of those below, or the first figure.
+std::string page_of(const std::string& folder, const Talk& talk) {
+  if (!fs::is_directory(folder))
+    throw InputError({folder, 0, 0}, "is no folder; give the one of a result, as `out/quickstart`");
+  if (const fs::path own = fs::path(folder) / page::file_name; fs::exists(own)) return own.string();
+  if (const auto reports = reports_below(folder); !reports.empty())
+    return index_of(folder, reports, talk);
+  for (const std::string& file : entries_of(folder))
     if (fs::path(file).extension() == ".svg") return file;
-  throw InputError({result, 0, 0},
-                   "has neither `report.html` nor a figure; give the folder of a result, as "
-                   "`out/quickstart`");
+  throw InputError({folder, 0, 0}, "holds neither `" + std::string(page::file_name) +
+                                       "` nor a figure; run a scenario with `--out " + folder +
+                                       "` first");
 }
 
 bool has_display() {
@@ -31,7 +125,7 @@ bool has_display() {
 }  // namespace
 
 int perform(const Open& command, const Arguments&, const Talk& talk) {
-  const std::string page = fs::absolute(page_of(command.result)).string();
+  const std::string page = fs::absolute(page_of(command.result, talk)).string();
   const bool shown = has_display() && [&] {
     return run_process({.argv = {"xdg-open", page}}).good();
   }();

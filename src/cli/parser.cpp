@@ -26,35 +26,53 @@ struct CommandsOf<std::variant<Kinds...>> {
   std::tuple<Kinds...> each;
 };
 
-// One call of each verb.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 21> examples{
-    {{"run", "palpate run quickstart --set \"step.1.to=3 mm\""},
-     {"explain", "palpate explain contact.viscosity"},
-     {"fit", "palpate fit measured.csv --model hertz --radius \"11 mm\""},
-     {"data", "palpate data measured.txt --x-unit um"},
-     {"compare", "palpate compare out/press other/press"},
-     {"report", "palpate report out"},
-     {"golden", "palpate golden check"},
-     {"mesh", "palpate mesh leg.stl --unit mm --edge \"3 mm\" --out leg.vtu"},
-     {"reference", "palpate reference press.toml --levels 4"},
-     {"bench", "palpate bench --frames 200"},
-     {"chart", "palpate chart press.toml"},
-     {"stability", "palpate stability press.toml"},
-     {"sweep", "palpate sweep plan press.toml"},
-     {"identify",
+struct Listed {
+  std::string_view verb, group, example;
+};
+constexpr const char* scenarios = "Scenarios";
+constexpr const char* agreement = "Agreement";
+constexpr const char* measured = "Measured curves";
+constexpr const char* judging = "Judging the model";
+constexpr const char* files = "Files";
+constexpr const char* installers = "For installers";
+// The group of each verb in the help, and one call.
+constexpr std::array<Listed, 18> listed{
+    {{"new", scenarios, "palpate new press"},
+     {"explain", scenarios, "palpate explain contact.viscosity"},
+     {"run", scenarios, "palpate run quickstart --set \"step.1.to=3 mm\""},
+     {"sweep", "Many cases", "palpate sweep plan press.toml"},
+     {"compare", agreement, "palpate compare out/press other/press"},
+     {"golden", agreement, "palpate golden check"},
+     {"data", measured, "palpate data measured.txt --x-unit um"},
+     {"fit", measured, "palpate fit measured.csv --model hertz --radius \"11 mm\""},
+     {"identify", measured,
       "palpate identify measured.csv press.toml --unknown \"tissue.young_modulus=1..500 kPa\""},
-     {"export", "palpate export out/press --to csv-si"},
-     {"device", "palpate device probe mark10:/dev/ttyUSB0"},
-     {"new", "palpate new press"},
-     {"open", "palpate open out/press"},
-     {"manual", "palpate manual keys --man"},
-     {"schema", "palpate schema > palpate.schema.json"},
-     {"completion", "palpate completion bash"}}};
+     {"device", measured, "palpate device probe mark10:/dev/ttyUSB0"},
+     {"chart", judging, "palpate chart press.toml"},
+     {"stability", judging, "palpate stability press.toml"},
+     {"reference", judging, "palpate reference press.toml --levels 4"},
+     {"convert", files, "palpate convert leg.stl --unit mm --edge \"3 mm\" --out leg.vtu"},
+     {"open", files, "palpate open out/press"},
+     {"manual", installers, "palpate manual keys --man"},
+     {"schema", installers, "palpate schema > palpate.schema.json"},
+     {"completion", installers, "palpate completion bash"}}};
 
-std::string_view example(std::string_view verb) {
-  const auto* const found = std::find_if(examples.begin(), examples.end(),
-                                         [&](const auto& one) { return one.first == verb; });
-  return found == examples.end() ? std::string_view() : found->second;
+const Listed& listing(std::string_view verb) {
+  return *std::find_if(listed.begin(), listed.end(),
+                       [&](const Listed& one) { return one.verb == verb; });
+}
+
+// What a word that was a verb is called now.
+std::optional<std::string> renamed(const std::vector<std::string>& given) {
+  const std::string two = given.front() + (given.size() > 1 ? " " + given[1] : "");
+  for (const auto& [old, now] : {std::pair{"mesh", "convert"},
+                                 {"export", "convert"},
+                                 {"report", "open"},
+                                 {"bench", "chart --frames 1000"},
+                                 {"golden bless", "golden add --force --reason TEXT"}})
+    if (given.front() == old || two == old)
+      return "`palpate " + std::string(old) + "` is `palpate " + now + "` now";
+  return std::nullopt;
 }
 
 constexpr const char* welcome =
@@ -84,12 +102,14 @@ struct Parser {
         "Data go to stdout, messages to stderr.");
     // For its place in lists: parse() reads `help VERB` as `VERB --help`.
     app.add_subcommand("help", "Print the help of a verb")
+        ->group("Help")
         ->add_option_function<std::vector<std::string>>(
             "verb", [](const std::vector<std::string>&) {}, "The verb; none: a list of all");
     for_each_command([&](auto& command) {
       CLI::App& verb = *app.add_subcommand(command.word.word, command.word.meaning);
       add_options(verb, command);
-      verb.footer("Example: " + std::string(example(command.word.word)));
+      verb.group(std::string(listing(command.word.word).group));
+      verb.footer("Example: " + std::string(listing(command.word.word).example));
     });
   }
 
@@ -126,6 +146,7 @@ std::variant<Arguments, UsageError, Answer> parse(const std::vector<std::string>
         commands::complete(described(), words, scenario::settable_keys(), scenario::examples())};
   }
   if (given.empty()) return Answer{welcome};
+  if (const auto now = renamed(arguments)) return UsageError{*now};
   Parser parser;
   if (const auto wrong = commands::wrong_word(parser.app, arguments)) return UsageError{*wrong};
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

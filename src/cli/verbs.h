@@ -13,22 +13,22 @@ namespace palpate::cli {
 [[nodiscard]] int perform(const Fit& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Data& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Compare& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int perform(const Index& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Golden& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int perform(const Mesh& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Reference& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int perform(const Bench& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Chart& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Stability& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Sweep& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Identify& command, const Arguments& arguments, const Talk& talk);
-[[nodiscard]] int perform(const Export& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Device& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const New& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Open& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Schema& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Completion& command, const Arguments& arguments, const Talk& talk);
 [[nodiscard]] int perform(const Manual& command, const Arguments& arguments, const Talk& talk);
+[[nodiscard]] int perform(const Convert& command, const Arguments& arguments, const Talk& talk);
+
+// `chart --frames`.
+[[nodiscard]] int time_frames(const Chart& command, const Talk& talk);
 
 // `run --device`.
 [[nodiscard]] int run_live(const Run& command, const Arguments& arguments, const Talk& talk);

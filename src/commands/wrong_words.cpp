@@ -2,6 +2,8 @@
 #include "commands/wrong_words.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <span>
 
 #include "base/text.h"
 
@@ -40,8 +42,14 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return near ? "; did you mean `" + *near + "`?" : "; known: " + joined(known, ", ");
 }
 
-std::string unknown_option(const CLI::App& verb, const std::string& name, const Options& known) {
-  for (const std::string& inner : verb_names(verb))
+// `after` are the words behind it.
+std::string unknown_option(const CLI::App& verb, const std::string& name, const Options& known,
+                           std::span<const std::string> after) {
+  std::vector<std::string> inners = verb_names(verb);
+  std::stable_partition(inners.begin(), inners.end(), [&](const std::string& inner) {
+    return std::find(after.begin(), after.end(), inner) != after.end();
+  });
+  for (const std::string& inner : inners)
     if (verb.get_subcommand(inner)->get_option_no_throw(name) != nullptr)
       return "option `" + name + "` stands before its verb; write it as `palpate " + inner +
              " ... " + name + "`";
@@ -64,7 +72,7 @@ std::optional<std::string> wrong_word(const CLI::App& app,
       // The next word is the value of the option, even if it begins with `-`.
       if (option->get_items_expected_min() > 0 && name == word) ++i;
     } else if (is_long) {
-      return unknown_option(*verb, name, options);
+      return unknown_option(*verb, name, options, std::span(arguments).subspan(i));
     } else if (!word.starts_with("-") && !verb_names(*verb).empty()) {
       const std::vector<std::string> names = verb_names(*verb);
       if (std::find(names.begin(), names.end(), word) == names.end())

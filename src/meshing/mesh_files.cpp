@@ -173,7 +173,7 @@ geometry::TetMesh read_node_ele(const std::string& path, double metres_per_unit)
   if (!belong_together(files))
     throw InputError({files.ele, 0, 0},
                      "belongs to other nodes than those of `" + files.node +
-                         "`, as after an interrupted `palpate mesh`; run that again, or rename `" +
+                         "`, as after an interrupted `palpate convert`; run that again, or rename `" +
                          replaced(files) + "` to `" + files.node + "`");
   geometry::TetMesh mesh;
   const int first = read_nodes(TableLines(files.node), metres_per_unit, mesh);

@@ -18,7 +18,7 @@ namespace palpate::report {
 [[nodiscard]] record::Table findings_table(const scenario::Family& family,
                                            const std::vector<record::CaseRecord>& records);
 
-// The CSV files of a result by name, as written by `run` and stored by `golden bless`.
+// The CSV files of a result by name, as written by `run` and stored by `golden add`.
 using CsvFiles = std::vector<std::pair<std::string, record::Table>>;
 [[nodiscard]] CsvFiles csv_files(const scenario::Family& family,
                                  const std::vector<record::CaseRecord>& records,

@@ -118,7 +118,7 @@ constexpr std::string_view organ = R"(#:schema ./palpate.schema.json
 #   shape = { file = "organ.stl", unit = "mm" }      a closed surface: .stl .obj .ply .off
 #   mesh  = { file = "organ.msh", unit = "mm" }      tetrahedra: .msh of Gmsh, .node of TetGen; its
 #                                                    parts are `tagged` regions in place of the sphere
-# `palpate mesh organ.stl --unit mm` checks such a file; z points up.
+# `palpate convert organ.stl --unit mm` checks such a file; z points up.
 schema = 1
 title  = "An organ with an inclusion"
 

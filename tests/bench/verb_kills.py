@@ -65,7 +65,7 @@ IDENTIFY = ["identify", "data.csv", "s.toml", "--x", "travel_mm", "--y", "force_
 # A change of an input between the earlier result and the call, whose result is another one then.
 CHANGE = {name: PLAIN.replace("20 kPa", "21 kPa") for name in ("s.toml", "golden/g/scenario.toml")}
 COMMIT = "git init -q . && git add -A && git -c user.name=a -c user.email=a commit -qm a"
-BLESS = ["golden", "bless", "g", "--reason", "a test"]
+BASELINE = ["golden", "add", "--force", "golden/g/scenario.toml", "--reason", "a test"]
 
 
 def replacing(call):
@@ -88,14 +88,14 @@ CALLS = {
     "data": ([], ["data", "data.csv"]),
     "compare": ([DONE, ["compare", "out/s", "out/s", "--report", "c.html", "--junit", "c.xml"], CHANGE, DONE + ["--out", "n"]],
                 ["compare", "out/s", "n/s", "--report", "c.html", "--junit", "c.xml"]),
-    "report": ([DONE, ["report", "out"], ["run", "other.toml"]], ["report", "out"]),
+    "open": ([DONE, ["open", "out"], ["run", "other.toml"]], ["open", "out"]),
     "golden add": replacing(["golden", "add", "s.toml"]),
     "golden check": ([["golden", "add", "s.toml"]], ["golden", "check", "s.toml"]),
     "golden list": ([["golden", "add", "s.toml"]], ["golden", "list"]),
-    "golden bless": ([COMMIT, BLESS, CHANGE, COMMIT], BLESS),
-    "mesh": ([], ["mesh", "body.toml", "--out", "m.node", "--force"]),
+    "golden add --reason": ([COMMIT, BASELINE, CHANGE, COMMIT], BASELINE),
+    "convert": ([], ["convert", "body.toml", "--out", "m.node", "--force"]),
     "reference": ([["reference", "s.toml", "--out", "r"], CHANGE], ["reference", "s.toml", "--out", "r", "--force"]),
-    "bench": ([], ["bench", "maps.toml", "--frames", "20", "--report", "b.html"]),
+    "chart --frames": ([], ["chart", "maps.toml", "--frames", "20", "--report", "b.html"]),
     "chart": ([["chart", "chart.toml", "--repeats", "1"]], ["chart", "chart.toml", "--repeats", "1", "--force"]),
     "stability": ([["stability", "maps.toml"]], ["stability", "maps.toml", "--force"]),
     "sweep plan": ([], PLAN),
@@ -109,8 +109,8 @@ CALLS = {
     "sweep slurm": ([PLAN, ["sweep", "slurm", "out/sweep_sweep"]],
                     ["sweep", "slurm", "out/sweep_sweep", "--chunk", "3", "--prologue", "prologue.sh"]),
     "identify": ([IDENTIFY, CHANGE], IDENTIFY + ["--force"]),
-    "export": ([DONE, ["export", "out/s", "--to", "csv-si", "--out", "e"], CHANGE, DONE + ["--force"]],
-               ["export", "out/s", "--to", "csv-si", "--out", "e", "--force"]),
+    "convert results": ([DONE, ["convert", "out/s", "--to", "csv-si", "--out", "e"], CHANGE, DONE + ["--force"]],
+               ["convert", "out/s", "--to", "csv-si", "--out", "e", "--force"]),
     "device probe": ([DONE], ["device", "probe", "replay:out/s/force_indentation.csv"]),
     "device monitor": ([DONE], ["device", "monitor", "replay:out/s/force_indentation.csv"]),
     "new": ([["new", "press", "n.toml"]], ["new", "creep", "n.toml", "--force"]),
@@ -285,7 +285,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     os.environ["BROWSER"] = "true"  # of `open`
-    os.environ.pop("CI", None)  # where nothing is blessed
+    os.environ.pop("CI", None)  # where no result is replaced
     chance = random.Random(arguments.seed)
     asked = re.split(",(?! )", arguments.calls) if arguments.calls else list(CALLS)
     findings = 0

@@ -7,7 +7,7 @@ exit code must be 0; `; echo $?` behind a command allows another. Compared is a 
 behind such a block, with all that its last command prints; a line `...` stands for any lines.
 
 A comment before a block takes it out, `<!-- not run: REASON -->`, or some of its lines,
-`<!-- not run, palpate bench | palpate chart: REASON -->`, which names how they begin.
+`<!-- not run, palpate chart --frames | palpate chart: REASON -->`, which names how they begin.
 """
 
 import os

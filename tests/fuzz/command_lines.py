@@ -91,7 +91,7 @@ help sweep plan
 golden add s.toml
 golden check s.toml
 golden list
-golden bless s.toml --reason because
+golden add s.toml --reason because
 """.strip().splitlines()]
 WORDS = ["", "-", "--", "--help", "--json", "--quiet", "--force", "--set", "--out", "/dev/null", "/",
          ".", "nan", "inf", "-1", "0", "1e308", "1e-308", "99999999999999999999", "0.3_mm", "\x1b[2J",

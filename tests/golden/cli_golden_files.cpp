@@ -39,9 +39,9 @@ TEST_P(Golden, says_why_it_is_there_and_what_it_allows) {
   EXPECT_TRUE(scenario.starts_with("# Why: ")) << "begin the scenario with its reason";
   EXPECT_NE(scenario.find("\n# May differ: "), std::string::npos);
   EXPECT_FALSE(names_in(file("expected")).empty());
-  const Node blessed = read_toml(file("blessed.toml"));
-  EXPECT_FALSE(trimmed(blessed.find("reason")->value.text).empty());
-  EXPECT_EQ(blessed.find("commit")->value.text.size(), 40U);
+  const Node baseline = read_toml(file("baseline.toml"));
+  EXPECT_FALSE(trimmed(baseline.find("reason")->value.text).empty());
+  EXPECT_EQ(baseline.find("commit")->value.text.size(), 40U);
   const compare::Tolerances tolerances = compare::read_tolerances(file("tolerances.toml"));
   EXPECT_FALSE(tolerances.standard.reason.empty()) << "the default lacks a reason";
   EXPECT_LE(tolerances.standard.rel, 1e-6) << "what is wider names its column";

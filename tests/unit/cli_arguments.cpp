@@ -60,19 +60,21 @@ TEST(Arguments, OfTheOtherVerbs) {
   EXPECT_EQ(identify.columns.skip, 3);
   const Compare compare = accepted<Compare>({"compare", "a", "b", "--tolerances", "t.toml"});
   EXPECT_EQ(compare.got + compare.want + compare.tolerances, "abt.toml");
-  const Golden bless = accepted<Golden>({"golden", "bless", "one", "two", "--reason", "why"});
-  EXPECT_EQ(bless.subjects, (Words{"one", "two"}));
-  EXPECT_EQ(bless.act, Golden::Act::bless);
+  const Golden add = accepted<Golden>({"golden", "add", "one", "two", "--reason", "why"});
+  EXPECT_EQ(add.subjects, (Words{"one", "two"}));
+  EXPECT_EQ(add.act, Golden::Act::add);
+  EXPECT_EQ(add.reason, "why");
   const Golden check = accepted<Golden>({"golden", "check", "mine", "--junit", "a.xml"});
   EXPECT_EQ(check.options.junit, "a.xml");
-  const Mesh mesh = accepted<Mesh>({"mesh", "leg.stl", "--unit", "mm", "--edge", "3 mm", "--out",
-                                    "a.node", "--out", "a.vtu", "--force"});
+  const Convert mesh = accepted<Convert>({"convert", "leg.stl", "--unit", "mm", "--edge", "3 mm",
+                                          "--out", "a.node", "--out", "a.vtu", "--force"});
   EXPECT_EQ(mesh.subject + mesh.unit + mesh.edge, "leg.stlmm3 mm");
   EXPECT_EQ(mesh.out, (Words{"a.node", "a.vtu"}));
   EXPECT_TRUE(mesh.force);
-  EXPECT_EQ(accepted<Mesh>({"mesh", "leg.stl", "--nodes", "500"}).nodes, 500);
-  EXPECT_EQ(accepted<Bench>({"bench"}).frames, 1000);
-  EXPECT_EQ(accepted<Bench>({"bench", "a.toml", "b.toml"}).scenarios, (Words{"a.toml", "b.toml"}));
+  EXPECT_EQ(accepted<Convert>({"convert", "leg.stl", "--nodes", "500"}).nodes, 500);
+  EXPECT_EQ(accepted<Convert>({"convert", "out/press", "--to", "csv-si"}).format, "csv-si");
+  EXPECT_EQ(accepted<Chart>({"chart", "--frames", "200"}).frames, 200);
+  EXPECT_EQ(accepted<Chart>({"chart", "a.toml"}).scenario, "a.toml");
   (void)accepted<Manual>({"manual"});
 }
 
@@ -84,7 +86,7 @@ TEST(Arguments, OfEveryVerbStandBeforeOrAfterIt) {
 }
 
 TEST(Arguments, AValueMayLookLikeAnythingElse) {
-  EXPECT_EQ(accepted<Golden>({"golden", "bless", "one", "--reason", "--quiet is quiet"}).reason,
+  EXPECT_EQ(accepted<Golden>({"golden", "add", "one", "--reason", "--quiet is quiet"}).reason,
             "--quiet is quiet");
   EXPECT_EQ(accepted<RunCommand>({"run", "a.toml", "--out", "--there"}).out, "--there");
   EXPECT_EQ(accepted<RunCommand>({"run", "manual"}).scenarios, Words{"manual"});
@@ -95,14 +97,20 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
   const std::pair<Words, const char*> cases[] = {
       {{"ruun", "a.toml"}, "unknown verb `ruun`; did you mean `run`?"},
       {{"xyzzy"},
-       "unknown verb `xyzzy`; known: help, run, explain, fit, data, compare, report, golden, mesh, "
-       "reference, bench, chart, stability, sweep, identify, export, device, new, open, manual, "
-       "schema, completion"},
-      {{"golden", "bles"}, "unknown verb `bles`; did you mean `bless`?"},
+       "unknown verb `xyzzy`; known: help, new, explain, run, sweep, compare, golden, data, fit, "
+       "identify, device, chart, stability, reference, convert, open, manual, schema, completion"},
+      {{"golden", "chek"}, "unknown verb `chek`; did you mean `check`?"},
       {{"golden"},
-       "`palpate golden` wants a verb: add, check, list, bless; `palpate golden --help` shows how "
-       "to write "
+       "`palpate golden` wants a verb: add, check, list; `palpate golden --help` shows how to "
+       "write "
        "it"},
+      // Words that were verbs before 1.0.
+      {{"mesh", "leg.stl"}, "`palpate mesh` is `palpate convert` now"},
+      {{"export", "out/press"}, "`palpate export` is `palpate convert` now"},
+      {{"report", "out"}, "`palpate report` is `palpate open` now"},
+      {{"bench"}, "`palpate bench` is `palpate chart --frames 1000` now"},
+      {{"golden", "bless", "press"},
+       "`palpate golden bless` is `palpate golden add --force --reason TEXT` now"},
       {{"run", "a.toml", "--forse"}, "unknown option `--forse`; did you mean `--force`?"},
       {{"run", "a.toml", "--sett=x=1"}, "unknown option `--sett`; did you mean `--set`?"},
       {{"compare", "a", "b", "--jobs", "2"}, "unknown option `--jobs`; did you mean `--json`?"},
@@ -114,9 +122,8 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
        "it"},
       {{"fit", "d.csv", "--x", "h", "--y", "F"},
        "`palpate fit` lacks `--model`; `palpate fit --help` shows how to write it"},
-      {{"golden", "bless", "one"},
-       "`palpate golden bless` lacks `--reason`; `palpate golden bless --help` shows how to write "
-       "it"},
+      {{"golden", "add"},
+       "`palpate golden add` lacks `scenario`; `palpate golden add --help` shows how to write it"},
       {{"run", "a.toml", "--jobs", "-1"},
        "`palpate run` cannot be read: --jobs: Value -1 not in range 0 to 1024; `palpate run "
        "--help` "
@@ -135,7 +142,8 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
 TEST(Arguments, HelpAndVersionAreAnswers) {
   EXPECT_TRUE(answer({"--version"}).starts_with("palpate 0."));
   EXPECT_NE(answer({"--help"}).find("Exit codes: 0 good"), std::string::npos);
-  for (const char* verb : {"run", "explain", "fit", "compare", "golden", "mesh", "bench", "manual"})
+  for (const char* verb :
+       {"run", "explain", "fit", "compare", "golden", "convert", "chart", "manual"})
     EXPECT_NE(answer({verb, "--help"}).find("Usage: palpate " + std::string(verb)),
               std::string::npos)
         << verb;
@@ -146,8 +154,7 @@ TEST(Arguments, HelpAndVersionAreAnswers) {
     EXPECT_NE(text.find("Example: palpate " + verb.name), std::string::npos) << verb.name;
   }
   EXPECT_NE(answer({}).find("palpate run quickstart"), std::string::npos);
-  EXPECT_NE(answer({"golden", "bless", "-h"}).find("Usage: palpate golden bless"),
-            std::string::npos);
+  EXPECT_NE(answer({"golden", "add", "-h"}).find("Usage: palpate golden add"), std::string::npos);
 }
 
 }  // namespace

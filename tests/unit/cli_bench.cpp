@@ -1,4 +1,5 @@
-// `palpate bench`: the shape of its table, and that the work it times is really done. Never a time.
+// `palpate chart --frames`: the shape of its table, and that the work it times is really done.
+// Never a time.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -22,7 +23,7 @@ class BenchVerb : public testing::Test {
  protected:
   Ended bench(const std::string& scenario, const Words& more) const {
     write_file(folder_ / "press.toml", scenario);
-    return palpate(folder_.path(), {"bench", "press.toml"}, more);
+    return palpate(folder_.path(), {"chart", "press.toml"}, more);
   }
   // The only row.
   nlohmann::json measured(const std::string& scenario) const {
@@ -75,7 +76,7 @@ TEST_F(BenchVerb, CentralDifferencesAndModesPressAsHard) {
   write_file(folder_ / "press.toml", bench_press(""));
   std::vector<double> forces;
   for (const std::string integrator : {"central_difference", "modal"}) {
-    const Ended ended = palpate(folder_.path(), {"bench", "press.toml", "--frames", "5", "--json",
+    const Ended ended = palpate(folder_.path(), {"chart", "press.toml", "--frames", "5", "--json",
                                                  "--set", "solver.integrator=" + integrator});
     ASSERT_EQ(ended.code, 0) << ended.err;
     const auto row = nlohmann::json::parse(ended.out);
@@ -129,7 +130,7 @@ TEST_F(BenchVerb, RefusesWhatHasNoFrames) {
 TEST(Bench, ThePapersModelsAreTheDefault) {
   TemporaryFolder folder;
   const Ended ended = palpate(
-      folder.path(), {"bench", "--frames", "1", "--set", "solver.integrator=central_difference"});
+      folder.path(), {"chart", "--frames", "1", "--set", "solver.integrator=central_difference"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   const record::Table table = record::parse_csv(ended.out, "stdout");
   const auto number = [&](std::size_t row, const char* column) {

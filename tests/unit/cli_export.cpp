@@ -1,4 +1,5 @@
-// `palpate export`: every file read back by us, and by the rules of the tools it is for.
+// `palpate convert` of results: every file read back by us, and by the rules of the tools it is
+// for.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -152,7 +153,7 @@ class ExportVerb : public testing::Test {
 
   Ended run(const std::string& result, const std::string& format,
             const std::vector<std::string>& more = {}) {
-    return palpate(folder_.path(), {"export", result, "--to", format, "--out", "out"}, more);
+    return palpate(folder_.path(), {"convert", result, "--to", format, "--out", "out"}, more);
   }
 
   // A column of one case as the result has it, in SI.
@@ -301,7 +302,7 @@ TEST_F(ExportVerb, nothing_is_replaced_unasked) {
             "or another `--out`\n");
   EXPECT_EQ(run("press", "afm-tab", {"--force"}).code, 0);
   // The source itself stays, whatever is asked for.
-  const Ended self = palpate(folder_.path(), {"export", "own.csv", "--to", "csv-si", "--force"});
+  const Ended self = palpate(folder_.path(), {"convert", "own.csv", "--to", "csv-si", "--force"});
   EXPECT_EQ(self.code, 2);
   EXPECT_EQ(read_file(folder_ / "own.csv"), "time_s,Load_mN\n0,1\n1,2.5\n");
   write_file(folder_ / "twice.csv", "case,time_s\na b,1\na/b,2\n");

@@ -25,7 +25,7 @@ TEST_P(Kills, LeaveTheOldResultOrTheNewOne) {
     // Of two files side by side one may be new: such a pair is refused, and nothing of it is lost.
     const bool pair = std::string(GetParam().name) == "mesh" && !whole;
     if (pair) {
-      const Ended refused = palpate(folder_.path(), {"mesh", "m/m.ele", "--unit", "m"});
+      const Ended refused = palpate(folder_.path(), {"convert", "m/m.ele", "--unit", "m"});
       EXPECT_EQ(refused.code, 2) << refused.out;
       EXPECT_TRUE(says(refused, "belongs to other nodes")) << refused.err;
       EXPECT_EQ(read_file(place() / "m.node.replaced"), before_.at("m.node"));

@@ -1,4 +1,5 @@
-// `palpate mesh`: what it says of surfaces, meshes and scenarios, what it writes, what it refuses.
+// `palpate convert` of bodies: what it says of surfaces, meshes and scenarios, what it writes, what
+// it refuses.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -37,7 +38,7 @@ class MeshVerb : public testing::Test {
     for (const char* name : {"box.node", "box.ele"})
       fs::copy_file(project_file(std::string("golden/meshes/") + name), folder_ / name);
   }
-  Ended mesh(const Words& more) const { return palpate(folder_.path(), {"mesh"}, more); }
+  Ended mesh(const Words& more) const { return palpate(folder_.path(), {"convert"}, more); }
   // What is said of a sound subject.
   std::map<std::string, double> quality(const Words& more) const {
     const Ended ended = mesh(more);

@@ -137,7 +137,7 @@ TEST_F(Messages, ExplainKnowsKeysAndTables) {
 TEST_F(Messages, AnswersGoToStdout) {
   for (const char* asked :
        {"--help", "run --help", "explain --help", "fit --help", "compare --help",
-        "golden bless --help", "golden check --help", "manual --help", "--version", "manual"}) {
+        "golden add --help", "golden check --help", "manual --help", "--version", "manual"}) {
     const test::Ended said = palpate(asked);
     EXPECT_EQ(said.code, 0) << asked;
     EXPECT_EQ(said.err, "") << asked;

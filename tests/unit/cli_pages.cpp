@@ -50,7 +50,7 @@ TEST(Pages, AnIndexHasLinksToFoldersOfAnyName) {
       palpate(folder.path(), {"run", "s.toml", "--out", name, "--set", "output.figures=false"})
           .code,
       0);
-  ASSERT_EQ(palpate(folder.path(), {"report", "out"}).code, 0);
+  ASSERT_EQ(palpate(folder.path(), {"open", "out"}).code, 0);
   const std::string index = read_file(folder / "out/index.html");
   EXPECT_NE(index.find("href=\"./javascript%3Aalert%281%29%3F%23/s/report.html\""),
             std::string::npos)

@@ -56,7 +56,7 @@ TEST_F(ReportPages, OpenWithoutAFault) {
   ASSERT_EQ(sweep({"run", "out/s_sweep"}).code, 0);
   ASSERT_EQ(sweep({"merge", "out/s_sweep"}).code, 0);
   make({"compare", "out/press", "out/press", "--report", "out/compared/report.html"});
-  make({"report", "out"});
+  make({"open", "out"});
   const std::vector<std::string> pages{"out/press/report.html",
                                        "out/creep/report.html",
                                        "out/found_identified/report.html",

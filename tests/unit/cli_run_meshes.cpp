@@ -172,7 +172,7 @@ TEST_F(RunMeshes, only_flat_ends_take_platens) {
   EXPECT_EQ(flat.code, 0) << flat.err;
   fs::remove_all(folder_ / "out");
   const Ended made = palpate(
-      folder_.path(), {"mesh", project_file("scenarios/model_head.toml"), "--out", "head.node"});
+      folder_.path(), {"convert", project_file("scenarios/model_head.toml"), "--out", "head.node"});
   ASSERT_EQ(made.code, 0) << made.err;
   expect_refused("[tissue]\nmesh = { file = \"head.node\", unit = \"m\" }\n" + creep, 5,
                  "the specimen has no flat upper end for a platen");

@@ -1,8 +1,8 @@
-// `palpate bench`: times frames of 1 ms of a press in the stages of the paper's Table 2. The four
-// models are pressed by 1 mm with the coupling `consistent`, by central differences in stable
-// substeps and by modal coordinates, as whole bodies and with 3 rings. The stages are timed apart,
-// each in all substeps of a frame; `frame` is the time of `palpate run` for 1 ms, and `other` what
-// the stages leave of it, mostly the energy balance. One thread.
+// `palpate chart --frames`: times frames of 1 ms of a press in the stages of the paper's Table 2.
+// The four models are pressed by 1 mm with the coupling `consistent`, by central differences in
+// stable substeps and by modal coordinates, as whole bodies and with 3 rings. The stages are timed
+// apart, each in all substeps of a frame; `frame` is the time of `palpate run` for 1 ms, and
+// `other` what the stages leave of it, mostly the energy balance. One thread.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -218,7 +218,7 @@ bool measure_scenario(const std::string& path, std::vector<std::string> settings
   for (const scenario::Case& one : family.cases) {
     if (one.scenario.uniform())
       throw InputError({path, 0, 0},
-                       "has no finger; `palpate bench` times a press, so give a scenario with "
+                       "has no finger; `--frames` times a press, so give a scenario with "
                        "`indent`");
     const std::string name = family.cases.size() > 1 ? family.name + "/" + one.name : family.name;
     all = table.measure(name, run::build_scene(one, family), nullptr) && all;
@@ -226,13 +226,13 @@ bool measure_scenario(const std::string& path, std::vector<std::string> settings
   return all;
 }
 
-void write_page(const Bench& command, const Table& table) {
+void write_page(const Chart& command, const Table& table) {
   page::Page page("Times of a frame of 1 ms", "bench");
   page.answer({"Medians of " + std::to_string(command.frames) + " frames on one core."});
   const auto whole = [](const std::string& caption, const record::Table& rows) {
     return page::element("div", page::table(caption, rows), {{"class", "whole"}});
   };
-  if (command.scenarios.empty())
+  if (command.scenario.empty())
     page.section("Beside the paper", whole("Table 2 beside this run", table.beside_the_paper()));
   page.section("Times", whole("Medians, ms per frame of 1 ms", table.medians()));
   make_folders(std::filesystem::path(command.report).parent_path().string());
@@ -241,12 +241,11 @@ void write_page(const Bench& command, const Table& table) {
 
 }  // namespace
 
-int perform(const Bench& command, const Arguments&, const Talk& talk) {
+int time_frames(const Chart& command, const Talk& talk) {
   Table table(command.frames, talk);
-  bool all = true;
-  if (command.scenarios.empty()) all = measure_models(command.settings, table);
-  for (const std::string& path : command.scenarios)
-    all = measure_scenario(path, command.settings, table, talk) && all;
+  const bool all = command.scenario.empty()
+                       ? measure_models(command.settings, table)
+                       : measure_scenario(command.scenario, command.settings, table, talk);
   print_result(table.table(), table.medians(), talk);
   if (!talk.json() && !talk.csv())
     talk.say("Medians, ms per frame of 1 ms; `frame` is the time of `palpate run`.");

@@ -1,4 +1,5 @@
-// `palpate mesh`: meshes a surface or scenario, prints the quality of a mesh, and writes it.
+// `palpate convert`: meshes a surface or scenario, prints the quality of a mesh, and writes it;
+// writes results in the formats of other tools.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -22,10 +24,13 @@
 #include "meshing/surface_files.h"
 #include "meshing/surface_repair.h"
 #include "meshing/tetgen_file.h"
+#include "record/csv.h"
+#include "report/export.h"
 #include "report/vtu.h"
 #include "run/choose.h"
 #include "run/refined_mesh.h"
 #include "run/solid_press.h"
+#include "scenario/family.h"
 #include "scene/scene.h"
 
 namespace palpate::cli {
@@ -35,7 +40,7 @@ namespace fs = std::filesystem;
 
 constexpr double meshing_time = 120.0;  // s, time limit of TetGen, as in a run
 
-enum class Kind { surface, mesh, scenario };
+enum class Kind { surface, mesh, scenario, results };
 
 std::string ending_of(const std::string& path) {
   return lower_case(fs::path(path).extension().string());
@@ -43,24 +48,41 @@ std::string ending_of(const std::string& path) {
 
 Kind kind_of(const std::string& path) {
   const std::string ending = ending_of(path);
+  if (ending == ".csv" || fs::is_directory(path)) return Kind::results;
   for (const char* known : {".stl", ".obj", ".ply", ".off", ".vtp"})
     if (ending == known) return Kind::surface;
   if (ending == ".node" || ending == ".ele") return Kind::mesh;
   if (meshing::holds_cells(path))
     return meshing::read_cells(path).solids.empty() ? Kind::surface : Kind::mesh;
   if (ending == ".toml") return Kind::scenario;
-  throw InputError(
-      {path, 0, 0},
-      "is neither a surface (.stl, .obj, .ply, .off, .vtp) nor a mesh (.msh, .vtu, "
-      ".vtk, .inp, .mesh, .node, .ele) nor a scenario (.toml); save it as one of them");
+  if (!fs::exists(path))
+    throw InputError({path, 0, 0}, "cannot be read: No such file or directory; check the path");
+  throw InputError({path, 0, 0},
+                   "is neither a surface (.stl, .obj, .ply, .off, .vtp) nor a mesh (.msh, .vtu, "
+                   ".vtk, .inp, .mesh, .node, .ele) nor a scenario (.toml) nor results (a folder, "
+                   ".csv); save it as one of them");
 }
 
 // Refuses options that have no effect on this kind of subject.
-void check_options(const Mesh& command, Kind kind) {
+void check_options(const Convert& command, Kind kind) {
+  if (kind == Kind::results) {
+    if (command.format.empty())
+      refuse("`palpate convert` lacks the format that results are written in; write `--to csv-si`");
+    if (command.out.size() > 1) refuse("results go into one folder; give `--out` once");
+    for (const auto& [option, given] : {std::pair{"--unit", !command.unit.empty()},
+                                        {"--nodes", command.nodes > 0},
+                                        {"--edge", !command.edge.empty()},
+                                        {"--set", !command.settings.empty()}})
+      if (given) refuse("`" + std::string(option) + "` is not for results; leave it out");
+    return;
+  }
+  if (!command.format.empty() || !command.case_name.empty())
+    refuse("`--to` and `--case` are for results, and " + command.subject +
+           " is none; leave them out, or give the folder of a result");
   if (kind == Kind::scenario && !command.unit.empty())
     refuse("a scenario names the units of its files itself; leave out `--unit`");
   if (kind != Kind::scenario && command.unit.empty())
-    refuse("`palpate mesh` lacks the unit of the coordinates in " + command.subject +
+    refuse("`palpate convert` lacks the unit of the coordinates in " + command.subject +
            "; write `--unit mm`");
   if (kind != Kind::scenario && !command.settings.empty())
     refuse("`--set` is for scenarios; leave it out");
@@ -110,7 +132,7 @@ std::vector<std::string> files_of(const std::string& out) {
 }
 
 // Refuses output files that cannot be written, before any computation.
-void check_outputs(const Mesh& command, Kind kind) {
+void check_outputs(const Convert& command, Kind kind) {
   for (const std::string& out : command.out) {
     if (is_surface_file(out) && kind != Kind::surface)
       throw InputError({out, 0, 0}, "is for surfaces; write a mesh as `.node` or `.vtu`");
@@ -129,7 +151,7 @@ void check_outputs(const Mesh& command, Kind kind) {
 }
 
 // Also writes the surface where that is asked for.
-geometry::TetMesh mesh_of_surface(const Mesh& command, const Talk& talk) {
+geometry::TetMesh mesh_of_surface(const Convert& command, const Talk& talk) {
   meshing::Target target{.nodes = command.nodes};
   if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
   auto [surface, mended] = meshing::whole_surface(
@@ -151,7 +173,7 @@ geometry::TetMesh mesh_of_surface(const Mesh& command, const Talk& talk) {
 }
 
 // The scene of the first case.
-scene::Scene scene_of(const Mesh& command, const Talk& talk) {
+scene::Scene scene_of(const Convert& command, const Talk& talk) {
   const scenario::Family family = scenario::read(command.subject, command.settings);
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   const scenario::Case& first = family.cases.front();
@@ -268,11 +290,118 @@ void write(const std::string& out, const geometry::TetMesh& mesh) {
     meshing::write_node_ele(out, mesh);
 }
 
+const report::ExportFormat& format_of(const std::string& name) {
+  std::vector<std::string> known;
+  for (const report::ExportFormat& one : report::export_formats()) {
+    if (one.name == name) return one;
+    known.emplace_back(one.name);
+  }
+  const auto near = nearest(name, known);
+  refuse("`--to` does not know `" + name + "`" +
+         (near ? "; did you mean `" + *near + "`?" : "; it is one of " + joined(known, ", ")));
+}
+
+// The file of the curves in a result folder, or the file itself.
+std::string curve_file_of(const std::string& result) {
+  if (!fs::is_directory(result)) return result;
+  for (const char* name : {"force_indentation.csv", "strain_time.csv"})
+    if (const fs::path file = fs::path(result) / name; fs::exists(file)) return file.string();
+  throw InputError({result, 0, 0},
+                   "holds neither force_indentation.csv nor strain_time.csv; give the folder of a "
+                   "result, or a CSV file");
+}
+
+std::string name_of(const std::string& result) {
+  fs::path path = fs::path(result).lexically_normal();
+  if (path.filename().empty()) path = path.parent_path();
+  return fs::is_directory(result) ? path.filename().string() : path.stem().string();
+}
+
+// Adds the radius of the finger if the result folder contains the scenario.
+void add_radii(const std::string& result, std::vector<report::ExportCurve>& curves) {
+  const fs::path file = fs::path(result) / "scenario.toml";
+  if (!fs::is_directory(result) || !fs::exists(file)) return;
+  try {
+    const scenario::Family family = scenario::read(file.string(), {});
+    for (report::ExportCurve& curve : curves)
+      for (const scenario::Case& one : family.cases)
+        if (one.name == curve.name || family.cases.size() == 1)
+          curve.tip_radius = one.scenario.finger.radius;
+  } catch (const InputError&) {  // an edited scenario.toml does not prevent it
+  }
+}
+
+void keep_case(std::vector<report::ExportCurve>& curves, const std::string& wanted,
+               const std::string& file) {
+  std::vector<std::string> names;
+  for (const report::ExportCurve& curve : curves) names.push_back(curve.name);
+  std::erase_if(curves, [&](const report::ExportCurve& curve) { return curve.name != wanted; });
+  if (!curves.empty()) return;
+  const auto near = nearest(wanted, names);
+  throw InputError({file, 0, 0}, "has no case `" + wanted + "`" +
+                                     (near ? "; did you mean `" + *near + "`?"
+                                           : "; cases: " + joined(names, ", ")));
+}
+
+// A case's name as a file name: characters special to file systems or shells become `_`.
+std::string file_name(const std::string& name) {
+  std::string safe;
+  for (const char c : name) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                       c == '.' || c == '-' || c == '_' || c == '+' || c == '=';
+    safe += plain ? c : '_';
+  }
+  return safe.empty() || safe[0] == '.' ? "_" + safe : safe;
+}
+
+int write_results(const Convert& command, const Talk& talk) {
+  const std::string out = command.out.empty() ? "." : command.out.front();
+  const report::ExportFormat& format = format_of(command.format);
+  const std::string file = curve_file_of(command.subject);
+  std::vector<report::ExportCurve> curves =
+      report::export_curves(record::read_csv(file), name_of(command.subject));
+  if (curves.empty())
+    throw InputError({file, 0, 0}, "holds no rows; run the scenario again, or give another file");
+  if (!command.case_name.empty()) keep_case(curves, command.case_name, file);
+  add_radii(command.subject, curves);
+
+  // All texts and names are made before the first file, so that a refusal writes no file.
+  std::vector<std::pair<fs::path, std::string>> files;
+  std::set<fs::path> names;
+  for (const report::ExportCurve& curve : curves) {
+    const fs::path path = fs::path(out) / (file_name(curve.name) + std::string(format.ending));
+    if (!names.insert(path).second)
+      throw InputError({file, 0, 0}, "two cases would be written to " + path.string() +
+                                         "; write them one by one with `--case` and `--out`");
+    std::error_code ignored;
+    if (fs::equivalent(path, file, ignored))
+      throw InputError({path.string(), 0, 0},
+                       "is the file to be converted and is not replaced; give another `--out`");
+    try {
+      files.emplace_back(path, format.text(curve));
+    } catch (const InputError& error) {
+      throw InputError({file, 0, 0}, error.problems().front().message);
+    }
+    if (!command.force && fs::exists(path) && !holds(path.string(), files.back().second))
+      throw InputError({path.string(), 0, 0},
+                       "is there already and says something else; give `--force` to replace it, "
+                       "or another `--out`");
+  }
+  make_folders(out);
+  for (const auto& [path, text] : files) {
+    write_atomically(path.string(), text);
+    talk.say("wrote " + path.string());
+    talk.event("wrote", {{"file", path.string()}});
+  }
+  return exit_good;
+}
+
 }  // namespace
 
-int perform(const Mesh& command, const Arguments&, const Talk& talk) {
+int perform(const Convert& command, const Arguments&, const Talk& talk) {
   const Kind kind = kind_of(command.subject);
   check_options(command, kind);
+  if (kind == Kind::results) return write_results(command, talk);
   check_outputs(command, kind);
   Report report;
   geometry::TetMesh mesh;
